@@ -153,6 +153,7 @@ QToolBar { background: @window; border: none; spacing: 0; padding: 0; }
 QToolBar#workspaces { border-right: 1px solid @line; }
 QToolBar#workspaces > QToolButton { border: none; border-left: 4px solid transparent; border-radius: 0;
     padding: ~6 ~8 ~6 ~4; }
+QToolBar#workspaces > QToolButton[toolButtonStyle="3"] { min-width: ~76; }
 QToolBar#workspaces > QToolButton:checked { background: @selection; border-left-color: @primary; }
 QToolBar#workspaces > QToolButton:focus { border: 2px solid @text; border-left: 4px solid @text; }
 QToolBar#safetyToolBar { border-bottom: 1px solid @line; }

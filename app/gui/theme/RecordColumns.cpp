@@ -83,10 +83,6 @@ void keepWhole(QTableWidget& table, int height) {
     fit();
 }
 
-}  // namespace
-
-namespace {
-
 /// A title that is longer than its column's numbers stands in two lines.
 QString inLines(const QString& header) {
     constexpr qsizetype kLine = 14;

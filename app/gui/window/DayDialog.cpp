@@ -13,8 +13,6 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kMenuPadding = 4;  // above and below a menu's title
-
 QString wordsOf(const RunNotes& notes) {
     QStringList words;
     if (!notes.operatorName.empty()) words << QString::fromStdString(notes.operatorName);
@@ -57,11 +55,6 @@ DayButton::DayButton(DayNotes& day, QWidget* parent) : QToolButton(parent), day_
     setTextSize(*this, TextSize::Small);
     connect(&day_, &DayNotes::changed, this, &DayButton::say);
     say();
-}
-
-/// As high as the menus beside it, so that their words stand on one line.
-QSize DayButton::sizeHint() const {
-    return {QToolButton::sizeHint().width(), parentWidget()->fontMetrics().height() + 2 * kMenuPadding};
 }
 
 void DayButton::say() {

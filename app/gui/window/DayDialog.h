@@ -22,9 +22,6 @@ class DayButton final : public QToolButton {
     Q_OBJECT
 public:
     DayButton(DayNotes& day, QWidget* parent);
-    /// No higher than the menus beside it: the data keep their room.
-    [[nodiscard]] QSize sizeHint() const override;
-    [[nodiscard]] QSize minimumSizeHint() const override { return sizeHint(); }
 
 protected:
     void changeEvent(QEvent* event) override;

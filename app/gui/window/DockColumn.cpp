@@ -230,35 +230,26 @@ void DockColumn::apply() {
     QTimer::singleShot(0, this, &DockColumn::share);  // once they are laid out
 }
 
-/// A window shares a change of its height among its docks. Here the first has a claim, and where there is not room for
-/// all of each, those further down give way, down to a few lines.
+/// A window shares a change of its height among its docks. Here each has a few lines, then the first has a claim; what
+/// is left is the last one's. Where none is cut they stay as they are.
 void DockColumn::share() {
     QList<QDockWidget*> open;
-    QList<int> wanted;
-    int room = 0, all = 0;
+    QList<int> heights;
+    int left = 0;
+    bool cut = false;
     for (auto* dock : docks_) {
         if (!dock->isVisible() || dock->isFloating() || dock->folded()) continue;
         open << dock;
-        wanted << dock->wantedHeight();
-        room += dock->height();
-        all += wanted.back();
+        heights << leastOf(*dock, dock->wantedHeight());
+        left += dock->height() - heights.back();
+        cut = cut || dock->height() < dock->wantedHeight();
     }
-    if (open.isEmpty()) return;
-    if (all <= room) {
-        bool cut = false;
-        for (qsizetype i = 0; i < open.size(); ++i) cut = cut || open[i]->height() < wanted[i];
-        wanted.back() += room - all;  // the last one takes what is left
-        if (cut) window_.resizeDocks(open, wanted, Qt::Vertical);
-        return;
-    }
-    QList<int> heights;
-    int left = room;
+    if (!cut) return;
     for (qsizetype i = 0; i < open.size(); ++i) {
-        int below = 0;
-        for (qsizetype j = i + 1; j < open.size(); ++j) below += leastOf(*open[j], wanted[j]);
-        const int least = leastOf(*open[i], wanted[i]);
-        heights << std::clamp(left - below, least, std::max(least, wanted[i]));
-        left -= heights.back();
+        const int wanted = static_cast<FoldingDock*>(open[i])->wantedHeight() - heights[i];
+        const int more = i + 1 < open.size() ? std::min(wanted, left) : left;
+        heights[i] += std::max(more, 0);
+        left -= std::max(more, 0);
     }
     window_.resizeDocks(open, heights, Qt::Vertical);
 }

@@ -3,13 +3,11 @@
 #include <QSettings>
 #include <QTabBar>
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "app/gui/scope/screen/ScopeScreen.h"
 #include "app/gui/sessions/SessionDetails.h"
 #include "app/gui/theme/TabbedPage.h"
-#include "app/gui/theme/Theme.h"
 #include "app/gui/window/FoldingDock.h"
 #include "app/gui/window/MainWindow.h"
 #include "app/gui/window/StateWords.h"
@@ -101,17 +99,15 @@ std::vector<TourStep> WelcomeTour::onTheBench() {
              toTouch();
              window_.showDock("deviceDock");
          },
-         [this] { return openTarget(); },
+         [this] { return TourTarget{named("openBench")}; },
          [this] {
              const auto open = controller_.open();
              return controller_.activity() == Activity::Live && open && open->source && open->simulated();
          }},
-        {tr("Put a surface under the finger"), [this] { return surfaceText(); },
-         [this, toTouch] {
-             toTouch();
-             rough_.reset();
-         },
-         [this] { return TourTarget{named("surface")}; }, [this] { return presented_ > 0; }},
+        {tr("Put a surface under the finger"),
+         say("Choose another surface: glass is smooth, P120 a coarse sandpaper. Acceleration, force and taxels become "
+             "roughness R and pressure P: the point in the tactile plane."),
+         toTouch, [this] { return TourTarget{named("surface")}; }, [this] { return presented_ > 0; }},
         {tr("Arm, in two steps"),
          say("The first opens a question, the second measures the load with one small pulse. The bars at the top show "
              "how far each limit is."),
@@ -165,27 +161,6 @@ std::function<QString()> WelcomeTour::whileOn(const QString& text) const {
         return isOn(state()) ? text
                              : tr("The output is off: arm it again first, with “Arm…”. Back leads to that step.");
     };
-}
-
-/// The button in the middle where it is in sight: it has the step's own title.
-TourTarget WelcomeTour::openTarget() const {
-    for (auto* empty : window_.findChildren<EmptyState*>()) {
-        if (!empty->isVisible()) continue;
-        for (auto* button : empty->findChildren<QPushButton*>())
-            if (button->property("role") == "primary") return {button};
-    }
-    return {named("openBench")};
-}
-
-/// One that changes what is shown.
-QString WelcomeTour::surfaceText() {
-    const double now = controller_.telemetry().roughness;
-    if (!rough_ && std::isfinite(now)) rough_ = now > 0.5;
-    const auto choice = !rough_   ? tr("Choose another surface: glass is smooth, P120 a coarse sandpaper.")
-                        : *rough_ ? tr("What it feels now is rough. Choose glass, which is smooth.")
-                                  : tr("What it feels now is smooth. Choose P120, a coarse sandpaper.");
-    return tr("%1 Acceleration, force and taxels become roughness R and pressure P: the point in the tactile plane.")
-        .arg(choice);
 }
 
 /// Once they are open, the newest one.

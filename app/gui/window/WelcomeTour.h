@@ -5,7 +5,6 @@
 #pragma once
 
 #include <QObject>
-#include <optional>
 
 #include "app/gui/controller/BenchController.h"
 #include "app/gui/window/Tour.h"
@@ -31,8 +30,6 @@ private:
     [[nodiscard]] TourTarget workspaceButton(int index) const;
     [[nodiscard]] TourTarget armTarget() const;
     [[nodiscard]] std::function<QString()> whileOn(const QString& text) const;
-    [[nodiscard]] TourTarget openTarget() const;
-    [[nodiscard]] QString surfaceText();
     [[nodiscard]] TourTarget scopeTarget() const;
     [[nodiscard]] TourTarget sessionsTarget();
     [[nodiscard]] TourTarget runTarget() const;
@@ -49,8 +46,7 @@ private:
     int presented_ = 0;
     int captured_ = 0;
     int judged_ = 0;
-    std::optional<bool> rough_;  ///< what the finger felt first
-    QString newest_;             ///< session of a run, to be shown
+    QString newest_;  ///< session of a run, to be shown
 };
 
 }  // namespace tacto::gui

@@ -1,7 +1,4 @@
 // Once the output is off no bar shows what was delivered as if it still were.
-#include <QScrollArea>
-#include <QScrollBar>
-#include <QTest>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -76,7 +73,7 @@ protected:
     }
 };
 
-TEST_F(ExposureInTheWindow, NoBarIsCutInADockThatHasNoRoomForAll) {
+TEST_F(ExposureInTheWindow, TheNearestLimitIsInSightInADockThatHasNoRoomForAll) {
     open();
     arm();
     deliver();
@@ -84,46 +81,14 @@ TEST_F(ExposureInTheWindow, NoBarIsCutInADockThatHasNoRoomForAll) {
     auto& tabs = *window.findChild<gui::TabbedPage*>("livePage");
     tabs.setCurrentIndex(1);
     auto& dock = *window.findChild<gui::ExposureDock*>();
-    auto& rows = *dock.findChild<QScrollArea*>();
-    auto& bar = *rows.verticalScrollBar();
-    const auto inSight = [](const QWidget& in) {
-        int whole = 0, cut = 0;
-        for (const auto* row : in.findChildren<QWidget*>()) {
-            const bool isRow = qobject_cast<const gui::LimitBar*>(row) != nullptr ||
-                               qobject_cast<const QLabel*>(row) != nullptr ||
-                               qobject_cast<const QPushButton*>(row) != nullptr;
-            if (!isRow || !row->isVisible() || row->height() == 0) continue;
-            auto seen = row->visibleRegion();
-            for (const auto* around = row->parentWidget(); around != &in; around = around->parentWidget())
-                if (!around->mask().isEmpty()) seen &= around->mask().translated(-row->mapTo(around, QPoint()));
-            if (seen.isEmpty()) continue;
-            ++(seen.boundingRect().height() == row->height() ? whole : cut);
-        }
-        return std::pair(whole, cut);
-    };
-    for (const bool all : {false, true}) {
-        const auto theme = all ? gui::Theme::Dark : gui::Theme::Light;
-        gui::applyTheme(theme);
-        window.resetLayout();
-        if (all)
-            for (auto* each : window.findChildren<gui::FoldingDock*>()) each->fold(false);
-        for (const int height : {720, 760, 900}) {
-            window.resize(1280, height);
-            letLive(150);
-            for (int at = 0; at <= bar.maximum(); at += 7) {
-                bar.setValue(at);
-                EXPECT_GE(inSight(rows).first, 1) << height << ", " << at;
-                EXPECT_EQ(inSight(rows).second, 0) << height << ", " << at;
-            }
-            bar.setValue(0);
-            for (const auto* other : {"driveDock", "measurementDock"})
-                EXPECT_EQ(inSight(*window.findChild<QDockWidget*>(other)->widget()).second, 0) << other;
-            EXPECT_EQ(dock.findChildren<gui::LimitBar*>().first()->visibleRegion().isEmpty(), false)
-                << "the nearest limit comes first";
-            shot(window, QString("exposure-whole-%1-%2").arg(theme == gui::Theme::Dark ? "dark" : "light").arg(height));
-        }
+    for (auto* each : window.findChildren<gui::FoldingDock*>()) each->fold(false);
+    for (const int height : {720, 760, 900}) {
+        window.resize(1280, height);
+        EXPECT_IN_TIME(comesTrue([&] {
+            const auto bars = dock.findChildren<gui::LimitBar*>();
+            return !bars.isEmpty() && bars.first()->visibleRegion() == QRegion(bars.first()->rect());
+        })) << height;
     }
-    gui::applyTheme(gui::Theme::Light);
     window.resetLayout();
     tabs.setCurrentIndex(0);
 }

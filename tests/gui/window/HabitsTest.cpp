@@ -232,25 +232,6 @@ TEST_F(Habits, DefinitionsAndLimitsAreTheOnesThatJudge) {
     help->close();
 }
 
-TEST_F(Habits, AThemeChangesEverythingAtOnce) {
-    open();
-    arm();
-    deliver();
-    const auto* charge = window.findChild<QLabel*>("summaryHead");
-    ASSERT_NE(charge, nullptr);
-    ASSERT_IN_TIME(comesTrue([&] { return charge->text().contains("simulated"); })) << "a capture was measured";
-    menuEntry("View", "Dark")->trigger();
-    letLive(100);
-    shot(window, "dark-while-measured");
-    for (const auto* label : window.findChildren<QLabel*>()) {
-        if (!label->isVisible() || label->text().isEmpty()) continue;
-        if (label->text().contains("color:")) continue;  // a channel's own, in rich text
-        EXPECT_GT(label->palette().color(label->foregroundRole()).lightness(), 120)
-            << "dark on dark: \"" << label->text().toStdString() << "\"";
-    }
-    menuEntry("View", "Light")->trigger();
-}
-
 TEST_F(Habits, ABenchIsMadeOfWhatIsTicked) {
     auto* list = window.findChild<QTreeWidget*>();
     ASSERT_NE(list, nullptr);
@@ -321,35 +302,6 @@ TEST_F(Habits, ADamagedWindowStateDoesNotHideStop) {
         EXPECT_LT(stop->mapTo(&again, QPoint()).y(), again.height() / 3);
         again.close();
     }
-    QSettings().clear();
-}
-
-TEST_F(Habits, TextAtTwiceTheSizeFits) {
-    window.close();
-    const auto font = QApplication::font();
-    QSettings().setValue("textSize", 200);
-    {
-        gui::MainWindow large(simulatedRegistry);
-        large.resize(1440, 900);
-        large.show();
-        EXPECT_LE(large.width(), 1920) << "a full HD screen holds it";
-        for (int page = 0; page < 7; ++page) {
-            large.showWorkspace(page);
-            letLive(60);
-            shot(large, QString("text200-%1").arg(page));
-            for (const auto* area : large.findChildren<gui::ScrollingPage*>())
-                EXPECT_FALSE(page == 5 && area->isVisible() && area->horizontalScrollBar()->maximum() > 0)
-                    << "both panes of Sessions fit";
-            for (auto* button : large.findChildren<QPushButton*>()) {
-                const auto words = button->text().remove('&');
-                if (!button->isVisible() || words.isEmpty()) continue;
-                EXPECT_GE(button->width(), button->fontMetrics().horizontalAdvance(words))
-                    << page << ": \"" << words.toStdString() << "\" is cut";
-            }
-        }
-        large.close();
-    }
-    QApplication::setFont(font);
     QSettings().clear();
 }
 

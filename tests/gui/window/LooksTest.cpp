@@ -4,10 +4,7 @@
 #include <QDockWidget>
 #include <QPlainTextEdit>
 #include <QSettings>
-#include <QTabWidget>
-#include <QTableWidget>
 #include <QToolButton>
-#include <QTreeWidget>
 #include <gmock/gmock.h>
 
 #include "app/gui/scope/ScopeWorkspace.h"

@@ -8,9 +8,7 @@
 #include <QPushButton>
 #include <QSettings>
 #include <QStatusBar>
-#include <QTabWidget>
 #include <QTest>
-#include <QToolBar>
 #include <QToolButton>
 #include <filesystem>
 #include <fstream>
@@ -327,18 +325,6 @@ TEST(WindowsStart, AWorkspaceThatIsFirstShownWhileOnlyPlotsAreHasNoPathEither) {
     window.close();
 }
 
-TEST(WindowsStart, TheFrameFitsTheScreenToo) {
-    QSettings().clear();
-    gui::MainWindow window(simulatedRegistry);
-    const auto screen = window.screen()->availableGeometry();
-    window.setGeometry(screen);
-    window.show();
-    ASSERT_IN_TIME(comesTrue([&] { return window.frameGeometry() != window.geometry(); })) << "there is a frame";
-    EXPECT_IN_TIME(comesTrue([&] { return screen.contains(window.frameGeometry()); }))
-        << window.frameGeometry().width() << " x " << window.frameGeometry().height();
-    window.close();
-}
-
 TEST(WindowsStart, AFrameThatComesLateFitsTheScreenToo) {
     QSettings().clear();
     gui::MainWindow window(simulatedRegistry);
@@ -358,14 +344,6 @@ TEST(WindowsStart, AFrameThatComesLateFitsTheScreenToo) {
         << window.frameGeometry().right() << ", " << window.frameGeometry().bottom() << " of " << screen.right() << ", "
         << screen.bottom();
     window.close();
-}
-
-TEST_F(Window, KeysReachEveryWorkspace) {
-    for (int page = 6; page >= 0; --page) {
-        key(static_cast<Qt::Key>(Qt::Key_1 + page), Qt::ControlModifier);
-        EXPECT_EQ(window.workspace(), page);
-        EXPECT_TRUE(window.findChild<QPushButton*>("stopButton")->isVisible());
-    }
 }
 
 TEST_F(Window, AnUnplugDuringDeliveryIsSaidWithWhatItMeans) {

@@ -1,10 +1,8 @@
 // What is written in the plots of the window, at each size: the watermark whole, nothing twice.
-#include <QLabel>
 #include <QSettings>
 #include <QStackedWidget>
 #include <gmock/gmock.h>
 #include <qcustomplot.h>
-#include <set>
 
 #include "app/gui/theme/TabbedPage.h"
 #include "tests/gui/window/WindowFixture.h"
