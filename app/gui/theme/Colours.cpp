@@ -153,6 +153,7 @@ QToolBar { background: @window; border: none; spacing: 0; padding: 0; }
 QToolBar#workspaces { border-right: 1px solid @line; }
 QToolBar#workspaces > QToolButton { border: none; border-left: 4px solid transparent; border-radius: 0;
     padding: ~6 ~8 ~6 ~4; }
+QToolBar#workspaces > QToolButton[toolButtonStyle="0"] { padding: 8px 6px 8px 2px; }
 QToolBar#workspaces > QToolButton[toolButtonStyle="3"] { min-width: ~76; }
 QToolBar#workspaces > QToolButton:checked { background: @selection; border-left-color: @primary; }
 QToolBar#workspaces > QToolButton:focus { border: 2px solid @text; border-left: 4px solid @text; }
@@ -189,7 +190,8 @@ QToolButton { border: 1px solid transparent; border-radius: 4px; padding: 4px; b
 QToolButton:hover { background: @sunken; }
 QToolButton:pressed, QToolButton:checked { background: @selection; border-color: @line; }
 QToolButton:focus { border: 2px solid @text; padding: 3px; }
-QMenuBar QToolButton, QMenuBar QToolButton:focus { padding: 0 ~8; }
+QMenuBar QToolButton { padding: 5px ~8; }
+QMenuBar QToolButton:focus { padding: 4px ~8; }
 QToolButton:disabled { color: @edge; }
 QToolButton[role="opens"]::menu-indicator { image: none; width: 0; }
 QToolButton[role="row"] { padding: 1px 0; }

@@ -1,6 +1,7 @@
 #include "app/gui/window/WorkspaceRail.h"
 
 #include <QToolButton>
+#include <algorithm>
 
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/Theme.h"
@@ -9,7 +10,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kRailIcon = 24;
+constexpr int kRailIcon = 24, kMaxRailIcon = 40;
 constexpr double kIconsAloneFrom_pt = 15;  // with text this large the words would take the room of the data
 
 }  // namespace
@@ -55,7 +56,8 @@ WorkspaceRail::WorkspaceRail(QWidget* parent)
 }
 
 void WorkspaceRail::fit() {
-    setIconSize({scaledPx(kRailIcon), scaledPx(kRailIcon)});
+    const int side = std::min(scaledPx(kRailIcon), kMaxRailIcon);
+    setIconSize({side, side});
     const bool words = font().pointSizeF() <= kIconsAloneFrom_pt;
     setToolButtonStyle(words ? Qt::ToolButtonTextUnderIcon : Qt::ToolButtonIconOnly);
 }

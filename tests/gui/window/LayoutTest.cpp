@@ -68,6 +68,7 @@ protected:
 TEST_F(Layout, F11LeavesSafetyBarAndPlotAlone) {
     RecordProperty("hazard", "H2");
     open();
+    visit(0);  // with its docks
     const auto* stop = window.findChild<QPushButton*>("stopButton");
     const auto before = window.centralWidget()->size();
     key(Qt::Key_F11);
