@@ -268,6 +268,7 @@ TEST_F(ScienceModeCommand, ASignalDuringTheCheckCutsItAndNothingFollows) {
             });
         }));
         const auto ran = run.wait(std::chrono::seconds(20));
+        ASSERT_EXIT_IN_TIME(ran.code, 4) << ran.err;
         expectRefused(ran, 4, {"stopped"});
         EXPECT_EQ(putOut(), std::vector<double>{0.5});
         EXPECT_TRUE(pty_->inspect([](auto& device, Instant now) { return device.pulses(now).back().cut; }));
@@ -289,7 +290,9 @@ TEST_F(ScienceModeCommand, AFaultStaysWithTheUnit) {
     run.signal(SIGSTOP);
     std::this_thread::sleep_for(std::chrono::milliseconds(400));
     run.signal(SIGCONT);
-    expectRefused(run.wait(std::chrono::seconds(20)), 3, {"stood still"});
+    const auto stood = run.wait(std::chrono::seconds(20));
+    ASSERT_IN_TIME(stood.err.find("did not answer") == std::string::npos) << stood.err;
+    expectRefused(stood, 3, {"stood still"});
     const auto before = putOut().size();
     expectRefused(pulse("5", "1000"), 4, {"left by an earlier run", "stood still", "--reset-fault"});
     EXPECT_EQ(putOut().size(), before);

@@ -13,13 +13,8 @@ namespace {
 
 using test::LoadSafetyRig;
 
-// The sanitizers look for other things than statistics, and are ten times slower.
-#ifdef TACTOSCOPE_SANITIZED
-const std::uint64_t kSeeds = 1, kRuns = 4;
-#else
 const auto kSeeds = test::trials<std::uint64_t>({.local = 1, .ci = 3, .campaign = 30});
 const auto kRuns = test::trials<std::uint64_t>({.local = 40, .ci = 200, .campaign = 2000});
-#endif
 
 /// An oscilloscope with errors anywhere within its stated tolerances (0.5 % of gain, 0.1 % of the range in offset).
 std::string scopeFor(std::uint64_t seed) {
