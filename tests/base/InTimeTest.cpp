@@ -1,13 +1,23 @@
 // A missed deadline is told apart from every other failure: only it is tried again, and only where the machine stood
 // still.
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <gtest/gtest-spi.h>
 #include <gtest/gtest.h>
+#include <mutex>
+#include <poll.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
+#include <thread>
 #include <unistd.h>
 
+#include "core/base/Clock.h"
 #include "tests/support/FailsInTime.h"
 #include "tests/support/InTime.h"
 
@@ -64,24 +74,25 @@ TEST(InTime, OnlyAnErrorThatLatenessCausesIsAMissedDeadline) {
     }
 }
 
+/// What a machine does that has no time for this process.
+void standStill() {
+    const pid_t process = ::getpid();
+    const pid_t waker = ::fork();
+    ASSERT_GE(waker, 0);
+    if (waker == 0) {  // system calls only: this process has threads
+        ::usleep(60'000);
+        ::kill(process, SIGCONT);
+        ::_exit(0);
+    }
+    ::kill(process, SIGSTOP);
+    ASSERT_EQ(::waitpid(waker, nullptr, 0), waker);
+}
+
 /// Tests that fail at their first try. They are disabled for ctest; the last test of this file runs each of them in a
 /// process of its own.
 class InTimeExample : public testing::Test {
 protected:
     static bool first() { return std::getenv("TACTO_TEST_TRY") == nullptr; }
-    /// What a machine does that has no time for this process.
-    static void standStill() {
-        const pid_t process = ::getpid();
-        const pid_t waker = ::fork();
-        ASSERT_GE(waker, 0);
-        if (waker == 0) {  // system calls only: this process has threads
-            ::usleep(60'000);
-            ::kill(process, SIGCONT);
-            ::_exit(0);
-        }
-        ::kill(process, SIGSTOP);
-        ASSERT_EQ(::waitpid(waker, nullptr, 0), waker);
-    }
     static void arm() { ASSERT_IN_TIME(!first()); }
 };
 
@@ -116,5 +127,78 @@ TEST(InTime, OfATestThatFailedWhileTheMachineStoodStillOnlyDeadlinesAreTriedAgai
     EXPECT_EQ(exitCodeOf("ADeadlineWithinAFunction"), 0) << "what comes after it in the test has no say";
     EXPECT_EQ(exitCodeOf("AnInvariant"), 1) << "it failed once: that is final";
 }
+
+#ifndef TACTOSCOPE_SANITIZED  // whose programs have no patient clock
+double machine_ms() {
+    std::timespec at{};
+    ::syscall(SYS_clock_gettime, CLOCK_MONOTONIC, &at);
+    return 1e3 * static_cast<double>(at.tv_sec) + 1e-6 * static_cast<double>(at.tv_nsec);
+}
+double own_ms() {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+TEST(PatientClock, StandsStillWithTheMachineAndSoDoDeadlines) {
+    const SteadyClock clock;
+    std::atomic<double> polled_ms{0}, waited_ms{0}, slept_ms{0};
+    const auto inOwnTime = [](std::atomic<double>& took, auto&& wait) {
+        return std::thread([&took, wait] {
+            const double begun = own_ms();
+            wait();
+            took = own_ms() - begun;
+        });
+    };
+    auto polling = inOwnTime(polled_ms, [] { EXPECT_EQ(::poll(nullptr, 0, 100), 0); });
+    auto waiting = inOwnTime(waited_ms, [] {
+        std::mutex mutex;
+        std::condition_variable never;
+        std::unique_lock lock(mutex);
+        EXPECT_FALSE(never.wait_for(lock, std::chrono::milliseconds(100), [] { return false; }));
+    });
+    auto sleeping = inOwnTime(slept_ms, [] { std::this_thread::sleep_for(std::chrono::milliseconds(100)); });
+    ::usleep(20'000);  // of the machine's time: all of them wait
+    const double machine = machine_ms(), own = own_ms();
+    for (int i = 0; i < 3; ++i) standStill();
+    EXPECT_GE(machine_ms() - machine, 180);
+    EXPECT_LE(own_ms() - own, machine_ms() - machine - 120) << "at most 8 ms of each 60";
+    polling.join();
+    waiting.join();
+    sleeping.join();
+    EXPECT_GE(polled_ms, 100);
+    EXPECT_GE(waited_ms, 100);
+    EXPECT_GE(slept_ms, 100);
+    EXPECT_LT(clock.asleep(), std::chrono::milliseconds(1)) << "the computer did not sleep";
+}
+
+TEST(PatientClock, GoesOnWithTheMachineAndNeverBack) {
+    const double machine = machine_ms(), own = own_ms();
+    double last = own;
+    while (machine_ms() - machine < 200) {
+        const double now = own_ms();
+        ASSERT_GE(now, last);
+        last = now;
+    }
+    EXPECT_LE(last - own, machine_ms() - machine + 8);
+    EXPECT_GE(last - own, 1) << "an eighth of what the machine gives it";
+}
+
+TEST_F(InTimeExample, DISABLED_TellsHowFarItsClockIsBehind) { std::printf("%.3f\n", machine_ms() - own_ms()); }
+
+TEST(PatientClock, IsThatOfAProgramThatTheTestStarts) {
+    for (int i = 0; i < 3; ++i) standStill();
+    const auto program = std::filesystem::read_symlink("/proc/self/exe").string();
+    const auto command =
+        program + " --gtest_also_run_disabled_tests --gtest_brief=1 --gtest_filter=*TellsHowFar* 2>&1 | grep '^[0-9]'";
+    const double before = machine_ms() - own_ms();
+    ASSERT_GE(before, 120);
+    std::FILE* const said = ::popen(command.c_str(), "r");
+    ASSERT_NE(said, nullptr);
+    double theirs = 0;
+    EXPECT_EQ(std::fscanf(said, "%lf", &theirs), 1);
+    ::pclose(said);
+    EXPECT_GE(theirs, before - 0.1);
+    EXPECT_LE(theirs, machine_ms() - own_ms() + 0.1);
+}
+#endif
 
 }  // namespace tacto::test

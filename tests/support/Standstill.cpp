@@ -1,5 +1,5 @@
 // Linked into tests that wait by the clock. The program switches its output off when 50 or 100 ms pass without a sign
-// of life, as it should; a virtual machine that is not given its processors for so long makes it do so without a fault.
+// of life, as it should; a machine that does not give it a processor for so long makes it do so without a fault.
 //
 // A thread that sleeps a few milliseconds at a time and sends a byte through a pseudo-terminal sees how long the
 // machine stood still, and one that it wakes each time how long a word from thread to thread takes (a transfer of an
@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <dirent.h>
 #include <fcntl.h>
 #include <fstream>
@@ -35,13 +36,28 @@
 
 #include "tests/support/InTime.h"
 
+/// Of the patient clock, where that is linked (PatientClock.cpp).
+extern "C" [[gnu::weak]] void tactoBeat();
+extern "C" [[gnu::weak]] void tactoRest();
+
 namespace {
 
-using Clock = std::chrono::steady_clock;
+/// The machine's time, whatever clock the test has.
+struct Clock {
+    using duration = std::chrono::nanoseconds;
+    using rep = duration::rep;
+    using period = duration::period;
+    using time_point = std::chrono::time_point<Clock>;
+    static constexpr bool is_steady = true;
+    static time_point now() noexcept {
+        std::timespec at{};
+        ::syscall(SYS_clock_gettime, CLOCK_MONOTONIC, &at);
+        return time_point(std::chrono::seconds(at.tv_sec) + std::chrono::nanoseconds(at.tv_nsec));
+    }
+};
 using Milliseconds = std::chrono::duration<double, std::milli>;
 
 constexpr Milliseconds kStill{25};    // half of the shortest that is waited for, the 50 ms of a stimulator's status
-constexpr Milliseconds kNap{4};       // between two looks: short against kStill, and cheap
 constexpr Milliseconds kSlowWord{1};  // fifty times the usual: ten of them and back are half of 50 ms
 constexpr int kTries = 5;
 constexpr const char* kTry = "TACTO_TEST_TRY";
@@ -248,6 +264,7 @@ class StandstillWatch : public testing::Environment {
 public:
     void SetUp() override {
         testing::UnitTest::GetInstance()->listeners().Append(owned_.release());
+        if (tactoBeat != nullptr) tactoBeat();
         // From here on, not from when the thread is first given a processor; and to the end.
         thread_ = std::thread([this, last = Clock::now()]() mutable {
             const KernelLine line;
@@ -260,12 +277,14 @@ public:
                 last = now;
             };
             while (!ending_) {
-                std::this_thread::sleep_for(kNap);
+                nap();
                 look();
                 words.pass();
                 line.pass();
+                if (tactoBeat != nullptr) tactoBeat();
             }
             look();
+            if (tactoRest != nullptr) tactoRest();
             waited_ = waits.longest();
             slowly_ = words.slow();
             said_ = std::to_string(words.slowOnes()) + " of " + std::to_string(words.passed());
@@ -295,6 +314,10 @@ public:
     }
 
 private:
+    static void nap() {
+        const timespec time{0, 4'000'000};  // between two looks: short against kStill, and cheap
+        ::syscall(SYS_nanosleep, &time, nullptr);
+    }
     /// A second without a standstill, or ten in all.
     static void waitForCalm() {
         const auto begun = Clock::now();

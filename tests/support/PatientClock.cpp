@@ -1,0 +1,211 @@
+// A clock that waits for the machine, for tests of programs behind an emulated device: linked into the test, which
+// preloads it into the programs that it starts. All of them read the same time.
+//
+// The thread that watches for standstills (Standstill.cpp) beats every few milliseconds, each time after a word to
+// another thread and a byte through a pseudo-terminal have come back. Between two beats at most kMaxBetween pass, and
+// they pass as slowly as programs share the processors: with eight that would run on two, a quarter as fast. Where the
+// machine stands still, hands nothing over or is busy with others, the deadlines of both ends wait with them: an answer
+// comes too late only where the program or the device is slow. Who reads CLOCK_MONOTONIC or CLOCK_BOOTTIME has this
+// time; who sleeps, or waits by poll, ppoll or a condition of C++, does so by it. The time on the wall is the
+// machine's.
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <new>
+#include <poll.h>
+#include <pthread.h>
+#include <string>
+#include <sys/mman.h>
+#include <unistd.h>
+
+namespace {
+
+using Nanoseconds = std::int64_t;
+
+constexpr Nanoseconds kMaxBetween = 8'000'000;     // twice what is usual between two beats
+constexpr Nanoseconds kAbandoned = 5'000'000'000;  // without a beat for so long, who beats is gone
+constexpr Nanoseconds kLook = 1'000'000;
+constexpr double kSlowest = 0.125;  // a test of 10 s is to end
+constexpr const char* kPageName = "TACTO_PATIENT_CLOCK";
+
+/// What all of them share. Written by the test's own watch alone.
+struct Page {
+    std::atomic<std::uint32_t> turn;  ///< odd while the rest is written
+    std::atomic<Nanoseconds> beat;    ///< of the machine's time
+    std::atomic<Nanoseconds> own;     ///< this clock's time at that beat
+    std::atomic<double> rate;         ///< as fast as the machine's time; 0: nobody beats, time passes as the machine's
+};
+std::atomic<Page*> page{nullptr};
+bool isOwner = false;
+
+template <class Function>
+Function* next(const char* name) {
+    return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
+}
+
+Nanoseconds countOf(const std::timespec& at) { return Nanoseconds{1'000'000'000} * at.tv_sec + at.tv_nsec; }
+std::timespec textOf(Nanoseconds count) {
+    return {static_cast<std::time_t>(count / 1'000'000'000), static_cast<long>(count % 1'000'000'000)};
+}
+
+int readMachine(clockid_t clock, std::timespec* at) {
+    static auto* const get = next<int(clockid_t, std::timespec*)>("clock_gettime");
+    return get(clock, at);
+}
+Nanoseconds machineNow() {
+    std::timespec at{};
+    readMachine(CLOCK_MONOTONIC, &at);
+    return countOf(at);
+}
+
+struct Now {
+    Nanoseconds own = 0, machine = 0;
+    double rate = 1;
+    bool isHeld = false;
+
+    /// How long to wait in the machine's time until `end` in this; looks again after that.
+    [[nodiscard]] Nanoseconds until(Nanoseconds end) const {
+        const auto left = static_cast<Nanoseconds>(static_cast<double>(end - own) / rate);
+        return std::max(left, isHeld ? kLook : Nanoseconds{0});
+    }
+};
+Now now() {
+    const Nanoseconds machine = machineNow();
+    const Page* const shared = page;
+    if (shared == nullptr) return {machine, machine};
+    for (;;) {
+        const auto turn = shared->turn.load();
+        const Nanoseconds beat = shared->beat, own = shared->own;
+        const double rate = shared->rate;
+        if (turn % 2 != 0 || shared->turn.load() != turn) continue;
+        const auto passed = std::max<Nanoseconds>(0, machine - beat);  // the beat may have come after the reading
+        if (rate == 0) return {own + passed, machine};
+        const auto counted = static_cast<Nanoseconds>(rate * static_cast<double>(std::min(passed, kMaxBetween)));
+        return {own + counted + std::max<Nanoseconds>(0, passed - kAbandoned), machine, rate, passed > kMaxBetween};
+    }
+}
+
+/// From this moment on, at another rate.
+void write(double rate) {
+    const auto at = now();
+    Page& shared = *page;
+    ++shared.turn;
+    shared.beat = at.machine;
+    shared.own = at.own;
+    shared.rate = rate;
+    ++shared.turn;
+}
+
+/// The share of a processor that a thread gets which would run now.
+double shareOfProcessor() {
+    static const int file = open("/proc/loadavg", O_RDONLY | O_CLOEXEC);
+    char text[64]{};
+    double load = 0;
+    int running = 0;
+    if (pread(file, text, sizeof text - 1, 0) <= 0 ||
+        std::sscanf(text, "%lf %lf %lf %d/", &load, &load, &load, &running) != 4)
+        return 1;
+    return std::clamp(static_cast<double>(sysconf(_SC_NPROCESSORS_ONLN)) / std::max(1, running), kSlowest, 1.0);
+}
+
+/// Opens what the test that started this program shares, or makes it: then this is the test.
+[[gnu::constructor]] void begin() {
+    const char* const given = std::getenv(kPageName);
+    const auto mine = "/proc/" + std::to_string(getpid()) + "/fd/";  // a test that is tried again made it before
+    const bool isGiven = given != nullptr && std::string(given).rfind(mine, 0) != 0;
+    const int file = isGiven ? open(given, O_RDONLY | O_CLOEXEC) : memfd_create("clock", MFD_CLOEXEC);
+    if (file < 0 || (!isGiven && ftruncate(file, sizeof(Page)) != 0)) return;
+    void* const shared = mmap(nullptr, sizeof(Page), isGiven ? PROT_READ : PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+    if (shared == MAP_FAILED) return;
+    if (isGiven) {
+        page = static_cast<Page*>(shared);
+        close(file);
+        return;
+    }
+    isOwner = true;
+    const auto begun = machineNow();
+    new (shared) Page{{0}, {begun}, {begun}, {0}};
+    page = static_cast<Page*>(shared);
+    setenv(kPageName, (mine + std::to_string(file)).c_str(), 1);
+    Dl_info self{};
+    if (dladdr(reinterpret_cast<const void*>(&now), &self) == 0) return;
+    const char* const others = std::getenv("LD_PRELOAD");
+    const std::string all = others == nullptr ? "" : others;
+    if (all.find(self.dli_fname) == std::string::npos)
+        setenv("LD_PRELOAD", (all.empty() ? self.dli_fname : all + ':' + self.dli_fname).c_str(), 1);
+}
+
+}  // namespace
+
+/// The test's watch calls it every few milliseconds, while the machine does what it should.
+extern "C" void tactoBeat() {
+    if (isOwner) write(shareOfProcessor());
+}
+/// From here on time passes as the machine's.
+extern "C" void tactoRest() {
+    if (isOwner) write(0);
+}
+
+extern "C" int clock_gettime(clockid_t clock, std::timespec* at) {
+    if (clock != CLOCK_MONOTONIC && clock != CLOCK_BOOTTIME) return readMachine(clock, at);
+    const auto present = now();
+    if (clock == CLOCK_MONOTONIC) {
+        *at = textOf(present.own);
+        return 0;
+    }
+    const int failed = readMachine(clock, at);
+    *at = textOf(countOf(*at) - (present.machine - present.own));
+    return failed;
+}
+
+extern "C" int ppoll(pollfd* files, nfds_t count, const std::timespec* timeout, const sigset_t* mask) {
+    static auto* const wait = next<int(pollfd*, nfds_t, const std::timespec*, const sigset_t*)>("ppoll");
+    if (timeout == nullptr) return wait(files, count, nullptr, mask);
+    const auto end = now().own + countOf(*timeout);
+    for (;;) {
+        const auto left = textOf(std::max<Nanoseconds>(0, now().until(end)));
+        const int found = wait(files, count, &left, mask);
+        if (found != 0 || now().own >= end) return found;
+    }
+}
+extern "C" int poll(pollfd* files, nfds_t count, int timeout_ms) {
+    const auto timeout = textOf(Nanoseconds{1'000'000} * timeout_ms);
+    return ppoll(files, count, timeout_ms < 0 ? nullptr : &timeout, nullptr);
+}
+
+extern "C" int clock_nanosleep(clockid_t clock, int flags, const std::timespec* time, std::timespec* left) {
+    static auto* const sleep = next<int(clockid_t, int, const std::timespec*, std::timespec*)>("clock_nanosleep");
+    if (clock != CLOCK_MONOTONIC) return sleep(clock, flags, time, left);
+    const auto end = countOf(*time) + (flags == TIMER_ABSTIME ? 0 : now().own);
+    for (;;) {
+        const auto present = now();
+        if (present.own >= end) return 0;
+        const auto rest = textOf(present.until(end));
+        const int ended = sleep(clock, 0, &rest, nullptr);
+        if (ended != 0 && left != nullptr) *left = textOf(std::max<Nanoseconds>(0, end - now().own));
+        if (ended != 0) return ended;
+    }
+}
+extern "C" int nanosleep(const std::timespec* time, std::timespec* left) {
+    const int ended = clock_nanosleep(CLOCK_MONOTONIC, 0, time, left);
+    if (ended != 0) errno = ended;
+    return ended == 0 ? 0 : -1;
+}
+
+/// Who waits longer than the machine's time looks again, as after any waking without a reason.
+extern "C" int pthread_cond_clockwait(pthread_cond_t* condition, pthread_mutex_t* mutex, clockid_t clock,
+                                      const std::timespec* until) {
+    static auto* const wait =
+        next<int(pthread_cond_t*, pthread_mutex_t*, clockid_t, const std::timespec*)>("pthread_cond_clockwait");
+    if (clock != CLOCK_MONOTONIC) return wait(condition, mutex, clock, until);
+    const auto present = now();
+    const auto end = textOf(present.machine + present.until(countOf(*until)));
+    const int ended = wait(condition, mutex, clock, &end);
+    return ended == ETIMEDOUT && now().own < countOf(*until) ? 0 : ended;
+}
