@@ -13,7 +13,7 @@
 #include "core/analysis/separability/SeparabilityJson.h"
 #include "core/analysis/separability/TrialFile.h"
 #include "core/base/Csv.h"
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 #include "core/study/SessionBasis.h"
 
 namespace tacto::cli {

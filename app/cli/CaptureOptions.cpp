@@ -6,7 +6,6 @@
 
 #include "app/cli/Command.h"
 #include "app/run/CaptureFormatsList.h"
-#include "core/base/GivenOnce.h"
 #include "core/base/Text.h"
 
 namespace tacto::cli {

@@ -5,9 +5,9 @@
 #include "app/cli/MeasureLoad.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/base/QuantityText.h"
-#include "core/devices/StatementKeys.h"
+#include "core/devices/DeviceUri.h"
+#include "core/measure/CaptureDescription.h"
 #include "core/measure/CaptureFile.h"
-#include "core/measure/CaptureOrigin.h"
 #include "core/measure/InstrumentStatement.h"
 #include "core/measure/PulseMeasurement.h"
 

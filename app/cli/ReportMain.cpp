@@ -2,7 +2,7 @@
 #include <QApplication>
 
 #include "app/cli/Command.h"
-#include "core/base/StandardStreams.h"
+#include "core/base/ProgramStart.h"
 
 int main(int argc, char** argv) {
     tacto::holdStandardStreams();

@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "app/cli/Command.h"
-#include "core/base/ProgramPath.h"
+#include "core/base/ProgramStart.h"
 
 namespace tacto::cli {
 

@@ -17,14 +17,14 @@
 #include "app/scripting/engine/Arming.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
 #include "app/scripting/wire/ScriptMessage.h"
-#include "core/base/GivenOnce.h"
 #include "core/base/Printable.h"
-#include "core/base/StandardStreams.h"
+#include "core/base/ProgramStart.h"
+#include "core/base/Text.h"
 #include "core/calibration/CertificateDetails.h"
 #include "core/devices/Registry.h"
 #include "core/dsp/RoughnessFlags.h"
-#include "core/session/Origin.h"
 #include "core/results/ResultKind.h"
+#include "core/session/Origin.h"
 
 namespace tacto::cli {
 

@@ -6,7 +6,7 @@
 #include "app/cli/SensorListening.h"
 #include "app/cli/TextTable.h"
 #include "app/run/AllDrivers.h"
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 #include "drivers/sensor_board/BoardReport.h"
 #include "drivers/sensor_board/SensorBoardDriver.h"
 

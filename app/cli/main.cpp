@@ -10,7 +10,6 @@
 #include "app/cli/ReportProgram.h"
 #include "app/scripting/engine/ScriptRun.h"
 #include "core/base/ProgramStart.h"
-#include "core/base/StandardStreams.h"
 
 namespace tacto::cli {
 

@@ -14,7 +14,6 @@
 #include "app/run/AllDrivers.h"
 #include "app/run/SignalStop.h"
 #include "core/base/ProgramStart.h"
-#include "core/base/StandardStreams.h"
 
 namespace {
 

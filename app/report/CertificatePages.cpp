@@ -8,7 +8,7 @@
 #include "app/report/ShownText.h"
 #include "core/base/QuantityText.h"
 #include "core/calibration/CertificateDetails.h"
-#include "core/encoding/CalibratedQuantity.h"
+#include "core/encoding/StimulatorCalibration.h"
 #include "core/session/Origin.h"
 
 namespace tacto {

@@ -7,9 +7,9 @@
 #include <array>
 #include <cmath>
 
-#include "core/base/NaN.h"
 #include "core/base/Printable.h"
 #include "core/base/QuantityText.h"
+#include "core/base/Statistics.h"
 
 namespace tacto {
 namespace {
@@ -422,9 +422,8 @@ QString cellText(const QJsonValue& value, const QString& unit) {
             return quantityText(object["value"].toDouble(kNaN), object["unit"].toString());
         }
         if (object.contains("value")) {
-            return intervalText({object["value"].toDouble(kNaN), object["low"].toDouble(kNaN),
-                                 object["high"].toDouble(kNaN)},
-                                unit);
+            return intervalText(
+                {object["value"].toDouble(kNaN), object["low"].toDouble(kNaN), object["high"].toDouble(kNaN)}, unit);
         }
     }
     return kMissing;

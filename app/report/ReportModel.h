@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "app/report/Figure.h"
-#include "core/base/Role.h"
+#include "core/base/Words.h"
 
 namespace tacto {
 

@@ -6,9 +6,9 @@
 #include <map>
 
 #include "app/report/NumberText.h"
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 #include "core/base/QuantityText.h"
-#include "core/encoding/CalibratedQuantity.h"
+#include "core/encoding/StimulatorCalibration.h"
 #include "core/results/ResultKind.h"
 #include "core/safety/LimitSet.h"
 

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "app/report/StudyText.h"
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 #include "core/pilot/PilotRecord.h"
 #include "core/sharing/BidsFiles.h"
 #include "core/study/ProcedureWords.h"

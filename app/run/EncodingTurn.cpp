@@ -7,7 +7,7 @@
 
 #include "app/run/PilotRows.h"
 #include "core/analysis/identification/Encodings.h"
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 #include "core/base/Random.h"
 #include "core/base/Text.h"
 #include "core/pilot/PilotRecord.h"

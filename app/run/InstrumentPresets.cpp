@@ -9,7 +9,7 @@
 #include "core/base/RecordFields.h"
 #include "core/base/WholeFile.h"
 #include "core/calibration/CalibrationStore.h"
-#include "core/devices/StatementKeys.h"
+#include "core/devices/DeviceUri.h"
 
 namespace tacto {
 

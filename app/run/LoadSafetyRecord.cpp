@@ -5,7 +5,7 @@
 
 #include "app/scripting/ShippedResources.h"
 #include "core/analysis/load_safety/LoadSafety.h"
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 #include "core/devices/DeviceUri.h"
 #include "core/session/Digest.h"
 #include "core/session/Origin.h"

@@ -7,7 +7,7 @@
 
 #include "app/run/Shipped.h"
 #include "core/bench/Profile.h"
-#include "core/calibration/CalibrationDate.h"
+#include "core/calibration/CalibrationStore.h"
 #include "core/devices/DeviceSet.h"
 #include "core/study/Gates.h"
 

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/WholeNumber.h"
+#include "core/base/Text.h"
 
 namespace tacto {
 

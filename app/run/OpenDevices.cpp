@@ -1,7 +1,7 @@
 #include "app/run/OpenDevices.h"
 
 #include "app/run/Shipped.h"
-#include "core/devices/ReplayedDevice.h"
+#include "core/devices/Device.h"
 
 namespace tacto {
 

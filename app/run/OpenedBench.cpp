@@ -6,9 +6,9 @@
 #include "app/run/OpenDevices.h"
 #include "app/run/ScopeStatement.h"
 #include "core/base/JsonText.h"
-#include "core/bench/arming/ProfileReach.h"
-#include "core/devices/ReplayedDevice.h"
-#include "core/safety/UnitFolders.h"
+#include "core/bench/arming/CommandPreview.h"
+#include "core/devices/Device.h"
+#include "core/safety/UnitRecord.h"
 #include "core/session/Origin.h"
 
 namespace tacto {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "app/run/VirtualPerson.h"
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 
 namespace tacto {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 #include "core/devices/Device.h"
 #include "core/pilot/FoundRows.h"
 #include "core/pilot/PilotRecord.h"

@@ -7,8 +7,8 @@
 #include "app/run/MachineGate.h"
 #include "app/run/StudyProgram.h"
 #include "app/run/VirtualPerson.h"
-#include "core/base/JsonFields.h"
-#include "core/base/SystemTime.h"
+#include "core/base/Clock.h"
+#include "core/base/JsonText.h"
 #include "core/session/SessionReader.h"
 #include "core/study/LedgerEnd.h"
 

@@ -4,9 +4,8 @@
 #include <utility>
 
 #include "core/calibration/CertificateDetails.h"
-#include "core/session/Marks.h"
-#include "core/session/Origin.h"
 #include "core/results/ResultKind.h"
+#include "core/session/Origin.h"
 #include "core/session/SessionReader.h"
 #include "core/session/SessionVerify.h"
 

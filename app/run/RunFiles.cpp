@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/base/Clock.h"
-#include "core/base/DataFolder.h"
+#include "core/base/ProgramStart.h"
 
 namespace tacto {
 

@@ -10,7 +10,7 @@
 #include <optional>
 #include <string>
 
-#include "core/calibration/Certificate.h"
+#include "core/calibration/CertificateStore.h"
 #include "core/devices/DeviceSet.h"
 #include "core/session/SessionWriter.h"
 

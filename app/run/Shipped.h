@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/bench/Profile.h"
-#include "core/measure/InstrumentProfile.h"
+#include "core/measure/InstrumentStatement.h"
 
 namespace tacto {
 

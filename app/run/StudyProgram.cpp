@@ -2,7 +2,7 @@
 
 #include "app/run/Shipped.h"
 #include "app/scripting/ShippedResources.h"
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 #include "core/session/Digest.h"
 
 namespace tacto {

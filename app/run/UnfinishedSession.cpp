@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "core/base/SystemTime.h"
+#include "core/base/Clock.h"
 
 namespace tacto {
 

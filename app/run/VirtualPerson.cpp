@@ -4,8 +4,8 @@
 #include <cmath>
 #include <fmt/ranges.h>
 
-#include "core/base/JsonFields.h"
-#include "core/base/WholeNumber.h"
+#include "core/base/JsonText.h"
+#include "core/base/Text.h"
 
 namespace tacto {
 

@@ -8,7 +8,6 @@
 #include "core/acquisition/StreamHealth.h"
 #include "core/base/Csv.h"
 #include "core/base/CsvHead.h"
-#include "core/base/GivenOnce.h"
 #include "core/base/Text.h"
 #include "core/base/Utf16.h"
 

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <ctime>
 #include <fmt/format.h>
+#include <fstream>
 #include <string>
 
-#include "core/base/WholeNumber.h"
+#include "core/base/Text.h"
 
 namespace tacto {
 
@@ -83,6 +84,33 @@ std::optional<std::chrono::sys_seconds> wallTimeFrom(const std::string& utc) {
     const auto at = timegm(&parts);
     if (wallText(at) != utc) return std::nullopt;  // a day that does not exist, or other text between the numbers
     return std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::from_time_t(at));
+}
+
+namespace {
+
+class RealTime final : public SystemTime {
+public:
+    [[nodiscard]] Instant sinceBoot() const noexcept override {
+        std::timespec at{};
+        clock_gettime(CLOCK_BOOTTIME, &at);
+        return std::chrono::seconds(at.tv_sec) + std::chrono::nanoseconds(at.tv_nsec);
+    }
+    [[nodiscard]] std::string boot() const override {
+        std::ifstream in("/proc/sys/kernel/random/boot_id");
+        std::string id;
+        std::getline(in, id);
+        return id;
+    }
+    [[nodiscard]] std::chrono::sys_seconds wall() const noexcept override {
+        return std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+    }
+};
+
+}  // namespace
+
+const SystemTime& SystemTime::real() noexcept {
+    static const RealTime time;
+    return time;
 }
 
 }  // namespace tacto

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <system_error>
 
-#include "core/base/CsvBlanks.h"
+#include "core/base/CsvHead.h"
 #include "core/base/Text.h"
 
 namespace tacto {

@@ -1,7 +1,7 @@
 // CsvHead.h - the beginning of a table: where its header ends and its numbers begin, what separates them.
 //
 // Tolerated, as in core/base/Csv.h: CR LF, blank lines, `#` comment lines, quoted fields, trailing separators; comma,
-// semicolon, tab or blanks (CsvBlanks.h) between fields; lines that begin with `%`. Lines that begin with `;` are
+// semicolon, tab or blanks between fields; lines that begin with `%`. Lines that begin with `;` are
 // comments too where fields are separated by something else. A decimal comma is taken where fields
 // are separated by something else and hold numbers only so.
 //
@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,5 +46,23 @@ struct CsvHead {
 
 /// Looks at `text`, the file's beginning in whole lines (a last one that is cut off counts), after `skipRows` lines.
 [[nodiscard]] CsvHead readCsvHead(std::string_view text, std::size_t skipRows);
+
+// Columns that are apart by blanks: numpy.savetxt, Octave, gnuplot, LeCroy's ASCII. Any number of blanks
+// and tabs is one separator (' ' in CsvHead), also before the first column and behind the last: no field is empty.
+
+/// Whether most of the lines are two numbers or more with blanks between them, and nothing else.
+[[nodiscard]] bool areApartByBlanks(std::span<const std::string_view> lines);
+
+/// Whether single tabs divide such lines, where a field may be empty. Rows agree in their tabs, with a number
+/// or nothing between two of them, and no gap between two numbers in all rows; one before the first number is a column
+/// where a line of words has tabs too.
+[[nodiscard]] bool areApartByTabs(std::span<const std::string_view> lines);
+
+/// The fields of a line, by any separator of CsvHead.
+void cutRow(std::string_view line, char separator, std::vector<std::string_view>& fields);
+
+/// The names of `width` columns: a name may have blanks in it where two or a tab are between names, or where a unit
+/// follows it ("Time (s)  Channel A (V)"). What cannot be so is cut at every blank.
+[[nodiscard]] std::vector<std::string_view> namesApartByBlanks(std::string_view line, std::size_t width);
 
 }  // namespace tacto

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <fast_float/fast_float.h>
 #include <optional>
 #include <string_view>
 
@@ -24,5 +25,16 @@ struct CsvStamp {
 
 /// The whole of a field as a stamp.
 [[nodiscard]] std::optional<CsvStamp> fieldStamp(std::string_view field, char point) noexcept;
+
+// One number out of the middle of a line, read by fast_float: the double nearest to the text.
+
+/// Reads the number that begins at `text` (also a '+', nan and inf; beyond a double it is inf) and gives the place
+/// behind it; null where none begins. `point` is '.' or ','.
+inline const char* takeNumber(const char* text, const char* end, char point, double& value) noexcept {
+    if (end - text > 1 && *text == '+' && text[1] != '-') ++text;
+    const auto [behind, error] = fast_float::from_chars_advanced(
+        text, end, value, fast_float::parse_options(fast_float::chars_format::general, point));
+    return error == std::errc() ? behind : nullptr;
+}
 
 }  // namespace tacto

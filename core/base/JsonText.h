@@ -10,6 +10,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <initializer_list>
 #include <limits>
@@ -65,5 +66,22 @@ void appendCbor(const nlohmann::json& value, std::string& to);
 [[nodiscard]] std::string dumpJson(const nlohmann::json& value, int indent = -1, bool ascii = false);
 /// One line for a message, at most 60 characters, whatever the value holds.
 [[nodiscard]] std::string shownJson(const nlohmann::json& value);
+
+// Fields of a JSON object that may be missing or of another type: rows of a damaged file are read too.
+
+/// Limits of one row of a session file: results and report items are large, and a script's values nest by themselves.
+inline constexpr JsonLimits kRowLimits{.bytes = 256'000'000, .depth = 64};
+
+[[nodiscard]] std::string textOr(const nlohmann::json& object, const char* key);
+/// NaN where there is no number: null is how NaN is written.
+[[nodiscard]] double numberOr(const nlohmann::json& object, const char* key);
+[[nodiscard]] double numberOr(const nlohmann::json& value);
+[[nodiscard]] std::uint64_t countOr(const nlohmann::json& object, const char* key);
+[[nodiscard]] bool flagOr(const nlohmann::json& object, const char* key);
+[[nodiscard]] std::vector<std::string> textsOr(const nlohmann::json& object, const char* key);
+/// null for NaN and infinity.
+[[nodiscard]] nlohmann::json numberOrNull(double value);
+/// null where there is none.
+[[nodiscard]] nlohmann::json valueOr(const nlohmann::json& object, const char* key);
 
 }  // namespace tacto

@@ -1,9 +1,12 @@
 #include "core/base/ProgramStart.h"
 
 #include <array>
+#include <csignal>
 #include <cstdlib>
+#include <fcntl.h>
 #include <filesystem>
 #include <fmt/format.h>
+#include <poll.h>
 #include <pwd.h>
 #include <span>
 #include <unistd.h>
@@ -42,6 +45,29 @@ std::optional<std::string> refusedStart(int argc, const char* const* argv) {
         "HOME is \"{}\", and the system knows no home folder of user {}; the absolute path of a folder "
         "is expected in HOME or XDG_DATA_HOME",
         printable(home != nullptr ? home : ""), ::getuid());
+}
+
+void holdStandardStreams() noexcept {
+    std::signal(SIGXFSZ, SIG_IGN);
+    for (;;) {
+        const int file = ::open("/dev/null", O_RDWR);  // the lowest number that is free
+        if (file < 0) std::_Exit(3);
+        if (file <= STDERR_FILENO) continue;
+        ::close(file);
+        return;
+    }
+}
+
+bool takesMore(int stream) noexcept {
+    pollfd out{stream, POLLOUT, 0};
+    return ::poll(&out, 1, 0) == 1 && (out.revents & POLLOUT) != 0;
+}
+
+std::filesystem::path dataFolder() {
+    const char* data = std::getenv("XDG_DATA_HOME");
+    if (const std::filesystem::path set(data != nullptr ? data : ""); set.is_absolute()) return set / "tactoscope";
+    const char* home = std::getenv("HOME");
+    return std::filesystem::path(home != nullptr && *home != '\0' ? home : ".") / ".local" / "share" / "tactoscope";
 }
 
 }  // namespace tacto

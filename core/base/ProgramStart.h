@@ -3,8 +3,10 @@
 // Thread-safety: once, in main(), before other threads are started.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace tacto {
 
@@ -13,5 +15,36 @@ namespace tacto {
 /// Returns the sentence to end with (exit code 3) where no folder is known for the user's data, and where an argument
 /// is not UTF-8, with the bytes that are not spelled out: Qt would look for a file of another name.
 [[nodiscard]] std::optional<std::string> refusedStart(int argc, const char* const* argv);
+
+// Stdin, stdout and stderr are open in every program of ours: where one is closed, the next file
+// that is opened takes its number, and what is printed for the user would be written into a device (hazard H4).
+//
+// A limit on the size of files is an error of what writes, as a full disk is, and does not end the program.
+
+/// Opens /dev/null for those of the three that are closed, and ignores SIGXFSZ. Ends the program when /dev/null cannot
+/// be opened.
+void holdStandardStreams() noexcept;
+
+/// Whether a line can be written to `stream` at once: writing into a pipe that is full holds the thread that writes,
+/// and with it a stop.
+[[nodiscard]] bool takesMore(int stream) noexcept;
+
+// Where the programs that belong to this one are: in the same folder.
+
+/// The folder of the program that runs; empty where the system does not tell.
+[[nodiscard]] inline std::filesystem::path programFolder() {
+    std::error_code error;
+    return std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+}
+
+/// "tactoscope-watchdog" beside it.
+[[nodiscard]] inline std::filesystem::path programBeside(std::string_view name) { return programFolder() / name; }
+
+// Where the program keeps what belongs to its user: calibrations, keys, sessions, protocols.
+
+/// $XDG_DATA_HOME/tactoscope, or ~/.local/share/tactoscope where that is not set or not absolute, which the XDG base
+/// directory specification tells programs to ignore: it would be another folder for each folder that the program is
+/// started in. Need not exist. Relative only where HOME is not set either.
+[[nodiscard]] std::filesystem::path dataFolder();
 
 }  // namespace tacto

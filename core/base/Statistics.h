@@ -9,14 +9,17 @@
 
 namespace tacto {
 
+/// What does not exist, was not measured or is not stated.
+inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
 /// Statistics of n readings, in the readings' unit. What does not exist is NaN: everything when n = 0, the standard
 /// deviation when n = 1; one reading that is NaN makes everything but n NaN. NaN is null in JSON and empty in CSV.
 struct Statistics {
-    double mean = std::numeric_limits<double>::quiet_NaN();
-    double sd = std::numeric_limits<double>::quiet_NaN();  ///< standard deviation of the sample, with n - 1
-    double median = std::numeric_limits<double>::quiet_NaN();
-    double min = std::numeric_limits<double>::quiet_NaN();
-    double max = std::numeric_limits<double>::quiet_NaN();
+    double mean = kNaN;
+    double sd = kNaN;  ///< standard deviation of the sample, with n - 1
+    double median = kNaN;
+    double min = kNaN;
+    double max = kNaN;
     std::size_t n = 0;
 };
 

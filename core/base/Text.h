@@ -3,9 +3,17 @@
 // Thread-safety: pure functions.
 #pragma once
 
+#include <algorithm>
+#include <charconv>
+#include <concepts>
+#include <cstddef>
+#include <fmt/format.h>
+#include <functional>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace tacto {
@@ -24,5 +32,73 @@ namespace tacto {
 
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 [[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);
+
+// Letters A to Z in small and in capitals, in every language setting alike. The functions of the C library
+// follow the locale, which Qt sets: in Turkish the letter I has no small form of one byte.
+
+[[nodiscard]] constexpr char lowered(char letter) noexcept {
+    return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+}
+[[nodiscard]] constexpr char capital(char letter) noexcept {
+    return letter >= 'a' && letter <= 'z' ? static_cast<char>(letter - 'a' + 'A') : letter;
+}
+
+/// Other bytes than the letters A to Z stay as they are, so UTF-8 stays UTF-8.
+[[nodiscard]] inline std::string lowered(std::string_view text) {
+    std::string result(text);
+    for (char& letter : result) letter = lowered(letter);
+    return result;
+}
+[[nodiscard]] inline std::string capitals(std::string_view text) {
+    std::string result(text);
+    for (char& letter : result) letter = capital(letter);
+    return result;
+}
+
+/// Whether both are the same but for small letters and capitals.
+[[nodiscard]] constexpr bool sameLetters(std::string_view a, std::string_view b) noexcept {
+    return std::ranges::equal(a, b, [](char x, char y) { return lowered(x) == lowered(y); });
+}
+
+// What is written in hexadecimal digits: digests, and the names of files that are drawn.
+
+/// Whether a text is exactly so many of 0 to 9 and a to f.
+[[nodiscard]] constexpr bool isHex(std::string_view text, std::size_t digits) noexcept {
+    return text.size() == digits && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+
+/// A SHA-256 digest, as this program writes it.
+[[nodiscard]] constexpr bool isSha256(std::string_view text) noexcept { return isHex(text, 64); }
+
+// Whole numbers from text.
+
+/// The whole of `text` as a number: digits of `base`, after a minus where T has a sign. Nothing for an empty text, a
+/// plus, blanks, other characters and what T cannot hold.
+template <std::integral T>
+[[nodiscard]] std::optional<T> parseWhole(std::string_view text, int base = 10) noexcept {
+    T value = 0;
+    const char* const end = text.data() + text.size();
+    const auto read = std::from_chars(text.data(), end, value, base);
+    if (read.ec != std::errc() || read.ptr != end) return std::nullopt;
+    return value;
+}
+
+// What may be given once: a key, an option, a name. How a second one is found, and the sentence that
+// refuses it.
+
+/// The first of `values` whose projection is equal to that of one before it. Null when all differ.
+template <class Values, class Projection = std::identity>
+[[nodiscard]] constexpr auto secondIn(const Values& values, Projection projection = {}) -> decltype(&*values.begin()) {
+    for (auto at = std::begin(values); at != std::end(values); ++at) {
+        if (std::ranges::find(std::begin(values), at, std::invoke(projection, *at), projection) != at) return &*at;
+    }
+    return nullptr;
+}
+
+/// `the tag "a" is given twice; once is expected`: `text` with `args` names what is.
+template <class... Args>
+[[nodiscard]] std::string givenTwice(fmt::format_string<Args...> text, Args&&... args) {
+    return fmt::format(text, std::forward<Args>(args)...) + " is given twice; once is expected";
+}
 
 }  // namespace tacto

@@ -4,7 +4,6 @@
 #include <cstdint>
 
 #include "core/base/Printable.h"
-#include "core/base/Utf8.h"
 
 namespace tacto {
 

@@ -3,12 +3,17 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <cstring>
 #include <fcntl.h>
+#include <fmt/format.h>
+#include <fstream>
 #include <string>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
+
+#include "core/base/Text.h"
 
 namespace tacto {
 
@@ -134,6 +139,49 @@ Result<void> writeWholeFile(const fs::path& path, std::string_view content) {
 Result<void> namedAs(const fs::path& path, Result<void> written) {
     if (written || written.error().code != ErrorCode::Io) return written;
     return fail(ErrorCode::Io, "{} could not be written: {}", path.string(), written.error().message);
+}
+
+std::optional<std::int64_t> lockHolder(const std::filesystem::path& file, std::string_view kind, LockedBy by) {
+    struct stat about {};
+    if (::stat(file.c_str(), &about) != 0) return std::nullopt;
+    std::ifstream locks("/proc/locks");
+    const auto inode = fmt::format(":{}", about.st_ino);
+    for (std::string number, held, mode, access, process, place, rest;
+         locks >> number >> held >> mode >> access >> process >> place; std::getline(locks, rest)) {
+        const bool isHere = held == kind && place.ends_with(inode);
+        const auto id = isHere ? parseWhole<std::int64_t>(process) : std::nullopt;
+        if (id && *id > 0 && (by == LockedBy::Any || *id != ::getpid())) return id;
+    }
+    return std::nullopt;
+}
+
+namespace {
+
+bool synced(const std::filesystem::path& path, int kind) noexcept {
+    const int handle = ::open(path.c_str(), kind | O_RDONLY | O_CLOEXEC);
+    if (handle < 0) return false;
+    const bool done = ::fsync(handle) == 0;
+    ::close(handle);
+    return done;
+}
+
+}  // namespace
+
+Result<void> syncFile(const std::filesystem::path& file) {
+    if (!synced(file, 0)) return fail(ErrorCode::Io, "{}", std::strerror(errno));
+    return {};
+}
+
+void syncFolderOf(const std::filesystem::path& file) noexcept {
+    static_cast<void>(synced(file.has_parent_path() ? file.parent_path() : std::filesystem::path("."), O_DIRECTORY));
+}
+
+void removeDraft(const std::filesystem::path& draft) {
+    std::error_code ignored;
+    for (const char* suffix : {"", "-wal", "-shm", "-journal"}) {
+        auto part = draft;
+        std::filesystem::remove(part += suffix, ignored);
+    }
 }
 
 }  // namespace tacto

@@ -6,8 +6,10 @@
 // Thread-safety: any thread; two that write one file at once both leave a whole one. A FileOut has one owner.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string_view>
 
 #include "core/base/Result.h"
@@ -51,5 +53,28 @@ private:
 /// The sentence about a file that was asked for: "out.csv could not be written: No space left on device". Errors that
 /// are not about the file (other than Io) stay as they are.
 [[nodiscard]] Result<void> namedAs(const std::filesystem::path& path, Result<void> written);
+
+// Which program holds a lock on a file, as the system lists it. Opens nothing: a handle that this
+// process closed would drop its own locks on the file (fcntl(2)).
+
+enum class LockedBy {
+    Any,
+    Another  ///< than this process
+};
+
+/// The process. `kind`: "FLOCK" (flock(2)) or "POSIX" (fcntl(2)). Nothing where none holds one, and where that cannot
+/// be seen.
+[[nodiscard]] std::optional<std::int64_t> lockHolder(const std::filesystem::path& file, std::string_view kind,
+                                                     LockedBy by = LockedBy::Any);
+
+// What makes a file that was written under another name survive power loss before it takes its place.
+
+/// Waits until the content of a file would survive power loss. Errors: Io.
+[[nodiscard]] Result<void> syncFile(const std::filesystem::path& file);
+/// The same of the names in its folder. A folder that cannot be synced (some network file systems) is no reason to
+/// refuse a session.
+void syncFolderOf(const std::filesystem::path& file) noexcept;
+/// Removes an SQLite file and those of its journals that exist.
+void removeDraft(const std::filesystem::path& draft);
 
 }  // namespace tacto

@@ -42,4 +42,25 @@ template <class Value, std::size_t count>
     return std::nullopt;
 }
 
+// How sure we are that a figure of a standard or a data sheet is what it says.
+
+enum class Confidence { High, Medium, MediumLow, Low };
+
+inline constexpr Word<Confidence> kConfidences[] = {{"high", Confidence::High},
+                                                    {"medium", Confidence::Medium},
+                                                    {"medium-low", Confidence::MediumLow},
+                                                    {"low", Confidence::Low}};
+[[nodiscard]] constexpr std::string_view nameOf(Confidence confidence) noexcept {
+    return wordFor(kConfidences, confidence);
+}
+
+// What a device is to the bench, and the word for it in addresses, files and results.
+
+enum class Role { Sensor, Stimulator, Oscilloscope, Massager };
+inline constexpr Word<Role> kRoles[] = {{"sensor", Role::Sensor},
+                                        {"stimulator", Role::Stimulator},
+                                        {"oscilloscope", Role::Oscilloscope},
+                                        {"massager", Role::Massager}};
+[[nodiscard]] constexpr std::string_view nameOf(Role role) noexcept { return wordFor(kRoles, role, "device"); }
+
 }  // namespace tacto

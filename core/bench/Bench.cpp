@@ -6,7 +6,6 @@
 
 #include "core/bench/BenchState.h"
 #include "core/bench/arming/CheckCapture.h"
-#include "core/bench/arming/FaultExit.h"
 
 namespace tacto {
 
@@ -138,10 +137,7 @@ Result<std::optional<Ohms>> Bench::checkImpedance(const ArmRequest& request) {
     return std::isfinite(ohms) ? std::optional(Ohms(ohms)) : std::nullopt;
 }
 
-Result<void> Bench::resetFault() {
-    auto& s = *state_;
-    return FaultExit(s.interlock, *s.loop, s.time, s.output, s.sensor.get()).leave();
-}
+Result<void> Bench::resetFault() { return state_->leaveFault(); }
 
 bool Bench::faultPersists(FaultCause cause) const noexcept { return state_->interlock.causePersists(cause); }
 ErrorCode Bench::faultCode() const noexcept { return state_->interlock.faultCode(); }
@@ -153,7 +149,7 @@ Result<void> Bench::withholdHeartbeat(Seconds duration) {
                     nameOf(s.config.mode));
     }
     if (!(duration.count() > 0 && duration.count() <= 10)) {
-        return fail(ErrorCode::InvalidArgument, "a silence of {} s; above 0 to 10 s is expected", duration.count());
+        return invalid("a silence of {} s; above 0 to 10 s is expected", duration.count());
     }
     s.time.withholdLoop(s.time.now() + toInstant(duration));
     if (s.order.stopped()) return fail(ErrorCode::Stopped, "stopped. Output is off.");
@@ -181,7 +177,7 @@ Result<void> Bench::drive(DriveSource source, double roughness, double pressure)
     if (source == DriveSource::Manual) {
         for (const auto& [name, value] : {std::pair("R", roughness), std::pair("P", pressure)}) {
             if (!(value >= 0 && value <= 1)) {
-                return fail(ErrorCode::InvalidArgument, "{} is {}; 0 to 1 is expected", name, value);
+                return invalid("{} is {}; 0 to 1 is expected", name, value);
             }
         }
     }
@@ -239,7 +235,7 @@ const std::vector<LimitSet>& Bench::limits() const noexcept { return state_->con
 Result<void> Bench::wait(Seconds duration) {
     auto& s = *state_;
     if (!(duration.count() >= 0 && duration.count() <= 1e7)) {
-        return fail(ErrorCode::InvalidArgument, "a wait of {} s; 0 to 10000000 s is expected", duration.count());
+        return invalid("a wait of {} s; 0 to 10000000 s is expected", duration.count());
     }
     const auto passed = s.time.advance(s.time.now() + toInstant(duration), [&s] { return s.refusedByHand(); });
     if (!passed) return failure(passed);
@@ -257,8 +253,8 @@ Result<Presented> Bench::present(const Presentation& presentation,
     }
     const Instant now = s.time.now();
     if (!(presentation.notBefore <= now + toInstant(Presentation::kLongest))) {
-        return fail(ErrorCode::InvalidArgument, "a presentation that begins in {:.3g} s; at most {} s is accepted",
-                    toSeconds(presentation.notBefore - now), Presentation::kLongest.count());
+        return invalid("a presentation that begins in {:.3g} s; at most {} s is accepted",
+                       toSeconds(presentation.notBefore - now), Presentation::kLongest.count());
     }
     if (const auto ready = s.readyToPresent(); !ready) return failure(ready);
     s.loop->present(presentation);
@@ -311,8 +307,7 @@ Result<void> Bench::requestCaptures(int trains, const ScopeSettings& settings,
     auto& s = *state_;
     if (!s.scope) return fail(ErrorCode::Unsupported, "no oscilloscope is open to capture with");
     if (trains < 1 || trains > static_cast<int>(ScopeSession::kMaxCaptures)) {
-        return fail(ErrorCode::InvalidArgument, "{} captures; 1 to {} are expected", trains,
-                    ScopeSession::kMaxCaptures);
+        return invalid("{} captures; 1 to {} are expected", trains, ScopeSession::kMaxCaptures);
     }
     std::optional<Instant> forceAfter;
     if (untriggeredAfter) {
@@ -320,8 +315,8 @@ Result<void> Bench::requestCaptures(int trains, const ScopeSettings& settings,
             return fail(ErrorCode::Unsupported, "this oscilloscope takes no record without a trigger");
         }
         if (!(untriggeredAfter->count() > 0 && untriggeredAfter->count() <= 3600)) {
-            return fail(ErrorCode::InvalidArgument, "an untriggered record after {} s; above 0 to 3600 s is expected",
-                        untriggeredAfter->count());
+            return invalid("an untriggered record after {} s; above 0 to 3600 s is expected",
+                           untriggeredAfter->count());
         }
         forceAfter = toInstant(*untriggeredAfter);
     }

@@ -28,7 +28,7 @@
 #include "core/measure/Capture.h"
 #include "core/safety/Interlock.h"
 #include "core/safety/StopCounter.h"
-#include "core/safety/UnitFolders.h"
+#include "core/safety/UnitRecord.h"
 
 namespace tacto {
 
@@ -105,7 +105,7 @@ public:
     /// The same check of the load, after which the bench is always disarmed. Nothing but the check pulse
     /// is delivered. The value is |Z|, or nothing where the stimulator does not read back. Errors: as arm().
     [[nodiscard]] Result<std::optional<Ohms>> checkImpedance(const ArmRequest& request);
-    /// What the operator confirms before this load is armed. See core/bench/arming/ArmingText.h.
+    /// What the operator confirms before this load is armed. See core/bench/arming/CommandPreview.h.
     [[nodiscard]] std::string armingText(const Load& load) const;
     /// Whether what would be armed is a device and no simulation: then arm() takes no request without its text.
     [[nodiscard]] bool outputIsReal() const noexcept;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/bench/LoopJournal.h"
-#include "core/bench/arming/BenchPerson.h"
+#include "core/bench/arming/ArmingTerms.h"
 #include "core/measure/LoadMeasurement.h"
 
 namespace tacto {
@@ -30,6 +30,19 @@ std::optional<ProgrammedTrain> commandOfItsSize(const Capture& capture, const So
     }
     fitting.emplace_back();  // others are missing between them
     return commandShownIn(capture, fitting);
+}
+
+/// Asks one device's session how its device is, and waits for the answer.
+template <class Session>
+Result<void> ask(BenchTime& time, Session& session, Role role, Instant within, const char* who) {
+    static_cast<void>(session.health());  // an old answer
+    session.askHealth();
+    std::optional<Result<void>> answer;
+    const Instant until = time.now() + within;
+    while (!(answer = session.health()) && time.now() < until) time.prompt(role);
+    if (!answer) return fail(ErrorCode::NotArmed, "not reset: the {} does not answer", who);
+    if (!*answer) return fail(ErrorCode::NotArmed, "not reset: {}", answer->error().message);
+    return {};
 }
 
 }  // namespace
@@ -181,6 +194,41 @@ Result<void> Bench::State::rest() {
     if (!record) return {};
     const auto rested = time.advance(record->quietUntil(), [] { return false; });
     return rested ? Result<void>{} : failure(rested);
+}
+
+/// What a device's session reported while the device was gone (a keep-alive that failed) belongs to the fault that is
+/// being left; judged after the reset it would be the next one.
+Result<void> Bench::State::letReportsBeJudged() {
+    constexpr std::uint64_t kSteps = 2;  // one may be under way
+    constexpr Instant kStepsTimeout = std::chrono::milliseconds(500);
+    constexpr Instant kPollInterval = std::chrono::milliseconds(1);
+    const auto begin = loop->telemetry().steps;
+    const Instant until = time.now() + kStepsTimeout;
+    while (loop->telemetry().steps < begin + kSteps && time.now() < until) time.pass(until, kPollInterval);
+    if (loop->telemetry().steps >= begin + kSteps) return {};
+    return fail(ErrorCode::NotArmed, "not reset: the control loop does not run");
+}
+
+Result<void> Bench::State::leaveFault() {
+    if (interlock.state() != InterlockState::Faulted) return {};
+    if (interlock.causePersists(FaultCause::Internal)) {
+        return fail(ErrorCode::NotArmed, "a fault of the program itself is not reset: {}. Restart the program",
+                    interlock.reason().view());
+    }
+    // A massager is not asked anything: the next burst shows whether it is there.
+    if (auto* massager = output.massager()) massager->forceOff();
+    if (auto* stimulator = output.stimulator()) {
+        constexpr Instant kStimulatorTimeout = std::chrono::milliseconds(500);
+        if (const auto well = ask(time, *stimulator, Role::Stimulator, kStimulatorTimeout, "stimulator"); !well)
+            return well;
+    }
+    if (sensor) {
+        constexpr Instant kSensorTimeout = std::chrono::seconds(3);
+        if (const auto well = ask(time, *sensor, Role::Sensor, kSensorTimeout, "fingertip sensor"); !well) return well;
+    }
+    if (const auto judged = letReportsBeJudged(); !judged) return judged;
+    for (int cause = 0; cause < kFaultCauseCount; ++cause) interlock.causeGone(static_cast<FaultCause>(cause));
+    return interlock.reset();
 }
 
 Result<void> Bench::State::refusal() {

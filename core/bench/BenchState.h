@@ -9,7 +9,6 @@
 #include "core/bench/BenchNotes.h"
 #include "core/bench/BenchTime.h"
 #include "core/bench/arming/ArmingTerms.h"
-#include "core/bench/arming/BenchCalibration.h"
 #include "core/bench/arming/BenchLevels.h"
 #include "core/bench/arming/StandingOrder.h"
 #include "core/bench/delivery/BenchOutput.h"
@@ -40,6 +39,16 @@ struct Bench::State {
     }
     /// Waits until the unit has rested, where what it delivered before is not known. Errors: as health().
     [[nodiscard]] Result<void> rest();
+    /// The way out of Faulted. Each cause is looked at again, here or before anything else can be delivered:
+    ///   device lost, device fault, status missing   the device is asked, and must answer and deliver nothing
+    ///   stale sensor, a failed sensor               the sensor is asked
+    ///   loop silent                                 the loop must take its steps again
+    ///   open, short, net charge, limit broken       the check pulse with which arming begins:
+    ///   ControlLoop::judgeCheck();
+    ///                                               a source that does not read back arms on the operator's word
+    ///   internal error                              is never gone: the program is restarted
+    /// Errors: NotArmed while the cause persists.
+    [[nodiscard]] Result<void> leaveFault();
     /// A train driven by hand was refused since the caller last heard of one.
     [[nodiscard]] bool refusedByHand() const noexcept {
         return driving.load(std::memory_order_acquire) == DriveSource::Manual && loop->refusals() != refusalsSeen;
@@ -74,6 +83,7 @@ struct Bench::State {
     BenchLevels levels{config, output, calibration, terms, notes, gate, time, loop};
 
 private:
+    [[nodiscard]] Result<void> letReportsBeJudged();
     [[nodiscard]] Result<void> takeUpRecord();
     [[nodiscard]] Result<void> openRecorder(ControlLoop::Parts& parts);
     void openScope();

@@ -15,22 +15,19 @@
 #include <optional>
 #include <vector>
 
-#include "core/base/Latest.h"
-#include "core/bench/LevelRequests.h"
+#include "core/base/SpscRing.h"
 #include "core/bench/LoopInbox.h"
 #include "core/bench/LoopJournal.h"
 #include "core/bench/arming/ArmingSequence.h"
-#include "core/bench/arming/OwnerWatchdog.h"
+#include "core/bench/arming/StandingOrder.h"
 #include "core/bench/delivery/DeliveryJudge.h"
 #include "core/bench/delivery/ExposureWatch.h"
-#include "core/bench/delivery/MassagerSession.h"
+#include "core/bench/delivery/OutputSession.h"
 #include "core/bench/delivery/PresentationRun.h"
-#include "core/bench/delivery/ReadingWatch.h"
 #include "core/bench/delivery/StimulatorSession.h"
 #include "core/bench/delivery/TrainDispatch.h"
 #include "core/bench/sensing/FingerWatch.h"
 #include "core/bench/sensing/MassagerWatch.h"
-#include "core/bench/sensing/SampleTaps.h"
 
 namespace tacto {
 

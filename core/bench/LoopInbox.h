@@ -14,6 +14,7 @@
 #include "core/bench/delivery/TrainPlanner.h"
 #include "core/bench/sensing/CaptureLoad.h"
 #include "core/bench/sensing/FingerInput.h"
+#include "core/safety/SafetyGate.h"
 
 namespace tacto {
 
@@ -66,6 +67,31 @@ private:
     std::mutex mutex_;  // held to move a setting in or out
     Settings settings_;
     std::atomic<bool> full_{false};
+};
+
+// What a participant says about levels, on its way from the bench's caller to the gate, which has the
+// control loop for its only caller, and back.
+
+struct LevelRequest {
+    enum class What { Accept, Discomfort, BeginAscending, EndAscending, Ceiling };
+    What what = What::Ceiling;
+    PulseTrain train;                    ///< of the study's kind: the level to accept, else any; none of a massager
+    StimulusLevel level = Milliamps(0);  ///< that was accepted or uncomfortable; an intensity is a massager's
+};
+
+class LevelRequests {
+public:
+    void ask(const LevelRequest& request);
+    /// Nothing until it was served; then the ceiling that holds afterwards, or why it was refused. Taken once.
+    [[nodiscard]] std::optional<Result<StimulusLevel>> answer();
+
+    void serve(SafetyGate& gate) noexcept;
+
+private:
+    std::mutex mutex_;  // guards the two below; held for a call of the gate at most
+    std::optional<LevelRequest> request_;
+    std::optional<Result<StimulusLevel>> answer_;
+    std::atomic<bool> asked_{false};
 };
 
 }  // namespace tacto

@@ -12,7 +12,7 @@
 #include "core/bench/delivery/TrainPlanner.h"
 #include "core/bench/delivery/TrainReport.h"
 #include "core/bench/sensing/FingerInput.h"
-#include "core/devices/DeviceReport.h"
+#include "core/devices/Device.h"
 #include "core/session/SessionRecorder.h"
 
 namespace tacto {

@@ -43,8 +43,8 @@ RecordFields<Profile> safetyFields() {
     all.add("ceilings", &Profile::ceilings, ceilingsKind());
     all.rule([](const Profile& profile) -> Result<void> {
         if (profile.loadLow < profile.loadHigh) return {};
-        return fail(ErrorCode::InvalidArgument, "load_low_ohm {} must be below load_high_ohm {}",
-                    profile.loadLow.value(), profile.loadHigh.value());
+        return invalid("load_low_ohm {} must be below load_high_ohm {}", profile.loadLow.value(),
+                       profile.loadHigh.value());
     });
     return all;
 }
@@ -60,10 +60,7 @@ RecordFields<Profile> buildProfileFields() {
 
 }  // namespace
 
-const RecordFields<Profile>& profileFields() {
-    static const auto fields = buildProfileFields();
-    return fields;
-}
+const RecordFields<Profile>& profileFields() { return builtOnce<buildProfileFields>(); }
 
 Result<Profile> parseProfile(std::string_view text, std::string_view source) {
     const auto document = parseJson(text, source);

@@ -5,7 +5,7 @@
 //               "ceilings": {"peak_current": 20}}}
 //
 // The tables of fields say what each key accepts: roughnessFields(), encodingFields(), profileFields(). A ceiling's key
-// is a quantity of core/safety/Quantity.h, its value in that quantity's unit. What a file leaves out keeps the shipped
+// is a quantity of core/safety/LimitSet.h, its value in that quantity's unit. What a file leaves out keeps the shipped
 // value (resources/encodings/default.json), but for the limits on a step from train to train: a file that names none
 // has none.
 //

@@ -13,9 +13,9 @@
 
 #include "core/base/Units.h"
 #include "core/dsp/RoughnessFlags.h"
-#include "core/safety/Exposure.h"
 #include "core/safety/FixedText.h"
 #include "core/safety/Interlock.h"
+#include "core/safety/LimitSet.h"
 
 namespace tacto {
 
@@ -114,5 +114,12 @@ struct Telemetry : StepTelemetry {
         return {exposureRows.data(), exposureCount};
     }
 };
+
+// What displays may know of a bench while the operator is blind.
+
+/// The same for every condition and level (hazard H9): whether the output is armed, paused, off or faulted and why,
+/// and the limits that are broken; why without its numbers, which a fault has of the train that it ended. No train,
+/// level, reading or age, for each of them comes or changes with a train.
+[[nodiscard]] Telemetry blinded(const Telemetry& telemetry);
 
 }  // namespace tacto

@@ -18,11 +18,28 @@
 #include <vector>
 
 #include "core/base/Result.h"
-#include "core/calibration/CalibrationDate.h"
 #include "core/calibration/ChainedLines.h"
 #include "core/encoding/StimulatorCalibration.h"
 
 namespace tacto {
+
+// The days on which calibrations and certificates are made and fall due.
+
+template <class T>
+struct ValueKind;
+
+/// A calendar date, UTC.
+using CalibrationDate = std::chrono::year_month_day;
+/// "2026-11-21". Nothing for another form or a day that does not exist.
+[[nodiscard]] std::optional<CalibrationDate> parseDate(std::string_view text);
+[[nodiscard]] std::string dateText(CalibrationDate date);
+/// As the field of a record: its text.
+[[nodiscard]] ValueKind<CalibrationDate> dateKind();
+[[nodiscard]] constexpr int daysBetween(CalibrationDate from, CalibrationDate to) {
+    return static_cast<int>((std::chrono::sys_days(to) - std::chrono::sys_days(from)).count());
+}
+/// Today, UTC.
+[[nodiscard]] CalibrationDate utcToday();
 
 /// An instrument that a calibration rests on.
 struct CalibrationInstrument {
@@ -99,5 +116,13 @@ private:
 
 /// $XDG_DATA_HOME/tactoscope/calibrations.jsonl, or ~/.local/share/tactoscope/calibrations.jsonl.
 [[nodiscard]] std::filesystem::path calibrationFile();
+
+// One calibration as the store writes it.
+
+/// Errors of check(): InvalidArgument naming the value and what is accepted.
+[[nodiscard]] Result<void> check(const StoredCalibration& calibration);
+[[nodiscard]] nlohmann::json toJson(const StoredCalibration& calibration);
+/// Errors: ParseError naming the key; as check().
+[[nodiscard]] Result<StoredCalibration> storedCalibrationFrom(const nlohmann::json& json);
 
 }  // namespace tacto

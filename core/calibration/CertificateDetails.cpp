@@ -67,14 +67,12 @@ Result<CertificateDetails> certificateDetails(const std::filesystem::path& file,
         if (auto read = readInto(details, file, false); !read) return failure(read);
     }
     if (const auto received = parseDate(details.received); received && *received > today) {
-        return fail(ErrorCode::InvalidArgument,
-                    "{}: \"received\" is {}, after the calibration on {}; that day or an earlier one is expected",
-                    file.string(), details.received, dateText(today));
+        return invalid("{}: \"received\" is {}, after the calibration on {}; that day or an earlier one is expected",
+                       file.string(), details.received, dateText(today));
     }
     if (const auto issued = parseDate(details.issued); issued && *issued < today) {
-        return fail(ErrorCode::InvalidArgument,
-                    "{}: \"issued\" is {}, before the calibration on {}; that day or a later one is expected",
-                    file.string(), details.issued, dateText(today));
+        return invalid("{}: \"issued\" is {}, before the calibration on {}; that day or a later one is expected",
+                       file.string(), details.issued, dateText(today));
     }
     return details;
 }

@@ -15,7 +15,7 @@
 #include <string_view>
 
 #include "core/base/Result.h"
-#include "core/calibration/CalibrationDate.h"
+#include "core/calibration/CalibrationStore.h"
 
 namespace tacto {
 

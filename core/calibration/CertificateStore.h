@@ -8,15 +8,85 @@
 // Thread-safety: none; one owner. add() and withdraw() lock the file against other processes.
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
-#include "core/calibration/Certificate.h"
+#include "core/base/Result.h"
+#include "core/calibration/CalibrationStore.h"
 #include "core/calibration/ChainedLines.h"
+#include "core/measure/InstrumentStatement.h"
 
 namespace tacto {
+
+// A calibration certificate of an oscilloscope, as the user copies it from the paper: science.md
+// section 12.
+//
+// Uncertainties are the expanded ones of the certificate, k = 2 (GUM 6.2). One that the certificate does not state is
+// absent, never 0 (hazard H9). The user enters all of it: the program cannot see the paper.
+
+struct Certificate {
+    std::string instrument;  ///< maker and model; not empty
+    std::string serial;      ///< the instrument's; not empty, so that two alike are told apart
+    std::string number;      ///< the certificate's; not empty
+    std::string by;          ///< the laboratory; not empty
+    CalibrationDate date{};
+    CalibrationDate due{};  ///< the last day on which it counts; not before `date`
+    /// U of the vertical gain, in % of the reading: a current is read through the same input. Always there.
+    std::optional<double> gain_pct;
+    std::optional<double> timeBase_ppm;
+    std::optional<double> shunt_pct;
+    std::optional<double> probe_pct;
+    bool operator==(const Certificate&) const = default;
+};
+
+/// The texts and uncertainties by what files, options and people call them.
+struct CertificateText {
+    std::string_view key;
+    std::string_view title;
+    std::string Certificate::*member;
+};
+inline constexpr std::array<CertificateText, 4> kCertificateTexts{
+    {{"instrument", "instrument", &Certificate::instrument},
+     {"serial", "serial number", &Certificate::serial},
+     {"number", "certificate number", &Certificate::number},
+     {"by", "laboratory", &Certificate::by}}};
+struct CertificateFigure {
+    std::string_view key;
+    const char* option;  ///< its option on the command line
+    std::string_view title;
+    std::string_view unit;
+    double perUnit;  ///< relative
+    double most;     ///< in `unit`
+    bool required;
+    std::optional<double> Certificate::*member;
+};
+inline constexpr std::array<CertificateFigure, 4> kCertificateFigures{
+    {{"gain_u_pct", "gain-u", "voltage gain", "%", 1e-2, 50, true, &Certificate::gain_pct},
+     {"timebase_u_ppm", "timebase-u-ppm", "time base", "ppm", 1e-6, 1e5, false, &Certificate::timeBase_ppm},
+     {"shunt_u_pct", "shunt-u", "shunt", "%", 1e-2, 50, false, &Certificate::shunt_pct},
+     {"probe_u_pct", "probe-u", "probe", "%", 1e-2, 50, false, &Certificate::probe_pct}}};
+
+/// Errors: InvalidArgument naming the value and what is accepted: a text that is empty, too long or not printable,
+/// dates that do not exist or a due date before the date, a U that is missing, not above 0 or above `most`.
+[[nodiscard]] Result<void> check(const Certificate& certificate);
+
+/// What it states, each as the half-width whose 95 % are the certificate's U: a = U/0.95, which is never less than what
+/// it states (a rectangle of the same standard uncertainty would be). Each figure says by which certificate.
+[[nodiscard]] InstrumentStatement statementOf(const Certificate& certificate);
+/// "certificate 4711 (DKD Lab, 2026-01-05, due 2027-01-05)".
+[[nodiscard]] std::string certificateText(const Certificate& certificate);
+/// "U (k = 2): voltage gain 0.5 %, time base 2 ppm; shunt, probe not stated".
+[[nodiscard]] std::string figuresText(const Certificate& certificate);
+
+/// Absent uncertainties are null.
+[[nodiscard]] nlohmann::json toJson(const Certificate& certificate);
+/// Errors: ParseError naming the key; as check().
+[[nodiscard]] Result<Certificate> certificateFrom(const nlohmann::json& json);
 
 enum class CertificateState { Counts, Superseded, Expired, NotYet, Withdrawn };
 /// "in use", "superseded", "expired", "dated in the future", "withdrawn".

@@ -9,11 +9,10 @@
 #include <unistd.h>
 
 #include "core/base/Csv.h"
-#include "core/base/DataFolder.h"
 #include "core/base/JsonText.h"
+#include "core/base/ProgramStart.h"
 #include "core/base/WholeFile.h"
 #include "core/session/Digest.h"
-#include "core/session/Durable.h"
 
 namespace tacto {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <tuple>
 
-#include "core/base/Hex.h"
 #include "core/base/RecordFields.h"
+#include "core/base/Text.h"
 #include "core/base/Words.h"
 
 namespace tacto {
@@ -19,8 +19,7 @@ constexpr Word<CheckVerdict> kCheckVerdicts[] = {
 
 Result<void> checkWhole(const LoadSafetyCheck& c) {
     const auto wants = [&](std::string_view what) {
-        return fail(ErrorCode::InvalidArgument, "a load-safety check of stimulator \"{}\" without {}; one was expected",
-                    c.serial, what);
+        return invalid("a load-safety check of stimulator \"{}\" without {}; one was expected", c.serial, what);
     };
     if (c.serial.empty()) return wants("a serial number");
     if (!c.made.ok()) return wants("a day");
@@ -63,10 +62,7 @@ RecordFields<LoadSafetyCheck> buildCheckFields() {
     return all;
 }
 
-const RecordFields<LoadSafetyCheck>& checkFields() {
-    static const auto fields = buildCheckFields();
-    return fields;
-}
+const RecordFields<LoadSafetyCheck>& checkFields() { return builtOnce<buildCheckFields>(); }
 
 /// Empty where the worst case was judged for all loads of the session.
 std::string loadsLeftOut(const TrainReach& made, const TrainReach& wanted) {

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "core/base/Units.h"
-#include "core/calibration/CalibrationDate.h"
+#include "core/calibration/CalibrationStore.h"
 #include "core/calibration/ChainedLines.h"
 
 namespace tacto {

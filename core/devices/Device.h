@@ -5,12 +5,17 @@
 // Thread-safety: identity() is constant while the device is open; the rest as its interface says.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 
+#include "core/base/Clock.h"
 #include "core/base/Result.h"
-#include "core/base/Role.h"
 #include "core/base/Units.h"
+#include "core/base/Words.h"
 
 namespace tacto {
 
@@ -31,6 +36,60 @@ class Device {
 public:
     virtual ~Device() = default;
     [[nodiscard]] virtual const DeviceIdentity& identity() const noexcept = 0;
+};
+
+// A device that gives back what was taken before: a recording, captures in files. Whether that was
+// measured or simulated only its files can say (hazard H9).
+
+enum class StatedOrigin { NotStated, Measured, Simulated };
+
+/// Implemented beside Device by those that replay; DeviceIdentity::simulated is set where it is Simulated.
+class ReplayedDevice {
+public:
+    virtual ~ReplayedDevice() = default;
+    [[nodiscard]] virtual StatedOrigin statedOrigin() const noexcept = 0;
+};
+
+// How a driver refuses what it was handed after its approval expired.
+
+/// `who` is the device within a sentence, `what` the train or burst: "the stimulator", "a train". Errors: Timeout where
+/// `expires` is before `now`.
+[[nodiscard]] inline Result<void> notExpired(Instant expires, Instant now, std::string_view who,
+                                             std::string_view what) {
+    if (now <= expires) return {};
+    return fail(ErrorCode::Timeout, "{} refused {} whose approval expired {:.1f} ms ago", who, what,
+                toSeconds(now - expires) * 1e3);
+}
+
+// What a device and its line have been like since it was opened, as rows that a session keeps and a
+// window shows: losses, clock drift, delays. A device that knows such things of itself is a ReportingDevice as well.
+
+/// The texts live forever: literals.
+struct ReportRow {
+    const char* key = "";   ///< in sessions and JSON, with its unit: "drift_ppm"
+    const char* name = "";  ///< for people: "clock drift"
+    double value = 0;       ///< NaN: not known
+    const char* unit = "";  ///< for people; empty for a count
+};
+
+struct DeviceReport {
+    static constexpr std::size_t kMaxRows = 12;  ///< as many as an event of a session takes
+
+    /// More than kMaxRows are left out.
+    constexpr void add(const ReportRow& row) noexcept {
+        if (count < kMaxRows) all[count++] = row;
+    }
+    [[nodiscard]] std::span<const ReportRow> rows() const noexcept { return {all.data(), count}; }
+
+    std::uint64_t losses = 0;  ///< things lost or spoilt so far: when it has grown, the operator should know
+    std::array<ReportRow, kMaxRows> all{};
+    std::size_t count = 0;
+};
+
+class ReportingDevice {
+public:
+    virtual ~ReportingDevice() = default;
+    [[nodiscard]] virtual DeviceReport deviceReport() const noexcept = 0;
 };
 
 }  // namespace tacto

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "core/devices/DeviceUri.h"
-#include "core/devices/Massager.h"
 #include "core/devices/Oscilloscope.h"
 #include "core/devices/Stimulator.h"
 #include "core/devices/TactileSensor.h"

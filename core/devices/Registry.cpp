@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "core/devices/StatementKeys.h"
+#include "core/devices/DeviceUri.h"
 
 namespace tacto {
 
@@ -59,8 +59,7 @@ Result<DeviceSet> Registry::open(std::span<const DeviceUri> uris, const std::set
         if (!opened) return failure(opened);
         if (!*stated) continue;
         if (hadScope || !devices.has(Role::Oscilloscope)) {
-            return fail(ErrorCode::InvalidArgument,
-                        "device \"{}\" is not an oscilloscope; its address states how accurate one is", uri.text());
+            return invalid("device \"{}\" is not an oscilloscope; its address states how accurate one is", uri.text());
         }
         devices.scopeStatement = **stated;
         std::ranges::copy_if(given, std::back_inserter(devices.scopeKeys),

@@ -19,7 +19,7 @@ public:
     [[nodiscard]] std::vector<DeviceIdentity> list() const;
     /// Whether every one of `uris` can run on the virtual clock. Errors: as open().
     [[nodiscard]] Result<bool> allVirtual(std::span<const DeviceUri> uris) const;
-    /// The keys of StatementKeys.h are taken from the address of the oscilloscope.
+    /// The statement keys of DeviceUri.h are taken from the address of the oscilloscope.
     /// A stop ends the opening as soon as the driver that is at work returns; what was opened is switched off and
     /// closed. Errors: Stopped; NotFound naming the unknown scheme and the known ones, or the role that nothing fills;
     /// as Driver::open().

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/devices/Device.h"
+#include "core/encoding/StimulatorCalibration.h"
 #include "core/safety/SafetyGate.h"
 #include "core/safety/SourceTraits.h"
 
@@ -46,6 +47,30 @@ public:
     [[nodiscard]] virtual Result<void> keepAlive() = 0;
 
     /// Output off, now. Needs no approval; never throws, never allocates, may be called from any thread and again.
+    virtual void forceOff() noexcept = 0;
+};
+
+// A stimulator that knows its own calibration, because it is simulated. The bench believes no
+// other.
+
+/// Implemented beside Stimulator.
+class StatesCalibration {
+public:
+    virtual ~StatesCalibration() = default;
+    /// Nothing where it does not know: it is out of order on purpose.
+    [[nodiscard]] virtual const KnownLines& statedCalibration() const noexcept = 0;
+};
+
+// A vibration motor in place of the electrodes, driven by the same encoder.
+
+class Massager : public Device {
+public:
+    /// Starts one vibration burst now; it ends by itself. Consumes the approval whatever happens.
+    /// Errors: Device, Timeout (no answer in time, or the approval has expired). On error the caller calls forceOff().
+    [[nodiscard]] virtual Result<void> vibrate(ApprovedBurst&& burst) = 0;
+    /// The smallest difference of two intensities that the device can tell, to 1; 0: it takes any. Constant while open.
+    [[nodiscard]] virtual double step() const noexcept = 0;
+    /// Sends the stop report. Never throws or allocates.
     virtual void forceOff() noexcept = 0;
 };
 

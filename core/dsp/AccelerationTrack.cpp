@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/dsp/Plausible.h"
 #include "core/dsp/SampleHistory.h"
 
 namespace tacto {

@@ -12,7 +12,6 @@
 #include <span>
 #include <vector>
 
-#include "core/base/SampleGrid.h"
 #include "core/base/Stream.h"
 #include "core/dsp/Butterworth.h"
 
@@ -74,7 +73,7 @@ public:
         std::size_t repeats = 0;
         std::size_t clockSteps = 0;
         std::size_t invalid = 0;
-        std::size_t beyond = 0;  ///< out of all proportion (Plausible.h)
+        std::size_t beyond = 0;  ///< out of all proportion (SampleHistory.h)
     };
     [[nodiscard]] const Losses& losses() const noexcept { return losses_; }
 

@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "core/base/SampleGrid.h"
+#include "core/base/Stream.h"
 
 namespace tacto {
 

@@ -59,8 +59,8 @@ Result<RoughnessResult> analyseRoughness(std::span<const StreamInfo> streams, st
                                          const RoughnessSettings& settings, const DeclaredIntervals& declared,
                                          std::string_view serial) {
     if (blocks.size() != streams.size()) {
-        return fail(ErrorCode::InvalidArgument, "roughness: {} streams and {} blocks of samples; as many were expected",
-                    streams.size(), blocks.size());
+        return invalid("roughness: {} streams and {} blocks of samples; as many were expected", streams.size(),
+                       blocks.size());
     }
     auto chain = RoughnessChain::create(streams, settings, declared, serial);
     if (!chain) return failure(chain);
@@ -79,8 +79,7 @@ Result<RoughnessResult> analyseRoughness(std::span<const StreamInfo> streams, st
         }
     }
     if (result.frames.empty()) {
-        return fail(ErrorCode::InvalidArgument,
-                    "roughness: the recording holds no complete frame; at least 64 ms without a gap were expected");
+        return invalid("roughness: the recording holds no complete frame; at least 64 ms without a gap were expected");
     }
     result.summary = summarise(result.frames);
     if (std::ranges::any_of(result.frames, [](const auto& frame) { return frame.contact && frame.sliding; })) {

@@ -4,15 +4,13 @@
 #include <cmath>
 #include <optional>
 
-#include "core/base/NaN.h"
+#include "core/base/Statistics.h"
 #include "core/dsp/AccelerationTrack.h"
 #include "core/dsp/ForceTrack.h"
 #include "core/dsp/FramePacer.h"
-#include "core/dsp/Plausible.h"
 #include "core/dsp/RoughnessIndex.h"
-#include "core/dsp/SlidingRest.h"
-#include "core/dsp/StreamCheck.h"
-#include "core/dsp/StreamScaling.h"
+#include "core/dsp/SampleHistory.h"
+#include "core/dsp/SensorScales.h"
 #include "core/dsp/TaxelTrack.h"
 #include "core/dsp/WindowVibration.h"
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "core/base/RecordFields.h"
-#include "core/dsp/UnitWords.h"
+#include "core/dsp/SensorScales.h"
 
 namespace tacto {
 
@@ -16,7 +16,7 @@ constexpr Word<SpectralFeature> kSpectralFeatures[] = {{"h", SpectralFeature::Re
 constexpr Word<TaxelFeature> kTaxelFeatures[] = {{"static", TaxelFeature::Static}, {"dynamic", TaxelFeature::Dynamic}};
 
 tl::unexpected<Error> refused(std::string_view key, double value, std::string_view expected) {
-    return fail(ErrorCode::InvalidArgument, "\"{}\" is {}; {} was expected", key, value, expected);
+    return invalid("\"{}\" is {}; {} was expected", key, value, expected);
 }
 
 RecordFields<RoughnessSettings> referenceFields() {
@@ -26,8 +26,7 @@ RecordFields<RoughnessSettings> referenceFields() {
     scale.number("rough", &ReferenceScale::rough, {.low = 0, .openLow = true});
     scale.rule([](const ReferenceScale& s) -> Result<void> {
         if (s.smooth != s.rough) return {};
-        return fail(ErrorCode::InvalidArgument, "smooth and rough are both {}; two different readings were expected",
-                    s.smooth);
+        return invalid("smooth and rough are both {}; two different readings were expected", s.smooth);
     });
     RecordFields<S> all;
     all.record("h", &S::h, scale);
@@ -106,10 +105,7 @@ double pressureIndex(double pressure_pa, const RoughnessSettings& settings) noex
     return std::clamp((pressure_pa - low) / (settings.pressureMax.value() - low), 0.0, 1.0);
 }
 
-const RecordFields<RoughnessSettings>& roughnessFields() {
-    static const auto fields = buildRoughnessFields();
-    return fields;
-}
+const RecordFields<RoughnessSettings>& roughnessFields() { return builtOnce<buildRoughnessFields>(); }
 
 Result<void> validate(const RoughnessSettings& settings) {
     return roughnessFields().check(settings, {.path = "roughness"});

@@ -9,6 +9,8 @@
 #include <limits>
 #include <vector>
 
+#include "core/base/Stream.h"
+
 namespace tacto {
 
 /// The time of what has not happened.
@@ -46,5 +48,23 @@ private:
     std::size_t begin_ = 0;
     std::size_t end_ = 0;
 };
+
+// Readings that no fingertip gives: beyond them a value is a fault of its record, however it came there,
+// and is left out as NaN is. Impacts stay: they are far below.
+
+/// The largest magnitude that is taken for a reading (science.md section 1).
+[[nodiscard]] constexpr double mostPlausible(StreamUnit unit) noexcept {
+    switch (unit) {
+        case StreamUnit::MetrePerSecondSquared:
+            return 5000;
+        case StreamUnit::Newton:
+            return 200;
+        case StreamUnit::Pascal:
+            return 10e6;
+        case StreamUnit::Count:
+            break;
+    }
+    return std::numeric_limits<double>::max();
+}
 
 }  // namespace tacto

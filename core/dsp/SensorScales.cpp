@@ -1,10 +1,11 @@
 #include "core/dsp/SensorScales.h"
 
+#include <algorithm>
 #include <cmath>
 
-#include "core/base/NaN.h"
 #include "core/base/RecordFields.h"
-#include "core/dsp/UnitWords.h"
+#include "core/base/Statistics.h"
+#include "core/dsp/Butterworth.h"
 
 namespace tacto {
 
@@ -58,7 +59,7 @@ SensorScales scalesFrom(const StoredScales& stored) {
 
 Result<void> scaleIsNotZero(double scale) {
     if (scale != 0) return {};
-    return fail(ErrorCode::InvalidArgument, "\"scale\" is 0; a number other than 0 was expected");
+    return invalid("\"scale\" is 0; a number other than 0 was expected");
 }
 
 RecordFields<ForceScale> forceFields() {
@@ -90,8 +91,7 @@ RecordFields<TaxelScales> taxelFields() {
     all.rule([](const TaxelScales& taxels) -> Result<void> {
         for (const auto& [key, list] : {std::pair("offset_pa", &taxels.offset), std::pair("scale_u", &taxels.scaleU)}) {
             if (list->size() == taxels.scale.size()) continue;
-            return fail(ErrorCode::InvalidArgument, "\"{}\" has {} values; as many values as scale has were expected",
-                        key, list->size());
+            return invalid("\"{}\" has {} values; as many values as scale has were expected", key, list->size());
         }
         for (const double scale : taxels.scale) {
             if (auto sound = scaleIsNotZero(scale); !sound) return sound;
@@ -129,6 +129,109 @@ RecordFields<RoughnessUncertainty> roughnessUncertaintyFields() {
     all.number("smooth_slides", &U::smoothSlides, {.low = 1, .high = 100'000}).required = true;
     all.number("rough_slides", &U::roughSlides, {.low = 1, .high = 100'000}).required = true;
     return all;
+}
+
+namespace {
+
+bool fitsTaxels(const StreamInfo& info, const SensorScales& scales) noexcept {
+    return info.kind != StreamKind::Taxels || scales.taxels.empty() || scales.taxels.size() == info.channels;
+}
+
+}  // namespace
+
+StreamScaling::StreamScaling(std::span<const StreamInfo> streams, const std::optional<SensorScales>& scales,
+                             std::string_view serial)
+    : scales_(scales.value_or(SensorScales{})), streams_(streams.begin(), streams.end()) {
+    if (!scales) return;
+    const auto match = matchOf(scales_, serial);
+    const bool fits = std::ranges::all_of(streams_, [this](const auto& info) { return fitsTaxels(info, scales_); });
+    another_ = match == FingertipMatch::Another || !fits;  // another number of taxels is another fingertip
+    notNamed_ = match == FingertipMatch::NotNamed && !another_;
+    if (another_) return;
+    for (auto& info : streams_) {
+        const bool isForce = info.kind == StreamKind::Force && scales_.force;
+        const bool isTaxels = info.kind == StreamKind::Taxels && !scales_.taxels.empty();
+        if (!isForce && !isTaxels) continue;
+        if (info.unit != (isForce ? scales_.forceUnit : scales_.taxelUnit)) {
+            leftAside_ = true;
+            continue;
+        }
+        info.unit = isForce ? StreamUnit::Newton : StreamUnit::Pascal;
+        (isForce ? force_ : taxels_) = true;
+        if (isTaxels) row_.resize(info.channels);
+    }
+}
+
+double StreamScaling::inUse(std::size_t stream, std::size_t channel, double reading) const noexcept {
+    const auto kind = streams_[stream].kind;
+    if (kind == StreamKind::Force && force_) return scales_.force->at(reading);
+    if (kind == StreamKind::Taxels && taxels_) return scales_.taxels[channel].at(reading);
+    return reading;
+}
+
+const double* StreamScaling::scaled(std::size_t stream, const double* readings) noexcept {
+    if (!taxels_) return readings;
+    for (std::size_t c = 0; c < row_.size(); ++c) row_[c] = inUse(stream, c, readings[c]);
+    return row_.data();
+}
+
+void StreamScaling::raise(RoughnessFlags& flags) const noexcept {
+    flags.raise(RoughnessFlag::AnotherFingertip, another_);
+    flags.raise(RoughnessFlag::FingertipNotNamed, notNamed_);
+    flags.raise(RoughnessFlag::ScalesLeftAside, leftAside_);
+}
+
+Result<void> checkScales(std::span<const StreamInfo> streams, const std::optional<SensorScales>& scales,
+                         std::string_view serial) {
+    if (!scales || matchOf(*scales, serial) != FingertipMatch::Same) return {};
+    for (const auto& info : streams) {
+        if (fitsTaxels(info, *scales)) continue;
+        return invalid("roughness: sensor.taxels has {} scales and {} has {} taxels; one scale a taxel was expected",
+                       scales->taxels.size(), info.name, info.channels);
+    }
+    return {};
+}
+
+namespace {
+
+Result<void> checkStream(const StreamInfo& info) {
+    if (!(info.rate_hz > 0 && info.rate_hz <= 1e6)) {
+        return invalid("{}: its rate is {} Hz; above 0 to 1 MHz was expected", nameOf(info.kind), info.rate_hz);
+    }
+    switch (info.kind) {
+        case StreamKind::Acceleration:
+            // Measured rates miss a nominal 100 Hz or 20 kHz by a little.
+            if (!(info.rate_hz >= 99 && info.rate_hz <= 20'200)) {
+                return invalid("acceleration: its rate is {:.6g} Hz; 100 Hz to 20 kHz was expected", info.rate_hz);
+            }
+            if (info.channels < 1 || info.channels > AxesBandpass::kMaxAxes) {
+                return invalid("acceleration: it has {} axes; 1 to 3 were expected", info.channels);
+            }
+            return {};
+        case StreamKind::Force:
+            if (info.channels == 1) return {};
+            return invalid("force: it has {} channels; 1 was expected", info.channels);
+        case StreamKind::Taxels:
+            if (info.channels >= 2) return {};
+            return invalid("taxels: there are {}; at least 2 were expected", info.channels);
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<void> checkStreams(std::span<const StreamInfo> streams) {
+    if (streams.empty()) {
+        return invalid("roughness: there is no stream; acceleration, force or taxels was expected");
+    }
+    for (std::size_t i = 0; i < streams.size(); ++i) {
+        if (const auto good = checkStream(streams[i]); !good) return failure(good);
+        for (std::size_t j = 0; j < i; ++j) {
+            if (streams[i].kind != streams[j].kind) continue;
+            return invalid("roughness: there are two {} streams; one was expected", nameOf(streams[i].kind));
+        }
+    }
+    return {};
 }
 
 }  // namespace tacto

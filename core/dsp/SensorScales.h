@@ -8,12 +8,15 @@
 
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/base/Result.h"
 #include "core/base/Stream.h"
+#include "core/base/Words.h"
+#include "core/dsp/RoughnessFlags.h"
 
 namespace tacto {
 
@@ -68,5 +71,51 @@ enum class FingertipMatch {
 [[nodiscard]] ValueKind<SensorScales> sensorScalesKind();
 /// Its `uncertainty`.
 [[nodiscard]] RecordFields<RoughnessUncertainty> roughnessUncertaintyFields();
+
+// The units that a fingertip's streams may have, by the words that profiles and results use.
+
+inline constexpr Word<StreamUnit> kRestUnits[] = {{"m/s2", StreamUnit::MetrePerSecondSquared},
+                                                  {"count", StreamUnit::Count}};
+inline constexpr Word<StreamUnit> kForceUnits[] = {{"N", StreamUnit::Newton}, {"count", StreamUnit::Count}};
+inline constexpr Word<StreamUnit> kTaxelUnits[] = {{"Pa", StreamUnit::Pascal}, {"count", StreamUnit::Count}};
+
+// The one place where a fingertip's readings become N and Pa: which scales of a profile hold for its
+// streams, and what they make of a reading.
+//
+// Scales of another fingertip, and those for readings in another unit, are left aside; references that were read under
+// them do not hold either (hazard H7).
+
+class StreamScaling {
+public:
+    /// `serial` is of the fingertip that gives the samples; empty: not known.
+    StreamScaling(std::span<const StreamInfo> streams, const std::optional<SensorScales>& scales,
+                  std::string_view serial);
+
+    /// In the units in use.
+    [[nodiscard]] const std::vector<StreamInfo>& streams() const noexcept { return streams_; }
+    [[nodiscard]] double inUse(std::size_t stream, std::size_t channel, double reading) const noexcept;
+    /// All taxels of one sample in the unit in use; `readings` itself where nothing is scaled. Until the next call.
+    [[nodiscard]] const double* scaled(std::size_t stream, const double* readings) noexcept;
+
+    /// False where scales were left aside: what was measured under them is of no use here.
+    [[nodiscard]] bool holds() const noexcept { return !another_ && !leftAside_; }
+    void raise(RoughnessFlags& flags) const noexcept;
+
+private:
+    SensorScales scales_;
+    std::vector<StreamInfo> streams_;
+    bool force_ = false, taxels_ = false;  // scaled
+    bool another_ = false, notNamed_ = false, leftAside_ = false;
+    std::vector<double> row_;
+};
+
+/// Errors: InvalidArgument where the scales are of this very fingertip and hold for another number of taxels.
+[[nodiscard]] Result<void> checkScales(std::span<const StreamInfo> streams, const std::optional<SensorScales>& scales,
+                                       std::string_view serial);
+
+// Which streams the roughness chain can judge.
+
+/// Errors: InvalidArgument as RoughnessChain::create() lists them.
+[[nodiscard]] Result<void> checkStreams(std::span<const StreamInfo> streams);
 
 }  // namespace tacto

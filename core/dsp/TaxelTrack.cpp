@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/NaN.h"
-#include "core/dsp/Plausible.h"
+#include "core/base/Statistics.h"
+#include "core/dsp/SampleHistory.h"
 
 namespace tacto {
 

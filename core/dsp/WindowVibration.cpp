@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/NaN.h"
+#include "core/base/Statistics.h"
 
 namespace tacto {
 

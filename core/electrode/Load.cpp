@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "core/base/Text.h"
-#include "core/electrode/PulseResponse.h"
+#include "core/electrode/LoadResponse.h"
 
 namespace tacto {
 namespace {
@@ -256,7 +256,7 @@ Result<Load> parseLoad(std::string_view text) {
     for (std::size_t part = 1; load && part < parts.size(); ++part) {
         if (!parseModifier(trimmed(parts[part]), *load)) load.reset();
     }
-    if (!load) return fail(ErrorCode::InvalidArgument, "load \"{}\" is not {}", text, kAccepted);
+    if (!load) return invalid("load \"{}\" is not {}", text, kAccepted);
     return *load;
 }
 

@@ -11,9 +11,9 @@ bool isUnit(double x) noexcept { return x >= 0 && x <= 1; }
 Encoder::Encoder(const EncodingProfile& profile) : profile_(profile) {}
 
 Result<Command> Encoder::encode(double roughness, std::optional<double> pressure) const {
-    if (!isUnit(roughness)) return fail(ErrorCode::InvalidArgument, "roughness R {} is outside 0 to 1", roughness);
+    if (!isUnit(roughness)) return invalid("roughness R {} is outside 0 to 1", roughness);
     const double P = pressure.value_or(0.0);
-    if (!isUnit(P)) return fail(ErrorCode::InvalidArgument, "pressure P {} is outside 0 to 1", P);
+    if (!isUnit(P)) return invalid("pressure P {} is outside 0 to 1", P);
     const bool swapped = profile_.assignment == Assignment::Swapped;
     const double forAmplitude = swapped ? P : roughness;
     const double forInterval = swapped ? roughness : P;
@@ -59,8 +59,8 @@ Result<Volts> heldAmplitude(Hold hold, Volts amplitude, std::optional<Ohms> arme
     }
     const double ratio = now->value() / armed->value();
     if (!(ratio > 0) || !std::isfinite(ratio)) {
-        return fail(ErrorCode::InvalidArgument, "an impedance of {} ohm after {} ohm; finite ones above 0 are needed",
-                    now->value(), armed->value());
+        return invalid("an impedance of {} ohm after {} ohm; finite ones above 0 are needed", now->value(),
+                       armed->value());
     }
     constexpr double kMaxRatio = 2;
     if (!(ratio <= kMaxRatio && ratio >= 1 / kMaxRatio)) {
@@ -79,7 +79,7 @@ Result<PulseTrain> currentTrain(const EncodingProfile& profile, Volts amplitude,
     }
     const double ohm = impedance->value();
     if (!(ohm > 0) || !std::isfinite(ohm)) {
-        return fail(ErrorCode::InvalidArgument, "impedance {} ohm is not a finite number above 0", ohm);
+        return invalid("impedance {} ohm is not a finite number above 0", ohm);
     }
     PulseTrain train = profile.train;
     train.amplitude = Milliamps(amplitude.value() / ohm * 1e3);
@@ -96,7 +96,7 @@ Result<PulseTrain> trainFor(Drive source, const EncodingProfile& profile, Volts 
         case Drive::HighImpedance:
             break;
     }
-    return fail(ErrorCode::InvalidArgument, "a source with high impedance cannot deliver a train");
+    return invalid("a source with high impedance cannot deliver a train");
 }
 
 }  // namespace tacto

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/GivenOnce.h"
 #include "core/base/RecordFields.h"
+#include "core/base/Text.h"
 
 namespace tacto {
 namespace {
@@ -22,7 +22,7 @@ constexpr Word<Polarity> kPolarities[] = {{"positive", Polarity::Positive}, {"ne
 Result<void> increasing(std::string_view low, double lowValue, std::string_view high, double highValue,
                         std::string_view unit) {
     if (lowValue < highValue) return {};
-    return fail(ErrorCode::InvalidArgument, "{} {}{} is not below {} {}{}", low, lowValue, unit, high, highValue, unit);
+    return invalid("{} {}{} is not below {} {}{}", low, lowValue, unit, high, highValue, unit);
 }
 
 Result<void> rangesIncrease(const EncodingProfile& p) {
@@ -41,14 +41,13 @@ Result<void> strongestTrainIsPossible(const EncodingProfile& p) {
 Result<void> conditionsDiffer(const EncodingProfile& p) {
     const auto* second = secondIn(p.conditions, &Condition::name);
     if (second == nullptr) return {};
-    return fail(ErrorCode::InvalidArgument, "{}", givenTwice("condition \"{}\"", second->name));
+    return invalid("{}", givenTwice("condition \"{}\"", second->name));
 }
 
 Result<void> stepsAreLimitedOrNot(const EncodingProfile& p) {
     for (const auto& [key, ratio] : {std::pair{"amplitude_ratio_per_train", p.amplitudeRatioPerTrain},
                                      std::pair{"interval_ratio_per_train", p.intervalRatioPerTrain}}) {
-        if (ratio != 0 && !(ratio > 1))
-            return fail(ErrorCode::InvalidArgument, "{} {} is neither 0 (no limit) nor above 1 to 1000", key, ratio);
+        if (ratio != 0 && !(ratio > 1)) return invalid("{} {} is neither 0 (no limit) nor above 1 to 1000", key, ratio);
     }
     return {};
 }
@@ -56,9 +55,8 @@ Result<void> stepsAreLimitedOrNot(const EncodingProfile& p) {
 Result<void> trainsDoNotOverlap(const EncodingProfile& p) {
     const double duration = p.train.duration().count();
     if (duration < p.intervalMin.count()) return {};
-    return fail(ErrorCode::InvalidArgument,
-                "a train of {} pulses at {} Hz lasts {:.6g} s, which is not below interval_min_s {} s", p.train.pulses,
-                p.train.rate.value(), duration, p.intervalMin.count());
+    return invalid("a train of {} pulses at {} Hz lasts {:.6g} s, which is not below interval_min_s {} s",
+                   p.train.pulses, p.train.rate.value(), duration, p.intervalMin.count());
 }
 
 RecordFields<EncodingProfile> buildEncodingFields() {
@@ -122,10 +120,7 @@ const Condition* EncodingProfile::condition(std::string_view name) const noexcep
     return nullptr;
 }
 
-const RecordFields<EncodingProfile>& encodingFields() {
-    static const auto fields = buildEncodingFields();
-    return fields;
-}
+const RecordFields<EncodingProfile>& encodingFields() { return builtOnce<buildEncodingFields>(); }
 
 Result<void> validate(const EncodingProfile& profile) { return encodingFields().check(profile, {}); }
 

@@ -1,8 +1,10 @@
 #include "core/encoding/PulseTrain.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tacto {
+
 namespace {
 
 double inSeconds(Micros t) noexcept { return Seconds(t).count(); }
@@ -41,7 +43,7 @@ Seconds PulseTrain::outputDuration() const noexcept { return Seconds((pulses - 1
 Result<void> validate(const PulseTrain& train) {
     const double amplitude = std::visit([](auto a) { return a.value(); }, train.amplitude);
     const auto refused = [](std::string_view what, double value, std::string_view unit, std::string_view accepted) {
-        return fail(ErrorCode::InvalidArgument, "{} {} {} is not {}", what, value, unit, accepted);
+        return invalid("{} {} {} is not {}", what, value, unit, accepted);
     };
     const auto finite = [](double x, bool atLeast) { return std::isfinite(x) && atLeast; };
     if (!finite(amplitude, amplitude >= 0)) {
@@ -65,15 +67,14 @@ Result<void> validate(const PulseTrain& train) {
     if (train.shape == PulseShape::AsymmetricBiphasic && !finite(train.rechargeRatio, train.rechargeRatio > 1)) {
         return refused("recharge ratio", train.rechargeRatio, "", "a finite number above 1");
     }
-    if (train.pulses < 1) return fail(ErrorCode::InvalidArgument, "{} pulses are not 1 or more", train.pulses);
+    if (train.pulses < 1) return invalid("{} pulses are not 1 or more", train.pulses);
     const double rate = train.rate.value();
     if (!finite(rate, rate > 0)) return refused("intra-train rate", rate, "Hz", "a finite number above 0");
     // A billionth of tolerance: 0.1 ms of pulse at 10 kHz fits although neither is exact in binary.
     const double pulse = train.pulseDuration().count();
     if (!(pulse <= (1 + 1e-9) / rate)) {
-        return fail(ErrorCode::InvalidArgument,
-                    "a pulse of {:.6g} µs does not fit into its period of {:.6g} µs (1/{} Hz)", pulse * 1e6, 1e6 / rate,
-                    rate);
+        return invalid("a pulse of {:.6g} µs does not fit into its period of {:.6g} µs (1/{} Hz)", pulse * 1e6,
+                       1e6 / rate, rate);
     }
     return {};
 }
@@ -99,6 +100,53 @@ DriveSegment restOf(GapState gap, Seconds duration) noexcept {
 Seconds restBetweenPulses(const PulseTrain& train) noexcept {
     const double rest = 1 / train.rate.value() - train.pulseDuration().count();
     return Seconds(rest > 0 ? rest : 0.0);
+}
+
+namespace {
+
+/// Adds a rectangle [from, to), in samples of `out`, as each sample's mean.
+void addRectangle(std::span<double> out, double from, double to, double level) noexcept {
+    const double end = static_cast<double>(out.size());
+    from = std::max(from, 0.0);
+    to = std::min(to, end);
+    if (!(from < to)) return;
+    auto k = static_cast<std::size_t>(from);
+    const auto last = static_cast<std::size_t>(to);
+    if (k == last) {
+        out[k] += level * (to - from);
+        return;
+    }
+    out[k] += level * (static_cast<double>(k + 1) - from);
+    for (++k; k < last; ++k) out[k] += level;
+    if (last < out.size()) out[last] += level * (to - static_cast<double>(last));
+}
+
+}  // namespace
+
+Result<void> synthesize(const PulseTrain& train, Hertz sampleRate, std::span<double> out, Seconds start) {
+    if (auto valid = validate(train); !valid) return valid;
+    const double fs = sampleRate.value();
+    if (!(fs > 0) || !std::isfinite(fs)) {
+        return invalid("sampling rate {} Hz is not a finite number above 0", fs);
+    }
+    if (!std::isfinite(start.count())) return invalid("a start of {} s is not finite", start.count());
+    std::fill(out.begin(), out.end(), 0.0);
+
+    const double windowEnd = start.count() + static_cast<double>(out.size()) / fs;
+    const double period = 1 / train.rate.value();
+    const double pulseLength = train.pulseDuration().count();
+    // Only the pulses that reach into the window.
+    const double first = std::max(0.0, std::floor((start.count() - pulseLength) / period));
+    const double last = std::min(static_cast<double>(train.pulses - 1), std::floor(windowEnd / period));
+    const PulseSegments pulse = segmentsOf(train, GapState::HoldsZero);
+    for (double p = first; p <= last; p += 1) {
+        double at = p * period - start.count();
+        for (const auto& segment : pulse.span()) {
+            if (segment.start != 0) addRectangle(out, at * fs, (at + segment.duration_s) * fs, segment.start);
+            at += segment.duration_s;
+        }
+    }
+    return {};
 }
 
 }  // namespace tacto

@@ -6,6 +6,7 @@
 // Thread-safety: values; pure functions.
 #pragma once
 
+#include <span>
 #include <variant>
 
 #include "core/base/DriveSegment.h"
@@ -81,5 +82,18 @@ template <class Change>
 [[nodiscard]] DriveSegment restOf(GapState gap, Seconds duration) noexcept;
 /// From the end of one pulse's last phase to the next pulse of the same train: 1/rate less the pulse.
 [[nodiscard]] Seconds restBetweenPulses(const PulseTrain& train) noexcept;
+
+// A pulse train as samples, charge-exact at any rate.
+//
+// Each sample is the mean of the ideal rectangular waveform over its own interval [k/fs, (k + 1)/fs), not its value at
+// an instant. So the sum of the samples times 1/fs is the exact charge (or flux) of every phase, even where a phase
+// does not fall on the sampling grid: an edge inside a sample shows as a partial value there, and a symmetric biphasic
+// train sums to zero (to rounding) at any rate.
+
+/// Fills `out` with the train's level in V or A. Sample k covers `start` + [k, k + 1)/sampleRate, time 0 being the
+/// leading edge; outside the pulses (gap, rest, before and after) the level is 0. Errors: InvalidArgument as
+/// validate(), or for a sampling rate or start that is not finite or not above 0.
+[[nodiscard]] Result<void> synthesize(const PulseTrain& train, Hertz sampleRate, std::span<double> out,
+                                      Seconds start = Seconds(0));
 
 }  // namespace tacto

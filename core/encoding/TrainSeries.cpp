@@ -60,4 +60,36 @@ void TrainSeries::delivered() noexcept {
     startsAgain_ = false;
 }
 
+namespace {
+/// Rounded up to whole nanoseconds, so that rounding never makes a train early.
+Instant wholeNanoseconds(Seconds interval) noexcept {
+    const Instant nearest = toInstant(interval);
+    return Seconds(nearest) < interval ? nearest + Instant(1) : nearest;
+}
+
+bool isUsable(Seconds interval) noexcept { return interval.count() > 0 && interval.count() <= 1e6; }
+}  // namespace
+
+void TrainScheduler::start(Instant now, Seconds interval) noexcept {
+    if (!isUsable(interval)) return;
+    interval_ = interval;
+    running_ = true;
+    reschedule(now);
+}
+
+void TrainScheduler::setInterval(Seconds interval, Instant now) noexcept {
+    if (!isUsable(interval) || interval == interval_ || !running_) return;
+    interval_ = interval;
+    reschedule(now);
+}
+
+void TrainScheduler::trainAt(Instant onset) noexcept {
+    last_ = last_ ? std::max(*last_, onset) : onset;
+    due_ = *last_ + wholeNanoseconds(interval_);
+}
+
+void TrainScheduler::reschedule(Instant notBefore) noexcept {
+    due_ = last_ ? std::max(notBefore, *last_ + wholeNanoseconds(interval_)) : notBefore;
+}
+
 }  // namespace tacto

@@ -11,11 +11,45 @@
 
 #include <optional>
 
+#include "core/base/Units.h"
 #include "core/encoding/Encoder.h"
 #include "core/encoding/StimulatorCalibration.h"
-#include "core/encoding/TrainScheduler.h"
 
 namespace tacto {
+
+// When the next train is due.
+//
+// Trains follow each other by the onset-to-onset interval T. When T shrinks, the pending train is pulled forward to
+// max(now, last onset + T), so that a press is felt at once; when T grows it moves back. No train is ever due
+// earlier than the last onset plus T.
+
+class TrainScheduler {
+public:
+    /// Output begins: the first train is due at `now` (later if the last onset was less than an interval ago). An
+    /// interval outside 0 < T ≤ 1e6 s is ignored here and below.
+    void start(Instant now, Seconds interval) noexcept;
+
+    /// T changed. Moves the pending train; before start() it does nothing.
+    void setInterval(Seconds interval, Instant now) noexcept;
+
+    /// No train is due until start(). The last onset is remembered.
+    void off() noexcept { running_ = false; }
+
+    /// When the next train is due; nothing while off.
+    [[nodiscard]] std::optional<Instant> due() const noexcept { return running_ ? std::optional(due_) : std::nullopt; }
+
+    /// A train began, or was refused and skipped, at `onset`: the next is due an interval later. Pass the moment it was
+    /// due if it went out in time, or the loop's steps add up to a drift.
+    void trainAt(Instant onset) noexcept;
+
+private:
+    void reschedule(Instant notBefore) noexcept;
+
+    bool running_ = false;
+    Seconds interval_{0};
+    std::optional<Instant> last_;
+    Instant due_{0};
+};
 
 class TrainSeries {
 public:

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/base/JustNoticeable.h"
 #include "core/encoding/TrainSeries.h"
 
 namespace tacto {
+
 namespace {
 
 /// The control loop's step: how often the pending train may move.
@@ -69,11 +71,11 @@ double intervalDistance(Seconds a, Seconds b) noexcept {
 Result<TransitionReport> sweepTransitions(const EncodingProfile& profile, const TransitionSweep& sweep) {
     if (auto valid = validate(profile); !valid) return failure(valid);
     if (sweep.lines < 2 || sweep.lines > 1000) {
-        return fail(ErrorCode::InvalidArgument, "{} lines are not 2 to 1000", sweep.lines);
+        return invalid("{} lines are not 2 to 1000", sweep.lines);
     }
     const double traverse = sweep.traverse.count();
     if (!(traverse >= 0.1 && traverse <= 600)) {
-        return fail(ErrorCode::InvalidArgument, "a traverse of {} s is outside 0.1 to 600 s", traverse);
+        return invalid("a traverse of {} s is outside 0.1 to 600 s", traverse);
     }
     TransitionReport report;
     const auto keepLargest = [](LargestSteps& largest, const TransitionStep& step) {
@@ -109,6 +111,25 @@ Result<TransitionReport> sweepTransitions(const EncodingProfile& profile, const 
         }
     }
     return report;
+}
+
+Result<TransitionMap> mapOf(const std::vector<TransitionStep>& steps, int cells) {
+    if (cells < 2 || cells > 101) return invalid("{} cells are not 2 to 101", cells);
+    const auto n = static_cast<std::size_t>(cells);
+    const std::vector<std::vector<double>> nothing(n, std::vector<double>(n, std::numeric_limits<double>::quiet_NaN()));
+    TransitionMap map{nothing, nothing};
+    const auto cellOf = [cells](double x) {
+        return static_cast<std::size_t>(std::lround(std::clamp(x, 0.0, 1.0) * (cells - 1)));
+    };
+    for (const auto& step : steps) {
+        for (std::size_t p = cellOf(step.way.lowP); p <= cellOf(step.way.highP); ++p) {
+            for (std::size_t r = cellOf(step.way.lowR); r <= cellOf(step.way.highR); ++r) {
+                map.amplitude[p][r] = std::fmax(map.amplitude[p][r], step.amplitude);  // fmax passes NaN over
+                map.interval[p][r] = std::fmax(map.interval[p][r], step.interval);
+            }
+        }
+    }
+    return map;
 }
 
 }  // namespace tacto

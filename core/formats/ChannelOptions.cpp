@@ -5,8 +5,6 @@
 #include <cmath>
 #include <fmt/ranges.h>
 
-#include "core/base/Ascii.h"
-#include "core/base/GivenOnce.h"
 #include "core/base/Text.h"
 
 namespace tacto {

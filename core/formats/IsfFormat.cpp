@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/base/Ascii.h"
 #include "core/base/Text.h"
 #include "core/formats/ByteFile.h"
 #include "core/formats/ChannelOptions.h"

@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-#include "core/measure/SampleView.h"
+#include "core/measure/SampleBlocks.h"
 
 namespace tacto {
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/base/NaN.h"
+#include "core/base/Statistics.h"
 
 namespace tacto {
 

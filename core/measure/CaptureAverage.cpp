@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/measure/ClipLimits.h"
+#include "core/measure/Clipping.h"
 
 namespace tacto {
 

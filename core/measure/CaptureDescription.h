@@ -9,11 +9,13 @@
 // Thread-safety: pure functions.
 #pragma once
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "core/base/Result.h"
 #include "core/measure/Capture.h"
 
 namespace tacto {
@@ -37,5 +39,16 @@ namespace tacto {
 /// Gives `capture`, as it was read from a file, what `header` says about it: trigger, origin and, where its channels
 /// are those of the header, their ranges, steps and tolerances.
 void takeHeader(Capture& capture, const Capture& header);
+
+// Whether a capture file was measured or simulated: by its own header, and by origin.json beside it,
+// for the formats whose columns are plain numbers (hazard H9).
+
+/// Writes {"simulated": …} into `folder`, once: what stands there already stays when it says the same, and becomes
+/// "simulated" when it does not. Errors: Io.
+[[nodiscard]] Result<void> stateCaptureOrigin(const std::filesystem::path& folder, bool simulated);
+
+/// What the header of `file` (CaptureDescription.h) or its folder says about it. Nothing: neither says anything that
+/// can be read, so the origin is unknown.
+[[nodiscard]] std::optional<bool> statedSimulated(const std::filesystem::path& file);
 
 }  // namespace tacto

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 #include <iterator>
 
-#include "core/base/Ascii.h"
 #include "core/base/Text.h"
 #include "core/base/WholeFile.h"
 #include "core/measure/CaptureDescription.h"
@@ -72,17 +71,15 @@ Result<void> writeRows(FileOut& file, const Capture& capture) {
 }  // namespace
 
 Result<void> checkWritable(const Capture& capture) {
-    if (capture.samples() == 0) return fail(ErrorCode::InvalidArgument, "a capture without samples cannot be written");
+    if (capture.samples() == 0) return invalid("a capture without samples cannot be written");
     if (!(capture.rate_hz > 0) || !std::isfinite(capture.rate_hz) || !std::isfinite(capture.start_s)) {
-        return fail(ErrorCode::InvalidArgument,
-                    "a capture at {} Hz from {} s cannot be written; both must be finite and the rate above 0",
-                    capture.rate_hz, capture.start_s);
+        return invalid("a capture at {} Hz from {} s cannot be written; both must be finite and the rate above 0",
+                       capture.rate_hz, capture.start_s);
     }
     for (const auto& channel : capture.channels) {
         if (channel.samples.size() != capture.samples()) {
-            return fail(ErrorCode::InvalidArgument,
-                        "channel '{}' has {} samples; {} were expected, as in the first channel", channel.name,
-                        channel.samples.size(), capture.samples());
+            return invalid("channel '{}' has {} samples; {} were expected, as in the first channel", channel.name,
+                           channel.samples.size(), capture.samples());
         }
     }
     return {};
@@ -110,7 +107,7 @@ Result<std::size_t> findChannel(const Capture& capture, std::string_view name) {
 Result<void> convertShunt(Capture& capture, std::optional<std::string_view> channel, Ohms shunt) {
     const double ohms = shunt.value();
     if (!(ohms > 0) || !std::isfinite(ohms)) {
-        return fail(ErrorCode::InvalidArgument, "a shunt of {} ohm; a finite value above 0 was expected", ohms);
+        return invalid("a shunt of {} ohm; a finite value above 0 was expected", ohms);
     }
     std::size_t index = 0;
     if (channel) {
@@ -122,15 +119,15 @@ Result<void> convertShunt(Capture& capture, std::optional<std::string_view> chan
         const auto first = std::find_if(capture.channels.begin(), capture.channels.end(), isVolts);
         const auto count = std::count_if(capture.channels.begin(), capture.channels.end(), isVolts);
         if (count != 1) {
-            return fail(ErrorCode::InvalidArgument, "{} channels are in volts; name the one that is across the shunt",
-                        count == 0 ? "no" : fmt::format("{}", count));
+            return invalid("{} channels are in volts; name the one that is across the shunt",
+                           count == 0 ? "no" : fmt::format("{}", count));
         }
         index = static_cast<std::size_t>(first - capture.channels.begin());
     }
     auto& target = capture.channels[index];
     if (target.unit != "V") {
-        return fail(ErrorCode::InvalidArgument, "channel '{}' is in {}; a shunt converts volts", target.name,
-                    target.unit.empty() ? "no unit" : target.unit);
+        return invalid("channel '{}' is in {}; a shunt converts volts", target.name,
+                       target.unit.empty() ? "no unit" : target.unit);
     }
     target.unit.assign(1, 'A');
     for (float& sample : target.samples) sample = static_cast<float>(static_cast<double>(sample) / ohms);

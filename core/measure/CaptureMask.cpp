@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "core/base/QuantityText.h"
-#include "core/measure/ClipLimits.h"
+#include "core/measure/Clipping.h"
 
 namespace tacto {
 
@@ -38,15 +38,14 @@ double fromItsTrigger(const Capture& capture) { return capture.start_s - capture
 
 Result<CaptureMask> CaptureMask::around(const Capture& reference, const MaskBand& band) {
     if (!std::isfinite(reference.trigger_s) || !(reference.rate_hz > 0)) {
-        return fail(ErrorCode::InvalidArgument, "a mask takes a reference with a trigger, and this record has none");
+        return invalid("a mask takes a reference with a trigger, and this record has none");
     }
     if (!(band.time_s >= 0) || !std::isfinite(band.time_s)) {
-        return fail(ErrorCode::InvalidArgument, "the mask's time is {}, not 0 s or more", exactText(band.time_s, "s"));
+        return invalid("the mask's time is {}, not 0 s or more", exactText(band.time_s, "s"));
     }
     for (const auto& [unit, level] : band.level) {
         if (level > 0 && std::isfinite(level)) continue;
-        return fail(ErrorCode::InvalidArgument, "the mask's level is {}, not above {}", exactText(level, unit),
-                    exactText(0, unit));
+        return invalid("the mask's level is {}, not above {}", exactText(level, unit), exactText(0, unit));
     }
     CaptureMask mask;
     mask.band_ = band;
@@ -64,7 +63,7 @@ Result<CaptureMask> CaptureMask::around(const Capture& reference, const MaskBand
         mask.channels_.push_back(std::move(its));
     }
     if (mask.channels_.empty()) {
-        return fail(ErrorCode::InvalidArgument, "no channel of the reference has a unit that the mask has a level for");
+        return invalid("no channel of the reference has a unit that the mask has a level for");
     }
     return mask;
 }

@@ -21,12 +21,23 @@
 #include <optional>
 #include <span>
 
-#include "core/measure/ClipLimits.h"
-#include "core/measure/FoundPhase.h"
+#include "core/measure/Capture.h"
+#include "core/measure/PhaseFinder.h"
 #include "core/measure/SampleBlocks.h"
-#include "core/measure/SampleView.h"
 
 namespace tacto {
+
+// At which samples a channel stands at the end of its input range.
+
+/// At or beyond which a sample is clipped: half a step inside the range, for samples are rounded.
+struct ClipLimits {
+    double low;
+    double high;
+    [[nodiscard]] bool reachedBy(double x) const noexcept { return x >= high || x <= low; }
+};
+
+/// Nothing where the channel states no range.
+[[nodiscard]] std::optional<ClipLimits> clipLimits(const CaptureChannel& channel) noexcept;
 
 /// Sets `clipped` and `flatTop` of `phases`, which were found in `view`, whose samples are those of `blocks`.
 void markClipped(PhaseSpans& phases, const SampleView& view, const SampleBlocks& blocks);

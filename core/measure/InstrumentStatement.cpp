@@ -5,6 +5,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/base/RecordFields.h"
+#include "core/base/Text.h"
+
 namespace tacto {
 
 namespace {
@@ -103,6 +106,114 @@ std::string notStatedText(const Capture& capture) {
     const auto missing = notStated(capture);
     if (missing.empty()) return {};
     return fmt::format("the oscilloscope does not state {}", fmt::join(missing, ", "));
+}
+
+namespace {
+
+using nlohmann::json;
+
+constexpr Word<bool> kGainOf[] = {{"reading", false}, {"full scale", true}};
+constexpr double kMaxPct = 50;
+constexpr double kMaxPpm = 1e5;
+constexpr std::size_t kMaxNames = 10'000;
+
+bool modelMatches(std::string_view pattern, std::string_view model) {
+    if (!pattern.ends_with('*')) return sameLetters(pattern, model);
+    pattern.remove_suffix(1);
+    return model.size() >= pattern.size() && sameLetters(pattern, model.substr(0, pattern.size()));
+}
+
+/// A share as `unit` states it, `perUnit` of the whole each.
+ValueKind<double> shareKind(double most, std::string_view unit, double perUnit) {
+    const auto stated = numberKind<double>({.low = 0, .high = most, .unit = unit});
+    ValueKind<double> kind;
+    kind.info = stated.info;
+    kind.reads([stated, perUnit](const json& value, double& into, const RecordPlace& place, std::string_view key) {
+        auto done = stated.read(value, into, place, key);
+        into *= perUnit;
+        return done;
+    });
+    kind.writes([perUnit](double share) { return json(share / perUnit); });
+    return kind;
+}
+
+/// A maker, or the pattern of a model: a * at its end alone, and behind something.
+ValueKind<std::string> nameKind(const char* accepted, bool pattern) {
+    return codedKind<std::string>(
+        accepted,
+        [pattern](const json& value) -> std::optional<std::string> {
+            const auto* name = value.get_ptr<const std::string*>();
+            if (name == nullptr || name->empty()) return std::nullopt;
+            const auto star = name->find('*');
+            const bool sound = star == std::string::npos || (pattern && star > 0 && star + 1 == name->size());
+            return sound ? std::optional(*name) : std::nullopt;
+        },
+        [](const std::string& name) { return json(name); });
+}
+
+/// What every figure has beside its value.
+void addSheet(RecordFields<InstrumentProfile>& figure, SheetFigure InstrumentProfile::*member) {
+    figure.text("source", in(member, &SheetFigure::source)).required = true;
+    figure.text("address", in(member, &SheetFigure::address)).required = true;
+    figure.word("confidence", in(member, &SheetFigure::confidence), kConfidences).required = true;
+    figure.text("condition", in(member, &SheetFigure::condition));
+}
+
+RecordFields<InstrumentProfile> buildInstrumentFields() {
+    using P = InstrumentProfile;
+    RecordFields<P> gain, timeBase, all;
+    gain.word("of", &P::gainOfFullScale, kGainOf).required = true;
+    gain.add("pct", in(&P::gain, &SheetFigure::value), shareKind(kMaxPct, "%", 1e-2)).required = true;
+    addSheet(gain, &P::gain);
+    timeBase.add("ppm", in(&P::timeBase, &SheetFigure::value), shareKind(kMaxPpm, "ppm", 1e-6)).required = true;
+    timeBase.add("ppm_per_year", in(&P::timeBase, &SheetFigure::perYear), shareKind(kMaxPpm, "ppm", 1e-6));
+    addSheet(timeBase, &P::timeBase);
+
+    all.text("id", &P::id).required = true;
+    all.text("title", &P::title).required = true;
+    all.list("makers", &P::makers, nameKind("a maker's name", false), 1, kMaxNames).required = true;
+    all.list("models", &P::models, nameKind("a model, or its beginning and *,", true), 1, kMaxNames).required = true;
+    all.note("note");
+    for (const auto& [key, figure] : {std::pair("gain", gain), std::pair("time_base", timeBase)}) {
+        auto& field = all.record(key, std::identity{}, figure);
+        field.required = true;
+        field.mayBeNull = true;  // no source states it
+    }
+    return all;
+}
+
+}  // namespace
+
+bool InstrumentProfile::matches(std::string_view name) const {
+    return std::ranges::any_of(makers, [&](const std::string& maker) {
+        if (name.size() <= maker.size() || name[maker.size()] != ' ') return false;
+        if (!sameLetters(maker, name.substr(0, maker.size()))) return false;
+        const auto model = name.substr(maker.size() + 1);
+        return std::ranges::any_of(models, [&](const std::string& pattern) { return modelMatches(pattern, model); });
+    });
+}
+
+InstrumentStatement InstrumentProfile::statement() const {
+    InstrumentStatement out;
+    const auto by = "data sheet of the " + title;
+    if (std::isfinite(gain.value)) {
+        ChannelStatement channel;
+        channel.gain = {gainOfFullScale ? 0 : gain.value, by};
+        if (gainOfFullScale) channel.linearity = {gain.value, by};
+        out.voltage = out.current = channel;
+    }
+    if (std::isfinite(timeBase.value)) out.timeBase = {timeBase.value + kYearsOfDrift * timeBase.perYear, by};
+    return out;
+}
+
+Result<InstrumentProfile> parseInstrumentProfile(std::string_view text, std::string_view source) {
+    return parseRecord(builtOnce<buildInstrumentFields>(), text, source);
+}
+
+InstrumentStatement statementOf(const std::vector<InstrumentProfile>& profiles, std::string_view name) {
+    const auto found =
+        std::ranges::find_if(profiles, [&](const InstrumentProfile& profile) { return profile.matches(name); });
+    return found == profiles.end() ? InstrumentStatement{} : found->statement();
 }
 
 }  // namespace tacto

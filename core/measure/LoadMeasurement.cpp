@@ -212,13 +212,11 @@ Result<LoadMeasurement> measureLoad(const Capture& capture, std::size_t voltage,
     const std::pair<std::size_t, const char*> wanted[] = {{voltage, "V"}, {current, "A"}};
     for (const auto& [index, unit] : wanted) {
         if (index >= capture.channels.size()) {
-            return fail(ErrorCode::InvalidArgument, "channel number {} of {}; they count from 0", index,
-                        capture.channels.size());
+            return invalid("channel number {} of {}; they count from 0", index, capture.channels.size());
         }
         const auto& channel = capture.channels[index];
         if (channel.unit != unit) {
-            return fail(ErrorCode::InvalidArgument, "channel '{}' is in '{}'; {} is expected", channel.name,
-                        channel.unit, unit);
+            return invalid("channel '{}' is in '{}'; {} is expected", channel.name, channel.unit, unit);
         }
     }
     const auto& volts = capture.channels[voltage];

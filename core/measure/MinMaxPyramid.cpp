@@ -141,15 +141,4 @@ Envelope MinMaxPyramid::over(std::size_t first, std::size_t last) const noexcept
     return result;
 }
 
-void MinMaxPyramid::columns(std::size_t first, std::size_t last, std::span<Envelope> out) const noexcept {
-    last = std::min(last, record_.size());
-    const std::size_t wide = last > first ? last - first : 0;
-    const std::size_t n = out.size();
-    // ⌊k·wide/n⌋ without the product, which a long record would overflow on a 32-bit size.
-    const std::size_t whole = n > 0 ? wide / n : 0;
-    const std::size_t rest = n > 0 ? wide % n : 0;
-    const auto edge = [&](std::size_t k) { return first + k * whole + k * rest / n; };
-    for (std::size_t k = 0; k < n; ++k) out[k] = over(edge(k), edge(k + 1));
-}
-
 }  // namespace tacto

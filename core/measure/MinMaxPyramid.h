@@ -45,10 +45,6 @@ public:
     /// The extremes of the samples first..last-1; what lies beyond the record is left out. Exact.
     [[nodiscard]] Envelope over(std::size_t first, std::size_t last) const noexcept;
 
-    /// Column k of n holds the samples from first + ⌊k·(last - first)/n⌋ to before the next column's first: all of them
-    /// once. With more columns than samples some stay empty. `last` beyond the record's end means its end.
-    void columns(std::size_t first, std::size_t last, std::span<Envelope> out) const noexcept;
-
 private:
     /// Whole blocks only: what is left over is read from the level below.
     struct Level {

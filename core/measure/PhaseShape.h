@@ -9,7 +9,7 @@
 
 #include <cstddef>
 
-#include "core/measure/FoundPhase.h"
+#include "core/measure/PhaseFinder.h"
 
 namespace tacto {
 

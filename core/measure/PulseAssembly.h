@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "core/measure/Capture.h"
-#include "core/measure/FoundPhase.h"
+#include "core/measure/PhaseFinder.h"
 #include "core/measure/PulseMeasurement.h"
 #include "core/measure/StateLevels.h"
 

@@ -56,7 +56,7 @@ CaptureMeasurement measureCapture(const Capture& capture, std::optional<std::siz
 
 Result<ChannelMeasurement> measureTrains(std::span<const Capture> captures, std::string_view channel,
                                          const MeasureOptions& options) {
-    if (captures.empty()) return fail(ErrorCode::InvalidArgument, "no captures to measure; at least one was expected");
+    if (captures.empty()) return invalid("no captures to measure; at least one was expected");
     std::vector<PulseMeasurement> pulses;
     std::vector<std::size_t> breaks;  // pulses that follow upon an unknown time
     ChannelMeasurement result;

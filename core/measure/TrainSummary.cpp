@@ -4,14 +4,108 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <utility>
 
+#include "core/base/LargeReserve.h"
 #include "core/base/QuantityText.h"
-#include "core/measure/Readings.h"
-#include "core/measure/TrainGrouping.h"
+#include "core/base/Statistics.h"
 
 namespace tacto {
 
 namespace {
+
+/// The readings of one quantity, from many pulses or trains.
+class Readings {
+public:
+    /// `most`: how many will be added at most.
+    explicit Readings(std::size_t most) { reserveLarge(values_, most); }
+
+    /// What was not measured (NaN) is left out.
+    void add(double reading) {
+        if (!std::isnan(reading)) values_.push_back(reading);
+    }
+    [[nodiscard]] Statistics statistics() const { return statisticsOf(values_); }
+
+private:
+    std::vector<double> values_;
+};
+
+/// Which pulses form a train, and the trains' means.
+class TrainGrouping {
+public:
+    /// Pulses whose onsets are at most `gap` apart form one train. `breaks`, ascending: pulses before which an unknown
+    /// time has passed; must outlive this. `pulses`: how many will be added.
+    TrainGrouping(double gap, std::span<const std::size_t> breaks, std::size_t pulses);
+
+    /// The next pulse in time.
+    void add(const PulseMeasurement& pulse);
+    /// No pulse follows. To be called once, after the last.
+    [[nodiscard]] std::vector<TrainMeasurement> finish();
+
+private:
+    void begin(const PulseMeasurement& pulse, bool afterBreak);
+    void end();
+
+    double gap_;
+    std::span<const std::size_t> breaks_;  ///< those still to come
+    std::size_t added_ = 0;
+    double lastOnset_s_ = 0;
+    std::vector<TrainMeasurement> trains_;  ///< the last one holds sums until it ends
+};
+
+TrainGrouping::TrainGrouping(double gap, std::span<const std::size_t> breaks, std::size_t pulses)
+    : gap_(gap), breaks_(breaks) {
+    // Without a gap each pulse is a train.
+    if (!(gap > 0)) reserveLarge(trains_, pulses);
+}
+
+void TrainGrouping::add(const PulseMeasurement& pulse) {
+    const bool afterBreak = !breaks_.empty() && breaks_.front() == added_;
+    if (afterBreak) breaks_ = breaks_.subspan(1);
+    // Known also of a pulse that was flagged and whose numbers are gone.
+    const double onset_s = std::isnan(pulse.onset_s()) ? pulse.seenFrom_s : pulse.onset_s();
+    if (added_ == 0 || afterBreak || !(onset_s - lastOnset_s_ <= gap_)) begin(pulse, afterBreak);
+    lastOnset_s_ = onset_s;
+    ++added_;
+
+    auto& train = trains_.back();
+    if (!pulse.flags.measured()) {
+        ++train.flagged;
+        return;
+    }
+    ++train.pulses;
+    train.amplitude += std::abs(pulse.leading.plateau);
+    train.width_s += pulse.leading.width_s;
+    train.charge += std::abs(pulse.leading.charge);
+    train.imbalance += pulse.imbalance;
+    train.polarity += pulse.leading.plateau > 0 ? 1 : -1;
+}
+
+std::vector<TrainMeasurement> TrainGrouping::finish() {
+    if (!trains_.empty()) end();
+    return std::move(trains_);
+}
+
+void TrainGrouping::begin(const PulseMeasurement& pulse, bool afterBreak) {
+    if (!trains_.empty()) {
+        end();
+        // A flagged first pulse leaves its onset NaN, and with it this interval and the one before.
+        if (!afterBreak) trains_.back().interval_s = pulse.onset_s() - trains_.back().onset_s;
+    }
+    auto& train = trains_.emplace_back();
+    train.onset_s = pulse.onset_s();
+    train.amplitude = train.width_s = train.charge = train.imbalance = 0;
+}
+
+void TrainGrouping::end() {
+    auto& train = trains_.back();
+    const double n = train.pulses > 0 ? static_cast<double>(train.pulses) : kNotMeasured;
+    train.amplitude /= n;
+    train.width_s /= n;
+    train.charge /= n;
+    train.imbalance /= n;
+    if (train.pulses > 0) train.polarity = train.polarity >= 0 ? 1 : -1;
+}
 
 constexpr double kLongInterval = 1.5;  // times the shortest: where noise may hide a pulse, one may be missing in it
 

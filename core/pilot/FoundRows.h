@@ -12,7 +12,7 @@
 
 #include "core/analysis/psychophysics/LevelGrid.h"
 #include "core/analysis/statistics/Estimate.h"
-#include "core/base/NaN.h"
+#include "core/base/Statistics.h"
 #include "core/base/Units.h"
 
 namespace tacto {

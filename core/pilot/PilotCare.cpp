@@ -3,7 +3,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 #include "core/base/Random.h"
 #include "core/study/NextDay.h"
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 #include "core/base/Words.h"
 #include "core/pilot/PilotRecord.h"
 

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "core/analysis/psychophysics/TrainingRule.h"
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 #include "core/base/Text.h"
 #include "core/pilot/FoundRows.h"
 

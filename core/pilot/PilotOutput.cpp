@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <string_view>
 
-#include "core/base/Ascii.h"
 #include "core/base/Printable.h"
+#include "core/base/Text.h"
 #include "core/pilot/PilotEnding.h"
 #include "core/pilot/PilotStage.h"
 

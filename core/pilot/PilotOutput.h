@@ -16,7 +16,7 @@
 #include <optional>
 #include <string>
 
-#include "core/base/NaN.h"
+#include "core/base/Statistics.h"
 #include "core/bench/Bench.h"
 #include "core/pilot/LevelRamp.h"
 #include "core/pilot/Participant.h"

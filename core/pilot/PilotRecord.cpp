@@ -4,7 +4,7 @@
 #include <set>
 
 #include "core/analysis/identification/IdentificationJson.h"
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 #include "core/session/SessionWriter.h"
 
 namespace tacto {

@@ -5,7 +5,7 @@
 #include "core/analysis/identification/IdentificationJson.h"
 #include "core/analysis/identification/IdentificationText.h"
 #include "core/analysis/psychophysics/PredictedFit.h"
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 #include "core/pilot/FoundRows.h"
 
 namespace tacto {

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "core/analysis/vibration/VibrationSeparability.h"
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 #include "core/base/Random.h"
 
 namespace tacto {

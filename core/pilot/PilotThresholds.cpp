@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 #include "core/pilot/FoundRows.h"
 
 namespace tacto {

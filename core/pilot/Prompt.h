@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/base/NaN.h"
+#include "core/base/Statistics.h"
 #include "core/base/Units.h"
 
 namespace tacto {

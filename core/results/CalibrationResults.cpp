@@ -1,5 +1,5 @@
 // Results of a stimulator's calibration, and of a check of one that is stored.
-#include "core/encoding/CalibratedQuantity.h"
+#include "core/encoding/StimulatorCalibration.h"
 #include "core/results/Describe.h"
 
 namespace tacto::describe {

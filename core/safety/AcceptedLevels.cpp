@@ -11,7 +11,6 @@ using namespace gate;
 namespace {
 // 0.1 + 0.2 exceeds 0.3 in binary: levels on a decimal grid may miss their ceiling by rounding alone.
 constexpr double kLevelRounding = 1e-9;
-constexpr double kNoCap = std::numeric_limits<double>::infinity();
 
 /// Not by way of amperes: 4.5 mA would come back as more than 4.5, and more than a limit of 4.5.
 double milliamps(const PulseTrain& train) noexcept {
@@ -33,9 +32,7 @@ struct AskedLevel {
 
 constexpr Rule<AskedLevel> kLevelRules[] = {
     {LevelInVolts, [](auto& a) { return a.inVolts; },
-     [](auto&) {
-         return fail(ErrorCode::InvalidArgument, "a person's level is a current in mA; volts were asked for");
-     }},
+     [](auto&) { return invalid("a person's level is a current in mA; volts were asked for"); }},
     {LevelDiscomfort, [](auto& a) { return !(a.level <= a.discomfort); },
      [](auto& a) {
          return fail(ErrorCode::LimitExceeded,
@@ -58,26 +55,75 @@ constexpr Rule<AskedLevel> kLevelRules[] = {
 constexpr Rule<Result<void>> kAcceptanceRules[] = {
     {LevelAccept, [](auto& permitted) { return !permitted; }, [](auto& permitted) { return failure(permitted); }},
 };
+/// An intensity beside what the person permits.
+struct AskedIntensity {
+    double intensity, discomfort, ceiling, step;
+    bool ascending;
+};
+
+constexpr Rule<AskedIntensity> kIntensityRules[] = {
+    {BurstDiscomfort, [](auto& a) { return !(a.intensity <= a.discomfort * (1 + kLevelRounding)); },
+     [](auto& a) {
+         return fail(ErrorCode::LimitExceeded,
+                     "the vibration would have intensity {:.4g}; this person's discomfort limit is {:.4g}", a.intensity,
+                     a.discomfort);
+     }},
+    {BurstRamp, [](auto& a) { return !(a.intensity <= a.ceiling * (1 + kLevelRounding)); },
+     [](auto& a) {
+         return fail(ErrorCode::LimitExceeded,
+                     "the vibration would have intensity {:.4g}; {} allows at most {:.4g}, one step of {:.4g} above "
+                     "the last accepted one",
+                     a.intensity, a.ascending ? "this ascending series" : "the ramp rule", a.ceiling, a.step);
+     }},
+};
+
+constexpr Rule<Result<void>> kIntensityAcceptanceRules[] = {
+    {IntensityAccept, [](auto& permitted) { return !permitted; }, [](auto& permitted) { return failure(permitted); }},
+};
 }  // namespace
+
+void AcceptedScale::begin(double discomfortLimit, double rampStep) noexcept {
+    *this = AcceptedScale{};
+    discomfort_ = discomfortLimit;
+    step_ = rampStep;
+}
+
+void AcceptedScale::resume(double discomfortLimit, double rampStep) noexcept {
+    discomfort_ = std::min(discomfort_, discomfortLimit);
+    step_ = rampStep;
+}
+
+void AcceptedScale::keep(double level) noexcept {
+    highest_ = std::max(highest_, level);
+    seriesLast_ = level;
+}
+
+void AcceptedScale::reportDiscomfort(double level) noexcept {
+    discomfort_ = std::min(discomfort_, level);
+    highest_ = std::min(highest_, discomfort_);
+    seriesLast_ = std::min(seriesLast_, discomfort_);
+}
+
+void AcceptedScale::beginAscending() noexcept {
+    ascending_ = true;
+    seriesLast_ = 0;
+}
 
 void AcceptedLevels::begin(Milliamps discomfortLimit, Milliamps rampStep, std::optional<Milliamps> cap) noexcept {
     *this = AcceptedLevels{};
-    discomfort_ = discomfortLimit.value();
-    cap_ = cap ? cap->value() : kNoCap;
-    step_ = rampStep.value();
+    AcceptedScale::begin(discomfortLimit.value(), rampStep.value());
+    if (cap) cap_ = cap->value();
 }
 
 void AcceptedLevels::resume(Milliamps discomfortLimit, Milliamps rampStep, std::optional<Milliamps> cap) noexcept {
-    cap_ = cap ? cap->value() : kNoCap;
-    discomfort_ = std::min(discomfort_, discomfortLimit.value());
-    step_ = rampStep.value();
+    AcceptedScale::resume(discomfortLimit.value(), rampStep.value());
+    cap_ = cap ? cap->value() : AcceptedLevels{}.cap_;
 }
 
 bool AcceptedLevels::sameKind(const PulseTrain& train) const noexcept { return kindOf(train) == kindOf(kind_); }
 
 Milliamps AcceptedLevels::ceilingFor(const PulseTrain& train) const noexcept {
-    const double accepted = !sameKind(train) ? 0 : ascending_ ? seriesLast_ : highest_;
-    return Milliamps(std::min({accepted + step_, discomfort_, cap_}));
+    return Milliamps(std::min({(sameKind(train) ? accepted() : 0) + step_, discomfort_, cap_}));
 }
 
 Result<void> AcceptedLevels::permits(const PulseTrain& train) const {
@@ -87,26 +133,24 @@ Result<void> AcceptedLevels::permits(const PulseTrain& train) const {
 
 Result<void> AcceptedLevels::accept(const PulseTrain& train) {
     if (auto kept = judge(kAcceptanceRules, permits(train)); !kept) return kept;
-    const double level = milliamps(train);
     if (!sameKind(train)) {
         kind_ = kindOf(train);
-        highest_ = 0;
-        seriesLast_ = 0;
+        forget();
     }
-    highest_ = std::max(highest_, level);
-    seriesLast_ = level;
+    keep(milliamps(train));
     return {};
 }
 
-void AcceptedLevels::reportDiscomfort(Milliamps level) noexcept {
-    discomfort_ = std::min(discomfort_, level.value());
-    highest_ = std::min(highest_, discomfort_);
-    seriesLast_ = std::min(seriesLast_, discomfort_);
+double AcceptedIntensities::ceiling() const noexcept { return std::min(accepted() + step_, discomfort_); }
+
+Result<void> AcceptedIntensities::permits(double intensity) const {
+    return judge(kIntensityRules, AskedIntensity{intensity, discomfort_, ceiling(), step_, ascending_});
 }
 
-void AcceptedLevels::beginAscending() noexcept {
-    ascending_ = true;
-    seriesLast_ = 0;
+Result<void> AcceptedIntensities::accept(double intensity) {
+    if (auto kept = judge(kIntensityAcceptanceRules, permits(intensity)); !kept) return kept;
+    keep(intensity);
+    return {};
 }
 
 }  // namespace tacto

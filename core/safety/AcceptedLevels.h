@@ -17,11 +17,38 @@
 
 namespace tacto {
 
-class AcceptedLevels {
+/// What a person permits on one scale, mA or a massager's intensity, as the rules above go.
+class AcceptedScale {
 public:
+    /// `level` was called uncomfortable: from now on nothing exceeds it. A higher value than before changes nothing.
+    void reportDiscomfort(double level) noexcept;
+    /// A series of ascending limits begins: it starts from nothing, whatever was accepted before.
+    void beginAscending() noexcept;
+    void endAscending() noexcept { ascending_ = false; }
+
+protected:
     /// A new participant: nothing accepted.
-    void begin(Milliamps discomfortLimit, Milliamps rampStep, std::optional<Milliamps> cap = {}) noexcept;
+    void begin(double discomfortLimit, double rampStep) noexcept;
     /// The same participant again with other settings: keeps what was accepted and the lower discomfort limit.
+    void resume(double discomfortLimit, double rampStep) noexcept;
+    void forget() noexcept { highest_ = seriesLast_ = 0; }
+    void keep(double level) noexcept;
+    [[nodiscard]] double accepted() const noexcept { return ascending_ ? seriesLast_ : highest_; }
+
+    double discomfort_ = 0;
+    double step_ = 0;
+    bool ascending_ = false;
+
+private:
+    double highest_ = 0;     // In this session, of the kind at hand
+    double seriesLast_ = 0;  // In this ascending series
+};
+
+/// Currents, in mA.
+class AcceptedLevels : public AcceptedScale {
+public:
+    /// As AcceptedScale, with the cap of the study, if it has one.
+    void begin(Milliamps discomfortLimit, Milliamps rampStep, std::optional<Milliamps> cap = {}) noexcept;
     void resume(Milliamps discomfortLimit, Milliamps rampStep, std::optional<Milliamps> cap = {}) noexcept;
 
     /// Errors: LimitExceeded naming the level, the ceiling and which rule set it.
@@ -32,26 +59,30 @@ public:
     /// The participant accepted this train's level. Errors: as permits(); LimitExceeded also when the level was never
     /// permitted.
     [[nodiscard]] Result<void> accept(const PulseTrain& train);
-    /// The participant called `level` uncomfortable: from now on nothing exceeds it. A higher value than before changes
-    /// nothing.
-    void reportDiscomfort(Milliamps level) noexcept;
-
-    /// A series of ascending limits begins: it starts from nothing, whatever was accepted before.
-    void beginAscending() noexcept;
-    void endAscending() noexcept { ascending_ = false; }
+    void reportDiscomfort(Milliamps level) noexcept { AcceptedScale::reportDiscomfort(level.value()); }
 
     [[nodiscard]] Milliamps discomfortLimit() const noexcept { return Milliamps(discomfort_); }
 
 private:
     [[nodiscard]] bool sameKind(const PulseTrain& train) const noexcept;
-    // All in mA.
-    double discomfort_ = 0;
-    double cap_ = std::numeric_limits<double>::infinity();  // Infinite: the study has none
-    double step_ = 0;
-    double highest_ = 0;     // For trains of kind_, in this session
-    double seriesLast_ = 0;  // For trains of kind_, in this ascending series
-    bool ascending_ = false;
-    PulseTrain kind_;  // Amplitude ignored
+
+    double cap_ = std::numeric_limits<double>::infinity();  // In mA; infinite: the study has none
+    PulseTrain kind_;                                       // Amplitude ignored
+};
+
+/// Strengths of a massager, 0 to 1. A burst has one kind: its length is the gate's matter, and the motor's frequency
+/// follows its strength.
+class AcceptedIntensities : public AcceptedScale {
+public:
+    using AcceptedScale::begin;
+    using AcceptedScale::resume;
+
+    /// Errors: LimitExceeded naming the intensity, the ceiling and which rule set it.
+    [[nodiscard]] Result<void> permits(double intensity) const;
+    /// The highest intensity that a burst may have now.
+    [[nodiscard]] double ceiling() const noexcept;
+    /// The participant accepted this intensity. Errors: as permits(): LimitExceeded also when it was never permitted.
+    [[nodiscard]] Result<void> accept(double intensity);
 };
 
 }  // namespace tacto

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/electrode/PulseResponse.h"
+#include "core/electrode/LoadResponse.h"
 #include "core/safety/TrainExposure.h"
 
 namespace tacto::exposure {

@@ -65,7 +65,7 @@ struct ActiveLimit {
 /// NaN without an area.
 [[nodiscard]] double areaOf(const GateSetup& setup) noexcept;
 
-/// ExposureTable.cpp: one line of a table; not evaluated when the row needs an area and there is none.
+/// TrainExposure.cpp: one line of a table; not evaluated when the row needs an area and there is none.
 [[nodiscard]] ExposureRow rowOf(const ActiveLimit& limit, double value, bool areaKnown, bool commandComputed) noexcept;
 /// Shown in every table, without a limit where no set or ceiling has one.
 inline constexpr std::array kShown{Quantity::NetCharge, Quantity::RmsCurrentTrain, Quantity::RmsCurrent1s};

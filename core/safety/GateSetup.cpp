@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/base/Words.h"
-#include "core/safety/SourceTrain.h"
+#include "core/safety/SourceTraits.h"
 
 namespace tacto {
 

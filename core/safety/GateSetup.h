@@ -15,7 +15,6 @@
 #include "core/electrode/Load.h"
 #include "core/encoding/PulseTrain.h"
 #include "core/encoding/StimulatorCalibration.h"
-#include "core/safety/Exposure.h"
 #include "core/safety/LimitSet.h"
 #include "core/safety/SourceTraits.h"
 

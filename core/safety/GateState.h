@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "core/safety/AcceptedIntensities.h"
 #include "core/safety/AcceptedLevels.h"
 #include "core/safety/DeliveryBounds.h"
 #include "core/safety/ExposureMeter.h"

@@ -4,16 +4,57 @@
 // Thread-safety: plain data and pure functions.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "core/base/Confidence.h"
 #include "core/base/Result.h"
-#include "core/safety/Quantity.h"
+#include "core/base/Statistics.h"
+#include "core/base/Words.h"
+#include "core/safety/FixedText.h"
 
 namespace tacto {
+
+// The quantities that limits are written in (science.md section 7), each with the one unit in
+// which limit files, exposure tables and refusals give it.
+
+enum class Quantity {
+    CommandVoltage,   ///< A of section 4: a voltage source's amplitude, or I·|Z| at the nominal load (V)
+    PeakVoltage,      ///< across the load, capped by the source's compliance (V)
+    PeakCurrent,      ///< (mA)
+    PhaseCharge,      ///< the larger |charge| of either phase (µC)
+    NetCharge,        ///< |charge| of one pulse, gap and tail included (µC)
+    PulseEnergy,      ///< ∫v·i dt of one pulse (mJ)
+    RmsCurrentTrain,  ///< over n / intra-train rate (mA); shown, without a limit
+    RmsCurrent1s,     ///< worst sliding second (mA)
+    RmsCurrent5s,     ///< worst sliding 5 s (mA): the window of every "mA RMS" limit
+    RmsVoltage5s,     ///< worst sliding 5 s (V)
+    DcCurrent,        ///< |mean current| over 5 s (mA)
+    CurrentDensity,   ///< RmsCurrent5s / electrode area (mA/cm²)
+    PowerDensity,     ///< power over the worst second / electrode area (W/cm²)
+};
+inline constexpr std::size_t kQuantityCount = 13;
+
+/// One value per quantity, each in unitOf() its quantity.
+using QuantityValues = std::array<double, kQuantityCount>;
+[[nodiscard]] constexpr std::size_t indexOf(Quantity q) noexcept { return static_cast<std::size_t>(q); }
+
+/// As written in limit files: "rms_current_5s".
+[[nodiscard]] std::string_view keyOf(Quantity quantity) noexcept;
+/// As read by people: "RMS current over 5 s".
+[[nodiscard]] std::string_view titleOf(Quantity quantity) noexcept;
+/// "V", "mA", "uC", "mJ", "mA/cm2", "W/cm2": plain ASCII, as in files.
+[[nodiscard]] std::string_view unitOf(Quantity quantity) noexcept;
+/// The averaging window in seconds; 0 for quantities of one pulse.
+[[nodiscard]] double windowOf(Quantity quantity) noexcept;
+/// True for the density rows, which without an electrode area read "not evaluated".
+[[nodiscard]] bool needsArea(Quantity quantity) noexcept;
+/// Nothing for an unknown key.
+[[nodiscard]] std::optional<Quantity> quantityOf(std::string_view key) noexcept;
 
 /// Where a row is judged.
 enum class JudgedAt {
@@ -84,5 +125,29 @@ struct LimitSet {
 /// Reads one limit set. `name` stands in messages for the file's name.
 /// Errors: ParseError, one sentence naming file, row and what would be accepted. Never throws, whatever the text.
 [[nodiscard]] Result<LimitSet> parseLimitSet(std::string_view json, std::string_view name);
+
+// One line of an exposure table: a quantity, its value, and the limit it is held against.
+//
+// Never allocates and is trivially copyable: the control loop fills these while delivering.
+
+/// A table holds no more. A setup with more limits is refused: one that no table shows would seem to be kept.
+inline constexpr std::size_t kMaxExposureRows = 64;
+
+struct ExposureRow {
+    Quantity quantity = Quantity::PeakVoltage;
+    double value = 0;       ///< in `unit`; meaningless when not evaluated
+    double limit = 0;       ///< in `unit`; NaN for a row that is shown without a limit
+    std::string_view unit;  ///< static text, as unitOf(quantity)
+    double window_s = 0;    ///< 0 = of one pulse
+    FixedText<31> set;      ///< id of the limit set, "profile" for a ceiling; empty without a limit
+    LimitAction action = LimitAction::Refuse;
+    JudgedAt judged = JudgedAt::LoadRange;
+    bool strict = false;     ///< the limit is "<", not "≤"
+    bool evaluated = false;  ///< false: reads "not evaluated", and is never a pass (H9)
+    bool within = false;     ///< evaluated and within the limit (true without a limit)
+    FixedText<95> reason;    ///< why it was not evaluated, else empty
+    double measured = kNaN;  ///< in `unit`: what an instrument showed of what was set; NaN: none did
+    bool beyond = false;     ///< what was measured lies beyond what the source states of its accuracy
+};
 
 }  // namespace tacto

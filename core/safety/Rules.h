@@ -18,7 +18,7 @@
 #endif
 
 #include "core/base/Result.h"
-#include "core/safety/Quantity.h"
+#include "core/safety/LimitSet.h"
 
 namespace tacto::gate {
 

@@ -28,14 +28,13 @@ struct Reading {
 constexpr Rule<Reading> kStampRules[] = {
     {ImpedanceFromFuture, [](auto& r) { return r.at > r.now; },
      [](auto& r) {
-         return fail(ErrorCode::InvalidArgument, "the impedance reading is stamped {:.3g} s ahead of now",
-                     toSeconds(r.at - r.now));
+         return invalid("the impedance reading is stamped {:.3g} s ahead of now", toSeconds(r.at - r.now));
      }},
 };
 
 constexpr Rule<Reading> kReadingRules[] = {
     {ImpedanceValue, [](auto& r) { return !(r.ohm > 0); },
-     [](auto& r) { return fail(ErrorCode::InvalidArgument, "a measured impedance of {} ohm is not above 0", r.ohm); }},
+     [](auto& r) { return invalid("a measured impedance of {} ohm is not above 0", r.ohm); }},
     {ImpedanceOutOfRange,
      [](auto& r) {
          if (!r.state.person()) return !r.state.agreesWithDeclared(r.ohm);
@@ -87,24 +86,16 @@ constexpr Rule<Discomfort> kDiscomfortRules[] = {
     {DiscomfortOfPerson, [](auto& d) { return !d.state.person(); },
      [](auto&) { return fail(ErrorCode::NotArmed, "discomfort is reported in person mode only"); }},
     {DiscomfortValue, [](auto& d) { return !(std::isfinite(d.level) && d.level >= 0); },
-     [](auto& d) {
-         return fail(ErrorCode::InvalidArgument, "a discomfort level of {} mA is not a finite current of 0 or more",
-                     d.level);
-     }},
+     [](auto& d) { return invalid("a discomfort level of {} mA is not a finite current of 0 or more", d.level); }},
 };
 
 // --- vibrations, approvals, bookings --------------------------------------------------------------------------------
 
 constexpr Rule<VibrationBurst> kBurstRules[] = {
     {BurstIntensity, [](auto& b) { return !(b.intensity >= 0 && b.intensity <= 1); },
-     [](auto& b) {
-         return fail(ErrorCode::InvalidArgument, "vibration intensity {} is not between 0 and 1", b.intensity);
-     }},
+     [](auto& b) { return invalid("vibration intensity {} is not between 0 and 1", b.intensity); }},
     {BurstDuration, [](auto& b) { return !(b.duration.count() > 0 && b.duration.count() <= 1); },
-     [](auto& b) {
-         return fail(ErrorCode::InvalidArgument, "vibration of {} s is not above 0 and at most 1 s long",
-                     b.duration.count());
-     }},
+     [](auto& b) { return invalid("vibration of {} s is not above 0 and at most 1 s long", b.duration.count()); }},
 };
 
 constexpr Rule<State> kVibratedRules[] = {
@@ -122,14 +113,12 @@ constexpr Rule<State> kIntensityOwnerRules[] = {
 
 constexpr Rule<double> kAcceptedIntensityRules[] = {
     {IntensityMalformed, [](auto& x) { return !(x >= 0 && x <= 1); },
-     [](auto& x) { return fail(ErrorCode::InvalidArgument, "an accepted intensity of {}; 0 to 1 is expected", x); }},
+     [](auto& x) { return invalid("an accepted intensity of {}; 0 to 1 is expected", x); }},
 };
 
 constexpr Rule<double> kUncomfortableIntensityRules[] = {
     {IntensityDiscomfort, [](auto& x) { return !(x >= 0 && x <= 1); },
-     [](auto& x) {
-         return fail(ErrorCode::InvalidArgument, "an uncomfortable intensity of {}; 0 to 1 is expected", x);
-     }},
+     [](auto& x) { return invalid("an uncomfortable intensity of {}; 0 to 1 is expected", x); }},
 };
 
 struct Approval {

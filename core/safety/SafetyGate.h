@@ -129,7 +129,7 @@ public:
     /// The participant called `level` uncomfortable; nothing exceeds it afterwards, also after configure() for the same
     /// participant. Voids every approval. Errors: NotArmed outside person mode; InvalidArgument unless finite and ≥ 0.
     [[nodiscard]] Result<void> reportDiscomfort(Milliamps level);
-    /// The same of a person at a massager (see AcceptedIntensities.h). Errors: NotArmed for anyone else;
+    /// The same of a person at a massager (see AcceptedLevels.h). Errors: NotArmed for anyone else;
     /// InvalidArgument unless 0 to 1; of acceptIntensity() LimitExceeded for an intensity that was not permitted.
     [[nodiscard]] Result<void> acceptIntensity(double intensity);
     [[nodiscard]] Result<void> reportUncomfortable(double intensity);

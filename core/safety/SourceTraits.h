@@ -7,7 +7,8 @@
 #include <optional>
 
 #include "core/encoding/PulseTrain.h"
-#include "core/encoding/Spread.h"
+#include "core/encoding/Rounding.h"
+#include "core/encoding/StimulatorCalibration.h"
 
 namespace tacto {
 
@@ -43,5 +44,26 @@ struct SourceTraits {
     Volts checkVoltage{1};        ///< of the check pulse, on a voltage source
     StatedAccuracy accuracy;
 };
+
+// A train in the unit of a source, and the grid of the source that core/encoding rounds it to.
+
+/// `shape` at `amplitude`: mA of a current source, V of any other.
+[[nodiscard]] inline PulseTrain trainAt(PulseTrain shape, Drive drive, double amplitude) noexcept {
+    if (drive == Drive::Current) {
+        shape.amplitude = Milliamps(amplitude);
+    } else {
+        shape.amplitude = Volts(amplitude);
+    }
+    return shape;
+}
+
+[[nodiscard]] inline DeviceGrid gridOf(const SourceTraits& source) noexcept {
+    return {.amplitudeStep = source.amplitudeStep,
+            .amplitudeMax = source.amplitudeMax,
+            .widthStep = source.widthStep,
+            .widthMin = source.widthMin,
+            .widthMax = source.widthMax,
+            .pulsesMax = source.pulsesMax};
+}
 
 }  // namespace tacto

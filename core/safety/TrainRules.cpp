@@ -34,20 +34,16 @@ bool onGrid(double value, double step) noexcept {
 constexpr Rule<TrainForm> kFormRules[] = {
     {MalformedTrain, [](auto& f) { return !validate(f.train); }, [](auto& f) { return failure(validate(f.train)); }},
     {SourceKind, [](auto& f) { return f.current() != (f.source.drive == Drive::Current); },
-     [](auto& f) {
-         return fail(ErrorCode::InvalidArgument, "an amplitude in {} was asked of a {} source", f.unit(),
-                     nameOf(f.source.drive));
-     }},
+     [](auto& f) { return invalid("an amplitude in {} was asked of a {} source", f.unit(), nameOf(f.source.drive)); }},
     {AmplitudeMax, [](auto& f) { return !(f.amplitude() <= f.source.amplitudeMax * (1 + kRounding)); },
      [](auto& f) {
-         return fail(ErrorCode::InvalidArgument, "amplitude {:.6g} {} is above the device's largest, {:.6g} {}",
-                     f.amplitude(), f.unit(), f.source.amplitudeMax, f.unit());
+         return invalid("amplitude {:.6g} {} is above the device's largest, {:.6g} {}", f.amplitude(), f.unit(),
+                        f.source.amplitudeMax, f.unit());
      }},
     {AmplitudeGrid, [](auto& f) { return !onGrid(f.amplitude(), f.source.amplitudeStep); },
      [](auto& f) {
-         return fail(ErrorCode::InvalidArgument,
-                     "amplitude {:.9g} {} is not a multiple of the device's step, {:.6g} {}", f.amplitude(), f.unit(),
-                     f.source.amplitudeStep, f.unit());
+         return invalid("amplitude {:.9g} {} is not a multiple of the device's step, {:.6g} {}", f.amplitude(),
+                        f.unit(), f.source.amplitudeStep, f.unit());
      }},
     {WidthRange,
      [](auto& f) {
@@ -56,14 +52,13 @@ constexpr Rule<TrainForm> kFormRules[] = {
                   width <= f.source.widthMax.count() * (1 + kRounding));
      },
      [](auto& f) {
-         return fail(ErrorCode::InvalidArgument, "phase width {:.6g} us is outside the device's {:.6g} to {:.6g} us",
-                     f.train.phaseWidth.count(), f.source.widthMin.count(), f.source.widthMax.count());
+         return invalid("phase width {:.6g} us is outside the device's {:.6g} to {:.6g} us", f.train.phaseWidth.count(),
+                        f.source.widthMin.count(), f.source.widthMax.count());
      }},
     {WidthGrid, [](auto& f) { return !onGrid(f.train.phaseWidth.count(), f.source.widthStep.count()); },
      [](auto& f) {
-         return fail(ErrorCode::InvalidArgument,
-                     "phase width {:.9g} us is not a multiple of the device's step, {:.6g} us",
-                     f.train.phaseWidth.count(), f.source.widthStep.count());
+         return invalid("phase width {:.9g} us is not a multiple of the device's step, {:.6g} us",
+                        f.train.phaseWidth.count(), f.source.widthStep.count());
      }},
     {GapGrid,
      [](auto& f) {
@@ -71,23 +66,19 @@ constexpr Rule<TrainForm> kFormRules[] = {
                 !onGrid(f.train.interPhaseGap.count(), f.source.widthStep.count());
      },
      [](auto& f) {
-         return fail(ErrorCode::InvalidArgument,
-                     "inter-phase gap {:.9g} us is not a multiple of the device's step, {:.6g} us",
-                     f.train.interPhaseGap.count(), f.source.widthStep.count());
+         return invalid("inter-phase gap {:.9g} us is not a multiple of the device's step, {:.6g} us",
+                        f.train.interPhaseGap.count(), f.source.widthStep.count());
      }},
     {PulsesMax, [](auto& f) { return !(f.train.pulses <= f.source.pulsesMax); },
      [](auto& f) {
-         return fail(ErrorCode::InvalidArgument, "{} pulses a train are more than the device's {}", f.train.pulses,
-                     f.source.pulsesMax);
+         return invalid("{} pulses a train are more than the device's {}", f.train.pulses, f.source.pulsesMax);
      }},
     {IntervalValue, [](auto& f) { return !(std::isfinite(f.interval.count()) && f.interval.count() > 0); },
-     [](auto& f) {
-         return fail(ErrorCode::InvalidArgument, "interval {} s is not a finite time above 0", f.interval.count());
-     }},
+     [](auto& f) { return invalid("interval {} s is not a finite time above 0", f.interval.count()); }},
     {IntervalBelowTrain, [](auto& f) { return !(f.train.duration().count() <= f.interval.count() * (1 + kRounding)); },
      [](auto& f) {
-         return fail(ErrorCode::InvalidArgument, "interval {:.6g} s is shorter than the train, {} pulses at {:.6g} Hz",
-                     f.interval.count(), f.train.pulses, f.train.rate.value());
+         return invalid("interval {:.6g} s is shorter than the train, {} pulses at {:.6g} Hz", f.interval.count(),
+                        f.train.pulses, f.train.rate.value());
      }},
 };
 
@@ -96,8 +87,7 @@ constexpr Rule<TrainForm> kFormRules[] = {
 constexpr Rule<AskedTrain> kAskedRules[] = {
     {OnsetAhead, [](auto& a) { return a.onset > a.now + kApprovalLife; },
      [](auto& a) {
-         return fail(ErrorCode::InvalidArgument, "the train is planned {:.3g} s ahead; an approval lasts 0.1 s",
-                     toSeconds(a.onset - a.now));
+         return invalid("the train is planned {:.3g} s ahead; an approval lasts 0.1 s", toSeconds(a.onset - a.now));
      }},
     {ImpedanceRejected, [](auto& a) { return a.state.impedanceRejected; },
      [](auto&) {
@@ -166,8 +156,7 @@ double checkLevel(const AskedTrain& a) noexcept { return siValue(a.state.bounds-
 constexpr Rule<AskedTrain> kCheckRules[] = {
     {CheckOnsetAhead, [](auto& a) { return a.onset > a.now + kApprovalLife; },
      [](auto& a) {
-         return fail(ErrorCode::InvalidArgument, "the check is planned {:.3g} s ahead; an approval lasts 0.1 s",
-                     toSeconds(a.onset - a.now));
+         return invalid("the check is planned {:.3g} s ahead; an approval lasts 0.1 s", toSeconds(a.onset - a.now));
      }},
     {CheckDiscomfort,
      [](auto& a) { return a.state.person() && !(checkLevel(a) <= a.state.levels->discomfortLimit().value()); },
@@ -188,18 +177,16 @@ constexpr Rule<AskedTrain> kTimeRules[] = {
     {IntervalMayBeBelowTrain,
      [](auto& a) { return !(longestOf(a).duration() <= shortestInterval(a) * (1 + kRounding)); },
      [](auto& a) {
-         return fail(
-             ErrorCode::InvalidArgument,
+         return invalid(
              "interval {:.6g} s may come out as {:.6g} s and the train of {:.6g} s as {:.6g} s, which is longer",
              a.interval.count(), shortestInterval(a).count(), a.train.duration().count(),
              longestOf(a).duration().count());
      }},
     {PulseBeyondPeriod, [](auto& a) { return !validate(densestOf(a)); },
      [](auto& a) {
-         return fail(ErrorCode::InvalidArgument,
-                     "a pulse of {:.6g} us may come out as {:.6g} us, which is longer than its period of {:.6g} us",
-                     Micros(a.train.pulseDuration()).count(), Micros(densestOf(a).pulseDuration()).count(),
-                     1e6 / densestOf(a).rate.value());
+         return invalid("a pulse of {:.6g} us may come out as {:.6g} us, which is longer than its period of {:.6g} us",
+                        Micros(a.train.pulseDuration()).count(), Micros(densestOf(a).pulseDuration()).count(),
+                        1e6 / densestOf(a).rate.value());
      }},
     {LongWithoutDeadMan,
      [](auto& a) {

@@ -5,7 +5,7 @@
 // it wrote is there for the next process however this one ends. A train is written before its approval is handed out.
 // Each part carries a checksum. A record that does not check, one from a future that is not ours, one from another
 // start of the computer of which the wall time cannot say that it is long ago, and one that is not the last that the
-// unit was driven from on this computer (UnitClaim.h), are not believed: the unit then rests until whatever it
+// unit was driven from on this computer (UnitClaim), are not believed: the unit then rests until whatever it
 // delivered is out of every window (quietUntil()).
 //
 // The file is locked while the record lives, so two processes never drive one unit from two meters. Simulated units
@@ -18,19 +18,28 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string_view>
 
 #include "core/base/Clock.h"
 #include "core/base/Result.h"
-#include "core/base/SystemTime.h"
 #include "core/safety/ExposureMeter.h"
 #include "core/safety/Interlock.h"
 #include "core/safety/LockedFile.h"
-#include "core/safety/UnitFolders.h"
 
 namespace tacto {
+
+// Where the program keeps what outlives it about each unit (UnitRecord, UnitClaim).
+
+struct UnitFolders {
+    std::filesystem::path records;
+    std::filesystem::path claims;  ///< the same for everybody on this computer, and emptied when it starts
+};
+
+/// The records in $XDG_DATA_HOME/tactoscope/units or ~/.local/share/tactoscope/units, the claims in /run/lock.
+[[nodiscard]] UnitFolders unitFolders();
 
 class UnitClaim;
 
@@ -99,6 +108,41 @@ private:
     std::string_view why_;
     Instant quietUntil_;
     std::uint64_t next_ = 1;  // Sequence number of the next train
+};
+
+// Which record of a unit was the last one that a program drove it from, in a place that no account and no
+// environment chooses (H1): a unit with two records, of two accounts or two data folders, has a past that neither
+// knows.
+//
+// One small file per unit in a folder of the computer's that everybody may write to and that a start of the computer
+// empties. It is locked while the claim lives, so two accounts never drive one unit at once. Where it cannot be kept,
+// nothing is claimed, and the unit's past is not known. What drives a unit from another container or another computer
+// is not seen.
+
+class UnitClaim {
+public:
+    /// Opens and locks the claim of `unit`, or makes it: `file` in `folder`. Null where none can be kept. Errors:
+    /// Device when another process holds it, naming it.
+    [[nodiscard]] static Result<std::unique_ptr<UnitClaim>> open(const std::filesystem::path& folder,
+                                                                 std::string_view file, std::string_view unit);
+    ~UnitClaim();
+    UnitClaim(const UnitClaim&) = delete;
+    UnitClaim& operator=(const UnitClaim&) = delete;
+
+    /// True when the unit was driven from no other record than `record` since the computer started.
+    [[nodiscard]] bool isOf(std::uint64_t record) const noexcept;
+    /// True when the last program to drive the unit left it in a fault, or whether it did is unknown.
+    [[nodiscard]] bool faulted() const noexcept;
+
+    /// From here on the unit is driven from `record`.
+    void take(std::uint64_t record, bool faulted) noexcept;
+    void keepFault(bool faulted) noexcept;
+
+private:
+    struct State;
+    explicit UnitClaim(std::unique_ptr<State> state);
+
+    const std::unique_ptr<State> state_;
 };
 
 }  // namespace tacto

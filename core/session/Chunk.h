@@ -6,13 +6,16 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/base/Result.h"
 #include "core/base/Stream.h"
+#include "core/measure/Capture.h"
 
 namespace tacto {
 
@@ -45,5 +48,21 @@ struct ChunkHead {
 /// Errors: ParseError when the sizes do not fit the head.
 [[nodiscard]] Result<void> unpackChunk(const ChunkHead& head, std::size_t columns, std::span<const std::byte> stamps,
                                        std::span<const std::byte> data, SampleBlock& into);
+
+// An oscilloscope record as it lies in the file: a description in JSON, and the channels' float32
+// samples one channel after the other, deflated where that helps.
+
+struct PackedCapture {
+    std::vector<std::byte> data;
+    bool deflated = false;
+};
+
+/// Deflates at the fastest level and keeps it when it saves at least a tenth.
+[[nodiscard]] PackedCapture packSamples(const Capture& capture);
+/// The capture without its samples, as the log row's JSON ("trial" and checksums apart). NaN becomes null.
+[[nodiscard]] nlohmann::json describe(const Capture& capture, const PackedCapture& packed);
+
+/// Errors: ParseError when the description is not one or the samples do not fit it.
+[[nodiscard]] Result<Capture> unpackCapture(const nlohmann::json& description, std::span<const std::byte> data);
 
 }  // namespace tacto

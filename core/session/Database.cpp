@@ -1,8 +1,14 @@
 #include "core/session/Database.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <span>
 #include <sqlite3.h>
 #include <system_error>
+#include <vector>
+
+#include "core/base/WholeFile.h"
 
 namespace tacto {
 
@@ -129,6 +135,139 @@ Result<std::int64_t> Database::number(std::string_view sql) const {
     auto row = statement->step();
     if (!row) return failure(row);
     return *row ? statement->integer(0) : 0;
+}
+
+namespace {
+constexpr std::size_t kBlock = 1 << 20;
+}
+
+struct DatabaseFile::State {
+    explicit State(const std::filesystem::path& path)
+        : name(sqlite3_create_filename(std::filesystem::absolute(path).c_str(), "", "", 0, nullptr)) {}
+    ~State() {
+        if (file() != nullptr && file()->pMethods != nullptr) static_cast<void>(file()->pMethods->xClose(file()));
+        sqlite3_free_filename(name);  // SQLite's layer keeps it until then
+    }
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
+    [[nodiscard]] sqlite3_file* file() noexcept { return reinterpret_cast<sqlite3_file*>(room.data()); }
+
+    sqlite3_filename name;
+    std::vector<std::max_align_t> room;  // for a file of the layer, whose size it says
+};
+
+Result<DatabaseFile> DatabaseFile::open(const std::filesystem::path& path) {
+    sqlite3_initialize();
+    auto* layer = sqlite3_vfs_find(nullptr);
+    auto state = std::make_shared<State>(path);
+    if (layer == nullptr || state->name == nullptr) return fail(ErrorCode::Io, "{} cannot be opened", path.string());
+    state->room.resize((static_cast<std::size_t>(layer->szOsFile) + sizeof(std::max_align_t) - 1) /
+                       sizeof(std::max_align_t));
+    const int code =
+        layer->xOpen(layer, state->name, state->file(), SQLITE_OPEN_READONLY | SQLITE_OPEN_MAIN_DB, nullptr);
+    if (code != SQLITE_OK) return fail(ErrorCode::Io, "{} cannot be opened: {}", path.string(), sqlite3_errstr(code));
+    return DatabaseFile(std::move(state));
+}
+
+Result<std::int64_t> DatabaseFile::size() const {
+    sqlite3_int64 bytes = 0;
+    const int code = state_->file()->pMethods->xFileSize(state_->file(), &bytes);
+    if (code != SQLITE_OK) return fail(ErrorCode::Io, "{}: {}", state_->name, sqlite3_errstr(code));
+    return bytes;
+}
+
+Result<void> DatabaseFile::read(std::int64_t at, std::span<std::byte> bytes) const {
+    const int code = state_->file()->pMethods->xRead(state_->file(), bytes.data(), static_cast<int>(bytes.size()), at);
+    if (code != SQLITE_OK) return fail(ErrorCode::Io, "{}: {}", state_->name, sqlite3_errstr(code));
+    return {};
+}
+
+Result<void> copyDatabaseFile(const std::filesystem::path& from, const std::filesystem::path& to) {
+    const auto file = DatabaseFile::open(from);
+    if (!file) return failure(file);
+    const auto size = file->size();
+    if (!size) return failure(size);
+    auto out = FileOut::create(to);
+    if (!out) return failure(out);
+    std::vector<std::byte> block(kBlock);
+    for (std::int64_t at = 0; at < *size;) {
+        const auto next = std::span(block).first(std::min(kBlock, static_cast<std::size_t>(*size - at)));
+        if (auto done = file->read(at, next); !done) return done;
+        if (auto done = out->write({reinterpret_cast<const char*>(next.data()), next.size()}); !done) return done;
+        at += static_cast<std::int64_t>(next.size());
+    }
+    return {};
+}
+
+namespace {
+
+constexpr std::size_t kHeader = 32;
+constexpr std::size_t kFrameHeader = 24;
+constexpr std::uint32_t kMagic = 0x377f0682;  // the last bit says that checksums read big-endian words
+
+std::uint32_t word(std::span<const char> bytes, std::size_t at, bool big) {
+    std::uint32_t value = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const auto byte = static_cast<unsigned char>(bytes[at + (big ? i : 3 - i)]);
+        value = value << 8 | byte;
+    }
+    return value;
+}
+
+struct Checksum {
+    std::uint32_t first = 0;
+    std::uint32_t second = 0;
+    void add(std::span<const char> bytes, bool big) {
+        for (std::size_t i = 0; i + 8 <= bytes.size(); i += 8) {
+            first += word(bytes, i, big) + second;
+            second += word(bytes, i + 4, big) + first;
+        }
+    }
+    [[nodiscard]] bool matches(std::span<const char> bytes, std::size_t at) const {
+        return word(bytes, at, true) == first && word(bytes, at + 4, true) == second;
+    }
+};
+
+}  // namespace
+
+Result<WalFindings> scanWal(const std::filesystem::path& wal) {
+    WalFindings findings;
+    std::ifstream file(wal, std::ios::binary);
+    if (!file) return fail(ErrorCode::Io, "{} cannot be read", wal.string());
+    std::vector<char> header(kHeader);
+    if (!file.read(header.data(), kHeader)) return findings;
+    const auto magic = word(header, 0, true);
+    const std::size_t pageSize = word(header, 8, true);
+    if ((magic & ~1U) != kMagic || pageSize < 512 || pageSize > 65'536) {
+        findings.headerDamaged = file.peek() != std::char_traits<char>::eof();
+        return findings;
+    }
+    const bool big = (magic & 1U) != 0;
+    Checksum sum;
+    sum.add(std::span(header).first(24), big);
+    bool readable = sum.matches(header, 24);
+    findings.headerDamaged = !readable && file.peek() != std::char_traits<char>::eof();
+
+    std::vector<char> frame(kFrameHeader + pageSize);
+    bool commitWaits = false;  // a commit behind the bad frame counts once a further transaction follows it
+    while (file.read(frame.data(), static_cast<std::streamsize>(frame.size()))) {
+        const bool current = std::equal(frame.begin() + 8, frame.begin() + 16, header.begin() + 16);
+        if (!current) {  // left over from before the journal was last restarted, or altered
+            readable = false;
+            continue;
+        }
+        if (readable) {
+            sum.add(std::span<const char>(frame).first(8), big);
+            sum.add(std::span<const char>(frame).subspan(kFrameHeader), big);
+            readable = sum.matches(frame, 16);
+            if (readable) ++findings.readableFrames;
+        }
+        if (!readable) {
+            if (commitWaits) ++findings.lostCommits;
+            commitWaits = word(frame, 4, true) != 0;
+        }
+    }
+    return findings;
 }
 
 }  // namespace tacto

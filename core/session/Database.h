@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
@@ -66,5 +67,44 @@ private:
     explicit Database(sqlite3* database) noexcept : database_(database) {}
     std::unique_ptr<sqlite3, Close> database_;
 };
+
+// The bytes of an SQLite file, read through SQLite's own file layer.
+//
+// Another handle of this process on such a file would, when it is closed, drop every lock that this process holds on
+// it, a running writer's among them (fcntl(2)); SQLite's layer keeps its handles open for as long as one of them is
+// locked (sqlite.org/howtocorrupt.html section 2.2).
+
+class DatabaseFile {
+public:
+    /// For reading; nothing is locked. Errors: Io.
+    [[nodiscard]] static Result<DatabaseFile> open(const std::filesystem::path& path);
+    /// In bytes. Errors: Io.
+    [[nodiscard]] Result<std::int64_t> size() const;
+    /// Fills `bytes` from `at`. Errors: Io, also where the file ends before.
+    [[nodiscard]] Result<void> read(std::int64_t at, std::span<std::byte> bytes) const;
+
+private:
+    struct State;
+    explicit DatabaseFile(std::shared_ptr<State> state) : state_(std::move(state)) {}
+    std::shared_ptr<State> state_;
+};
+
+/// Writes the content of the SQLite file `from` to `to`, which is new. Errors: Io.
+[[nodiscard]] Result<void> copyDatabaseFile(const std::filesystem::path& from, const std::filesystem::path& to);
+
+// Looks for damage in the journal (*-wal) that a killed session left behind.
+//
+// SQLite reads a journal up to the first frame whose checksum is wrong and silently ignores the rest, since a crash
+// leaves exactly that: an unfinished last transaction. But every acknowledged commit was synced before the next one
+// began, so frames of a further transaction beyond the bad one cannot come from a crash. They are lost evidence.
+
+struct WalFindings {
+    std::uint64_t readableFrames = 0;
+    bool headerDamaged = false;     ///< there are frames, and what says how to read them is not valid
+    std::uint64_t lostCommits = 0;  ///< commits behind the first bad frame, without the unfinished last transaction
+};
+
+/// Errors: Io.
+[[nodiscard]] Result<WalFindings> scanWal(const std::filesystem::path& wal);
 
 }  // namespace tacto

@@ -1,6 +1,9 @@
 #include "core/session/Digest.h"
 
+#include <fmt/format.h>
+#include <iterator>
 #include <sodium.h>
+#include <string>
 #include <zlib.h>
 
 namespace tacto {
@@ -59,6 +62,16 @@ std::string hexText(const Digest& digest) {
         text += kDigits[byte & 15];
     }
     return text;
+}
+
+Digest chainHash(const Digest& previous, const Entry& entry) {
+    std::string bytes(previous.begin(), previous.end());
+    fmt::format_to(std::back_inserter(bytes), "{}\n{}\n{}\n{}:", entry.seq, entry.t_ns, entry.kind, entry.name.size());
+    bytes.append(entry.name);
+    fmt::format_to(std::back_inserter(bytes), "\n{}:", entry.body.size());
+    bytes.append(entry.body);
+    fmt::format_to(std::back_inserter(bytes), "\n{}\n", entry.digest ? hexText(*entry.digest) : "-");
+    return sha256(bytes);
 }
 
 }  // namespace tacto

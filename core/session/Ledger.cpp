@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "core/base/JsonText.h"
-#include "core/session/AboutJson.h"
 #include "core/session/Schema.h"
 #include "core/session/SessionStore.h"
+#include "core/session/SessionTypes.h"
 
 namespace tacto {
 

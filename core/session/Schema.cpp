@@ -1,7 +1,5 @@
 #include "core/session/Schema.h"
 
-#include <algorithm>
-
 namespace tacto {
 
 namespace {
@@ -52,8 +50,6 @@ CREATE VIEW log AS SELECT seq, t_ns / 1e9 AS t_s, name AS level, json_extract(bo
 
 }  // namespace
 
-std::span<const Migration> migrations() noexcept { return {}; }
-
 Result<void> createSchema(Database& database) {
     // Page size before the first write. 16 kB halves the cost of large blobs against 4 kB and makes a commit of one
     // small row 0.05 ms dearer.
@@ -61,29 +57,6 @@ Result<void> createSchema(Database& database) {
         fmt::format("PRAGMA page_size=4096; PRAGMA journal_mode=WAL;"
                     "BEGIN; PRAGMA application_id={}; PRAGMA user_version={}; {} COMMIT;",
                     kApplicationId, kSchemaVersion, kTables));
-}
-
-Result<void> migrate(Database& database, std::span<const Migration> steps, int target) {
-    auto version = database.number("PRAGMA user_version");
-    if (!version) return failure(version);
-    if (*version > target) {
-        return fail(ErrorCode::ParseError,
-                    "it has session format {}, made by a newer Tactoscope; this program reads up to {}", *version,
-                    target);
-    }
-    for (auto at = *version; at < target; ++at) {
-        const auto step = std::find_if(steps.begin(), steps.end(), [&](const Migration& m) { return m.from == at; });
-        if (step == steps.end()) {
-            return fail(ErrorCode::ParseError, "it has session format {}, which no version of Tactoscope has written",
-                        *version);
-        }
-        auto ran = database.execute(fmt::format("BEGIN; {}; PRAGMA user_version={}; COMMIT;", step->sql, at + 1));
-        if (!ran) {
-            static_cast<void>(database.execute("ROLLBACK"));
-            return failure(ran);
-        }
-    }
-    return {};
 }
 
 }  // namespace tacto

@@ -1,14 +1,13 @@
-// Schema.h - the tables of a session file and how older ones are brought up to date.
+// Schema.h - the tables of a session file.
 //
-// Everything is a row of `entries`, in the order it was written, linked by hashes (Chain.h). Sample chunks and captures
-// keep their bulk in tables of their own under the entry's seq. The views (events, trials, ...) are for people with
-// another SQLite program. Triggers refuse changes and deletions: no session is altered by accident.
+// Everything is a row of `entries`, in the order it was written, linked by hashes (Digest.h). Sample chunks and
+// captures keep their bulk in tables of their own under the entry's seq. The views (events, trials, ...) are for people
+// with another SQLite program. Triggers refuse changes and deletions: no session is altered by accident.
 //
 // Thread-safety: pure functions; createSchema() as Database.
 #pragma once
 
 #include <cstdint>
-#include <span>
 
 #include "core/base/Result.h"
 #include "core/session/Database.h"
@@ -41,20 +40,7 @@ inline constexpr const char* kEnd = "end";
 inline constexpr const char* kAnnotation = "annotation";  ///< the only rows after the end: SessionLabels.h
 }  // namespace kind
 
-/// Statements that lead from schema `from` to `from + 1`.
-struct Migration {
-    int from;
-    const char* sql;
-};
-
-/// The steps from version 1 to kSchemaVersion. Empty while there is one version.
-[[nodiscard]] std::span<const Migration> migrations() noexcept;
-
 /// Makes the tables, views and triggers of kSchemaVersion and sets both ids.
 [[nodiscard]] Result<void> createSchema(Database& database);
-
-/// Runs `steps` in order until the database has version `target`; each step whole or not at all.
-/// Errors: ParseError naming both versions when it is newer than `target` or a step is missing; Io.
-[[nodiscard]] Result<void> migrate(Database& database, std::span<const Migration> steps, int target);
 
 }  // namespace tacto

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 #include "core/base/Printable.h"
 #include "core/session/Schema.h"
 #include "core/session/SessionTypes.h"

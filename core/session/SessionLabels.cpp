@@ -6,11 +6,10 @@
 #include <unistd.h>
 
 #include "core/base/Clock.h"
-#include "core/base/GivenOnce.h"
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 #include "core/base/Printable.h"
+#include "core/base/Text.h"
 #include "core/base/WholeFile.h"
-#include "core/session/Durable.h"
 #include "core/session/Schema.h"
 #include "core/session/SessionReader.h"
 #include "core/session/SessionStore.h"
@@ -81,13 +80,11 @@ Result<void> append(const std::filesystem::path& file, Instant at, const nlohman
 
 Result<void> checkText(std::string_view title, const std::string& text, std::size_t limit) {
     if (printable(text) != text) {
-        return fail(ErrorCode::InvalidArgument,
-                    "the {} is \"{}\"; one line of text without control characters is expected", title,
-                    printable(text));
+        return invalid("the {} is \"{}\"; one line of text without control characters is expected", title,
+                       printable(text));
     }
     if (const auto length = charactersOf(text); length > limit) {
-        return fail(ErrorCode::InvalidArgument, "the {} has {} characters; at most {} are accepted", title, length,
-                    limit);
+        return invalid("the {} has {} characters; at most {} are accepted", title, length, limit);
     }
     return {};
 }
@@ -100,16 +97,15 @@ Result<void> checkLabels(const SessionLabels& labels) {
     }
     const auto& tags = labels.tags;
     if (tags.size() > kMaxTags) {
-        return fail(ErrorCode::InvalidArgument, "there are {} tags; at most {} are accepted", tags.size(), kMaxTags);
+        return invalid("there are {} tags; at most {} are accepted", tags.size(), kMaxTags);
     }
     for (const auto& tag : tags) {
         if (auto checked = checkText("tag", tag, kTagLimit); !checked) return checked;
         if (tag.empty() || tag.find(',') != std::string::npos) {
-            return fail(ErrorCode::InvalidArgument, "a tag is \"{}\"; a text without a comma is expected", tag);
+            return invalid("a tag is \"{}\"; a text without a comma is expected", tag);
         }
     }
-    if (const auto* second = secondIn(tags))
-        return fail(ErrorCode::InvalidArgument, "{}", givenTwice("the tag \"{}\"", *second));
+    if (const auto* second = secondIn(tags)) return invalid("{}", givenTwice("the tag \"{}\"", *second));
     return {};
 }
 

@@ -5,17 +5,14 @@
 #include <limits>
 #include <optional>
 
-#include "core/base/JsonFields.h"
 #include "core/base/JsonText.h"
-#include "core/session/AboutJson.h"
-#include "core/session/CaptureBlob.h"
-#include "core/session/Chain.h"
 #include "core/session/Chunk.h"
 #include "core/session/Digest.h"
 #include "core/session/Schema.h"
 #include "core/session/SealedRow.h"
 #include "core/session/SessionLabels.h"
 #include "core/session/SessionSource.h"
+#include "core/session/SessionTypes.h"
 
 namespace tacto {
 

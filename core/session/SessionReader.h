@@ -3,8 +3,8 @@
 // A reader without the key of a sealed session (SealedRow.h) returns its rows, marked as sealed, with what they show;
 // what stays hidden entirely (samples, captures) is refused as Unsupported.
 //
-// A session that was cut off by a crash (a *-wal file beside it) is read with what was committed before the cut. An
-// older schema is migrated in a private copy. Reading does not judge: that is verifySession(), SessionVerify.h.
+// A session that was cut off by a crash (a *-wal file beside it) is read with what was committed before the cut.
+// Reading does not judge: that is verifySession(), SessionVerify.h.
 //
 // Thread-safety: one caller at a time.
 #pragma once

@@ -6,7 +6,7 @@
 #include <sqlite3.h>
 #include <unistd.h>
 
-#include "core/session/DatabaseFile.h"
+#include "core/session/Database.h"
 #include "core/session/Schema.h"
 
 namespace tacto {
@@ -106,11 +106,6 @@ Result<SessionSource> SessionSource::openCopy(const std::filesystem::path& path)
     auto database = Database::open(copy.string(), SQLITE_OPEN_READWRITE);
     if (!database) return failure(database);
     if (auto rows = database->number("SELECT count(*) FROM sqlite_schema"); !rows) return failure(rows);
-    const auto version = database->number("PRAGMA user_version");
-    if (!version) return failure(version);
-    if (*version < kSchemaVersion) {
-        if (auto migrated = migrate(*database, migrations(), kSchemaVersion); !migrated) return failure(migrated);
-    }
     SessionSource source(std::move(*database));
     source.copy_ = folder;
     return source;
@@ -147,15 +142,10 @@ Result<SessionSource> SessionSource::open(const std::filesystem::path& path) {
     const auto version = source->database().number("PRAGMA user_version");
     if (!version) return failure(version);
     if (*version < kSchemaVersion || *version > kNewestVersion) {
-        if (*version < kSchemaVersion) source = openCopy(path);
-        if (*version > kNewestVersion || !source) {
-            return fail(ErrorCode::Unsupported, "{} cannot be read: {}", path.string(),
-                        *version > kNewestVersion
-                            ? fmt::format("it has session format {}, made by a newer Tactoscope; this program reads up "
-                                          "to {}",
-                                          *version, kNewestVersion)
-                            : source.error().message);
-        }
+        return fail(ErrorCode::Unsupported, "{} cannot be read: it has session format {}, {}", path.string(), *version,
+                    *version < kSchemaVersion
+                        ? "which no version of Tactoscope has written"
+                        : fmt::format("made by a newer Tactoscope; this program reads up to {}", kNewestVersion));
     }
     source->sealed_ = *version == kSealedVersion;
     source->hadJournal_ = journal && std::filesystem::file_size(beside(path, "-wal"), error) > 32;

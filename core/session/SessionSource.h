@@ -3,9 +3,8 @@
 //   no *-wal beside it        read as an immutable file; nothing is created
 //   *-wal and *-shm           a running or killed writer: read only, with the journal's content
 //   *-wal alone, or no access a private copy of both, recovered and removed afterwards
-//   an older schema           a private copy, migrated
 //
-// The file itself is opened with nothing but SQLite (DatabaseFile.h), since a writer of this process may hold it. A
+// The file itself is opened with nothing but SQLite (Database.h), since a writer of this process may hold it. A
 // copy is of one moment: it is made again where another program wrote meanwhile.
 //
 // Thread-safety: one owner; several sources may be open on one file.

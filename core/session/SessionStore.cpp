@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include "core/base/WholeFile.h"
-#include "core/session/Durable.h"
 #include "core/session/Schema.h"
 #include "core/session/SealedRow.h"
 
@@ -31,7 +30,7 @@ Result<void> publish(const std::filesystem::path& from, const std::filesystem::p
     if (!linked) {
         const bool noLinks = errno == EPERM || errno == EOPNOTSUPP;
         if (!noLinks || ::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) != 0) {
-            if (errno == EEXIST) return fail(ErrorCode::InvalidArgument, "it exists; a session is never overwritten");
+            if (errno == EEXIST) return invalid("it exists; a session is never overwritten");
             return fail(ErrorCode::Io, "{}", std::strerror(errno));
         }
     }
@@ -64,7 +63,7 @@ Result<SessionStore> SessionStore::create(const std::filesystem::path& path, Ins
         const auto taken = withSuffix(path, suffix);
         std::error_code error;  // set by a name that is too long, for one
         if (std::filesystem::exists(taken, error)) {
-            return fail(ErrorCode::InvalidArgument, "{} exists; a session is never overwritten", taken.string());
+            return invalid("{} exists; a session is never overwritten", taken.string());
         }
         if (error) return because(Result<void>(fail(ErrorCode::Io, "{}", error.message())));
     }

@@ -14,10 +14,10 @@
 
 #include "core/base/Result.h"
 #include "core/base/Units.h"
-#include "core/session/Chain.h"
 #include "core/session/Chunk.h"
 #include "core/session/CommitThread.h"
 #include "core/session/Database.h"
+#include "core/session/Digest.h"
 #include "core/session/RowSeal.h"
 
 namespace tacto {

@@ -5,12 +5,13 @@
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "core/base/Role.h"
 #include "core/base/Units.h"
+#include "core/base/Words.h"
 
 namespace tacto {
 
@@ -18,7 +19,7 @@ namespace tacto {
 inline constexpr const char* kExposureMeasurement = "exposure";
 inline constexpr const char* kCalibrationMeasurement = "calibration to keep";
 
-/// Events that hold the session's marks (core/session/Marks.h): all of them when the bench closes, and each flag of R
+/// Events that hold the session's marks (core/session/Origin.h): all of them when the bench closes, and each flag of R
 /// at once when it first drives the output.
 inline constexpr const char* kMarksEvent = "marks";
 inline constexpr const char* kMarkEvent = "mark";
@@ -135,5 +136,16 @@ struct SessionCaptureInfo {
     bool simulated = false;
     bool sealed = false;  ///< as SessionRow's; only seq, at and trial are known
 };
+
+// SessionAbout and SessionStream as the JSON of their log rows.
+
+[[nodiscard]] nlohmann::json toJson(const SessionAbout& about);
+/// Missing fields stay empty.
+[[nodiscard]] SessionAbout aboutFrom(const nlohmann::json& json);
+/// What the same seed must reproduce of it: wall time, versions and paths left out.
+[[nodiscard]] nlohmann::json reproducible(const SessionAbout& about);
+
+[[nodiscard]] nlohmann::json toJson(const SessionStream& stream);
+[[nodiscard]] SessionStream streamFrom(const nlohmann::json& json);
 
 }  // namespace tacto

@@ -2,17 +2,16 @@
 
 #include <algorithm>
 
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 #include "core/base/Words.h"
-#include "core/session/AboutJson.h"
-#include "core/session/CaptureBlob.h"
-#include "core/session/Chain.h"
 #include "core/session/Chunk.h"
+#include "core/session/Database.h"
+#include "core/session/Digest.h"
 #include "core/session/Schema.h"
 #include "core/session/SealedRow.h"
+#include "core/session/SessionIndex.h"
 #include "core/session/SessionSource.h"
-#include "core/session/SessionSummary.h"
-#include "core/session/WalScan.h"
+#include "core/session/SessionTypes.h"
 
 namespace tacto {
 

@@ -3,11 +3,11 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 
-#include "core/base/JsonFields.h"
-#include "core/session/AboutJson.h"
-#include "core/session/CaptureBlob.h"
+#include "core/base/JsonText.h"
+#include "core/session/Chunk.h"
 #include "core/session/Schema.h"
 #include "core/session/SessionStore.h"
+#include "core/session/SessionTypes.h"
 
 namespace tacto {
 
@@ -47,7 +47,7 @@ struct SessionWriter::State {
 
     [[nodiscard]] Result<void> open() const {
         if (failed) return tl::unexpected<Error>(*failed);
-        if (closed) return fail(ErrorCode::InvalidArgument, "session {} is closed", path.string());
+        if (closed) return invalid("session {} is closed", path.string());
         return {};
     }
 
@@ -134,7 +134,7 @@ Result<std::unique_ptr<SessionWriter>> SessionWriter::create(const std::filesyst
 Result<int> SessionWriter::addStream(const SessionStream& stream) {
     const std::lock_guard lock(state_->mutex);
     if (stream.columns.empty()) {
-        return fail(ErrorCode::InvalidArgument, "stream '{}' has no columns; at least one is needed", stream.name);
+        return invalid("stream '{}' has no columns; at least one is needed", stream.name);
     }
     auto row = state_->add(kind::kStream, state_->clock.now(), stream.name, toJson(stream));
     if (!row) return failure(row);
@@ -164,14 +164,13 @@ Result<void> SessionWriter::append(int stream, const SampleBlock& block) {
     const std::lock_guard lock(state_->mutex);
     if (auto ready = state_->open(); !ready) return ready;
     if (stream < 1 || static_cast<std::size_t>(stream) > state_->streams.size()) {
-        return fail(ErrorCode::InvalidArgument, "there is no stream {}; the session has {}", stream,
-                    state_->streams.size());
+        return invalid("there is no stream {}; the session has {}", stream, state_->streams.size());
     }
     const auto index = static_cast<std::size_t>(stream) - 1;
     auto& buffer = state_->streams[index];
     if (block.values.size() != block.samples() * buffer.columns) {
-        return fail(ErrorCode::InvalidArgument, "stream {} got {} values for {} samples of {} columns", stream,
-                    block.values.size(), block.samples(), buffer.columns);
+        return invalid("stream {} got {} values for {} samples of {} columns", stream, block.values.size(),
+                       block.samples(), buffer.columns);
     }
     auto& pending = buffer.pending;
     pending.t_s.insert(pending.t_s.end(), block.t_s.begin(), block.t_s.end());
@@ -203,8 +202,8 @@ Result<int> SessionWriter::trial(Instant at, std::string_view condition, const n
 Result<std::int64_t> SessionWriter::capture(Instant at, const Capture& capture, std::optional<int> trial) {
     for (const auto& channel : capture.channels) {
         if (channel.samples.size() != capture.samples()) {
-            return fail(ErrorCode::InvalidArgument, "capture channel '{}' has {} samples, '{}' has {}", channel.name,
-                        channel.samples.size(), capture.channels.front().name, capture.samples());
+            return invalid("capture channel '{}' has {} samples, '{}' has {}", channel.name, channel.samples.size(),
+                           capture.channels.front().name, capture.samples());
         }
     }
     // Compressed and hashed before the lock: it takes milliseconds and needs nothing of the session.
@@ -218,8 +217,7 @@ Result<std::int64_t> SessionWriter::capture(Instant at, const Capture& capture, 
     if (auto ready = state_->open(); !ready) return failure(ready);
     if (trial) {
         if (*trial < 1 || *trial > state_->trials) {
-            return fail(ErrorCode::InvalidArgument, "a capture names trial {}; the session has {}", *trial,
-                        state_->trials);
+            return invalid("a capture names trial {}; the session has {}", *trial, state_->trials);
         }
         body["trial"] = *trial;
     }

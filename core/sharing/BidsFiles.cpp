@@ -4,7 +4,6 @@
 #include <map>
 #include <numeric>
 
-#include "core/base/GivenOnce.h"
 #include "core/base/JsonText.h"
 #include "core/base/Random.h"
 #include "core/base/Text.h"

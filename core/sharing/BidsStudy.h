@@ -15,7 +15,7 @@
 
 #include "core/analysis/identification/IdentificationTrial.h"
 #include "core/analysis/vibration/BurstFigures.h"
-#include "core/base/NaN.h"
+#include "core/base/Statistics.h"
 #include "core/base/Units.h"
 #include "core/study/SessionBasis.h"
 

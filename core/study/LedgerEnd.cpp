@@ -3,10 +3,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/Csv.h"
-#include "core/base/Hex.h"
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
+#include "core/base/Text.h"
 #include "core/base/WholeFile.h"
-#include "core/session/Durable.h"
 #include "core/session/SessionReader.h"
 #include "core/study/Gates.h"
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "core/base/Hex.h"
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
+#include "core/base/Text.h"
 #include "core/seal/SealedText.h"
 #include "core/study/SessionSeal.h"
 

@@ -2,7 +2,6 @@
 
 #include "core/base/WholeFile.h"
 #include "core/session/Digest.h"
-#include "core/session/Durable.h"
 #include "core/session/Ledger.h"
 #include "core/study/LedgerRows.h"
 #include "core/study/StudyKeys.h"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/base/GivenOnce.h"
 #include "core/base/RecordFields.h"
 #include "core/base/Text.h"
 

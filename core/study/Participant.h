@@ -14,7 +14,7 @@
 
 #include "core/base/Result.h"
 #include "core/base/Words.h"
-#include "core/calibration/CalibrationDate.h"
+#include "core/calibration/CalibrationStore.h"
 
 namespace tacto {
 

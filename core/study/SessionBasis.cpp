@@ -3,7 +3,7 @@
 #include <fmt/ranges.h>
 #include <vector>
 
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 
 namespace tacto {
 

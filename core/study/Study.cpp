@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
-#include "core/base/DataFolder.h"
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
+#include "core/base/ProgramStart.h"
 #include "core/seal/SealedText.h"
 #include "core/session/Digest.h"
 #include "core/session/SessionReader.h"

@@ -23,8 +23,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/Clock.h"
 #include "core/base/Result.h"
-#include "core/base/SystemTime.h"
 #include "core/seal/Passphrase.h"
 #include "core/seal/Secret.h"
 #include "core/session/RowSeal.h"

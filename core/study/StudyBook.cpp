@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/base/Csv.h"
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 #include "core/seal/SealedText.h"
 #include "core/session/SessionReader.h"
 #include "core/session/SessionVerify.h"

@@ -1,11 +1,10 @@
 #include "core/study/StudyFiles.h"
 
 #include "core/base/Csv.h"
-#include "core/base/Hex.h"
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
+#include "core/base/Text.h"
 #include "core/base/WholeFile.h"
 #include "core/session/Digest.h"
-#include "core/session/Durable.h"
 
 namespace tacto {
 

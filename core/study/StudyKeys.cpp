@@ -8,10 +8,10 @@
 #include <unistd.h>
 
 #include "core/base/Csv.h"
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
+#include "core/base/WholeFile.h"
 #include "core/seal/OwnFile.h"
 #include "core/seal/SealedText.h"
-#include "core/session/Durable.h"
 
 namespace tacto {
 

@@ -5,7 +5,7 @@
 #include <fcntl.h>
 #include <sys/file.h>
 
-#include "core/base/LockHolder.h"
+#include "core/base/WholeFile.h"
 
 namespace tacto {
 

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "core/base/GivenOnce.h"
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 #include "core/base/Text.h"
 #include "core/session/Digest.h"
 

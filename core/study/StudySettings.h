@@ -13,7 +13,7 @@
 #include "core/base/RecordFields.h"
 #include "core/base/Units.h"
 #include "core/base/Words.h"
-#include "core/calibration/CalibrationDate.h"
+#include "core/calibration/CalibrationStore.h"
 #include "core/calibration/LoadSafetyStore.h"
 
 namespace tacto {

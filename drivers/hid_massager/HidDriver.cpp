@@ -4,8 +4,8 @@
 #include <fmt/ranges.h>
 #include <tuple>
 
-#include "core/base/WholeNumber.h"
-#include "core/devices/UriParameters.h"
+#include "core/base/Text.h"
+#include "core/devices/DeviceUri.h"
 #include "drivers/hid_massager/Haptics.h"
 #include "drivers/hid_massager/HidMassager.h"
 #include "drivers/hid_massager/HidapiBackend.h"

@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/devices/ApprovalAge.h"
+#include "core/devices/Device.h"
 
 namespace tacto::hid {
 

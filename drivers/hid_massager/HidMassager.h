@@ -28,7 +28,7 @@
 #include <vector>
 
 #include "core/base/Clock.h"
-#include "core/devices/Massager.h"
+#include "core/devices/Stimulator.h"
 #include "drivers/hid_massager/BurstTimer.h"
 #include "drivers/hid_massager/HidPort.h"
 #include "drivers/hid_massager/VibrationReports.h"

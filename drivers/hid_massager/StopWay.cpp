@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <string_view>
 
-#include "core/base/WholeNumber.h"
+#include "core/base/Text.h"
 
 namespace tacto::hid {
 

@@ -4,7 +4,6 @@
 #include "core/base/Csv.h"
 #include "core/base/RecordFields.h"
 #include "core/base/Text.h"
-#include "core/base/WholeNumber.h"
 #include "drivers/hid_massager/MassagerTemplate.h"
 
 namespace tacto::hid {

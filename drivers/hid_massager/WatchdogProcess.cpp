@@ -11,7 +11,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "core/base/ProgramPath.h"
+#include "core/base/ProgramStart.h"
 #include "drivers/hid_massager/WatchdogLine.h"
 
 namespace tacto::hid {

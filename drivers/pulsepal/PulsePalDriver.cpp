@@ -1,6 +1,6 @@
 #include "drivers/pulsepal/PulsePalDriver.h"
 
-#include "core/devices/UriParameters.h"
+#include "core/devices/DeviceUri.h"
 #include "drivers/pulsepal/PulsePalStimulator.h"
 
 namespace tacto {

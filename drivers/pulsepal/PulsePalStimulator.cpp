@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "core/devices/ApprovalAge.h"
+#include "core/devices/Device.h"
 
 namespace tacto::pulsepal {
 

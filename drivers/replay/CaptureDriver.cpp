@@ -5,8 +5,8 @@
 #include <limits>
 #include <system_error>
 
-#include "core/devices/ReplayedDevice.h"
-#include "core/measure/CaptureOrigin.h"
+#include "core/devices/Device.h"
+#include "core/measure/CaptureDescription.h"
 #include "drivers/replay/ReplayDrivers.h"
 
 namespace tacto {

@@ -3,8 +3,8 @@
 #include <limits>
 
 #include "core/acquisition/Recording.h"
-#include "core/devices/ReplayedDevice.h"
-#include "core/devices/UriParameters.h"
+#include "core/devices/Device.h"
+#include "core/devices/DeviceUri.h"
 #include "drivers/replay/ReplayDrivers.h"
 
 namespace tacto {

@@ -8,7 +8,7 @@
 #pragma once
 
 #include "core/base/Clock.h"
-#include "core/devices/Transport.h"
+#include "core/devices/TransportPorts.h"
 #include "drivers/sciencemode/Commands.h"
 
 namespace tacto::sciencemode {

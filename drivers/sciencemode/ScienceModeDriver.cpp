@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "core/base/Text.h"
-#include "core/devices/UriParameters.h"
+#include "core/devices/DeviceUri.h"
 #include "drivers/sciencemode/ScienceModeStimulator.h"
 #include "drivers/sciencemode/TtyTransport.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/devices/ApprovalAge.h"
+#include "core/devices/Device.h"
 
 namespace tacto::sciencemode {
 

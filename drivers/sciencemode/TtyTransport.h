@@ -13,7 +13,7 @@
 #include <mutex>
 #include <string>
 
-#include "core/devices/Transport.h"
+#include "core/devices/TransportPorts.h"
 
 namespace tacto::sciencemode {
 

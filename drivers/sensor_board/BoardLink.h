@@ -17,7 +17,7 @@
 
 #include "core/base/Clock.h"
 #include "core/base/SpscRing.h"
-#include "core/devices/Transport.h"
+#include "core/devices/TransportPorts.h"
 #include "drivers/sensor_board/Messages.h"
 
 namespace tacto::sensorboard {

@@ -4,7 +4,7 @@
 // Thread-safety: none needed.
 #pragma once
 
-#include "core/devices/DeviceReport.h"
+#include "core/devices/Device.h"
 #include "drivers/sensor_board/SensorBoard.h"
 
 namespace tacto::sensorboard {

@@ -9,9 +9,9 @@
 
 #include <functional>
 
-#include "core/base/Latest.h"
-#include "core/devices/DeviceReport.h"
-#include "core/devices/Reconnecting.h"
+#include "core/base/SpscRing.h"
+#include "core/devices/Device.h"
+#include "core/devices/TactileSensor.h"
 #include "drivers/sensor_board/SensorBoard.h"
 
 namespace tacto::sensorboard {

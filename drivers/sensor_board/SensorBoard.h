@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "core/base/Clock.h"
-#include "core/base/Latest.h"
+#include "core/base/SpscRing.h"
 #include "core/devices/TactileSensor.h"
 #include "drivers/sensor_board/BoardLink.h"
 #include "drivers/sensor_board/StreamTrack.h"

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "core/devices/UriParameters.h"
+#include "core/devices/DeviceUri.h"
 #include "drivers/sensor_board/PluggedBoard.h"
 
 namespace tacto {
@@ -19,7 +19,7 @@ Result<Wanted> readUri(const DeviceUri& uri) {
     Wanted wanted;
     wanted.settings.uri = uri.text();
     wanted.settings.serial = uri.path;
-    // What the roughness chain takes (core/dsp/StreamCheck.h).
+    // What the roughness chain takes (core/dsp/SensorScales.h).
     wanted.settings.accelerationRate_hz = from.quantity("rate", "Hz", 0, 100, 20'000);
     // Slower than 20 Hz is stale between two samples (H7).
     wanted.settings.slowRate_hz = from.quantity("slowrate", "Hz", 0, 20, 2000);

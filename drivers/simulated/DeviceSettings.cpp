@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "core/devices/UriParameters.h"
-#include "core/encoding/CalibrationLine.h"
+#include "core/devices/DeviceUri.h"
+#include "core/encoding/StimulatorCalibration.h"
 
 namespace tacto::sim {
 

@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "core/base/Units.h"
-#include "core/electrode/PulseResponse.h"
+#include "core/electrode/LoadResponse.h"
 #include "drivers/simulated/CutTime.h"
 #include "drivers/simulated/FaultSchedule.h"
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/devices/ApprovalAge.h"
+#include "core/devices/Device.h"
 
 namespace tacto::sim {
 

@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "core/devices/Massager.h"
+#include "core/devices/Stimulator.h"
 #include "drivers/simulated/FaultSchedule.h"
 #include "drivers/simulated/Motor.h"
 #include "drivers/simulated/World.h"

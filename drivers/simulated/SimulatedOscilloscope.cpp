@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/NaN.h"
 #include "core/base/Random.h"
+#include "core/base/Statistics.h"
 
 namespace tacto::sim {
 

@@ -12,7 +12,6 @@
 #include <optional>
 #include <vector>
 
-#include "core/devices/ForcedTrigger.h"
 #include "core/devices/Oscilloscope.h"
 #include "drivers/simulated/FastNoise.h"
 #include "drivers/simulated/FaultSchedule.h"

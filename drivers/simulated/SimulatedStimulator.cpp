@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "core/base/Random.h"
-#include "core/devices/ApprovalAge.h"
+#include "core/devices/Device.h"
 
 namespace tacto::sim {
 

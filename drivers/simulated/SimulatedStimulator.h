@@ -11,7 +11,6 @@
 #include <atomic>
 #include <memory>
 
-#include "core/devices/StatesCalibration.h"
 #include "core/devices/Stimulator.h"
 #include "drivers/simulated/FastNoise.h"
 #include "drivers/simulated/FaultSchedule.h"

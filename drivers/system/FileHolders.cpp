@@ -7,7 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "core/base/WholeNumber.h"
+#include "core/base/Text.h"
 
 namespace tacto {
 

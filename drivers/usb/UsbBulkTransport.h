@@ -14,7 +14,7 @@
 #include <chrono>
 #include <memory>
 
-#include "core/devices/Transport.h"
+#include "core/devices/TransportPorts.h"
 #include "drivers/usb/UsbContext.h"
 #include "drivers/usb/UsbEndpoints.h"
 

@@ -5,7 +5,7 @@
 #include <libusb.h>
 #include <span>
 
-#include "core/base/GivenOnce.h"
+#include "core/base/Text.h"
 
 namespace tacto {
 

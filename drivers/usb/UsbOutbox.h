@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "core/base/Result.h"
-#include "core/devices/Transport.h"
+#include "core/devices/TransportPorts.h"
 #include "drivers/usb/UsbDevice.h"
 #include "drivers/usb/UsbLine.h"
 

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <limits>
+#include <random>
 #include <vector>
 
 #include "core/acquisition/StreamHealth.h"
@@ -129,3 +130,175 @@ TEST(StreamHealth, LeavesAFewRepeatsToBeCounted) {
     stamps.insert(stamps.begin() + 10, stamps[10]);
     EXPECT_FALSE(stampsAreCoarse(stamps));
 }
+
+namespace tacto::test {
+namespace {
+
+/// What a sensor with that noise, in steps, says at rest.
+SampleBlock samples(std::mt19937& draw, double begin_s, double rate_hz, std::size_t count, double noiseInSteps) {
+    SampleBlock block;
+    std::normal_distribution<double> noise(0, noiseInSteps);
+    for (std::size_t i = 0; i < count; ++i) {
+        block.t_s.push_back(begin_s + static_cast<double>(i) / rate_hz);
+        block.values.push_back(std::round(noise(draw)));
+    }
+    return block;
+}
+
+TEST(Standstill, OfASensorAtRestIsNoneHoweverCoarseItIs) {
+    RecordProperty("hazard", "H7");
+    std::mt19937 draw(7);
+    for (const double noise : {5.0, 1.0, 0.5, 0.3, 0.2}) {
+        Standstill still(1);
+        for (int second = 0; second < 20; ++second) {
+            const auto block = samples(draw, second, 1000, 1000, noise);
+            for (std::size_t i = 0; i < block.t_s.size(); ++i) {
+                SampleBlock one;
+                one.t_s.push_back(block.t_s[i]);
+                one.values.push_back(block.values[i]);
+                still.feed(one);
+                ASSERT_FALSE(still.since()) << noise << " steps of noise, at " << block.t_s[i];
+            }
+        }
+    }
+}
+
+TEST(Standstill, IsFoundWithinTheTimeThatNoiseAllows) {
+    RecordProperty("hazard", "H7");
+    std::mt19937 draw(8);
+    for (const double noise : {5.0, 1.0, 0.5, 0.3}) {
+        Standstill still(1);
+        still.feed(samples(draw, 0, 1000, 3000, noise));
+        const double held = std::round(noise);
+        double found_s = NAN;
+        for (int i = 0; i < 3000 && std::isnan(found_s); ++i) {
+            SampleBlock one;
+            one.t_s.push_back(3 + i * 1e-3);
+            one.values.push_back(held);
+            still.feed(one);
+            if (still.since()) found_s = i * 1e-3;
+        }
+        // By the share of repeats that this noise has: at 0.3 steps nine in ten.
+        EXPECT_LE(found_s, noise >= 0.5 ? 0.15 : 0.4) << noise;
+        EXPECT_GE(found_s, 0.09) << noise;
+        EXPECT_NEAR(*still.since(), 3, 0.1);
+        SampleBlock other;
+        other.t_s.push_back(6.5);
+        other.values.push_back(held + 1);
+        still.feed(other);
+        EXPECT_FALSE(still.since()) << "it moves again";
+    }
+}
+
+TEST(Standstill, OfOneThatNeverMovedIsFoundToo) {
+    RecordProperty("hazard", "H7");
+    Standstill still(3);
+    SampleBlock block;
+    for (int i = 0; i < 40; ++i) {
+        block.t_s.push_back(i * 0.005);
+        block.values.insert(block.values.end(), {0, 0, 9.81});
+    }
+    still.feed(block);
+    EXPECT_TRUE(still.since());
+}
+
+/// Every sample by itself, so that each is judged.
+template <class Judge>
+void feedEach(Standstill& still, const SampleBlock& block, std::size_t channels, Judge judge) {
+    for (std::size_t i = 0; i < block.t_s.size(); ++i) {
+        SampleBlock one;
+        one.t_s.push_back(block.t_s[i]);
+        for (std::size_t c = 0; c < channels; ++c) one.values.push_back(block.values[i * channels + c]);
+        still.feed(one);
+        judge(block.t_s[i]);
+    }
+}
+
+SampleBlock noise(std::mt19937& draw, double begin_s, double rate_hz, std::size_t count, std::size_t channels,
+                  double steps) {
+    SampleBlock block;
+    std::normal_distribution<double> level(0, steps);
+    for (std::size_t i = 0; i < count; ++i) {
+        block.t_s.push_back(begin_s + static_cast<double>(i) / rate_hz);
+        for (std::size_t c = 0; c < channels; ++c) block.values.push_back(std::round(level(draw)));
+    }
+    return block;
+}
+
+TEST(Standstill, OfOneAxisOrOfABlockThatRepeatsIsFound) {
+    RecordProperty("hazard", "H7");
+    std::mt19937 draw(9);
+    const auto whole = [&](std::size_t low, std::size_t high) {
+        return std::uniform_int_distribution<std::size_t>(low, high)(draw);
+    };
+    for (int trial = 0; trial < 60; ++trial) {
+        const double rate_hz = std::uniform_real_distribution(200.0, 4000.0)(draw);
+        const std::size_t channels = 3, period = whole(1, Standstill::kPeriods);
+        const double steps = std::uniform_real_distribution(1.0, 50.0)(draw);
+        const auto before = whole(2000, 6000), after = static_cast<std::size_t>(0.6 * rate_hz) + 200;
+        auto block = noise(draw, 0, rate_hz, before + after, channels, steps);
+        const std::size_t axis = whole(0, channels);  // channels: all of them
+        for (std::size_t i = before; i < before + after; ++i) {
+            for (std::size_t c = 0; c < channels; ++c) {
+                if (axis == channels || axis == c)
+                    block.values[i * channels + c] = block.values[(i - period) * channels + c];
+            }
+        }
+        Standstill still(channels, true);
+        const double begin_s = block.t_s[before];
+        double found_s = NAN;
+        feedEach(still, block, channels, [&](double t_s) {
+            if (const auto since = still.repeatsSince(); since && std::isnan(found_s)) {
+                found_s = t_s;
+                EXPECT_NEAR(*since, begin_s, 0.05 + 3 / rate_hz) << trial;
+            }
+        });
+        EXPECT_GT(found_s, begin_s) << trial << ": not before it hangs";
+        EXPECT_LE(found_s - begin_s, 0.11 + 41 / rate_hz) << trial << ", period " << period << ", axis " << axis;
+    }
+}
+
+TEST(Standstill, OfAFingertipThatFeelsIsNone) {
+    RecordProperty("hazard", "H7");
+    std::mt19937 draw(10);
+    for (const double steps : {50.0, 5.0, 1.0, 0.5, 0.3, 0.1}) {
+        Standstill still(3, true);
+        feedEach(still, noise(draw, 0, 1000, 20'000, 3, steps), 3,
+                 [&](double t_s) { ASSERT_FALSE(still.repeatsSince()) << steps << " steps of noise, at " << t_s; });
+    }
+    // A board may lack an axis: nothing hangs there.
+    Standstill two(3, true);
+    auto block = noise(draw, 0, 1000, 5000, 3, 5);
+    for (std::size_t i = 0; i < block.t_s.size(); ++i) block.values[i * 3 + 1] = 0;
+    two.feed(block);
+    EXPECT_FALSE(two.repeatsSince());
+    EXPECT_FALSE(two.since());
+}
+
+/// Ten minutes of hanging teach nothing: the next time it is found as soon.
+TEST(Standstill, IsNoNoiseHoweverLongItLasts) {
+    RecordProperty("hazard", "H7");
+    std::mt19937 draw(11);
+    Standstill still(1);
+    const double rate_hz = 100;
+    double t_s = 0;
+    for (const std::size_t hangs : {60'000UL, 600UL, 60'000UL, 600UL}) {
+        still.feed(noise(draw, t_s, rate_hz, 400, 1, 3));
+        t_s += 400 / rate_hz;
+        EXPECT_FALSE(still.since());
+        SampleBlock block;
+        for (std::size_t i = 0; i < hangs; ++i) {
+            block.t_s.push_back(t_s + static_cast<double>(i) / rate_hz);
+            block.values.push_back(17);
+        }
+        double found_s = NAN;
+        feedEach(still, block, 1, [&](double now_s) {
+            if (std::isnan(found_s) && still.since()) found_s = now_s;
+        });
+        EXPECT_LE(found_s - t_s, 0.4);
+        t_s += static_cast<double>(hangs) / rate_hz;
+    }
+}
+
+}  // namespace
+}  // namespace tacto::test

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/base/NaN.h"
 #include "core/base/RecordFields.h"
+#include "core/base/Statistics.h"
 #include "core/base/Units.h"
 
 namespace tacto {

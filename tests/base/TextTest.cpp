@@ -1,6 +1,8 @@
 #include <cmath>
+#include <cstdint>
 #include <gtest/gtest.h>
 #include <limits>
+#include <string>
 
 #include "core/base/Text.h"
 
@@ -62,3 +64,50 @@ TEST(Trimmed, RemovesBlanksAtBothEnds) {
 
 }  // namespace
 }  // namespace tacto
+
+namespace tacto::test {
+namespace {
+
+TEST(Ascii, FoldsTheLettersAToZAndNoOtherByte) {
+    const std::string small = "abcdefghijklmnopqrstuvwxyz", large = "ABCDEFGHIJKLMNOPQRSTUVWXYZ";
+    for (int code = 0; code < 256; ++code) {
+        const char byte = static_cast<char>(code);
+        const auto isSmall = small.find(byte), isLarge = large.find(byte);
+        EXPECT_EQ(lowered(byte), isLarge == std::string::npos ? byte : small[isLarge]) << code;
+        EXPECT_EQ(capital(byte), isSmall == std::string::npos ? byte : large[isSmall]) << code;
+    }
+    EXPECT_EQ(lowered("TIME, CH1 (V) ÄÖÜ İI"), "time, ch1 (v) ÄÖÜ İi");
+    EXPECT_EQ(capitals("dışçi, 2.000v/div"), "DışçI, 2.000V/DIV");
+}
+
+TEST(Ascii, TwoTextsAreTheSameButForCapitals) {
+    EXPECT_TRUE(sameLetters("Isense", "ISENSE"));
+    EXPECT_TRUE(sameLetters("RIGOL DS1054Z", "Rigol ds1054z"));
+    EXPECT_TRUE(sameLetters("", ""));
+    EXPECT_FALSE(sameLetters("Isense", "Isens"));
+    EXPECT_FALSE(sameLetters("ı", "i"));
+    EXPECT_FALSE(sameLetters("[", "{")) << "what stands 32 beside another is not its capital";
+}
+
+}  // namespace
+}  // namespace tacto::test
+
+// Whole numbers: all of a text, or nothing.
+namespace tacto::test {
+namespace {
+
+TEST(WholeNumber, IsTheWholeText) {
+    EXPECT_EQ(parseWhole<int>("42"), 42);
+    EXPECT_EQ(parseWhole<int>("-42"), -42);
+    EXPECT_EQ(parseWhole<std::uint8_t>("fF", 16), 255);
+    for (const auto* text : {"", " 1", "1 ", "+1", "1.0", "0x1", "1e3"}) EXPECT_FALSE(parseWhole<int>(text)) << text;
+}
+
+TEST(WholeNumber, IsNothingWhereTheTypeCannotHoldIt) {
+    EXPECT_FALSE(parseWhole<std::uint8_t>("256"));
+    EXPECT_FALSE(parseWhole<std::uint16_t>("-1"));
+    EXPECT_FALSE(parseWhole<std::uint64_t>("18446744073709551616"));
+}
+
+}  // namespace
+}  // namespace tacto::test

@@ -62,6 +62,11 @@ protected:
     [[nodiscard]] Result<void> arm(const std::string& load = "1 kohm") {
         return bench_->arm(ArmRequest{load, true, true});
     }
+    /// By hand at R and P.
+    [[nodiscard]] Result<void> armAndDrive(double R, double P, const std::string& load = "1 kohm") {
+        if (auto armed = arm(load); !armed) return armed;
+        return bench_->drive(DriveSource::Manual, R, P);
+    }
     [[nodiscard]] InterlockState state() const { return bench_->telemetry().state; }
 
     std::uint64_t seed_ = 1;

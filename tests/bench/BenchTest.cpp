@@ -28,8 +28,7 @@ TEST_F(BenchTest, ArmsOnTheDeclaredLoadAndDeliversTrainsAtTheInterval) {
 
 TEST_F(BenchTest, CapturesWhatTheLoadReceivesOnsetToOnset) {
     open({});
-    ASSERT_TRUE(arm());
-    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    ASSERT_TRUE(armAndDrive(1, 1));
     const auto captures = bench_->capture(3, ScopeSettings{});
     ASSERT_TRUE(captures) << captures.error().message;
     ASSERT_EQ(captures->size(), 3U);
@@ -55,8 +54,7 @@ TEST_F(BenchTest, ShowsTheSignalUntriggeredWhenNoTriggerComes) {
     EXPECT_NEAR(quiet->back().start_s - quiet->front().start_s, 0.31, 0.03) << "again after another wait";
 
     // With trains every half second, longer waits are never over.
-    ASSERT_TRUE(arm());
-    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    ASSERT_TRUE(armAndDrive(1, 1));
     ASSERT_TRUE(bench_->wait(Seconds(1)));
     ASSERT_TRUE(bench_->requestCaptures(3, ScopeSettings{}, Seconds(0.8)));
     ASSERT_TRUE(bench_->wait(Seconds(2)));
@@ -78,8 +76,7 @@ TEST_F(BenchTest, NothingUntriggeredComesUnasked) {
 
 TEST_F(BenchTest, APressIsFeltAtOnceWhenTheIntervalShrinks) {
     open({});
-    ASSERT_TRUE(arm());
-    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 0, 0));
+    ASSERT_TRUE(armAndDrive(0, 0));
     ASSERT_TRUE(bench_->wait(Seconds(1)));  // one train at about 0 s, the next due at 2 s
     ASSERT_EQ(bench_->telemetry().trainsDelivered, 1U);
     ASSERT_TRUE(bench_->drive(DriveSource::Manual, 0, 1));
@@ -114,8 +111,7 @@ TEST_F(BenchTest, AnElectrodeThatLiftsStopsOutputBeforeTheNextTrain) {
     RecordProperty("hazard", "H3");
     for (const auto* fault : {"open@3.1s", "short@3.1s"}) {
         open({std::string("sim:stimulator?fault=") + fault});
-        ASSERT_TRUE(arm());
-        ASSERT_TRUE(bench_->drive(DriveSource::Manual, 0, 0.5));
+        ASSERT_TRUE(armAndDrive(0, 0.5));
         const auto waited = bench_->wait(Seconds(20));
         ASSERT_FALSE(waited) << fault;
         EXPECT_EQ(waited.error().code, ErrorCode::Device) << waited.error().message;
@@ -134,8 +130,7 @@ TEST_F(BenchTest, AFaultSaysWhetherTheDeviceWasLateOrWrong) {
     for (const auto& [fault, code] :
          {std::pair{"late", ErrorCode::Timeout}, {"unplug", ErrorCode::Device}, {"garbage", ErrorCode::Device}}) {
         open({fmt::format("sim:stimulator?fault={}@3.1s", fault)});
-        ASSERT_TRUE(arm());
-        ASSERT_TRUE(bench_->drive(DriveSource::Manual, 0, 0.5));
+        ASSERT_TRUE(armAndDrive(0, 0.5));
         const auto waited = bench_->wait(Seconds(20));
         ASSERT_FALSE(waited) << fault;
         EXPECT_EQ(waited.error().code, code) << waited.error().message;
@@ -148,8 +143,7 @@ TEST_F(BenchTest, AFaultSaysWhetherTheDeviceWasLateOrWrong) {
 TEST_F(BenchTest, ASilentControlLoopIsLatenessAndNoFaultOfADevice) {
     RecordProperty("hazard", "H2");
     open({});
-    ASSERT_TRUE(arm());
-    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 0, 0.5));
+    ASSERT_TRUE(armAndDrive(0, 0.5));
     ASSERT_TRUE(bench_->wait(Seconds(3)));
     ASSERT_TRUE(bench_->withholdHeartbeat(Seconds(1)));
     const auto waited = bench_->wait(Seconds(1));
@@ -162,8 +156,7 @@ TEST_F(BenchTest, AnOverLimitTrainIsRefusedWithItsLimitAndNeverDelivered) {
     RecordProperty("hazard", "H1");
     // 40 V every 0.5 s is 11.3 mA RMS into 100 ohm; the paper allows less than 10 mA.
     open({"sim:stimulator?load=100ohm"}, {Role::Stimulator}, false, "100 ohm");
-    ASSERT_TRUE(arm("100 ohm"));
-    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    ASSERT_TRUE(armAndDrive(1, 1, "100 ohm"));
     const auto waited = bench_->wait(Seconds(3));
     ASSERT_FALSE(waited);
     EXPECT_EQ(waited.error().code, ErrorCode::LimitExceeded);
@@ -174,8 +167,7 @@ TEST_F(BenchTest, AnOverLimitTrainIsRefusedWithItsLimitAndNeverDelivered) {
 TEST_F(BenchTest, StopVoidsEverythingAndEndsWaiting) {
     RecordProperty("hazard", "H2");
     open({});
-    ASSERT_TRUE(arm());
-    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    ASSERT_TRUE(armAndDrive(1, 1));
     ASSERT_TRUE(bench_->wait(Seconds(2)));
     const auto delivered = bench_->telemetry().trainsDelivered;
     bench_->stop("test");
@@ -208,8 +200,7 @@ TEST_F(BenchTest, FaultsOfTheStimulatorEndInSilence) {
 TEST_F(BenchTest, ASourceThatDriftsAboveItsCommandStopsOutput) {
     RecordProperty("hazard", "H1");
     open({"sim:stimulator?fault=drift@1s"});
-    ASSERT_TRUE(arm());
-    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 0, 1));
+    ASSERT_TRUE(armAndDrive(0, 1));
     EXPECT_FALSE(bench_->wait(Seconds(60)));
     EXPECT_LT(bench_->clock().now(), 13s) << "2 % a second: 20 % after ten";
     EXPECT_EQ(state(), InterlockState::Faulted);
@@ -230,8 +221,7 @@ TEST_F(BenchTest, AResetLeavesNoFaultWhoseCauseIsStillThere) {
     RecordProperty("hazard", "H3");
     for (const auto* fault : {"open@3.1s", "short@3.1s"}) {
         open({std::string("sim:stimulator?fault=") + fault});
-        ASSERT_TRUE(arm());
-        ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+        ASSERT_TRUE(armAndDrive(1, 1));
         ASSERT_FALSE(bench_->wait(Seconds(20)));
         const auto delivered = bench_->telemetry().trainsDelivered;
         ASSERT_TRUE(bench_->resetFault());
@@ -352,8 +342,7 @@ TEST_F(BenchTest, AFingerThatComesToRestReadsSmoothNotRough) {
 TEST_F(BenchTest, AStuckStimulatorIsFoundWithoutReadBackToo) {
     RecordProperty("hazard", "H2");
     open({"sim:stimulator?readback=no&fault=stuck-on@2.2s"});
-    ASSERT_TRUE(arm());
-    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 0, 1));
+    ASSERT_TRUE(armAndDrive(0, 1));
     EXPECT_FALSE(bench_->wait(Seconds(6)));
     EXPECT_EQ(state(), InterlockState::Faulted);
     EXPECT_LE(bench_->clock().now(), 2.7s);
@@ -373,8 +362,7 @@ TEST_F(BenchTest, ADeviceWithoutReadBackArmsOnlyOnAConfirmedLoad) {
 TEST_F(BenchTest, DisarmingEndsTheDriveToo) {
     RecordProperty("hazard", "H2");
     open({}, {Role::Stimulator});
-    ASSERT_TRUE(arm());
-    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    ASSERT_TRUE(armAndDrive(1, 1));
     ASSERT_TRUE(bench_->wait(Seconds(0.2)));
     bench_->disarm();
     const auto delivered = bench_->telemetry().trainsDelivered;
@@ -386,8 +374,7 @@ TEST_F(BenchTest, DisarmingEndsTheDriveToo) {
 TEST_F(BenchTest, AFaultIsLeftOnlyWhenItsCauseIsGone) {
     RecordProperty("hazard", "H2");
     open({"sim:stimulator?fault=unplug@2s..8s"});
-    ASSERT_TRUE(arm());
-    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 0, 1));
+    ASSERT_TRUE(armAndDrive(0, 1));
     ASSERT_FALSE(bench_->wait(Seconds(5)));
     ASSERT_EQ(state(), InterlockState::Faulted);
     EXPECT_EQ(bench_->faults(), 1U);
@@ -400,8 +387,7 @@ TEST_F(BenchTest, AFaultIsLeftOnlyWhenItsCauseIsGone) {
 TEST_F(BenchTest, ACurrentSourceGetsCurrentFromTheMeasuredImpedance) {
     RecordProperty("hazard", "H4");
     open({"sim:stimulator?mode=current&load=2kohm"}, {Role::Stimulator, Role::Oscilloscope}, false, "2 kohm");
-    ASSERT_TRUE(arm("2 kohm"));
-    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    ASSERT_TRUE(armAndDrive(1, 1, "2 kohm"));
     const auto captures = bench_->capture(2, ScopeSettings{});
     ASSERT_TRUE(captures) << captures.error().message;
     const auto measured = measureTrains(*captures, "current");
@@ -413,8 +399,7 @@ TEST_F(BenchTest, ACaptureCarriesWhatItsOwnTrainWasTold) {
     RecordProperty("hazard", "H9");
     profile_.encoding.amplitudeSlew_V_per_s = 20;  // every train is programmed to something else
     open({});
-    ASSERT_TRUE(arm());
-    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 0, 1));
+    ASSERT_TRUE(armAndDrive(0, 1));
     ASSERT_TRUE(bench_->wait(Seconds(1)));
     ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
     const auto captures = bench_->capture(3, ScopeSettings{});
@@ -434,8 +419,7 @@ TEST_F(BenchTest, TheSameSeedGivesTheSameSamples) {
     std::vector<double> samples[2];
     for (auto& seen : samples) {
         open({"sim:stimulator?jitter=20us"});
-        ASSERT_TRUE(arm());
-        ASSERT_TRUE(bench_->drive(DriveSource::Manual, 0.5, 1));
+        ASSERT_TRUE(armAndDrive(0.5, 1));
         const auto captures = bench_->capture(3, ScopeSettings{});
         ASSERT_TRUE(captures) << captures.error().message;
         for (const auto& capture : *captures) {
@@ -485,8 +469,7 @@ TEST_F(BenchTest, ACurrentSourceDeliversTheLargestCommandHoweverItsLoadReads) {
     for (const char* load : {"0.95 kohm", "1 kohm", "1.1 kohm"}) {
         open({fmt::format("sim:stimulator?mode=current&load={}", load)}, {Role::Stimulator, Role::Oscilloscope}, false,
              "1 kohm");
-        ASSERT_TRUE(arm());
-        ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+        ASSERT_TRUE(armAndDrive(1, 1));
         const auto waited = bench_->wait(Seconds(20));
         ASSERT_TRUE(waited) << load << ": " << waited.error().message;
         const auto captures = bench_->capture(3, ScopeSettings{});
@@ -499,8 +482,7 @@ TEST_F(BenchTest, AProfileBeyondTheCommandIsRefusedForACurrentSourceToo) {
     RecordProperty("hazard", "H1");
     profile_.encoding.amplitudeMax = Volts(40.5);
     open({"sim:stimulator?mode=current"});
-    ASSERT_TRUE(arm());
-    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    ASSERT_TRUE(armAndDrive(1, 1));
     const auto waited = bench_->wait(Seconds(3));
     ASSERT_FALSE(waited);
     EXPECT_NE(waited.error().message.find("commanded voltage would be 40.5 V"), std::string::npos)

@@ -25,14 +25,12 @@ protected:
 TEST_F(CalibratedBenchTest, TellsAWeakStimulatorMoreAndStaysWithinTheCommand) {
     RecordProperty("hazard", "H1");
     open({"sim:stimulator?gain=0.95", "sim:oscilloscope?gain=1"});
-    ASSERT_TRUE(arm());
-    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    ASSERT_TRUE(armAndDrive(1, 1));
     EXPECT_NEAR(deliveredAtFull(), 38, 0.3);
 
     calibration_ = weak_;
     open({"sim:stimulator?gain=0.95", "sim:oscilloscope?gain=1"});
-    ASSERT_TRUE(arm());
-    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    ASSERT_TRUE(armAndDrive(1, 1));
     EXPECT_NEAR(deliveredAtFull(), 40, 0.3) << "programmed 42.1 V, and the paper's 40 V are judged by what comes out";
     EXPECT_NEAR(bench_->telemetry().trainAmplitude, 40 / 0.95, 0.01);
     const auto seen = bench_->telemetry();
@@ -72,8 +70,7 @@ TEST_F(CalibratedBenchTest, PhaseGapAndIntervalComeOutAsTheProfileSays) {
     // Left aside, all of them are.
     bench_->disarm();
     ASSERT_TRUE(bench_->useCalibration(false));
-    ASSERT_TRUE(arm());
-    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    ASSERT_TRUE(armAndDrive(1, 1));
     const auto captures = bench_->capture(3, ScopeSettings{});
     ASSERT_TRUE(captures) << captures.error().message;
     EXPECT_NEAR(measureTrains(*captures, "voltage")->gap_s.mean, 93.602e-6 * 1.004, 0.3e-6);
@@ -122,8 +119,7 @@ TEST_F(CalibratedBenchTest, AWrongCalibrationCannotPassALimit) {
     // mA RMS.
     calibration_ = weak_;
     open({}, {Role::Stimulator, Role::Oscilloscope}, false, "140 ohm");
-    ASSERT_TRUE(arm("140 ohm"));
-    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    ASSERT_TRUE(armAndDrive(1, 1, "140 ohm"));
     const auto waited = bench_->wait(Seconds(3));
     ASSERT_FALSE(waited);
     EXPECT_NE(waited.error().message.find("RMS current over 5 s"), std::string::npos) << waited.error().message;
@@ -135,8 +131,7 @@ TEST_F(CalibratedBenchTest, OneThatNoLongerHoldsIsNotAppliedAndStillJudgedBy) {
     calibration_ = StimulatorCalibration{{1.18, 0, 10, 40}};
     calibrationHolds_ = false;
     open({}, {Role::Stimulator, Role::Oscilloscope}, false, "150 ohm");
-    ASSERT_TRUE(arm("150 ohm"));
-    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    ASSERT_TRUE(armAndDrive(1, 1, "150 ohm"));
     const auto waited = bench_->wait(Seconds(3));
     ASSERT_FALSE(waited);
     EXPECT_NE(waited.error().message.find("RMS current over 5 s"), std::string::npos) << waited.error().message;
@@ -144,8 +139,7 @@ TEST_F(CalibratedBenchTest, OneThatNoLongerHoldsIsNotAppliedAndStillJudgedBy) {
 
     // The command is what is programmed: 40 V on 1 kohm go out as they are.
     open({});
-    ASSERT_TRUE(arm());
-    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    ASSERT_TRUE(armAndDrive(1, 1));
     EXPECT_NEAR(deliveredAtFull(), 40, 0.3);
     EXPECT_NEAR(bench_->telemetry().trainAmplitude, 40, 1e-9);
 }
@@ -166,8 +160,7 @@ TEST_F(CalibratedBenchTest, LeavesItAsideOnlyWhileDisarmedAndRecordsIt) {
     bench_->disarm();
     ASSERT_TRUE(bench_->useCalibration(false));
     EXPECT_FALSE(bench_->calibration());
-    ASSERT_TRUE(arm());
-    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    ASSERT_TRUE(armAndDrive(1, 1));
     EXPECT_NEAR(deliveredAtFull(), 38, 0.4);
     bench_.reset();
     ASSERT_TRUE((*writer)->close());
@@ -227,8 +220,7 @@ TEST_F(CalibratedBenchTest, WhatIsReadBackIsComparedWithTheCommandAndNotWithWhat
     // It says the stimulator is weak; it is strong. 47.05 V are programmed for 40, and 49.4 come out.
     calibration_ = StimulatorCalibration{{0.85, 0, 10, 40}};
     open({"sim:stimulator?gain=1.05"});
-    ASSERT_TRUE(arm());
-    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    ASSERT_TRUE(armAndDrive(1, 1));
     const auto waited = bench_->wait(Seconds(3));
     ASSERT_FALSE(waited);
     EXPECT_NE(waited.error().message.find("the stimulator reads back 49."), std::string::npos)
@@ -241,8 +233,7 @@ TEST_F(CalibratedBenchTest, ACalibrationThatWouldTellMoreThanAFifthBesideTheComm
     RecordProperty("hazard", "H1");
     calibration_ = StimulatorCalibration{{0.81, 0, 10, 40}};  // 49.4 V for 40
     open({});
-    ASSERT_TRUE(arm());
-    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    ASSERT_TRUE(armAndDrive(1, 1));
     const auto waited = bench_->wait(Seconds(3));
     ASSERT_FALSE(waited);
     EXPECT_NE(waited.error().message.find("program 49.38 for the amplitude 40"), std::string::npos)
@@ -254,8 +245,7 @@ TEST_F(CalibratedBenchTest, ACaptureThatShowsAnotherAmplitudeThanTheCommandFault
     RecordProperty("hazard", "H1");
     for (const auto& [gain, off] : {std::pair{"1.3", "51."}, std::pair{"0.7", "2"}}) {
         open({fmt::format("sim:oscilloscope?gain={}&noise=0", gain)});
-        ASSERT_TRUE(arm());
-        ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+        ASSERT_TRUE(armAndDrive(1, 1));
         ScopeSettings settings;
         settings.voltageRange = Volts(80);
         // The capture itself may come before the fault it causes; what follows may not.

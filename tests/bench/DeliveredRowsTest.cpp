@@ -102,8 +102,7 @@ TEST_F(DeliveredRows, EveryChangeOfEncodingAndAreaIsAnEvent) {
 TEST_F(DeliveredRows, AResumedOutputIsAnEvent) {
     record();
     open({});
-    ASSERT_TRUE(arm());
-    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+    ASSERT_TRUE(armAndDrive(1, 1));
     ASSERT_TRUE(bench_->wait(Seconds(1)));
     bench_->pause();
     bench_->idle(Seconds(1));

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "core/bench/sensing/CaptureLoad.h"
-#include "core/session/Marks.h"
+#include "core/session/Origin.h"
 #include "core/session/SessionReader.h"
 #include "drivers/simulated/SimulatedStimulator.h"
 #include "tests/bench/BenchFixture.h"
@@ -128,8 +128,7 @@ TEST_F(DeliveredTruth, AReadBackOfNothingIsNoTrain) {
                   if (said.amplitude) *said.amplitude *= share;
               }});
         open({"sim:stimulator?mode=current&step=0.5mA"}, {Role::Stimulator});
-        ASSERT_TRUE(arm());
-        ASSERT_TRUE(bench_->drive(DriveSource::Manual, 0, 1));
+        ASSERT_TRUE(armAndDrive(0, 1));
         EXPECT_FALSE(bench_->wait(Seconds(5))) << share;
         EXPECT_EQ(trains_, 3) << share << ": " << reason();
         EXPECT_THAT(reason(), HasSubstr("the stimulator reads back"));
@@ -458,9 +457,8 @@ TEST_F(DeliveredTruth, AMassagerThatRestsIsNoFaultWhateverTheSensorFeels) {
     for (int trial = 0; trial < 16; ++trial) {
         seed_ = static_cast<std::uint64_t>(trial);
         open({"sim:massager", fingers[trial % 4]}, {Role::Massager, Role::Sensor});
-        ASSERT_TRUE(arm());
-        ASSERT_TRUE(bench_->drive(DriveSource::Manual, std::uniform_real_distribution(0.0, 1.0)(draw_),
-                                  std::uniform_real_distribution(0.0, 1.0)(draw_)));
+        ASSERT_TRUE(armAndDrive(std::uniform_real_distribution(0.0, 1.0)(draw_),
+                                std::uniform_real_distribution(0.0, 1.0)(draw_)));
         EXPECT_TRUE(bench_->wait(Seconds(40))) << fingers[trial % 4] << ": " << reason();
     }
 }

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/base/Clock.h"
-#include "core/devices/Massager.h"
+#include "core/devices/Stimulator.h"
 
 namespace tacto::test {
 

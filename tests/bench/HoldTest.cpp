@@ -18,8 +18,7 @@ protected:
     void hold(Hold what, const std::string& mode) {
         profile_.encoding.hold = what;
         open({"sim:stimulator?load=1kohm, drift 1.5 %/s&mode=" + mode});
-        ASSERT_TRUE(arm());
-        ASSERT_TRUE(bench_->drive(DriveSource::Manual, 0.5, 1));  // 25 V, every 0.5 s
+        ASSERT_TRUE(armAndDrive(0.5, 1));  // 25 V, every 0.5 s
     }
     [[nodiscard]] Delivered next() {
         const auto captures = bench_->capture(1, ScopeSettings{});

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <limits>
 
-#include "core/devices/StatesCalibration.h"
+#include "core/devices/Stimulator.h"
 #include "core/electrode/Load.h"
 #include "core/session/SessionReader.h"
 #include "tests/bench/FakeStimulator.h"

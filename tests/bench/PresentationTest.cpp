@@ -227,8 +227,7 @@ TEST_F(PresentationTest, NeedsAnArmedBenchThatDrivesNothing) {
     openPerson();
     const auto wanted = testPresentation(Milliamps(0.5), Seconds(0.5), Seconds(1));
     EXPECT_EQ(bench_->present(wanted).error().code, ErrorCode::NotArmed);
-    ASSERT_TRUE(arm());
-    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 0, 0));
+    ASSERT_TRUE(armAndDrive(0, 0));
     EXPECT_THAT(bench_->present(wanted).error().message, HasSubstr("while the output is driven"));
     ASSERT_TRUE(bench_->drive(DriveSource::Off));
     EXPECT_TRUE(bench_->present(wanted));

@@ -3,7 +3,7 @@
 
 #include "core/base/Csv.h"
 #include "core/bench/Profile.h"
-#include "core/bench/arming/ProfileReach.h"
+#include "core/bench/arming/CommandPreview.h"
 #include "tests/support/Support.h"
 
 namespace tacto {

@@ -2,9 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/base/SystemTime.h"
+#include "core/base/Clock.h"
 #include "core/bench/Bench.h"
-#include "core/bench/arming/ArmingText.h"
+#include "core/bench/arming/CommandPreview.h"
 #include "core/electrode/Load.h"
 #include "core/safety/UnitRecord.h"
 #include "tests/bench/FakeStimulator.h"

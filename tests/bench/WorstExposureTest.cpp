@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-#include "core/bench/delivery/WorstExposure.h"
+#include "core/bench/delivery/ExposureWatch.h"
 
 namespace tacto::test {
 namespace {

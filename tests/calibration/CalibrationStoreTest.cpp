@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/base/NaN.h"
+#include "core/base/Statistics.h"
 #include "core/calibration/CalibrationStore.h"
 #include "tests/calibration/UnnotedLine.h"
 #include "tests/support/Support.h"

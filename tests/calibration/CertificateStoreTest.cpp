@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-#include "core/base/NaN.h"
+#include "core/base/Statistics.h"
 #include "core/calibration/CertificateStore.h"
 #include "tests/support/Support.h"
 

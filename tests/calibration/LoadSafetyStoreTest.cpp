@@ -1,7 +1,9 @@
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <vector>
 
+#include "core/calibration/ChainedLines.h"
 #include "core/calibration/LoadSafetyStore.h"
 #include "tests/calibration/UnnotedLine.h"
 #include "tests/support/Support.h"
@@ -259,6 +261,28 @@ TEST_F(LoadSafetyChecks, OneThatIsNotWholeIsNotKept) {
         EXPECT_THAT(added.error().message, HasSubstr(part));
     }
     EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+TEST(ChainedLines, WhatALineBringsByTheNamesOfTheChainIsTheChains) {
+    RecordProperty("hazard", "H10");
+    const ScratchDir folder;
+    const auto path = folder.path() / "lines.jsonl";
+    for (const int number : {1, 2}) {
+        ChainedLines file(path, "line");
+        const auto added = file.append([&]() -> Result<nlohmann::json> {
+            const auto read = file.read([](const nlohmann::json&) { return Result<void>(); });
+            if (!read) return failure(read);
+            return nlohmann::json{{"number", number}, {"sha256", "claimed"}, {"previous", "claimed"}};
+        });
+        ASSERT_TRUE(added) << added.error().message;
+    }
+    std::vector<int> numbers;
+    const auto read = ChainedLines(path, "line").read([&](const nlohmann::json& line) {
+        numbers.push_back(line.at("number"));
+        return Result<void>();
+    });
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(numbers, (std::vector{1, 2}));
 }
 
 }  // namespace

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "core/devices/DeviceUri.h"
 #include "core/devices/Registry.h"
-#include "core/devices/StatementKeys.h"
 #include "core/measure/InstrumentStatement.h"
 #include "drivers/simulated/SimulatedDriver.h"
 #include "tests/drivers/SimBench.h"

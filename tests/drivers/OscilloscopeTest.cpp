@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <random>
 
-#include "core/devices/ForcedTrigger.h"
+#include "core/devices/Oscilloscope.h"
 #include "drivers/simulated/FilteredTrace.h"
 #include "tests/drivers/SimBench.h"
 

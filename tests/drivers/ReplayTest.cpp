@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <tuple>
 
-#include "core/devices/ReplayedDevice.h"
+#include "core/devices/Device.h"
 #include "core/measure/CaptureFile.h"
 #include "core/measure/PulseMeasurement.h"
 #include "drivers/replay/ReplayDrivers.h"

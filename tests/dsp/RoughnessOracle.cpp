@@ -6,8 +6,8 @@
 #include <limits>
 #include <numbers>
 
-#include "core/base/NaN.h"
 #include "core/base/Random.h"
+#include "core/base/Statistics.h"
 
 namespace tacto::test {
 

@@ -4,7 +4,6 @@
 
 #include "core/base/Random.h"
 #include "core/dsp/PowerSpectrum.h"
-#include "core/dsp/SpectralWindow.h"
 
 namespace tacto::test {
 namespace {

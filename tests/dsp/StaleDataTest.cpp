@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/base/NaN.h"
 #include "core/base/Random.h"
+#include "core/base/Statistics.h"
 #include "core/dsp/RoughnessAnalysis.h"
 #include "tests/dsp/RoughnessOracle.h"
 

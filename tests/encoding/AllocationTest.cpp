@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "core/encoding/Encoder.h"
+#include "core/encoding/PulseTrain.h"
 #include "core/encoding/Rounding.h"
-#include "core/encoding/TrainScheduler.h"
-#include "core/encoding/Waveform.h"
+#include "core/encoding/TrainSeries.h"
 #include "tests/support/Allocations.h"
 
 namespace tacto {
@@ -28,7 +28,7 @@ TEST(EncodingInTheLoop, DoesNotAllocate) {
         const auto wanted = encoder.encode(step / 1000.0, 1 - step / 1000.0);
         const Command next = encoder.limited(last, *wanted, Seconds(0.5));
         scheduler.setInterval(next.interval, now);
-        if (scheduler.isDue(now)) scheduler.trainAt(now);
+        if (*scheduler.due() <= now) scheduler.trainAt(now);
         const auto train = trainFor(Drive::Current, profile, next.amplitude, Ohms(1000));
         const auto rounded = roundToDevice(*train, grid);
         if (synthesize(rounded->train, Hertz(1e5), samples)) sum += samples[0];

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "core/base/NaN.h"
+#include "core/base/Statistics.h"
 #include "core/encoding/EncodingProfile.h"
 
 namespace tacto {

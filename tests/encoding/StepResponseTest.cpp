@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/encoding/StepResponse.h"
-#include "core/encoding/TransitionMap.h"
+#include "core/encoding/Transitions.h"
 
 namespace tacto {
 namespace {

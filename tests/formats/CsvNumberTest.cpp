@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/base/CsvNumber.h"
+#include "core/base/CsvStamp.h"
 #include "core/base/Random.h"
 
 namespace tacto::test {

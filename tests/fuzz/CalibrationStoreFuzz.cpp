@@ -12,7 +12,6 @@
 #include "core/calibration/CertificateStore.h"
 #include "core/calibration/ChainedLines.h"
 #include "core/calibration/LoadSafetyStore.h"
-#include "core/calibration/StoredCalibrationJson.h"
 #include "tests/fuzz/FuzzTarget.h"
 #include "tests/fuzz/InputFile.h"
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "core/measure/InstrumentProfile.h"
+#include "core/measure/InstrumentStatement.h"
 #include "tests/fuzz/FuzzTarget.h"
 
 namespace tacto::fuzz::InstrumentProfileFuzz {

@@ -7,10 +7,9 @@
 #include <span>
 #include <string_view>
 
-#include "core/base/JsonFields.h"
-#include "core/session/AboutJson.h"
-#include "core/session/CaptureBlob.h"
+#include "core/base/JsonText.h"
 #include "core/session/Chunk.h"
+#include "core/session/SessionTypes.h"
 #include "tests/fuzz/FuzzTarget.h"
 
 namespace tacto::fuzz::SessionRows {

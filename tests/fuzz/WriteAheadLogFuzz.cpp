@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "core/base/Clock.h"
+#include "core/session/Database.h"
 #include "core/session/SessionReader.h"
 #include "core/session/SessionVerify.h"
 #include "core/session/SessionWriter.h"
-#include "core/session/WalScan.h"
 #include "tests/fuzz/FuzzTarget.h"
 #include "tests/fuzz/InputFile.h"
 

@@ -89,11 +89,11 @@ TEST(Sources, TheUsersDataLieWhereOneFunctionSays) {
     forSources({"app", "core", "drivers"}, [&](const fs::path& file, const std::string& text) {
         if (text.find("getenv(\"XDG_DATA_HOME\")") != std::string::npos) asking.push_back(file.string());
     });
-    EXPECT_THAT(asking, testing::ElementsAre("core/base/DataFolder.cpp"));
+    EXPECT_THAT(asking, testing::ElementsAre("core/base/ProgramStart.cpp"));
 }
 
 // Qt sets the locale of the C library, and std::locale("") has it too: letters are not folded in Turkish, and numbers
-// have a decimal comma in German. core/base/Ascii.h, core/base/Text.h and fmt follow none.
+// have a decimal comma in German. core/base/Text.h and fmt follow none.
 const std::set<std::string_view> kFollowsTheLocale{
     "tolower",  "toupper",  "towlower",  "towupper", "isalnum",    "isalpha",  "isblank",  "iscntrl",    "isdigit",
     "isgraph",  "islower",  "isprint",   "ispunct",  "isspace",    "isupper",  "isxdigit", "iswalpha",   "iswspace",

@@ -1,5 +1,6 @@
 // What is stated of an oscilloscope, by whom, and what is not: unknown is never zero (hazard H9).
 #include <cmath>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/measure/CaptureDescription.h"
@@ -112,3 +113,141 @@ TEST(CaptureDescription, OfASessionOfBeforeZeroIsNotStated) {
 
 }  // namespace
 }  // namespace tacto
+
+// What a profile of a series states, which instruments it is of, and what is refused (hazard H9: no figure without a
+// source, unknown is not zero).
+namespace tacto::test {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* kSource =
+    R"("source": "a sheet, page 3", "address": "https://example.org/3", "confidence": "high")";
+const std::string kGain = fmt::format(R"({{"pct": 2, "of": "full scale", {}}})", kSource);
+const std::string kTimeBase = fmt::format(R"({{"ppm": 25, "ppm_per_year": 5, {}}})", kSource);
+
+std::string profileText(const std::string& gain = kGain, const std::string& timeBase = kTimeBase,
+                        const std::string& models = R"(["DS2072", "DS21*"])") {
+    return fmt::format(
+        R"({{"id": "x", "title": "Rigol DS2000", "makers": ["Rigol"], "models": {}, "gain": {}, "time_base": {}}})",
+        models, gain, timeBase);
+}
+InstrumentProfile profileOf(const std::string& text) {
+    auto profile = parseInstrumentProfile(text, "x.json");
+    EXPECT_TRUE(profile) << profile.error().message;
+    return profile.value_or(InstrumentProfile{});
+}
+std::string refusalOf(const std::string& text) {
+    const auto profile = parseInstrumentProfile(text, "x.json");
+    return profile ? "accepted" : profile.error().message;
+}
+std::string with(std::string text, const std::string& from, const std::string& to) {
+    const auto at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return text.replace(at, from.size(), to);
+}
+
+TEST(InstrumentProfile, MatchesItsMakersModelsAndNoOthers) {
+    const auto profile = profileOf(profileText());
+    for (const char* name : {"Rigol DS2072", "RIGOL ds2072", "Rigol DS2102", "Rigol DS21", "Rigol DS2102A"}) {
+        EXPECT_TRUE(profile.matches(name)) << name;
+    }
+    for (const char* name : {"Rigol DS2072A", "Rigol DS2202", "Rigol DS1054Z", "Agilent DS2072", "Rigol", "Rigol ",
+                             "DS2072", "RigolDS2072", "", "a Rigol DS2072", "Rigol  DS2072"}) {
+        EXPECT_FALSE(profile.matches(name)) << name;
+    }
+}
+
+TEST(InstrumentProfile, AGainOfFullScaleLeavesNothingOfTheReading) {
+    const auto statement = profileOf(profileText()).statement();
+    for (const auto* channel : {&statement.voltage, &statement.current}) {
+        EXPECT_DOUBLE_EQ(channel->gain.value, 0);
+        EXPECT_DOUBLE_EQ(channel->linearity.value, 0.02);
+        EXPECT_EQ(channel->linearity.by, "data sheet of the Rigol DS2000");
+        EXPECT_FALSE(channel->probe.known()) << "no sheet of an oscilloscope knows the probe";
+        EXPECT_FALSE(channel->offset.known());
+    }
+    EXPECT_FALSE(statement.stamp_s.known());
+}
+
+TEST(InstrumentProfile, AGainOfTheReadingIsOne) {
+    const auto statement = profileOf(profileText(with(kGain, "full scale", "reading"))).statement();
+    EXPECT_DOUBLE_EQ(statement.voltage.gain.value, 0.02);
+    EXPECT_FALSE(statement.voltage.linearity.known());
+}
+
+TEST(InstrumentProfile, TheTimeBaseHasAgedTenYears) {
+    EXPECT_DOUBLE_EQ(profileOf(profileText()).statement().timeBase.value, 75e-6);
+    const auto steady = with(kTimeBase, R"("ppm_per_year": 5, )", "");
+    EXPECT_DOUBLE_EQ(profileOf(profileText(kGain, steady)).statement().timeBase.value, 25e-6);
+}
+
+TEST(InstrumentProfile, WhatIsNullStaysUnknown) {
+    const auto none = profileOf(profileText("null", "null")).statement();
+    EXPECT_FALSE(none.voltage.gain.known());
+    EXPECT_FALSE(none.voltage.linearity.known());
+    EXPECT_FALSE(none.timeBase.known());
+}
+
+TEST(InstrumentProfile, TheAddressOverridesTheSheetFigureByFigure) {
+    InstrumentStatement address;
+    address.voltage.gain = {0.005, "the device's address"};
+    const auto both = merged(profileOf(profileText()).statement(), address);
+    EXPECT_DOUBLE_EQ(both.voltage.gain.value, 0.005);
+    EXPECT_FALSE(both.voltage.linearity.known()) << "a gain of the reading replaces the sheet's of full scale";
+    EXPECT_DOUBLE_EQ(both.current.linearity.value, 0.02);
+    EXPECT_DOUBLE_EQ(both.timeBase.value, 75e-6);
+}
+
+TEST(InstrumentProfile, ReachesTheChannelsAndSaysWhoStatesIt) {
+    Capture capture;
+    capture.channels = {{"voltage", "V", {0}, -20, 20, 0.1}, {"current", "A", {0}, 0, 0, 1e-4}};
+    applyStatement(capture, profileOf(profileText()).statement());
+    EXPECT_DOUBLE_EQ(capture.channels[0].gainTolerance, 0);
+    EXPECT_DOUBLE_EQ(capture.channels[0].linearityTolerance, 0.8) << "2 % of 40 V";
+    EXPECT_THAT(capture.channels[0].statedBy, HasSubstr("data sheet of the Rigol DS2000"));
+    EXPECT_TRUE(std::isnan(capture.channels[1].gainTolerance)) << "of an unknown range nothing can be a share";
+    EXPECT_DOUBLE_EQ(capture.timeBaseTolerance, 75e-6);
+    EXPECT_TRUE(std::isnan(capture.stampTolerance_s));
+}
+
+TEST(InstrumentProfile, AFigureNeedsItsSourceItsAddressAndAConfidence) {
+    for (const char* key : {"source", "address", "confidence"}) {
+        for (const bool inGain : {true, false}) {
+            const auto without = with(inGain ? kGain : kTimeBase, fmt::format("\"{}\": ", key), "\"condition\": ");
+            EXPECT_THAT(refusalOf(inGain ? profileText(without) : profileText(kGain, without)),
+                        HasSubstr(fmt::format("\"{}\" is missing", key)));
+        }
+    }
+    EXPECT_THAT(refusalOf(profileText(with(kGain, "a sheet, page 3", ""))), HasSubstr("a text that is not empty"));
+    EXPECT_THAT(refusalOf(profileText(with(kGain, R"("high")", R"("sure")"))),
+                HasSubstr(R"("confidence" is "sure"; high, medium, medium-low or low was expected)"));
+}
+
+TEST(InstrumentProfile, RefusesFiguresThatAreNone) {
+    for (const char* value : {"-1", "50.1", "\"2\"", "null", "[2]", "true"}) {
+        EXPECT_THAT(refusalOf(profileText(with(kGain, "2,", fmt::format("{},", value)))),
+                    HasSubstr("a number from 0 to 50"))
+            << value;
+        EXPECT_THAT(refusalOf(profileText(kGain, with(kTimeBase, "5, \"source", fmt::format("{}, \"source", "-5")))),
+                    HasSubstr("a number from 0 to 100000"));
+    }
+    EXPECT_THAT(refusalOf(profileText(with(kGain, "2,", "NaN,"))), HasSubstr("x.json"));
+    EXPECT_THAT(refusalOf(profileText(with(kGain, "full scale", "screen"))),
+                HasSubstr("reading or full scale was expected"));
+}
+
+TEST(InstrumentProfile, RefusesKeysAndNamesThatItDoesNotKnow) {
+    EXPECT_THAT(refusalOf(profileText(with(kGain, "\"pct\"", "\"probe_pct\": 1, \"pct\""))), HasSubstr("probe_pct"));
+    EXPECT_THAT(refusalOf(with(profileText(), "\"gain\":", "\"gains\":")), HasSubstr("gains"));
+    EXPECT_THAT(refusalOf(with(profileText(), "\"gain\":", "\"note\": \"\", \"gain\":")), HasSubstr("\"note\""));
+    for (const char* models : {"[]", "\"DS2072\"", "[\"\"]", "[\"*\"]", "[\"DS*2\"]", "[\"DS**\"]", "[7]"}) {
+        EXPECT_THAT(refusalOf(profileText(kGain, kTimeBase, models)), HasSubstr("\"models")) << models;
+    }
+    EXPECT_THAT(refusalOf(with(profileText(), R"(["Rigol"])", R"(["*"])")), HasSubstr("a maker's name"));
+    EXPECT_THAT(refusalOf(profileText("2")), HasSubstr("x.json: gain: 2 stands where an object is expected"));
+    EXPECT_THAT(refusalOf("[]"), HasSubstr("x.json"));
+}
+
+}  // namespace
+}  // namespace tacto::test

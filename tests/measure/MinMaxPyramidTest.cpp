@@ -1,4 +1,4 @@
-// The pyramid against a loop over all samples: any record, any stretch, any number of columns, growing or not.
+// The pyramid against a loop over all samples: any record, any stretch, growing or not.
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -72,43 +72,9 @@ TEST(MinMaxPyramid, GrowsWithoutReadingOrForgettingWhatItKnew) {
     }
 }
 
-TEST(MinMaxPyramid, ColumnsHoldEverySampleOnce) {
-    Random random(11, "pyramid columns");
-    const auto record = noise(10'007, 0.05, random);
-    MinMaxPyramid pyramid;
-    pyramid.extend(record);
-    for (const std::size_t n : {1UL, 7UL, 640UL, 1280UL, 20'000UL}) {
-        const std::size_t first = 13, last = 10'001;
-        std::vector<Envelope> columns(n);
-        pyramid.columns(first, last, columns);
-        for (std::size_t k = 0; k < n; ++k) {
-            const auto from = first + k * (last - first) / n;
-            const auto to = first + (k + 1) * (last - first) / n;
-            ASSERT_EQ(columns[k], naive(record, from, to)) << "column " << k << " of " << n;
-        }
-    }
-}
-
-TEST(MinMaxPyramid, MoreColumnsThanSamplesLeaveSomeEmpty) {
-    const std::vector<float> record{3, -1, 4};
-    MinMaxPyramid pyramid;
-    pyramid.extend(record);
-    std::vector<Envelope> columns(9);
-    pyramid.columns(0, 3, columns);
-    std::vector<float> seen;
-    for (const auto& column : columns) {
-        if (!column.empty()) seen.push_back(column.high);
-    }
-    EXPECT_EQ(seen, record);
-}
-
 TEST(MinMaxPyramid, NothingAndOneSample) {
     MinMaxPyramid pyramid;
     EXPECT_TRUE(pyramid.over(0, 100).empty());
-    std::vector<Envelope> columns(3);
-    pyramid.columns(0, 10, columns);
-    EXPECT_TRUE(columns[1].empty());
-    pyramid.columns(0, 0, std::span<Envelope>{});
     const std::vector<float> one{-0.5F};
     pyramid.extend(one);
     EXPECT_EQ(pyramid.over(0, 1), (Envelope{-0.5F, -0.5F, false}));

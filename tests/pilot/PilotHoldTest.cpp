@@ -1,7 +1,7 @@
 // What holds a session until the operator has answered by name: too strong, pain, adverse events.
 #include <fstream>
 
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 #include "core/pilot/PilotCare.h"
 #include "core/pilot/PilotHold.h"
 #include "core/pilot/PilotThresholds.h"

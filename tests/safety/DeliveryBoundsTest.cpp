@@ -1,7 +1,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "core/base/NaN.h"
+#include "core/base/Statistics.h"
 #include "core/safety/DeliveryBounds.h"
 
 namespace tacto {

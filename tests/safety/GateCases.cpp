@@ -3,7 +3,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "core/base/NaN.h"
+#include "core/base/Statistics.h"
 #include "core/safety/Rules.h"
 #include "core/safety/TrainExposure.h"
 #include "core/safety/UnitRecord.h"

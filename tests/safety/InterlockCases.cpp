@@ -1,6 +1,6 @@
 #include <limits>
 
-#include "core/base/NaN.h"
+#include "core/base/Statistics.h"
 #include "core/safety/AcceptedLevels.h"
 #include "core/safety/Heartbeat.h"
 #include "core/safety/Interlock.h"

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-#include "core/base/NaN.h"
+#include "core/base/Statistics.h"
 #include "core/safety/AcceptedLevels.h"
 #include "tests/safety/GateFixtures.h"
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-#include "core/base/NaN.h"
+#include "core/base/Statistics.h"
 #include "core/safety/SafetyGate.h"
 #include "core/safety/TrainExposure.h"
 #include "tests/safety/GateCases.h"

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "core/base/Clock.h"
-#include "core/base/NaN.h"
+#include "core/base/Statistics.h"
 #include "core/safety/SourceTraits.h"
 #include "tests/safety/Dice.h"
 #include "tests/safety/GateSequences.h"

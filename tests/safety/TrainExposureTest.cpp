@@ -5,10 +5,10 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "core/base/NaN.h"
+#include "core/base/Statistics.h"
 #include "core/safety/DeliveryBounds.h"
 #include "core/safety/SafetyGate.h"
-#include "core/safety/SourceTrain.h"
+#include "core/safety/SourceTraits.h"
 #include "core/safety/TrainExposure.h"
 #include "tests/safety/Dice.h"
 #include "tests/safety/GateFixtures.h"

@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 #include "app/scripting/engine/ScriptProcess.h"
-#include "core/base/ProgramPath.h"
+#include "core/base/ProgramStart.h"
 #include "core/session/SessionVerify.h"
 #include "tests/scripting/RunBench.h"
 #include "tests/support/InTime.h"

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "app/run/InstrumentPresets.h"
-#include "core/devices/StatementKeys.h"
+#include "core/devices/DeviceUri.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {

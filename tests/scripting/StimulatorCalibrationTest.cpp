@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 #include "core/session/SessionReader.h"
 #include "tests/scripting/DataHome.h"
 #include "tests/scripting/RunBench.h"

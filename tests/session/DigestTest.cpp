@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "core/session/Chain.h"
 #include "core/session/Digest.h"
 #include "tests/support/Figures.h"
 

@@ -7,7 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "core/session/SessionSummary.h"
+#include "core/session/SessionIndex.h"
 #include "tests/session/SessionSupport.h"
 
 namespace tacto {

@@ -1,9 +1,12 @@
 // Reading a session takes nothing from who writes it.
 #include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sqlite3.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "core/session/DatabaseFile.h"
+#include "core/session/Database.h"
+#include "core/session/Schema.h"
 #include "tests/session/SessionSupport.h"
 
 namespace tacto {
@@ -66,6 +69,13 @@ TEST_F(SessionBeingWritten, KeepsItsLocksWhenItsBytesAreRead) {
     }
     EXPECT_TRUE(isLocked(path_));
     EXPECT_FALSE(DatabaseFile::open(dir_.path() / "none.tacto"));
+}
+
+TEST(Schema, CarriesItsIds) {
+    auto database = Database::open(":memory:", SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE).value();
+    ASSERT_TRUE(createSchema(database));
+    EXPECT_EQ(database.number("PRAGMA application_id").value(), 0x54414354);
+    EXPECT_EQ(database.number("PRAGMA user_version").value(), kSchemaVersion);
 }
 
 }  // namespace

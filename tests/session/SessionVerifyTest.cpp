@@ -1,6 +1,6 @@
 #include <random>
 
-#include "core/session/Chain.h"
+#include "core/session/Digest.h"
 #include "tests/session/SessionSupport.h"
 
 namespace tacto {

@@ -2,7 +2,7 @@
 #include <sqlite3.h>
 
 #include "core/session/Origin.h"
-#include "core/session/SessionSummary.h"
+#include "core/session/SessionIndex.h"
 #include "core/session/SessionVerify.h"
 #include "core/study/SessionSeal.h"
 #include "tests/study/StudySupport.h"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/devices/Registry.h"
-#include "core/devices/StatesCalibration.h"
+#include "core/devices/Stimulator.h"
 #include "drivers/simulated/SimulatedDriver.h"
 #include "drivers/simulated/World.h"
 #include "tests/support/PassingStimulator.h"

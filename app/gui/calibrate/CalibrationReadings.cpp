@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "app/gui/theme/Text.h"
-#include "core/base/JsonFields.h"
-#include "core/encoding/CalibratedQuantity.h"
+#include "core/base/JsonText.h"
+#include "core/encoding/StimulatorCalibration.h"
 
 namespace tacto::gui {
 

@@ -10,7 +10,7 @@
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/Verdict.h"
 #include "app/report/NumberText.h"
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 
 namespace tacto::gui {
 

@@ -5,7 +5,7 @@
 
 #include "app/gui/controller/OpenBench.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
-#include "core/bench/arming/ArmingText.h"
+#include "core/bench/arming/CommandPreview.h"
 
 namespace tacto::gui {
 

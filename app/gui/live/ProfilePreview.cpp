@@ -5,7 +5,7 @@
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Theme.h"
 #include "core/encoding/Encoder.h"
-#include "core/encoding/Waveform.h"
+#include "core/encoding/PulseTrain.h"
 
 namespace tacto::gui {
 

@@ -13,7 +13,7 @@
 #include "app/gui/theme/Theme.h"
 #include "core/analysis/identification/IdentificationJson.h"
 #include "core/analysis/identification/IdentificationText.h"
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 #include "core/results/ResultKind.h"
 #include "core/study/SessionBasis.h"
 

@@ -15,7 +15,7 @@
 #include "app/gui/theme/Theme.h"
 #include "app/report/NumberText.h"
 #include "app/report/TableContent.h"
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 
 namespace tacto::gui {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 #include "core/session/SessionReader.h"
 
 namespace tacto::gui {

@@ -6,7 +6,7 @@
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/Verdict.h"
 #include "app/report/TableContent.h"
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 #include "core/electrode/Load.h"
 
 namespace tacto::gui {

@@ -9,9 +9,9 @@
 #include "app/gui/theme/Theme.h"
 #include "app/report/NumberText.h"
 #include "app/report/TableContent.h"
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 #include "core/dsp/RoughnessFlags.h"
-#include "core/session/Marks.h"
+#include "core/session/Origin.h"
 
 namespace tacto::gui {
 

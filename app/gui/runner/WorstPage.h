@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "app/gui/controller/BenchController.h"
-#include "core/safety/Exposure.h"
+#include "core/safety/LimitSet.h"
 
 namespace tacto::gui {
 

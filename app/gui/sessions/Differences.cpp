@@ -7,7 +7,7 @@
 #include "app/gui/sessions/SessionWords.h"
 #include "app/gui/theme/Text.h"
 #include "app/report/NumberText.h"
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 
 namespace tacto::gui {
 

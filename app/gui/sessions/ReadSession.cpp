@@ -3,12 +3,11 @@
 #include "app/gui/theme/Text.h"
 #include "app/report/QtJson.h"
 #include "core/base/DriveSegment.h"
-#include "core/base/JsonFields.h"
-#include "core/session/Marks.h"
+#include "core/base/JsonText.h"
 #include "core/session/Origin.h"
+#include "core/session/SessionIndex.h"
 #include "core/session/SessionLabels.h"
 #include "core/session/SessionReader.h"
-#include "core/session/SessionSummary.h"
 
 namespace tacto::gui {
 

@@ -18,7 +18,7 @@
 #include "app/report/NumberText.h"
 #include "app/report/Reach.h"
 #include "app/report/ShownText.h"
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 #include "core/base/QuantityText.h"
 #include "core/dsp/RoughnessFlags.h"
 

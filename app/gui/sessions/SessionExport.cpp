@@ -6,9 +6,8 @@
 
 #include "core/base/JsonText.h"
 #include "core/base/WholeFile.h"
+#include "core/measure/CaptureDescription.h"
 #include "core/measure/CaptureFile.h"
-#include "core/measure/CaptureOrigin.h"
-#include "core/session/Marks.h"
 #include "core/session/Origin.h"
 #include "core/session/SessionReader.h"
 

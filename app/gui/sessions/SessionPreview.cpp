@@ -9,7 +9,7 @@
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/FigureDrawing.h"
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 
 namespace tacto::gui {
 

@@ -9,7 +9,7 @@
 #include <cstring>
 #include <utility>
 
-#include "core/base/Utf8.h"
+#include "core/base/Utf16.h"
 
 namespace tacto::gui {
 

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "core/safety/Exposure.h"
+#include "core/safety/LimitSet.h"
 
 namespace tacto::gui {
 

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "core/safety/Exposure.h"
+#include "core/safety/LimitSet.h"
 
 namespace tacto::gui {
 

@@ -42,7 +42,7 @@
 #include "app/gui/window/WelcomeTour.h"
 #include "app/gui/window/WorkspaceRail.h"
 #include "app/gui/window/Workspaces.h"
-#include "core/bench/BlindTelemetry.h"
+#include "core/bench/Telemetry.h"
 
 namespace tacto::gui {
 

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "core/base/JsonText.h"
-#include "core/base/NaN.h"
+#include "core/base/Statistics.h"
 #include "core/electrode/Load.h"
 
 namespace tacto {

@@ -11,8 +11,7 @@
 #include <sstream>
 
 #include "app/scripting/ShippedResources.h"
-#include "core/base/DataFolder.h"
-#include "core/base/ProgramPath.h"
+#include "core/base/ProgramStart.h"
 
 #ifndef TACTOSCOPE_INSTALLED_RESOURCES
 #define TACTOSCOPE_INSTALLED_RESOURCES "/usr/share/tactoscope"

@@ -8,11 +8,11 @@
 #include "app/scripting/engine/DeclaredText.h"
 #include "app/scripting/engine/HostFunction.h"
 #include "core/base/JsonText.h"
-#include "core/base/NaN.h"
+#include "core/base/Statistics.h"
 #include "core/base/Text.h"
 #include "core/base/ValueKind.h"
 #include "core/base/Words.h"
-#include "core/calibration/CalibrationDate.h"
+#include "core/calibration/CalibrationStore.h"
 
 namespace tacto {
 

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "core/base/NaN.h"
 #include "core/base/Result.h"
-#include "core/encoding/CalibratedQuantity.h"
+#include "core/base/Statistics.h"
+#include "core/encoding/StimulatorCalibration.h"
 
 namespace tacto {
 

@@ -15,8 +15,8 @@
 #include <unistd.h>
 
 #include "app/scripting/wire/ScriptMessage.h"
-#include "core/base/JsonFields.h"
-#include "core/base/ProgramPath.h"
+#include "core/base/JsonText.h"
+#include "core/base/ProgramStart.h"
 
 extern char** environ;
 

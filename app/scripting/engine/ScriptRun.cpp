@@ -12,7 +12,7 @@
 #include "app/scripting/engine/ScriptProcess.h"
 #include "app/scripting/engine/ScriptSession.h"
 #include "app/scripting/wire/MemoryGuard.h"
-#include "core/base/StandardStreams.h"
+#include "core/base/ProgramStart.h"
 #include "core/pilot/PilotSession.h"
 #include "core/results/ResultKind.h"
 #include "core/session/SessionWriter.h"

@@ -8,8 +8,8 @@
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/base/Text.h"
 #include "core/encoding/Rounding.h"
+#include "core/measure/CaptureDescription.h"
 #include "core/measure/CaptureFile.h"
-#include "core/measure/CaptureOrigin.h"
 #include "core/measure/InstrumentStatement.h"
 #include "core/session/SessionWriter.h"
 

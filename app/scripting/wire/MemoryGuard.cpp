@@ -12,7 +12,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "core/base/WholeNumber.h"
+#include "core/base/Text.h"
 
 namespace tacto {
 

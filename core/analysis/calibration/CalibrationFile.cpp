@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "core/base/Csv.h"
-#include "core/base/NaN.h"
+#include "core/base/Statistics.h"
 #include "core/base/Text.h"
 
 namespace tacto {

@@ -17,7 +17,7 @@
 #include "core/analysis/calibration/Calibration.h"
 #include "core/analysis/statistics/UncertaintyBudget.h"
 #include "core/analysis/statistics/Verdict.h"
-#include "core/base/NaN.h"
+#include "core/base/Statistics.h"
 
 namespace tacto {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
-#include "core/base/NaN.h"
 #include "core/base/Result.h"
+#include "core/base/Statistics.h"
 #include "core/base/Units.h"
 #include "core/base/Words.h"
 

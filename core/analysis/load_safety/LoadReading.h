@@ -25,8 +25,8 @@
 
 #include "core/analysis/statistics/UncertaintyBudget.h"
 #include "core/base/DriveSegment.h"
-#include "core/base/NaN.h"
 #include "core/base/Result.h"
+#include "core/base/Statistics.h"
 #include "core/measure/Capture.h"
 
 namespace tacto {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/analysis/load_safety/LoadSafetyTables.h"
-#include "core/base/NaN.h"
 #include "core/base/QuantityText.h"
+#include "core/base/Statistics.h"
 #include "core/encoding/PulseTrain.h"
 #include "core/safety/TrainExposure.h"
 

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "core/analysis/load_safety/LoadSafetyRows.h"
-#include "core/base/NaN.h"
 #include "core/base/QuantityText.h"
-#include "core/safety/SourceTrain.h"
+#include "core/base/Statistics.h"
+#include "core/safety/SourceTraits.h"
 #include "core/safety/TrainExposure.h"
 
 namespace tacto {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/measure/ClipLimits.h"
+#include "core/measure/Clipping.h"
 
 namespace tacto {
 

@@ -11,7 +11,6 @@
 
 #include "core/analysis/load_safety/LoadReading.h"
 #include "core/analysis/load_safety/LoadTrace.h"
-#include "core/base/NaN.h"
 #include "core/base/Statistics.h"
 #include "core/measure/PulseMeasurement.h"
 

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "core/base/Ascii.h"
 #include "core/base/Text.h"
 
 namespace tacto {

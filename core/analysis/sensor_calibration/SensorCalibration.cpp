@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/analysis/sensor_calibration/RoughnessRepeatability.h"
-#include "core/base/GivenOnce.h"
+#include "core/base/Text.h"
 #include "core/base/Words.h"
 
 namespace tacto {

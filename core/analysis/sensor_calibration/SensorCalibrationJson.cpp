@@ -5,9 +5,9 @@
 
 #include "core/analysis/calibration/CalibrationJson.h"
 #include "core/analysis/statistics/StatisticsJson.h"
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 #include "core/base/RecordFields.h"
-#include "core/dsp/UnitWords.h"
+#include "core/dsp/SensorScales.h"
 
 namespace tacto {
 

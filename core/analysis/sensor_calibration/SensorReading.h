@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "core/base/NaN.h"
 #include "core/base/Result.h"
 #include "core/base/Statistics.h"
 #include "core/base/Stream.h"

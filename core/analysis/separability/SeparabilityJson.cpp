@@ -1,8 +1,8 @@
 #include "core/analysis/separability/SeparabilityJson.h"
 
 #include "core/analysis/statistics/StatisticsJson.h"
-#include "core/base/NaN.h"
 #include "core/base/RecordFields.h"
+#include "core/base/Statistics.h"
 
 namespace tacto {
 

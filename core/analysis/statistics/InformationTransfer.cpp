@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/base/NaN.h"
+#include "core/base/Statistics.h"
 
 namespace tacto {
 

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/analysis/statistics/Estimate.h"
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 #include "core/base/Statistics.h"
 #include "core/base/ValueKind.h"
 

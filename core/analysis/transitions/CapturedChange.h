@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "core/analysis/statistics/Verdict.h"
-#include "core/base/NaN.h"
 #include "core/base/Statistics.h"
 
 namespace tacto {

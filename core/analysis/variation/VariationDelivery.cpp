@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/base/Words.h"
-#include "core/electrode/PulseResponse.h"
-#include "core/safety/SourceTrain.h"
+#include "core/electrode/LoadResponse.h"
+#include "core/safety/SourceTraits.h"
 #include "core/safety/TrainExposure.h"
 
 namespace tacto {

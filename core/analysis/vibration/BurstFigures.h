@@ -20,8 +20,8 @@
 #include <span>
 #include <vector>
 
-#include "core/base/NaN.h"
 #include "core/base/Result.h"
+#include "core/base/Statistics.h"
 #include "core/base/Units.h"
 
 namespace tacto {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/analysis/statistics/StatisticsJson.h"
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 #include "core/base/RecordFields.h"
 
 namespace tacto {

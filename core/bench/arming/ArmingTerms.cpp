@@ -1,7 +1,10 @@
 #include "core/bench/arming/ArmingTerms.h"
 
-#include "core/bench/arming/ArmingText.h"
-#include "core/devices/ReplayedDevice.h"
+#include <fmt/chrono.h>
+
+#include "core/bench/arming/CommandPreview.h"
+#include "core/devices/Device.h"
+#include "core/devices/Stimulator.h"
 
 namespace tacto {
 
@@ -64,6 +67,63 @@ ArmCommand ArmingTerms::commandFor(const ArmRequest& request, const Load& load, 
     if (sees && !source.readsBack) command.declared = effectiveImpedance(command.setup.load.nominal, leading);
     evidence.declaredLoadConfirmed = request.declaredLoadConfirmed && config_.mode == OutputMode::BenchLoad;
     return command;
+}
+
+bool BenchCalibration::apply(bool wanted) {
+    const auto next = wanted && config_.calibrationHolds ? config_.calibration : std::nullopt;
+    if (next == applied_) return false;
+    applied_ = next;
+    return true;
+}
+
+Result<void> BenchCalibration::checkDate() const {
+    if (config_.mode != OutputMode::Person || !config_.calibratedUntil) return {};
+    const auto today = config_.today != nullptr
+                           ? config_.today()
+                           : std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
+    if (today <= *config_.calibratedUntil) return {};
+    return fail(ErrorCode::NotArmed,
+                "the stimulator's calibration ended on {:%Y-%m-%d} and today is {:%Y-%m-%d}; calibrate it again before "
+                "a person",
+                *config_.calibratedUntil, today);
+}
+
+void BenchCalibration::note(const BenchNotes& notes) const {
+    const bool leftAside = held() && !applied_ && !config_.calibrationText.empty();
+    notes.calibration(applied_,
+                      leftAside ? "left aside: the commands are programmed as they are" : config_.calibrationText);
+}
+
+Result<void> checkWhere(const BenchConfig& config) {
+    const bool hasPerson = config.mode == OutputMode::Person || config.person;
+    if (!hasPerson && !config.virtualParticipant) return {};
+    for (const Device* device : {static_cast<const Device*>(config.devices.stimulator.get()),
+                                 static_cast<const Device*>(config.devices.massager.get())}) {
+        if (device == nullptr) continue;
+        const auto& identity = device->identity();
+        if (config.virtualParticipant && !identity.simulated) {
+            return invalid("a virtual participant cannot use the real device {}; use a simulated one", identity.name);
+        }
+        if (!config.virtualParticipant && identity.simulated && !config.rehearsal) {
+            return invalid(
+                "a person on {}, which delivers nothing; a device is accepted, a simulated one in a rehearsal",
+                identity.name);
+        }
+    }
+    return {};
+}
+
+BenchConfig withStatedCalibration(BenchConfig config) {
+    const auto* stimulator = config.devices.stimulator.get();
+    if (config.mode != OutputMode::Person || config.calibration || stimulator == nullptr) return config;
+    if (!stimulator->identity().simulated) return config;
+    const auto* stating = dynamic_cast<const StatesCalibration*>(stimulator);
+    if (stating == nullptr || !stating->statedCalibration()) return config;
+    config.calibration = stating->statedCalibration();
+    config.calibrationHolds = true;
+    config.calibratedUntil.reset();
+    config.calibrationText = "as the simulated stimulator states";
+    return config;
 }
 
 }  // namespace tacto

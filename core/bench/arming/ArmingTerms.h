@@ -7,11 +7,36 @@
 #include <string>
 
 #include "core/bench/Bench.h"
+#include "core/bench/BenchNotes.h"
 #include "core/bench/arming/ArmingSequence.h"
-#include "core/bench/arming/BenchCalibration.h"
 #include "core/bench/delivery/BenchOutput.h"
 
 namespace tacto {
+
+// The calibration of the stimulator that is known, and whether it is applied: every train is
+// judged by the one that is known, and programmed by the one that is applied.
+
+class BenchCalibration {
+public:
+    /// `config` outlives this.
+    explicit BenchCalibration(const BenchConfig& config)
+        : config_(config), applied_(config.calibrationHolds ? config.calibration : std::nullopt) {}
+
+    /// One is known, and holds.
+    [[nodiscard]] bool held() const noexcept { return config_.calibration && config_.calibrationHolds; }
+    /// Nothing while it is left aside.
+    [[nodiscard]] const KnownLines& applied() const noexcept { return applied_; }
+    /// Takes it up, where it holds, or leaves it aside. False where that changes nothing.
+    [[nodiscard]] bool apply(bool wanted);
+    /// Errors: NotArmed in person mode, after the last day on which it holds.
+    [[nodiscard]] Result<void> checkDate() const;
+    /// What is applied, for the session.
+    void note(const BenchNotes& notes) const;
+
+private:
+    const BenchConfig& config_;
+    KnownLines applied_;
+};
 
 class ArmingTerms {
 public:
@@ -20,7 +45,7 @@ public:
         : config_(config), output_(output), calibration_(calibration) {}
 
     [[nodiscard]] GateSetup setupFor(const Load& load) const;
-    /// What the operator confirms (ArmingText.h); empty without an output.
+    /// What the operator confirms (CommandPreview.h); empty without an output.
     [[nodiscard]] std::string text(const Load& load) const;
     /// Errors: NotArmed unless the request confirms that text; for a simulated output it may confirm none.
     [[nodiscard]] Result<void> checkConfirmed(const ArmRequest& request, const Load& load) const;
@@ -32,5 +57,16 @@ private:
     const BenchOutput& output_;
     const BenchCalibration& calibration_;
 };
+
+// Which devices a participant, human or virtual, may be stimulated with, and what replaces a
+// calibration there.
+
+/// Errors: InvalidArgument for a virtual participant on a device, and for a human being on a simulation outside a
+/// rehearsal; with one sentence.
+[[nodiscard]] Result<void> checkWhere(const BenchConfig& config);
+
+/// In person mode a simulated stimulator of which no calibration is known states its own. Nothing else is changed, and
+/// no other device is asked.
+[[nodiscard]] BenchConfig withStatedCalibration(BenchConfig config);
 
 }  // namespace tacto

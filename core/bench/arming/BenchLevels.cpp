@@ -70,8 +70,9 @@ Result<LevelRequest> BenchLevels::requestFor(LevelRequest::What what, const Stim
 Result<void> BenchLevels::accept(const StimulusLevel& level) {
     if (auto person = checkPerson(); !person) return person;
     if (!presented_ || !(level == *presented_)) {
-        return fail(ErrorCode::InvalidArgument, "{} accepted; {} is what can be accepted", textOf(level),
-                    presented_ ? textOf(*presented_) : "the level of a presentation that was complete and not empty");
+        return invalid(
+            "{} accepted; {} is what can be accepted", textOf(level),
+            presented_ ? textOf(*presented_) : "the level of a presentation that was complete and not empty");
     }
     const auto request = requestFor(LevelRequest::What::Accept, level);
     if (!request) return failure(request);
@@ -86,8 +87,8 @@ Result<void> BenchLevels::reportDiscomfort(const StimulusLevel& level) {
     const auto* current = std::get_if<Milliamps>(&level);
     const double value = current != nullptr ? current->value() : std::get<VibrationIntensity>(level).value;
     if (!(std::isfinite(value) && value >= 0 && (current != nullptr || value <= 1))) {
-        return fail(ErrorCode::InvalidArgument, "{} too strong; {} is accepted", textOf(level),
-                    current != nullptr ? "a finite current of 0 or more" : "an intensity from 0 to 1");
+        return invalid("{} too strong; {} is accepted", textOf(level),
+                       current != nullptr ? "a finite current of 0 or more" : "an intensity from 0 to 1");
     }
     gate_.latchStop();  // nothing that was approved before comes after the word
     StimulusLevel limit = level;
@@ -152,8 +153,8 @@ Result<PermittedLevel> BenchLevels::limit(Seconds interval) const {
     if (auto person = checkPerson(); !person) return failure(person);
     if (auto settable = checkSettable(Milliamps(0)); !settable) return failure(settable);
     if (!(interval.count() > 0 && interval <= Presentation::kLongest)) {
-        return fail(ErrorCode::InvalidArgument, "an interval of {} s; above 0 to {} s is accepted", interval.count(),
-                    Presentation::kLongest.count());
+        return invalid("an interval of {} s; above 0 to {} s is accepted", interval.count(),
+                       Presentation::kLongest.count());
     }
     const double ohm = loop_->telemetry().impedance_ohm;
     if (!(ohm > 0)) return fail(ErrorCode::NotArmed, "no impedance is known, so no largest level; arm first");

@@ -8,7 +8,7 @@
 #include <functional>
 #include <memory>
 
-#include "core/bench/delivery/MassagerSession.h"
+#include "core/bench/delivery/OutputSession.h"
 #include "core/bench/delivery/StimulatorSession.h"
 #include "core/devices/DeviceSet.h"
 

@@ -9,6 +9,7 @@
 
 #include "core/bench/Telemetry.h"
 #include "core/bench/arming/ArmingSequence.h"
+#include "core/bench/delivery/StimulatorSession.h"
 #include "core/bench/delivery/TrainReport.h"
 #include "core/bench/sensing/CaptureLoad.h"
 #include "core/safety/FixedText.h"
@@ -73,6 +74,36 @@ private:
     bool readsAmplitude_ = false;  // it did once
     MeasuredOutput measured_;
     std::vector<ExposureRow> rows_;
+};
+
+// The reading of |Z| that delivery rests on: whether the stimulator's status is overdue, and when the
+// reading grows old.
+
+class ReadingWatch {
+public:
+    /// All outlive the watch; the stimulator may be null.
+    ReadingWatch(const StimulatorSession* stimulator, const ArmedLoad& load, const DeliveryJudge& judge) noexcept
+        : stimulator_(stimulator), load_(load), judge_(judge) {}
+
+    /// A train that ended and whose status has not come in time.
+    [[nodiscard]] std::optional<LoopFault> silence(Instant now) const {
+        if (stimulator_ == nullptr || stimulator_->idle()) return std::nullopt;
+        return judge_.silence(stimulator_->trainEnd(), stimulator_->saysItDelivers(), now);
+    }
+    /// When the reading grows old; nothing where none is taken.
+    [[nodiscard]] std::optional<Instant> until() const noexcept {
+        if (stimulator_ == nullptr || !stimulator_->device().traits().readsBack) return std::nullopt;
+        return load_.impedanceAt + Interlock::kImpedanceAge;
+    }
+    [[nodiscard]] bool isOld(Instant now) const noexcept {
+        const auto end = until();
+        return end && now > *end;
+    }
+
+private:
+    const StimulatorSession* stimulator_;
+    const ArmedLoad& load_;
+    const DeliveryJudge& judge_;
 };
 
 }  // namespace tacto

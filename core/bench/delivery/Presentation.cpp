@@ -25,11 +25,11 @@ bool isTime(Seconds time, Seconds least, Seconds most) noexcept { return time >=
 Result<void> checkLevel(const StimulusLevel& level) {
     if (const auto* current = std::get_if<Milliamps>(&level)) {
         if (std::isfinite(current->value()) && current->value() >= 0) return {};
-        return fail(ErrorCode::InvalidArgument, "level {} mA: must be finite and not negative", current->value());
+        return invalid("level {} mA: must be finite and not negative", current->value());
     }
     const double intensity = std::get<VibrationIntensity>(level).value;
     if (intensity >= 0 && intensity <= 1) return {};
-    return fail(ErrorCode::InvalidArgument, "level at intensity {}: must be 0 to 1", intensity);
+    return invalid("level at intensity {}: must be 0 to 1", intensity);
 }
 
 double numberOf(const StimulusLevel& level) noexcept {
@@ -42,42 +42,40 @@ Result<void> checkLevels(const Presentation& presentation) {
     const auto& levels = presentation.levels;
     if (levels.empty()) return {};
     if (levels.size() != presentation.onsets.size()) {
-        return fail(ErrorCode::InvalidArgument, "{} levels for {} onsets; one for each is expected", levels.size(),
-                    presentation.onsets.size());
+        return invalid("{} levels for {} onsets; one for each is expected", levels.size(), presentation.onsets.size());
     }
     double highest = 0;
     for (const auto& level : levels) {
         if (auto fine = checkLevel(level); !fine) return fine;
         if (level.index() != presentation.level.index() || isEmpty(level)) {
-            return fail(ErrorCode::InvalidArgument,
-                        "a train of {} in a presentation of {}; a level above 0 of the "
-                        "same kind is expected",
-                        textOf(level), textOf(presentation.level));
+            return invalid(
+                "a train of {} in a presentation of {}; a level above 0 of the "
+                "same kind is expected",
+                textOf(level), textOf(presentation.level));
         }
         highest = std::max(highest, numberOf(level));
     }
     if (highest == numberOf(presentation.level)) return {};
-    return fail(ErrorCode::InvalidArgument,
-                "the highest level of the trains is {:g}; that of the presentation, {}, is "
-                "expected",
-                highest, textOf(presentation.level));
+    return invalid(
+        "the highest level of the trains is {:g}; that of the presentation, {}, is "
+        "expected",
+        highest, textOf(presentation.level));
 }
 
 Result<void> checkOnsets(const Presentation& presentation) {
     const auto& onsets = presentation.onsets;
     if (onsets.empty() || onsets.size() > Presentation::kMaxTrains) {
-        return fail(ErrorCode::InvalidArgument, "a presentation with {} onsets; 1 to {} are accepted", onsets.size(),
-                    Presentation::kMaxTrains);
+        return invalid("a presentation with {} onsets; 1 to {} are accepted", onsets.size(), Presentation::kMaxTrains);
     }
     if (!isTime(onsets.front(), Seconds(0), Presentation::kLongest)) {
-        return fail(ErrorCode::InvalidArgument, "a first onset at {} s; 0 to {} s is accepted", onsets.front().count(),
-                    Presentation::kLongest.count());
+        return invalid("a first onset at {} s; 0 to {} s is accepted", onsets.front().count(),
+                       Presentation::kLongest.count());
     }
     for (std::size_t i = 1; i < onsets.size(); ++i) {
         const Seconds apart = onsets[i] - onsets[i - 1];
         if (apart >= presentation.interval * (1 - kRounding)) continue;
-        return fail(ErrorCode::InvalidArgument, "onsets {} s apart; at least the interval of {} s is accepted",
-                    apart.count(), presentation.interval.count());
+        return invalid("onsets {} s apart; at least the interval of {} s is accepted", apart.count(),
+                       presentation.interval.count());
     }
     return {};
 }
@@ -138,17 +136,16 @@ int detectionIntervalAt(Seconds since) noexcept {
 Result<void> validate(const Presentation& presentation) {
     if (auto fine = checkLevel(presentation.level); !fine) return fine;
     if (!(presentation.interval.count() > 0 && presentation.interval <= Presentation::kLongest)) {
-        return fail(ErrorCode::InvalidArgument, "an interval of {} s; above 0 to {} s is accepted",
-                    presentation.interval.count(), Presentation::kLongest.count());
+        return invalid("an interval of {} s; above 0 to {} s is accepted", presentation.interval.count(),
+                       Presentation::kLongest.count());
     }
     if (auto fine = checkOnsets(presentation); !fine) return fine;
     if (auto fine = checkLevels(presentation); !fine) return fine;
     const Seconds least = presentation.onsets.back() + Presentation::kTail;
     if (isTime(presentation.duration, least * (1 - kRounding), Presentation::kLongest)) return {};
-    return fail(ErrorCode::InvalidArgument,
-                "a presentation of {} s whose last train begins at {} s; {} to {} s is accepted",
-                presentation.duration.count(), presentation.onsets.back().count(), least.count(),
-                Presentation::kLongest.count());
+    return invalid("a presentation of {} s whose last train begins at {} s; {} to {} s is accepted",
+                   presentation.duration.count(), presentation.onsets.back().count(), least.count(),
+                   Presentation::kLongest.count());
 }
 
 }  // namespace tacto

@@ -9,13 +9,13 @@
 #include <optional>
 #include <utility>
 
-#include "core/base/Latest.h"
+#include "core/base/SpscRing.h"
 #include "core/bench/LoopJournal.h"
 #include "core/bench/arming/ArmingSequence.h"
-#include "core/bench/arming/OwnerWatchdog.h"
+#include "core/bench/arming/StandingOrder.h"
 #include "core/bench/delivery/DeliveryJudge.h"
 #include "core/bench/delivery/ExposureWatch.h"
-#include "core/bench/delivery/MassagerSession.h"
+#include "core/bench/delivery/OutputSession.h"
 #include "core/bench/delivery/PresentationRun.h"
 #include "core/bench/delivery/StimulatorSession.h"
 

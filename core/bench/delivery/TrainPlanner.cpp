@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/safety/SourceTrain.h"
+#include "core/safety/SourceTraits.h"
 
 namespace tacto {
 
@@ -43,12 +43,11 @@ bool isOnGrid(double value, double step) noexcept {
 Result<void> canBeSet(Milliamps level, const SourceTraits& source) {
     const double mA = level.value();
     if (!(mA > 0 && mA <= source.amplitudeMax)) {
-        return fail(ErrorCode::InvalidArgument,
-                    "a level of {} mA; above 0 to {:g} mA, the device's largest, is accepted", mA, source.amplitudeMax);
+        return invalid("a level of {} mA; above 0 to {:g} mA, the device's largest, is accepted", mA,
+                       source.amplitudeMax);
     }
     if (isOnGrid(mA, source.amplitudeStep)) return {};
-    return fail(ErrorCode::InvalidArgument, "a level of {} mA; multiples of the device's step, {:g} mA, are accepted",
-                mA, source.amplitudeStep);
+    return invalid("a level of {} mA; multiples of the device's step, {:g} mA, are accepted", mA, source.amplitudeStep);
 }
 
 }  // namespace

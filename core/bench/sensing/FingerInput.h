@@ -7,7 +7,6 @@
 #include <memory>
 #include <vector>
 
-#include "core/acquisition/Standstill.h"
 #include "core/acquisition/StreamHealth.h"
 #include "core/bench/Telemetry.h"
 #include "core/bench/sensing/SensorSession.h"

@@ -4,16 +4,42 @@
 // Thread-safety: none; the control loop owns it. Allocates for a failure and for a report alone.
 #pragma once
 
+#include <atomic>
 #include <memory>
+#include <mutex>
 #include <optional>
 
 #include "core/bench/LoopInbox.h"
 #include "core/bench/LoopJournal.h"
 #include "core/bench/delivery/DeliveryJudge.h"
-#include "core/bench/sensing/SampleTaps.h"
-#include "core/devices/DeviceReport.h"
+#include "core/bench/sensing/BenchTap.h"
+#include "core/bench/sensing/FingerInput.h"
+#include "core/devices/Device.h"
 
 namespace tacto {
+
+// Where the control loop shows what passes through it: the tap of the display that the bench was opened
+// with, and a listener that comes and goes (BenchTap.h). Either may be missing.
+
+class SampleTaps {
+public:
+    explicit SampleTaps(BenchTap* display) noexcept : display_(display) {}
+
+    /// `tap` gets samples alone; null ends it. On return nothing pushes into the one before.
+    void listen(BenchTap* tap);
+
+    /// The samples of the finger's last update, and its frames for the display.
+    void push(const FingerInput& finger) noexcept;
+    void push(const TrainReport& report) noexcept {
+        if (display_ != nullptr) display_->trains.push(report);
+    }
+
+private:
+    BenchTap* const display_;
+    std::mutex mutex_;  // held to hand over the samples of one step
+    BenchTap* listener_ = nullptr;
+    std::atomic<bool> listening_{false};
+};
 
 class FingerWatch {
 public:

@@ -10,7 +10,6 @@
 #include <optional>
 #include <vector>
 
-#include "core/devices/ForcedTrigger.h"
 #include "core/devices/Oscilloscope.h"
 
 namespace tacto {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/devices/Reconnecting.h"
+#include "core/devices/TactileSensor.h"
 
 namespace tacto {
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "core/base/CsvBlanks.h"
-#include "core/base/CsvNumber.h"
+#include "core/base/CsvHead.h"
+#include "core/base/CsvStamp.h"
 #include "core/base/Text.h"
 
 namespace tacto {

@@ -6,7 +6,6 @@
 #include <ranges>
 
 #include "core/base/CsvStamp.h"
-#include "core/base/GivenOnce.h"
 #include "core/base/Text.h"
 #include "core/formats/csv/CsvColumns.h"
 

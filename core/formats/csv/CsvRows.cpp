@@ -6,9 +6,7 @@
 #include <limits>
 
 #include "core/base/Csv.h"
-#include "core/base/CsvBlanks.h"
 #include "core/base/CsvHead.h"
-#include "core/base/CsvNumber.h"
 #include "core/base/CsvStamp.h"
 #include "core/base/Utf16.h"
 

@@ -6,8 +6,8 @@
 
 #include "core/analysis/identification/IdentificationJson.h"
 #include "core/analysis/vibration/VibrationSeparability.h"
-#include "core/base/JsonFields.h"
-#include "core/base/WholeNumber.h"
+#include "core/base/JsonText.h"
+#include "core/base/Text.h"
 #include "core/pilot/FoundRows.h"
 #include "core/pilot/PilotRecord.h"
 

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 #include "core/encoding/EncodingProfile.h"
 #include "core/session/SessionReader.h"
 #include "core/sharing/results/SessionResults.h"

@@ -1,6 +1,6 @@
 #include "drivers/sigrok/driver/SigrokOscilloscope.h"
 
-#include "core/devices/ForcedTrigger.h"
+#include "core/devices/Oscilloscope.h"
 #include "drivers/sigrok/driver/Acquisition.h"
 #include "drivers/sigrok/transport/SigrokThread.h"
 #include "drivers/sigrok/transport/TcpRelay.h"

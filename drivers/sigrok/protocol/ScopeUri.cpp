@@ -1,6 +1,6 @@
 #include "drivers/sigrok/protocol/ScopeUri.h"
 
-#include "core/devices/UriParameters.h"
+#include "core/devices/DeviceUri.h"
 
 namespace tacto::sigrok_driver {
 

@@ -7,7 +7,6 @@
 #include <zip.h>
 
 #include "core/base/Text.h"
-#include "core/base/WholeNumber.h"
 #include "core/formats/ByteFile.h"
 
 namespace tacto::sigrok_driver {

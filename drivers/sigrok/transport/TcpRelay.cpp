@@ -16,7 +16,7 @@
 #include <utility>
 
 #include "core/base/Loopback.h"
-#include "core/base/WholeNumber.h"
+#include "core/base/Text.h"
 
 namespace tacto::sigrok_driver {
 

@@ -4,7 +4,7 @@
 #include "core/analysis/calibration/Calibration.h"
 #include "core/analysis/calibration/CalibrationFile.h"
 #include "core/analysis/calibration/CalibrationJson.h"
-#include "core/base/NaN.h"
+#include "core/base/Statistics.h"
 #include "tests/analysis/calibration/CalibrationTwin.h"
 
 namespace tacto::test {

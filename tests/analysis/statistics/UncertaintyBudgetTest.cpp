@@ -5,7 +5,7 @@
 
 #include "core/analysis/statistics/UncertaintyBudget.h"
 #include "core/analysis/statistics/Verdict.h"
-#include "core/base/NaN.h"
+#include "core/base/Statistics.h"
 #include "tests/support/Figures.h"
 
 namespace tacto::test {

@@ -3,7 +3,6 @@
 
 #include "core/analysis/variation/PopulationField.h"
 #include "core/analysis/variation/VirtualParticipant.h"
-#include "core/base/NaN.h"
 #include "core/base/Statistics.h"
 
 namespace tacto {

@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "core/devices/Massager.h"
+#include "core/devices/Stimulator.h"
 
 namespace tacto::test {
 

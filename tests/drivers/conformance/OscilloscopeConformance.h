@@ -11,7 +11,6 @@
 #include <string>
 
 #include "core/base/Clock.h"
-#include "core/devices/ForcedTrigger.h"
 #include "core/devices/Oscilloscope.h"
 
 namespace tacto::test {

@@ -4,7 +4,7 @@
 #include <limits>
 #include <random>
 
-#include "core/base/NaN.h"
+#include "core/base/Statistics.h"
 #include "tests/drivers/hid_massager/FakeHid.h"
 
 namespace tacto::test {

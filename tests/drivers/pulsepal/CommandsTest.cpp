@@ -4,7 +4,7 @@
 #include <limits>
 #include <set>
 
-#include "core/base/NaN.h"
+#include "core/base/Statistics.h"
 #include "drivers/pulsepal/TrainProgram.h"
 #include "tests/support/emulated/pulsepal/EmulatedPulsePal.h"
 

@@ -3,7 +3,7 @@
 #include <limits>
 #include <rapidcheck.h>
 
-#include "core/base/NaN.h"
+#include "core/base/Statistics.h"
 #include "tests/drivers/sciencemode/Bytes.h"
 #include "tests/support/emulated/sciencemode/DeviceSide.h"
 

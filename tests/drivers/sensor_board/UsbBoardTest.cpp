@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/devices/DeviceReport.h"
+#include "core/devices/Device.h"
 #include "drivers/sensor_board/UsbSensorBoards.h"
 #include "tests/drivers/sensor_board/BoardOnUsb.h"
 #include "tests/drivers/sensor_board/SensorBoardBench.h"

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <thread>
 
-#include "core/devices/ForcedTrigger.h"
+#include "core/devices/Oscilloscope.h"
 #include "core/measure/PulseMeasurement.h"
 #include "drivers/sigrok/driver/SigrokDriver.h"
 #include "tests/support/InTime.h"

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "app/run/OpenDevices.h"
-#include "core/devices/ReplayedDevice.h"
+#include "core/devices/Device.h"
 #include "core/measure/PulseMeasurement.h"
 #include "drivers/sigrok/driver/SigrokDriver.h"
 #include "drivers/simulated/SimulatedDriver.h"

@@ -17,7 +17,7 @@
 #include "app/gui/window/SafetyBar.h"
 #include "app/run/AllDrivers.h"
 #include "core/base/Random.h"
-#include "core/bench/BlindTelemetry.h"
+#include "core/bench/Telemetry.h"
 #include "tests/gui/OwnDataHome.h"
 #include "tests/gui/Person.h"
 #include "tests/gui/pilot/BenchBehind.h"

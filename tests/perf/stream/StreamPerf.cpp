@@ -14,7 +14,7 @@
 #include <unistd.h>
 
 #include "core/acquisition/StreamHealth.h"
-#include "core/devices/DeviceReport.h"
+#include "core/devices/Device.h"
 #include "drivers/sciencemode/TtyTransport.h"
 #include "drivers/sensor_board/UsbSensorBoards.h"
 #include "tests/drivers/sensor_board/BoardOnPty.h"

@@ -12,7 +12,6 @@
 
 #include "app/gui/scope/model/Trace.h"
 #include "core/dsp/PowerSpectrum.h"
-#include "core/dsp/SpectralWindow.h"
 
 class QCheckBox;
 class QComboBox;

@@ -5,7 +5,6 @@
 
 #include "app/scripting/host/analysis/AnalysisParts.h"
 #include "core/analysis/statistics/StatisticsJson.h"
-#include "core/encoding/TransitionMap.h"
 
 namespace tacto::host::analysis {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "app/scripting/host/bench/BenchParts.h"
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 #include "core/base/Statistics.h"
 
 namespace tacto::host::bench {

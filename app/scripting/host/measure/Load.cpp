@@ -5,7 +5,7 @@
 
 #include "app/scripting/host/measure/Readings.h"
 #include "core/analysis/load_safety/LoadSafetyJson.h"
-#include "core/base/NaN.h"
+#include "core/base/Statistics.h"
 
 namespace tacto::host::measure {
 

@@ -6,7 +6,7 @@
 #include "app/scripting/engine/Arguments.h"
 #include "app/scripting/host/plot/PlotFigures.h"
 #include "core/analysis/statistics/StatisticsJson.h"
-#include "core/base/NaN.h"
+#include "core/base/Statistics.h"
 
 namespace tacto::host::plot {
 

@@ -4,8 +4,8 @@
 
 #include "app/scripting/engine/Arguments.h"
 #include "app/scripting/host/record/KeptCalibration.h"
-#include "core/base/JsonFields.h"
-#include "core/base/NaN.h"
+#include "core/base/JsonText.h"
+#include "core/base/Statistics.h"
 #include "core/devices/DeviceUri.h"
 #include "core/session/SessionWriter.h"
 

@@ -5,9 +5,9 @@
 
 #include "app/scripting/host/report/Cells.h"
 #include "core/analysis/statistics/StatisticsJson.h"
-#include "core/base/NaN.h"
 #include "core/base/QuantityText.h"
-#include "core/encoding/CalibratedQuantity.h"
+#include "core/base/Statistics.h"
+#include "core/encoding/StimulatorCalibration.h"
 
 namespace tacto::host::report {
 

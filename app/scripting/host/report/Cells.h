@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 #include "core/base/QuantityText.h"
 #include "core/base/Text.h"
 

@@ -6,7 +6,7 @@
 #include "app/scripting/host/report/Cells.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/analysis/statistics/Verdict.h"
-#include "core/base/NaN.h"
+#include "core/base/Statistics.h"
 
 namespace tacto::host::report {
 

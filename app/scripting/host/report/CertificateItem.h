@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "core/encoding/CalibrationLine.h"
+#include "core/encoding/StimulatorCalibration.h"
 
 namespace tacto::host::report {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "app/scripting/host/report/Cells.h"
-#include "core/base/NaN.h"
 #include "core/base/QuantityText.h"
+#include "core/base/Statistics.h"
 
 namespace tacto::host::report {
 

@@ -6,7 +6,6 @@
 #include "app/scripting/host/sensor_calibration/SensorParts.h"
 #include "core/analysis/sensor_calibration/ProfilometerFile.h"
 #include "core/analysis/statistics/StatisticsJson.h"
-#include "core/base/GivenOnce.h"
 #include "core/base/Text.h"
 
 namespace tacto::host::sensor_calibration {

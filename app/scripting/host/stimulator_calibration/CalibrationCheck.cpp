@@ -7,9 +7,9 @@
 #include "app/scripting/host/stimulator_calibration/StimulatorParts.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/analysis/statistics/Verdict.h"
-#include "core/base/NaN.h"
 #include "core/base/QuantityText.h"
-#include "core/encoding/CalibratedQuantity.h"
+#include "core/base/Statistics.h"
+#include "core/encoding/StimulatorCalibration.h"
 
 namespace tacto::host::stimulator_calibration {
 

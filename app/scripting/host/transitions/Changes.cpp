@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "app/scripting/host/transitions/TrainRecording.h"
-#include "core/base/NaN.h"
-#include "core/encoding/StepPace.h"
+#include "core/base/Statistics.h"
+#include "core/encoding/StepResponse.h"
 #include "core/encoding/Transitions.h"
 
 namespace tacto::host::transitions {

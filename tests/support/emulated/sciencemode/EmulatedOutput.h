@@ -6,7 +6,7 @@
 
 #include <deque>
 
-#include "core/electrode/PulseResponse.h"
+#include "core/electrode/LoadResponse.h"
 #include "drivers/sciencemode/Acks.h"
 
 namespace tacto::sciencemode {

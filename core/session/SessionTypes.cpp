@@ -1,4 +1,4 @@
-#include "core/session/AboutJson.h"
+#include "core/session/SessionTypes.h"
 
 #include <limits>
 
@@ -66,10 +66,7 @@ RecordFields<SessionAbout> buildAboutFields() {
     return all;
 }
 
-const RecordFields<SessionAbout>& aboutFields() {
-    static const auto fields = buildAboutFields();
-    return fields;
-}
+const RecordFields<SessionAbout>& aboutFields() { return builtOnce<buildAboutFields>(); }
 
 RecordFields<SessionStream> buildStreamFields() {
     using S = SessionStream;
@@ -80,10 +77,7 @@ RecordFields<SessionStream> buildStreamFields() {
     return all;
 }
 
-const RecordFields<SessionStream>& streamFields() {
-    static const auto fields = buildStreamFields();
-    return fields;
-}
+const RecordFields<SessionStream>& streamFields() { return builtOnce<buildStreamFields>(); }
 
 }  // namespace
 

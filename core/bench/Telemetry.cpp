@@ -1,4 +1,4 @@
-#include "core/bench/BlindTelemetry.h"
+#include "core/bench/Telemetry.h"
 
 #include "core/base/Printable.h"
 #include "core/safety/TrainExposure.h"

@@ -1,4 +1,4 @@
-#include "core/base/RecordTable.h"
+#include "core/base/RecordFields.h"
 
 #include <memory>
 #include <utility>

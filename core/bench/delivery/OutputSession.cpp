@@ -1,4 +1,4 @@
-#include "core/bench/delivery/MassagerSession.h"
+#include "core/bench/delivery/OutputSession.h"
 
 namespace tacto {
 
