@@ -36,7 +36,6 @@ constexpr int kSideEvery_ms = 90;                 // numbers ten times a second 
 constexpr int kPlaneEvery_ms = 30;                // smooth to the eye; the strips follow every picture
 constexpr int kReadingEvery_ms = 100;             // captures that are measured for the trains' strip
 constexpr int kStripChars = 32;                   // the least width of the strips
-constexpr int kRigLines = 34;                     // from this height on each field of the rig has a line of its own
 constexpr std::size_t kLongestReading = 100'000;  // samples; a longer one belongs to the oscilloscope workspace
 
 bool isSimulated(const OpenBench& bench, Role role) {
@@ -185,7 +184,6 @@ void LiveWorkspace::fit() {
     split_->setOrientation(beside ? Qt::Horizontal : Qt::Vertical);
     side_->setMinimumHeight(beside ? 0 : std::max(0, side->heightForWidth(room)));
     freeze_->setText(beside ? tr("Free&ze") : QString());  // its icon and its tip say it where a word has no room
-    rig_->setLow(height() < fontMetrics().height() * kRigLines);
 }
 
 void LiveWorkspace::buildTools() {

@@ -1,16 +1,13 @@
 #include "app/gui/live/RigPanel.h"
 
+#include <QGridLayout>
 #include <QHBoxLayout>
 #include <QVBoxLayout>
-#include <utility>
-
-#include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 
 namespace {
 constexpr const char* kMaterials[] = {"glass", "plastic", "paper", "denim", "P400", "P120", "P60"};  // smooth to rough
-constexpr int kBoxPad = 12;
 constexpr double kPaces[] = {0.1, 0.25, 0.5, 1.0, 2.0, 5.0, 10.0};
 }  // namespace
 
@@ -23,13 +20,12 @@ RigPanel::RigPanel(BenchController& controller, QWidget* parent) : QWidget(paren
     layout->addWidget(pace_);
     connect(&controller_, &BenchController::presented, this, &RigPanel::follow);
     begin(1, false);
-    onFontChange(*this, [this] { layFields(); });
 }
 
 QWidget* RigPanel::buildSurfaces() {
     auto* group = new QGroupBox(tr("Under the simulated finger"), this);
-    fields_ = new QGridLayout(group);
-    fields_->setContentsMargins(0, 0, 0, 0);
+    auto* fields = new QGridLayout(group);
+    fields->setContentsMargins(0, 0, 0, 0);
     material_ = new QComboBox(group);
     material_->setObjectName("surface");
     material_->addItem(tr("nothing (lifted)"), "");  // see begin() for what the finger does by itself
@@ -52,37 +48,18 @@ QWidget* RigPanel::buildSurfaces() {
     force_->setObjectName("fingerForce");
     force_->setToolTip(tr("How hard the finger presses."));
     connect(material_, &QComboBox::currentIndexChanged, this, &RigPanel::present);
-    const auto named = [&](const QString& name, QWidget* field) {
+    const auto add = [&](const QString& name, QWidget* field, int row, int column, int span) {
         auto* label = new QLabel(name, group);
         label->setBuddy(field);
-        return label;
+        fields->addWidget(label, row, column);
+        fields->addWidget(field, row, column + 1, 1, span);
     };
-    labels_ = {named(tr("S&urface"), material_), named(tr("Sp&eed"), speed_), named(tr("Force"), force_)};
-    layFields();
+    add(tr("S&urface"), material_, 0, 0, 3);
+    add(tr("Sp&eed"), speed_, 1, 0, 1);
+    add(tr("Force"), force_, 1, 2, 1);
+    fields->setColumnStretch(1, 1);
+    fields->setColumnStretch(3, 1);
     return group;
-}
-
-/// Low, speed and force share a line and have no arrows: keys and wheel step them as well.
-void RigPanel::layFields() {
-    QWidget* const fields[] = {material_, speed_, force_};
-    for (std::size_t i = 0; i < labels_.size(); ++i) {
-        const bool second = low_ && i == 2;
-        const int row = second ? 1 : int(i), column = second ? 2 : 0;
-        fields_->addWidget(labels_[i], row, column);
-        fields_->addWidget(fields[i], row, column + 1, 1, low_ && i > 0 ? 1 : 3);
-    }
-    fields_->setColumnStretch(1, 1);
-    fields_->setColumnStretch(3, 1);
-    for (auto* box : {speed_, force_}) {
-        box->setButtonSymbols(low_ ? QAbstractSpinBox::NoButtons : QAbstractSpinBox::UpDownArrows);
-        // The box itself would keep the room of its arrows.
-        const auto widest = box->textFromValue(box->maximum()) + box->suffix();
-        box->setMinimumWidth(low_ ? fontMetrics().horizontalAdvance(widest) + 2 * scaledPx(kBoxPad) : 0);
-    }
-}
-
-void RigPanel::setLow(bool low) {
-    if (std::exchange(low_, low) != low) layFields();
 }
 
 QWidget* RigPanel::buildPace() {

@@ -5,11 +5,9 @@
 
 #include <QComboBox>
 #include <QDoubleSpinBox>
-#include <QGridLayout>
 #include <QGroupBox>
 #include <QLabel>
 #include <QPushButton>
-#include <array>
 
 #include "app/gui/controller/BenchController.h"
 
@@ -22,8 +20,6 @@ public:
     /// Another bench, or none. `speed` is what its time runs at; `recording` whether one is replayed.
     void begin(double speed, bool recording);
     void refresh(const Telemetry& telemetry);
-    /// In fewer lines.
-    void setLow(bool low);
     [[nodiscard]] double speed() const { return paceBox_->currentData().toDouble(); }
 
 signals:
@@ -32,7 +28,6 @@ signals:
 private:
     [[nodiscard]] QWidget* buildSurfaces();
     [[nodiscard]] QWidget* buildPace();
-    void layFields();
     void endOwnStrokes();
     void present();
     void follow(const QString& material, double speed_mm_s, double force_n);
@@ -40,9 +35,6 @@ private:
 
     BenchController& controller_;
     QWidget* surfaces_;
-    QGridLayout* fields_ = nullptr;
-    std::array<QLabel*, 3> labels_{};  // labels for material, speed and force
-    bool low_ = false;
     QComboBox* material_;
     QDoubleSpinBox* speed_;
     QDoubleSpinBox* force_;

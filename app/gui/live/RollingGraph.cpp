@@ -44,17 +44,6 @@ std::optional<QCPRange> RollingGraph::extent(const QCPRange& time) const {
     return QCPRange(double(low) * scale_, double(high) * scale_);
 }
 
-QCPRange RollingGraph::getKeyRange(bool& found, QCP::SignDomain) const {
-    found = series_ != nullptr && !series_->empty();
-    return found ? QCPRange(series_->time(0), series_->time(series_->size() - 1)) : QCPRange();
-}
-
-QCPRange RollingGraph::getValueRange(bool& found, QCP::SignDomain, const QCPRange& keys) const {
-    const auto range = extent(keys == QCPRange() ? QCPRange(-1e250, 1e250) : keys);
-    found = range.has_value();
-    return range.value_or(QCPRange());
-}
-
 void RollingGraph::draw(QCPPainter* painter) {
     if (series_ == nullptr || series_->empty() || !mKeyAxis || !mValueAxis) return;
     const auto keys = mKeyAxis->range();

@@ -4,14 +4,73 @@
 // Thread-safety: the GUI thread.
 #pragma once
 
+#include <QStaticText>
 #include <qcustomplot.h>
 #include <span>
+#include <vector>
 
 #include "app/gui/live/LiveHistory.h"
 #include "app/gui/live/RollingGraph.h"
-#include "app/gui/live/StripCaption.h"
 
 namespace tacto::gui {
+
+/// The line above a strip: what it shows and in which unit, a key for each thing drawn in it, and at the right the
+/// newest value. Laid out when a word changes, not for every picture: shaping these few words sixty times a second cost
+/// more than drawing the traces they name.
+class StripCaption final : public QCPAbstractItem {
+    Q_OBJECT
+public:
+    /// Owned by the plot of `below`, as every item is.
+    explicit StripCaption(QCPAxisRect& below);
+    /// In the current theme and text size.
+    void dress();
+    [[nodiscard]] int lineHeight() const;
+
+    void setTitle(const QString& text);
+    /// Digits have equal widths, so that the value does not jump. A value that describes the picture is drawn fainter.
+    void setValue(const QString& text, bool describes = false);
+    [[nodiscard]] QString value() const { return value_.text.text(); }
+    /// An empty key takes no room. `brief` stands for it where there is no room for all keys.
+    void setKey(std::size_t index, const QString& text, const QString& brief = {});
+    /// What is drawn beside the key: a piece of the line, and the mark in its middle.
+    void setSample(std::size_t index, const QPen& line, const QCPScatterStyle& mark = QCPScatterStyle::ssNone);
+
+    double selectTest(const QPointF&, bool, QVariant* = nullptr) const override { return -1; }
+
+protected:
+    void draw(QCPPainter* painter) override;
+
+private:
+    struct Words {
+        QStaticText text;
+        double width = 0;
+    };
+    struct Key {
+        Words words, brief;
+        QPen line{Qt::NoPen};
+        QCPScatterStyle mark{QCPScatterStyle::ssNone};
+    };
+    /// How the keys are set: from where, with how much of each.
+    struct Setting {
+        double from, sample, between;
+        bool brief;
+    };
+    [[nodiscard]] static const Words& wordsOf(const Key& key, bool brief);
+    [[nodiscard]] double endOf(const Setting& setting) const;
+    [[nodiscard]] Setting settingFor(double title, double until) const;
+    [[nodiscard]] Key& key(std::size_t index);
+    static void set(Words& words, const QString& text, const QFont& font);
+    static void layOut(Words& words, const QFont& font);
+    void write(QCPPainter& painter, const Words& words, const QFont& font, double x) const;
+
+    QCPAxisRect& below_;
+    QFont font_;
+    QFont strong_;
+    Words title_;
+    Words value_;
+    bool describes_ = false;
+    std::vector<Key> keys_;
+};
 
 /// What of the value axis is fixed.
 struct StripAxis {
@@ -23,6 +82,9 @@ struct StripAxis {
 
 /// The range that `wanted` needs in whole steps; the one `before` stays as long as it fits and is not too wide.
 [[nodiscard]] QCPRange steadyRange(const QCPRange& before, const QCPRange& wanted);
+
+/// `position` is at a time of the strip, and at a share of its height from the top.
+void placeAcross(QCPItemPosition& position, QCPAxisRect& axes);
 
 /// Steps of 1, 2, 5, as many as there is room for: numbers of a low strip do not lie on each other.
 class StripTicker final : public QCPAxisTicker {

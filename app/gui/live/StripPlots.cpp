@@ -90,19 +90,13 @@ StripPlots::StripPlots(const LiveHistory& history, QWidget* parent) : QCustomPlo
     pressure_->setDashed(true);
     trains_ = std::make_unique<TrainGraphs>(strips_[kTrains]);
     fault_ = new QCPItemText(this);
-    fault_->position->setAxisRect(&strips_[kTrains].axes());
-    fault_->position->setAxes(&strips_[kTrains].time(), &strips_[kTrains].values());
-    fault_->position->setTypeX(QCPItemPosition::ptPlotCoords);
-    fault_->position->setTypeY(QCPItemPosition::ptAxisRectRatio);
+    placeAcross(*fault_->position, strips_[kTrains].axes());
     fault_->setClipAxisRect(&strips_[kTrains].axes());
     fault_->setLayer("axes");
     fault_->setPadding(QMargins(8, 2, 8, 2));
     fault_->setVisible(false);
     begin(false, false, "V");
-    onLookChange(*this, [this] {
-        colour();
-        layOut();
-    });
+    onLookChange(*this, [this] { dress(); });
 }
 
 void StripPlots::begin(bool simulatedTouch, bool simulatedSource, const QString& commandUnit) {
@@ -127,8 +121,7 @@ void StripPlots::begin(bool simulatedTouch, bool simulatedSource, const QString&
     strips_[kTrains].setUnit(commandUnit);
     strips_[kTaxels].setFromZero(strips_[kTaxels].unit() == "kPa");  // counts stand anywhere
     attach();
-    colour();
-    layOut();
+    dress();
 }
 
 void StripPlots::attach() {
@@ -149,11 +142,8 @@ void StripPlots::attach() {
     pressure_->show(&shown().frames(), LiveHistory::kPressure, kFrameGap_s);
 }
 
-void StripPlots::layOut() {
-    for (auto& strip : strips_) strip.layOut();
-}
-
-void StripPlots::colour() {
+/// In the current theme and text size.
+void StripPlots::dress() {
     const auto& c = colours();
     stylePlot(*this);
     for (auto& strip : strips_) strip.dress();
@@ -176,6 +166,7 @@ void StripPlots::colour() {
     fault_->setBrush(faulted.ground);
     fault_->setColor(faulted.ink);
     write();
+    for (auto& strip : strips_) strip.layOut();
 }
 
 void StripPlots::setWindow(double seconds) {

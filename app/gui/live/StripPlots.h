@@ -64,8 +64,7 @@ private:
     [[nodiscard]] const LiveHistory& shown() const { return frozen_ ? *frozen_ : history_; }
     void rememberView();
     void attach();
-    void colour();
-    void layOut();
+    void dress();
     [[nodiscard]] const Strip& stripOf(StreamKind kind) const;
     void markFault(const QCPRange& time);
     void write();

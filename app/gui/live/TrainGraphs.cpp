@@ -34,16 +34,10 @@ TrainGraphs::TrainGraphs(Strip& strip)
         (*graph)->setLineStyle(QCPGraph::lsNone);
     }
     readings_.reserve(kReadings);
-    auto* plot = strip.time().parentPlot();
-    off_ = new QCPItemRect(plot);
-    offSays_ = new QCPItemText(plot);
+    off_ = new QCPItemRect(strip.time().parentPlot());
+    offSays_ = new QCPItemText(strip.time().parentPlot());
     offSays_->setText(QObject::tr("output off"));
-    for (auto* place : {off_->topLeft, off_->bottomRight, offSays_->position}) {
-        place->setAxisRect(&strip.axes());
-        place->setAxes(&strip.time(), &strip.values());
-        place->setTypeX(QCPItemPosition::ptPlotCoords);
-        place->setTypeY(QCPItemPosition::ptAxisRectRatio);
-    }
+    for (auto* place : {off_->topLeft, off_->bottomRight, offSays_->position}) placeAcross(*place, strip.axes());
     for (QCPAbstractItem* item : {static_cast<QCPAbstractItem*>(off_), static_cast<QCPAbstractItem*>(offSays_)}) {
         item->setClipAxisRect(&strip.axes());
         item->setVisible(false);

@@ -12,6 +12,7 @@
 #include "app/gui/scope/panels/ScopeStatus.h"
 #include "app/gui/scope/panels/ScopeTools.h"
 #include "app/gui/scope/screen/ScopeScreen.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
@@ -56,6 +57,10 @@ ScopeColumns::ScopeColumns(const Parts& parts, QWidget* parent)
     row->addWidget(left, 1);
     row->addWidget(&parts_.controls);
     rows->addLayout(row, 1);
+    afterLookChange(*this, [this] {
+        fitControls();
+        placeStatus();
+    });
 }
 
 void ScopeColumns::askForControls(bool on) {
@@ -67,7 +72,7 @@ void ScopeColumns::askForControls(bool on) {
 void ScopeColumns::reset() {
     plots_->setSizes(kFirstSizes);
     parts_.table.hide();
-    parts_.tools.showTable(false);
+    parts_.tools.tool(ScopeTool::Table).setChecked(false);
     askForControls(false);
 }
 
@@ -77,7 +82,7 @@ void ScopeColumns::fitControls() {
     const bool room = width() >= needed;
     if (room) forced_ = false;
     const bool on = wanted_ && (room || forced_);
-    parts_.tools.showControls(on);
+    parts_.tools.tool(ScopeTool::Controls).setChecked(on);
     parts_.controls.setVisible(on);
 }
 
@@ -103,18 +108,6 @@ void ScopeColumns::resizeEvent(QResizeEvent* event) {
     fitControls();
 }
 
-void ScopeColumns::changeEvent(QEvent* event) {
-    QWidget::changeEvent(event);
-    if (event->type() != QEvent::FontChange || plots_ == nullptr) return;
-    QMetaObject::invokeMethod(
-        this,
-        [this] {
-            fitControls();
-            placeStatus();
-        },
-        Qt::QueuedConnection);  // once all have the new font
-}
-
 void ScopeColumns::save(QSettings& settings) const {
     settings.setValue("panels", plots_->saveState());
     settings.setValue("controls", wanted_);
@@ -128,7 +121,7 @@ void ScopeColumns::restore(QSettings& settings) {
     // At a first start the screen gets all the room; both panels are opened from the tools.
     wanted_ = rememberedFlag(settings, "controls").value_or(false);
     parts_.table.setVisible(rememberedFlag(settings, "table").value_or(false));
-    parts_.tools.showTable(!parts_.table.isHidden());
+    parts_.tools.tool(ScopeTool::Table).setChecked(!parts_.table.isHidden());
     fitControls();
 }
 

@@ -8,7 +8,6 @@
 
 #include "app/gui/scope/measurements/MeasurementTable.h"
 #include "app/gui/scope/model/CapturePipe.h"
-#include "app/gui/scope/model/ScopeExport.h"
 #include "app/gui/scope/screen/ScopeScreen.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/Text.h"
@@ -19,6 +18,11 @@ namespace tacto::gui {
 namespace {
 
 constexpr std::size_t kMaxCopied = 200'000;  ///< samples a channel, as text on the clipboard
+
+/// On the session's time base.
+std::pair<double, double> visible(const ScopeModel& model) {
+    return {model.viewport().left_s + model.zero_s(), model.viewport().right_s() + model.zero_s()};
+}
 
 }  // namespace
 
@@ -82,9 +86,8 @@ void ScopeFiles::askSave(const QString& filter, const QString& ending) {
 void ScopeFiles::saveAs(const QString& path, const ScopeStill& still) {
     if (path.endsWith(".csv", Qt::CaseInsensitive)) {
         emit told({}, {});
-        const auto& model = *still.model;
-        pipe_.save(model.shown(), model.viewport().left_s + model.zero_s(), model.viewport().right_s() + model.zero_s(),
-                   path);
+        const auto [from, to] = visible(*still.model);
+        pipe_.save(still.model->shown(), from, to, path);
     } else if (const auto wrong = saveScopePicture(still, path)) {
         emit told({}, *wrong);
     } else {
@@ -100,8 +103,7 @@ void ScopeFiles::copyPicture() {
 void ScopeFiles::copyData() {
     const auto& shown = model_.shown();
     if (!shown) return;
-    const double zero = model_.zero_s();
-    const double from = model_.viewport().left_s + zero, to = model_.viewport().right_s() + zero;
+    const auto [from, to] = visible(model_);
     const QTemporaryDir folder;
     const auto path = folder.filePath("copied.csv");
     if ((std::min(to, shown->end_s()) - std::max(from, shown->capture->start_s)) * shown->capture->rate_hz >

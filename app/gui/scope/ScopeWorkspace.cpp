@@ -3,6 +3,7 @@
 #include <QDragEnterEvent>
 #include <QFileInfo>
 #include <QMimeData>
+#include <QShortcut>
 #include <QStackedWidget>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -10,9 +11,7 @@
 #include <utility>
 
 #include "app/gui/scope/ScopeColumns.h"
-#include "app/gui/scope/ScopeEmpty.h"
 #include "app/gui/scope/ScopeFiles.h"
-#include "app/gui/scope/ScopeKeys.h"
 #include "app/gui/scope/measurements/MeasurementTable.h"
 #include "app/gui/scope/measurements/SpectrumPanel.h"
 #include "app/gui/scope/panels/ScopeControls.h"
@@ -21,6 +20,7 @@
 #include "app/gui/scope/screen/ScopeGestures.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Theme.h"
+#include "app/gui/theme/TroubleLine.h"
 #include "app/run/CaptureFormatsList.h"
 #include "core/base/Words.h"
 
@@ -49,8 +49,7 @@ ScopeWorkspace::ScopeWorkspace(BenchController& controller, QWidget* parent)
       controls_(new ScopeControls(model_, *screen_, this)),
       spectrum_(new SpectrumPanel(this)),
       table_(new MeasurementTable(readings_, this)),
-      stack_(new QStackedWidget(this)),
-      empty_(new ScopeEmpty(stack_)) {
+      stack_(new QStackedWidget(this)) {
     acquisition_ = std::make_unique<ScopeAcquisition>(controller_, controls_->acquisition());
     feed_ = std::make_unique<ScopeFeed>(model_, *acquisition_);
     setAcceptDrops(true);
@@ -74,9 +73,19 @@ ScopeWorkspace::~ScopeWorkspace() {
 }
 
 void ScopeWorkspace::layOut() {
-    connect(empty_, &ScopeEmpty::nextStep, this, &ScopeWorkspace::openBenchWanted);
-    connect(empty_, &ScopeEmpty::openClicked, files_.get(), &ScopeFiles::askOpen);
-    stack_->addWidget(empty_);
+    auto* empty = new EmptyState(tr("The oscilloscope shows and measures what really arrives at the electrodes.\n"
+                                    "No bench is open, and no capture is loaded."),
+                                 tr("Open the simulated bench"), stack_);
+    connect(empty, &EmptyState::nextStep, this, &ScopeWorkspace::openBenchWanted);
+    auto* open = new QPushButton(tr("Open a capture…"), empty);
+    open->setToolTip(tr("As this program, an oscilloscope or sigrok saved it: CSV, ISF, WAV or .sr."));
+    connect(open, &QPushButton::clicked, files_.get(), &ScopeFiles::askOpen);
+    notOpened_ = new TroubleLine("scopeProblem", empty);
+    notOpened_->setAlignment(Qt::AlignCenter);
+    auto* column = static_cast<QVBoxLayout*>(empty->layout());
+    column->insertWidget(column->count() - 1, open, 0, Qt::AlignCenter);
+    column->insertWidget(column->count() - 1, notOpened_);
+    stack_->addWidget(empty);
     columns_ = new ScopeColumns({*tools_, *status_, *screen_, *spectrum_, *table_, *controls_}, stack_);
     stack_->addWidget(columns_);
     auto* layout = new QVBoxLayout(this);
@@ -86,37 +95,66 @@ void ScopeWorkspace::layOut() {
 }
 
 void ScopeWorkspace::connectTools() {
-    connect(tools_, &ScopeTools::runClicked, this, [this] { running() ? hold() : run(); });
+    const auto onClick = [this](ScopeTool which, auto&& does) {
+        connect(&tools_->tool(which), &QToolButton::clicked, this, does);
+    };
+    const auto onToggle = [this](ScopeTool which, auto* whose, auto does) {
+        connect(&tools_->tool(which), &QToolButton::toggled, whose, does);
+    };
+    connect(&tools_->run(), &QPushButton::clicked, this, [this] { running() ? hold() : run(); });
     connect(tools_, &ScopeTools::modeChosen, this, &ScopeWorkspace::setMode);
-    connect(tools_, &ScopeTools::fitClicked, &model_, &ScopeModel::fit);
-    connect(tools_, &ScopeTools::undoClicked, &model_, &ScopeModel::undoZoom);
-    connect(tools_, &ScopeTools::boxToggled, gestures_.get(), &ScopeGestures::setBoxZoom);
-    connect(tools_, &ScopeTools::timeCursorsToggled, &model_, &ScopeModel::setTimeCursors);
-    connect(tools_, &ScopeTools::levelCursorsToggled, &model_, &ScopeModel::setLevelCursors);
-    connect(gestures_.get(), &ScopeGestures::boxZoomEnded, tools_, &ScopeTools::endBox);
-    connect(tools_, &ScopeTools::controlsClicked, columns_, &ScopeColumns::askForControls);
-    connect(tools_, &ScopeTools::tableClicked, table_, &QWidget::setVisible);
     connect(tools_, &ScopeTools::timeBaseChosen, &model_, &ScopeModel::setTimePerDivision);
-    connect(tools_, &ScopeTools::spectrumClicked, &controls_->view(), &ViewPanel::setSpectrum);
-    connect(tools_, &ScopeTools::averageClicked, this,
+    onClick(ScopeTool::Fit, [this] { model_.fit(); });
+    onClick(ScopeTool::Undo, [this] { model_.undoZoom(); });
+    onToggle(ScopeTool::Box, gestures_.get(), &ScopeGestures::setBoxZoom);
+    onToggle(ScopeTool::TimeCursors, &model_, &ScopeModel::setTimeCursors);
+    onToggle(ScopeTool::LevelCursors, &model_, &ScopeModel::setLevelCursors);
+    connect(gestures_.get(), &ScopeGestures::boxZoomEnded, &tools_->tool(ScopeTool::Box),
+            [this] { tools_->tool(ScopeTool::Box).setChecked(false); });
+    onClick(ScopeTool::Controls, [this](bool on) { columns_->askForControls(on); });
+    onClick(ScopeTool::Table, [this](bool on) { table_->setVisible(on); });
+    onClick(ScopeTool::Spectrum, [this](bool on) { controls_->view().setSpectrum(on); });
+    onClick(ScopeTool::Average,
             [this](bool on) { controls_->view().setAverage(on ? controls_->view().lastAverage() : 1); });
-    connect(tools_, &ScopeTools::maskClicked, this, [this](bool on) {
+    onClick(ScopeTool::Mask, [this](bool on) {
         on ? controls_->mask().make(model_.shown()) : controls_->mask().remove();
         showState();
     });
+    onClick(ScopeTool::Mark, [this] { emit markWanted(); });
     connect(status_, &ScopeStatus::cancelClicked, &pipe_, &CapturePipe::cancelOpen);
     connect(files_.get(), &ScopeFiles::openWanted, this, &ScopeWorkspace::openCaptureFile);
     connect(files_.get(), &ScopeFiles::told, this, &ScopeWorkspace::tell);
     connect(&tools_->pictures().copy(), &QToolButton::clicked, files_.get(), &ScopeFiles::copyPicture);
-    connect(tools_, &ScopeTools::markClicked, this, &ScopeWorkspace::markWanted);
     connect(&tools_->pictures(), &PictureTools::plotOnlyWanted, this, &ScopeWorkspace::plotOnlyWanted);
-    addScopeKeys(*this, *tools_, *files_);
+    addKeys();
+}
+
+void ScopeWorkspace::addKeys() {
+    const auto onKey = [this](const QKeySequence& key, auto task) {
+        auto* shortcut = new QShortcut(key, this);
+        // The tools may stand in another row than the workspace: its keys are its own wherever the focus is.
+        shortcut->setContext(Qt::WindowShortcut);
+        connect(shortcut, &QShortcut::activated, this, task);
+    };
+    for (const auto& [key, mode] : {std::pair(Qt::Key_A, ScopeMode::Auto), std::pair(Qt::Key_N, ScopeMode::Normal),
+                                    std::pair(Qt::Key_S, ScopeMode::Single)})
+        onKey(key, [this, mode = mode] { setMode(mode); });
+    for (const auto& [key, tool] :
+         {std::pair(Qt::Key_T, ScopeTool::TimeCursors), std::pair(Qt::Key_L, ScopeTool::LevelCursors),
+          std::pair(Qt::Key_B, ScopeTool::Box)})
+        onKey(key, [this, tool = tool] { tools_->tool(tool).toggle(); });
+    onKey(Qt::Key_R, [this] { running() ? hold() : run(); });
+    onKey(Qt::Key_D, [this] { emit driveWanted(); });
+    onKey(QKeySequence::Save, [this] {
+        if (model_.shown()) files_->askSavePicture();
+    });
+    onKey(QKeySequence::Undo, [this] { model_.undoZoom(); });
 }
 
 void ScopeWorkspace::connectModel() {
     connect(&model_, &ScopeModel::cursorsChanged, this, &ScopeWorkspace::sayCursors);
     connect(&model_, &ScopeModel::viewChanged, this, [this] {
-        tools_->setCanUndo(model_.canUndo());
+        tools_->tool(ScopeTool::Undo).setEnabled(model_.canUndo());
         tools_->showTimeBase(model_.viewport().perDivision_s, model_.leastTimePerDivision_s());
         sayCursors();
     });
@@ -346,12 +384,14 @@ void ScopeWorkspace::showState() {
     tools_->showRunning(running(), acquisition_->possible());
     const auto& shown = model_.shown();
     const bool triggered = shown && std::isfinite(shown->capture->trigger_s);
-    tools_->showMask(controls_->mask().mask() != nullptr, triggered);
+    auto& mask = tools_->tool(ScopeTool::Mask);
+    mask.setChecked(controls_->mask().mask() != nullptr);
+    mask.setEnabled(mask.isChecked() || triggered);
     controls_->mask().canMake(triggered);
     const bool empty = !model_.shown() && controller_.activity() == Activity::Closed && !pipe_.opening();
     stack_->setCurrentIndex(empty ? 0 : 1);
     status_->setVisible(!empty);
-    empty_->setProblem(status_->problem());
+    notOpened_->say(status_->problem());
     say();
 }
 
@@ -366,7 +406,7 @@ void ScopeWorkspace::say() {
         settings().triggerLevel, acquisition_->levelFollows());
     model_.setPreTrigger(ours && running() && shown ? std::optional(acquisition_->requestedSettings().preTrigger)
                                                     : std::nullopt);
-    tools_->setCanUndo(model_.canUndo());
+    tools_->tool(ScopeTool::Undo).setEnabled(model_.canUndo());
 }
 
 void ScopeWorkspace::sayCursors() {
@@ -379,7 +419,7 @@ void ScopeWorkspace::sayCursors() {
 void ScopeWorkspace::average() {
     const int captures = model_.roll() ? 1 : controls_->view().average();
     pipe_.setAverage(static_cast<std::size_t>(captures));
-    tools_->showAverage(captures > 1);
+    tools_->tool(ScopeTool::Average).setChecked(captures > 1);
     if (std::exchange(averages_, captures) != captures) table_->clear();
 }
 
@@ -394,7 +434,7 @@ PictureCaption ScopeWorkspace::caption() const {
 void ScopeWorkspace::showSpectrum() {
     const bool wanted = controls_->view().wantsSpectrum();
     spectrum_->setVisible(wanted);
-    tools_->showSpectrum(wanted);
+    tools_->tool(ScopeTool::Spectrum).setChecked(wanted);
 }
 
 }  // namespace tacto::gui

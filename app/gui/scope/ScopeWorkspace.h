@@ -10,11 +10,10 @@
 
 #include <QWidget>
 
-#include "app/gui/scope/measurements/ChosenReadings.h"
+#include "app/gui/scope/measurements/Reading.h"
 #include "app/gui/scope/model/CapturePipe.h"
 #include "app/gui/scope/model/ScopeModel.h"
 #include "app/gui/scope/panels/ScopeAcquisition.h"
-#include "app/gui/scope/panels/ScopeFeed.h"
 
 class QStackedWidget;
 
@@ -23,13 +22,13 @@ namespace tacto::gui {
 class MeasurementTable;
 class ScopeColumns;
 class ScopeControls;
-class ScopeEmpty;
 class ScopeFiles;
 class ScopeGestures;
 class ScopeScreen;
 class ScopeStatus;
 class ScopeTools;
 class SpectrumPanel;
+class TroubleLine;
 struct PictureCaption;
 
 class ScopeWorkspace final : public QWidget {
@@ -95,6 +94,10 @@ protected:
 private:
     void layOut();
     void connectTools();
+    /// Wherever the focus is in the window while this is visible: R run or hold, A auto, N normal, S single, T and L
+    /// cursors, B box, D drive, Ctrl+S saves the picture, Ctrl+Z goes a zoom back. The screen's own are in
+    /// ScopeGestures.h.
+    void addKeys();
     void connectModel();
     void connectPanels();
     void connectBench();
@@ -130,7 +133,7 @@ private:
     SpectrumPanel* spectrum_;
     MeasurementTable* table_;
     QStackedWidget* stack_;
-    ScopeEmpty* empty_;
+    TroubleLine* notOpened_ = nullptr;  ///< why the last file was not, where nothing is shown
     ScopeColumns* columns_ = nullptr;
 };
 

@@ -1,9 +1,11 @@
-// The pictures themselves, from samples that the test knows: columns, gaps, old data, frequencies, cost.
+// What the live plots remember, and the pictures from samples that the test knows: columns, gaps, old data,
+// frequencies.
 #include <QTest>
 #include <cmath>
 #include <gtest/gtest.h>
 
 #include "app/gui/live/CommandPanel.h"
+#include "app/gui/live/LiveHistory.h"
 #include "app/gui/live/StripPlots.h"
 #include "app/gui/live/TactilePlane.h"
 #include "app/gui/live/TaxelMap.h"
@@ -79,6 +81,12 @@ protected:
             if (std::abs(c.red() - c.green()) + std::abs(c.green() - c.blue()) > 60) ++count;
         }
         return count;
+    }
+
+    QStringList written() {
+        QStringList all;
+        for (const auto& word : wordsOf(plots)) all << word.text;
+        return all;
     }
 
     BenchTap tap;
@@ -283,11 +291,6 @@ TEST_F(Plots, WhileAFaultHoldsTheOutputOffTheTrainsAreShadedAndNoneIsCalledNotDe
 
 TEST_F(Plots, EveryTraceIsNamedInANarrowWindowToo) {
     feel(2);
-    const auto written = [this] {
-        QStringList all;
-        for (const auto& word : wordsOf(plots)) all << word.text;
-        return all;
-    };
     draw();
     for (const auto* name : {"x", "y", "z", "roughness R", "pressure P", "commanded", "delivered"})
         EXPECT_TRUE(written().contains(name)) << name << ": " << written().join('|').toStdString();
@@ -313,11 +316,6 @@ TEST_F(Plots, WhatConfirmsTheTrainsIsNamedInANarrowWindowToo) {
     tap.trains.push(train);
     feel(2);
     plots.addScopeReading(1, 19.9);
-    const auto written = [this] {
-        QStringList all;
-        for (const auto& word : wordsOf(plots)) all << word.text;
-        return all;
-    };
     const std::pair<const char*, const char*> keys[] = {
         {"commanded", "asked"}, {"delivered", "given"}, {"read back", "read"}, {"oscilloscope", "scope"}};
     for (const int width : {900, 390}) {  // in a window of 1024 pixels with the docks open
@@ -341,15 +339,7 @@ TEST_F(Plots, NumbersOfALowStripDoNotLieOnEachOther) {
         plots.resize(900, height);
         draw();
         draw();
-        for (auto* axes : plots.axisRects()) {
-            const auto* axis = axes->axis(QCPAxis::atLeft);
-            if (!axis->tickLabels()) continue;  // not even one has room
-            const auto ticks = axis->tickVector();
-            const int line = QFontMetrics(axis->tickLabelFont()).height();
-            for (int i = 1; i < ticks.size(); ++i) {
-                EXPECT_GE(axis->coordToPixel(ticks[i - 1]) - axis->coordToPixel(ticks[i]), line) << height;
-            }
-        }
+        EXPECT_EQ(plotWordFaults(plots).join('\n').toStdString(), "") << height;
     }
     shot(plots, "strips-low");
 }
@@ -374,15 +364,6 @@ TEST_F(Plots, AStripWithoutItsStreamIsLeftOut) {
     EXPECT_GT(plots.axisRects().at(2)->height(), 100) << "the others have its place";
 }
 
-TEST(TaxelMap, ChoosesASensibleGrid) {
-    using gui::TaxelMap;
-    EXPECT_EQ(TaxelMap::gridFor(8), QSize(4, 2));
-    EXPECT_EQ(TaxelMap::gridFor(1), QSize(1, 1));
-    EXPECT_EQ(TaxelMap::gridFor(3), QSize(3, 1));
-    EXPECT_EQ(TaxelMap::gridFor(16), QSize(4, 4));
-    EXPECT_EQ(TaxelMap::gridFor(5), QSize(3, 2));
-}
-
 TEST(TaxelMap, IsBluerWhereItIsPressed) {
     gui::TaxelMap map;
     map.resize(400, 200);
@@ -393,18 +374,11 @@ TEST(TaxelMap, IsBluerWhereItIsPressed) {
     EXPECT_FLOAT_EQ(map.values()[2], 5000);
     EXPECT_FLOAT_EQ(map.values()[1], 0);
     EXPECT_TRUE(std::isnan(map.values()[7]));
-    const auto image = map.grab().toImage();
-    const QColor there = image.pixelColor(210, 10), elsewhere = image.pixelColor(110, 10);
+    const auto fresh = map.grab().toImage();
+    const QColor there = fresh.pixelColor(210, 10), elsewhere = fresh.pixelColor(110, 10);
     EXPECT_LT(there.lightness(), elsewhere.lightness() - 40);
     EXPECT_GT(there.blue() - there.red(), 80);
-    // Legible on every ground: a full cell is light enough for the text's own colour.
-    int darkest = 255;
-    for (int x = 203; x < 298; ++x) {
-        for (int y = 2; y < 97; ++y) darkest = std::min(darkest, image.pixelColor(x, y).lightness());
-    }
-    EXPECT_LT(darkest, 60);
-    EXPECT_GT(there.lightness(), 140);
-    const auto fresh = map.grab().toImage();
+    EXPECT_GE(gui::contrast(there, gui::colours().text), 4.5) << "a full cell is light enough for its number";
     map.setStale(true);
     EXPECT_NE(map.grab().toImage(), fresh) << "old values are marked";
 }
@@ -467,6 +441,137 @@ TEST(Plane, ThePresentPointIsSeenWhereItStandsOnACondition) {
     const auto without = atTheMark();
     plane.show(Series(1, 10), 0, 1, 1, true);
     EXPECT_NE(atTheMark(), without);
+}
+
+using gui::TrainRing;
+
+const std::vector<StreamInfo> kStreams{{StreamKind::Acceleration, StreamUnit::MetrePerSecondSquared, 3, 4000, "a"},
+                                       {StreamKind::Force, StreamUnit::Newton, 1, 200, "f"}};
+
+TapSample sampleAt(double t_s, std::uint32_t stream, float value) {
+    TapSample sample;
+    sample.t_s = t_s;
+    sample.stream = stream;
+    sample.channels = stream == 0 ? 3 : 1;
+    sample.values.fill(value);
+    return sample;
+}
+
+Telemetry at(double t_s) {
+    Telemetry telemetry;
+    telemetry.at = toInstant(t_s);
+    return telemetry;
+}
+
+TEST(Series, KeepsTheNewestInOrder) {
+    Series series(2, 5);
+    for (int i = 0; i < 12; ++i) series.push(i, std::array{float(i), float(-i)});
+    ASSERT_EQ(series.size(), 5U);
+    for (std::size_t i = 0; i < 5; ++i) {
+        EXPECT_DOUBLE_EQ(series.time(i), 7.0 + double(i));
+        EXPECT_FLOAT_EQ(series.value(i, 0), 7.F + float(i));
+        EXPECT_FLOAT_EQ(series.value(i, 1), -7.F - float(i));
+    }
+    EXPECT_EQ(series.firstFrom(8.5), 2U);
+    EXPECT_EQ(series.firstFrom(100), 5U);
+}
+
+TEST(Series, AChannelThatWasNotSentIsAbsent) {
+    Series series(3, 4);
+    series.push(1, std::array{5.F});
+    EXPECT_FLOAT_EQ(series.value(0, 0), 5.F);
+    EXPECT_TRUE(std::isnan(series.value(0, 2)));
+}
+
+TEST(Series, LeavesOutRepeatsAndBeginsAnewOnAnotherClock) {
+    Series series(1, 10);
+    for (const double t : {10.0, 10.1, 10.1, 10.05, std::nan(""), 10.2}) series.push(t, std::array{float(t)});
+    ASSERT_EQ(series.size(), 3U);
+    EXPECT_DOUBLE_EQ(series.newest(), 10.2);
+    series.push(2.0, std::array{2.F});
+    ASSERT_EQ(series.size(), 1U);
+    EXPECT_DOUBLE_EQ(series.newest(), 2.0);
+}
+
+TEST(TrainRing, ForgetsTheOldest) {
+    TrainRing trains;
+    for (std::size_t i = 0; i < TrainRing::kCapacity + 30; ++i) {
+        TrainReport report;
+        report.amplitude = double(i);
+        trains.push(report);
+    }
+    ASSERT_EQ(trains.size(), TrainRing::kCapacity);
+    EXPECT_DOUBLE_EQ(trains[0].amplitude, 30);
+    EXPECT_DOUBLE_EQ(trains.back().amplitude, double(TrainRing::kCapacity) + 29);
+}
+
+TEST(LiveHistory, IsBoundedToAMinute) {
+    LiveHistory history;
+    history.begin(kStreams);
+    BenchTap tap;
+    for (int second = 0; second < 100; ++second) {
+        for (int i = 0; i < 4000; ++i) tap.samples.push(sampleAt(second + i / 4000.0, 0, float(second)));
+        for (int i = 0; i < 70; ++i) {
+            RoughnessFrame frame;
+            frame.t_s = second + i / 70.0;
+            tap.frames.push(frame);
+            history.take(tap, at(frame.t_s));
+        }
+    }
+    const auto& acceleration = *history.samples(StreamKind::Acceleration);
+    EXPECT_EQ(acceleration.size(), std::size_t(4000 * LiveHistory::kKept_s));
+    EXPECT_EQ(acceleration.size(), acceleration.capacity());
+    EXPECT_NEAR(acceleration.newest() - acceleration.time(0), LiveHistory::kKept_s, 0.01);
+    EXPECT_EQ(history.frames().size(), std::min<std::size_t>(7000, history.frames().capacity()));
+    EXPECT_LE(history.commands().size(), history.commands().capacity());
+    EXPECT_EQ(history.missed(), 0U);
+}
+
+TEST(LiveHistory, SaysWhatTheDisplayLeftOut) {
+    LiveHistory history;
+    history.begin(kStreams);
+    BenchTap tap;
+    const auto room = tap.samples.capacity();
+    for (std::size_t i = 0; i < room + 50; ++i) tap.samples.push(sampleAt(double(i) / 4000, 0, 0));
+    history.take(tap, at(5));
+    EXPECT_EQ(history.missed(), 50U);
+    EXPECT_EQ(history.samples(StreamKind::Acceleration)->size(), room);
+}
+
+TEST(LiveHistory, KeepsTheCommandOverTime) {
+    LiveHistory history;
+    history.begin(kStreams);
+    BenchTap tap;
+    auto telemetry = at(1);
+    history.take(tap, telemetry);
+    telemetry = at(2);
+    telemetry.amplitude_v = 25;
+    telemetry.interval_s = 0.5;
+    telemetry.impedance_ohm = 1000;
+    history.take(tap, telemetry);
+    ASSERT_EQ(history.commands().size(), 2U);
+    EXPECT_TRUE(std::isnan(history.commands().value(0, LiveHistory::kAmplitude_v)));
+    EXPECT_FLOAT_EQ(history.commands().value(1, LiveHistory::kAmplitude_v), 25);
+    EXPECT_FLOAT_EQ(history.commands().value(1, LiveHistory::kInterval_s), 0.5F);
+    EXPECT_FLOAT_EQ(history.commands().value(1, LiveHistory::kImpedance_ohm), 1000);
+}
+
+TEST(LiveHistory, AnotherBenchLeavesNothingOfTheOneBefore) {
+    LiveHistory history;
+    history.begin(kStreams);
+    BenchTap tap;
+    tap.samples.push(sampleAt(1, 1, 3));
+    tap.trains.push(TrainReport{});
+    tap.frames.push(RoughnessFrame{});
+    history.take(tap, at(1));
+    ASSERT_EQ(history.trains().size(), 1U);
+    history.begin({kStreams.back()});
+    EXPECT_EQ(history.samples(StreamKind::Acceleration), nullptr);
+    EXPECT_TRUE(history.samples(StreamKind::Force)->empty());
+    EXPECT_TRUE(history.frames().empty());
+    EXPECT_TRUE(history.commands().empty());
+    EXPECT_TRUE(history.trains().empty());
+    EXPECT_EQ(history.now_s(), 0);
 }
 
 }  // namespace

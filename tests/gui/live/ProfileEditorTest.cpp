@@ -110,7 +110,7 @@ TEST_F(Editor, EveryFieldIsAcceptedAsShippedAndRefusedOutsideItsRange) {
         showTab(static_cast<int>(field.tab));
         if (field.isChoice()) {
             EXPECT_GE(editor.findChild<QComboBox*>(field.key)->currentIndex(), 0) << field.key;
-            EXPECT_EQ(field.form.words.size(), field.stored->words.size()) << field.key;
+            EXPECT_EQ(field.words.size(), field.stored->words.size()) << field.key;
             EXPECT_EQ(editor.findChild<QComboBox*>(field.key)->count(), int(field.stored->words.size())) << field.key;
             continue;
         }

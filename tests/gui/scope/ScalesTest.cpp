@@ -1,11 +1,14 @@
-// Scales of the oscilloscope: their steps, values as people write them, and where numbers stand on an axis.
+// Scales of the oscilloscope (steps, values as people write them, numbers on an axis), and the counts of its mask.
 #include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
-#include "app/gui/scope/model/Steps.h"
+#include "app/gui/scope/model/Viewport.h"
+#include "app/gui/scope/panels/MaskPanel.h"
 #include "app/gui/scope/panels/QuantitySpin.h"
 #include "app/gui/scope/screen/Graticule.h"
 #include "core/base/Random.h"
 #include "tests/gui/Person.h"
+#include "tests/gui/scope/Captures.h"
 
 namespace tacto::test {
 namespace {
@@ -93,6 +96,27 @@ TEST(Steps, AScaleBetweenTwoStepsGoesToTheNextEitherWay) {
     EXPECT_DOUBLE_EQ(gui::stepAlong(150e-6, 1), 200e-6);
     EXPECT_DOUBLE_EQ(gui::stepAlong(150e-6, -1), 100e-6);
     EXPECT_DOUBLE_EQ(gui::stepAlong(200e-6, 1), 500e-6);
+}
+
+TEST(MaskPanel, AResetCountsNoCaptureFromBefore) {
+    gui::MaskPanel panel;
+    panel.make(prepared(twoPulses()));
+    const auto judged = [&] {
+        auto shown = std::const_pointer_cast<gui::ShownCapture>(prepared(twoPulses(99.999, 30)));
+        shown->judgedBy = panel.mask();
+        shown->mask = panel.mask()->check(*shown->capture);
+        return shown;
+    };
+    const auto underWay = judged();
+    panel.take(judged());
+    ASSERT_EQ(panel.counts().outside, 1U);
+    panel.resetCounts();
+    panel.take(underWay);
+    EXPECT_EQ(panel.counts().judged(), 0U);
+    EXPECT_EQ(panel.alarm(), "");
+    EXPECT_EQ(panel.firstOutside(), nullptr);
+    panel.take(judged());
+    EXPECT_EQ(panel.counts().outside, 1U) << "the test goes on with the same band";
 }
 
 }  // namespace

@@ -12,14 +12,10 @@
 #include "app/gui/scope/measurements/MeasurementTable.h"
 #include "app/gui/scope/screen/ScopeScreen.h"
 #include "tests/gui/Person.h"
+#include "tests/gui/scope/Captures.h"
 #include "tests/support/InTime.h"
 
 namespace tacto::test {
-
-/// A first start: nothing is remembered.
-struct FreshSettings {
-    FreshSettings() { QSettings().clear(); }
-};
 
 class Scope : public testing::Test {
 protected:
@@ -46,6 +42,16 @@ protected:
         ASSERT_IN_TIME(comesTrue([this] { return controller.telemetry().state == InterlockState::Armed; }));
         controller.drive(DriveSource::Manual, 0.5, 0.8);
     }
+    /// The first train of a bench that delivers is on the screen.
+    void showATrain() {
+        openBench();
+        deliver();
+        ASSERT_IN_TIME(comes([this] { return triggered(); }));
+    }
+    void showTwoPulses() {
+        scope.show(std::make_shared<const Capture>(twoPulses()));
+        ASSERT_IN_TIME(comes([this] { return scope.model().shown() != nullptr; }));
+    }
     /// As the window does at 30 Hz.
     bool comes(const std::function<bool()>& isSo) {
         return comesTrue([&] {
@@ -69,13 +75,11 @@ protected:
     /// At a first start the screen has the room: here everything else is switched on, too.
     struct EverythingShown {
         EverythingShown() {
+            QSettings().clear();
             QSettings().setValue("scope/controls", true);
             QSettings().setValue("scope/table", true);
         }
-    };
-
-    FreshSettings fresh;
-    EverythingShown everything;
+    } everything;
     gui::BenchController controller{simulatedRegistry};
     gui::ScopeWorkspace scope{controller};
     QStringList complaints;

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "app/gui/scope/measurements/Reading.h"
-#include "app/gui/scope/model/ScopeExport.h"
+#include "app/gui/scope/model/CapturePipe.h"
 #include "app/gui/scope/screen/ScopePicture.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Theme.h"
@@ -46,12 +46,6 @@ TEST_F(Exports, PicturesOfEveryKind) {
     EXPECT_TRUE(drawing.contains("Voltage (V)"));
     EXPECT_FALSE(drawing.contains("<image")) << "a drawing, not a picture";
     EXPECT_TRUE(bytes(pdf).startsWith("%PDF"));
-    if (const auto shots = qEnvironmentVariable("TACTO_SHOTS"); !shots.isEmpty()) {
-        for (const auto& path : {png, svg, pdf}) {
-            QFile::remove(shots + "/export." + QFileInfo(path).suffix());
-            QFile::copy(path, shots + "/export." + QFileInfo(path).suffix());
-        }
-    }
 }
 
 TEST_F(Exports, APictureSaysWhatItShows) {
@@ -73,8 +67,6 @@ TEST_F(Exports, APictureSaysWhatItShows) {
     EXPECT_EQ(picture.width(), 2 * (screen.width() + 2 * gui::PictureCaption::kMargin));
     EXPECT_GT(picture.height(), 2 * (screen.height() + gui::PictureCaption::kMargin) + 100)
         << "the caption takes nothing from the plot";
-    if (const auto shots = qEnvironmentVariable("TACTO_SHOTS"); !shots.isEmpty())
-        picture.save(shots + "/captioned.png");
 }
 
 TEST_F(Exports, APictureIsOfTheMomentThatItWasAskedForAndSaysWhenWithItsZone) {
@@ -116,7 +108,6 @@ TEST_F(Exports, NoReadingIsCutFromAPicture) {
     caption.lines = {readings.join("   ")};
     const auto picture = gui::scopePicture(stillOf(model, screen, caption));
     EXPECT_GE(picture.height(), least + 2 * 2 * line) << "on further lines";
-    if (const auto shots = qEnvironmentVariable("TACTO_SHOTS"); !shots.isEmpty()) picture.save(shots + "/wrapped.png");
 }
 
 TEST_F(Exports, AFileThatCannotBeWrittenIsToldAndAnOldOneStays) {

@@ -42,21 +42,6 @@ TEST_F(Model, GrowsWithTheSignalUntilTheUserChoosesAScale) {
     EXPECT_DOUBLE_EQ(scaleOf(volts).perDivision, before / 10) << "what the user chose stays";
 }
 
-TEST_F(Model, EveryZoomCanBeUndone) {
-    const auto whole = model.viewport();
-    model.zoomTime(-1, 0, "wheel");
-    model.zoomTime(-1, 0, "wheel");
-    EXPECT_DOUBLE_EQ(model.viewport().perDivision_s, 0.2e-3);
-    model.zoomToBox(0, 0.5e-3, -1, 1);
-    EXPECT_LT(model.viewport().perDivision_s, 0.2e-3);
-    EXPECT_TRUE(model.undoZoom());
-    EXPECT_DOUBLE_EQ(model.viewport().perDivision_s, 0.2e-3);
-    EXPECT_TRUE(model.undoZoom()) << "one turn of the wheel, undone whole";
-    EXPECT_EQ(model.viewport(), whole);
-    EXPECT_FALSE(model.canUndo());
-    EXPECT_FALSE(model.undoZoom());
-}
-
 TEST_F(Model, ATimeBaseKeepsTheTriggerWhereItStandsOnTheScreen) {
     const auto share = [&] { return -model.viewport().left_s / model.viewport().width_s(); };
     const double before = share();
@@ -153,18 +138,6 @@ TEST_F(Model, LevelCursorsStayOnTheScreenWhenAnotherLaneIsChosen) {
     EXPECT_EQ(model.readout().unit, "A");
     EXPECT_NEAR(heights(amps).first, before.first, 1e-9);
     EXPECT_NEAR(heights(amps).second, before.second, 1e-9);
-}
-
-TEST_F(Model, ReadsWidthAndIntervalWhereItIsHoveredOver) {
-    int told = 0;
-    QObject::connect(&model, &gui::ScopeModel::overlayChanged, [&] { ++told; });
-    model.hover(0.1e-3);
-    ASSERT_TRUE(model.hovered());
-    EXPECT_THAT(model.hovered()->text.toStdString(), HasSubstr("Width 200.0"));
-    model.hover(0.15e-3);
-    EXPECT_EQ(told, 1) << "the same edges are not drawn again";
-    model.hover({});
-    EXPECT_FALSE(model.hovered());
 }
 
 TEST_F(Model, TheTriggerIsDraggedUnlessItFollowsTheCommand) {

@@ -2,7 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/gui/scope/screen/LaneColours.h"
+#include "app/gui/scope/screen/LaneLegend.h"
+#include "app/gui/scope/screen/TimeFlags.h"
 #include "app/gui/theme/Theme.h"
 #include "core/base/Random.h"
 #include "tests/gui/Looks.h"
@@ -55,17 +56,6 @@ TEST_F(Screen, WordsAndNumbersOfEachLaneCanBeRead) {
             EXPECT_GE(contrast(lane.colour, ground), 4.5) << lane.letter.toStdString();
     }
     gui::applyTheme(before);
-}
-
-TEST_F(Screen, FitsTheWholeRecordAroundItsTriggerInStepsOfOneTwoFive) {
-    EXPECT_NEAR(model.viewport().left_s, -1e-3, 1e-5);
-    EXPECT_DOUBLE_EQ(model.viewport().perDivision_s, 1e-3);
-    const auto v = scaleOf(volts), i = scaleOf(amps);
-    EXPECT_DOUBLE_EQ(v.perDivision, 20) << "80 V in about four divisions";
-    EXPECT_DOUBLE_EQ(i.perDivision, 20e-3);
-    EXPECT_GT(v.position, 0) << "voltage above";
-    EXPECT_LT(i.position, 0) << "current below";
-    shot(screen, "view");
 }
 
 TEST_F(Screen, TwoLanesHaveTheirZerosOnLinesOfTheGridAndNumbersWhereTheyAre) {
@@ -316,15 +306,7 @@ TEST_F(Screen, AMasksBandLiesBehindItsLaneAndAFailureIsSaidLarge) {
     screen.setMask(std::make_shared<const CaptureMask>(*mask));
     model.fit();
     draw();
-    const auto band = gui::colours().passCell;
-    const int filled = [&] {
-        int count = 0;
-        const auto picture = screen.grab().toImage();
-        for (int y = 0; y < picture.height(); ++y)
-            for (int x = 0; x < picture.width(); ++x) count += picture.pixelColor(x, y) == band;
-        return count;
-    }();
-    EXPECT_GT(filled, 5000);
+    EXPECT_GT(pixelsOf(screen.grab().toImage(), gui::colours().passCell), 5000);
     screen.setAlarm("✕ Mask failed: 1 of 3 captures outside");
     draw();
     shot(screen, "mask");
@@ -508,6 +490,66 @@ TEST_F(Screen, TakesTheColoursOfTheTheme) {
     const auto ground = screen.grab().toImage().pixelColor(2, 2);
     EXPECT_EQ(ground, gui::colours().base);
     shot(screen, "view-dark");
+}
+
+using gui::OverlayState;
+
+class TimeFlagsTest : public testing::Test {
+protected:
+    TimeFlagsTest() : plane_(plot_.xAxis, plot_.yAxis) {
+        plot_.resize(1000, 700);
+        plot_.xAxis->setRange(0, 10);
+        plot_.yAxis->setRange(-4, 4);
+        plot_.replot(QCustomPlot::rpImmediateRefresh);
+        for (const auto* name : {"t₁", "t₂"}) {
+            OverlayState::Flag flag;
+            flag.name = name;
+            flag.position = "200.0 µs";
+            flag.rows = {{"V", "20.1 V", Qt::blue}, {"A", "20.1 mA", Qt::darkGreen}};
+            state_.flags.push_back(flag);
+        }
+        state_.timeSpan = "Δt 4.0 s";
+    }
+    [[nodiscard]] std::vector<QRectF> boxesAt(double first_s, double second_s) {
+        state_.timeCursors_s = {first_s, second_s};
+        return gui::TimeFlags(plane_, state_).boxes();
+    }
+
+    QCustomPlot plot_;
+    gui::ScopePlane plane_;
+    OverlayState state_;
+};
+
+TEST_F(TimeFlagsTest, StandOutsideWhatTheCursorsEnclose) {
+    const auto boxes = boxesAt(3, 7);
+    ASSERT_EQ(boxes.size(), 2U);
+    EXPECT_LE(boxes[0].right(), plane_.x(3) + 1);
+    EXPECT_GE(boxes[1].left(), plane_.x(7) - 1);
+}
+
+TEST_F(TimeFlagsTest, StayInsideTheScreenAndOffEachOther) {
+    for (const auto& [first, second] : {std::pair(0.0, 10.0), std::pair(-5.0, 15.0), std::pair(5.0, 5.0)}) {
+        const auto boxes = boxesAt(first, second);
+        ASSERT_EQ(boxes.size(), 2U);
+        for (const auto& box : boxes) EXPECT_TRUE(plane_.area().adjusted(-1, -1, 1, 1).contains(box)) << first;
+        EXPECT_FALSE(boxes[0].intersects(boxes[1])) << first;
+    }
+}
+
+TEST_F(TimeFlagsTest, GoOffTheTraces) {
+    const auto free = boxesAt(3, 7);
+    const double top = 4;
+    state_.drawn = {{0, 10, 0.5, top}};  // the upper half is full
+    const auto moved = boxesAt(3, 7);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_LT(free[i].top(), plane_.y(0.5)) << i;
+        EXPECT_GE(moved[i].top(), plane_.y(0.5)) << i;
+    }
+}
+
+TEST_F(TimeFlagsTest, ThereAreNoneWithoutCursors) {
+    state_.flags.clear();
+    EXPECT_TRUE(gui::TimeFlags(plane_, state_).boxes().empty());
 }
 
 }  // namespace

@@ -29,9 +29,7 @@ void chooseItem(QWidget& in, const char* box, const QString& text) {
 }
 
 TEST_F(Scope, WhatWasChosenIsThereAgainAtTheNextStart) {
-    openBench();
-    deliver();
-    ASSERT_IN_TIME(comes([&] { return triggered(); }));
+    showATrain();
     QTest::keyClick(&scope.screen(), Qt::Key_N);
     chooseItem(scope, "Record length", "20\u202fms");
     chooseItem(scope, "Sampling rate", "5\u202fMHz");
@@ -97,25 +95,10 @@ TEST_F(Scope, WhatWasChosenIsThereAgainAtTheNextStart) {
 }
 
 TEST_F(Scope, AViewThatNobodyTouchedIsFittedAnewAtTheNextStart) {
-    openBench();
-    deliver();
-    ASSERT_IN_TIME(comes([&] { return triggered(); }));
+    showATrain();
     scope.hide();
     EXPECT_FALSE(QSettings().contains("scope/time/left"));
     EXPECT_EQ(QSettings().value("scope/lanes/size", 0).toInt(), 0);
-}
-
-TEST_F(Scope, LookingAtAFileDoesNotLoseTheBenchsView) {
-    openBench();
-    deliver();
-    ASSERT_IN_TIME(comes([&] { return triggered(); }));
-    chooseItem(scope, "Time base", "100\u202fµs/div");
-    scope.show(std::make_shared<const Capture>(twoPulses()));
-    ASSERT_IN_TIME(comes([&] { return !scope.model().shown()->source.isEmpty(); }));
-    EXPECT_DOUBLE_EQ(scope.model().viewport().perDivision_s, 1e-3) << "the file is seen whole";
-    scope.run();
-    ASSERT_IN_TIME(comes([&] { return scope.model().shown()->source.isEmpty(); }));
-    EXPECT_DOUBLE_EQ(scope.model().viewport().perDivision_s, 100e-6);
 }
 
 TEST_F(Scope, NonsenseInTheSettingsFallsBackToTheDefaults) {

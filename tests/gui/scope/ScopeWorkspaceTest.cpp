@@ -66,9 +66,7 @@ TEST_F(Scope, WaitsForATriggerAndSaysSoThenShowsWhatIsDelivered) {
 }
 
 TEST_F(Scope, SingleTakesOneAndHoldKeepsThePicture) {
-    openBench();
-    deliver();
-    ASSERT_IN_TIME(comes([&] { return triggered(); }));
+    showATrain();
     QTest::keyClick(&scope.screen(), Qt::Key_S);
     EXPECT_EQ(scope.mode(), ScopeMode::Single);
     ASSERT_IN_TIME(comes([&] { return !scope.running(); }));
@@ -112,9 +110,7 @@ TEST_F(Scope, DraggingTheTriggerChangesItsLevelInNormal) {
 }
 
 TEST_F(Scope, DraggingTheTriggersMomentChangesThePreTrigger) {
-    openBench();
-    deliver();
-    ASSERT_IN_TIME(comes([&] { return triggered(); }));
+    showATrain();
     EXPECT_NEAR(500e-6 / scope.model().viewport().width_s(), 1.0 / 3, 0.1) << "the first train is seen at once";
     scope.model().fit();
     scope.refresh(controller.telemetry());
@@ -158,8 +154,7 @@ TEST_F(Scope, OpensACaptureFileAndSaysWhatIsWrongWithABadOne) {
 }
 
 TEST_F(Scope, CalculationsSpectrumAndReferencesAreSwitchedOnByHand) {
-    scope.show(std::make_shared<const Capture>(twoPulses()));
-    ASSERT_IN_TIME(comes([&] { return scope.model().shown() != nullptr; }));
+    showTwoPulses();
     click(*find<QCheckBox>(scope, "Power V·I"));
     ASSERT_IN_TIME(comes([&] { return scope.model().lanes().size() == 3; }));
     click(*find<QCheckBox>(scope, "Charge ∫I dt"));
@@ -183,8 +178,7 @@ TEST_F(Scope, CalculationsSpectrumAndReferencesAreSwitchedOnByHand) {
 }
 
 TEST_F(Scope, SavesAndCopies) {
-    scope.show(std::make_shared<const Capture>(twoPulses()));
-    ASSERT_IN_TIME(comes([&] { return scope.model().shown() != nullptr; }));
+    showTwoPulses();
     const QTemporaryDir folder;
     scope.saveAs(folder.filePath("all.csv"));
     ASSERT_IN_TIME(comes([&] { return QString::fromStdString(status()).startsWith("Saved"); }));
@@ -240,8 +234,7 @@ TEST_F(Scope, WhatIsSavedIsWhatWasShownWhenSaveWasChosenAndThatIsSaid) {
 }
 
 TEST_F(Scope, TheListOfTimeBasesMarksThePresentOneAndEndsWhereSamplesHaveNoShape) {
-    scope.show(std::make_shared<const Capture>(twoPulses()));
-    ASSERT_IN_TIME(comes([&] { return scope.model().shown() != nullptr; }));
+    showTwoPulses();
     scope.model().setTimePerDivision(500e-6);
     QStringList marked, refused;
     for (const auto* action : find<QToolButton>(scope, "Time base tool")->menu()->actions()) {
@@ -250,23 +243,13 @@ TEST_F(Scope, TheListOfTimeBasesMarksThePresentOneAndEndsWhereSamplesHaveNoShape
     }
     EXPECT_EQ(marked, QStringList("500\u202fµs/div"));
     EXPECT_EQ(refused, QStringList("100\u202fns/div")) << "samples 500 ns apart";
-}
-
-TEST_F(Scope, ToolAndViewSayTheSameTimeBaseBetweenTwoStepsToo) {
-    scope.show(std::make_shared<const Capture>(twoPulses()));
-    ASSERT_IN_TIME(comes([&] { return scope.model().shown() != nullptr; }));
-    scope.model().setTimePerDivision(150e-6);
-    EXPECT_EQ(find<QToolButton>(scope, "Time base tool")->text(), "200\u202fµs/div") << "as the grid has it";
-    const QComboBox* box = nullptr;
-    for (const auto* each : scope.findChildren<QComboBox*>())
-        if (each->accessibleName() == "Time base") box = each;
-    ASSERT_NE(box, nullptr);
-    EXPECT_EQ(box->currentText(), "200\u202fµs/div");
+    scope.model().setTimePerDivision(150e-6);  // between two steps: tool and view say the one that the grid has
+    EXPECT_EQ(find<QToolButton>(scope, "Time base tool")->text(), "200\u202fµs/div");
+    EXPECT_EQ(find<QComboBox>(scope, "Time base")->currentText(), "200\u202fµs/div");
 }
 
 TEST_F(Scope, CursorsReadInFlagsAndForThoseWhoDoNotSeeThem) {
-    scope.show(std::make_shared<const Capture>(twoPulses()));
-    ASSERT_IN_TIME(comes([&] { return scope.model().shown() != nullptr; }));
+    showTwoPulses();
     auto& screen = scope.screen();
     const auto read = [&] { return screen.accessibleDescription().toStdString(); };
     EXPECT_TRUE(screen.overlay().flags.empty());
@@ -289,8 +272,7 @@ TEST_F(Scope, CursorsReadInFlagsAndForThoseWhoDoNotSeeThem) {
 }
 
 TEST_F(Scope, TheTabKeyReachesToolsScreenAndControlsInThatOrder) {
-    scope.show(std::make_shared<const Capture>(twoPulses()));
-    ASSERT_IN_TIME(comes([&] { return scope.model().shown() != nullptr; }));
+    showTwoPulses();
     find<QToolButton>(scope, "Auto")->setFocus();
     QStringList met;
     for (int i = 0; i < 60; ++i) {
@@ -310,8 +292,7 @@ TEST_F(Scope, TheTabKeyReachesToolsScreenAndControlsInThatOrder) {
 }
 
 TEST_F(Scope, EverythingThatIsUsedHasANameAndTeaches) {
-    scope.show(std::make_shared<const Capture>(twoPulses()));
-    ASSERT_IN_TIME(comes([&] { return scope.model().shown() != nullptr; }));
+    showTwoPulses();
     for (const auto* widget : scope.findChildren<QWidget*>()) {
         if (!widget->isVisible() || widget->focusPolicy() == Qt::NoFocus) continue;
         const auto* button = qobject_cast<const QAbstractButton*>(widget);
@@ -337,9 +318,7 @@ TEST_F(Scope, ACaptureWithoutPulsesSaysWhyInWords) {
 }
 
 TEST_F(Scope, AnAverageIsMarkedAndBeginsAnewWithTheCommand) {
-    openBench();
-    deliver();
-    ASSERT_IN_TIME(comes([&] { return triggered(); }));
+    showATrain();
     click(*find<QToolButton>(scope, "Average"));
     EXPECT_EQ(find<QComboBox>(scope, "Average")->currentText(), "16 captures");
     const auto averaged = [&] { return scope.model().shown()->averaged; };
@@ -357,9 +336,7 @@ TEST_F(Scope, AnAverageIsMarkedAndBeginsAnewWithTheCommand) {
 
 TEST_F(Scope, AnAverageBeginsAnewWithAnotherLoad) {
     RecordProperty("hazard", "H9");
-    openBench();
-    deliver();
-    ASSERT_IN_TIME(comes([&] { return triggered(); }));
+    showATrain();
     click(*find<QToolButton>(scope, "Average"));
     ASSERT_IN_TIME(comes([&] { return scope.model().shown()->averaged >= 4; }));
     controller.fitLoad("1 kohm");
@@ -412,9 +389,7 @@ TEST_F(Scope, OpeningABenchLeavesTheFile) {
 }
 
 TEST_F(Scope, EveryStepOfTheWorkHasAKey) {
-    openBench();
-    deliver();
-    ASSERT_IN_TIME(comes([&] { return triggered(); }));
+    showATrain();
     auto& screen = scope.screen();
     QTest::keyClick(&screen, Qt::Key_R);
     EXPECT_FALSE(scope.running());
@@ -453,9 +428,7 @@ TEST_F(Scope, EveryStepOfTheWorkHasAKey) {
 }
 
 TEST_F(Scope, RollFromTheBenchShowsSessionTime) {
-    openBench();
-    deliver();
-    ASSERT_IN_TIME(comes([&] { return triggered(); }));
+    showATrain();
     for (auto* action : find<QToolButton>(scope, "Auto")->menu()->actions()) {
         if (action->text() == "Roll") action->trigger();
     }

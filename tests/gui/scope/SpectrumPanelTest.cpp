@@ -112,25 +112,10 @@ TEST(SpectrumPanel, ASmallSignalsAxisHasAPrefixAndItsPeakStandsThere) {
     EXPECT_TRUE(found);
 }
 
-TEST(SpectrumPanel, ASineStandsAtItsFrequencyWithItsRms) {
-    auto samples = std::make_shared<std::vector<float>>();
-    for (int i = 0; i < 10'000; ++i) {
-        samples->push_back(static_cast<float>(3 + 2 * std::sqrt(2.0) * std::sin(2 * M_PI * 1000 * i / 100e3)));
-    }
-    const auto trace = gui::makeTrace("channel/voltage", "Voltage", "V", samples, 100e3, 5, 5);
-    gui::SpectrumPanel panel;
-    panel.resize(800, 250);
-    panel.QWidget::show();
-    panel.show(trace, 5, 5.1, Qt::blue);
-    const auto& s = panel.spectrum();
-    EXPECT_EQ(s.samples, 8192U);
-    const auto top = static_cast<std::size_t>(std::max_element(s.rms.begin(), s.rms.end()) - s.rms.begin());
-    EXPECT_NEAR(s.hz[top], 1000, 100e3 / 8192);
-    EXPECT_NEAR(s.rms[top], 2, 0.3) << "scalloping of a Hann window is at most 15 %";
-    QCoreApplication::processEvents();
-    shot(panel, "spectrum");
-    auto holed = std::make_shared<std::vector<float>>(*samples);
+TEST(SpectrumPanel, SaysThatSamplesAreMissing) {
+    auto holed = std::make_shared<std::vector<float>>(10'000, 1.0F);
     (*holed)[5000] = NAN;
+    gui::SpectrumPanel panel;
     panel.show(gui::makeTrace("channel/voltage", "Voltage", "V", holed, 100e3, 5, 5), 5, 5.1, Qt::blue);
     EXPECT_TRUE(panel.spectrum().rms.empty());
     EXPECT_THAT(panel.spectrum().note.toStdString(), HasSubstr("missing"));

@@ -24,21 +24,9 @@ double lastOnset(const ChannelMeasurement& measured) {
 }  // namespace
 
 QString nameOf(Statistic statistic) {
-    switch (statistic) {
-        case Statistic::Last:
-            return QObject::tr("last");
-        case Statistic::Mean:
-            return QObject::tr("mean");
-        case Statistic::Sd:
-            return QObject::tr("s.d.");
-        case Statistic::Min:
-            return QObject::tr("min");
-        case Statistic::Max:
-            return QObject::tr("max");
-        case Statistic::Count:
-            break;
-    }
-    return QObject::tr("n");
+    const QString names[] = {QObject::tr("last"), QObject::tr("mean"), QObject::tr("s.d."),
+                             QObject::tr("min"),  QObject::tr("max"),  QObject::tr("n")};
+    return names[static_cast<std::size_t>(statistic)];
 }
 
 void RunningStatistics::add(double value) noexcept {
@@ -56,21 +44,8 @@ double RunningStatistics::sd() const noexcept {
 }
 
 double RunningStatistics::of(Statistic statistic) const noexcept {
-    switch (statistic) {
-        case Statistic::Last:
-            return last();
-        case Statistic::Mean:
-            return mean();
-        case Statistic::Sd:
-            return sd();
-        case Statistic::Min:
-            return min();
-        case Statistic::Max:
-            return max();
-        case Statistic::Count:
-            break;
-    }
-    return static_cast<double>(n());
+    const double all[] = {last_, mean(), sd(), min(), max(), static_cast<double>(n_)};
+    return all[static_cast<std::size_t>(statistic)];
 }
 
 QString statisticText(Reading reading, Statistic statistic, const RunningStatistics& its, const QString& channelUnit,
@@ -121,7 +96,7 @@ void CaptureStatistics::add(const ShownCapture& shown) {
         clear();
         for (std::size_t c = 0; c < measured.size(); ++c) {
             channels_.push_back({QString::fromStdString(measured[c].name),
-                                 channelLetter(measured, c),
+                                 shown.traces[c]->letter,
                                  QString::fromStdString(measured[c].unit),
                                  {}});
         }

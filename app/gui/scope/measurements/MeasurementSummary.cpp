@@ -1,6 +1,5 @@
 #include "app/gui/scope/measurements/MeasurementSummary.h"
 
-#include <QEvent>
 #include <QGridLayout>
 #include <QLabel>
 #include <QMenu>
@@ -10,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -109,6 +109,7 @@ MeasurementSummary::MeasurementSummary(QWidget* parent)
     connect(&pipe_, &CapturePipe::prepared, this, &MeasurementSummary::take);
     restyle();
     fill();
+    afterLookChange(*this, [this] { lay(); });
 }
 
 void MeasurementSummary::follow(ChosenReadings& chosen) {
@@ -298,13 +299,6 @@ void MeasurementSummary::sayImpedance() {
                            : std::isfinite(seen)
                                ? impedanceName_->toolTip()
                                : tr("This needs a measured pulse on a voltage channel and on a current channel."));
-}
-
-void MeasurementSummary::changeEvent(QEvent* event) {
-    QWidget::changeEvent(event);
-    if (event->type() == QEvent::PaletteChange)
-        QMetaObject::invokeMethod(this, &MeasurementSummary::lay, Qt::QueuedConnection);
-    if (event->type() == QEvent::FontChange) restyle();
 }
 
 void MeasurementSummary::restyle() {

@@ -1,15 +1,6 @@
 // MeasurementSummary.h - what the latest capture says, in a dock's width: the chosen readings as rows with the channels
 // as columns, statistics below the row that is unfolded, |Z| of the load, how old it is, and whether it is simulated.
 //
-// For the window's "Measurements" dock:
-//
-//     auto* summary = new MeasurementSummary(dock);
-//     summary->follow(scope->readings());
-//     connect(scope, &ScopeWorkspace::captureShown, summary, &MeasurementSummary::take);
-//     scope->setWatched(true);        // captures are taken though the oscilloscope is not visible
-//     ... 30 times a second: scope->refresh(telemetry) whatever is visible, and
-//                            summary->refresh(telemetry) while the dock is.
-//
 // A protocol's captures (RunFeed::captures) are handed to measure(), which measures them in the background.
 // An untriggered record changes no number: the figures keep their age, and it is said that no trigger came since.
 // Up to two channels stand beside the reading's name, more of them below it: nothing is cut.
@@ -24,7 +15,7 @@
 #include <vector>
 
 #include "app/gui/scope/measurements/CaptureStatistics.h"
-#include "app/gui/scope/measurements/ChosenReadings.h"
+#include "app/gui/scope/measurements/Reading.h"
 #include "app/gui/scope/model/CapturePipe.h"
 #include "core/bench/Telemetry.h"
 
@@ -56,9 +47,6 @@ public slots:
     /// A capture that has been measured: the oscilloscope's.
     void take(const tacto::gui::ShownPtr& shown);
     void clear();
-
-protected:
-    void changeEvent(QEvent* event) override;
 
 private:
     struct Figure {

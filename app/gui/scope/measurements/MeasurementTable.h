@@ -9,7 +9,7 @@
 #include <QWidget>
 
 #include "app/gui/scope/measurements/CaptureStatistics.h"
-#include "app/gui/scope/measurements/ChosenReadings.h"
+#include "app/gui/scope/measurements/Reading.h"
 
 class QLabel;
 class QPushButton;

@@ -1,8 +1,13 @@
 #include "app/gui/scope/measurements/Reading.h"
 
+#include <QKeyEvent>
+#include <QMenu>
+#include <QMouseEvent>
 #include <QObject>
+#include <QSettings>
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 #include "app/gui/theme/Text.h"
 #include "app/report/NumberText.h"
@@ -11,64 +16,112 @@ namespace tacto::gui {
 
 namespace {
 
+// Where it is read: a phase or the pulse around it, the waveform, the load.
+struct OfLeading {
+    double PhaseMeasurement::*its;
+    bool magnitude = false;
+};
+struct OfSecond {
+    double PhaseMeasurement::*its;  ///< its magnitude
+};
+using ReadFrom = std::variant<std::monostate, OfLeading, OfSecond, double PulseMeasurement::*,
+                              double WaveformMeasurement::*, double PulseLoad::*>;
+
+struct ReadingRow {
+    const char* key;
+    const char* title;
+    const char* explained;
+    const char* unit;
+    ReadFrom source{};
+};
+
+#define WORDS(text) QT_TRANSLATE_NOOP("QObject", text)
+
+/// In Reading's order.
+const std::array<ReadingRow, kReadings> kDescribed{{
+    {"amplitude", WORDS("Amplitude"),
+     WORDS("Mean height of the leading phase above the baseline, from 30 to 90 % of its width."), "",
+     OfLeading{&PhaseMeasurement::plateau, true}},
+    {"peak-to-peak", WORDS("Pk-pk"), WORDS("Largest minus smallest sample of the record, noise included."), "",
+     &WaveformMeasurement::peakToPeak},
+    {"width", WORDS("Width"), WORDS("Leading phase, from half height to half height."), "s",
+     OfLeading{&PhaseMeasurement::width_s}},
+    {"gap", WORDS("Gap"), WORDS("Between the two phases of a biphasic pulse, at half height."), "s",
+     &PulseMeasurement::gap_s},
+    {"interval", WORDS("Interval"),
+     WORDS("Onset to onset of trains, in a record and from one capture to the next. A train that the oscilloscope "
+           "missed makes it a multiple."),
+     "s"},
+    {"rise", WORDS("Rise"), WORDS("Leading edge of the leading phase, from 10 to 90 % of the height."), "s",
+     OfLeading{&PhaseMeasurement::rise_s}},
+    {"fall", WORDS("Fall"), WORDS("Trailing edge of the leading phase, from 90 to 10 % of the height."), "s",
+     OfLeading{&PhaseMeasurement::fall_s}},
+    {"charge", WORDS("Charge"), WORDS("Area under the leading phase of a current."), "C",
+     OfLeading{&PhaseMeasurement::charge, true}},
+    {"imbalance", WORDS("Imbalance"),
+     WORDS("Charge that the second phase does not bring back, as a share of the larger phase."), "%",
+     &PulseMeasurement::imbalance},
+    {"overshoot", WORDS("Overshoot"), WORDS("Largest excess over the plateau, as a share of it."), "%",
+     OfLeading{&PhaseMeasurement::overshoot}},
+    {"droop", WORDS("Droop"), WORDS("What the plateau loses over the width, as a share of it."), "%",
+     OfLeading{&PhaseMeasurement::droop}},
+    {"frequency", WORDS("Frequency"),
+     WORDS("Periods a second between the first and the last time that the waveform leaves its baseline, at half "
+           "height."),
+     "Hz", &WaveformMeasurement::frequency_hz},
+    {"duty", WORDS("Duty cycle"), WORDS("Share of whole periods that the waveform is beyond half the height."), "%",
+     &WaveformMeasurement::duty},
+    {"rms", WORDS("RMS"), WORDS("Root mean square about zero over the whole record: silence counts too."), "",
+     &WaveformMeasurement::rms},
+    {"mean", WORDS("Mean"), WORDS("Over the whole record."), "", &WaveformMeasurement::mean},
+    {"second-amplitude", WORDS("2nd amplitude"), WORDS("Mean height of the second phase, as of the leading one."), "",
+     OfSecond{&PhaseMeasurement::plateau}},
+    {"second-width", WORDS("2nd width"), WORDS("Second phase, from half height to half height."), "s",
+     OfSecond{&PhaseMeasurement::width_s}},
+    {"second-charge", WORDS("2nd charge"), WORDS("Area under the second phase of a current."), "C",
+     OfSecond{&PhaseMeasurement::charge}},
+    {"net-charge", WORDS("Net charge"),
+     WORDS("Charge of both phases of a pulse with their signs, gap included: what is left behind."), "C",
+     &PulseLoad::netCharge_c},
+    {"energy", WORDS("Energy"),
+     WORDS("Voltage times current over a pulse, both phases and the gap: what stays in the load."), "J",
+     &PulseLoad::energy_j},
+    {"pulses", WORDS("Pulses"), WORDS("Pulses measured in a capture. Those that were not are named on the screen."),
+     ""},
+}};
+
+#undef WORDS
+
+const ReadingRow& described(Reading reading) { return kDescribed[static_cast<std::size_t>(reading)]; }
+
 double ofPulse(Reading reading, const PulseMeasurement& pulse) {
-    const auto second = [&](auto member) { return pulse.second ? std::abs((*pulse.second).*member) : kNotMeasured; };
-    switch (reading) {
-        case Reading::Amplitude:
-            return std::abs(pulse.leading.plateau);
-        case Reading::Width:
-            return pulse.leading.width_s;
-        case Reading::Rise:
-            return pulse.leading.rise_s;
-        case Reading::Fall:
-            return pulse.leading.fall_s;
-        case Reading::Overshoot:
-            return pulse.leading.overshoot;
-        case Reading::Droop:
-            return pulse.leading.droop;
-        case Reading::Charge:
-            return std::abs(pulse.leading.charge);
-        case Reading::Gap:
-            return pulse.gap_s;
-        case Reading::Imbalance:
-            return pulse.imbalance;
-        case Reading::SecondAmplitude:
-            return second(&PhaseMeasurement::plateau);
-        case Reading::SecondWidth:
-            return second(&PhaseMeasurement::width_s);
-        case Reading::SecondCharge:
-            return second(&PhaseMeasurement::charge);
-        default:
-            return kNotMeasured;
+    const auto& source = described(reading).source;
+    if (const auto* leading = std::get_if<OfLeading>(&source)) {
+        const double value = pulse.leading.*leading->its;
+        return leading->magnitude ? std::abs(value) : value;
     }
+    if (const auto* second = std::get_if<OfSecond>(&source))
+        return pulse.second ? std::abs((*pulse.second).*second->its) : kNotMeasured;
+    const auto* its = std::get_if<double PulseMeasurement::*>(&source);
+    return its != nullptr ? pulse.**its : kNotMeasured;
 }
 
-std::optional<double> ofWaveform(Reading reading, const WaveformMeasurement& waveform) {
-    switch (reading) {
-        case Reading::PeakToPeak:
-            return waveform.peakToPeak;
-        case Reading::Rms:
-            return waveform.rms;
-        case Reading::Mean:
-            return waveform.mean;
-        case Reading::Frequency:
-            return waveform.frequency_hz;
-        case Reading::Duty:
-            return waveform.duty;
-        default:
-            return std::nullopt;
-    }
+/// Null for what is read elsewhere.
+const double* ofWaveform(Reading reading, const WaveformMeasurement& waveform) {
+    const auto* its = std::get_if<double WaveformMeasurement::*>(&described(reading).source);
+    return its != nullptr ? &(waveform.**its) : nullptr;
 }
+
+/// What takes the voltage and the current together.
+bool isOfLoad(Reading reading) { return std::holds_alternative<double PulseLoad::*>(described(reading).source); }
+
+bool isCharge(Reading reading) { return std::string_view(described(reading).unit) == "C"; }
 
 /// A share to a thousandth of a per cent: what is below that is noise.
 QString percentText(double value) {
     const double size = std::abs(value);
     const int decimals = size >= 10 ? 1 : size >= 1 ? 2 : 3;
     return decimalText(value, decimals, "%");
-}
-
-bool isCharge(Reading reading) {
-    return reading == Reading::Charge || reading == Reading::SecondCharge || reading == Reading::NetCharge;
 }
 
 bool isEdge(Reading reading) { return reading == Reading::Rise || reading == Reading::Fall; }
@@ -81,13 +134,6 @@ double sampleInterval_s(const ChannelMeasurement& measured) {
 /// An edge needs a sample on it and one beside it either way.
 double leastEdge_s(const ChannelMeasurement& measured) { return 2 * sampleInterval_s(measured); }
 
-/// What takes the voltage and the current together.
-bool isOfLoad(Reading reading) { return reading == Reading::NetCharge || reading == Reading::Energy; }
-
-double ofLoad(Reading reading, const PulseLoad& pulse) {
-    return reading == Reading::NetCharge ? pulse.netCharge_c : pulse.energy_j;
-}
-
 }  // namespace
 
 std::array<Reading, kReadings> allReadings() {
@@ -97,78 +143,8 @@ std::array<Reading, kReadings> allReadings() {
 }
 
 ReadingName nameOf(Reading reading) {
-    switch (reading) {
-        case Reading::Amplitude:
-            return {"amplitude", QObject::tr("Amplitude"),
-                    QObject::tr("Mean height of the leading phase above the baseline, from 30 to 90 % of its width."),
-                    ""};
-        case Reading::PeakToPeak:
-            return {"peak-to-peak", QObject::tr("Pk-pk"),
-                    QObject::tr("Largest minus smallest sample of the record, noise included."), ""};
-        case Reading::Width:
-            return {"width", QObject::tr("Width"), QObject::tr("Leading phase, from half height to half height."), "s"};
-        case Reading::Gap:
-            return {"gap", QObject::tr("Gap"),
-                    QObject::tr("Between the two phases of a biphasic pulse, at half height."), "s"};
-        case Reading::Interval:
-            return {"interval", QObject::tr("Interval"),
-                    QObject::tr("Onset to onset of trains, in a record and from one capture to the next. A train that "
-                                "the oscilloscope missed makes it a multiple."),
-                    "s"};
-        case Reading::Rise:
-            return {"rise", QObject::tr("Rise"),
-                    QObject::tr("Leading edge of the leading phase, from 10 to 90 % of the height."), "s"};
-        case Reading::Fall:
-            return {"fall", QObject::tr("Fall"),
-                    QObject::tr("Trailing edge of the leading phase, from 90 to 10 % of the height."), "s"};
-        case Reading::Charge:
-            return {"charge", QObject::tr("Charge"), QObject::tr("Area under the leading phase of a current."), "C"};
-        case Reading::Imbalance:
-            return {"imbalance", QObject::tr("Imbalance"),
-                    QObject::tr("Charge that the second phase does not bring back, as a share of the larger phase."),
-                    "%"};
-        case Reading::Overshoot:
-            return {"overshoot", QObject::tr("Overshoot"),
-                    QObject::tr("Largest excess over the plateau, as a share of it."), "%"};
-        case Reading::Droop:
-            return {"droop", QObject::tr("Droop"),
-                    QObject::tr("What the plateau loses over the width, as a share of it."), "%"};
-        case Reading::Frequency:
-            return {"frequency", QObject::tr("Frequency"),
-                    QObject::tr("Periods a second between the first and the last time that the waveform leaves its "
-                                "baseline, at half height."),
-                    "Hz"};
-        case Reading::Duty:
-            return {"duty", QObject::tr("Duty cycle"),
-                    QObject::tr("Share of whole periods that the waveform is beyond half the height."), "%"};
-        case Reading::Rms:
-            return {"rms", QObject::tr("RMS"),
-                    QObject::tr("Root mean square about zero over the whole record: silence counts too."), ""};
-        case Reading::Mean:
-            return {"mean", QObject::tr("Mean"), QObject::tr("Over the whole record."), ""};
-        case Reading::SecondAmplitude:
-            return {"second-amplitude", QObject::tr("2nd amplitude"),
-                    QObject::tr("Mean height of the second phase, as of the leading one."), ""};
-        case Reading::SecondWidth:
-            return {"second-width", QObject::tr("2nd width"),
-                    QObject::tr("Second phase, from half height to half height."), "s"};
-        case Reading::SecondCharge:
-            return {"second-charge", QObject::tr("2nd charge"),
-                    QObject::tr("Area under the second phase of a current."), "C"};
-        case Reading::NetCharge:
-            return {
-                "net-charge", QObject::tr("Net charge"),
-                QObject::tr("Charge of both phases of a pulse with their signs, gap included: what is left behind."),
-                "C"};
-        case Reading::Energy:
-            return {"energy", QObject::tr("Energy"),
-                    QObject::tr("Voltage times current over a pulse, both phases and the gap: what stays in the load."),
-                    "J"};
-        case Reading::Pulses:
-            break;
-    }
-    return {"pulses", QObject::tr("Pulses"),
-            QObject::tr("Pulses measured in a capture. Those that were not are named on the screen."), ""};
+    const auto& its = described(reading);
+    return {its.key, QObject::tr(its.title), QObject::tr(its.explained), its.unit};
 }
 
 std::optional<Reading> readingOfKey(const QString& key) {
@@ -180,15 +156,15 @@ std::optional<Reading> readingOfKey(const QString& key) {
 
 std::vector<double> readingsOf(Reading reading, const ShownCapture& shown, std::size_t channel) {
     const auto& measured = shown.measurement[channel];
-    const auto& waveform = shown.waveforms[channel];
     std::vector<double> values;
     if (isCharge(reading) && measured.unit != "A") return {};
     if (reading == Reading::Pulses) return {static_cast<double>(measured.measuredPulses)};
-    if (const auto whole = ofWaveform(reading, waveform)) {
+    if (const auto* whole = ofWaveform(reading, shown.waveforms[channel])) {
         values.push_back(*whole);
     } else if (isOfLoad(reading)) {
         if (shown.loadCurrent != channel) return {};
-        for (const auto& pulse : shown.loads) values.push_back(ofLoad(reading, pulse));
+        for (const auto& pulse : shown.loads)
+            values.push_back(pulse.*std::get<double PulseLoad::*>(described(reading).source));
     } else if (reading == Reading::Interval) {
         for (const auto& train : measured.trains) values.push_back(train.interval_s);
     } else {
@@ -262,16 +238,101 @@ QString whyMissing(Reading reading, const ShownCapture& shown, std::size_t chann
     return QObject::tr("The pulses have no second phase.");
 }
 
-QString channelLetter(const std::vector<ChannelMeasurement>& channels, std::size_t channel) {
-    int number = 0, alike = 0;
-    for (std::size_t c = 0; c < channels.size(); ++c) {
-        if (channels[c].unit != channels[channel].unit) continue;
-        ++alike;
-        if (c == channel) number = alike;
+namespace {
+
+const std::vector<Reading> kStandard{Reading::Amplitude, Reading::PeakToPeak, Reading::Width,  Reading::Gap,
+                                     Reading::Interval,  Reading::Rise,       Reading::Charge, Reading::Imbalance};
+
+/// Choosing one of several does not end the choice.
+class StayingMenu final : public QMenu {
+public:
+    using QMenu::QMenu;
+
+protected:
+    void mouseReleaseEvent(QMouseEvent* event) override {
+        if (!toggled(actionAt(event->position().toPoint()))) QMenu::mouseReleaseEvent(event);
     }
-    const auto& unit = channels[channel].unit;
-    const QString letter = unit == "V" ? "V" : unit == "A" ? "I" : "D";
-    return alike > 1 ? letter + QString::number(number) : letter;
+    void keyPressEvent(QKeyEvent* event) override {
+        const bool chooses = event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter;
+        if (!chooses || !toggled(activeAction())) QMenu::keyPressEvent(event);
+    }
+
+private:
+    static bool toggled(QAction* action) {
+        if (action == nullptr || !action->isCheckable()) return false;
+        action->trigger();
+        return true;
+    }
+};
+
+}  // namespace
+
+ChosenReadings::ChosenReadings() : chosen_(kStandard) {}
+
+bool ChosenReadings::has(Reading reading) const {
+    return std::find(chosen_.begin(), chosen_.end(), reading) != chosen_.end();
+}
+
+void ChosenReadings::choose(Reading reading, bool on) {
+    if (has(reading) == on) return;
+    if (on) {
+        chosen_.insert(std::upper_bound(chosen_.begin(), chosen_.end(), reading), reading);
+    } else {
+        std::erase(chosen_, reading);
+    }
+    emit changed();
+}
+
+void ChosenReadings::chooseStandard() {
+    if (chosen_ == kStandard) return;
+    chosen_ = kStandard;
+    emit changed();
+}
+
+void ChosenReadings::save(QSettings& settings) const {
+    QStringList keys;
+    for (const auto reading : chosen_) keys << nameOf(reading).key;
+    settings.setValue("readings", keys);
+}
+
+void ChosenReadings::restore(const QSettings& settings) {
+    std::vector<Reading> restored;
+    for (const auto& key : settings.value("readings").toStringList()) {
+        const auto reading = readingOfKey(key);
+        if (reading && std::find(restored.begin(), restored.end(), *reading) == restored.end()) {
+            restored.push_back(*reading);
+        }
+    }
+    std::sort(restored.begin(), restored.end());
+    if (restored.empty() || restored == chosen_) return;
+    chosen_ = restored;
+    emit changed();
+}
+
+QMenu* makeReadingsMenu(ChosenReadings& chosen, QWidget* parent) {
+    auto* menu = new StayingMenu(parent);
+    menu->setToolTipsVisible(true);
+    std::vector<QAction*> actions;
+    for (const auto reading : allReadings()) {
+        const auto name = nameOf(reading);
+        auto* action = menu->addAction(name.title);
+        action->setToolTip(name.explained);
+        action->setCheckable(true);
+        action->setChecked(chosen.has(reading));
+        QObject::connect(action, &QAction::toggled, &chosen,
+                         [&chosen, reading](bool on) { chosen.choose(reading, on); });
+        actions.push_back(action);
+    }
+    QObject::connect(&chosen, &ChosenReadings::changed, menu, [&chosen, actions] {
+        for (std::size_t i = 0; i < actions.size(); ++i) actions[i]->setChecked(chosen.has(allReadings()[i]));
+    });
+    menu->addSeparator();
+    menu->addAction(QObject::tr("As at first"), &chosen, &ChosenReadings::chooseStandard);
+    menu->addSeparator();
+    menu->addAction(QObject::tr("Close"))->setToolTip(QObject::tr("Closes this list. Esc stops the output as well."));
+    return menu;
 }
 
 }  // namespace tacto::gui
+
+#include "moc_Reading.cpp"

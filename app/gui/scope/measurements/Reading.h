@@ -4,6 +4,7 @@
 // Thread-safety: pure functions.
 #pragma once
 
+#include <QObject>
 #include <QString>
 #include <array>
 #include <cstddef>
@@ -11,6 +12,10 @@
 #include <vector>
 
 #include "app/gui/scope/model/Trace.h"
+
+class QMenu;
+class QSettings;
+class QWidget;
 
 namespace tacto::gui {
 
@@ -36,9 +41,9 @@ enum class Reading {
     SecondCharge,
     NetCharge,
     Energy,
-    Pulses,
+    Pulses
 };
-inline constexpr std::size_t kReadings = 21;
+inline constexpr std::size_t kReadings = static_cast<std::size_t>(Reading::Pulses) + 1;
 [[nodiscard]] std::array<Reading, kReadings> allReadings();
 
 struct ReadingName {
@@ -63,7 +68,31 @@ struct ReadingName {
 [[nodiscard]] QString readingText(Reading reading, double value, const QString& channelUnit, int digits = 4);
 /// Why there is none, or only an upper bound, in a sentence or two.
 [[nodiscard]] QString whyMissing(Reading reading, const ShownCapture& shown, std::size_t channel);
-/// "V", or "V2" where several channels have the unit; so on plots and above columns.
-[[nodiscard]] QString channelLetter(const std::vector<ChannelMeasurement>& channels, std::size_t channel);
+
+/// Which readings are shown, chosen freely and remembered; one choice for the table and the dock.
+class ChosenReadings final : public QObject {
+    Q_OBJECT
+public:
+    ChosenReadings();
+    /// In Reading's order.
+    [[nodiscard]] const std::vector<Reading>& all() const noexcept { return chosen_; }
+    [[nodiscard]] bool has(Reading reading) const;
+    void choose(Reading reading, bool on);
+    void chooseStandard();
+
+    void save(QSettings& settings) const;
+    /// Names that are none are passed over; without any the choice stays.
+    void restore(const QSettings& settings);
+
+signals:
+    void changed();
+
+private:
+    std::vector<Reading> chosen_;
+};
+
+/// A menu in which they are chosen; it stays open from one to the next, until its last row
+/// closes it: Esc would stop the output. `chosen` outlives it.
+[[nodiscard]] QMenu* makeReadingsMenu(ChosenReadings& chosen, QWidget* parent);
 
 }  // namespace tacto::gui

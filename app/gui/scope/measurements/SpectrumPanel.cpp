@@ -15,8 +15,9 @@
 #include "app/gui/scope/model/Remembered.h"
 #include "app/gui/scope/model/ScopeLanes.h"
 #include "app/gui/scope/model/ScopeModel.h"
-#include "app/gui/scope/screen/LaneColours.h"
+#include "app/gui/scope/screen/LaneLegend.h"
 #include "app/gui/theme/Labels.h"
+#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -29,32 +30,32 @@ namespace {
 constexpr std::size_t kMinSamples = 16;
 constexpr double kPeakOverMedian = 10;  ///< 20 dB: noise alone comes to 10 or 12
 
-QString titleOf(SpectralWindow window) {
-    switch (window) {
-        case SpectralWindow::Rectangular:
-            return QObject::tr("Rectangular");
-        case SpectralWindow::Hann:
-            return QObject::tr("Hann");
-        case SpectralWindow::BlackmanHarris:
-            return QObject::tr("Blackman–Harris");
-        case SpectralWindow::FlatTop:
-            break;
-    }
-    return QObject::tr("Flat top");
+void numberInPowers(QCPAxis& axis, int subTicks) {
+    auto ticker = QSharedPointer<QCPAxisTickerLog>::create();
+    ticker->setSubTickCount(subTicks);
+    axis.setScaleType(QCPAxis::stLogarithmic);
+    axis.setTicker(ticker);
+    axis.setNumberFormat("eb");  // each as a power of ten
+    axis.setNumberPrecision(0);
 }
 
-QString useOf(SpectralWindow window) {
+/// Its name, and what it is good for.
+std::pair<QString, QString> wordsOf(SpectralWindow window) {
     switch (window) {
         case SpectralWindow::Rectangular:
-            return QObject::tr("The finest lines; levels are right only where whole periods are on the screen.");
+            return {QObject::tr("Rectangular"),
+                    QObject::tr("The finest lines; levels are right only where whole periods are on the screen.")};
         case SpectralWindow::Hann:
-            return QObject::tr("For most signals. Halfway between two lines a level reads up to 1.4 dB low.");
+            return {QObject::tr("Hann"),
+                    QObject::tr("For most signals. Halfway between two lines a level reads up to 1.4 dB low.")};
         case SpectralWindow::BlackmanHarris:
-            return QObject::tr("For small lines beside large ones: nothing leaks above −92 dB.");
+            return {QObject::tr("Blackman–Harris"),
+                    QObject::tr("For small lines beside large ones: nothing leaks above −92 dB.")};
         case SpectralWindow::FlatTop:
             break;
     }
-    return QObject::tr("For levels: right within 0.01 dB at any frequency, but its lines are wide.");
+    return {QObject::tr("Flat top"),
+            QObject::tr("For levels: right within 0.01 dB at any frequency, but its lines are wide.")};
 }
 
 }  // namespace
@@ -73,12 +74,13 @@ SpectrumPanel::SpectrumPanel(QWidget* parent)
     window_->setAccessibleName(tr("Window of the spectrum"));
     window_->setToolTip(tr("What the samples are weighted with before they are transformed."));
     for (const auto window : kSpectralWindows) {
-        window_->addItem(titleOf(window), qtext(nameOf(window)));
-        window_->setItemData(window_->count() - 1, useOf(window), Qt::ToolTipRole);
+        const auto [title, use] = wordsOf(window);
+        window_->addItem(title, qtext(nameOf(window)));
+        window_->setItemData(window_->count() - 1, use, Qt::ToolTipRole);
     }
     log_->setToolTip(tr("Decades of frequency instead of equal steps."));
-    connect(channel_, &QComboBox::activated, this, &SpectrumPanel::chosen);
-    connect(window_, &QComboBox::activated, this, &SpectrumPanel::chosen);
+    connect(channel_, &QComboBox::activated, this, &SpectrumPanel::showModel);
+    connect(window_, &QComboBox::activated, this, &SpectrumPanel::showModel);
     connect(log_, &QCheckBox::toggled, this, [this] {
         setFrequencyAxis();
         draw();
@@ -106,12 +108,7 @@ SpectrumPanel::SpectrumPanel(QWidget* parent)
     addPlotMenu(*plot_, "spectrum");
     watermark_ = addWatermark(*plot_->axisRect());
     watermark_->setVisible(false);
-    plot_->yAxis->setScaleType(QCPAxis::stLogarithmic);
-    auto ticker = QSharedPointer<QCPAxisTickerLog>::create();
-    ticker->setSubTickCount(0);
-    plot_->yAxis->setTicker(ticker);
-    plot_->yAxis->setNumberFormat("eb");  // each as a power of ten
-    plot_->yAxis->setNumberPrecision(0);
+    numberInPowers(*plot_->yAxis, 0);
     peaks_->setLineStyle(QCPGraph::lsNone);
     for (std::size_t i = 0; i < kMaxPeaks; ++i) {
         auto* name = new QCPItemText(plot_);
@@ -125,16 +122,14 @@ SpectrumPanel::SpectrumPanel(QWidget* parent)
     connect(plot_, &QCustomPlot::afterLayout, this, &SpectrumPanel::fitLevels);
     setFrequencyAxis();
     restyle();
+    onLookChange(*this, [this] {
+        restyle();
+        plot_->replot(QCustomPlot::rpQueuedReplot);
+        showModel();  // the lane's colour
+    });
 }
 
 SpectrumPanel::~SpectrumPanel() = default;
-
-void SpectrumPanel::setLanes(const std::vector<ScopeLane>& lanes) {
-    const auto now = lane();
-    channel_->clear();
-    for (const auto& l : lanes) channel_->addItem(l.title, l.key);
-    channel_->setCurrentIndex(std::max(0, channel_->findData(now)));
-}
 
 QString SpectrumPanel::lane() const { return channel_->currentData().toString(); }
 
@@ -214,18 +209,14 @@ void SpectrumPanel::findPeaks(const QString& unit) {
 }
 
 void SpectrumPanel::setFrequencyAxis() {
-    auto* axis = plot_->xAxis;
-    axis->setScaleType(logarithmic() ? QCPAxis::stLogarithmic : QCPAxis::stLinear);
+    auto& axis = *plot_->xAxis;
     if (logarithmic()) {
-        auto ticker = QSharedPointer<QCPAxisTickerLog>::create();
-        ticker->setSubTickCount(8);
-        axis->setTicker(ticker);
-        axis->setNumberFormat("eb");
-        axis->setNumberPrecision(0);
+        numberInPowers(axis, 8);
     } else {
-        axis->setTicker(QSharedPointer<QCPAxisTicker>::create());
-        axis->setNumberFormat("gb");
-        axis->setNumberPrecision(6);
+        axis.setScaleType(QCPAxis::stLinear);
+        axis.setTicker(QSharedPointer<QCPAxisTicker>::create());
+        axis.setNumberFormat("gb");
+        axis.setNumberPrecision(6);
     }
     shownTop_hz_ = 0;  // what was zoomed into is of the other axis
 }
@@ -350,14 +341,6 @@ void SpectrumPanel::restore(const QSettings& settings) {
     log_->setChecked(rememberedFlag(settings, "fft/log").value_or(false));
 }
 
-void SpectrumPanel::changeEvent(QEvent* event) {
-    QWidget::changeEvent(event);
-    if (event->type() != QEvent::PaletteChange && event->type() != QEvent::FontChange) return;
-    restyle();
-    plot_->replot(QCustomPlot::rpQueuedReplot);
-    if (event->type() == QEvent::PaletteChange) showModel();  // the lane's colour
-}
-
 void SpectrumPanel::showEvent(QShowEvent* event) {
     QWidget::showEvent(event);
     showModel();
@@ -366,11 +349,13 @@ void SpectrumPanel::showEvent(QShowEvent* event) {
 void SpectrumPanel::follow(const ScopeModel& model) {
     model_ = &model;
     connect(&model, &ScopeModel::lanesChanged, this, [this] {
-        setLanes(model_->lanes());
+        const auto now = lane();
+        channel_->clear();
+        for (const auto& l : model_->lanes()) channel_->addItem(l.title, l.key);
+        channel_->setCurrentIndex(std::max(0, channel_->findData(now)));
         showModel();
     });
     connect(&model, &ScopeModel::viewChanged, this, &SpectrumPanel::showModel);
-    connect(this, &SpectrumPanel::chosen, this, &SpectrumPanel::showModel);
 }
 
 void SpectrumPanel::showModel() {

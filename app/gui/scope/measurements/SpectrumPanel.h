@@ -24,7 +24,6 @@ class QCPItemText;
 namespace tacto::gui {
 
 class ScopeModel;
-struct ScopeLane;
 
 /// RMS over frequency, from the first bin above 0 up to half the rate.
 struct Spectrum {
@@ -52,7 +51,6 @@ public:
     /// Shows the chosen lane's part that is on the screen, and follows the model from now on while visible. `model`
     /// outlives this, or takes its leave with disconnect().
     void follow(const ScopeModel& model);
-    void setLanes(const std::vector<ScopeLane>& lanes);
     [[nodiscard]] QString lane() const;
     [[nodiscard]] SpectralWindow window() const;
     [[nodiscard]] bool logarithmic() const;
@@ -66,12 +64,7 @@ public:
     void save(QSettings& settings) const;
     void restore(const QSettings& settings);
 
-signals:
-    /// Another lane or window: what is shown is to be calculated again.
-    void chosen();
-
 protected:
-    void changeEvent(QEvent* event) override;
     void showEvent(QShowEvent* event) override;
 
 private:

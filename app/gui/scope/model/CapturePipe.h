@@ -11,14 +11,24 @@
 #include <QString>
 #include <atomic>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <stop_token>
 
 #include "app/gui/controller/SideWork.h"
 #include "app/gui/scope/model/Trace.h"
-#include "app/gui/scope/model/TriggerCrossing.h"
+#include "core/devices/Oscilloscope.h"
+#include "core/measure/Capture.h"
 #include "core/measure/CaptureAverage.h"
 
 namespace tacto::gui {
+
+/// The same samples at the same times, with the trigger where the line between two samples of the trigger's channel
+/// rises through the level. The capture itself where no such crossing lies within a sample interval of the trigger that
+/// the oscilloscope states: then that one stays. What was measured of it stays as well. An edge
+/// stands still so from capture to capture, though the samples fall elsewhere on it each time.
+[[nodiscard]] std::shared_ptr<const Capture> triggeredAtCrossing(std::shared_ptr<const Capture> capture,
+                                                                 const ScopeSettings& settings);
 
 class CapturePipe final : public QObject {
     Q_OBJECT
@@ -82,5 +92,11 @@ private:
     std::atomic<std::uint64_t> wantedOpen_{0};  // read by the thread: a reading given up is not measured
     SideWork work_;                             // last: it uses the others
 };
+
+/// Channels and what is calculated from them, from..to on the session's time base, as a capture file
+/// (core/measure/CaptureFile.h). A file is replaced whole or not at all. Returns what went
+/// wrong, as a sentence.
+[[nodiscard]] std::optional<QString> saveData(const ShownCapture& shown, double from_s, double to_s,
+                                              const QString& path);
 
 }  // namespace tacto::gui

@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/gui/scope/model/TraceEdges.h"
+#include "app/gui/scope/model/Trace.h"
 
 namespace tacto::gui {
 
 namespace {
 
 constexpr double kRollPerDivision_s = 1;  ///< at least
-
-double lengthOfRecord(const ShownCapture& shown) { return shown.end_s() - shown.capture->start_s; }
 
 }  // namespace
 
@@ -44,9 +42,9 @@ void ScopeFrame::growAndRoll(const Scene& scene) {
 void ScopeFrame::followTime(const Scene& scene, const ShownCapture& before) {
     if (timeView_ == TimeView::Chosen) return;
     const auto placed = [](const ShownCapture& s) { return s.capture->start_s - s.zero_s; };
-    const double length = lengthOfRecord(before);
+    const double length = before.length_s();
     const bool moved = std::abs(placed(before) - placed(*scene.shown)) > length / 50 ||
-                       std::abs(lengthOfRecord(*scene.shown) - length) > length / 50;
+                       std::abs(scene.shown->length_s() - length) > length / 50;
     if (timeView_ == TimeView::Whole) {
         if (moved) fitTime(scene, view_);
         return;

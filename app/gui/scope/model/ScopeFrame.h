@@ -6,7 +6,7 @@
 
 #include <deque>
 
-#include "app/gui/scope/model/ChosenView.h"
+#include "app/gui/scope/model/Remembered.h"
 #include "app/gui/scope/model/ScopeLanes.h"
 
 namespace tacto::gui {

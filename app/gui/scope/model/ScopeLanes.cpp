@@ -8,20 +8,6 @@ namespace tacto::gui {
 
 namespace {
 
-QString letterFor(const Trace& trace, const std::vector<TracePtr>& all) {
-    if (trace.key == "math/power") return "P";
-    if (trace.key == "math/charge") return "Q";
-    if (trace.key == "math/difference") return "Δ";
-    int number = 0, alike = 0;
-    for (const auto& other : all) {
-        if (!other->key.startsWith("channel/") || other->unit != trace.unit) continue;
-        ++alike;
-        if (other->key == trace.key) number = alike;
-    }
-    const QString letter = trace.unit == "V" ? "V" : trace.unit == "A" ? "I" : "D";
-    return alike > 1 ? letter + QString::number(number) : letter;
-}
-
 /// On the axis where time 0 is the trigger.
 TraceSpan fromTrigger(const TracePtr& trace) { return {trace, trace ? trace->start_s - trace->zero_s : 0}; }
 
@@ -80,7 +66,7 @@ bool ScopeLanes::take(const ShownCapture& shown) {
         changed = changed || lane->title != trace->title || lane->unit != trace->unit;
         lane->title = trace->title;
         lane->unit = trace->unit;
-        lane->letter = letterFor(*trace, shown.traces);
+        lane->letter = trace->letter;
     }
     return changed;
 }

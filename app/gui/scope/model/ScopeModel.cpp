@@ -6,12 +6,6 @@
 
 namespace tacto::gui {
 
-namespace {
-
-double lengthOf(const ShownCapture& shown) { return shown.end_s() - shown.capture->start_s; }
-
-}  // namespace
-
 std::unique_ptr<ScopeModel> ScopeModel::still() const {
     auto still = std::make_unique<ScopeModel>();
     still->captures_ = captures_;
@@ -70,7 +64,6 @@ void ScopeModel::fillLanes() {
     lanes_.fill(captures_.newest(), captures_.behind(), captures_.roll(), captures_.persistence());
 }
 
-/// Returns whether the lanes are others than before.
 bool ScopeModel::takeLanes() {
     const bool others = lanes_.take(*shown());
     fillLanes();
@@ -381,11 +374,11 @@ void ScopeModel::dragTriggerLevel(double height) {
 }
 
 void ScopeModel::dragTriggerMoment(double time_s) {
-    if (shown() && trigger_.dragMoment(time_s, lengthOf(*shown()))) emit overlayChanged();
+    if (shown() && trigger_.dragMoment(time_s, shown()->length_s())) emit overlayChanged();
 }
 
 void ScopeModel::dropTrigger() {
-    if (const auto chosen = trigger_.drop(shown() ? lengthOf(*shown()) : 1)) emit preTriggerChosen(*chosen);
+    if (const auto chosen = trigger_.drop(shown() ? shown()->length_s() : 1)) emit preTriggerChosen(*chosen);
     emit overlayChanged();
 }
 

@@ -14,10 +14,8 @@
 #include "app/gui/scope/model/ScopeCursors.h"
 #include "app/gui/scope/model/ScopeFrame.h"
 #include "app/gui/scope/model/ScopeLanes.h"
-#include "app/gui/scope/model/ScopeMarks.h"
-#include "app/gui/scope/model/ScopeTrigger.h"
 #include "app/gui/scope/model/ShownCaptures.h"
-#include "app/gui/scope/model/TraceEdges.h"
+#include "app/gui/scope/model/Trace.h"
 
 namespace tacto::gui {
 
@@ -77,11 +75,8 @@ public:
     /// Below this the samples shown have no shape: a zoom and a time base end there.
     [[nodiscard]] double leastTimePerDivision_s() const;
     void setTimeCentre(double centre_s);
-    /// The pulse nearest to the trigger in the middle third, every lane as large as it can be; asked again, the whole
-    /// record. Without a measured pulse always the whole.
-    void fit();
-    /// Time alone: to the pulse, as fit(), if it is the whole record that is shown.
-    void frameFirstPulse();
+    void fit();              ///< as ScopeFrame's
+    void frameFirstPulse();  ///< as ScopeFrame's
     /// Steps above 0 show more. Steps with the same `kind` that follow at once are undone together.
     void zoomTime(int steps, double anchor_s, const QString& kind);
     void zoomLevel(int steps, double anchorHeight, const QString& kind);
@@ -94,7 +89,6 @@ public:
     void remember() { frame_.remember(); }
     bool undoZoom();
     [[nodiscard]] bool canUndo() const noexcept { return frame_.canUndo(); }
-    /// For the bench's first capture, instead of a fit: from an earlier session, or from before a file was looked at.
     void setChosenView(ChosenView chosen) { frame_.setChosen(std::move(chosen)); }
     [[nodiscard]] ChosenView chosenView() const { return frame_.chosen(scene()); }
 
@@ -122,8 +116,7 @@ public:
     void clearMarks();
     /// Those that the axis reaches, with their time on it; none where a file is shown.
     [[nodiscard]] std::vector<MomentMark> marksOnAxis() const;
-    /// The newest mark that no capture holds, as a note on the one that is shown: it came between the capture before
-    /// and this one, or after this one. Empty without one, and in roll mode.
+    /// As ScopeMarks::beside() of the one that is shown; empty in roll mode.
     [[nodiscard]] QString markBeside() const;
 
     [[nodiscard]] const ScopeTrigger& trigger() const noexcept { return trigger_; }
@@ -146,7 +139,7 @@ signals:
 
 private:
     [[nodiscard]] const ScopeLane* active() const { return lanes_.find(active_); }
-    [[nodiscard]] bool takeLanes();
+    [[nodiscard]] bool takeLanes();  ///< whether they are others than before
     void chooseActive();
     void fillLanes();
     /// Not a file, which has a time of its own.

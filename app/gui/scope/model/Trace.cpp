@@ -3,12 +3,19 @@
 #include <QObject>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-#include "app/gui/scope/model/TraceMath.h"
+#include "app/report/NumberText.h"
 
 namespace tacto::gui {
 
 namespace {
+
+template <class Is>
+TracePtr firstWhere(const std::vector<TracePtr>& traces, Is is) {
+    const auto found = std::find_if(traces.begin(), traces.end(), [&](const TracePtr& trace) { return is(*trace); });
+    return found == traces.end() ? nullptr : *found;
+}
 
 QString whyNotMeasured(const PulseFlags& flags) {
     QStringList words;
@@ -25,6 +32,15 @@ QString titleOf(const std::string& name) {
     if (title == "current") return QObject::tr("Current");
     if (!title.isEmpty()) title[0] = title[0].toUpper();
     return title;
+}
+
+QString letterOf(const Capture& capture, std::size_t channel) {
+    const auto alike = [&](const CaptureChannel& other) { return other.unit == capture.channels[channel].unit; };
+    const auto begin = capture.channels.begin();
+    const auto& unit = capture.channels[channel].unit;
+    const QString letter = unit == "V" ? "V" : unit == "A" ? "I" : "D";
+    if (std::count_if(begin, capture.channels.end(), alike) == 1) return letter;
+    return letter + QString::number(std::count_if(begin, begin + static_cast<std::ptrdiff_t>(channel) + 1, alike));
 }
 
 void takeEdges(const ChannelMeasurement& measured, Trace& trace) {
@@ -48,6 +64,7 @@ TracePtr channelTrace(const std::shared_ptr<const Capture>& capture, std::size_t
     std::shared_ptr<const std::vector<float>> samples(capture, &channel.samples);
     auto trace = makeTrace(channelKey(channel.name), titleOf(channel.name), QString::fromStdString(channel.unit),
                            std::move(samples), capture->rate_hz, capture->start_s, zero_s);
+    trace->letter = letterOf(*capture, c);
     trace->low = channel.low;
     trace->high = channel.high;
     takeEdges(measured, *trace);
@@ -67,10 +84,7 @@ double Trace::valueAt(double t_s) const noexcept {
 }
 
 TracePtr ShownCapture::trace(const QString& key) const {
-    for (const auto& trace : traces) {
-        if (trace->key == key) return trace;
-    }
-    return nullptr;
+    return firstWhere(traces, [&](const Trace& trace) { return trace.key == key; });
 }
 
 double ShownCapture::end_s() const noexcept {
@@ -101,8 +115,6 @@ ShownPtr prepareCapture(std::shared_ptr<const Capture> capture, const MeasureOpt
     auto measured = measureCapture(*capture, {}, options);
     for (std::size_t c = 0; c < capture->channels.size(); ++c) {
         shown->traces.push_back(channelTrace(capture, c, measured.channels[c], shown->zero_s));
-    }
-    for (std::size_t c = 0; c < capture->channels.size(); ++c) {
         shown->waveforms.push_back(measureWaveform(*capture, c, measured.channels[c]));
     }
     if (const auto pair = loadChannels(*capture)) {
@@ -121,6 +133,164 @@ ShownPtr withMath(const ShownCapture& shown, const MathOptions& math) {
     std::erase_if(again->traces, [](const TracePtr& trace) { return trace->key.startsWith("math/"); });
     addMath(again->traces, math);
     return again;
+}
+
+namespace {
+
+constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
+
+TracePtr calculated(const char* key, const char* letter, const QString& title, const QString& unit,
+                    std::vector<float> samples, const Trace& like) {
+    auto trace = makeTrace(key, title, unit, std::make_shared<const std::vector<float>>(std::move(samples)),
+                           like.rate_hz, like.start_s, like.zero_s);
+    trace->letter = letter;
+    return trace;
+}
+
+}  // namespace
+
+TracePtr powerTrace(const Trace& volts, const Trace& amps) {
+    const std::size_t n = std::min(volts.size(), amps.size());
+    std::vector<float> power(n);
+    std::transform(volts.samples->begin(), volts.samples->begin() + static_cast<std::ptrdiff_t>(n),
+                   amps.samples->begin(), power.begin(), std::multiplies<>());
+    return calculated("math/power", "P", QObject::tr("Power"), "W", std::move(power), volts);
+}
+
+TracePtr chargeTrace(const Trace& amps) {
+    std::vector<float> charge(amps.size());
+    double sum = 0;
+    float before = kMissing;
+    for (std::size_t i = 0; i < charge.size(); ++i) {
+        const float now = (*amps.samples)[i];
+        if (std::isnan(now)) {
+            charge[i] = kMissing;
+        } else {
+            sum = std::isnan(before) ? 0 : sum + 0.5 * (static_cast<double>(before) + static_cast<double>(now));
+            charge[i] = static_cast<float>(sum / amps.rate_hz);
+        }
+        before = now;
+    }
+    return calculated("math/charge", "Q", QObject::tr("Charge"), "C", std::move(charge), amps);
+}
+
+TracePtr differenceTrace(const Trace& a, const Trace& b) {
+    std::vector<float> difference(a.size(), kMissing);
+    const auto last = static_cast<double>(b.size()) - 1;
+    // In two records with their own triggers, samples that belong together are equally far from them.
+    const double offset = ((a.start_s - a.zero_s) - (b.start_s - b.zero_s)) * b.rate_hz;
+    const double step = b.rate_hz / a.rate_hz;
+    for (std::size_t i = 0; i < difference.size(); ++i) {
+        const double at = offset + static_cast<double>(i) * step;
+        if (at < -1e-6 || at > last + 1e-6) continue;
+        const double whole = std::clamp(std::floor(at), 0.0, last);
+        const auto k = static_cast<std::size_t>(whole);
+        const double part = std::clamp(at - whole, 0.0, 1.0);
+        const double here = static_cast<double>((*b.samples)[k]);
+        const double next = part < 1e-6 ? here : static_cast<double>((*b.samples)[std::min(k + 1, b.size() - 1)]);
+        difference[i] = static_cast<float>(static_cast<double>((*a.samples)[i]) - (here + part * (next - here)));
+    }
+    return calculated("math/difference", "Δ", QObject::tr("%1 − %2").arg(a.title, b.title), a.unit,
+                      std::move(difference), a);
+}
+
+void addMath(std::vector<TracePtr>& traces, const MathOptions& math) {
+    const auto in = [&](const char* unit) {
+        return firstWhere(traces, [&](const Trace& trace) { return trace.unit == unit; });
+    };
+    const auto called = [&](const QString& key) {
+        return firstWhere(traces, [&](const Trace& trace) { return trace.key == key; });
+    };
+    const auto volts = in("V"), amps = in("A");
+    std::vector<TracePtr> more;
+    if (math.power && volts && amps) more.push_back(powerTrace(*volts, *amps));
+    if (math.charge && amps) more.push_back(chargeTrace(*amps));
+    const auto minuend = called(math.minuend);
+    const auto subtrahend = math.reference ? math.reference : called(math.subtrahend);
+    if (minuend && subtrahend && minuend->unit == subtrahend->unit && subtrahend->size() > 0)
+        more.push_back(differenceTrace(*minuend, *subtrahend));
+    traces.insert(traces.end(), more.begin(), more.end());
+}
+
+namespace {
+
+/// The edge with the smallest `distanceTo(edge)` below `reach`; `otherwise` without one.
+template <class Distance>
+double nearestEdge(const std::vector<TraceSpan>& spans, double otherwise, double reach, Distance distanceTo) {
+    double best = otherwise;
+    for (const auto& span : spans) {
+        const double shift = span.key_s - span.trace->start_s;
+        for (const auto& edge : span.trace->edges) {
+            for (const double at : {edge.onset_s + shift, edge.end_s + shift}) {
+                const double distance = distanceTo(at);
+                if (!(distance < reach)) continue;
+                reach = distance;
+                best = at;
+            }
+        }
+    }
+    return best;
+}
+
+}  // namespace
+
+double snappedToEdge(const std::vector<TraceSpan>& spans, double time_s, double reach_s) {
+    return nearestEdge(spans, time_s, reach_s, [&](double at) { return std::abs(at - time_s); });
+}
+
+double nextEdge(const std::vector<TraceSpan>& spans, double time_s, double direction, double least_s) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    return nearestEdge(spans, time_s, kInfinity, [&](double at) {
+        const double away = (at - time_s) * direction;
+        return away > least_s ? away : kInfinity;
+    });
+}
+
+std::optional<std::pair<double, double>> pulseNear(const std::vector<TraceSpan>& spans, double time_s) {
+    std::optional<std::pair<double, double>> nearest;
+    for (const auto& span : spans) {
+        const auto& edges = span.trace->edges;
+        const double shift = span.key_s - span.trace->start_s;
+        for (auto edge = edges.begin(); edge != edges.end(); ++edge) {
+            const double onset_s = edge->onset_s + shift;
+            if (!edge->leading || (nearest && std::abs(onset_s - time_s) >= std::abs(nearest->first - time_s)))
+                continue;
+            const auto second = std::next(edge);
+            const bool biphasic = second != edges.end() && !second->leading;
+            nearest = {onset_s, (biphasic ? second->end_s : edge->end_s) + shift};
+        }
+    }
+    return nearest;
+}
+
+std::optional<EdgeReading> edgesAround(const std::vector<TraceSpan>& spans, double time_s) {
+    for (const auto& span : spans) {
+        const auto& edges = span.trace->edges;
+        const double shift = span.key_s - span.trace->start_s;
+        const double t = time_s - shift;
+        if (edges.empty() || t < edges.front().onset_s || t > edges.back().end_s) continue;
+        const auto after = std::upper_bound(edges.begin(), edges.end(), t,
+                                            [](double at, const PhaseEdges& e) { return at < e.onset_s; });
+        const auto& phase = *std::prev(after);
+        const bool inside = t <= phase.end_s;
+        if (!inside && after == edges.end()) continue;
+        EdgeReading read;
+        read.from_s = (inside ? phase.onset_s : phase.end_s) + shift;
+        read.to_s = (inside ? phase.end_s : after->onset_s) + shift;
+        read.text =
+            (inside ? QObject::tr("Width %1") : QObject::tr("Rest %1")).arg(quantityText(read.to_s - read.from_s, "s"));
+        // The interval runs from the leading edge before the moment to the next leading edge.
+        auto before = std::prev(after);
+        while (before != edges.begin() && !before->leading) --before;
+        const auto next = std::find_if(after, edges.end(), [](const PhaseEdges& e) { return e.leading; });
+        if (next != edges.end() && before->leading) {
+            const double interval = next->onset_s - before->onset_s;
+            read.text +=
+                QObject::tr(" · interval %1 (%2)").arg(quantityText(interval, "s"), quantityText(1 / interval, "Hz"));
+        }
+        return read;
+    }
+    return {};
 }
 
 }  // namespace tacto::gui

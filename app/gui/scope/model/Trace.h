@@ -11,6 +11,7 @@
 #include <QString>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/measure/CaptureMask.h"
@@ -36,9 +37,10 @@ struct PulseMark {
 };
 
 struct Trace {
-    QString key;    ///< "channel/voltage", "math/power", "reference/1": the same curve in every capture
-    QString title;  ///< "Voltage"
-    QString unit;   ///< "V", "A", "W", "C" or "" for logic
+    QString key;     ///< "channel/voltage", "math/power", "reference/1": the same curve in every capture
+    QString title;   ///< "Voltage"
+    QString letter;  ///< "V", or "V2" where several channels have the unit; on handles, plots and above columns
+    QString unit;    ///< "V", "A", "W", "C" or "" for logic
     double rate_hz = 0;
     double start_s = 0;  ///< time of sample 0, on the session's time base
     double zero_s = 0;   ///< the trigger of its capture: time 0 on the plot
@@ -100,6 +102,7 @@ struct ShownCapture {
 
     [[nodiscard]] TracePtr trace(const QString& key) const;
     [[nodiscard]] double end_s() const noexcept;
+    [[nodiscard]] double length_s() const noexcept { return end_s() - capture->start_s; }
 };
 using ShownPtr = std::shared_ptr<const ShownCapture>;
 
@@ -115,5 +118,37 @@ using ShownPtr = std::shared_ptr<const ShownCapture>;
 [[nodiscard]] std::shared_ptr<Trace> makeTrace(const QString& key, const QString& title, const QString& unit,
                                                std::shared_ptr<const std::vector<float>> samples, double rate_hz,
                                                double start_s, double zero_s);
+
+// Curves calculated from channels. A missing sample stays missing in everything calculated from it.
+/// v·i sample by sample, in W. Both run over the same samples.
+[[nodiscard]] TracePtr powerTrace(const Trace& volts, const Trace& amps);
+
+/// ∫ i dt by trapezoids from the record's begin, in C. What flowed while samples were missing is not known: after a
+/// gap it counts from zero again.
+[[nodiscard]] TracePtr chargeTrace(const Trace& amps);
+
+/// a - b, both in a's unit. b is taken at the same time from the trigger, between its samples by straight line;
+/// where b has nothing, the difference has nothing.
+[[nodiscard]] TracePtr differenceTrace(const Trace& a, const Trace& b);
+
+/// Appends what is wished for and possible.
+void addMath(std::vector<TracePtr>& traces, const MathOptions& math);
+
+/// Two neighbouring edges and what lies between them, in words.
+struct EdgeReading {
+    double from_s = 0, to_s = 0;
+    QString text;  ///< "Width 200.0 µs · interval 4.000 ms (250.0 Hz)"
+    bool operator==(const EdgeReading&) const = default;
+};
+
+/// The edge nearest to `time_s`, if one is nearer than `reach_s`; else `time_s`.
+[[nodiscard]] double snappedToEdge(const std::vector<TraceSpan>& spans, double time_s, double reach_s);
+/// The first edge after `time_s` (`direction` 1) or before it (-1); `time_s` where there is none. An edge nearer than
+/// `least_s` is the one that the cursor stands on.
+[[nodiscard]] double nextEdge(const std::vector<TraceSpan>& spans, double time_s, double direction, double least_s);
+/// From the onset to the end of the pulse whose onset is nearest to `time_s`.
+[[nodiscard]] std::optional<std::pair<double, double>> pulseNear(const std::vector<TraceSpan>& spans, double time_s);
+/// The phase, or the rest between two phases, that `time_s` lies in.
+[[nodiscard]] std::optional<EdgeReading> edgesAround(const std::vector<TraceSpan>& spans, double time_s);
 
 }  // namespace tacto::gui

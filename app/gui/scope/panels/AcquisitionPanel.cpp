@@ -10,7 +10,7 @@
 #include <cmath>
 
 #include "app/gui/scope/model/Remembered.h"
-#include "app/gui/scope/model/Steps.h"
+#include "app/gui/scope/model/Viewport.h"
 #include "app/gui/scope/panels/QuantitySpin.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"

@@ -10,10 +10,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/gui/scope/model/Steps.h"
-#include "app/gui/scope/panels/DivisionSpin.h"
-#include "app/gui/scope/panels/StepBox.h"
-#include "app/gui/scope/screen/LaneColours.h"
+#include "app/gui/scope/model/Viewport.h"
+#include "app/gui/scope/panels/QuantitySpin.h"
+#include "app/gui/scope/screen/LaneLegend.h"
 #include "app/gui/scope/screen/ScopeScreen.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/NumberText.h"

@@ -6,6 +6,7 @@
 #include <QSettings>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -78,14 +79,15 @@ MaskPanel::MaskPanel(QWidget* parent)
 
 MaskBand MaskPanel::band() const { return {{{"V", volts_->value()}, {"A", amps_->value()}}, time_->value()}; }
 
-void MaskPanel::canMake(bool can) { make_->setEnabled(can); }
-
 void MaskPanel::make(const ShownPtr& reference) {
-    if (!reference) return;
-    auto made = CaptureMask::around(*reference->capture, band());
+    if (reference) makeOf(reference->capture);
+}
+
+void MaskPanel::makeOf(std::shared_ptr<const Capture> reference) {
+    auto made = CaptureMask::around(*reference, band());
     problem_ = made ? QString() : sentence(made.error());
     if (made) {
-        reference_ = reference->capture;
+        reference_ = std::move(reference);
         mask_ = std::make_shared<const CaptureMask>(std::move(*made));
         counts_ = {};
         first_.reset();
@@ -96,10 +98,7 @@ void MaskPanel::make(const ShownPtr& reference) {
 }
 
 void MaskPanel::bandChanged() {
-    if (!reference_) return;
-    auto reference = std::make_shared<ShownCapture>();
-    reference->capture = reference_;
-    make(reference);
+    if (reference_) makeOf(reference_);
 }
 
 void MaskPanel::remove() {
@@ -150,12 +149,8 @@ void MaskPanel::say() {
     if (mask_) lines << said() + ".";
     if (first_) {
         const auto& worst = *first_->mask->worst;
-        const QString unit = [&] {
-            for (const auto& channel : mask_->channels()) {
-                if (channel.name == worst.channel) return QString::fromStdString(channel.unit);
-            }
-            return QString();
-        }();
+        const auto channel = std::ranges::find(mask_->channels(), worst.channel, &CaptureMask::Channel::name);
+        const auto unit = channel == mask_->channels().end() ? QString() : QString::fromStdString(channel->unit);
         lines << tr("The first outside: %1 at %2, %3 where the band ends at %4.")
                      .arg(titled(QString::fromStdString(worst.channel)), quantityText(worst.time_s, "s"),
                           quantityText(worst.value, unit), quantityText(worst.limit, unit));

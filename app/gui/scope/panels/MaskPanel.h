@@ -7,13 +7,12 @@
 // Thread-safety: the GUI thread.
 #pragma once
 
-#include <QWidget>
+#include <QPushButton>
 #include <memory>
 
 #include "app/gui/scope/model/Trace.h"
 
 class QLabel;
-class QPushButton;
 class QSettings;
 
 namespace tacto::gui {
@@ -39,7 +38,7 @@ public:
     [[nodiscard]] QString said() const;
     /// What stands over the traces after a capture outside; else empty.
     [[nodiscard]] QString alarm() const;
-    void canMake(bool can);
+    void canMake(bool can) { make_->setEnabled(can); }
 
     void save(QSettings& settings) const;
     /// The half-widths; a mask itself is not kept.
@@ -57,6 +56,7 @@ signals:
 
 private:
     [[nodiscard]] MaskBand band() const;
+    void makeOf(std::shared_ptr<const Capture> reference);
     void bandChanged();
     void say();
 

@@ -1,10 +1,11 @@
 #include "app/gui/scope/panels/QuantitySpin.h"
 
-#include <QStyle>
-#include <QStyleOptionSpinBox>
+#include <QComboBox>
+#include <QSignalBlocker>
 #include <cmath>
 
-#include "app/gui/scope/model/Steps.h"
+#include "app/gui/scope/model/Viewport.h"
+#include "app/gui/theme/Text.h"
 #include "app/report/NumberText.h"
 
 namespace tacto::gui {
@@ -74,13 +75,58 @@ void QuantitySpin::stepBy(int steps) {
     selectAll();
 }
 
-QSize QuantitySpin::sizeHint() const {
-    auto hint = QDoubleSpinBox::sizeHint();
-    QStyleOptionSpinBox option;
-    initStyleOption(&option);
-    const QSize text(fontMetrics().horizontalAdvance("−000.00 mm") + 6, fontMetrics().height());
-    hint.setWidth(style()->sizeFromContents(QStyle::CT_SpinBox, &option, text, this).width());
-    return hint;
+namespace {
+
+constexpr double kSame = 1e-6;  // relative
+
+bool onLadder(double value) { return std::abs(stepNotBelow(value * (1 - kSame)) - value) <= kSame * value; }
+
+}  // namespace
+
+void addStep(QComboBox& box, double perDivision, const QString& unit) {
+    const auto exact = settingText(perDivision, unit), rounded = quantityText(perDivision, unit, 3);
+    box.addItem(QObject::tr("%1/div").arg(exact.size() <= rounded.size() ? exact : rounded), perDivision);
+}
+
+void showStep(QComboBox& box, double now, const QString& unit) {
+    const QSignalBlocker quiet(&box);
+    const auto last = box.count() - 1;
+    if (last >= 0 && !onLadder(box.itemData(last).toDouble())) box.removeItem(last);
+    for (int i = 0; i < box.count(); ++i) {
+        if (std::abs(box.itemData(i).toDouble() - now) <= kSame * now) return box.setCurrentIndex(i);
+    }
+    addStep(box, now, unit);
+    box.setCurrentIndex(box.count() - 1);
+}
+
+namespace {
+
+constexpr QChar kMinus(0x2212);
+
+/// As Qt reads it.
+QString hyphened(QString text) { return text.replace(kMinus, '-'); }
+
+}  // namespace
+
+DivisionSpin::DivisionSpin(QWidget* parent) : QDoubleSpinBox(parent) {
+    setLocale(QLocale::c());  // numbers are written alike everywhere
+    setRange(-1000, 1000);
+    setDecimals(2);
+    setSingleStep(0.5);
+    setSuffix(tr(" div"));
+    setKeyboardTracking(false);
+    setAlignment(Qt::AlignRight);
+}
+
+QString DivisionSpin::textFromValue(double value) const { return decimalText(value, decimals()); }
+
+double DivisionSpin::valueFromText(const QString& text) const { return QDoubleSpinBox::valueFromText(hyphened(text)); }
+
+QValidator::State DivisionSpin::validate(QString& text, int& at) const {
+    auto plain = hyphened(text);
+    const auto state = QDoubleSpinBox::validate(plain, at);
+    text = plain.replace('-', kMinus);
+    return state;
 }
 
 }  // namespace tacto::gui

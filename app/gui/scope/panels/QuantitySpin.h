@@ -9,6 +9,9 @@
 #include <QDoubleSpinBox>
 #include <optional>
 
+class QComboBox;
+class QString;
+
 namespace tacto::gui {
 
 /// "1.5 ms" in s is 0.0015; a number alone is in `unit`. Nothing when it is not a quantity of that unit.
@@ -25,10 +28,25 @@ public:
     double valueFromText(const QString& text) const override;
     QValidator::State validate(QString& text, int& at) const override;
     void stepBy(int steps) override;
-    QSize sizeHint() const override;
 
 private:
     QString unit_;
+};
+
+/// Into a box of scales: "20 V/div", with its value as data.
+void addStep(QComboBox& box, double perDivision, const QString& unit);
+/// Chooses the present scale. One that is not a step of the ladder stands last, as long as it is the present one.
+void showStep(QComboBox& box, double now, const QString& unit);
+
+/// A position in divisions of the screen, "−1.50 div"; typed with a hyphen or a minus sign.
+class DivisionSpin final : public QDoubleSpinBox {
+    Q_OBJECT
+public:
+    explicit DivisionSpin(QWidget* parent = nullptr);
+
+    QString textFromValue(double value) const override;
+    double valueFromText(const QString& text) const override;
+    QValidator::State validate(QString& text, int& at) const override;
 };
 
 }  // namespace tacto::gui

@@ -1,14 +1,20 @@
 #include "app/gui/scope/panels/ScopeControls.h"
 
+#include <QEvent>
 #include <QLabel>
+#include <QScrollBar>
 #include <QVBoxLayout>
 
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 
-ScopeControls::ScopeControls(ScopeModel& model, ScopeScreen& screen, QWidget* parent) : ControlColumn(parent) {
+ScopeControls::ScopeControls(ScopeModel& model, ScopeScreen& screen, QWidget* parent) : QScrollArea(parent) {
     setObjectName("scopeControls");
+    setWidgetResizable(true);
+    setFrameShape(QFrame::NoFrame);
+    setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Expanding);
     auto* inside = new QWidget(this);
     auto* lanes = new LanePanel(model, screen, inside);
     view_ = new ViewPanel(model, inside);
@@ -30,6 +36,16 @@ ScopeControls::ScopeControls(ScopeModel& model, ScopeScreen& screen, QWidget* pa
     }
     column->addStretch();
     setWidget(inside);
+}
+
+QSize ScopeControls::sizeHint() const {
+    return {widget()->minimumSizeHint().width() + verticalScrollBar()->sizeHint().width(),
+            QScrollArea::sizeHint().height()};
+}
+
+bool ScopeControls::eventFilter(QObject* watched, QEvent* event) {
+    if (watched == widget() && event->type() == QEvent::LayoutRequest) updateGeometry();
+    return QScrollArea::eventFilter(watched, event);
 }
 
 void ScopeControls::save(QSettings& settings) const {

@@ -4,15 +4,16 @@
 // Thread-safety: the GUI thread.
 #pragma once
 
+#include <QScrollArea>
+
 #include "app/gui/scope/panels/AcquisitionPanel.h"
-#include "app/gui/scope/panels/ControlColumn.h"
 #include "app/gui/scope/panels/LanePanel.h"
 #include "app/gui/scope/panels/MaskPanel.h"
 #include "app/gui/scope/panels/ViewPanel.h"
 
 namespace tacto::gui {
 
-class ScopeControls final : public ControlColumn {
+class ScopeControls final : public QScrollArea {
     Q_OBJECT
 public:
     /// Model and screen outlive this.
@@ -24,6 +25,13 @@ public:
 
     void save(QSettings& settings) const;
     void restore(const QSettings& settings);
+
+    /// Always as wide as what is in it.
+    [[nodiscard]] QSize sizeHint() const override;
+    [[nodiscard]] QSize minimumSizeHint() const override { return {sizeHint().width(), fontMetrics().height() * 6}; }
+
+protected:
+    bool eventFilter(QObject* watched, QEvent* event) override;
 
 private:
     ViewPanel* view_;

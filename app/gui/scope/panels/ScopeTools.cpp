@@ -2,11 +2,10 @@
 
 #include <QActionGroup>
 #include <QMenu>
-#include <QPushButton>
-#include <QToolButton>
+#include <algorithm>
 #include <cmath>
 
-#include "app/gui/scope/model/Steps.h"
+#include "app/gui/scope/model/Viewport.h"
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Theme.h"
@@ -16,10 +15,59 @@ namespace tacto::gui {
 
 namespace {
 
-/// Anywhere on it; the arrow has a place of its own.
-void opensMenu(QToolButton& button) {
-    button.setPopupMode(QToolButton::MenuButtonPopup);
-    QObject::connect(&button, &QToolButton::clicked, &button, &QToolButton::showMenu);
+struct ToolWords {
+    ScopeTool tool;
+    const char* name;
+    const char* tip;
+    const char* icon;
+    bool checkable = true;
+};
+
+#define WORDS(text) QT_TRANSLATE_NOOP("tacto::gui::ScopeTools", text)
+
+constexpr ToolWords kViews[] = {
+    {ScopeTool::Fit, WORDS("Fit"),
+     WORDS("Home or a double click: the pulse in a third of the screen, every lane as large as it can be; once more: "
+           "the whole record."),
+     "fit", false},
+    {ScopeTool::Undo, WORDS("Undo zoom"), WORDS("Ctrl+Z: back to the view before."), "undo-zoom", false},
+    {ScopeTool::Box, WORDS("Box"),
+     WORDS("B: the next drag draws a box that becomes the whole screen. Shift+drag does it at once."), "box-zoom"},
+    {ScopeTool::TimeCursors, WORDS("Time cursors"),
+     WORDS("T: two cursors across time. They snap to edges; arrows nudge the one with the dark flag, Ctrl+arrow jumps "
+           "to the next edge, 1 and 2 choose."),
+     "time-cursors"},
+    {ScopeTool::LevelCursors, WORDS("Level cursors"),
+     WORDS("L: two cursors across the active lane's level. They snap to where the signal rests; up and down nudge, 3 "
+           "and 4 choose."),
+     "level-cursors"}};
+constexpr ToolWords kPanels[] = {
+    {ScopeTool::Average, WORDS("Average"),
+     WORDS("The mean of the latest captures, aligned at the trigger. Set their number in the controls."), "average"},
+    {ScopeTool::Mask, WORDS("Mask"),
+     WORDS("Tests captures against a band around what is shown now. Set its width in the controls. This does not "
+           "affect the output."),
+     "mask"},
+    {ScopeTool::Spectrum, WORDS("Spectrum tool"), WORDS("The spectrum of what a lane shows on the screen, below it."),
+     "spectrum"},
+    {ScopeTool::Table, WORDS("All measurements"),
+     WORDS("The chosen measurements of every channel with their statistics, below the screen."), "measurements"},
+    {ScopeTool::Mark, WORDS("Mark"), WORDS("Ctrl+M: marks this moment with a word, in the record and in every plot."),
+     "mark", false}};
+constexpr ToolWords kControls{ScopeTool::Controls, WORDS("Controls"),
+                              WORDS("Lanes, view, mask, trigger and record, in a column at the right."), "settings"};
+
+#undef WORDS
+
+/// Opens anywhere on it; the arrow has a place of its own.
+QToolButton* menuTool(const QString& text, const QString& tip, QWidget* parent) {
+    auto* button = makeTool(text, tip, {}, parent);
+    button->setText(text);
+    button->setPopupMode(QToolButton::MenuButtonPopup);
+    button->setMenu(new QMenu(button));
+    button->menu()->setToolTipsVisible(true);
+    QObject::connect(button, &QToolButton::clicked, button, &QToolButton::showMenu);
+    return button;
 }
 
 }  // namespace
@@ -27,18 +75,20 @@ void opensMenu(QToolButton& button) {
 ScopeTools::ScopeTools(QMenu* files, QWidget* parent)
     : QWidget(parent), run_(new QPushButton(tr("Run"), this)), modes_(new QActionGroup(this)) {
     auto* row = new ToolRow(this);
+    const auto add = [&](const ToolWords& its) {
+        auto* button = makeTool(tr(its.name), tr(its.tip), its.icon, this);
+        button->setText(tr(its.name));
+        button->setToolButtonStyle(Qt::ToolButtonIconOnly);
+        button->setCheckable(its.checkable);
+        row->addWidget(tools_[its.tool] = button);
+    };
     run_->setToolTip(tr("R: Run takes captures; Hold keeps the picture. Neither touches the output: STOP does."));
-    connect(run_, &QPushButton::clicked, this, &ScopeTools::runClicked);
     makePrimary(*run_);
     row->addWidget(run_);
     addModes(*row);
-    addViews(*row);
+    std::ranges::for_each(kViews, add);
     row->addGap();
-    addPanels(*row);
-    auto* mark =
-        tool(tr("Mark"), tr("Ctrl+M: marks this moment with a word, in the record and in every plot."), false, "mark");
-    connect(mark, &QToolButton::clicked, this, &ScopeTools::markClicked);
-    row->addWidget(mark);
+    std::ranges::for_each(kPanels, add);
     row->addGap();
     pictures_ = new PictureTools(this);
     auto& save = pictures_->save();
@@ -48,10 +98,7 @@ ScopeTools::ScopeTools(QMenu* files, QWidget* parent)
     save.setMenu(files);
     row->addWidget(&save);
     row->addWidget(&pictures_->copy());
-    controls_ =
-        tool(tr("Controls"), tr("Lanes, view, mask, trigger and record, in a column at the right."), true, "settings");
-    connect(controls_, &QToolButton::clicked, this, &ScopeTools::controlsClicked);
-    row->addWidget(controls_);
+    add(kControls);
     row->addWidget(&pictures_->plotOnly());
     pictures_->plotOnly().raise();  // the last of them for Tab, which goes by this order (TabbedPage.h)
 }
@@ -66,21 +113,18 @@ void ScopeTools::resizeEvent(QResizeEvent* event) {
 }
 
 void ScopeTools::addModes(ToolRow& row) {
-    single_ = tool(tr("Single"), tr("S: takes one capture and holds it."), true, "single");
+    single_ = makeTool(tr("Single"), tr("S: takes one capture and holds it."), "single", this);
+    single_->setText(tr("Single"));
+    single_->setCheckable(true);
     single_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
     connect(single_, &QToolButton::clicked, this, [this] { emit modeChosen(ScopeMode::Single); });
-    row.addWidget(single_);
-    mode_ = tool(tr("Auto"), tr("What makes a capture."), false);
-    opensMenu(*mode_);
-    auto* menu = new QMenu(mode_);
-    menu->setToolTipsVisible(true);
+    mode_ = menuTool(tr("Auto"), tr("What makes a capture."), this);
     const auto add = [&](ScopeMode mode, const QString& text, const QString& tip) {
-        auto* action = menu->addAction(text);
+        auto* action = mode_->menu()->addAction(text, this, [this, mode] { emit modeChosen(mode); });
         action->setToolTip(tip);
         action->setCheckable(true);
         action->setData(static_cast<int>(mode));
         modes_->addAction(action);
-        connect(action, &QAction::triggered, this, [this, mode] { emit modeChosen(mode); });
     };
     add(ScopeMode::Auto, tr("Auto"),
         tr("A: the trigger level follows a fifth of the commanded amplitude. When no trigger comes, the signal is "
@@ -89,76 +133,18 @@ void ScopeTools::addModes(ToolRow& row) {
     add(ScopeMode::Roll, tr("Roll"),
         tr("Captures one after the other on the session's time. A capture is a record around a trigger: what lies "
            "between them was not recorded and is hatched."));
-    mode_->setMenu(menu);
-    row.addWidget(mode_);
-    base_ = tool(tr("Time base"), tr("How much time one of the ten divisions is."), false);
-    opensMenu(*base_);
-    auto* steps = new QMenu(base_);
+    base_ = menuTool(tr("Time base"), tr("How much time one of the ten divisions is."), this);
     bases_ = new QActionGroup(base_);
     bases_->setExclusionPolicy(QActionGroup::ExclusionPolicy::ExclusiveOptional);  // a base may lie beyond the list
-    connect(steps, &QMenu::aboutToShow, this, &ScopeTools::markTimeBase);
+    connect(base_->menu(), &QMenu::aboutToShow, this, &ScopeTools::markTimeBase);
     for (const double step : stepsBetween(100e-9, 1)) {
-        auto* action = steps->addAction(tr("%1/div").arg(settingText(step, "s")), this,
-                                        [this, step] { emit timeBaseChosen(step); });
+        auto* action = base_->menu()->addAction(tr("%1/div").arg(settingText(step, "s")), this,
+                                                [this, step] { emit timeBaseChosen(step); });
         action->setCheckable(true);
         action->setData(step);
         bases_->addAction(action);
     }
-    base_->setMenu(steps);
-    row.addWidget(base_);
-}
-
-void ScopeTools::addViews(ToolRow& row) {
-    auto* fit = tool(tr("Fit"),
-                     tr("Home or a double click: the pulse in a third of the screen, every lane as large as it can "
-                        "be; once more: the whole record."),
-                     false, "fit");
-    connect(fit, &QToolButton::clicked, this, &ScopeTools::fitClicked);
-    undo_ = tool(tr("Undo zoom"), tr("Ctrl+Z: back to the view before."), false, "undo-zoom");
-    connect(undo_, &QToolButton::clicked, this, &ScopeTools::undoClicked);
-    box_ =
-        tool(tr("Box"), tr("B: the next drag draws a box that becomes the whole screen. Shift+drag does it at once."),
-             true, "box-zoom");
-    connect(box_, &QToolButton::toggled, this, &ScopeTools::boxToggled);
-    time_ = tool(tr("Time cursors"),
-                 tr("T: two cursors across time. They snap to edges; arrows nudge the one with the dark flag, "
-                    "Ctrl+arrow jumps to the next edge, 1 and 2 choose."),
-                 true, "time-cursors");
-    connect(time_, &QToolButton::toggled, this, &ScopeTools::timeCursorsToggled);
-    level_ = tool(tr("Level cursors"),
-                  tr("L: two cursors across the active lane's level. They snap to where the signal rests; up and down "
-                     "nudge, 3 and 4 choose."),
-                  true, "level-cursors");
-    connect(level_, &QToolButton::toggled, this, &ScopeTools::levelCursorsToggled);
-    for (auto* button : {fit, undo_, box_, time_, level_}) row.addWidget(button);
-}
-
-void ScopeTools::addPanels(ToolRow& row) {
-    average_ = tool(tr("Average"),
-                    tr("The mean of the latest captures, aligned at the trigger. Set their number in the controls."),
-                    true, "average");
-    connect(average_, &QToolButton::clicked, this, &ScopeTools::averageClicked);
-    mask_ = tool(tr("Mask"),
-                 tr("Tests captures against a band around what is shown now. Set its width in the controls. This "
-                    "does not affect the output."),
-                 true, "mask");
-    connect(mask_, &QToolButton::clicked, this, &ScopeTools::maskClicked);
-    spectrum_ =
-        tool(tr("Spectrum tool"), tr("The spectrum of what a lane shows on the screen, below it."), true, "spectrum");
-    connect(spectrum_, &QToolButton::clicked, this, &ScopeTools::spectrumClicked);
-    table_ = tool(tr("All measurements"),
-                  tr("The chosen measurements of every channel with their statistics, below the screen."), true,
-                  "measurements");
-    connect(table_, &QToolButton::clicked, this, &ScopeTools::tableClicked);
-    for (auto* button : {average_, mask_, spectrum_, table_}) row.addWidget(button);
-}
-
-QToolButton* ScopeTools::tool(const QString& text, const QString& tip, bool checkable, const QString& iconName) {
-    auto* button = makeTool(text, tip, iconName, this);
-    button->setText(text);
-    if (!iconName.isEmpty()) button->setToolButtonStyle(Qt::ToolButtonIconOnly);
-    button->setCheckable(checkable);
-    return button;
+    for (auto* button : {single_, mode_, base_}) row.addWidget(button);
 }
 
 void ScopeTools::showMode(ScopeMode mode) {
@@ -194,29 +180,6 @@ void ScopeTools::markTimeBase() {
         action->setEnabled(step_s > leastBase_s_ * (1 - kSameBase));
     }
 }
-
-void ScopeTools::showControls(bool on) { controls_->setChecked(on); }
-
-void ScopeTools::showTable(bool on) { table_->setChecked(on); }
-
-void ScopeTools::showSpectrum(bool on) { spectrum_->setChecked(on); }
-
-void ScopeTools::showAverage(bool on) { average_->setChecked(on); }
-
-void ScopeTools::showMask(bool on, bool possible) {
-    mask_->setChecked(on);
-    mask_->setEnabled(on || possible);
-}
-
-void ScopeTools::setCanUndo(bool can) { undo_->setEnabled(can); }
-
-void ScopeTools::endBox() { box_->setChecked(false); }
-
-void ScopeTools::toggleTimeCursors() { time_->toggle(); }
-
-void ScopeTools::toggleLevelCursors() { level_->toggle(); }
-
-void ScopeTools::toggleBox() { box_->toggle(); }
 
 }  // namespace tacto::gui
 

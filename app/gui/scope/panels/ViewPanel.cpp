@@ -11,9 +11,8 @@
 
 #include "app/gui/scope/model/Remembered.h"
 #include "app/gui/scope/model/ScopeModel.h"
-#include "app/gui/scope/model/Steps.h"
+#include "app/gui/scope/model/Viewport.h"
 #include "app/gui/scope/panels/QuantitySpin.h"
-#include "app/gui/scope/panels/StepBox.h"
 #include "app/report/NumberText.h"
 
 namespace tacto::gui {
@@ -35,17 +34,19 @@ ViewPanel::ViewPanel(ScopeModel& model, QWidget* parent)
       charge_(new QCheckBox(tr("Charge ∫I dt"), this)),
       difference_(new QComboBox(this)),
       spectrum_(new QCheckBox(tr("Spectrum"), this)) {
-    base_->setAccessibleName(tr("Time base"));
-    base_->setToolTip(tr("How much time lies between two lines of the grid. The wheel over the screen does the same."));
+    const auto say = [](QWidget* field, const QString& name, const QString& tip) {
+        field->setAccessibleName(name);
+        field->setToolTip(tip);
+    };
+    say(base_, tr("Time base"),
+        tr("How much time lies between two lines of the grid. The wheel over the screen does the same."));
     for (const double s : stepsBetween(10e-9, 100)) addStep(*base_, s, "s");
-    centre_->setAccessibleName(tr("Time position"));
-    centre_->setToolTip(tr("The time in the middle of the screen. Dragging the screen does the same."));
-    persistence_->setAccessibleName(tr("Captures that stay"));
-    persistence_->setToolTip(tr("Earlier captures stay on the screen, faded: jitter shows as a band."));
+    say(centre_, tr("Time position"), tr("The time in the middle of the screen. Dragging the screen does the same."));
+    say(persistence_, tr("Captures that stay"),
+        tr("Earlier captures stay on the screen, faded: jitter shows as a band."));
     persistence_->addItem(tr("newest only"), 0);
     for (const int n : {4, 8, 16, ScopeModel::kMaxBehind}) persistence_->addItem(tr("and %1 before").arg(n), n);
-    average_->setAccessibleName(tr("Average"));
-    average_->setToolTip(
+    say(average_, tr("Average"),
         tr("The mean of so many captures, aligned at the trigger: noise goes, what repeats stays. It "
            "starts over when a setting or the commanded amplitude changes."));
     average_->addItem(tr("none"), 1);
@@ -58,8 +59,7 @@ ViewPanel::ViewPanel(ScopeModel& model, QWidget* parent)
         box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
         box->setMinimumContentsLength(10);
     }
-    difference_->setAccessibleName(tr("Difference"));
-    difference_->setToolTip(tr("One channel minus another, or minus a stored reference of the same unit."));
+    say(difference_, tr("Difference"), tr("One channel minus another, or minus a stored reference of the same unit."));
     spectrum_->setToolTip(tr("The spectrum of what a lane shows on the screen, below it."));
     // No wider than its words: a click beside them is not meant for it.
     for (auto* box : {power_, charge_, spectrum_}) box->setSizePolicy(QSizePolicy::Maximum, QSizePolicy::Fixed);

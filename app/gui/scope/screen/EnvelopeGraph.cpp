@@ -42,47 +42,6 @@ bool clipLine(QLineF& line, const QRectF& area) {
 
 }  // namespace
 
-EnvelopeGraph::EnvelopeGraph(QCPAxis* keyAxis, QCPAxis* valueAxis) : QCPAbstractPlottable(keyAxis, valueAxis) {
-    setSelectable(QCP::stNone);
-    setAntialiased(false);
-}
-
-void EnvelopeGraph::setSpans(std::vector<TraceSpan> spans) { spans_ = std::move(spans); }
-
-void EnvelopeGraph::setScale(double perDivision, double position) {
-    perDivision_ = perDivision;
-    position_ = position;
-}
-
-double EnvelopeGraph::selectTest(const QPointF&, bool, QVariant*) const { return -1; }
-
-QCPRange EnvelopeGraph::getKeyRange(bool& found, QCP::SignDomain) const {
-    QCPRange range;
-    found = false;
-    for (const auto& span : spans_) {
-        if (!span.trace || span.trace->size() == 0) continue;
-        const QCPRange its(span.key_s, span.key_s + static_cast<double>(span.trace->size()) / span.trace->rate_hz);
-        range = found ? range.expanded(its) : its;
-        found = true;
-    }
-    return range;
-}
-
-QCPRange EnvelopeGraph::getValueRange(bool& found, QCP::SignDomain, const QCPRange&) const {
-    QCPRange range;
-    found = false;
-    for (const auto& span : spans_) {
-        if (!span.trace) continue;
-        const auto all = span.trace->pyramid.over(0, span.trace->size());
-        if (all.empty()) continue;
-        const QCPRange its(static_cast<double>(all.low) / perDivision_ + position_,
-                           static_cast<double>(all.high) / perDivision_ + position_);
-        range = found ? range.expanded(its) : its;
-        found = true;
-    }
-    return range;
-}
-
 EnvelopeGraph::Screen EnvelopeGraph::screenOf(const QCPPainter& painter) const {
     Screen screen;
     screen.area = QRectF(mKeyAxis->axisRect()->rect());
@@ -306,6 +265,69 @@ void EnvelopeGraph::drawMarks(QCPPainter& painter, const Screen& screen) const {
 void EnvelopeGraph::drawLegendIcon(QCPPainter* painter, const QRectF& rect) const {
     drawLineIcon(*painter, rect, mPen);
 }
+
+namespace {
+
+TracePtr traceOf(const std::vector<float>& samples, const CaptureMask& mask) {
+    return makeTrace({}, {}, {}, std::make_shared<const std::vector<float>>(samples), mask.rate_hz(), mask.start_s(),
+                     0);
+}
+
+}  // namespace
+
+MaskGraph::MaskGraph(QCPAxis* keyAxis, QCPAxis* valueAxis, const CaptureMask& mask, std::size_t channel)
+    : ChannelPlottable(keyAxis, valueAxis),
+      lane_(channelKey(mask.channels()[channel].name)),
+      low_(traceOf(mask.channels()[channel].low, mask)),
+      high_(traceOf(mask.channels()[channel].high, mask)) {}
+
+void MaskGraph::draw(QCPPainter* painter) {
+    const QRectF area(mKeyAxis->axisRect()->rect());
+    const auto keys = mKeyAxis->range(), values = mValueAxis->range();
+    if (area.isEmpty() || low_->size() == 0) return;
+    const double perPixel = keys.size() / area.width();
+    const auto y = [&](float value) {
+        const double height = static_cast<double>(value) / perDivision_ + position_;
+        const double at = area.bottom() - (height - values.lower) / values.size() * area.height();
+        return std::clamp(at, area.top(), area.bottom());
+    };
+    const auto size = static_cast<double>(low_->size());
+    QPolygonF top, bottom;
+    // Joins what belongs together: a gap in the reference ends one piece and begins another.
+    const auto flush = [&] {
+        if (top.size() > 1) {
+            QPolygonF whole = top;
+            for (auto i = bottom.size(); i-- > 0;) whole << bottom[i];
+            painter->setPen(Qt::NoPen);
+            painter->setBrush(band_);
+            painter->drawPolygon(whole);
+            QPen dashed(edge_, 1);
+            dashed.setDashPattern({8, 4});
+            painter->setPen(dashed);
+            painter->drawPolyline(top);
+            painter->drawPolyline(bottom);
+        }
+        top.clear();
+        bottom.clear();
+    };
+    const int columns = static_cast<int>(area.width());
+    for (int column = 0; column <= columns; ++column) {
+        const double from = (keys.lower + (column - 0.5) * perPixel - low_->start_s) * low_->rate_hz;
+        const double to = from + perPixel * low_->rate_hz;
+        const auto first = static_cast<std::size_t>(std::clamp(std::floor(from), 0.0, size));
+        const auto last = static_cast<std::size_t>(std::clamp(std::ceil(to), 0.0, size));
+        const auto low = low_->pyramid.over(first, last), high = high_->pyramid.over(first, last);
+        if (first >= last || low.empty() || high.empty()) {
+            flush();
+            continue;
+        }
+        top << QPointF(area.left() + column, y(high.high));
+        bottom << QPointF(area.left() + column, y(low.low));
+    }
+    flush();
+}
+
+void MaskGraph::drawLegendIcon(QCPPainter* painter, const QRectF& rect) const { painter->fillRect(rect, band_); }
 
 }  // namespace tacto::gui
 

@@ -21,14 +21,37 @@
 
 namespace tacto::gui {
 
-class EnvelopeGraph final : public QCPAbstractPlottable {
+/// What is drawn of a channel in divisions: a sample x stands at x / perDivision + position. It takes no clicks, and
+/// the view, not what is drawn, says what the axes show.
+class ChannelPlottable : public QCPAbstractPlottable {
+public:
+    ChannelPlottable(QCPAxis* keyAxis, QCPAxis* valueAxis) : QCPAbstractPlottable(keyAxis, valueAxis) {
+        setSelectable(QCP::stNone);
+        setAntialiased(false);
+    }
+    void setScale(double perDivision, double position) {
+        perDivision_ = perDivision;
+        position_ = position;
+    }
+    double selectTest(const QPointF&, bool, QVariant*) const override { return -1; }
+    QCPRange getKeyRange(bool& found, QCP::SignDomain) const override { return getValueRange(found, {}, {}); }
+    QCPRange getValueRange(bool& found, QCP::SignDomain, const QCPRange&) const override {
+        found = false;
+        return {};
+    }
+
+protected:
+    double perDivision_ = 1;
+    double position_ = 0;
+};
+
+class EnvelopeGraph final : public ChannelPlottable {
     Q_OBJECT
 public:
-    EnvelopeGraph(QCPAxis* keyAxis, QCPAxis* valueAxis);
+    using ChannelPlottable::ChannelPlottable;
 
-    void setSpans(std::vector<TraceSpan> spans);
+    void setSpans(std::vector<TraceSpan> spans) { spans_ = std::move(spans); }
     [[nodiscard]] const std::vector<TraceSpan>& spans() const noexcept { return spans_; }
-    void setScale(double perDivision, double position);
     /// Hatches gaps and marks clipping; off for what lies behind (older captures).
     void setMarked(bool marked) { marked_ = marked; }
     void setClipColour(const QColor& colour) { clipColour_ = colour; }
@@ -37,10 +60,6 @@ public:
     [[nodiscard]] int gapColumns() const noexcept { return gapColumns_; }
     [[nodiscard]] int clippedColumns() const noexcept { return clippedColumns_; }
     [[nodiscard]] bool drewSamples() const noexcept { return drewSamples_; }
-
-    double selectTest(const QPointF& pos, bool onlySelectable, QVariant* details) const override;
-    QCPRange getKeyRange(bool& found, QCP::SignDomain domain) const override;
-    QCPRange getValueRange(bool& found, QCP::SignDomain domain, const QCPRange& keys) const override;
 
 protected:
     void draw(QCPPainter* painter) override;
@@ -65,8 +84,6 @@ private:
     void drawMarks(QCPPainter& painter, const Screen& screen) const;
 
     std::vector<TraceSpan> spans_;
-    double perDivision_ = 1;
-    double position_ = 0;
     bool marked_ = true;
     QColor clipColour_;
     // Scratch of the drawing under way; members so that a frame allocates nothing.
@@ -79,6 +96,30 @@ private:
     int gapColumns_ = 0;
     int clippedColumns_ = 0;
     bool drewSamples_ = false;
+};
+
+/// The band of a mask around one channel, behind its trace: filled, with dashed edges. Drawn from the extremes of each
+/// pixel column, so that a long record costs a screenful.
+class MaskGraph final : public ChannelPlottable {
+    Q_OBJECT
+public:
+    /// `channel` as the mask has it.
+    MaskGraph(QCPAxis* keyAxis, QCPAxis* valueAxis, const CaptureMask& mask, std::size_t channel);
+    /// The lane that it belongs to.
+    [[nodiscard]] const QString& lane() const noexcept { return lane_; }
+    void setColours(const QColor& band, const QColor& edge) {
+        band_ = band;
+        edge_ = edge;
+    }
+
+protected:
+    void draw(QCPPainter* painter) override;
+    void drawLegendIcon(QCPPainter* painter, const QRectF& rect) const override;
+
+private:
+    QString lane_;
+    TracePtr low_, high_;
+    QColor band_, edge_;
 };
 
 }  // namespace tacto::gui

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/gui/scope/model/Steps.h"
+#include "app/gui/scope/model/Viewport.h"
 #include "app/gui/theme/Text.h"
 
 namespace tacto::gui {

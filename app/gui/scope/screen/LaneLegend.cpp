@@ -1,27 +1,37 @@
 #include "app/gui/scope/screen/LaneLegend.h"
 
-#include <QPainter>
 #include <algorithm>
 
-#include "app/gui/scope/screen/LaneColours.h"
 #include "app/gui/scope/screen/ScopePicture.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 
-namespace {
+QColor laneColour(const ScopeModel& model, const ScopeLane& lane) {
+    const auto& c = colours();
+    if (lane.reference()) return c.zero;
+    const bool dark = currentTheme() == Theme::Dark;
+    if (lane.key == "math/power") return c.third;
+    if (lane.key == "math/charge") return dark ? c.third.lighter(125) : c.third.darker(140);
+    if (lane.key == "math/difference") return c.text;
+    if (lane.letter == "V" || lane.letter == "V1") return c.voltage;
+    if (lane.letter == "I" || lane.letter == "I1") return c.current;
+    // Further channels of an unusual instrument: the palette's others, in the order they come.
+    const auto& all = model.lanes();
+    const auto at = std::find_if(all.begin(), all.end(), [&](const ScopeLane& l) { return l.key == lane.key; });
+    return conditionInTheme({}, static_cast<int>(at - all.begin())).color;
+}
 
-constexpr int kSwatch = 20;  // pixels at 100 %
-constexpr int kBesideSwatch = 8;
-constexpr int kAfterAnEntry = 20;
+QColor laneInk(const ScopeModel& model, const ScopeLane& lane) {
+    const auto& c = colours();
+    const auto colour = laneColour(model, lane);
+    return colour == c.current ? c.currentText : legible(colour, c.base);
+}
 
-QFont legendFont() { return textFont(TextSize::Small, QFont::DemiBold); }
-
-}  // namespace
-
-LaneLegend::LaneLegend(const ScopeModel& model, QWidget* parent) : QWidget(parent), model_(model) {
+LaneLegend::LaneLegend(const ScopeModel& model, QWidget* parent) : QLabel(parent), model_(model) {
     setObjectName("laneLegend");
-    setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
+    setTextFormat(Qt::RichText);
+    setTextSize(*this, TextSize::Small, true);
     connect(&model_, &ScopeModel::viewChanged, this, &LaneLegend::follow);
     connect(&model_, &ScopeModel::lanesChanged, this, &LaneLegend::follow);
     onLookChange(*this, [this] { follow(); });
@@ -29,42 +39,17 @@ LaneLegend::LaneLegend(const ScopeModel& model, QWidget* parent) : QWidget(paren
 }
 
 void LaneLegend::follow() {
-    std::vector<Entry> entries;
+    QStringList entries, words;
     for (const auto& lane : model_.lanes()) {
         if (!lane.shown || lane.reference() || !model_.shown()) continue;
-        entries.push_back({laneScaleText(model_, lane), laneColour(model_, lane), laneInk(model_, lane)});
+        words << laneScaleText(model_, lane);
+        entries << QString("<span style='color:%1'>━━</span>&nbsp;<span style='color:%2'>%3</span>")
+                       .arg(laneColour(model_, lane).name(), laneInk(model_, lane).name(),
+                            words.back().toHtmlEscaped().replace(' ', "&nbsp;"));
     }
-    setVisible(!entries.empty());
-    if (std::exchange(entries_, entries) == entries) return;
-    QStringList words;
-    for (const auto& entry : entries_) words << entry.words;
+    setVisible(!entries.isEmpty());
     setAccessibleName(words.join(QStringLiteral(", ")));
-    updateGeometry();
-    update();
-}
-
-QSize LaneLegend::sizeHint() const {
-    const QFontMetrics metrics(legendFont());
-    int width = 0;
-    for (const auto& entry : entries_)
-        width += scaledPx(kSwatch + kBesideSwatch + kAfterAnEntry) + metrics.horizontalAdvance(entry.words);
-    return {width, metrics.height()};
-}
-
-void LaneLegend::paintEvent(QPaintEvent*) {
-    QPainter painter(this);
-    painter.setFont(legendFont());
-    const QFontMetrics metrics(legendFont());
-    int at = 0;
-    for (const auto& entry : entries_) {
-        painter.setPen(QPen(entry.line, 2));
-        painter.drawLine(at, height() / 2, at + scaledPx(kSwatch), height() / 2);
-        at += scaledPx(kSwatch + kBesideSwatch);
-        const int width = metrics.horizontalAdvance(entry.words);
-        painter.setPen(entry.ink);
-        painter.drawText(QRect(at, 0, width, height()), Qt::AlignLeft | Qt::AlignVCenter, entry.words);
-        at += width + scaledPx(kAfterAnEntry);
-    }
+    setText(entries.join(QStringLiteral("&nbsp;&nbsp;&nbsp; ")));
 }
 
 }  // namespace tacto::gui

@@ -3,35 +3,27 @@
 // Thread-safety: the GUI thread.
 #pragma once
 
-#include <QColor>
-#include <QWidget>
-#include <vector>
+#include <QLabel>
 
 #include "app/gui/scope/model/ScopeModel.h"
 
 namespace tacto::gui {
 
-class LaneLegend final : public QWidget {
+/// The colour in which a lane is drawn, in the current theme.
+[[nodiscard]] QColor laneColour(const ScopeModel& model, const ScopeLane& lane);
+/// The same for words and numbers: at least 4.5:1 on the screen's ground.
+[[nodiscard]] QColor laneInk(const ScopeModel& model, const ScopeLane& lane);
+
+class LaneLegend final : public QLabel {
     Q_OBJECT
 public:
     /// `model` outlives this.
-    explicit LaneLegend(const ScopeModel& model, QWidget* parent);
-    [[nodiscard]] QSize sizeHint() const override;
-    [[nodiscard]] QSize minimumSizeHint() const override { return sizeHint(); }
-
-protected:
-    void paintEvent(QPaintEvent* event) override;
+    LaneLegend(const ScopeModel& model, QWidget* parent);
 
 private:
-    struct Entry {
-        QString words;  ///< "V 20 V/div"
-        QColor line, ink;
-        bool operator==(const Entry&) const = default;
-    };
     void follow();
 
     const ScopeModel& model_;
-    std::vector<Entry> entries_;
 };
 
 }  // namespace tacto::gui

@@ -10,7 +10,8 @@
 #include <optional>
 #include <vector>
 
-#include "app/gui/scope/model/TraceEdges.h"
+#include "app/gui/scope/model/ScopeModel.h"
+#include "app/gui/scope/model/Trace.h"
 
 namespace tacto::gui {
 
@@ -35,11 +36,6 @@ struct OverlayState {
         double from_s = 0, to_s = 0;
         QString why;
         QColor colour;
-    };
-    /// What the operator marked.
-    struct Moment {
-        double at_s = 0;
-        QString word;
     };
     /// A stretch of a trace, from its lowest to its highest.
     struct Drawn {
@@ -77,10 +73,13 @@ struct OverlayState {
     int focusedCursor = -1;             ///< 0, 1: time; 2, 3: level
     std::optional<QRectF> box;          ///< pixels
     std::optional<EdgeReading> hover;
-    std::vector<Mark> marks;  ///< in time order
-    std::vector<Moment> moments;
-    QStringList notes;  ///< about the whole record: "not triggered", "averaged 16"
-    QString alarm;      ///< what a failed mask test says, until it is acknowledged
+    std::vector<Mark> marks;          ///< in time order
+    std::vector<MomentMark> moments;  ///< on the axis
+    QStringList notes;                ///< about the whole record: "not triggered", "averaged 16"
+    QString alarm;                    ///< what a failed mask test says, until it is acknowledged
 };
+
+/// All but what belongs to one screen: the box of a zoom and an alarm. In the current theme.
+[[nodiscard]] OverlayState overlayOf(const ScopeModel& model);
 
 }  // namespace tacto::gui

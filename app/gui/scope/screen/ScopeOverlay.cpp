@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/gui/scope/screen/ComingLines.h"
 #include "app/gui/scope/screen/TimeFlags.h"
 #include "app/gui/theme/Theme.h"
 
@@ -90,7 +89,7 @@ void ScopeOverlay::draw(QCPPainter* painter) {
     drawMarks(*painter);
     drawMoments(*painter);
     drawTrigger(*painter);
-    ComingLines(plane_, state).draw(*painter);
+    drawComing(*painter);
     for (int lane = 0; lane < static_cast<int>(state.lanes.size()); ++lane) {
         const auto& its = state.lanes[static_cast<std::size_t>(lane)];
         plane_.drawPennant(*painter, lanePennant(lane), its.letter, its.colour, its.active);
@@ -144,10 +143,9 @@ void ScopeOverlay::drawLevelCursors(QCPPainter& painter) const {
         }
         plane_.drawPennant(painter, levelTag(i), state.levelTexts[which], colour, focused);
     }
-    const double top =
-        std::clamp(plane_.y(std::max(state.levelCursors[0], state.levelCursors[1])), a.top(), a.bottom());
-    const double bottom =
-        std::clamp(plane_.y(std::min(state.levelCursors[0], state.levelCursors[1])), a.top(), a.bottom());
+    const auto [lower, higher] = std::minmax(state.levelCursors[0], state.levelCursors[1]);
+    const double top = std::clamp(plane_.y(higher), a.top(), a.bottom());
+    const double bottom = std::clamp(plane_.y(lower), a.top(), a.bottom());
     const double at = std::round(a.left() + a.width() * 0.85);
     plane_.drawLine(painter, QLineF(at, top, at, bottom), c.text, Qt::SolidLine);
     plane_.drawTag(painter, QPointF(at, (top + bottom) / 2), state.levelSpan, c.text);
@@ -238,6 +236,53 @@ void ScopeOverlay::drawHover(QCPPainter& painter) const {
     painter.drawLine(QLineF(to, at - 4, to, at + 4));
     plane_.drawTag(painter, QPointF((from + to) / 2, at + QFontMetricsF(plane_.font()).height()), h.text,
                    colours().text);
+}
+
+namespace {
+
+constexpr double kComingWidth = 2;  // pixels
+
+QFont comingFont() { return textFont(TextSize::Small, QFont::DemiBold); }
+
+/// Where its words stand, inside the plot.
+QRectF wordsBox(const OverlayState::Coming& coming, const ScopePlane& plane) {
+    const QFontMetricsF metrics(comingFont());
+    const auto a = plane.area();
+    double top = a.bottom();
+    for (const auto& point : coming.line) top = std::min(top, plane.y(point.y()));
+    QRectF box(0, 0, metrics.horizontalAdvance(coming.text) + 4, metrics.height());
+    box.moveBottomLeft(QPointF(plane.x(0) + kComingWidth, top - kComingWidth));
+    box.moveLeft(std::clamp(box.left(), a.left(), std::max(a.left(), a.right() - box.width())));
+    box.moveTop(std::clamp(box.top(), a.top(), std::max(a.top(), a.bottom() - box.height())));
+    return box;
+}
+
+}  // namespace
+
+void ScopeOverlay::drawComing(QCPPainter& painter) const {
+    const auto a = plane_.area();
+    for (const auto& coming : state.coming) {
+        QPolygonF line;
+        for (const auto& point : coming.line) {
+            // Qt draws no dashes of a line that goes a million pixels beyond its device.
+            line << QPointF(std::clamp(plane_.x(point.x()), a.left() - 4, a.right() + 4),
+                            std::clamp(plane_.y(point.y()), a.top() - 4, a.bottom() + 4));
+        }
+        QPen pen(coming.colour, kComingWidth);
+        pen.setDashPattern({7 / kComingWidth, 5 / kComingWidth});
+        pen.setCapStyle(Qt::FlatCap);
+        painter.setPen(pen);
+        painter.setBrush(Qt::NoBrush);
+        painter.drawPolyline(line);
+        const auto box = wordsBox(coming, plane_);
+        auto ground = colours().base;
+        ground.setAlpha(225);
+        painter.fillRect(box, ground);
+        painter.setFont(comingFont());
+        painter.setPen(colours().text);
+        painter.drawText(box, Qt::AlignCenter, coming.text);
+    }
+    painter.setFont(plane_.font());
 }
 
 }  // namespace tacto::gui

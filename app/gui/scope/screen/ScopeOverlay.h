@@ -37,6 +37,8 @@ private:
     [[nodiscard]] Pennant lanePennant(int lane) const;
     [[nodiscard]] Pennant triggerPennant() const;
     [[nodiscard]] Pennant levelTag(int cursor) const;
+    /// The train that comes next over the last one: dashed, with what it will be.
+    void drawComing(QCPPainter& painter) const;
     void drawLevelCursors(QCPPainter& painter) const;
     void drawTrigger(QCPPainter& painter) const;
     void drawMarks(QCPPainter& painter) const;

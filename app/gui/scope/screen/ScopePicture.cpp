@@ -1,6 +1,6 @@
 #include "app/gui/scope/screen/ScopePicture.h"
 
-#include "app/gui/scope/model/Steps.h"
+#include "app/gui/scope/model/Viewport.h"
 #include "app/gui/scope/screen/ScopeScreen.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Text.h"

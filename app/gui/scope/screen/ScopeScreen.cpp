@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/gui/scope/screen/LaneColours.h"
-#include "app/gui/scope/screen/OverlayOf.h"
+#include "app/gui/scope/screen/LaneLegend.h"
+#include "app/gui/scope/screen/OverlayState.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/ShownText.h"
 

@@ -9,7 +9,6 @@
 #include "app/gui/scope/model/ScopeModel.h"
 #include "app/gui/scope/screen/EnvelopeGraph.h"
 #include "app/gui/scope/screen/Graticule.h"
-#include "app/gui/scope/screen/MaskGraph.h"
 #include "app/gui/scope/screen/ScopeOverlay.h"
 
 namespace tacto::gui {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
-#include "app/gui/scope/screen/ClearPlace.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
@@ -13,6 +13,43 @@ namespace {
 constexpr int kFlagWidth = 136;
 constexpr double kFlagPadding = 8;
 constexpr double kArrow = 6;
+constexpr double kBesideTheBox = 4;  // pixels: what runs along its side is not hidden by it
+
+/// How much of `drawn` lies under `whole`, in square pixels.
+double hiddenBy(const QRectF& whole, const std::vector<QRectF>& drawn) {
+    const auto box = whole.adjusted(kBesideTheBox, 0, -kBesideTheBox, 0);
+    double area = 0;
+    for (const auto& its : drawn) {
+        const auto shared = its.intersected(box);
+        if (!shared.isEmpty()) area += shared.width() * shared.height();
+    }
+    return area;
+}
+
+/// `box`, moved up or down inside `within` to where it lies over least of `drawn`: as near to where it stands as that
+/// allows, for a box that jumps cannot be read.
+QRectF atClearHeight(const QRectF& box, const QRectF& within, const std::vector<QRectF>& drawn) {
+    constexpr double kStep = 8;           // pixels
+    constexpr double kClearlyLess = 0.8;  // share of what is hidden now: noise moves no box
+    std::vector<QRectF> below;
+    std::copy_if(drawn.begin(), drawn.end(), std::back_inserter(below),
+                 [&](const QRectF& its) { return its.right() > box.left() && its.left() < box.right(); });
+    QRectF best = box;
+    double least = hiddenBy(box, below);
+    const double farthest = within.height();
+    for (double away = kStep; least > 0 && away < farthest; away += kStep) {
+        for (const double top : {box.top() - away, box.top() + away}) {
+            if (top < within.top() || top + box.height() > within.bottom()) continue;
+            QRectF moved = box;
+            moved.moveTop(top);
+            const double its = hiddenBy(moved, below);
+            if (!(its < kClearlyLess * least)) continue;
+            least = its;
+            best = moved;
+        }
+    }
+    return best;
+}
 
 }  // namespace
 
@@ -114,10 +151,9 @@ void TimeFlags::draw(QCPPainter& painter) const {
         plane_.drawLine(painter, QLineF(at, a.top(), at, a.bottom()), state_.focusedCursor == i ? c.text : c.quiet,
                         Qt::DashLine);
     }
-    const double from =
-        std::clamp(plane_.x(std::min(state_.timeCursors_s[0], state_.timeCursors_s[1])), a.left(), a.right());
-    const double to =
-        std::clamp(plane_.x(std::max(state_.timeCursors_s[0], state_.timeCursors_s[1])), a.left(), a.right());
+    const auto [first, last] = std::minmax(state_.timeCursors_s[0], state_.timeCursors_s[1]);
+    const double from = std::clamp(plane_.x(first), a.left(), a.right());
+    const double to = std::clamp(plane_.x(last), a.left(), a.right());
     const auto span = spanBox(drawnBoxes());
     const double half = std::round(span.center().y());
     plane_.drawLine(painter, QLineF(from, half, to, half), c.text, Qt::SolidLine);

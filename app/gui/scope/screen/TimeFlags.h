@@ -4,6 +4,7 @@
 // Thread-safety: the GUI thread.
 #pragma once
 
+#include <QRectF>
 #include <vector>
 
 #include "app/gui/scope/screen/OverlayState.h"

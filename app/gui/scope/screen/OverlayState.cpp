@@ -1,10 +1,10 @@
-#include "app/gui/scope/screen/OverlayOf.h"
+#include "app/gui/scope/screen/OverlayState.h"
 
 #include <QObject>
 #include <algorithm>
 #include <cmath>
 
-#include "app/gui/scope/screen/LaneColours.h"
+#include "app/gui/scope/screen/LaneLegend.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/NumberText.h"
 
@@ -167,7 +167,7 @@ OverlayState overlayOf(const ScopeModel& model) {
     if (model.shown() && model.shown()->averaged > 0)
         o.notes << QObject::tr("averaged %1").arg(model.shown()->averaged);
     if (const auto mark = model.markBeside(); !mark.isEmpty()) o.notes << mark;
-    for (const auto& mark : model.marksOnAxis()) o.moments.push_back({mark.at_s, mark.word});
+    o.moments = model.marksOnAxis();
     o.hover = model.hovered();
     fillMarks(model, o);
     return o;
