@@ -11,10 +11,9 @@
 #include "core/analysis/identification/IdentificationJson.h"
 #include "core/analysis/identification/IdentificationText.h"
 #include "core/analysis/separability/SeparabilityJson.h"
-#include "core/analysis/separability/TrialFile.h"
 #include "core/base/Csv.h"
 #include "core/base/JsonText.h"
-#include "core/study/SessionBasis.h"
+#include "core/study/Participant.h"
 
 namespace tacto::cli {
 

@@ -1,7 +1,7 @@
 // export: a study as files for others to read, without codes and dates.
 #include "app/cli/Command.h"
 #include "app/cli/StudyPassphrase.h"
-#include "core/sharing/results/BidsExport.h"
+#include "core/sharing/results/StudyResults.h"
 
 namespace tacto::cli {
 

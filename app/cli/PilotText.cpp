@@ -11,7 +11,7 @@
 #include "core/analysis/identification/IdentificationText.h"
 #include "core/analysis/psychophysics/LevelGrid.h"
 #include "core/base/QuantityText.h"
-#include "core/study/SessionBasis.h"
+#include "core/study/Participant.h"
 
 namespace tacto::cli {
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/Say.h"
-#include "core/study/ProcedureWords.h"
+#include "core/study/StudySettings.h"
 
 namespace tacto::cli {
 

@@ -9,7 +9,7 @@
 #include "core/base/JsonText.h"
 #include "core/pilot/PilotRecord.h"
 #include "core/sharing/BidsFiles.h"
-#include "core/study/ProcedureWords.h"
+#include "core/study/StudySettings.h"
 
 namespace tacto {
 

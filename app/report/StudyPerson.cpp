@@ -9,8 +9,8 @@
 #include "app/report/StudyPreferences.h"
 #include "app/report/StudyText.h"
 #include "app/report/StudyVibration.h"
-#include "core/analysis/identification/Encodings.h"
 #include "core/analysis/identification/IdentificationText.h"
+#include "core/analysis/identification/OverSessions.h"
 #include "core/base/Statistics.h"
 
 namespace tacto {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "core/analysis/identification/Encodings.h"
+#include "core/analysis/identification/OverSessions.h"
 #include "core/pilot/PilotRecord.h"
 
 namespace tacto {

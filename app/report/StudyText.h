@@ -7,7 +7,7 @@
 #include <string>
 
 #include "core/analysis/statistics/Estimate.h"
-#include "core/study/SessionBasis.h"
+#include "core/study/Participant.h"
 
 namespace tacto {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "app/run/PilotRows.h"
-#include "core/analysis/identification/Encodings.h"
+#include "core/analysis/identification/OverSessions.h"
 #include "core/base/JsonText.h"
 #include "core/base/Random.h"
 #include "core/base/Text.h"

@@ -1,5 +1,5 @@
 // EncodingTurn.h - which of a study's encodings a participant's session has. Each participant has them in an order of
-// their own among their kind (Encodings.h), one a session; one whose session was not completed comes again.
+// their own among their kind (williamsOrder()), one a session; one whose session was not completed comes again.
 //
 // Thread-safety: as Study.
 #pragma once

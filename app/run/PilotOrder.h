@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/run/MarkerServer.h"
-#include "core/pilot/Participant.h"
+#include "core/pilot/PilotParticipant.h"
 #include "core/seal/Passphrase.h"
 #include "core/study/Gates.h"
 

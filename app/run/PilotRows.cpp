@@ -4,7 +4,6 @@
 
 #include "core/base/JsonText.h"
 #include "core/devices/Device.h"
-#include "core/pilot/FoundRows.h"
 #include "core/pilot/PilotRecord.h"
 #include "core/session/SessionReader.h"
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/pilot/PilotEnding.h"
+#include "core/pilot/PilotRecord.h"
 #include "core/session/SessionTypes.h"
 #include "core/study/Study.h"
 

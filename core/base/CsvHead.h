@@ -30,7 +30,7 @@ struct CsvHead {
     std::vector<CsvLine> header;       ///< the lines before the first row of numbers; all that were seen where none is
     std::optional<CsvLine> firstRow;   ///< the first line whose fields are numbers, stamps or empty
     std::vector<CsvLine> body;         ///< some lines from the first row on
-    std::vector<CsvLine> beside;       ///< those of them that begin with a key (KeyedCsv.h)
+    std::vector<CsvLine> beside;       ///< those of them that begin with a key (csv/CsvMakers.h)
     char separator = ',';              ///< ' ': any number of blanks and tabs
     char point = '.';
 };

@@ -6,7 +6,11 @@
 
 #include "core/base/Text.h"
 #include "core/base/Utf16.h"
-#include "core/formats/ByteFile.h"
+#include "core/formats/IsfFormat.h"
+#include "core/formats/TextBlocks.h"
+#include "core/formats/WavFormat.h"
+#include "core/formats/csv/CsvFormat.h"
+#include "core/formats/csv/CsvMakers.h"
 
 namespace tacto {
 
@@ -57,8 +61,7 @@ Result<const CaptureFormat*> CaptureFormats::formatOf(const std::filesystem::pat
         names.push_back(format->name());
     }
     if (!options.format.empty()) {
-        return fail(ErrorCode::InvalidArgument, "format '{}' is not known; known are {}", options.format,
-                    fmt::join(ids, ", "));
+        return invalid("format '{}' is not known; known are {}", options.format, fmt::join(ids, ", "));
     }
     const auto head = readHead(path);
     if (!head) return failure(head);
@@ -89,13 +92,26 @@ Result<const CaptureFormat*> CaptureFormats::writerOf(const std::filesystem::pat
         const auto its = format->suffixes();
         if (format->canWrite() && std::ranges::find(its, suffix) != its.end()) return format.get();
     }
-    return fail(ErrorCode::InvalidArgument, "{}: captures are not written as '{}'; {} are the suffixes that are",
-                path.string(), suffix, fmt::join(writableSuffixes(), ", "));
+    return invalid("{}: captures are not written as '{}'; {} are the suffixes that are", path.string(), suffix,
+                   fmt::join(writableSuffixes(), ", "));
 }
 
 Result<void> CaptureFormats::write(const std::filesystem::path& path, const Capture& capture) const {
     const auto format = writerOf(path);
     return format ? (*format)->write(path, capture) : failure(format);
+}
+
+void addOwnFormats(CaptureFormats& formats) {
+    formats.add(std::make_unique<WavFormat>());
+    formats.add(std::make_unique<IsfFormat>());
+    for (const auto& maker : csvMakers()) formats.add(std::make_unique<CsvFormat>(maker.dialect));
+    formats.add(std::make_unique<CsvFormat>(CsvDialect::Plain));
+}
+
+std::shared_ptr<const CaptureFormats> ownCaptureFormats() {
+    auto formats = std::make_shared<CaptureFormats>();
+    addOwnFormats(*formats);
+    return formats;
 }
 
 }  // namespace tacto

@@ -67,12 +67,12 @@ Result<std::size_t> indexOf(const std::vector<ChannelPlan>& channels, std::strin
                             std::string_view file) {
     const auto found = indicesOf(channels, wanted);
     if (found.empty()) {
-        return fail(ErrorCode::InvalidArgument, "{}: there is no channel '{}', which {} names; there are {}", file,
-                    wanted, option, channels.empty() ? "none" : namesOf(channels));
+        return invalid("{}: there is no channel '{}', which {} names; there are {}", file, wanted, option,
+                       channels.empty() ? "none" : namesOf(channels));
     }
     if (found.size() > 1) {
-        return fail(ErrorCode::InvalidArgument, "{}: '{}' names columns {} and {}; the number of one was expected",
-                    file, wanted, channels[found[0]].number, channels[found[1]].number);
+        return invalid("{}: '{}' names columns {} and {}; the number of one was expected", file, wanted,
+                       channels[found[0]].number, channels[found[1]].number);
     }
     return found.front();
 }
@@ -116,9 +116,8 @@ Result<std::vector<ChannelPlan>> planChannels(std::vector<ChannelPlan> channels,
         if (!index) return failure(index);
         const auto unit = channelUnit(spelled);
         if (!unit) {
-            return fail(ErrorCode::InvalidArgument,
-                        "the unit '{}' of channel '{}' is unknown; V or A with k, m, u or n were expected", spelled,
-                        name);
+            return invalid("the unit '{}' of channel '{}' is unknown; V or A with k, m, u or n were expected", spelled,
+                           name);
         }
         channels[*index].unit = unit->unit;
         channels[*index].factor = unit->factor;
@@ -128,9 +127,8 @@ Result<std::vector<ChannelPlan>> planChannels(std::vector<ChannelPlan> channels,
         const auto index = indexOf(channels, "the probe factor", name, file);
         if (!index) return failure(index);
         if (!std::isfinite(factor) || factor == 0) {
-            return fail(ErrorCode::InvalidArgument,
-                        "the probe factor of channel '{}' is {}; a finite number other than 0 was expected", name,
-                        factor);
+            return invalid("the probe factor of channel '{}' is {}; a finite number other than 0 was expected", name,
+                           factor);
         }
         channels[*index].factor *= factor;
     }
@@ -139,9 +137,8 @@ Result<std::vector<ChannelPlan>> planChannels(std::vector<ChannelPlan> channels,
         if (!index) return failure(index);
         const auto& [low, high] = range;
         if (!(low < high) || !std::isfinite(low) || !std::isfinite(high)) {
-            return fail(ErrorCode::InvalidArgument,
-                        "the range of channel '{}' is {} to {}; two finite numbers, the lower first, were expected",
-                        name, low, high);
+            return invalid("the range of channel '{}' is {} to {}; two finite numbers, the lower first, were expected",
+                           name, low, high);
         }
         channels[*index].low = low;
         channels[*index].high = high;
@@ -151,8 +148,7 @@ Result<std::vector<ChannelPlan>> planChannels(std::vector<ChannelPlan> channels,
         const auto index = indexOf(channels, "the choice of columns", name, file);
         if (!index) return failure(index);
         kept.push_back(channels[*index]);
-        if (secondIn(kept, &ChannelPlan::number))
-            return fail(ErrorCode::InvalidArgument, "{}: {}", file, givenTwice("column '{}'", name));
+        if (secondIn(kept, &ChannelPlan::number)) return invalid("{}: {}", file, givenTwice("column '{}'", name));
     }
     if (options.columns.empty()) kept = std::move(channels);
     return kept;
@@ -161,8 +157,7 @@ Result<std::vector<ChannelPlan>> planChannels(std::vector<ChannelPlan> channels,
 Result<void> applyChannelOptions(Capture& capture, std::vector<ChannelPlan> plans, const ReadOptions& options,
                                  std::string_view file) {
     if (!options.timeColumn.empty() || options.skipRows != 0) {
-        return fail(ErrorCode::InvalidArgument,
-                    "{}: a time column and rows to skip belong to tables of text; this is none", file);
+        return invalid("{}: a time column and rows to skip belong to tables of text; this is none", file);
     }
     const auto before = plans;
     const auto planned = planChannels(std::move(plans), options, file);
@@ -196,8 +191,7 @@ Result<void> applyChannelOptions(Capture& capture, std::vector<ChannelPlan> plan
 Result<double> rateFrom(const ReadOptions& options) {
     const double rate = options.rate->value();
     if (!(rate > 0) || !std::isfinite(rate)) {
-        return fail(ErrorCode::InvalidArgument, "the sampling rate is {} Hz; a finite number above 0 was expected",
-                    rate);
+        return invalid("the sampling rate is {} Hz; a finite number above 0 was expected", rate);
     }
     return rate;
 }

@@ -12,8 +12,8 @@
 
 #include "core/base/Text.h"
 #include "core/base/WholeFile.h"
-#include "core/formats/ByteFile.h"
 #include "core/formats/ChannelOptions.h"
+#include "core/formats/TextBlocks.h"
 #include "core/measure/CaptureFile.h"
 
 namespace tacto {
@@ -330,14 +330,13 @@ Result<void> WavFormat::write(const std::filesystem::path& path, const Capture& 
     const double rate = std::round(capture.rate_hz);
     constexpr int kMaxRate = std::numeric_limits<int>::max();
     if (!(rate >= 1 && rate <= kMaxRate) || std::abs(rate / capture.rate_hz - 1) > 1e-6) {
-        return fail(ErrorCode::InvalidArgument, "{}: a WAV holds whole rates from 1 to {} Hz; the capture has {} Hz",
-                    path.string(), kMaxRate, capture.rate_hz);
+        return invalid("{}: a WAV holds whole rates from 1 to {} Hz; the capture has {} Hz", path.string(), kMaxRate,
+                       capture.rate_hz);
     }
     const auto bytes = static_cast<double>(capture.samples()) * static_cast<double>(capture.channels.size()) * 4;
     if (!(bytes < 4.2e9) || capture.channels.size() > kMaxChannels) {
-        return fail(ErrorCode::InvalidArgument,
-                    "{}: a WAV holds {} channels and 4.2 GB; the capture has {} and {:.3g} GB", path.string(),
-                    kMaxChannels, capture.channels.size(), bytes / 1e9);
+        return invalid("{}: a WAV holds {} channels and 4.2 GB; the capture has {} and {:.3g} GB", path.string(),
+                       kMaxChannels, capture.channels.size(), bytes / 1e9);
     }
     return namedAs(path, replaceWholeFile(path, [&](const std::filesystem::path& draft) {
                        return writeSamples(draft, capture, static_cast<int>(rate));

@@ -1,8 +1,11 @@
 #include "core/pilot/PilotCare.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
+#include "core/analysis/psychophysics/VirtualObserver.h"
+#include "core/base/Ascii.h"
 #include "core/base/JsonText.h"
 #include "core/base/Random.h"
 #include "core/study/NextDay.h"
@@ -22,23 +25,17 @@ constexpr Word<int> kSkinKeys[] = {{"0", 0}, {"1", 1}, {"2", 2}, {"3", 3}, {"4",
 
 double inMs(std::chrono::nanoseconds time) { return std::chrono::duration<double, std::milli>(time).count(); }
 
-struct Named {
-    const char* key;
-    const char* text;
-};
-constexpr Named kNaturalnessTargets[] = {{"totally-natural", "Totally natural"},
-                                         {"almost-natural", "Almost natural"},
-                                         {"possibly-natural", "Possibly natural"},
-                                         {"rather-unnatural", "Rather unnatural"},
-                                         {"totally-unnatural", "Totally unnatural"}};
-constexpr Named kQualityTargets[] = {{"touch", "Touch"},         {"pressure", "Pressure"},   {"tapping", "Tapping"},
-                                     {"vibration", "Vibration"}, {"tingling", "Tingling"},   {"pricking", "Pricking"},
-                                     {"burning", "Burning"},     {"twitching", "Twitching"}, {"phantom", "Phantom"}};
+constexpr std::string_view kQualities[] = {"touch",    "pressure", "tapping",   "vibration", "tingling",
+                                           "pricking", "burning",  "twitching", "phantom"};
 
-template <class Names>
-std::vector<PromptTarget> targets(const Names& all) {
+/// Each is read as "Totally natural" for "totally-natural".
+std::vector<PromptTarget> targetsOf(std::span<const std::string_view> keys) {
     std::vector<PromptTarget> out;
-    for (const auto& each : all) out.push_back({each.key, each.text});
+    for (const auto key : keys) {
+        auto& text = out.emplace_back(PromptTarget{std::string(key), std::string(key)}).text;
+        text.front() = capital(text.front());
+        std::ranges::replace(text, '-', ' ');
+    }
     return out;
 }
 
@@ -281,8 +278,7 @@ Result<void> PilotCare::skin(const std::string& moment) {
         const auto said = stage_.ask(row::kSkin, moment + " " + what, skinPrompt(what, words));
         if (!said) return failure(said);
         const auto score = valueFor(kSkinKeys, textOr(*said, "key"));
-        if (!score)
-            return fail(ErrorCode::InvalidArgument, "{}: {} is not a score; 0 to 4 is expected", what, dumpJson(*said));
+        if (!score) return invalid("{}: {} is not a score; 0 to 4 is expected", what, dumpJson(*said));
         worst = std::max(worst, *score);
     }
     if (const auto* judged = stage_.record().find(row::kGate, "skin " + moment)) {
@@ -321,12 +317,14 @@ Result<void> PilotCare::ratings(const std::vector<PresentedCondition>& condition
         trial.screen.phase = "ratings";
         const auto felt = stage_.trial(trial);
         if (!felt) return failure(felt);
+        std::vector<std::string_view> natural;
+        for (const auto& word : kNaturalness) natural.push_back(word.text);
         const PilotPrompt prompts[] = {
             scalePrompt("intensity", "How strong was it?", 0, 10),
             scalePrompt("unpleasantness", "How unpleasant was it?", 0, 10),
             scalePrompt("pain", "How painful was it?", 0, 10),
-            choicePrompt("naturalness", "How natural did it feel?", targets(kNaturalnessTargets)),
-            severalPrompt("qualities", "What did it feel like? Any number of words.", targets(kQualityTargets))};
+            choicePrompt("naturalness", "How natural did it feel?", targetsOf(natural)),
+            severalPrompt("qualities", "What did it feel like? Any number of words.", targetsOf(kQualities))};
         for (const auto& prompt : prompts) {
             const auto name = condition.name + " " + prompt.name;
             const bool replayed = stage_.record().find(row::kRating, name) != nullptr;
@@ -361,9 +359,11 @@ Result<void> PilotCare::compareEncodings() {
 
 Result<void> PilotCare::sideEffects(const std::string& moment) {
     stage_.rest();
+    std::vector<PromptTarget> offered;
+    for (const auto& effect : kSideEffects) offered.push_back({effect.key, effect.text});
     const auto noticed =
         stage_.ask(row::kSideEffect, moment,
-                   severalPrompt("side-effects", "Which of these do you notice now?", targets(kSideEffects)));
+                   severalPrompt("side-effects", "Which of these do you notice now?", std::move(offered)));
     if (!noticed) return failure(noticed);
     for (const auto& key : textsOr(*noticed, "keys")) {
         const auto severity = stage_.ask(row::kSideEffect, fmt::format("{} {} severity", moment, key),

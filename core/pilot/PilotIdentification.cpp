@@ -5,10 +5,10 @@
 #include <fmt/ranges.h>
 #include <map>
 
-#include "core/analysis/psychophysics/TrainingRule.h"
+#include "core/analysis/psychophysics/TrialPlan.h"
 #include "core/base/JsonText.h"
 #include "core/base/Text.h"
-#include "core/pilot/FoundRows.h"
+#include "core/pilot/PilotRecord.h"
 
 namespace tacto {
 
@@ -96,7 +96,7 @@ Result<std::vector<PlannedTrial>> PilotIdentification::drawn() const {
 Result<void> PilotIdentification::prepare() {
     if (!presented_.empty()) return {};
     const auto& range = thresholds_.found();
-    if (!range || !range->usable) return fail(ErrorCode::InvalidArgument, "trials come after a usable range was found");
+    if (!range || !range->usable) return invalid("trials come after a usable range was found");
     presented_ = presentedConditions(stage_.settings(), range->min, range->max, stage_.step());
     lastDetection_ = thresholds_.estimate();
     return {};

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "core/analysis/psychophysics/DriftCheck.h"
+#include "core/analysis/psychophysics/QuestPlus.h"
 #include "core/analysis/psychophysics/TrialPlan.h"
 #include "core/analysis/vibration/VibrationSeparability.h"
 #include "core/pilot/PilotThresholds.h"

@@ -11,17 +11,23 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "core/analysis/identification/IdentificationTrial.h"
+#include "core/analysis/identification/Identification.h"
+#include "core/analysis/psychophysics/LevelGrid.h"
+#include "core/analysis/statistics/Estimate.h"
 #include "core/base/Clock.h"
+#include "core/base/NaN.h"
 #include "core/base/Result.h"
+#include "core/base/Units.h"
 #include "core/session/SessionTypes.h"
 
 namespace tacto {
@@ -141,5 +147,78 @@ struct PilotTrials {
     std::vector<OpenTrial> open;
 };
 [[nodiscard]] PilotTrials pilotTrials(const std::vector<SessionRow>& rows);
+
+// How a pilot session ends, and what ends it for good by the rows that it has.
+
+/// How a session stands when its script has ended.
+enum class PilotEnd {
+    Unfinished,  ///< interrupted; may be resumed
+    Complete,
+    Stopped,  ///< ended before its end, for good
+};
+[[nodiscard]] std::string_view nameOf(PilotEnd end) noexcept;  // "unfinished", "complete", "stopped"
+/// Nothing for another word.
+[[nodiscard]] std::optional<PilotEnd> pilotEndFrom(std::string_view word) noexcept;
+
+inline constexpr std::size_t kMaxParticipantStops = 3;  ///< the third ends the session (pilot.md section 5)
+inline constexpr std::size_t kMaxFaults = 2;            ///< the second ends it
+
+inline constexpr const char* kThirdStop = "the participant stopped for the third time, which ends the session";
+inline constexpr const char* kSecondFault = "a second fault ends the session";
+/// `level`: "1.5 mA".
+[[nodiscard]] std::string tooStrongNow(std::string_view level);
+
+/// What has ended a session for good: the third stop, the second fault, a gate that did not hold, a level of the ramp
+/// that is too strong now. A sentence; empty while nothing has. A session that was killed before it ended is not tried
+/// again.
+[[nodiscard]] std::string endedBy(const PilotRecord& record);
+
+// Rows of a pilot session that say what was planned and found, each described once: as they are written, read again
+// after a crash, and shared. Absent numbers are NaN here and null in the row.
+//
+// Levels are in mA or, of a massager, intensities; their keys say which ("min_ma", "min_intensity").
+
+/// Row "plan", beside the trials in their order.
+struct PlanRow {
+    std::uint64_t seed = 0;
+    std::string encoding;
+    std::uint64_t blocks = 0;
+    std::string runSha256;
+    std::string answers;  ///< conditions by their place and key, with commas between; empty: kAnswerPlaces
+};
+[[nodiscard]] nlohmann::json toJson(const PlanRow& row);
+/// What cannot be read stays as it is in a new one; so for the others.
+[[nodiscard]] PlanRow planRowFrom(const nlohmann::json& body);
+
+/// Row "range".
+struct RangeRow {
+    LevelUnit unit = LevelUnit::Current;
+    bool usable = false;
+    std::string reason = {};  ///< in a sentence, where it is not usable
+    double min = kNaN, max = kNaN;
+    double jnd = kNaN;  ///< from one to the other
+    LevelLimit limitedBy = LevelLimit::TooStrong;
+    // Where they are currents:
+    Volts minVoltage{kNaN}, maxVoltage{kNaN};  ///< at `impedance`
+    Ohms impedance{kNaN};
+};
+[[nodiscard]] nlohmann::json toJson(const RangeRow& row);
+[[nodiscard]] RangeRow rangeRowFrom(const nlohmann::json& body);
+
+/// Row "drift": the check before a block.
+struct DriftRow {
+    LevelUnit unit = LevelUnit::Current;
+    std::uint64_t block = 0;
+    Estimate detection = {};
+    double probability = kNaN;  ///< that the weakest condition is felt too little
+    std::uint64_t rests = 0;
+    bool adapted = false;
+};
+[[nodiscard]] nlohmann::json toJson(const DriftRow& row);
+[[nodiscard]] DriftRow driftRowFrom(const nlohmann::json& body);
+
+/// As StatisticsJson.h has it; null without a value.
+[[nodiscard]] nlohmann::json estimateOrNull(const Estimate& estimate);
+[[nodiscard]] Estimate estimateFrom(const nlohmann::json& value);
 
 }  // namespace tacto

@@ -6,7 +6,7 @@
 #include "core/analysis/identification/IdentificationText.h"
 #include "core/analysis/psychophysics/PredictedFit.h"
 #include "core/base/JsonText.h"
-#include "core/pilot/FoundRows.h"
+#include "core/pilot/PilotRecord.h"
 
 namespace tacto {
 

@@ -1,20 +1,45 @@
-// PilotSettings.h - what one pilot session is: whose, which, drawn from which seed, and how its conditions are made.
+// PilotSettings.h - what one pilot session is: whose, which, drawn from which seed, how its conditions are made,
+// and what holds it.
 //
 // Thread-safety: values; pure functions.
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/analysis/psychophysics/LevelGrid.h"
 #include "core/base/Units.h"
 #include "core/encoding/EncodingProfile.h"
-#include "core/pilot/PilotHold.h"
-#include "core/study/SessionBasis.h"
+#include "core/study/Participant.h"
 #include "core/study/StudySettings.h"
 
 namespace tacto {
+
+class Study;
+
+// What holds a session until the operator has answered it by name (pilot.md section 4): a level that was too strong,
+// pain at or above the study's ceiling, an adverse event that is serious or was not reported.
+
+/// Name of the question that the operator answers.
+inline constexpr const char* kHoldPrompt = "answer-by-name";
+
+struct PilotHold {
+    std::string name;  ///< of its row: one answer is enough
+    std::string said;  ///< what happened: one sentence without its full stop
+};
+
+/// The participant called the level of `trial` too strong.
+[[nodiscard]] PilotHold tooStrongHold(std::string_view trial);
+/// Nothing where the row "rating" is about something else, or lies below `ceiling`.
+[[nodiscard]] std::optional<PilotHold> painHold(const nlohmann::json& rating, int ceiling);
+/// What is unanswered: of each session of the participant, one that goes on among them, and of events in the
+/// whole study. A session of theirs whose record is gone or does not open holds too: it may have ended with pain. What
+/// the program answered in a virtual participant's session counts for virtual participants alone.
+[[nodiscard]] std::vector<PilotHold> openHolds(const Study& study, const Participant& who);
 
 struct PilotSettings {
     std::string code;  ///< of the participant

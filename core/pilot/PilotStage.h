@@ -16,8 +16,7 @@
 #include <string>
 
 #include "core/bench/Bench.h"
-#include "core/pilot/Participant.h"
-#include "core/pilot/PilotEnding.h"
+#include "core/pilot/PilotParticipant.h"
 #include "core/pilot/PilotOutput.h"
 #include "core/pilot/PilotRecord.h"
 #include "core/pilot/PilotSettings.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/base/JsonText.h"
-#include "core/pilot/FoundRows.h"
+#include "core/pilot/PilotRecord.h"
 
 namespace tacto {
 
@@ -30,7 +30,7 @@ bool isAtEdge(const StaircaseResult& /*found*/) { return false; }
 
 Result<DetectionMethod> detectionMethodFrom(std::string_view name) {
     if (const auto method = valueFor(kDetectionMethods, name)) return *method;
-    return fail(ErrorCode::InvalidArgument, "the detection method is \"{}\"; quest or staircase is expected", name);
+    return invalid("the detection method is \"{}\"; quest or staircase is expected", name);
 }
 
 // Ascending limits
@@ -141,7 +141,7 @@ Result<LevelGrid> PilotThresholds::belowTooStrong() const {
 }
 
 Result<void> PilotThresholds::detection(DetectionMethod method) {
-    if (!grid_) return fail(ErrorCode::InvalidArgument, "detection comes after the ascending limits");
+    if (!grid_) return invalid("detection comes after the ascending limits");
     method_ = method;
     measured_ = true;
     if (!std::isfinite(ascending_.felt) || !(ascending_.tooStrong > grid_->step())) return {};
@@ -202,7 +202,7 @@ Result<void> PilotThresholds::measureBy(Settings settings) {
 // Range
 
 Result<void> PilotThresholds::range() {
-    if (!measured_) return fail(ErrorCode::InvalidArgument, "the range comes after the detection threshold");
+    if (!measured_) return invalid("the range comes after the detection threshold");
     if (!std::isfinite(estimate_.value)) {
         PersonalRangeResult none;
         none.reason = std::isfinite(ascending_.felt) ? "no detection threshold was found"
@@ -251,7 +251,7 @@ Result<void> PilotThresholds::range() {
 // Comparison
 
 Result<void> PilotThresholds::comparison() {
-    if (!range_) return fail(ErrorCode::InvalidArgument, "the comparison comes after the range");
+    if (!range_) return invalid("the comparison comes after the range");
     if (!range_->usable) return {};
     const auto& settings = stage_.settings();
     auto procedure = StrengthComparison::create(*grid_, {.low = range_->min, .high = range_->max}, settings.seed);

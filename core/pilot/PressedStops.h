@@ -12,7 +12,7 @@
 #include <optional>
 #include <string_view>
 
-#include "core/pilot/Participant.h"
+#include "core/pilot/PilotParticipant.h"
 
 namespace tacto {
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "core/analysis/psychophysics/VirtualObserver.h"
-#include "core/pilot/Participant.h"
+#include "core/pilot/PilotParticipant.h"
 
 namespace tacto {
 

@@ -5,8 +5,8 @@
 #include <sodium.h>
 #include <unistd.h>
 
-#include "core/seal/OwnFile.h"
 #include "core/seal/SealedText.h"
+#include "core/seal/Secret.h"
 
 namespace tacto {
 
@@ -18,8 +18,7 @@ PassphraseCost PassphraseCost::moderate() noexcept {
 PassphraseCost PassphraseCost::least() noexcept { return {crypto_pwhash_OPSLIMIT_MIN, crypto_pwhash_MEMLIMIT_MIN}; }
 
 Result<Passphrase> Passphrase::from(std::string_view text) {
-    if (text.empty())
-        return fail(ErrorCode::InvalidArgument, "the passphrase is empty; at least one character is expected");
+    if (text.empty()) return invalid("the passphrase is empty; at least one character is expected");
     return Passphrase(Secret(std::as_bytes(std::span(text))));
 }
 

@@ -39,7 +39,7 @@ public:
     [[nodiscard]] static Result<Passphrase> from(std::string_view text);
     [[nodiscard]] static Result<Passphrase> from(const Secret& text);
     /// The first line of a file, without its end. Errors: NotFound for a file that is not there, holds nothing
-    /// or is not its owner's alone (OwnFile.h).
+    /// or is not its owner's alone (isOwnFile()).
     [[nodiscard]] static Result<Passphrase> fromFile(const std::filesystem::path& file);
 
     /// 32 bytes. Errors: Io without the memory.

@@ -38,7 +38,7 @@ Result<std::size_t> decrypt(const Secret& key, std::string_view boundTo, std::si
 
 /// The size of what comes out, padding included.
 Result<std::size_t> paddedSize(const Secret& key, std::size_t block, std::span<const std::byte> sealed) {
-    if (key.size() != kKeyBytes) return fail(ErrorCode::InvalidArgument, "a key has {} bytes, not 32", key.size());
+    if (key.size() != kKeyBytes) return invalid("a key has {} bytes, not 32", key.size());
     if (sealed.size() < kNonceBytes + kTagBytes + block || (sealed.size() - kNonceBytes - kTagBytes) % block != 0)
         return fail(ErrorCode::ParseError, "it does not open: {} bytes are not a seal", sealed.size());
     return sealed.size() - kNonceBytes - kTagBytes;

@@ -6,7 +6,7 @@
 // stored, so verifySession() needs no key.
 //
 // An implementation binds each seal to its row: what was sealed as row 7 does not open as row 8, nor in another
-// session, nor as another kind (core/study/SessionSeal.h).
+// session, nor as another kind (core/study/StudyKeys.h).
 //
 // Thread-safety: any thread; implementations have no state that changes.
 #pragma once

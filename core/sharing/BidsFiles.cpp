@@ -8,8 +8,8 @@
 #include "core/base/Random.h"
 #include "core/base/Text.h"
 #include "core/base/WholeFile.h"
-#include "core/sharing/BidsSessionTables.h"
-#include "core/study/ScoreWords.h"
+#include "core/sharing/BidsTable.h"
+#include "core/study/NextDay.h"
 
 namespace tacto {
 
@@ -280,7 +280,7 @@ Result<BidsWith> bidsWithFrom(std::string_view list) {
         } else if (word == "handedness") {
             with.handedness = true;
         } else {
-            return fail(ErrorCode::InvalidArgument, "\"{}\" cannot be exported; age, sex and handedness can", word);
+            return invalid("\"{}\" cannot be exported; age, sex and handedness can", word);
         }
     }
     return with;
@@ -288,8 +288,7 @@ Result<BidsWith> bidsWithFrom(std::string_view list) {
 
 Result<std::string> bidsLabel(const BidsStudy& study, std::size_t enrolled) {
     if (enrolled < 1 || study.places < 1) {
-        return fail(ErrorCode::InvalidArgument, "participant {} of a study of {}; both from 1 are accepted", enrolled,
-                    study.places);
+        return invalid("participant {} of a study of {}; both from 1 are accepted", enrolled, study.places);
     }
     // An amendment that allows more people must not change the labels of those who are there.
     const auto round = (enrolled - 1) / study.places, first = round * study.places;
@@ -308,22 +307,21 @@ Result<std::vector<BidsFile>> bidsFiles(const BidsStudy& study, const BidsWith& 
         labelled.emplace_back(*label, &participant);
         for (const auto& session : participant.sessions) {
             if (session.number < 1)
-                return fail(ErrorCode::InvalidArgument, "session {} of participant {}; a number from 1 is expected",
-                            session.number, participant.enrolled);
+                return invalid("session {} of participant {}; a number from 1 is expected", session.number,
+                               participant.enrolled);
             if (session.basis != participant.basis)
-                return fail(ErrorCode::InvalidArgument,
-                            "session {} of participant {} rests on a {}, and other sessions of theirs on a {}; one "
-                            "basis for a participant is expected",
-                            session.number, participant.enrolled, nameOf(session.basis), nameOf(participant.basis));
+                return invalid(
+                    "session {} of participant {} rests on a {}, and other sessions of theirs on a {}; one "
+                    "basis for a participant is expected",
+                    session.number, participant.enrolled, nameOf(session.basis), nameOf(participant.basis));
         }
         if (const auto* second = secondIn(participant.sessions, &BidsSession::number)) {
-            return fail(ErrorCode::InvalidArgument, "{}",
-                        givenTwice("session {} of participant {}", second->number, participant.enrolled));
+            return invalid("{}", givenTwice("session {} of participant {}", second->number, participant.enrolled));
         }
     }
     std::ranges::sort(labelled);
     if (const auto* second = secondIn(labelled, &decltype(labelled)::value_type::first))
-        return fail(ErrorCode::InvalidArgument, "{}", givenTwice("participant {}", second->second->enrolled));
+        return invalid("{}", givenTwice("participant {}", second->second->enrolled));
     std::vector<BidsFile> files = {description(study, version), readme(study)};
     addTable(files, "participants", participantsTable(with, labelled));
     for (const auto& [label, participant] : labelled) {
@@ -339,8 +337,7 @@ Result<std::vector<BidsFile>> bidsFiles(const BidsStudy& study, const BidsWith& 
 Result<void> checkBidsFolder(const fs::path& folder) {
     std::error_code failed;
     if (!fs::exists(folder, failed) || (fs::is_directory(folder, failed) && fs::is_empty(folder, failed))) return {};
-    return fail(ErrorCode::InvalidArgument, "{} holds something already; a new or empty folder is expected",
-                folder.string());
+    return invalid("{} holds something already; a new or empty folder is expected", folder.string());
 }
 
 Result<void> writeBids(const std::vector<BidsFile>& files, const fs::path& folder) {

@@ -13,11 +13,11 @@
 #include <string>
 #include <vector>
 
-#include "core/analysis/identification/IdentificationTrial.h"
+#include "core/analysis/identification/Identification.h"
 #include "core/analysis/vibration/BurstFigures.h"
 #include "core/base/Statistics.h"
 #include "core/base/Units.h"
-#include "core/study/SessionBasis.h"
+#include "core/study/Participant.h"
 
 namespace tacto {
 

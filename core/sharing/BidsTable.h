@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/base/Units.h"
+#include "core/sharing/BidsStudy.h"
 
 namespace tacto {
 
@@ -55,5 +56,13 @@ private:
     std::vector<BidsColumn> columns_;
     std::vector<std::vector<BidsCell>> rows_;
 };
+
+// The tables of one session: trials, thresholds, ratings, side effects. Those of a session with a massager have
+// strengths, and what its motor did, where others have currents, voltages and impedances.
+
+[[nodiscard]] BidsTable identificationTable(const BidsSession& session, bool massager);
+[[nodiscard]] BidsTable thresholdsTable(const BidsSession& session, bool massager);
+[[nodiscard]] BidsTable ratingsTable(const BidsSession& session);
+[[nodiscard]] BidsTable sideEffectsTable(const BidsSession& session, bool massager);
 
 }  // namespace tacto

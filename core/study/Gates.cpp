@@ -46,7 +46,7 @@ std::vector<ExclusionAnswer> nothingExcludes() {
 Result<void> exclusionGate(std::span<const ExclusionAnswer> answers) {
     for (const auto& answer : answers) {
         if (std::ranges::find(kExclusionItems, answer.key, &ExclusionItem::key) != std::end(kExclusionItems)) continue;
-        return fail(ErrorCode::InvalidArgument, "the exclusion checklist has no item \"{}\"", answer.key);
+        return invalid("the exclusion checklist has no item \"{}\"", answer.key);
     }
     std::size_t open = 0;
     for (const auto& item : kExclusionItems) {

@@ -1,5 +1,8 @@
 #include "core/study/LedgerEnd.h"
 
+#include <algorithm>
+#include <fmt/ranges.h>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "core/base/Csv.h"
@@ -8,6 +11,7 @@
 #include "core/base/WholeFile.h"
 #include "core/session/SessionReader.h"
 #include "core/study/Gates.h"
+#include "core/study/Study.h"
 
 namespace tacto {
 
@@ -59,6 +63,69 @@ std::optional<LedgerEnd> ledgerEndOf(const fs::path& session) {
 bool reaches(const SessionReader& ledger, const LedgerEnd& end) {
     const auto hash = ledger.hashOf(end.row);
     return hash && *hash == end.head;
+}
+
+namespace {
+
+/// " (1 left, 3 session-begun)"; empty of none.
+std::string kindsText(const std::vector<std::string>& names) {
+    std::map<std::string, int> kinds;
+    for (const auto& name : names) ++kinds[name];
+    std::vector<std::string> parts;
+    for (const auto& [name, count] : kinds) parts.push_back(fmt::format("{} {}", count, name));
+    return parts.empty() ? std::string() : fmt::format(" ({})", fmt::join(parts, ", "));
+}
+
+std::string countText(std::int64_t rows) { return fmt::format("{} row{}", rows, rows == 1 ? "" : "s"); }
+
+/// "4 rows (1 left, 3 session-begun)"; of none, where others are taken over, "nothing".
+std::string rowsText(std::int64_t lost, const std::vector<std::string>& names, bool takesOthers) {
+    if (lost <= 0 && takesOthers) return "nothing";
+    return (lost > 0 ? countText(lost) : "rows whose number is not known") + kindsText(names);
+}
+
+std::string takenText(const std::vector<std::string>& unsealed) {
+    if (unsealed.empty()) return {};
+    return fmt::format("; taken over: {} not written with the study's key{}", countText(std::ssize(unsealed)),
+                       kindsText(unsealed));
+}
+
+}  // namespace
+
+std::string goingBackText(const StudyGoingBack& back) {
+    auto text = fmt::format("The study's ledger went back on {} to an older state. Lost: {}", utcText(back.at),
+                            rowsText(back.lost, back.rows, !back.unsealed.empty()));
+    if (!back.files.empty()) {
+        text += fmt::format("; the records of {} session{}, which count nowhere", back.files.size(),
+                            back.files.size() == 1 ? "" : "s");
+    }
+    return text + takenText(back.unsealed) + ".";
+}
+
+std::int64_t LedgerLoss::lost() const noexcept {
+    return std::max({static_cast<std::int64_t>(rows.size()), newest - row, std::int64_t{0}});
+}
+
+std::string LedgerLoss::word() const {
+    if (lost() > 0) return fmt::format("lose-{}-rows", lost());
+    return unsealed.empty() ? "lose-rows" : fmt::format("take-{}-rows", unsealed.size());
+}
+
+std::string LedgerLoss::sentence() const {
+    auto text = fmt::format("this ledger ends with row {} of {}", row, utcText(ends));
+    text += newest == 0 ? std::string(", and how far the newest went is not known")
+                        : fmt::format("; the newest that is known ended with row {}{}", newest,
+                                      newestAt.time_since_epoch().count() > 0 ? " of " + utcText(newestAt) : "");
+    text += fmt::format(". Lost with it: {}", rowsText(lost(), rows, !unsealed.empty()));
+    if (!files.empty()) text += fmt::format("; the records {}, which stay and count nowhere", fmt::join(files, ", "));
+    if (!enrolled.empty()) text += fmt::format("; the enrolment of {}", fmt::join(enrolled, ", "));
+    if (keysGone > 0)
+        text += fmt::format("; {} participants of this ledger have no key any more, as after a withdrawal", keysGone);
+    text += takenText(unsealed);
+    if (withdrawn > 0)
+        text += fmt::format("; the keys of {} participants who withdrew by this ledger, and all records of theirs",
+                            withdrawn);
+    return text + ". Note again by hand the consents, exclusions and events of that time, and who left or withdrew";
 }
 
 }  // namespace tacto

@@ -5,7 +5,7 @@
 #include "core/base/JsonText.h"
 #include "core/base/Text.h"
 #include "core/seal/SealedText.h"
-#include "core/study/SessionSeal.h"
+#include "core/study/StudyKeys.h"
 
 namespace tacto {
 
@@ -15,44 +15,41 @@ constexpr const char* kMac = "mac";
 
 constexpr AcceptedText kLedgerText{.mayBeEmpty = true, .mostBytes = 2000};
 
-RecordFields<Participant> buildParticipantFields() {
-    using P = Participant;
-    RecordFields<P> all;
-    all.word("group", &P::group, kParticipantGroups);
-    all.number("virtual", &P::virtualSeed);
-    all.texts({{"age", &P::age}, {"sex", &P::sex}, {"handedness", &P::handedness}}, kLedgerText);
-    return all;
-}
 const RecordFields<Participant>& participantFields() {
-    static const auto fields = buildParticipantFields();
+    static const auto fields = [] {
+        using P = Participant;
+        RecordFields<P> all;
+        all.word("group", &P::group, kParticipantGroups);
+        all.number("virtual", &P::virtualSeed);
+        all.texts({{"age", &P::age}, {"sex", &P::sex}, {"handedness", &P::handedness}}, kLedgerText);
+        return all;
+    }();
     return fields;
 }
 
-RecordFields<Consent> buildConsentFields() {
-    using C = Consent;
-    RecordFields<C> all;
-    all.text("version", &C::version, kLedgerText);
-    all.add("date", &C::date, dateKind());
-    all.text("by", &C::by, kLedgerText);
-    return all;
-}
 const RecordFields<Consent>& consentFields() {
-    static const auto fields = buildConsentFields();
+    static const auto fields = [] {
+        using C = Consent;
+        RecordFields<C> all;
+        all.text("version", &C::version, kLedgerText);
+        all.add("date", &C::date, dateKind());
+        all.text("by", &C::by, kLedgerText);
+        return all;
+    }();
     return fields;
 }
 
-RecordFields<AdverseEvent> buildAdverseEventFields() {
-    using A = AdverseEvent;
-    RecordFields<A> all;
-    all.texts({{"what", &A::what}, {"action", &A::action}, {"outcome", &A::outcome}}, kLedgerText);
-    all.number("severity", &A::severity, {.low = 1, .high = 4});
-    all.flag("serious", &A::serious);
-    all.number("relation", &A::relation, {.low = 1, .high = 5});
-    all.flag("reported", &A::reported);
-    return all;
-}
 const RecordFields<AdverseEvent>& adverseEventFields() {
-    static const auto fields = buildAdverseEventFields();
+    static const auto fields = [] {
+        using A = AdverseEvent;
+        RecordFields<A> all;
+        all.texts({{"what", &A::what}, {"action", &A::action}, {"outcome", &A::outcome}}, kLedgerText);
+        all.number("severity", &A::severity, {.low = 1, .high = 4});
+        all.flag("serious", &A::serious);
+        all.number("relation", &A::relation, {.low = 1, .high = 5});
+        all.flag("reported", &A::reported);
+        return all;
+    }();
     return fields;
 }
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <fmt/ranges.h>
 #include <span>
+#include <vector>
 
+#include "core/base/JsonFields.h"
 #include "core/base/Text.h"
 #include "core/seal/SealedText.h"
 
@@ -26,8 +28,8 @@ bool isAge(std::string_view text) {
 /// Empty, or one of `words`.
 Result<void> oneOf(std::string_view what, std::string_view given, std::span<const std::string_view> words) {
     if (given.empty() || std::ranges::find(words, given) != words.end()) return {};
-    return fail(ErrorCode::InvalidArgument, "{} is \"{}\"; one of {} is accepted, or nothing", what,
-                given.substr(0, 40), fmt::join(words, ", "));
+    return invalid("{} is \"{}\"; one of {} is accepted, or nothing", what, given.substr(0, 40),
+                   fmt::join(words, ", "));
 }
 
 }  // namespace
@@ -49,8 +51,8 @@ std::optional<char> checkCharacter(std::string_view lettersAndDigits) noexcept {
 
 Result<void> checkAbout(const Participant& participant) {
     if (!participant.age.empty() && !isAge(participant.age)) {
-        return fail(ErrorCode::InvalidArgument, "age is \"{}\"; whole years from 1 to {} are accepted, or nothing",
-                    participant.age.substr(0, 40), kOldest);
+        return invalid("age is \"{}\"; whole years from 1 to {} are accepted, or nothing",
+                       participant.age.substr(0, 40), kOldest);
     }
     if (auto known = oneOf("sex", participant.sex, kSexes); !known) return known;
     return oneOf("handedness", participant.handedness, kHandednesses);
@@ -85,6 +87,37 @@ std::string newCode() {
     std::string drawn = "P";
     for (int i = 0; i < 3; ++i) drawn += kDrawn[randomBelow(static_cast<std::uint32_t>(kDrawn.size()))];
     return fmt::format("P-{}{}", drawn.substr(1), checkCharacter(drawn).value_or('?'));
+}
+
+std::string namedWith(SessionBasis basis, std::string_view name) {
+    constexpr std::string_view kAfter[] = {"", " (simulated devices)", " (virtual)"};
+    return fmt::format("{}{}", name, kAfter[static_cast<std::size_t>(basis)]);
+}
+
+std::string_view peopleOf(SessionBasis basis, std::size_t n) noexcept {
+    switch (basis) {
+        case SessionBasis::Person:
+            return n == 1 ? "person" : "people";
+        case SessionBasis::PersonSimulated:
+            return n == 1 ? "person on simulated devices" : "people on simulated devices";
+        case SessionBasis::Virtual:
+            break;
+    }
+    return n == 1 ? "virtual participant" : "virtual participants";
+}
+
+std::string countsText(const std::map<SessionBasis, std::size_t>& counts) {
+    std::vector<std::string> all;
+    for (const auto& [basis, n] : counts) {
+        if (n > 0) all.push_back(fmt::format("{} {}", n, peopleOf(basis, n)));
+    }
+    return all.empty() ? "0 people" : fmt::format("{}", fmt::join(all, " and "));
+}
+
+SessionBasis basisIn(const nlohmann::json& results) {
+    const auto participant = valueOr(results, "participant");
+    if (const auto said = valueFor(kSessionBases, textOr(participant, "basis"))) return *said;
+    return flagOr(participant, "virtual") ? SessionBasis::Virtual : SessionBasis::Person;
 }
 
 }  // namespace tacto

@@ -8,9 +8,8 @@
 #include "core/seal/SealedText.h"
 #include "core/session/Digest.h"
 #include "core/session/SessionReader.h"
-#include "core/study/NewStudy.h"
 #include "core/study/StudyBook.h"
-#include "core/study/StudyGates.h"
+#include "core/study/StudyFiles.h"
 
 namespace tacto {
 
@@ -73,8 +72,7 @@ Result<Study> Study::create(const fs::path& folder, StudySettings settings, cons
     settings.kind = StudyKind::Study;
     settings.approval.protocolSha256 = protocolHash(settings);
     if (auto sound = studyFields().check(settings, RecordPlace{}); !sound) return failure(sound);
-    if (settings.approval.reference.empty())
-        return fail(ErrorCode::InvalidArgument, "a study needs the reference of its approval");
+    if (settings.approval.reference.empty()) return invalid("a study needs the reference of its approval");
     if (auto outside = keysLieOutside(files, around); !outside) return failure(outside);
     if (auto made = makeStudy(files, settings, &passphrase, around); !made) return failure(made);
     return open(files.folder, &passphrase, Access::Change, around);
@@ -176,15 +174,13 @@ Result<void> Study::consent(std::string_view code, const Consent& consent) {
     const auto participant = state_->find(code);
     if (!participant) return failure(participant);
     if (consent.version.empty() || consent.by.empty())
-        return fail(ErrorCode::InvalidArgument,
-                    "a consent needs the version of the form and the initials of who took it");
+        return invalid("a consent needs the version of the form and the initials of who took it");
     if (!consent.date.ok() || !(consent.date <= today())) {
-        return fail(ErrorCode::InvalidArgument, "the consent is dated {}; a day no later than today, {}, is expected",
-                    dateText(consent.date), dateText(today()));
+        return invalid("the consent is dated {}; a day no later than today, {}, is expected", dateText(consent.date),
+                       dateText(today()));
     }
     if (const auto since = state_->formSince(consent.version); !(since <= consent.date)) {
-        return fail(
-            ErrorCode::InvalidArgument,
+        return invalid(
             "the consent is dated {}, and version {} of the form is approved from {}; that day or a later one is "
             "expected",
             dateText(consent.date), consent.version, dateText(since));
@@ -334,7 +330,7 @@ Result<void> Study::cancelSession(std::string_view id) {
     const auto* session = state_->known.session(id);
     if (session == nullptr) return fail(ErrorCode::NotFound, "the study has no session {}", id);
     if (session->state != StudySessionState::Unfinished || session->parts.size() != 1)
-        return fail(ErrorCode::InvalidArgument, "session {} was opened and cannot be cancelled", id);
+        return invalid("session {} was opened and cannot be cancelled", id);
     auto body = endedBody(*session, StudySessionState::Stopped, headOf(pathOf(session->parts.back().file)));
     body["opened"] = false;
     return state_->append(ledger::kSessionEnded, std::move(body));
@@ -345,8 +341,7 @@ Result<void> Study::endSession(std::string_view id, StudySessionState ended, std
     const auto* session = state_->known.session(id);
     if (session == nullptr) return fail(ErrorCode::NotFound, "the study has no session {}", id);
     if (ended == StudySessionState::Unfinished || session->state != StudySessionState::Unfinished) {
-        return fail(ErrorCode::InvalidArgument, "session {} is {} and cannot become {}", id, nameOf(session->state),
-                    nameOf(ended));
+        return invalid("session {} is {} and cannot become {}", id, nameOf(session->state), nameOf(ended));
     }
     const auto head = chainHead.empty() ? headOf(pathOf(session->parts.back().file)) : std::string(chainHead);
     return state_->append(ledger::kSessionEnded, endedBody(*session, ended, head));
@@ -393,9 +388,8 @@ int Study::firstPlaces() const noexcept { return state_->known.firstPlaces; }
 Result<void> Study::exported(const fs::path& place, std::string_view what) {
     if (auto may = state_->changeable(); !may) return may;
     if (liesInside(place, folder())) {
-        return fail(ErrorCode::InvalidArgument,
-                    "{} lies inside the study folder; an export there would stand unsealed beside what is sealed",
-                    place.string());
+        return invalid("{} lies inside the study folder; an export there would stand unsealed beside what is sealed",
+                       place.string());
     }
     return state_->append(ledger::kExported, {{"what", what}}, &state_->keys->study(), {{"place", place.string()}});
 }

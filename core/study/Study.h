@@ -32,8 +32,6 @@
 #include "core/study/Gates.h"
 #include "core/study/NextDay.h"
 #include "core/study/Participant.h"
-#include "core/study/ScoreWords.h"
-#include "core/study/SessionBasis.h"
 #include "core/study/StudySettings.h"
 
 namespace tacto {

@@ -10,8 +10,8 @@
 #include "core/base/Csv.h"
 #include "core/base/JsonText.h"
 #include "core/base/WholeFile.h"
-#include "core/seal/OwnFile.h"
 #include "core/seal/SealedText.h"
+#include "core/seal/Secret.h"
 
 namespace tacto {
 
@@ -105,8 +105,7 @@ Result<void> replace(const fs::path& file, std::string_view text) {
 Result<StudyKeys> StudyKeys::create(const fs::path& file, const std::string& study, const Passphrase* passphrase,
                                     const PassphraseCost& cost) {
     std::error_code error;
-    if (fs::exists(file, error))
-        return fail(ErrorCode::InvalidArgument, "the key file {} exists; it is never overwritten", file.string());
+    if (fs::exists(file, error)) return invalid("the key file {} exists; it is never overwritten", file.string());
     if (passphrase != nullptr) {
         fs::create_directories(file.parent_path(), error);
         if (error) {
@@ -195,8 +194,7 @@ const StudyKeys::Entry* StudyKeys::byId(std::string_view id) const noexcept {
 
 Result<void> StudyKeys::add(const std::string& id, const std::string& code) {
     if (id.size() != kIdBytes || code.empty() || code.size() >= kCodeBytes)
-        return fail(ErrorCode::InvalidArgument, "the code \"{}\" has {} characters; up to {} are accepted", code,
-                    code.size(), kCodeBytes - 1);
+        return invalid("the code \"{}\" has {} characters; up to {} are accepted", code, code.size(), kCodeBytes - 1);
     entries_.push_back({id, code, Secret::random(kKeyBytes)});
     auto written = write();
     if (!written) entries_.pop_back();
@@ -269,6 +267,31 @@ Result<void> StudyKeys::write() const {
         json["keys"] = base64Text(all.bytes());
     }
     return replace(file_, dumpJson(json, 2) + "\n");
+}
+
+SessionSeal::SessionSeal(std::string study, std::string file, Secret key)
+    : study_(std::move(study)), file_(std::move(file)), key_(std::move(key)) {}
+
+std::string SessionSeal::place(std::int64_t seq, std::string_view kind) const {
+    return fmt::format("{}\n{}\n{}\n{}", study_, file_, seq, kind);
+}
+
+std::string SessionSeal::sealText(std::int64_t seq, std::string_view kind, std::string_view text) const {
+    return tacto::sealText(key_, place(seq, kind), text);
+}
+
+Result<std::string> SessionSeal::openText(std::int64_t seq, std::string_view kind, std::string_view sealed) const {
+    return tacto::openText(key_, place(seq, kind), sealed);
+}
+
+std::vector<std::byte> SessionSeal::sealBytes(std::int64_t seq, std::string_view kind,
+                                              std::span<const std::span<const std::byte>> parts) const {
+    return tacto::sealBytes(key_, place(seq, kind), kChunkBlock, parts);
+}
+
+Result<std::vector<std::byte>> SessionSeal::openBytes(std::int64_t seq, std::string_view kind,
+                                                      std::span<const std::byte> sealed) const {
+    return tacto::openBytes(key_, place(seq, kind), kChunkBlock, sealed);
 }
 
 }  // namespace tacto

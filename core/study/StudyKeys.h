@@ -1,7 +1,7 @@
 // StudyKeys.h - the keys of a study: the study's own and one of each participant, with the code that belongs to it.
 //
 // They lie in one file outside the study's folder, sealed under a passphrase, mode 0600; one that others may read, or a
-// folder that they may write to, is refused (OwnFile.h). What the passphrase opens is binary, so that no key passes
+// folder that they may write to, is refused (isOwnFile()). What the passphrase opens is binary, so that no key passes
 // through a parser: 32 bytes of the study's key; 80 of how far the ledger goes (8 of the row, 8 of its time, both with
 // the low byte first, 64 digits of its hash; version 1 had none); then 80 bytes a participant (16 of the id, 32 of the
 // code, 32 of the key). A rehearsal's file has no passphrase and says that it is not secret.
@@ -21,6 +21,7 @@
 #include "core/base/Result.h"
 #include "core/seal/Passphrase.h"
 #include "core/seal/Secret.h"
+#include "core/session/RowSeal.h"
 #include "core/study/LedgerEnd.h"
 
 namespace tacto {
@@ -69,6 +70,29 @@ private:
     Secret study_;
     LedgerEnd end_;
     std::vector<Entry> entries_;
+};
+
+// Seals the rows of one file of a study: each is bound to study, file, row number and kind.
+
+class SessionSeal final : public RowSeal {
+public:
+    /// `file`: the name of a session's file without its ending, or "ledger".
+    SessionSeal(std::string study, std::string file, Secret key);
+
+    [[nodiscard]] std::string sealText(std::int64_t seq, std::string_view kind, std::string_view text) const override;
+    [[nodiscard]] Result<std::string> openText(std::int64_t seq, std::string_view kind,
+                                               std::string_view sealed) const override;
+    [[nodiscard]] std::vector<std::byte> sealBytes(std::int64_t seq, std::string_view kind,
+                                                   std::span<const std::span<const std::byte>> parts) const override;
+    [[nodiscard]] Result<std::vector<std::byte>> openBytes(std::int64_t seq, std::string_view kind,
+                                                           std::span<const std::byte> sealed) const override;
+
+private:
+    [[nodiscard]] std::string place(std::int64_t seq, std::string_view kind) const;
+
+    const std::string study_;
+    const std::string file_;
+    const Secret key_;
 };
 
 }  // namespace tacto

@@ -139,4 +139,18 @@ struct StudySettings {
 /// The same of settings and what a session is run with: a session that was interrupted goes on with no other.
 [[nodiscard]] std::string runHash(StudySettings settings, const StudyProcedure& procedure);
 
+// What an approval covers of the procedure, in words, for people who read a report or a terminal.
+
+struct ProcedureFact {
+    std::string what;   ///< "Train"
+    std::string words;  ///< "biphasic, 1 pulse of 200 µs a phase"
+};
+/// Site, electrodes and train (not with a massager), intervals, conditions, detection and test, as approved. Where the
+/// approval keeps no procedure, that is said in the place of intervals, conditions and detection.
+[[nodiscard]] std::vector<ProcedureFact> approvedProcedure(const StudySettings& settings);
+
+/// What a key of study.json that an amendment changed is called; the key itself where it has no other name, and with a
+/// massager where it is about current.
+[[nodiscard]] std::string amendedWords(std::string_view key, Modality modality);
+
 }  // namespace tacto

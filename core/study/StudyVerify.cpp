@@ -5,7 +5,7 @@
 #include "core/base/Csv.h"
 #include "core/session/SessionReader.h"
 #include "core/study/LedgerEnd.h"
-#include "core/study/StudyGates.h"
+#include "core/study/StudyBook.h"
 
 namespace tacto {
 

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/analysis/statistics/Binomial.h"
+#include "core/analysis/statistics/Estimate.h"
 #include "tests/support/Trials.h"
 
 namespace tacto::test {

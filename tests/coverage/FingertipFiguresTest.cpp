@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "core/analysis/sensor_calibration/SensorCalibration.h"
-#include "core/analysis/sensor_calibration/SensorScale.h"
+#include "core/analysis/sensor_calibration/SensorReading.h"
 #include "core/analysis/statistics/UncertaintyBudget.h"
 #include "core/base/Random.h"
 #include "tests/coverage/CoverageTable.h"

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "core/analysis/psychophysics/DriftCheck.h"
 #include "core/analysis/psychophysics/QuestPlus.h"
 #include "core/analysis/psychophysics/StrengthComparison.h"
 #include "core/base/Random.h"

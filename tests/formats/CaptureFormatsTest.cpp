@@ -4,22 +4,21 @@
 
 #include "core/formats/CaptureFormats.h"
 #include "tests/measure/SyntheticPulses.h"
+#include "tests/support/Refused.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
 namespace {
 
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 TEST(CaptureFormats, TheContentDecidesNotTheName) {
     const ScratchDir scratch;
     const auto formats = ownCaptureFormats();
     const auto path = scratch.write("called.wav", "x-axis,1\nsecond,Volt\n0,1\n1,2\n");
-    const auto read = formats->read(path);
-    ASSERT_TRUE(read) << read.error().message;
-    EXPECT_EQ(read->formatId, "csv-keysight");
-    EXPECT_EQ(read->formatName, "Keysight CSV");
+    const auto read = accepted(formats->read(path));
+    EXPECT_EQ(read.formatId, "csv-keysight");
+    EXPECT_EQ(read.formatName, "Keysight CSV");
 }
 
 TEST(CaptureFormats, AnotherFormatCanBeNamedAndAnUnknownOneIsRefused) {
@@ -27,31 +26,26 @@ TEST(CaptureFormats, AnotherFormatCanBeNamedAndAnUnknownOneIsRefused) {
     const auto formats = ownCaptureFormats();
     const auto path = scratch.write("t.csv", "time_s,a\n0,1\n1,2\n");
     EXPECT_EQ(formats->read(path).value().formatId, "csv");
-    const auto wrong = formats->read(path, {.format = "csv-rigol"});
-    ASSERT_FALSE(wrong);
-    EXPECT_EQ(wrong.error().code, ErrorCode::ParseError);
-    const auto unknown = formats->read(path, {.format = "dat"});
-    ASSERT_FALSE(unknown);
-    EXPECT_EQ(unknown.error().message,
-              "format 'dat' is not known; known are wav, isf, csv-rigol, csv-siglent, csv-tektronix, csv-keysight, "
-              "csv-picoscope, "
-              "csv-lecroy, csv-hantek, csv-owon, csv-gwinstek, csv-yokogawa, csv-micsig, csv-sigrok, csv-labview, csv");
+    EXPECT_THAT(formats->read(path, {.format = "csv-rigol"}), test::refused(ErrorCode::ParseError));
+    EXPECT_THAT(
+        formats->read(path, {.format = "dat"}),
+        test::refusedSaying(testing::StrEq(
+            "format 'dat' is not known; known are wav, isf, csv-rigol, csv-siglent, csv-tektronix, csv-keysight, "
+            "csv-picoscope, "
+            "csv-lecroy, csv-hantek, csv-owon, csv-gwinstek, csv-yokogawa, csv-micsig, csv-sigrok, csv-labview, csv")));
 }
 
 TEST(CaptureFormats, SkippedRowsAreNotAskedWhoseTheyAre) {
     const ScratchDir scratch;
     const auto path = scratch.write("t.csv", "exported\nby hand\nx-axis,1\nsecond,Volt\n0,1\n1,2\n");
-    const auto read = ownCaptureFormats()->read(path, {.skipRows = 2});
-    ASSERT_TRUE(read) << read.error().message;
-    EXPECT_EQ(read->formatId, "csv-keysight");
+    const auto read = accepted(ownCaptureFormats()->read(path, {.skipRows = 2}));
+    EXPECT_EQ(read.formatId, "csv-keysight");
 }
 
 TEST(CaptureFormats, WhatNoFormatRecognisesIsRefusedWithWhatIsKnown) {
     const ScratchDir scratch;
     const auto read = ownCaptureFormats()->read(scratch.write("t.bin", std::string_view("\x01\0\x02", 3)));
-    ASSERT_FALSE(read);
-    EXPECT_EQ(read.error().code, ErrorCode::ParseError);
-    EXPECT_THAT(read.error().message, HasSubstr("Rigol CSV"));
+    ASSERT_THAT(read, test::refused(ErrorCode::ParseError, "Rigol CSV"));
     EXPECT_EQ(ownCaptureFormats()->read(scratch.path() / "none.csv").error().code, ErrorCode::NotFound);
     EXPECT_EQ(ownCaptureFormats()->read(scratch.path()).error().code, ErrorCode::Io);
 }
@@ -67,9 +61,8 @@ TEST(CaptureFormats, WritesBySuffixAndLeavesNothingBehindThatFailed) {
         ASSERT_TRUE(formats->write(scratch.path() / name, capture)) << name;
         EXPECT_EQ(formats->read(scratch.path() / name)->capture.samples(), 1000U) << name;
     }
-    const auto refused = formats->write(scratch.path() / "a.isf", capture);
-    ASSERT_FALSE(refused);
-    EXPECT_THAT(refused.error().message, HasSubstr("captures are not written as '.isf'; .wav, .csv are"));
+    EXPECT_THAT(formats->write(scratch.path() / "a.isf", capture),
+                test::refusedSaying("captures are not written as '.isf'; .wav, .csv are"));
     EXPECT_FALSE(formats->write(scratch.path() / "b.csv", Capture{}));
     std::size_t files = 0;
     for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(scratch.path())) ++files;

@@ -9,6 +9,7 @@
 #include "core/formats/CaptureFormats.h"
 #include "core/formats/csv/CsvFormat.h"
 #include "tests/formats/WrittenTables.h"
+#include "tests/support/Refused.h"
 #include "tests/support/Support.h"
 #include "tests/support/TakenAdvice.h"
 #include "tests/support/Trials.h"
@@ -71,9 +72,8 @@ TEST(CsvAdvice, NamesTheOptionWithItsValueForThisFile) {
         {"time_s,a\n0,1\n1,2\n", "; --format csv reads it", {.format = "csv-rigol"}},
     };
     for (const auto& file : files) {
-        const auto refused = parseCapture(file.text, "t.csv", file.options);
-        ASSERT_FALSE(refused) << file.text;
-        EXPECT_THAT(refused.error().message, ::testing::EndsWith(file.ends)) << file.text;
+        EXPECT_THAT(parseCapture(file.text, "t.csv", file.options), test::refusedSaying(testing::EndsWith(file.ends)))
+            << file.text;
         EXPECT_TRUE(expectHonest(file.text, file.options));
     }
 }
@@ -181,9 +181,8 @@ TEST(CsvAdvice, IsTheSameForFiles) {
     const auto path = scratch.write("a.csv", "a,b\n7,1\n9,2\n11,7\n");
     const auto refused = ownCaptureFormats()->read(path);
     ASSERT_FALSE(refused);
-    const auto read = ownCaptureFormats()->read(path, withAdvice({}, advisedWords(refused.error().message)));
-    ASSERT_TRUE(read) << read.error().message;
-    EXPECT_NEAR(read->capture.rate_hz, 0.5, 1e-12);
+    const auto read = accepted(ownCaptureFormats()->read(path, withAdvice({}, advisedWords(refused.error().message))));
+    EXPECT_NEAR(read.capture.rate_hz, 0.5, 1e-12);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include "core/analysis/identification/IdentificationFile.h"
 #include "core/analysis/sensor_calibration/ProfilometerFile.h"
 #include "core/analysis/separability/Separability.h"
-#include "core/analysis/separability/TrialFile.h"
+#include "core/analysis/separability/SeparabilityJson.h"
 #include "tests/fuzz/FuzzTarget.h"
 
 namespace tacto::fuzz::ResultTablesFuzz {

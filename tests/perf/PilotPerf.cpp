@@ -23,7 +23,7 @@
 #include "app/run/PilotRun.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
 #include "core/base/Random.h"
-#include "core/study/SessionSeal.h"
+#include "core/study/StudyKeys.h"
 #include "drivers/simulated/SimulatedDriver.h"
 #include "tests/perf/Windows.h"
 #include "tests/support/WrappedTwin.h"

@@ -1,5 +1,5 @@
 // The levels that were accepted are reached again from the weakest up, and none above what was settled or too strong.
-#include "core/pilot/LevelRamp.h"
+#include "core/pilot/PilotOutput.h"
 #include "tests/pilot/StageFixture.h"
 
 namespace tacto::test {

@@ -2,6 +2,7 @@
 #include "core/pilot/PilotCare.h"
 #include "core/pilot/PilotSession.h"
 #include "tests/pilot/StageFixture.h"
+#include "tests/support/Refused.h"
 
 namespace tacto::test {
 namespace {
@@ -55,9 +56,7 @@ TEST_F(PilotCareTest, AStopOfTheRunWhileAStopIsTestedIsNoTestAndNothingGoesOnAft
         stage_->endRun();
         bench_->stop("operator (STOP)");  // and then the participant presses, as they were asked to
     };
-    const auto passed = care.checklist();
-    ASSERT_FALSE(passed);
-    EXPECT_EQ(passed.error().code, ErrorCode::Stopped) << passed.error().message;
+    EXPECT_THAT(care.checklist(), test::refused(ErrorCode::Stopped));
     EXPECT_EQ(someone_.asked.back(), "stop-test") << "no one is asked to go on";
     EXPECT_THAT(bodies(row::kImpedance), SizeIs(0)) << "no pulse after the stop";
     EXPECT_FALSE(stage_->isArmed());
@@ -85,9 +84,8 @@ TEST_F(PilotCareTest, WhereOnlyTheOtherOneIsPressedThereIsNoSession) {
     PilotCare care(*stage_);
     someone_.testPresses = 100;
     someone_.testedBy = "operator";
-    const auto passed = care.checklist();
-    ASSERT_FALSE(passed);
-    EXPECT_THAT(passed.error().message, HasSubstr("in the test of the participant's STOP the operator's was pressed"));
+    EXPECT_THAT(care.checklist(),
+                test::refusedSaying("in the test of the participant's STOP the operator's was pressed"));
     EXPECT_EQ(stage_->ended(), PilotEnd::Stopped);
     EXPECT_EQ(bench_->telemetry().trainsDelivered, 0U);
 }
@@ -172,9 +170,7 @@ TEST_F(PilotCareTest, ASessionThatWasStoppedGoesOnWithNothingButItsQuestions) {
     begin(earlier);
     PilotSession session(*bench_, someone_, *record_, PilotSettings{}, nullptr, 2);
     session.resumesFrom("part 1", "head");
-    const auto begun = session.begin(false);
-    ASSERT_FALSE(begun);
-    EXPECT_THAT(begun.error().message, HasSubstr("the skin scores 2 (break 3)"));
+    EXPECT_THAT(session.begin(false), test::refusedSaying("the skin scores 2 (break 3)"));
     EXPECT_EQ(session.stage().ended(), PilotEnd::Stopped);
     EXPECT_THAT(bodies(row::kSkin), SizeIs(2)) << "of afterwards";
     EXPECT_THAT(bodies(row::kStopTest), SizeIs(0)) << "nothing is armed";
@@ -223,9 +219,7 @@ TEST_P(EndedByItsRowsTest, IsNotTriedAgain) {
     begin(rowsOf(GetParam()));
     PilotSession session(*bench_, someone_, *record_, PilotSettings{}, nullptr, 2);
     session.resumesFrom("part 1", "head");
-    const auto begun = session.begin(false);
-    ASSERT_FALSE(begun);
-    EXPECT_THAT(begun.error().message, HasSubstr(GetParam().says));
+    EXPECT_THAT(session.begin(false), test::refusedSaying(GetParam().says));
     EXPECT_EQ(session.stage().ended(), PilotEnd::Stopped);
     EXPECT_THAT(bodies(row::kStopTest), SizeIs(0)) << "nothing is armed";
     ASSERT_THAT(bodies(row::kSessionEnd), SizeIs(1));
@@ -274,9 +268,7 @@ TEST_F(PilotCareTest, WhatIsCompleteIsReplayedAndNothingIsAskedOrArmed) {
     const auto begun = session.begin(false);
     ASSERT_TRUE(begun) << begun.error().message;
     EXPECT_TRUE(someone_.asked.empty());
-    const auto armed = session.stage().ready();
-    ASSERT_FALSE(armed);
-    EXPECT_EQ(armed.error().code, ErrorCode::Stopped);
+    EXPECT_THAT(session.stage().ready(), test::refused(ErrorCode::Stopped));
     EXPECT_FALSE(session.stage().measureImpedance("part 2 first"));
     ASSERT_TRUE(session.stage().end(PilotEnd::Complete, "complete"));
     EXPECT_THAT(bodies(row::kSessionEnd), SizeIs(0)) << "the earlier part has it";
@@ -304,9 +296,8 @@ TEST_F(PilotCareTest, AfterABreakNothingIsArmedBeforeTheElectrodesAreMeasured) {
     ASSERT_TRUE(session.identification().takeBreak(1, Seconds(60)));
     const auto measured = record_->count(row::kImpedance);
     ASSERT_TRUE(bench_->devices().load->fitLoad("1600 ohm"));
-    const auto armed = session.stage().ready();
-    ASSERT_FALSE(armed) << "a script need not ask for it";
-    EXPECT_THAT(armed.error().message, HasSubstr("a change of at most 30 % is accepted"));
+    EXPECT_THAT(session.stage().ready(), test::refusedSaying("a change of at most 30 % is accepted"))
+        << "a script need not ask for it";
     EXPECT_EQ(record_->count(row::kImpedance), measured + 3) << "three seatings";
     EXPECT_EQ(session.stage().ended(), PilotEnd::Stopped);
 }
@@ -341,9 +332,7 @@ TEST_F(PilotCareTest, ASkinThatIsRedBeforeBeginsNothing) {
     RecordProperty("hazard", "H12");
     PilotCare care(*stage_);
     someone_.answers = {{"erythema", "1"}, {"oedema", "0"}};
-    const auto passed = care.checklist();
-    ASSERT_FALSE(passed);
-    EXPECT_THAT(passed.error().message, HasSubstr("the skin scores 1 (before); at most 0 is accepted"));
+    EXPECT_THAT(care.checklist(), test::refusedSaying("the skin scores 1 (before); at most 0 is accepted"));
     EXPECT_THAT(bodies(row::kImpedance), SizeIs(0));
 }
 
@@ -355,9 +344,7 @@ TEST_F(PilotCareTest, ElectrodesThatMeasureOtherwiseAfterAFaultEndTheSession) {
     ASSERT_TRUE(record_->write(row::kImpedance, "part 1 second", {{"impedance_ohm", 100}}));
     operatorTakesTime();
     ASSERT_TRUE(stage_->pass(Seconds(19)));
-    const auto answer = stage_->trial(trial());
-    ASSERT_FALSE(answer);
-    EXPECT_THAT(answer.error().message, HasSubstr("after 100 ohm; a change of at most 30 % is accepted"));
+    EXPECT_THAT(stage_->trial(trial()), test::refusedSaying("after 100 ohm; a change of at most 30 % is accepted"));
     EXPECT_THAT(bodies(row::kImpedance), SizeIs(4)) << "that of the test, and three seatings";
     EXPECT_EQ(stage_->ended(), PilotEnd::Stopped);
 }

@@ -2,6 +2,7 @@
 #include "core/pilot/PilotSession.h"
 #include "core/pilot/VirtualPilotParticipant.h"
 #include "tests/pilot/StageFixture.h"
+#include "tests/support/Refused.h"
 
 namespace tacto::test {
 namespace {
@@ -114,9 +115,7 @@ TEST_F(PilotStageTest, ElectrodesThatMeasureOtherwiseBeforeABlockHoldItBack) {
     begin();
     PilotCare other(*stage_);
     ASSERT_TRUE(record_->write(row::kImpedance, "part 1 second", {{"impedance_ohm", 700}}));
-    const auto refused = other.beforeBlock(1);
-    ASSERT_FALSE(refused);
-    EXPECT_THAT(refused.error().message, testing::HasSubstr("30 %"));
+    EXPECT_THAT(other.beforeBlock(1), test::refusedSaying("30 %"));
     EXPECT_EQ(bench_->telemetry().trainsDelivered, 0U);
 }
 

@@ -3,7 +3,7 @@
 
 #include "core/base/JsonText.h"
 #include "core/pilot/PilotCare.h"
-#include "core/pilot/PilotHold.h"
+#include "core/pilot/PilotSettings.h"
 #include "core/pilot/PilotThresholds.h"
 #include "core/study/Study.h"
 #include "tests/pilot/StageFixture.h"

@@ -4,6 +4,7 @@
 
 #include "core/pilot/PilotCare.h"
 #include "tests/pilot/StageFixture.h"
+#include "tests/support/Refused.h"
 
 namespace tacto::test {
 namespace {
@@ -79,9 +80,8 @@ TEST_F(PilotOutputTest, ALostScreenIsAPauseAfterWhichTheLevelsAreReachedAgainWhi
         EXPECT_EQ(prompt.to, PromptTo::Operator);
         someone_.there = true;
     };
-    const auto answer = stage_->trial(rising(1.5));
-    ASSERT_TRUE(answer) << answer.error().message;
-    EXPECT_EQ(answer->response, "nothing") << "it is not a stop of the participant's";
+    const auto answer = accepted(stage_->trial(rising(1.5)));
+    EXPECT_EQ(answer.response, "nothing") << "it is not a stop of the participant's";
     EXPECT_EQ(record_->count(row::kPause), 1U);
     EXPECT_EQ(record_->count(row::kContinue), 1U);
     EXPECT_EQ(record_->count(row::kParticipantStop) + record_->count(row::kFault), 0U);
@@ -107,9 +107,7 @@ TEST_F(PilotOutputTest, AScreenThatDoesNotComeBackBreaksTheSessionOff) {
     RecordProperty("hazard", "H2");
     loseScreen();
     someone_.silent = {kScreenPrompt};
-    const auto answer = stage_->trial(trial());
-    ASSERT_FALSE(answer);
-    EXPECT_THAT(answer.error().message, HasSubstr("gone for 10 min"));
+    EXPECT_THAT(stage_->trial(trial()), test::refusedSaying("gone for 10 min"));
     EXPECT_EQ(stage_->ended(), PilotEnd::Unfinished) << "it may be resumed";
     EXPECT_EQ(state(), InterlockState::Disarmed);
 }
@@ -196,9 +194,8 @@ TEST_F(PilotOutputTest, ABreakNowSwitchesOffAtOnceAndTheTrialIsRepeatedAfterIt) 
         EXPECT_EQ(state(), InterlockState::Disarmed);
         return Hindrance{true, "break now"};
     };
-    const auto answer = stage_->trial(trial());
-    ASSERT_TRUE(answer) << answer.error().message;
-    EXPECT_EQ(answer->attempt, 2U) << "what was paused is void";
+    const auto answer = accepted(stage_->trial(trial()));
+    EXPECT_EQ(answer.attempt, 2U) << "what was paused is void";
     EXPECT_EQ(record_->count(row::kPause), 1U);
     EXPECT_THAT(bodies(row::kBreakEnd), SizeIs(1));
     EXPECT_EQ(record_->count(row::kParticipantStop) + record_->count(row::kOperatorStop), 0U);
@@ -228,9 +225,8 @@ TEST_F(PilotOutputTest, ABenchThatIsPausedIsWaitedForAndTheTrialIsRepeatedHoweve
         if (prompt.name != "go-on") return;
         EXPECT_FALSE(bench_->telemetry().paused) << "they are asked once it is over";
     };
-    const auto answer = stage_->trial(trial("test 1", 1));
-    ASSERT_TRUE(answer) << answer.error().message;
-    EXPECT_EQ(answer->attempt, 1U + kPauses);
+    const auto answer = accepted(stage_->trial(trial("test 1", 1)));
+    EXPECT_EQ(answer.attempt, 1U + kPauses);
     EXPECT_EQ(record_->count(row::kPause), std::size_t(kPauses));
     EXPECT_EQ(record_->count(row::kContinue), std::size_t(kPauses));
     EXPECT_EQ(measured_, kPauses) << "the impedance, before it is armed again";
@@ -292,10 +288,9 @@ TEST_F(PilotOutputTest, AStopAtGoOnIsNoAnswerToTheTrialThatWasInterrupted) {
         if (prompt.name == kScreenPrompt) someone_.there = true;
     };
     someone_.stopsAtGoOn = 1;
-    const auto answer = stage_->trial(rising(0.5));
-    ASSERT_TRUE(answer) << answer.error().message;
+    const auto answer = accepted(stage_->trial(rising(0.5)));
     EXPECT_EQ(record_->count(row::kParticipantStop), 1U);
-    EXPECT_EQ(answer->response, "nothing") << "they did not stop what they felt";
+    EXPECT_EQ(answer.response, "nothing") << "they did not stop what they felt";
 }
 
 TEST_F(PilotOutputTest, AStopOfARisingLevelIsItsAnswerAlsoWhereTheProgramWasKilledBeforeItWasWritten) {
@@ -308,9 +303,8 @@ TEST_F(PilotOutputTest, AStopOfARisingLevelIsItsAnswerAlsoWhereTheProgramWasKill
         if (each.name == row::kParticipantStop) break;
     }
     begin(earlier);
-    const auto answer = stage_->trial(rising(0.5));
-    ASSERT_TRUE(answer) << answer.error().message;
-    EXPECT_EQ(answer->response, "stop");
+    const auto answer = accepted(stage_->trial(rising(0.5)));
+    EXPECT_EQ(answer.response, "stop");
     EXPECT_EQ(bench_->telemetry().trainsDelivered, 0U) << "it is not presented once more";
 }
 
@@ -364,9 +358,7 @@ TEST_F(PilotOutputTest, AnAbortIsAskedForItsReasonOnceTheOutputIsOff) {
         EXPECT_THAT(kinds(), Contains(row::kOperatorStop)) << "killed now, the abort is known";
         EXPECT_EQ(prompt.to, PromptTo::Operator);
     };
-    const auto answer = stage_->trial(trial());
-    ASSERT_FALSE(answer);
-    EXPECT_EQ(answer.error().code, ErrorCode::Stopped);
+    EXPECT_THAT(stage_->trial(trial()), test::refused(ErrorCode::Stopped));
     EXPECT_EQ(stage_->ended(), PilotEnd::Unfinished) << "resumable";
     const auto notes = bodies(row::kNote);
     ASSERT_THAT(notes, SizeIs(1));
@@ -443,9 +435,7 @@ TEST_F(SeatedElectrodesTest, ThreeSeatingsWithoutAgreementEndTheSession) {
     RecordProperty("hazard", "H3");
     fitAfter({{1, 1300}, {2, 1000}, {3, 1300}, {4, 1000}, {5, 1300}});
     PilotCare care(*stage_);
-    const auto passed = care.checklist();
-    ASSERT_FALSE(passed);
-    EXPECT_THAT(passed.error().message, HasSubstr("a difference of at most 20 % is accepted"));
+    EXPECT_THAT(care.checklist(), test::refusedSaying("a difference of at most 20 % is accepted"));
     EXPECT_THAT(held("part 1 impedance"), ElementsAre(false, false, false));
     EXPECT_EQ(stage_->ended(), PilotEnd::Stopped);
 }

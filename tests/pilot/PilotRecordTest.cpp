@@ -1,7 +1,9 @@
 // What a session's rows say: what has an answer, what was begun, and how often.
+// How a participant's range and the study's encoding make the four conditions.
 #include <gtest/gtest.h>
 
 #include "core/pilot/PilotRecord.h"
+#include "core/pilot/PilotSettings.h"
 #include "core/session/SessionReader.h"
 #include "core/session/SessionWriter.h"
 #include "tests/support/Support.h"
@@ -95,6 +97,98 @@ TEST(PilotTrials, OneWithoutAnAnswerIsKeptUntilItIsAnswered) {
     found = pilotTrials(part.rows());
     ASSERT_EQ(found.trials.size(), 1U);
     EXPECT_EQ(found.trials[0].attempt, 2U);
+}
+
+TEST(PresentedConditions, AreTheEndsOfTheRangeAndOfTheIntervals) {
+    const auto all = presentedConditions({}, 3.5, 7, 0.5);
+    ASSERT_EQ(all.size(), 4U);
+    const struct {
+        const char* name;
+        double level, interval;
+    } expected[] = {{"smooth-low", 3.5, 2}, {"smooth-high", 3.5, 0.5}, {"rough-low", 7, 2}, {"rough-high", 7, 0.5}};
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_EQ(all[i].name, expected[i].name);
+        EXPECT_EQ(all[i].level, expected[i].level);
+        EXPECT_EQ(all[i].interval.count(), expected[i].interval);
+    }
+}
+
+TEST(PresentedConditions, SwappedPressureIsTheLevelAndTextureTheInterval) {
+    PilotSettings settings;
+    settings.assignment = Assignment::Swapped;
+    const auto all = presentedConditions(settings, 3.5, 7, 0.5);
+    EXPECT_EQ(all[1].name, "smooth-high");
+    EXPECT_EQ(all[1].level, 7);
+    EXPECT_EQ(all[1].interval.count(), 2);
+    EXPECT_EQ(all[2].level, 3.5);
+    EXPECT_EQ(all[2].interval.count(), 0.5);
+}
+
+TEST(PresentedConditions, BetweenTheEndsLieOnTheDevicesGrid) {
+    PilotSettings settings;
+    settings.conditions = {{"middle", 0.4, 0.5}};
+    const auto all = presentedConditions(settings, 3.5, 7, 0.5);
+    EXPECT_NEAR(all[0].level, 5, 1e-9);
+    EXPECT_NEAR(all[0].interval.count(), 1.25, 1e-9);
+}
+
+TEST(FoundRows, ARangeIsReadAsItWasWrittenInItsUnit) {
+    const RangeRow current{.usable = true,
+                           .min = 4,
+                           .max = 6.5,
+                           .jnd = 5.1,
+                           .limitedBy = LevelLimit::Cap,
+                           .minVoltage = Volts(14),
+                           .maxVoltage = Volts(22),
+                           .impedance = Ohms(3400)};
+    const auto body = toJson(current);
+    EXPECT_EQ(body, json({{"usable", true},
+                          {"reason", nullptr},
+                          {"min_ma", 4.0},
+                          {"max_ma", 6.5},
+                          {"jnd", 5.1},
+                          {"limited_by", "cap"},
+                          {"min_v", 14.0},
+                          {"max_v", 22.0},
+                          {"impedance_ohm", 3400.0}}));
+    EXPECT_EQ(toJson(rangeRowFrom(body)), body);
+
+    const auto none = toJson(RangeRow{.unit = LevelUnit::Intensity, .reason = "no room"});
+    EXPECT_EQ(none, json({{"usable", false},
+                          {"reason", "no room"},
+                          {"min_intensity", nullptr},
+                          {"max_intensity", nullptr},
+                          {"jnd", nullptr},
+                          {"limited_by", "too-strong"}}));
+    const auto read = rangeRowFrom(none);
+    EXPECT_EQ(read.unit, LevelUnit::Intensity);
+    EXPECT_EQ(toJson(read), none);
+}
+
+TEST(FoundRows, ADriftIsReadAsItWasWrittenInItsUnit) {
+    for (const auto unit : {LevelUnit::Current, LevelUnit::Intensity}) {
+        const auto body = toJson(DriftRow{
+            .unit = unit, .block = 3, .detection = {2.5, 2.1, 2.9}, .probability = 0.9, .rests = 2, .adapted = true});
+        EXPECT_EQ(body, json({{"block", 3},
+                              {levelKey("detection", unit), {{"value", 2.5}, {"low", 2.1}, {"high", 2.9}}},
+                              {"probability", 0.9},
+                              {"rests", 2},
+                              {"adapted", true}}));
+        EXPECT_EQ(toJson(driftRowFrom(body)), body);
+    }
+}
+
+TEST(FoundRows, WhatCannotBeReadIsUnknownAndNeverZero) {
+    RecordProperty("hazard", "H8");
+    for (const auto& body : {json(), json(7), json::array({1}), json::object(),
+                             json({{"min_ma", "4"}, {"usable", 1}, {"seed", -1}, {"detection_ma", {1}}})}) {
+        EXPECT_TRUE(std::isnan(rangeRowFrom(body).min)) << body;
+        EXPECT_FALSE(rangeRowFrom(body).usable) << body;
+        EXPECT_TRUE(std::isnan(driftRowFrom(body).detection.value)) << body;
+        EXPECT_EQ(planRowFrom(body).blocks, 0U) << body;
+    }
+    EXPECT_EQ(planRowFrom({{"name", "plan"}, {"seed", 18446744073709551615U}, {"blocks", 5}, {"trials", nullptr}}).seed,
+              18446744073709551615U);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // What happens once, what a stop does, and what comes before a train.
 #include "tests/pilot/StageFixture.h"
+#include "tests/support/Refused.h"
 
 namespace tacto::test {
 namespace {
@@ -9,10 +10,9 @@ using testing::ElementsAre;
 TEST_F(PilotStageTest, EachAnswerIsOnDiskBeforeTheNextTrialBegins) {
     RecordProperty("hazard", "H8");
     for (const char* name : {"test 1", "test 2"}) {
-        const auto answer = stage_->trial(trial(name));
-        ASSERT_TRUE(answer) << answer.error().message;
-        EXPECT_EQ(answer->response, "nothing");
-        EXPECT_EQ(answer->attempt, 1U);
+        const auto answer = accepted(stage_->trial(trial(name)));
+        EXPECT_EQ(answer.response, "nothing");
+        EXPECT_EQ(answer.attempt, 1U);
     }
     EXPECT_THAT(kinds(), ElementsAre("trial-begin", "answer", "trial-begin", "answer"));
     const auto all = rows();
@@ -48,10 +48,9 @@ TEST_F(PilotStageTest, WhatHasAnAnswerIsNeitherPresentedNorAskedAgain) {
     begin(earlier);
     someone_.asked.clear();
     someone_.drawn.clear();
-    const auto answer = stage_->trial(trial());
-    ASSERT_TRUE(answer) << answer.error().message;
-    EXPECT_TRUE(answer->replayed);
-    EXPECT_EQ(answer->response, "nothing");
+    const auto answer = accepted(stage_->trial(trial()));
+    EXPECT_TRUE(answer.replayed);
+    EXPECT_EQ(answer.response, "nothing");
     EXPECT_TRUE(someone_.asked.empty());
     EXPECT_EQ(someone_.drawn, felt) << "told again, as it was";
     EXPECT_TRUE(kinds().empty());
@@ -122,9 +121,7 @@ TEST_F(PilotStageTest, AnAnswerToAnotherLevelIsNotTaken) {
     ASSERT_TRUE(stage_->trial(trial()));
     const auto earlier = rows();
     begin(earlier);
-    const auto answer = stage_->trial(trial("test 1", 1));
-    ASSERT_FALSE(answer);
-    EXPECT_EQ(answer.error().code, ErrorCode::ParseError);
+    EXPECT_THAT(stage_->trial(trial("test 1", 1)), test::refused(ErrorCode::ParseError));
 }
 
 TEST_F(PilotStageTest, AnAnswerBesideAnotherWeakerLevelIsNotTaken) {
@@ -137,10 +134,7 @@ TEST_F(PilotStageTest, AnAnswerBesideAnotherWeakerLevelIsNotTaken) {
         const auto earlier = rows();
         begin(earlier);
         compared.weaker = 0.5;
-        const auto answer = stage_->trial(compared);
-        ASSERT_FALSE(answer);
-        EXPECT_EQ(answer.error().code, ErrorCode::ParseError);
-        EXPECT_THAT(answer.error().message, testing::HasSubstr("beside"));
+        EXPECT_THAT(stage_->trial(compared), test::refused(ErrorCode::ParseError, "beside"));
     }
 }
 
@@ -151,10 +145,7 @@ TEST_F(PilotStageTest, AnAnswerToAnotherIntervalIsNotTaken) {
     begin(earlier);
     auto other = trial();
     other.presentation = ascendingPresentation(Milliamps(0.5), Seconds(0.6));
-    const auto answer = stage_->trial(other);
-    ASSERT_FALSE(answer);
-    EXPECT_EQ(answer.error().code, ErrorCode::ParseError);
-    EXPECT_NE(answer.error().message.find("at an interval of 0.5 s"), std::string::npos) << answer.error().message;
+    EXPECT_THAT(stage_->trial(other), test::refused(ErrorCode::ParseError, "at an interval of 0.5 s"));
 }
 
 TEST_F(PilotStageTest, AParticipantsStopVoidsTheTrialWhichIsRepeatedAfterTheirGoOn) {
@@ -170,9 +161,7 @@ TEST_F(PilotStageTest, AParticipantsStopVoidsTheTrialWhichIsRepeatedAfterTheirGo
 TEST_F(PilotStageTest, TheirThirdStopEndsTheSession) {
     RecordProperty("hazard", "H2");
     someone_.stops = 3;
-    const auto answer = stage_->trial(trial());
-    ASSERT_FALSE(answer);
-    EXPECT_EQ(answer.error().code, ErrorCode::Stopped);
+    EXPECT_THAT(stage_->trial(trial()), test::refused(ErrorCode::Stopped));
     EXPECT_EQ(stage_->ended(), PilotEnd::Stopped);
     EXPECT_EQ(kinds().back(), "session-end");
     EXPECT_NE(state(), InterlockState::Armed);
@@ -245,10 +234,9 @@ TEST_F(PilotStageTest, RisingLevelsAreNotPresentedWhileTheParticipantDoesNotHold
     someone_.holds = false;
     someone_.letsGo = true;
     someone_.stops = 1;  // at the prompt that asks them to hold
-    const auto answer = stage_->trial(rising);
-    ASSERT_TRUE(answer) << answer.error().message;
+    const auto answer = accepted(stage_->trial(rising));
     EXPECT_THAT(someone_.asked, ElementsAre("hold", "go-on", "hold", "strength"));
-    EXPECT_EQ(answer->attempt, 1U) << "nothing had been presented";
+    EXPECT_EQ(answer.attempt, 1U) << "nothing had been presented";
 }
 
 /// A session in which 0.5 and 1 mA were accepted before an electrode lifts at 20 s, for 10 s.
@@ -291,9 +279,8 @@ TEST_F(PilotStageFaultTest, TheyHoldAgainAndTheLevelsAreReachedAgainStepByStep) 
     RecordProperty("hazard", "H3");
     reachOne("open@20.2s..24s");
     passUntil(19);
-    const auto answer = stage_->trial(rising(1.5));
-    ASSERT_TRUE(answer) << answer.error().message;
-    EXPECT_EQ(answer->response, "nothing") << "a fault is not a stop of the participant";
+    const auto answer = accepted(stage_->trial(rising(1.5)));
+    EXPECT_EQ(answer.response, "nothing") << "a fault is not a stop of the participant";
     EXPECT_EQ(record_->count(row::kFault), 1U);
     EXPECT_EQ(measured_, 1);
     EXPECT_THAT(answered(), ElementsAre("ascending 0.5", "ascending 1", "ramp 0 0.5", "ramp 0 1", "ascending 1.5"));
@@ -350,16 +337,14 @@ TEST_F(PilotStageTest, AStopInASeriesIsReplayedAsTheStopThatItWas) {
     auto made = trial("ascending 1", 0.5);
     made.stopAnswers = true;
     someone_.stops = 1;
-    const auto answer = stage_->trial(made);
-    ASSERT_TRUE(answer) << answer.error().message;
-    EXPECT_EQ(answer->response, "stop");
+    const auto answer = accepted(stage_->trial(made));
+    EXPECT_EQ(answer.response, "stop");
     const auto stimulated = stage_->stimulated();
     const auto earlier = rows();
     begin(earlier);
-    const auto again = stage_->trial(made);
-    ASSERT_TRUE(again) << again.error().message;
-    EXPECT_EQ(again->response, "stop");
-    EXPECT_TRUE(again->replayed);
+    const auto again = accepted(stage_->trial(made));
+    EXPECT_EQ(again.response, "stop");
+    EXPECT_TRUE(again.replayed);
     EXPECT_EQ(stage_->stimulated(), stimulated);
 }
 
@@ -368,9 +353,7 @@ TEST_F(PilotStageFaultTest, OneThatStaysOpenBreaksTheSessionOff) {
     reachOne("open@20s");
     stage_->rest();
     passUntil(21);
-    const auto answer = stage_->trial(rising(1.5));
-    ASSERT_FALSE(answer);
-    EXPECT_EQ(answer.error().code, ErrorCode::NotArmed);
+    EXPECT_THAT(stage_->trial(rising(1.5)), test::refused(ErrorCode::NotArmed));
     EXPECT_EQ(stage_->ended(), PilotEnd::Unfinished) << "it may be resumed";
 }
 
@@ -408,9 +391,8 @@ TEST_F(PilotStageTest, AResumedSessionReachesItsLevelsAgainStepByStep) {
     begin(earlier);
     for (const double level : {0.5, 1.0, 1.5}) {
         const auto name = fmt::format("ascending {}", level);
-        const auto answer = stage_->trial(trial(name, level));
-        ASSERT_TRUE(answer) << answer.error().message;
-        ASSERT_TRUE(stage_->judged(level, false, name, answer->replayed));
+        const auto answer = accepted(stage_->trial(trial(name, level)));
+        ASSERT_TRUE(stage_->judged(level, false, name, answer.replayed));
     }
     EXPECT_EQ(bench_->telemetry().trainsDelivered, 0U);
     const auto answer = stage_->trial(trial("test 1", 2));

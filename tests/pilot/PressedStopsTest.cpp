@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "core/pilot/PressedStops.h"
+#include "tests/support/Refused.h"
 
 namespace tacto::test {
 namespace {
@@ -18,10 +19,9 @@ TEST(PressedStops, APressIsTakenOnceWithWhoseItWasAndHowLongItTook) {
     for (const bool participants : {true, false}) {
         stops.press(participants ? kParticipantLetGo : "operator", [] { std::this_thread::sleep_for(3ms); });
         EXPECT_TRUE(stops.any());
-        const auto press = stops.takePress();
-        ASSERT_TRUE(press);
-        EXPECT_EQ(press->participants, participants);
-        EXPECT_GE(press->took, 3ms);
+        const auto press = accepted(stops.takePress());
+        EXPECT_EQ(press.participants, participants);
+        EXPECT_GE(press.took, 3ms);
         EXPECT_FALSE(stops.takePress());
         EXPECT_FALSE(stops.any());
     }

@@ -1,4 +1,4 @@
-"""U of R for one slide, computed with numpy another way than core/analysis/sensor_calibration/RoughnessRepeatability.cpp does.
+"""U of R for one slide, computed with numpy another way than core/analysis/sensor_calibration/SensorCalibration.cpp does.
 
 R of a slide is a function of the slide's log10 features and of the two references' mean log10 features (science.md
 section 2, items 6 and 7). Here its partial derivatives are taken numerically, the covariance of the features within a

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "app/scripting/engine/ProtocolDeclaration.h"
-#include "core/analysis/variation/PopulationField.h"
+#include "core/analysis/variation/VirtualParticipant.h"
 #include "tests/scripting/RunBench.h"
 #include "tests/support/InTime.h"
 

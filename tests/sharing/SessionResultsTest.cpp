@@ -3,7 +3,6 @@
 
 #include "core/base/JsonText.h"
 #include "core/pilot/PilotRecord.h"
-#include "core/sharing/results/SessionResults.h"
 #include "core/sharing/results/StudyResults.h"
 
 namespace tacto {

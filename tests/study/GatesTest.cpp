@@ -3,6 +3,7 @@
 #include "core/session/Digest.h"
 #include "core/study/Gates.h"
 #include "tests/study/StudySupport.h"
+#include "tests/support/Refused.h"
 
 namespace tacto {
 namespace {
@@ -209,8 +210,7 @@ TEST(Gates, EveryItemOfTheChecklistIsAnsweredWithNo) {
         auto answers = nothingExcludes();
         std::ranges::find(answers, item.key, &ExclusionAnswer::key)->yes = true;
         const auto gate = exclusionGate(answers);
-        ASSERT_FALSE(gate) << item.key;
-        EXPECT_EQ(gate.error().code, kGateRefused);
+        ASSERT_THAT(gate, test::refused(kGateRefused)) << item.key;
         // Which one it was is sealed.
         EXPECT_EQ(gate.error().message.find(item.key), std::string::npos);
         std::erase_if(answers, [&](const auto& answer) { return answer.key == item.key; });
@@ -250,18 +250,16 @@ TEST(StudySettings, AreReadAsWritten) {
     settings.id = "0123456789abcdef";
     for (const bool withProcedure : {false, true}) {
         if (withProcedure) settings.procedure = {0.4, 3, DetectionMethod::Staircase, std::string(64, 'a'), true};
-        const auto read = studyFields().read(studyFields().write(settings), RecordPlace{});
-        ASSERT_TRUE(read) << read.error().message;
-        EXPECT_EQ(*read, settings);
+        const auto read = test::accepted(studyFields().read(studyFields().write(settings), RecordPlace{}));
+        EXPECT_EQ(read, settings);
     }
 }
 
 TEST(StudySettings, AnUnknownEncodingIsRefusedAndNotTakenAsTheStandardOne) {
     RecordProperty("hazard", "H9");
     auto settings = approved();
-    const auto set = setStudyField(settings, "encodings", "standard,swaped");
-    ASSERT_FALSE(set);
-    EXPECT_THAT(set.error().message, testing::HasSubstr("\"swaped\"; standard and swapped are accepted"));
+    EXPECT_THAT(setStudyField(settings, "encodings", "standard,swaped"),
+                test::refusedSaying("\"swaped\"; standard and swapped are accepted"));
     auto stored = studyFields().write(settings);
     stored["encodings"] = {"mirrored"};
     auto read = settings;
@@ -271,9 +269,8 @@ TEST(StudySettings, AnUnknownEncodingIsRefusedAndNotTakenAsTheStandardOne) {
 TEST(StudySettings, OnlyTheShapeThatAPersonIsGivenIsAccepted) {
     RecordProperty("hazard", "H1");
     auto settings = approved();
-    const auto set = setStudyField(settings, "train.shape", "monophasic");
-    ASSERT_FALSE(set);
-    EXPECT_THAT(set.error().message, testing::HasSubstr("\"monophasic\"; \"biphasic\" is expected"));
+    EXPECT_THAT(setStudyField(settings, "train.shape", "monophasic"),
+                test::refusedSaying("\"monophasic\"; \"biphasic\" is expected"));
     EXPECT_EQ(settings.train.shape, kBiphasic);
     EXPECT_TRUE(setStudyField(settings, "train.shape", "biphasic"));
 }
@@ -308,9 +305,8 @@ TEST(StudySettings, AreSetByKeyAndRefuseWhatTheyDoNotAccept) {
                                      {"procedure.method", "quest"},
                                      {"bloks", "3"},
                                      {"electrode", "5"}}) {
-        const auto set = setStudyField(settings, key, value);
-        ASSERT_FALSE(set) << key << "=" << value;
-        EXPECT_EQ(set.error().code, ErrorCode::InvalidArgument);
+        EXPECT_THAT(setStudyField(settings, key, value), test::refused(ErrorCode::InvalidArgument))
+            << key << "=" << value;
         EXPECT_EQ(settings, before);
     }
     settings.procedure.emplace();

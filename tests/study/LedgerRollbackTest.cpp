@@ -9,6 +9,7 @@
 #include "core/study/StudyVerify.h"
 #include "tests/session/SessionSupport.h"
 #include "tests/study/StudySupport.h"
+#include "tests/support/Refused.h"
 #include "tests/support/Trials.h"
 
 namespace tacto {
@@ -39,10 +40,9 @@ protected:
     }
     /// A session of the person, from its beginning to its end.
     void runSession(Study& study) const {
-        const auto begun = study.beginSession(request());
-        ASSERT_TRUE(begun) << begun.error().message;
-        const auto head = record(*begun);
-        ASSERT_TRUE(study.endSession(begun->session.id, StudySessionState::Complete, head));
+        const auto begun = test::accepted(study.beginSession(request()));
+        const auto head = record(begun);
+        ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Complete, head));
     }
     struct Write {
         const char* name;
@@ -108,9 +108,8 @@ TEST_F(RolledBack, AnOlderCopyTakesNoChangeWhileTheTrueStudyGoesOn) {
     const auto old = scratch.path() / "old", newest = scratch.path() / "newest";
     copyAll(folder(), old);
     {
-        auto study = open();
-        ASSERT_TRUE(study) << study.error().message;
-        runSession(*study);
+        auto study = test::accepted(open());
+        runSession(study);
     }
     copyAll(folder(), newest);
     copyAll(old, folder());
@@ -122,9 +121,8 @@ TEST_F(RolledBack, AnOlderCopyTakesNoChangeWhileTheTrueStudyGoesOn) {
     }
     copyAll(newest, folder());
     time.now += std::chrono::hours(21);
-    auto study = open();
-    ASSERT_TRUE(study) << study.error().message;
-    EXPECT_TRUE(study->mayBegin(request())) << "the true one goes on";
+    auto study = test::accepted(open());
+    EXPECT_TRUE(study.mayBegin(request())) << "the true one goes on";
 }
 
 TEST_F(RolledBack, ANoteThatIsLostIsFoundByTheKeyFileAndBySessions) {
@@ -134,15 +132,14 @@ TEST_F(RolledBack, ANoteThatIsLostIsFoundByTheKeyFileAndBySessions) {
     fs::copy_file(folder() / "ledger.tacto", older);
     copyAll(keys(), olderKeys);
     {
-        auto study = open();
-        ASSERT_TRUE(study) << study.error().message;
-        const auto begun = study->beginSession(request()).value();
+        auto study = test::accepted(open());
+        const auto begun = study.beginSession(request()).value();
         VirtualClock clock;
         auto writer = SessionWriter::create(begun.path, {}, clock, begun.seal).value();
         ASSERT_TRUE(writer->event(clock.now(), kLedgerEvent, {{"row", begun.ledgerRow}, {"head", begun.ledgerHead}}));
         ASSERT_TRUE(writer->close());
-        ASSERT_TRUE(study->endSession(begun.session.id, StudySessionState::Stopped, writer->chainHead()));
-        ASSERT_TRUE(study->exported("/media/stick", "bids"));
+        ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Stopped, writer->chainHead()));
+        ASSERT_TRUE(study.exported("/media/stick", "bids"));
     }
     const auto whole = scratch.path() / "whole";
     fs::copy_file(folder() / "ledger.tacto", whole);
@@ -154,18 +151,16 @@ TEST_F(RolledBack, ANoteThatIsLostIsFoundByTheKeyFileAndBySessions) {
         fs::copy_file(whole, folder() / "ledger.tacto", fs::copy_options::overwrite_existing);
     }
     {
-        auto study = open();
-        ASSERT_TRUE(study) << study.error().message;
-        expectEachRefused(*study, "is not the one that the key file notes");
+        auto study = test::accepted(open());
+        expectEachRefused(study, "is not the one that the key file notes");
     }
     // The key file is an older copy too: the records of sessions know how far it went.
     fs::remove(noted());
     fs::copy_file(olderKeys / keyFile().filename(), keyFile(), fs::copy_options::overwrite_existing);
     fs::copy_file(older, folder() / "ledger.tacto", fs::copy_options::overwrite_existing);
     {
-        auto study = open();
-        ASSERT_TRUE(study) << study.error().message;
-        expectEachRefused(*study, "is not in the ledger");
+        auto study = test::accepted(open());
+        expectEachRefused(study, "is not in the ledger");
     }
     // And one in which the session is booked and what lay before it is another.
     fs::copy_file(whole, folder() / "ledger.tacto", fs::copy_options::overwrite_existing);
@@ -181,55 +176,48 @@ TEST_F(RolledBack, GoingBackSaysWhatIsLostIsConfirmedByItsWordAndStaysForEver) {
     copyAll(folder(), old);
     std::string second, lostFile;
     {
-        auto study = open();
-        ASSERT_TRUE(study) << study.error().message;
-        EXPECT_EQ(study->lossOfGoingBack().error().code, kGateRefused) << "it is the newest";
-        second = study->enrol({}).value().code;
-        runSession(*study);
-        lostFile = study->sessions().front().id + ".tacto";
-        ASSERT_TRUE(study->leave(code_));
+        auto study = test::accepted(open());
+        EXPECT_EQ(study.lossOfGoingBack().error().code, kGateRefused) << "it is the newest";
+        second = study.enrol({}).value().code;
+        runSession(study);
+        lostFile = study.sessions().front().id + ".tacto";
+        ASSERT_TRUE(study.leave(code_));
     }
     copyAll(folder(), newest);
     fs::copy_file(old / "ledger.tacto", folder() / "ledger.tacto", fs::copy_options::overwrite_existing);
     {
-        auto study = open();
-        ASSERT_TRUE(study) << study.error().message;
-        const auto loss = study->lossOfGoingBack();
-        ASSERT_TRUE(loss) << loss.error().message;
-        EXPECT_EQ(loss->word(), "lose-4-rows");
-        EXPECT_EQ(loss->rows, (std::vector<std::string>{"enrolled", "session-begun", "session-ended", "left"}));
-        EXPECT_EQ(loss->enrolled, std::vector<std::string>{second});
-        EXPECT_EQ(loss->files, std::vector<std::string>{lostFile});
-        EXPECT_NE(loss->sentence().find("4 rows (1 enrolled, 1 left, 1 session-begun, 1 session-ended)"),
+        auto study = test::accepted(open());
+        const auto loss = test::accepted(study.lossOfGoingBack());
+        EXPECT_EQ(loss.word(), "lose-4-rows");
+        EXPECT_EQ(loss.rows, (std::vector<std::string>{"enrolled", "session-begun", "session-ended", "left"}));
+        EXPECT_EQ(loss.enrolled, std::vector<std::string>{second});
+        EXPECT_EQ(loss.files, std::vector<std::string>{lostFile});
+        EXPECT_NE(loss.sentence().find("4 rows (1 enrolled, 1 left, 1 session-begun, 1 session-ended)"),
                   std::string::npos)
-            << loss->sentence();
+            << loss.sentence();
         const auto before = everythingBelow(folder()) + everythingBelow(keys());
         for (const char* word : {"", "lose-3-rows", "lose-rows", "yes"})
-            EXPECT_EQ(study->goBack(word).error().code, ErrorCode::InvalidArgument) << word;
+            EXPECT_EQ(study.goBack(word).error().code, ErrorCode::InvalidArgument) << word;
         EXPECT_EQ(everythingBelow(folder()) + everythingBelow(keys()), before);
-        ASSERT_TRUE(study->goBack("lose-4-rows"));
-        const auto may = study->mayBegin(request());
-        ASSERT_FALSE(may) << "a session may have been minutes ago";
-        EXPECT_NE(may.error().message.find("the ledger went back"), std::string::npos) << may.error().message;
-        EXPECT_TRUE(study->exported("/media/stick", "bids")) << "it is changed again";
+        ASSERT_TRUE(study.goBack("lose-4-rows"));
+        EXPECT_THAT(study.mayBegin(request()), test::refusedSaying("the ledger went back"))
+            << "a session may have been minutes ago";
+        EXPECT_TRUE(study.exported("/media/stick", "bids")) << "it is changed again";
     }
     {
-        const auto study = openWithoutKey();
-        ASSERT_TRUE(study) << study.error().message;
-        ASSERT_EQ(study->goingsBack().size(), 1U);
-        EXPECT_EQ(study->goingsBack().front().lost, 4);
-        EXPECT_EQ(study->goingsBack().front().files, std::vector<std::string>{lostFile});
-        const auto report = verifyStudy(folder());
-        ASSERT_TRUE(report);
-        EXPECT_EQ(testing::PrintToString(report->problems), "{}");
-        EXPECT_NE(testing::PrintToString(report->notes).find("went back"), std::string::npos);
+        const auto study = test::accepted(openWithoutKey());
+        ASSERT_EQ(study.goingsBack().size(), 1U);
+        EXPECT_EQ(study.goingsBack().front().lost, 4);
+        EXPECT_EQ(study.goingsBack().front().files, std::vector<std::string>{lostFile});
+        const auto report = test::accepted(verifyStudy(folder()));
+        EXPECT_EQ(testing::PrintToString(report.problems), "{}");
+        EXPECT_NE(testing::PrintToString(report.notes).find("went back"), std::string::npos);
     }
     time.now += std::chrono::hours(20);
     EXPECT_TRUE(open()->mayBegin(request()));
     copyAll(newest, folder());
-    auto study = open();
-    ASSERT_TRUE(study) << study.error().message;
-    expectEachRefused(*study, "is not the one that was written on this computer");
+    auto study = test::accepted(open());
+    expectEachRefused(study, "is not the one that was written on this computer");
 }
 
 TEST_F(RolledBack, CopiesOfAStudyAreNotChangedAtOnce) {
@@ -239,9 +227,8 @@ TEST_F(RolledBack, CopiesOfAStudyAreNotChangedAtOnce) {
     const auto study = open();
     ASSERT_TRUE(study) << study.error().message;
     const auto words = test::somePassphrase();
-    const auto copy = Study::open(scratch.path() / "old", &words, Study::Access::Change, around());
-    ASSERT_FALSE(copy);
-    EXPECT_NE(copy.error().message.find("a copy of the study"), std::string::npos) << copy.error().message;
+    EXPECT_THAT(Study::open(scratch.path() / "old", &words, Study::Access::Change, around()),
+                test::refusedSaying("a copy of the study"));
     EXPECT_TRUE(Study::open(scratch.path() / "old", &words, Study::Access::Read, around()));
 }
 
@@ -250,9 +237,8 @@ class ForgedRows : public RolledBack {
 protected:
     [[nodiscard]] fs::path ledgerFile() const { return folder() / "ledger.tacto"; }
     void append(const char* name, const nlohmann::json& body) const {
-        auto forged = Ledger::open(ledgerFile());
-        ASSERT_TRUE(forged) << forged.error().message;
-        ASSERT_TRUE(forged->append(time.now, name, body));
+        auto forged = test::accepted(Ledger::open(ledgerFile()));
+        ASSERT_TRUE(forged.append(time.now, name, body));
     }
     [[nodiscard]] std::vector<SessionRow> rows() const { return SessionReader::open(ledgerFile())->events().value(); }
     /// A study with a session that ended and one that is unfinished.
@@ -366,9 +352,7 @@ TEST_F(ForgedRows, ARowThatWasCopiedFromElsewhereInTheLedgerIsFound) {
         if (!row.body.contains("mac")) continue;
         copyAll(kept, folder());
         append(row.name.c_str(), row.body);
-        const auto study = open();
-        ASSERT_FALSE(study) << row.name;
-        EXPECT_EQ(study.error().code, ErrorCode::ParseError);
+        EXPECT_THAT(open(), test::refused(ErrorCode::ParseError)) << row.name;
     }
 }
 
@@ -379,24 +363,22 @@ TEST_F(ForgedRows, AreTakenOverByTheirWordAlone) {
     {
         auto study = open();
         ASSERT_TRUE(study) << study.error().message;
-        const auto loss = study->lossOfGoingBack();
-        ASSERT_TRUE(loss) << loss.error().message;
-        EXPECT_EQ(loss->word(), "take-1-rows");
-        EXPECT_EQ(loss->unsealed, std::vector<std::string>{"withdrawn"});
-        EXPECT_EQ(loss->withdrawn, 1);
+        const auto loss = test::accepted(study->lossOfGoingBack());
+        EXPECT_EQ(loss.word(), "take-1-rows");
+        EXPECT_EQ(loss.unsealed, std::vector<std::string>{"withdrawn"});
+        EXPECT_EQ(loss.withdrawn, 1);
         for (const char* part :
              {"Lost with it: nothing; taken over: 1 row not written with the study's key (1 withdrawn)",
               "the keys of 1 participants who withdrew by this ledger"})
-            EXPECT_NE(loss->sentence().find(part), std::string::npos) << loss->sentence();
+            EXPECT_NE(loss.sentence().find(part), std::string::npos) << loss.sentence();
         EXPECT_EQ(study->goBack("lose-rows").error().code, ErrorCode::InvalidArgument);
         ASSERT_TRUE(study->goBack("take-1-rows"));
         EXPECT_TRUE(study->enrol({})) << "it is changed again";
     }
-    const auto study = open();
-    ASSERT_TRUE(study) << study.error().message;
-    ASSERT_EQ(study->goingsBack().size(), 1U);
-    EXPECT_NE(goingBackText(study->goingsBack().front()).find("taken over: 1 row"), std::string::npos);
-    EXPECT_EQ(study->participants().front().state, ParticipantState::Withdrawn);
+    const auto study = test::accepted(open());
+    ASSERT_EQ(study.goingsBack().size(), 1U);
+    EXPECT_NE(goingBackText(study.goingsBack().front()).find("taken over: 1 row"), std::string::npos);
+    EXPECT_EQ(study.participants().front().state, ParticipantState::Withdrawn);
 }
 
 /// The rows of a ledger as another program reads them: what the oracle goes by.
@@ -500,9 +482,8 @@ protected:
         const auto seconds = [](Instant when) {
             return std::chrono::sys_seconds(std::chrono::floor<std::chrono::seconds>(when));
         };
-        auto made = Ledger::create(ledger, about, seconds(rows.front().at));
-        ASSERT_TRUE(made) << made.error().message;
-        for (const auto& row : rows) EXPECT_TRUE(made->append(seconds(row.at), row.name, row.body));
+        auto made = test::accepted(Ledger::create(ledger, about, seconds(rows.front().at)));
+        for (const auto& row : rows) EXPECT_TRUE(made.append(seconds(row.at), row.name, row.body));
     }
 
     std::vector<fs::path> copies_;

@@ -2,6 +2,7 @@
 #include <set>
 
 #include "core/study/Participant.h"
+#include "tests/support/Refused.h"
 
 namespace tacto {
 namespace {
@@ -31,9 +32,7 @@ TEST(ParticipantCode, EverySlipOfOneCharacterIsFound) {
 
 TEST(ParticipantCode, OneThatIsNoCodeIsRefusedInOneSentence) {
     for (const char* text : {"", "-", "P-", "P-7K3M", "P 7K3D", "P-7K3D; rm", "virtual:7"}) {
-        const auto code = checkedCode(text);
-        ASSERT_FALSE(code) << text;
-        EXPECT_EQ(code.error().code, ErrorCode::NotFound);
+        EXPECT_THAT(checkedCode(text), test::refused(ErrorCode::NotFound)) << text;
     }
     EXPECT_EQ(
         checkedCode("P-7K3M").error().message,

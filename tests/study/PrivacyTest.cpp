@@ -1,6 +1,7 @@
 // What was typed about a person, in every place that takes a text, stands sealed in the study's folder: in the ledger,
 // in a session's file and in the logs beside them, while they are open and afterwards.
 #include "tests/study/StudySupport.h"
+#include "tests/support/Refused.h"
 
 namespace tacto {
 namespace {
@@ -31,17 +32,15 @@ TEST_F(Privacy, NoTextAboutAPersonIsToBeReadInAnyFile) {
 
     auto request = test::someRequest("P-7K3D");
     request.devicesSimulated = false;
-    const auto begun = study.beginSession(request);
-    ASSERT_TRUE(begun) << begun.error().message;
+    const auto begun = test::accepted(study.beginSession(request));
     VirtualClock clock;
     SessionAbout about;
     about.protocol = "pilot-identification";
     about.parameters = {{"participant", "P-7K3D"}, {"note", "Ms Muster, born 1987"}};
     about.mode = "person";
     about.wallStart = "2026-11-23T12:00:00Z";
-    auto writer = SessionWriter::create(begun->path, about, clock, begun->seal);
-    ASSERT_TRUE(writer) << writer.error().message;
-    auto& session = **writer;
+    auto writer = test::accepted(SessionWriter::create(begun.path, about, clock, begun.seal));
+    auto& session = *writer;
     for (const char* kind : {"note", kOperatorMarkEvent, "adverse-event", "rating", "side-effect", "operator-stop",
                              "gate", "skin", "session-end", "of a kind that is not known"}) {
         ASSERT_TRUE(session.event(clock.now(), kind,
@@ -55,16 +54,15 @@ TEST_F(Privacy, NoTextAboutAPersonIsToBeReadInAnyFile) {
     ASSERT_TRUE(session.flush());
     expectNothingSaid("while the session is open");
     ASSERT_TRUE(session.close());
-    ASSERT_TRUE(study.endSession(begun->session.id, StudySessionState::Complete, session.chainHead()));
+    ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Complete, session.chainHead()));
     ASSERT_TRUE(
-        study.adverseEvent(begun->session.id, {.what = "Ms Muster was faint", .action = "Klara sat beside her"}));
+        study.adverseEvent(begun.session.id, {.what = "Ms Muster was faint", .action = "Klara sat beside her"}));
     ASSERT_TRUE(study.exported(scratch.path() / "exports" / "Muster 1987", "bids"));
     ASSERT_TRUE(study.leave("P-7K3D"));
     expectNothingSaid("afterwards");
 
-    const auto rows = study.events(study.sessions()[0]);
-    ASSERT_TRUE(rows) << rows.error().message;
-    EXPECT_EQ(rows->front().body["text"], "Ms Muster was faint") << "with the key it is read";
+    const auto rows = test::accepted(study.events(study.sessions()[0]));
+    EXPECT_EQ(rows.front().body["text"], "Ms Muster was faint") << "with the key it is read";
 }
 
 }  // namespace

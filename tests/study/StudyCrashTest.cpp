@@ -7,6 +7,7 @@
 
 #include "core/study/StudyVerify.h"
 #include "tests/study/StudySupport.h"
+#include "tests/support/Refused.h"
 
 namespace tacto {
 namespace {
@@ -67,24 +68,22 @@ TEST_F(StudyCrash, Kill9AtAnyMomentLosesNothingThatWasAcknowledged) {
         int status = 0;
         ASSERT_EQ(::waitpid(child, &status, 0), child);
         ASSERT_TRUE(WIFSIGNALED(status)) << "the child ended by itself with " << WEXITSTATUS(status);
-        const auto verified = verifyStudy(folder());
-        ASSERT_TRUE(verified);
-        EXPECT_EQ(testing::PrintToString(verified->problems), "{}");
-        auto study = open();
-        ASSERT_TRUE(study) << study.error().message;
+        const auto verified = test::accepted(verifyStudy(folder()));
+        EXPECT_EQ(testing::PrintToString(verified.problems), "{}");
+        auto study = test::accepted(open());
         std::size_t withdrawn = 0, consents = 0;
-        for (const auto& participant : study->participants()) {
+        for (const auto& participant : study.participants()) {
             withdrawn += participant.state == ParticipantState::Withdrawn;
             consents += participant.consents.size();
             EXPECT_EQ(participant.code.empty(), participant.state == ParticipantState::Withdrawn);
         }
-        EXPECT_GE(study->participants().size(), enrolledSaid);
-        EXPECT_LE(study->participants().size(), enrolledSaid + 1);
+        EXPECT_GE(study.participants().size(), enrolledSaid);
+        EXPECT_LE(study.participants().size(), enrolledSaid + 1);
         EXPECT_GE(withdrawn, withdrawnSaid);
         EXPECT_GE(consents + withdrawn, consentsSaid);
         Participant next;
         next.virtualSeed = 1'000'000;
-        EXPECT_TRUE(study->enrol(next));
+        EXPECT_TRUE(study.enrol(next));
     }
 }
 

@@ -9,6 +9,7 @@
 #include "core/study/StudyVerify.h"
 #include "tests/session/SessionSupport.h"
 #include "tests/study/StudySupport.h"
+#include "tests/support/Refused.h"
 
 namespace tacto {
 namespace {
@@ -63,10 +64,10 @@ TEST_F(StudyFolder, TellsNeitherWhoNorWhatWhileASessionRunsAndAfterIt) {
     }
     // Nor do the bytes of any key, plain or as text.
     const auto passphrase = test::somePassphrase();
-    const auto keys = StudyKeys::open(keyFile(), study.settings().id, &passphrase, PassphraseCost::least());
-    ASSERT_TRUE(keys) << keys.error().message;
+    const auto keys =
+        test::accepted(StudyKeys::open(keyFile(), study.settings().id, &passphrase, PassphraseCost::least()));
     const auto all = everythingBelow(scratch.path());
-    for (const auto* key : {&keys->study(), &keys->entries().at(0).key}) {
+    for (const auto* key : {&keys.study(), &keys.entries().at(0).key}) {
         const auto bytes = key->bytes();
         EXPECT_EQ(all.find(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size())), std::string::npos);
         EXPECT_EQ(all.find(base64Text(bytes)), std::string::npos);
@@ -97,11 +98,7 @@ TEST_F(StudyFolder, AKeyFileThatIsALinkIsRefused) {
     std::filesystem::create_symlink(elsewhere, place);
     const auto before = everythingBelow(scratch.path());
     for (const auto access : {Study::Access::Change, Study::Access::Read}) {
-        const auto study = open(access);
-        ASSERT_FALSE(study);
-        EXPECT_EQ(study.error().code, ErrorCode::NotFound);
-        EXPECT_NE(study.error().message.find("is a link to " + elsewhere.string()), std::string::npos)
-            << study.error().message;
+        EXPECT_THAT(open(access), test::refused(ErrorCode::NotFound, "is a link to " + elsewhere.string()));
     }
     EXPECT_EQ(everythingBelow(scratch.path()), before);
     std::filesystem::remove(place);
@@ -174,9 +171,8 @@ TEST_F(StudyFolder, AKeyFileOfAnEarlierVersionIsReadAndSaysHowFarTheLedgerGoesFr
     };
     EXPECT_EQ(endInKeys(), 0);
     {
-        const auto study = open();
-        ASSERT_TRUE(study) << study.error().message;
-        EXPECT_TRUE(study->find(code));
+        const auto study = test::accepted(open());
+        EXPECT_TRUE(study.find(code));
     }
     EXPECT_EQ(endInKeys(), 4);
     json["version"] = 2;  // what was sealed as version 1 does not open as another
@@ -200,9 +196,8 @@ TEST_F(StudyFolder, KeysInsideItAreRefused) {
     RecordProperty("hazard", "H11");
     auto inside = around();
     inside.keyFolder = folder() / "keys";
-    const auto study = Study::create(folder(), test::someStudy(), test::somePassphrase(), inside);
-    ASSERT_FALSE(study);
-    EXPECT_NE(study.error().message.find("lies inside the study folder"), std::string::npos);
+    EXPECT_THAT(Study::create(folder(), test::someStudy(), test::somePassphrase(), inside),
+                test::refusedSaying("lies inside the study folder"));
     EXPECT_FALSE(std::filesystem::exists(folder()));
     auto made = make();
     EXPECT_EQ(made.exported(folder() / "export", "bids").error().code, ErrorCode::InvalidArgument);
@@ -216,15 +211,13 @@ TEST_F(StudyFolder, WhereExportsLieIsKnownWithTheKeyAlone) {
         ASSERT_TRUE(study.exported("/media/stick", "bids"));
         ASSERT_TRUE(study.exported("/media/other", "bids"));
     }
-    const auto opened = open();
-    ASSERT_TRUE(opened) << opened.error().message;
-    const auto all = opened->exports();
+    const auto opened = test::accepted(open());
+    const auto all = opened.exports();
     ASSERT_EQ(all.size(), 2U);
     EXPECT_EQ(all[0].place, "/media/stick");
     EXPECT_EQ(all[1].what, "bids");
-    const auto sealed = openWithoutKey();
-    ASSERT_TRUE(sealed) << sealed.error().message;
-    EXPECT_TRUE(sealed->exports().empty());
+    const auto sealed = test::accepted(openWithoutKey());
+    EXPECT_TRUE(sealed.exports().empty());
 }
 
 TEST_F(StudyFolder, ASecondProgramIsRefusedByName) {
@@ -277,12 +270,11 @@ TEST_F(StudyFolder, ALedgerThatWasCutShortOrIsAnOlderCopyBeginsNoSession) {
     elsewhere.keyFolder = scratch.path() / "elsewhere";
     std::filesystem::copy(around().keyFolder, elsewhere.keyFolder);
     {
-        auto study = open();
-        ASSERT_TRUE(study) << study.error().message;
+        auto study = test::accepted(open());
         auto yes = request;
         yes.exclusions.front().yes = true;
-        ASSERT_TRUE(study->noteExclusions(yes));
-        EXPECT_NE(study->mayBegin(request).error().message.find("answered yes"), std::string::npos);
+        ASSERT_TRUE(study.noteExclusions(yes));
+        EXPECT_NE(study.mayBegin(request).error().message.find("answered yes"), std::string::npos);
     }
     std::filesystem::copy_file(ledger, whole);
     const auto expectRefused = [&](const char* what) {
@@ -304,16 +296,14 @@ TEST_F(StudyFolder, ALedgerThatWasCutShortOrIsAnOlderCopyBeginsNoSession) {
         std::filesystem::copy_file(older, ledger, std::filesystem::copy_options::overwrite_existing);
         const auto study = open();
         ASSERT_TRUE(study);
-        const auto looked = Study::open(folder(), nullptr, Study::Access::Read, around());
-        ASSERT_TRUE(looked);
-        EXPECT_FALSE(looked->stillApproved()) << "also for what a window shows";
+        const auto looked = test::accepted(Study::open(folder(), nullptr, Study::Access::Read, around()));
+        EXPECT_FALSE(looked.stillApproved()) << "also for what a window shows";
     }
     for (const char* of : {"as many rows, the last another", "a row more, the one before another"}) {
         {
             const auto words = test::somePassphrase();
-            auto study = Study::open(folder(), &words, Study::Access::Change, elsewhere);
-            ASSERT_TRUE(study) << study.error().message;
-            ASSERT_TRUE(study->exported("/media/stick", "bids"));
+            auto study = test::accepted(Study::open(folder(), &words, Study::Access::Change, elsewhere));
+            ASSERT_TRUE(study.exported("/media/stick", "bids"));
         }
         expectRefused(of);
     }
@@ -334,22 +324,17 @@ TEST_F(StudyFolder, ASessionThatTheLedgerDoesNotKnowBeginsNoOther) {
     const auto olderKeys = scratch.path() / "keys of before";
     std::filesystem::copy(around().keyFolder, olderKeys);
     {
-        auto study = open();
-        ASSERT_TRUE(study) << study.error().message;
-        const auto begun = study->beginSession(test::someRequest(code)).value();
-        ASSERT_TRUE(study->endSession(begun.session.id, StudySessionState::Complete, record(begun)));
+        auto study = test::accepted(open());
+        const auto begun = study.beginSession(test::someRequest(code)).value();
+        ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Complete, record(begun)));
     }
     // An older ledger, on a computer that never wrote a newer one.
     std::filesystem::copy_file(older, ledger, std::filesystem::copy_options::overwrite_existing);
     const auto keys = around().keyFolder;
     std::filesystem::remove_all(keys);
     std::filesystem::copy(olderKeys, keys);
-    const auto study = open();
-    ASSERT_TRUE(study) << study.error().message;
-    const auto may = study->mayBegin(test::someRequest(code));
-    ASSERT_FALSE(may);
-    EXPECT_EQ(may.error().code, kGateRefused);
-    EXPECT_NE(may.error().message.find("is not in the ledger"), std::string::npos) << may.error().message;
+    const auto study = test::accepted(open());
+    EXPECT_THAT(study.mayBegin(test::someRequest(code)), test::refused(kGateRefused, "is not in the ledger"));
 }
 
 TEST_F(StudyFolder, RowsThatCannotFollowInALedgerAreFound) {
@@ -386,10 +371,7 @@ TEST_F(StudyFolder, RowsThatCannotFollowInALedgerAreFound) {
         SCOPED_TRACE(fmt::format("{} {}", name, body.dump()));
         std::filesystem::copy_file(whole, ledger, std::filesystem::copy_options::overwrite_existing);
         ASSERT_TRUE(Ledger::open(ledger)->append(time.now, name, body));
-        const auto study = open();
-        ASSERT_FALSE(study);
-        EXPECT_EQ(study.error().code, ErrorCode::ParseError);
-        EXPECT_NE(study.error().message.find(says), std::string::npos) << study.error().message;
+        EXPECT_THAT(open(), test::refused(ErrorCode::ParseError, says));
         EXPECT_EQ(verifyStudy(folder())->status, SessionStatus::Damaged);
     }
     std::filesystem::copy_file(whole, ledger, std::filesystem::copy_options::overwrite_existing);
@@ -406,13 +388,10 @@ TEST_F(StudyFolder, ASessionThatIsALinkIsNotOneThatWasNeverMade) {
     for (const auto& target : {begun.path.filename(), std::filesystem::path("/nowhere/session.tacto")}) {
         std::filesystem::remove(begun.path);
         std::filesystem::create_symlink(target, begun.path);
-        const auto rows = study.events(begun.session);
-        ASSERT_FALSE(rows) << target;
-        EXPECT_EQ(rows.error().code, ErrorCode::Io);
+        EXPECT_THAT(study.events(begun.session), test::refused(ErrorCode::Io)) << target;
         EXPECT_FALSE(study.continueSession(begun.session.id, test::someRequest(code)));
-        const auto report = verifyStudy(folder());
-        ASSERT_TRUE(report) << report.error().message;
-        EXPECT_EQ(report->status, SessionStatus::Damaged);
+        const auto report = test::accepted(verifyStudy(folder()));
+        EXPECT_EQ(report.status, SessionStatus::Damaged);
     }
     std::filesystem::remove(begun.path);
     EXPECT_TRUE(study.events(begun.session)) << "killed before it was made";
@@ -425,10 +404,7 @@ TEST_F(StudyFolder, ANewerProgramsStudyIsNotOpened) {
     ASSERT_NE(at, std::string::npos);
     write(folder() / "study.json", text.replace(at, 12, "\"version\": 2"));
     const auto before = everythingBelow(folder());
-    const auto study = open();
-    ASSERT_FALSE(study);
-    EXPECT_EQ(study.error().code, ErrorCode::Unsupported);
-    EXPECT_NE(study.error().message.find("made by a newer Tactoscope"), std::string::npos);
+    EXPECT_THAT(open(), test::refused(ErrorCode::Unsupported, "made by a newer Tactoscope"));
     EXPECT_EQ(verifyStudy(folder()).error().code, ErrorCode::Unsupported);
     EXPECT_EQ(everythingBelow(folder()), before);
 }
@@ -440,9 +416,7 @@ TEST_F(StudyFolder, SettingsThatWereChangedOutsideAreFound) {
     const auto at = text.find("2027-10-31");
     ASSERT_NE(at, std::string::npos);
     write(folder() / "study.json", text.replace(at, 4, "2099"));
-    const auto study = open();
-    ASSERT_FALSE(study);
-    EXPECT_EQ(study.error().code, ErrorCode::ParseError);
+    EXPECT_THAT(open(), test::refused(ErrorCode::ParseError));
     EXPECT_EQ(verifyStudy(folder())->status, SessionStatus::Damaged);
 }
 
@@ -456,10 +430,7 @@ TEST_F(StudyFolder, ADamagedLedgerIsFound) {
     const auto at = textOf(folder() / "ledger.tacto").find("\"sealed\":\"");
     ASSERT_NE(at, std::string::npos);
     flip(folder() / "ledger.tacto", at + 40);
-    const auto study = open();
-    ASSERT_FALSE(study);
-    EXPECT_EQ(study.error().code, ErrorCode::ParseError);
-    EXPECT_NE(study.error().message.find("the ledger of the study in"), std::string::npos);
+    EXPECT_THAT(open(), test::refused(ErrorCode::ParseError, "the ledger of the study in"));
     EXPECT_EQ(verifyStudy(folder())->status, SessionStatus::Damaged);
 }
 

@@ -5,6 +5,7 @@
 #include "tests/study/StudySupport.h"
 #include "tests/support/Comes.h"
 #include "tests/support/InTime.h"
+#include "tests/support/Refused.h"
 
 namespace tacto {
 namespace {
@@ -19,10 +20,7 @@ protected:
         RecordProperty("hazard", "H12");
         const auto head = study.ledgerHead();
         const auto bytes = everythingBelow(scratch.path());
-        const auto begun = study.beginSession(request);
-        ASSERT_FALSE(begun);
-        EXPECT_EQ(begun.error().code, code);
-        EXPECT_NE(begun.error().message.find(part), std::string::npos) << begun.error().message;
+        EXPECT_THAT(study.beginSession(request), test::refused(code, part));
         EXPECT_EQ(study.ledgerHead(), head);
         EXPECT_TRUE(everythingBelow(scratch.path()) == bytes);
         EXPECT_TRUE(std::filesystem::is_empty(folder() / "sessions"));
@@ -144,9 +142,8 @@ TEST_F(Desk, TheNextSessionWaitsForTheGap) {
     time.now += std::chrono::hours(19);
     EXPECT_EQ(study.beginSession(test::someRequest(code)).error().code, kGateRefused);
     time.now += std::chrono::hours(1);
-    const auto next = study.beginSession(test::someRequest(code));
-    ASSERT_TRUE(next) << next.error().message;
-    EXPECT_EQ(next->session.number, 2);
+    const auto next = test::accepted(study.beginSession(test::someRequest(code)));
+    EXPECT_EQ(next.session.number, 2);
 }
 
 TEST_F(Desk, TheGapIsCountedFromTheFirstTrainAndNotFromTheChecklist) {
@@ -155,14 +152,13 @@ TEST_F(Desk, TheGapIsCountedFromTheFirstTrainAndNotFromTheChecklist) {
     const auto code = enrolled(study);
     const auto begun = study.beginSession(test::someRequest(code)).value();
     test::HandClock clock;  // as on a real bench, an event's time is that of the wall
-    auto writer = SessionWriter::create(begun.path, {}, clock, begun.seal);
-    ASSERT_TRUE(writer) << writer.error().message;
+    auto writer = test::accepted(SessionWriter::create(begun.path, {}, clock, begun.seal));
     clock.advance(std::chrono::minutes(18));
-    ASSERT_TRUE((*writer)->event(clock.now(), "trial-begin", {{"name", "ascending 1"}}));
+    ASSERT_TRUE(writer->event(clock.now(), "trial-begin", {{"name", "ascending 1"}}));
     clock.advance(std::chrono::minutes(30));
-    ASSERT_TRUE((*writer)->event(clock.now(), "trial-begin", {{"name", "test 90"}}));
-    ASSERT_TRUE((*writer)->close());
-    ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Complete, (*writer)->chainHead()));
+    ASSERT_TRUE(writer->event(clock.now(), "trial-begin", {{"name", "test 90"}}));
+    ASSERT_TRUE(writer->close());
+    ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Complete, writer->chainHead()));
     time.now += std::chrono::hours(20) + std::chrono::minutes(17);
     EXPECT_NE(study.mayBegin(test::someRequest(code)).error().message.find("20.0 h ago; at least 20 h"),
               std::string::npos);
@@ -182,14 +178,12 @@ TEST_F(Desk, OnTheComputersOwnClockSessionsWaitForTheGapAndOneThatWasCancelledFo
     const auto code = enrolled(study);
     const auto cancelled = study.beginSession(test::someRequest(code)).value();
     ASSERT_TRUE(study.cancelSession(cancelled.session.id));
-    const auto begun = study.beginSession(test::someRequest(code));
-    ASSERT_TRUE(begun) << begun.error().message;
+    const auto begun = test::accepted(study.beginSession(test::someRequest(code)));
     const SteadyClock clock;
-    auto writer = SessionWriter::create(begun->path, {}, clock, begun->seal);
-    ASSERT_TRUE(writer) << writer.error().message;
-    ASSERT_TRUE((*writer)->event(clock.now(), "trial-begin", {{"name", "ascending 1"}}));
-    ASSERT_TRUE((*writer)->close());
-    ASSERT_TRUE(study.endSession(begun->session.id, StudySessionState::Stopped, (*writer)->chainHead()));
+    auto writer = test::accepted(SessionWriter::create(begun.path, {}, clock, begun.seal));
+    ASSERT_TRUE(writer->event(clock.now(), "trial-begin", {{"name", "ascending 1"}}));
+    ASSERT_TRUE(writer->close());
+    ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Stopped, writer->chainHead()));
     auto amended = study.settings();
     amended.gapMin_h = 20;
     ASSERT_TRUE(study.amend(amended, "EC-2026-18"));
@@ -206,15 +200,13 @@ TEST_F(Desk, ASessionInWhichNothingWasPresentedCostsNoDay) {
     auto study = make();
     const auto code = enrolled(study);
     for (int i = 0; i < study.settings().sessionsMax + 1; ++i) {
-        const auto booked = study.beginSession(test::someRequest(code));
-        ASSERT_TRUE(booked) << booked.error().message;
-        ASSERT_TRUE(study.cancelSession(booked->session.id));
-        EXPECT_FALSE(study.cancelSession(booked->session.id)) << "once";
+        const auto booked = test::accepted(study.beginSession(test::someRequest(code)));
+        ASSERT_TRUE(study.cancelSession(booked.session.id));
+        EXPECT_FALSE(study.cancelSession(booked.session.id)) << "once";
     }
-    auto next = study.beginSession(test::someRequest(code));
-    ASSERT_TRUE(next) << next.error().message;
-    std::ofstream(next->path) << "no session";  // what cannot be read may hold anything
-    ASSERT_TRUE(study.endSession(next->session.id, StudySessionState::Stopped, ""));
+    auto next = test::accepted(study.beginSession(test::someRequest(code)));
+    std::ofstream(next.path) << "no session";  // what cannot be read may hold anything
+    ASSERT_TRUE(study.endSession(next.session.id, StudySessionState::Stopped, ""));
     EXPECT_EQ(study.beginSession(test::someRequest(code)).error().code, kGateRefused);
 }
 
@@ -239,10 +231,8 @@ TEST_F(Desk, ARecordThatWasExchangedBarsTheNextSession) {
     ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Complete, record(begun)));
     ASSERT_TRUE(std::filesystem::remove(begun.path));
     record(begun);  // the same rows, other seals
-    const auto next = study.beginSession(test::someRequest(second));
-    ASSERT_FALSE(next);
-    EXPECT_EQ(next.error().code, kGateRefused);
-    EXPECT_NE(next.error().message.find("is not the one that the ledger notes"), std::string::npos);
+    EXPECT_THAT(study.beginSession(test::someRequest(second)),
+                test::refused(kGateRefused, "is not the one that the ledger notes"));
 }
 
 TEST_F(Desk, ARecordThatWasChangedAmongItsRowsBarsTheNextSession) {
@@ -255,10 +245,8 @@ TEST_F(Desk, ARecordThatWasChangedAmongItsRowsBarsTheNextSession) {
     ASSERT_TRUE(study.events(begun.session));
     // The head of its chain stays: nothing was presented, it says now, and the gap would be none.
     test::forge(begun.path, "UPDATE entries SET name='note' WHERE name='trial-begin'");
-    const auto next = study.beginSession(test::someRequest(code));
-    ASSERT_FALSE(next);
-    EXPECT_NE(next.error().message.find("is not the one that the ledger notes"), std::string::npos)
-        << next.error().message;
+    EXPECT_THAT(study.beginSession(test::someRequest(code)),
+                test::refusedSaying("is not the one that the ledger notes"));
     EXPECT_FALSE(study.events(begun.session));
 }
 
@@ -323,11 +311,8 @@ TEST_F(GateOfASession, AConsentFromBeforeTheApprovalOrTheFormsVersionOpensNone) 
     const auto dated = [&](const char* version, int month, int day) {
         return study.consent(code, {version, std::chrono::year(2026) / month / day, "KL"});
     };
-    const auto early = dated("2", 10, 31);
-    ASSERT_FALSE(early);
-    EXPECT_EQ(early.error().code, ErrorCode::InvalidArgument);
-    EXPECT_NE(early.error().message.find("version 2 of the form is approved from 2026-11-01"), std::string::npos)
-        << early.error().message;
+    EXPECT_THAT(dated("2", 10, 31),
+                test::refused(ErrorCode::InvalidArgument, "version 2 of the form is approved from 2026-11-01"));
     ASSERT_TRUE(dated("2", 11, 1));
     auto request = test::someRequest(code);
     request.devicesSimulated = false;
@@ -362,9 +347,7 @@ TEST_F(Desk, AProcedureThatWasNotApprovedBeginsNoSession) {
     settings.procedure = {0.5, 2, DetectionMethod::Quest, std::string(64, 'a')};
     auto study = make(settings);
     auto request = test::someRequest(enrolled(study));
-    const auto refused = study.beginSession(request);
-    ASSERT_FALSE(refused) << "one that says nothing of it";
-    EXPECT_EQ(refused.error().code, kGateRefused);
+    EXPECT_THAT(study.beginSession(request), test::refused(kGateRefused)) << "one that says nothing of it";
     EXPECT_TRUE(study.sessions().empty());
     request.procedure = *settings.procedure;
     request.procedure.intervalMax_s = 3;

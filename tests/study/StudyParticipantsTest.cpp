@@ -1,8 +1,11 @@
 // The participants of a study: enrolled, consented, asked the day after, left and withdrawn.
 #include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
+#include "core/study/NextDay.h"
 #include "tests/session/SessionSupport.h"
 #include "tests/study/StudySupport.h"
+#include "tests/support/Refused.h"
 
 namespace tacto {
 namespace {
@@ -26,18 +29,17 @@ TEST_F(Desk, AWithdrawnParticipantLeavesNothingThatOpens) {
         EXPECT_EQ(study.find(code).error().code, ErrorCode::NotFound);
         EXPECT_TRUE(study.find(stays));
     }
-    auto study = open();
-    ASSERT_TRUE(study) << study.error().message;
-    EXPECT_EQ(study->find(code).error().code, ErrorCode::NotFound);
-    EXPECT_EQ(study->sealOf(file).error().code, ErrorCode::Unsupported);
-    EXPECT_FALSE(study->events(study->sessions()[0]));
-    const auto gone = study->participants()[0];
+    auto study = test::accepted(open());
+    EXPECT_EQ(study.find(code).error().code, ErrorCode::NotFound);
+    EXPECT_EQ(study.sealOf(file).error().code, ErrorCode::Unsupported);
+    EXPECT_FALSE(study.events(study.sessions()[0]));
+    const auto gone = study.participants()[0];
     EXPECT_EQ(gone.state, ParticipantState::Withdrawn);
     EXPECT_EQ(gone.sessions, 1);
     EXPECT_EQ(gone.code, "");
     EXPECT_TRUE(gone.consents.empty());
     EXPECT_TRUE(SessionReader::open(path)->locked());
-    EXPECT_TRUE(study->stillApproved());  // the chains stay whole
+    EXPECT_TRUE(study.stillApproved());  // the chains stay whole
     EXPECT_EQ(everythingBelow(scratch.path() / "home").find(code), std::string::npos);
 }
 
@@ -61,13 +63,11 @@ TEST_F(Desk, ASessionSaysOnWhomAndWhatItRestsForAsLongAsThereIsALedger) {
         ASSERT_TRUE(study.withdraw(code));
         ASSERT_TRUE(study.withdraw(gone));
     }
-    const auto sealed = openWithoutKey();
-    ASSERT_TRUE(sealed) << sealed.error().message;
-    EXPECT_EQ(sealed->sessions().at(0).basis, SessionBasis::Virtual);
-    const auto study = open();
-    ASSERT_TRUE(study) << study.error().message;
-    EXPECT_EQ(study->basisOf(study->participants().at(0)), SessionBasis::Virtual);
-    EXPECT_EQ(study->basisOf(study->participants().at(1)), SessionBasis::Virtual) << "withdrawn without a session";
+    const auto sealed = test::accepted(openWithoutKey());
+    EXPECT_EQ(sealed.sessions().at(0).basis, SessionBasis::Virtual);
+    const auto study = test::accepted(open());
+    EXPECT_EQ(study.basisOf(study.participants().at(0)), SessionBasis::Virtual);
+    EXPECT_EQ(study.basisOf(study.participants().at(1)), SessionBasis::Virtual) << "withdrawn without a session";
 }
 
 TEST_F(Desk, APersonAndAVirtualParticipantAreNeverOneParticipantOfARehearsal) {
@@ -259,6 +259,22 @@ TEST_F(Desk, WhatCouldNotBeReadBackIsNotWritten) {
     EXPECT_EQ(study.enrol(wordy).error().code, ErrorCode::InvalidArgument);
     EXPECT_EQ(study.ledgerHead(), head);
     EXPECT_EQ(study.participants().size(), 1U);
+}
+
+TEST(ScoreWords, AreShownBesideTheirNumbers) {
+    EXPECT_EQ(scoreText(kEventSeverities, 3), "3 severe");
+    EXPECT_EQ(scoreText(kSkinScores, 0, 0), "0 none");
+    for (const int none : {-1, 0, 5, 100}) EXPECT_EQ(scoreText(kEventSeverities, none), std::to_string(none));
+    EXPECT_EQ(scaleText(kEventSeverities), "1 mild, 2 moderate, 3 severe, 4 life-threatening");
+    EXPECT_EQ(scaleText(kRelations), "1 none, 2 remote, 3 possible, 4 probable, 5 definite");
+    EXPECT_EQ(scaleText(kSkinScores, 0), "0 none, 1 very slight, 2 well defined, 3 moderate, 4 severe");
+}
+
+TEST(ScoreWords, SkinIsAnEventNoMilderThanItScoresAndNeverLifeThreatening) {
+    RecordProperty("hazard", "H12");
+    EXPECT_EQ(severityOfSkin(kSkinIsAdverse), 2);
+    EXPECT_EQ(severityOfSkin(3), 3);
+    EXPECT_EQ(severityOfSkin(4), 3);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // A study as the next program finds it: sessions, records, amendments, events, rehearsals.
 #include "tests/session/SessionSupport.h"
 #include "tests/study/StudySupport.h"
+#include "tests/support/Refused.h"
 
 namespace tacto {
 namespace {
@@ -14,38 +15,35 @@ TEST_F(Desk, WhatWasMadeIsThereForTheNextProgram) {
         code = enrolled(study, 7);
         EXPECT_FALSE(study.isRehearsal());
     }
-    const auto study = open(Study::Access::Read);
-    ASSERT_TRUE(study) << study.error().message;
-    EXPECT_EQ(study->settings().title, "Four conditions");
-    ASSERT_EQ(study->participants().size(), 1U);
-    const auto participant = study->find(code).value();
+    const auto study = test::accepted(open(Study::Access::Read));
+    EXPECT_EQ(study.settings().title, "Four conditions");
+    ASSERT_EQ(study.participants().size(), 1U);
+    const auto participant = study.find(code).value();
     EXPECT_EQ(participant.virtualSeed, 7U);
     EXPECT_EQ(participant.consents.front().by, "KL");
-    EXPECT_EQ(study->find("virtual:7")->code, code);
-    EXPECT_EQ(study->find("virtual:8").error().code, ErrorCode::NotFound);
-    EXPECT_TRUE(study->stillApproved());
+    EXPECT_EQ(study.find("virtual:7")->code, code);
+    EXPECT_EQ(study.find("virtual:8").error().code, ErrorCode::NotFound);
+    EXPECT_TRUE(study.stillApproved());
 }
 
 TEST_F(Desk, ASessionIsBegunSealedEndedAndListed) {
     auto study = make();
     const auto code = enrolled(study);
-    const auto begun = study.beginSession(test::someRequest(code));
-    ASSERT_TRUE(begun) << begun.error().message;
-    EXPECT_EQ(begun->session.number, 1);
-    EXPECT_EQ(begun->path, folder() / "sessions" / (begun->session.id + ".tacto"));
-    EXPECT_EQ(begun->session.id.size(), 16U);
-    EXPECT_EQ(study.unfinished(begun->session.participant)->id, begun->session.id);
-    const auto head = record(*begun);
-    ASSERT_TRUE(study.endSession(begun->session.id, StudySessionState::Complete, head));
+    const auto begun = test::accepted(study.beginSession(test::someRequest(code)));
+    EXPECT_EQ(begun.session.number, 1);
+    EXPECT_EQ(begun.path, folder() / "sessions" / (begun.session.id + ".tacto"));
+    EXPECT_EQ(begun.session.id.size(), 16U);
+    EXPECT_EQ(study.unfinished(begun.session.participant)->id, begun.session.id);
+    const auto head = record(begun);
+    ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Complete, head));
     const auto sessions = study.sessions();
     ASSERT_EQ(sessions.size(), 1U);
     EXPECT_EQ(sessions[0].state, StudySessionState::Complete);
     EXPECT_EQ(sessions[0].answered, 3);
     EXPECT_EQ(sessions[0].code, code);
     EXPECT_EQ(sessions[0].encoding, "standard");
-    const auto rows = study.events(sessions[0]);
-    ASSERT_TRUE(rows) << rows.error().message;
-    EXPECT_EQ(rows->front().body["order"][0], "rough-high");
+    const auto rows = test::accepted(study.events(sessions[0]));
+    EXPECT_EQ(rows.front().body["order"][0], "rough-high");
 }
 
 TEST_F(Desk, WithoutThePassphraseNothingOfAPersonIsRead) {
@@ -57,27 +55,24 @@ TEST_F(Desk, WithoutThePassphraseNothingOfAPersonIsRead) {
         const auto begun = study.beginSession(test::someRequest(code)).value();
         ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Complete, record(begun)));
     }
-    auto study = openWithoutKey();
-    ASSERT_TRUE(study) << study.error().message;
-    EXPECT_FALSE(study->hasKey());
-    ASSERT_EQ(study->participants().size(), 1U);
-    EXPECT_EQ(study->participants()[0].code, "");
-    EXPECT_FALSE(study->participants()[0].readable);
-    EXPECT_EQ(study->participants()[0].virtualSeed, std::nullopt);
-    EXPECT_EQ(study->sessions()[0].answered, 3);
-    EXPECT_EQ(study->sessions()[0].encoding, "");
-    EXPECT_EQ(study->find(code).error().code, ErrorCode::Unsupported);
-    EXPECT_EQ(study->sealOf(study->sessions()[0].id).error().code, ErrorCode::Unsupported);
-    EXPECT_EQ(study->leave(code).error().code, ErrorCode::Unsupported);
+    auto study = test::accepted(openWithoutKey());
+    EXPECT_FALSE(study.hasKey());
+    ASSERT_EQ(study.participants().size(), 1U);
+    EXPECT_EQ(study.participants()[0].code, "");
+    EXPECT_FALSE(study.participants()[0].readable);
+    EXPECT_EQ(study.participants()[0].virtualSeed, std::nullopt);
+    EXPECT_EQ(study.sessions()[0].answered, 3);
+    EXPECT_EQ(study.sessions()[0].encoding, "");
+    EXPECT_EQ(study.find(code).error().code, ErrorCode::Unsupported);
+    EXPECT_EQ(study.sealOf(study.sessions()[0].id).error().code, ErrorCode::Unsupported);
+    EXPECT_EQ(study.leave(code).error().code, ErrorCode::Unsupported);
 }
 
 TEST_F(Desk, AWrongPassphraseIsOneSentence) {
     RecordProperty("hazard", "H11");
     static_cast<void>(make());
-    const auto study = open(Study::Access::Change, "correct horse 4712");
-    ASSERT_FALSE(study);
-    EXPECT_EQ(study.error().code, ErrorCode::NotFound);
-    EXPECT_NE(study.error().message.find("does not open the key file"), std::string::npos);
+    EXPECT_THAT(open(Study::Access::Change, "correct horse 4712"),
+                test::refused(ErrorCode::NotFound, "does not open the key file"));
 }
 
 TEST_F(Desk, APartOfAResumedSessionIsWhatItWasWhenItWasGoneOnWith) {
@@ -86,16 +81,13 @@ TEST_F(Desk, APartOfAResumedSessionIsWhatItWasWhenItWasGoneOnWith) {
     const auto code = enrolled(study);
     const auto first = study.beginSession(test::someRequest(code)).value();
     static_cast<void>(record(first));
-    const auto second = study.continueSession(first.session.id, test::someRequest(code));
-    ASSERT_TRUE(second) << second.error().message;
-    static_cast<void>(record(*second));
+    const auto second = test::accepted(study.continueSession(first.session.id, test::someRequest(code)));
+    static_cast<void>(record(second));
     EXPECT_TRUE(study.stillApproved());
     const auto kept = scratch.path() / "kept";
     std::filesystem::copy_file(first.path, kept);
-    std::filesystem::copy_file(second->path, first.path, std::filesystem::copy_options::overwrite_existing);
-    const auto exchanged = study.stillApproved();
-    ASSERT_FALSE(exchanged);
-    EXPECT_NE(exchanged.error().message.find("is not the one that the ledger notes"), std::string::npos);
+    std::filesystem::copy_file(second.path, first.path, std::filesystem::copy_options::overwrite_existing);
+    EXPECT_THAT(study.stillApproved(), test::refusedSaying("is not the one that the ledger notes"));
     std::filesystem::remove(first.path);
     EXPECT_FALSE(study.stillApproved()) << "gone";
     std::filesystem::copy_file(kept, first.path);
@@ -125,9 +117,8 @@ TEST_F(Desk, NothingGoesOnFromARecordThatIsNotWholeAndNothingIsReadFromIt) {
         test::forge(begun.path, sql);
         EXPECT_EQ(study.events(begun.session).error().code, ErrorCode::ParseError);
         const auto before = study.ledgerHead();
-        const auto again = study.continueSession(begun.session.id, test::someRequest(code));
-        ASSERT_FALSE(again);
-        EXPECT_EQ(again.error().code, ErrorCode::ParseError) << again.error().message;
+        EXPECT_THAT(study.continueSession(begun.session.id, test::someRequest(code)),
+                    test::refused(ErrorCode::ParseError));
         EXPECT_EQ(study.ledgerHead(), before);
         // It can be ended; what was presented in it is not known, so the gap counts.
         ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Stopped, ""));
@@ -170,13 +161,12 @@ TEST_F(Desk, AnUnfinishedSessionGoesOnInANewPartUnderTheSameNumber) {
     const auto code = enrolled(study);
     const auto begun = study.beginSession(test::someRequest(code)).value();
     record(begun);
-    const auto again = study.continueSession(begun.session.id, test::someRequest(code));
-    ASSERT_TRUE(again) << again.error().message;
-    EXPECT_EQ(again->session.number, 1);
-    EXPECT_EQ(again->session.parts.size(), 2U);
-    EXPECT_NE(again->path, begun.path);
-    record(*again);
-    EXPECT_EQ(study.events(again->session)->size(), 18U);
+    const auto again = test::accepted(study.continueSession(begun.session.id, test::someRequest(code)));
+    EXPECT_EQ(again.session.number, 1);
+    EXPECT_EQ(again.session.parts.size(), 2U);
+    EXPECT_NE(again.path, begun.path);
+    record(again);
+    EXPECT_EQ(study.events(again.session)->size(), 18U);
     EXPECT_EQ(study.session(begun.session.id)->answered, 6);
     ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Complete, ""));
     EXPECT_EQ(study.continueSession(begun.session.id, test::someRequest(code)).error().code, kGateRefused);
@@ -199,14 +189,13 @@ TEST_F(Desk, AnAmendmentHasAReferenceOfItsOwnAndBindsWhatItChanges) {
     fewer.participantsMax = 1;
     EXPECT_EQ(study.amend(fewer, "EC-2026-17 A2").error().message,
               "participants_max is 1, and 2 are enrolled; that or more is expected");
-    const auto again = openWithoutKey();
-    ASSERT_TRUE(again) << again.error().message;
-    EXPECT_EQ(again->settings().blocks, 4);
-    EXPECT_EQ(again->settings().approval.reference, "EC-2026-17 A1");
-    ASSERT_EQ(again->amendments().size(), 1U);
-    EXPECT_EQ(again->amendments()[0].reference, "EC-2026-17 A1");
-    EXPECT_EQ(again->amendments()[0].at, time.now);
-    EXPECT_EQ(again->amendments()[0].changed, (std::vector<std::string>{"approval.expires", "blocks"}));
+    const auto again = test::accepted(openWithoutKey());
+    EXPECT_EQ(again.settings().blocks, 4);
+    EXPECT_EQ(again.settings().approval.reference, "EC-2026-17 A1");
+    ASSERT_EQ(again.amendments().size(), 1U);
+    EXPECT_EQ(again.amendments()[0].reference, "EC-2026-17 A1");
+    EXPECT_EQ(again.amendments()[0].at, time.now);
+    EXPECT_EQ(again.amendments()[0].changed, (std::vector<std::string>{"approval.expires", "blocks"}));
 }
 
 TEST_F(Desk, AdverseEventsSurviveAWithdrawal) {
@@ -238,10 +227,9 @@ TEST_F(Desk, LabelsOfExportsComeFromTheKeyAndStay) {
         more.participantsMax = 9;
         ASSERT_TRUE(study.amend(more, "EC-2026-17 A1"));
     }
-    const auto again = open(Study::Access::Read);
-    ASSERT_TRUE(again) << again.error().message;
-    EXPECT_EQ(again->labelSeed().value(), seed);
-    EXPECT_EQ(again->firstPlaces(), 5);
+    const auto again = test::accepted(open(Study::Access::Read));
+    EXPECT_EQ(again.labelSeed().value(), seed);
+    EXPECT_EQ(again.firstPlaces(), 5);
     EXPECT_EQ(openWithoutKey()->labelSeed().error().code, ErrorCode::Unsupported);
     const auto other = Study::create(scratch.path() / "other", test::someStudy(), test::somePassphrase(), around());
     EXPECT_NE(other->labelSeed().value(), seed);
@@ -250,24 +238,21 @@ TEST_F(Desk, LabelsOfExportsComeFromTheKeyAndStay) {
 TEST_F(Desk, ARehearsalNeedsNoPassphraseAndSaysSo) {
     std::string code;
     {
-        auto study = Study::createRehearsal(folder(), {}, around());
-        ASSERT_TRUE(study) << study.error().message;
+        auto study = test::accepted(Study::createRehearsal(folder(), {}, around()));
         Participant third;
         third.virtualSeed = 3;
-        code = study->enrol(third)->code;
-        ASSERT_TRUE(study->consent("virtual:3", {study->settings().consentVersion, study->today(), "rehearsal"}));
+        code = study.enrol(third)->code;
+        ASSERT_TRUE(study.consent("virtual:3", {study.settings().consentVersion, study.today(), "rehearsal"}));
         auto request = test::someRequest("virtual:3");
         request.script = {"anything", "x"};
         for (int i = 0; i < 6; ++i) {  // neither a gap nor a number is asked for
-            const auto begun = study->beginSession(request);
-            ASSERT_TRUE(begun) << begun.error().message;
-            ASSERT_TRUE(study->endSession(begun->session.id, StudySessionState::Complete, record(*begun)));
+            const auto begun = test::accepted(study.beginSession(request));
+            ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Complete, record(begun)));
         }
     }
-    const auto study = openWithoutKey();
-    ASSERT_TRUE(study) << study.error().message;
-    EXPECT_TRUE(study->hasKey());
-    EXPECT_EQ(study->find("virtual:3")->code, code);
+    const auto study = test::accepted(openWithoutKey());
+    EXPECT_TRUE(study.hasKey());
+    EXPECT_EQ(study.find("virtual:3")->code, code);
     EXPECT_NE(everythingBelow(folder()).find("not secret"), std::string::npos);
     EXPECT_FALSE(std::filesystem::exists(scratch.path() / "home"));
 }

@@ -17,7 +17,7 @@
 
 #include "app/gui/theme/ConfirmButton.h"
 #include "core/base/Clock.h"
-#include "core/pilot/Participant.h"
+#include "core/pilot/PilotParticipant.h"
 
 namespace tacto::gui {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "app/gui/theme/Theme.h"
-#include "core/pilot/PilotEnding.h"
+#include "core/pilot/PilotRecord.h"
 
 namespace tacto::gui {
 

@@ -15,7 +15,7 @@
 #include "core/analysis/identification/IdentificationText.h"
 #include "core/base/JsonText.h"
 #include "core/results/ResultKind.h"
-#include "core/study/SessionBasis.h"
+#include "core/study/Participant.h"
 
 namespace tacto::gui {
 

@@ -14,7 +14,7 @@ namespace tacto::gui {
 
 [[nodiscard]] ProtocolParameter dialogField(const char* name, const QString& label, ParameterType type,
                                             std::string value);
-/// "3  severe": a score with its word of ScoreWords.h.
+/// "3  severe": a score with its word of NextDay.h.
 [[nodiscard]] QString scoreChoice(std::span<const char* const> words, int score, int from = 1);
 /// A score that has to be chosen: `words` say what its numbers mean. Without it `needed`.
 [[nodiscard]] ProtocolParameter scoreField(const char* name, const QString& label, std::span<const char* const> words,

@@ -5,7 +5,7 @@
 #include "app/gui/study/RecordedResult.h"
 #include "app/gui/theme/Text.h"
 #include "app/run/Shipped.h"
-#include "core/sharing/results/BidsExport.h"
+#include "core/sharing/results/StudyResults.h"
 
 namespace tacto::gui {
 

@@ -1,7 +1,6 @@
 #include "core/analysis/identification/FewPeople.h"
 
-#include "core/analysis/statistics/Binomial.h"
-#include "core/analysis/statistics/Prevalence.h"
+#include "core/analysis/statistics/Estimate.h"
 
 namespace tacto {
 

@@ -38,7 +38,7 @@ struct FewPeople {
     Statistics itCorrected_bits;         ///< over those who answered test trials
     std::size_t aboveChance = 0;         ///< p < 0.05 each by themselves
     Estimate share;                      ///< above chance of all people, Clopper and Pearson 95 %
-    Estimate prevalence;                 ///< over everybody: Prevalence.h
+    Estimate prevalence;                 ///< over everybody: prevalenceInterval()
 };
 
 [[nodiscard]] FewPeople judgeFewPeople(std::vector<PersonResult> people, std::vector<PersonLeftOut> leftOut = {});

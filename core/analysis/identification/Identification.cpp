@@ -6,8 +6,8 @@
 #include <set>
 #include <utility>
 
-#include "core/analysis/identification/LogisticTrend.h"
-#include "core/analysis/statistics/Binomial.h"
+#include "core/analysis/identification/OverSessions.h"
+#include "core/analysis/statistics/Estimate.h"
 #include "core/analysis/statistics/InformationTransfer.h"
 #include "core/analysis/statistics/UncertaintyBudget.h"
 #include "core/base/Statistics.h"
@@ -42,17 +42,15 @@ std::vector<std::string> namesMet(std::span<const IdentificationTrial> trials, s
 
 Result<void> checkLabels(const std::vector<std::string>& labels) {
     if (labels.size() < 2) {
-        return fail(ErrorCode::InvalidArgument, "{} condition(s); at least two are needed to tell apart",
-                    labels.size());
+        return invalid("{} condition(s); at least two are needed to tell apart", labels.size());
     }
     for (const auto& label : labels) {
         if (label.empty() || isReserved(label)) {
-            return fail(ErrorCode::InvalidArgument,
-                        "a condition is named \"{}\"; a name other than catch, none and not-sure is accepted", label);
+            return invalid("a condition is named \"{}\"; a name other than catch, none and not-sure is accepted",
+                           label);
         }
     }
-    if (const auto* second = secondIn(labels))
-        return fail(ErrorCode::InvalidArgument, "{}", givenTwice("the condition \"{}\"", *second));
+    if (const auto* second = secondIn(labels)) return invalid("{}", givenTwice("the condition \"{}\"", *second));
     return {};
 }
 
@@ -63,16 +61,16 @@ Result<void> checkTrials(std::span<const IdentificationTrial> trials, const std:
     for (const auto& trial : trials) {
         if (trial.phase != TrialPhase::Test) continue;
         if (trial.condition != kCatchCondition && !indexOf(labels, trial.condition)) {
-            return fail(ErrorCode::InvalidArgument, "trial {} presents \"{}\"; {} or catch was expected", trial.number,
-                        trial.condition, fmt::join(labels, ", "));
+            return invalid("trial {} presents \"{}\"; {} or catch was expected", trial.number, trial.condition,
+                           fmt::join(labels, ", "));
         }
         if (trial.response.empty()) continue;
         if (!indexOf(columns, trial.response) || trial.response == kCatchCondition) {
-            return fail(ErrorCode::InvalidArgument, "trial {} was answered \"{}\"; {} was expected", trial.number,
-                        trial.response, fmt::join(columns, ", "));
+            return invalid("trial {} was answered \"{}\"; {} was expected", trial.number, trial.response,
+                           fmt::join(columns, ", "));
         }
         if (!answered.insert(trial.number).second)
-            return fail(ErrorCode::InvalidArgument, "{}", givenTwice("the answer of trial {}", trial.number));
+            return invalid("{}", givenTwice("the answer of trial {}", trial.number));
     }
     return {};
 }
@@ -221,6 +219,17 @@ Result<Identification> identifyAsMet(std::span<const IdentificationTrial> trials
     auto labels = namesMet(trials, &IdentificationTrial::condition, {});
     auto columns = namesMet(trials, &IdentificationTrial::response, labels);
     return analysed(trials, std::move(labels), std::move(columns));
+}
+
+Result<TrialPhase> trialPhaseFrom(std::string_view name) {
+    if (const auto known = valueFor(kTrialPhases, name)) return *known;
+    return invalid("the phase is \"{}\"; familiarisation, training or test is accepted", name);
+}
+
+LabelFeatures featuresOf(std::string_view label) noexcept {
+    const auto hyphen = label.find('-');
+    if (hyphen == std::string_view::npos) return {label, {}};
+    return {label.substr(0, hyphen), label.substr(hyphen + 1)};
 }
 
 }  // namespace tacto

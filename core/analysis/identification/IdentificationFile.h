@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/analysis/identification/IdentificationTrial.h"
+#include "core/analysis/identification/Identification.h"
 
 namespace tacto {
 

@@ -35,11 +35,7 @@ RecordFields<IdentificationTrial> answerFields() {
     all.word("phase", &T::phase, kTrialPhases);
     all.number("block", &T::block);
     all.text("condition", &T::condition, {.mayBeEmpty = true});
-    all.add("response", &T::response,
-            codedKind<std::string>(
-                "a text or null",
-                [](const json& value) { return std::optional(value.is_string() ? value.get<std::string>() : ""); },
-                [](const std::string& said) { return said.empty() ? json() : json(said); }));
+    all.add("response", &T::response, textOrNullKind());
     all.number("attempt", &T::attempt);
     all.number("rt_s", &T::rt_s);
     all.passOverUnknownKeys();

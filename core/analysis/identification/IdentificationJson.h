@@ -6,9 +6,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/analysis/identification/Encodings.h"
 #include "core/analysis/identification/FewPeople.h"
 #include "core/analysis/identification/Identification.h"
+#include "core/analysis/identification/OverSessions.h"
 
 namespace tacto {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/analysis/statistics/Binomial.h"
+#include "core/analysis/statistics/Estimate.h"
 #include "core/base/QuantityText.h"
 
 namespace tacto {

@@ -26,15 +26,13 @@ double medianOfLevels(std::vector<double> levels) {
 
 Result<StrengthWord> strengthWordFrom(std::string_view text) {
     if (const auto known = valueFor(kStrengthWords, text)) return *known;
-    return fail(ErrorCode::InvalidArgument, "the answer is \"{}\"; nothing, weak, strong or too-strong is accepted",
-                text);
+    return invalid("the answer is \"{}\"; nothing, weak, strong or too-strong is accepted", text);
 }
 
 Result<AscendingLimits> AscendingLimits::create(const LevelGrid& grid, std::uint64_t seed) {
     if (grid.unit() == LevelUnit::Current && grid.step() > kLargestRise_ma) {
-        return fail(ErrorCode::InvalidArgument,
-                    "levels would rise by the device's step of {} mA; at most {} mA at a time is accepted", grid.step(),
-                    kLargestRise_ma);
+        return invalid("levels would rise by the device's step of {} mA; at most {} mA at a time is accepted",
+                       grid.step(), kLargestRise_ma);
     }
     return AscendingLimits(grid, seed);
 }
@@ -84,12 +82,12 @@ std::optional<AscendingPresentation> AscendingLimits::next() const {
 
 Result<void> AscendingLimits::answer(StrengthWord word) {
     if (std::ranges::find(kStrengthWords, word, &Word<StrengthWord>::value) == std::end(kStrengthWords)) {
-        return fail(ErrorCode::InvalidArgument,
-                    "answer number {} is not a word; nothing, weak, strong or too-strong is "
-                    "accepted",
-                    static_cast<int>(word));
+        return invalid(
+            "answer number {} is not a word; nothing, weak, strong or too-strong is "
+            "accepted",
+            static_cast<int>(word));
     }
-    if (done()) return fail(ErrorCode::InvalidArgument, "the ascending limits are complete; no answer is accepted");
+    if (done()) return invalid("the ascending limits are complete; no answer is accepted");
     const auto series = result_.series.size();
     ++number_;
     if (index_ == 0) {

@@ -17,26 +17,24 @@ Result<LevelGrid> LevelGrid::create(LevelUnit unit, double step, std::span<const
     const bool isIntensity = unit == LevelUnit::Intensity;
     const double mostStep = isIntensity ? 1 : 1000;
     if (!(step > 0 && step <= mostStep)) {
-        return fail(ErrorCode::InvalidArgument, "the step of the levels is {}; above 0 to {} is accepted", step,
-                    mostStep);
+        return invalid("the step of the levels is {}; above 0 to {} is accepted", step, mostStep);
     }
-    if (ceilings.empty()) return fail(ErrorCode::InvalidArgument, "the levels have no ceiling; at least one is needed");
+    if (ceilings.empty()) return invalid("the levels have no ceiling; at least one is needed");
     const LevelCeiling* lowest = nullptr;
     for (const auto& ceiling : ceilings) {
         if (!(ceiling.level >= step * (1 - kOnGrid) && std::isfinite(ceiling.level))) {
-            return fail(ErrorCode::InvalidArgument, "the highest level ({}) is {}; at least one step of {} is accepted",
-                        nameOf(ceiling.by), ceiling.level, step);
+            return invalid("the highest level ({}) is {}; at least one step of {} is accepted", nameOf(ceiling.by),
+                           ceiling.level, step);
         }
         if (isIntensity && ceiling.level > 1) {
-            return fail(ErrorCode::InvalidArgument, "the highest intensity ({}) is {}; at most 1 is accepted",
-                        nameOf(ceiling.by), ceiling.level);
+            return invalid("the highest intensity ({}) is {}; at most 1 is accepted", nameOf(ceiling.by),
+                           ceiling.level);
         }
         if (lowest == nullptr || ceiling.level < lowest->level) lowest = &ceiling;
     }
     const double count = stepsDown(lowest->level, step);
     if (!(count <= static_cast<double>(kMaxLevels))) {
-        return fail(ErrorCode::InvalidArgument, "{} levels of {} to {}; at most {} are accepted", count, step,
-                    lowest->level, kMaxLevels);
+        return invalid("{} levels of {} to {}; at most {} are accepted", count, step, lowest->level, kMaxLevels);
     }
     return LevelGrid(unit, step, static_cast<std::size_t>(count), lowest->by);
 }

@@ -2,32 +2,18 @@
 
 #include <cmath>
 
+#include "core/analysis/statistics/GivenFigure.h"
+
 namespace tacto {
 
 Result<PersonalRange> PersonalRange::create(const LevelGrid& grid, const PersonalRangeSettings& settings) {
-    const struct {
-        std::string_view name;
-        double value;
-        double low;
-        double high;
-    } asked[] = {{"the detection threshold", settings.detection, 0, 1e6},
-                 {"the level that is too strong", settings.tooStrong, 0, 1e6},
-                 {"the Weber fraction of the level", settings.weber, 0, 10},
-                 {"the factor below what is too strong", settings.belowTooStrong, 0, 1}};
-    for (const auto& each : asked) {
-        if (!(each.value > each.low && each.value <= each.high)) {
-            return fail(ErrorCode::InvalidArgument, "{} is {}; above {:g} to {:g} is accepted", each.name, each.value,
-                        each.low, each.high);
-        }
-    }
-    if (!(settings.aboveDetection >= 1 && settings.aboveDetection <= 10)) {
-        return fail(ErrorCode::InvalidArgument, "the lowest level is {} times detection; 1 to 10 is accepted",
-                    settings.aboveDetection);
-    }
-    if (settings.leastSteps < 1) {
-        return fail(ErrorCode::InvalidArgument, "a range of {} steps is asked for; 1 or more is accepted",
-                    settings.leastSteps);
-    }
+    auto valid = checkFigures({givenAboveZero("the detection threshold", settings.detection, 1e6),
+                               givenAboveZero("the level that is too strong", settings.tooStrong, 1e6),
+                               givenAboveZero("the Weber fraction of the level", settings.weber, 10),
+                               givenAboveZero("the factor below what is too strong", settings.belowTooStrong, 1),
+                               {"the factor above detection", settings.aboveDetection, {.low = 1, .high = 10}},
+                               givenCount("the fewest steps of a range", settings.leastSteps, 1, 1e9)});
+    if (!valid) return failure(valid);
     return PersonalRange(grid, settings);
 }
 
@@ -49,7 +35,7 @@ std::optional<double> PersonalRange::next() const {
 }
 
 Result<void> PersonalRange::answer(bool acceptable) {
-    if (done()) return fail(ErrorCode::InvalidArgument, "the range is settled; no answer is accepted");
+    if (done()) return invalid("the range is settled; no answer is accepted");
     if (acceptable) {
         confirmed_ = true;
         return {};

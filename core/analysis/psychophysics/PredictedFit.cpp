@@ -60,29 +60,27 @@ struct SimulatedG {
 
 Result<void> validateTrials(std::span<const PredictedTrial> trials, std::size_t conditions, std::size_t draws) {
     if (trials.empty() || conditions == 0 || draws == 0) {
-        return fail(ErrorCode::InvalidArgument, "{} trials of {} conditions, {} draws; 1 or more of each is accepted",
-                    trials.size(), conditions, draws);
+        return invalid("{} trials of {} conditions, {} draws; 1 or more of each is accepted", trials.size(), conditions,
+                       draws);
     }
     const std::size_t responses = trials.front().probabilities.size();
     for (const auto& trial : trials) {
         if (trial.condition >= conditions) {
-            return fail(ErrorCode::InvalidArgument, "condition {} of {}; 0 to {} is accepted", trial.condition,
-                        conditions, conditions - 1);
+            return invalid("condition {} of {}; 0 to {} is accepted", trial.condition, conditions, conditions - 1);
         }
         if (trial.probabilities.size() != responses || trial.response >= responses) {
-            return fail(ErrorCode::InvalidArgument,
-                        "response {} with {} probabilities; one below {}, and as many probabilities, is accepted",
-                        trial.response, trial.probabilities.size(), responses);
+            return invalid("response {} with {} probabilities; one below {}, and as many probabilities, is accepted",
+                           trial.response, trial.probabilities.size(), responses);
         }
         double sum = 0;
         for (const double p : trial.probabilities) {
             if (!(p >= 0 && p <= 1)) {
-                return fail(ErrorCode::InvalidArgument, "a response's probability is {}; 0 to 1 is accepted", p);
+                return invalid("a response's probability is {}; 0 to 1 is accepted", p);
             }
             sum += p;
         }
         if (!(std::abs(sum - 1) <= kSumOfProbabilities)) {
-            return fail(ErrorCode::InvalidArgument, "the responses' probabilities sum to {}; 1 is accepted", sum);
+            return invalid("the responses' probabilities sum to {}; 1 is accepted", sum);
         }
     }
     return {};

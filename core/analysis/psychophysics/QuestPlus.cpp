@@ -6,6 +6,8 @@
 #include <numeric>
 #include <span>
 
+#include "core/analysis/statistics/GivenFigure.h"
+
 namespace tacto {
 
 namespace {
@@ -21,31 +23,14 @@ double decibels(double level) noexcept { return 20 * std::log10(level); }
 double levelOf(double db) noexcept { return std::pow(10.0, db / 20); }
 
 Result<void> validateQuestPlus(const QuestPlusSettings& settings) {
-    const auto level = [](double x) { return x > 0 && std::isfinite(x); };
-    if (!level(settings.felt)) {
-        return fail(ErrorCode::InvalidArgument, "the first felt level is {}; above 0 is accepted", settings.felt);
-    }
-    if (settings.prior != 0 && !level(settings.prior)) {
-        return fail(ErrorCode::InvalidArgument, "the threshold expected is {}; above 0 is accepted", settings.prior);
-    }
-    if (settings.first != 0 && !level(settings.first)) {
-        return fail(ErrorCode::InvalidArgument, "the estimate to begin with is {}; above 0 is accepted",
-                    settings.first);
-    }
-    if (!(settings.priorSd_db > 0 && settings.priorSd_db <= 100)) {
-        return fail(ErrorCode::InvalidArgument, "the prior's standard deviation is {} dB; above 0 to 100 is accepted",
-                    settings.priorSd_db);
-    }
-    if (settings.least < 1 || settings.most < settings.least || settings.most > 1000) {
-        return fail(ErrorCode::InvalidArgument,
-                    "{} to {} detection trials; 1 to 1000, the first no larger than the second, is accepted",
-                    settings.least, settings.most);
-    }
-    if (!(settings.enough_db >= 0 && std::isfinite(settings.enough_db))) {
-        return fail(ErrorCode::InvalidArgument, "the precision that ends detection is {} dB; 0 or more is accepted",
-                    settings.enough_db);
-    }
-    return {};
+    auto valid = checkFigures({givenAboveZero("the first felt level", settings.felt),
+                               {"the threshold expected", settings.prior, {.low = 0}},
+                               {"the estimate to begin with", settings.first, {.low = 0}},
+                               givenAboveZero("the prior's standard deviation in dB", settings.priorSd_db, 100),
+                               {"the precision that ends detection, in dB,", settings.enough_db, {.low = 0}}});
+    if (!valid || (settings.least >= 1 && settings.most >= settings.least && settings.most <= 1000)) return valid;
+    return invalid("{} to {} detection trials; 1 to 1000, the first no larger than the second, is accepted",
+                   settings.least, settings.most);
 }
 
 }  // namespace
@@ -108,7 +93,7 @@ std::optional<TwoIntervalTrial> QuestPlus::next() const {
 Result<void> QuestPlus::answer(TrialInterval said) {
     if (auto valid = validate(said); !valid) return valid;
     const auto asked = next();
-    if (!asked) return fail(ErrorCode::InvalidArgument, "detection is complete; no answer is accepted");
+    if (!asked) return invalid("detection is complete; no answer is accepted");
     const bool correct = said == asked->interval;
     posterior_.take(chosen_ - 1, correct);
     shares_.add(asked->interval, correct);
@@ -153,6 +138,67 @@ QuestPlusResult QuestPlus::result() const {
     out.intervals = shares_;
     out.trials = trials_;
     return out;
+}
+
+Result<QuestPlus> DriftCheck::checkFor(const LevelGrid& grid, const DriftCheckSettings& settings, std::uint64_t seed,
+                                       double prior, std::size_t rests) {
+    QuestPlusSettings quest;
+    quest.felt = settings.felt;
+    quest.prior = quest.first = prior;
+    quest.priorSd_db = settings.priorSd_db;
+    quest.least = quest.most = settings.trials;
+    quest.stream = fmt::format("drift before block {}, check {}", settings.block, rests + 1);
+    return QuestPlus::create(grid, quest, seed);
+}
+
+Result<DriftCheck> DriftCheck::create(const LevelGrid& grid, const DriftCheckSettings& settings, std::uint64_t seed) {
+    auto valid = checkFigures({givenAboveZero("the last estimate of the threshold", settings.last, 1e6),
+                               givenAboveZero("the lowest level of the range", settings.min, 1e6),
+                               givenAboveZero("the margin of the drift check", settings.margin, 10),
+                               givenAboveZero("the probability that means drift", settings.threshold, 1)});
+    if (!valid) return failure(valid);
+    auto quest = checkFor(grid, settings, seed, settings.last, 0);
+    if (!quest) return failure(quest);
+    return DriftCheck(grid, settings, seed, std::move(*quest));
+}
+
+DriftCheck::DriftCheck(const LevelGrid& grid, const DriftCheckSettings& settings, std::uint64_t seed, QuestPlus quest)
+    : grid_(grid), settings_(settings), seed_(seed), quest_(std::move(quest)) {}
+
+std::optional<TwoIntervalTrial> DriftCheck::next() const {
+    if (step_ != DriftStep::Trial) return std::nullopt;
+    return quest_.next();
+}
+
+Result<void> DriftCheck::answer(TrialInterval said) {
+    if (step_ != DriftStep::Trial) {
+        return invalid("the drift check asks for no trial now; no answer is accepted");
+    }
+    if (auto answered = quest_.answer(said); !answered) return answered;
+    if (!quest_.done()) return {};
+    result_.checks.push_back(quest_.result());
+    result_.estimate = result_.checks.back().estimate;
+    result_.probability = quest_.probabilityAbove(settings_.min / settings_.margin);
+    const bool drifted = result_.probability >= settings_.threshold;
+    if (drifted && result_.rests < settings_.rests) {
+        step_ = DriftStep::Rest;
+    } else {
+        step_ = DriftStep::Done;
+        result_.adapted = drifted;
+    }
+    return {};
+}
+
+Result<void> DriftCheck::rested() {
+    if (step_ != DriftStep::Rest) {
+        return invalid("the drift check asks for no rest now; none can end");
+    }
+    auto quest = checkFor(grid_, settings_, seed_, result_.estimate.value, result_.rests + 1);
+    if (!quest) return failure(quest);
+    quest_ = std::move(*quest);
+    ++result_.rests;
+    step_ = DriftStep::Trial;
+    return {};
 }
 
 }  // namespace tacto

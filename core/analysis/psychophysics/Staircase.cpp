@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/analysis/statistics/GivenFigure.h"
+
 namespace tacto {
 
 namespace {
@@ -17,17 +19,12 @@ constexpr std::size_t kRightForDown = 2;
 }  // namespace
 
 Result<Staircase> Staircase::create(const LevelGrid& grid, const StaircaseSettings& settings, std::uint64_t seed) {
-    if (!(settings.felt > 0 && std::isfinite(settings.felt))) {
-        return fail(ErrorCode::InvalidArgument, "the first felt level is {}; above 0 is accepted", settings.felt);
-    }
-    if (settings.reversals < 2 || settings.averaged < 1 || settings.averaged > settings.reversals) {
-        return fail(ErrorCode::InvalidArgument,
-                    "the staircase averages {} of {} reversals; 1 to all of 2 or more is accepted", settings.averaged,
-                    settings.reversals);
-    }
-    if (settings.most < 1) {
-        return fail(ErrorCode::InvalidArgument, "the staircase has {} trials; 1 or more is accepted", settings.most);
-    }
+    const auto reversals = static_cast<double>(settings.reversals);
+    auto valid = checkFigures({givenAboveZero("the first felt level", settings.felt),
+                               givenCount("the number of reversals", settings.reversals, 2, 1e9),
+                               givenCount("the number of reversals averaged", settings.averaged, 1, reversals),
+                               givenCount("the staircase's number of trials", settings.most, 1, 1e9)});
+    if (!valid) return failure(valid);
     return Staircase(grid, settings, seed);
 }
 
@@ -47,7 +44,7 @@ std::optional<TwoIntervalTrial> Staircase::next() const {
 Result<void> Staircase::answer(TrialInterval said) {
     if (auto valid = validate(said); !valid) return valid;
     const auto asked = next();
-    if (!asked) return fail(ErrorCode::InvalidArgument, "the staircase is complete; no answer is accepted");
+    if (!asked) return invalid("the staircase is complete; no answer is accepted");
     const bool correct = said == asked->interval;
     shares_.add(asked->interval, correct);
     trials_.push_back({asked->level, asked->interval, correct});

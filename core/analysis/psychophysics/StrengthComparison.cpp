@@ -31,12 +31,11 @@ Result<StrengthComparison> StrengthComparison::create(const LevelGrid& grid, con
     const auto low = isLevel(settings.low) ? grid.atOrAbove(settings.low).value_or(0) : 0;
     const auto high = isLevel(settings.high) ? grid.atOrBelow(settings.high) : 0;
     if (low == 0 || high <= low) {
-        return fail(ErrorCode::InvalidArgument,
-                    "a comparison between {:g} and {:g}; two levels in steps of {} up to {} are needed", settings.low,
-                    settings.high, grid.textOf(grid.step()), grid.textOf(grid.highest()));
+        return invalid("a comparison between {:g} and {:g}; two levels in steps of {} up to {} are needed",
+                       settings.low, settings.high, grid.textOf(grid.step()), grid.textOf(grid.highest()));
     }
     if (settings.trials < 1 || settings.trials > 1000)
-        return fail(ErrorCode::InvalidArgument, "{} trials of comparison; 1 to 1000 are accepted", settings.trials);
+        return invalid("{} trials of comparison; 1 to 1000 are accepted", settings.trials);
     std::vector<StrengthPair> pairs;
     const double middle = std::log(settings.low * settings.high) / 2;
     for (std::size_t apart = 1; apart <= high - low; ++apart) {
@@ -83,7 +82,7 @@ std::optional<ComparisonTrial> StrengthComparison::next() const {
 Result<void> StrengthComparison::answer(TrialInterval said) {
     if (auto valid = validate(said); !valid) return valid;
     const auto asked = next();
-    if (!asked) return fail(ErrorCode::InvalidArgument, "the comparison is complete; no answer is accepted");
+    if (!asked) return invalid("the comparison is complete; no answer is accepted");
     const bool correct = said == asked->interval;
     posterior_.take(chosen_, correct);
     shares_.add(asked->interval, correct);

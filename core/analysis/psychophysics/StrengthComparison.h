@@ -2,7 +2,7 @@
 // one weaker and one stronger: "in which was it stronger? guess" (pilot.md section 8).
 //
 // Model: p = 0.5 + 0.48 erf(ln(b/a) / (2 ln(1 + w))) for the levels a < b: what is felt of each is ln(level)/ln(1 + w)
-// JND with normal noise of 1 JND (Observer.h), guess and lapse as in detection (TwoIntervalPosterior.h).
+// JND with normal noise of 1 JND (VariationObserver.h), guess and lapse as in detection (TwoIntervalTrials.h).
 // Pairs: one for each distance in steps of the grid, as near as it can be to the middle of the range, √(low · high);
 // both lie within the range. Grid: ln w from ln 0.01 to ln 1 by 0.05; prior normal on ln w about ln 0.10, which has no
 // source, with a standard deviation of ln 2 (choice). Next is the pair with the least expected entropy (the nearer of
@@ -19,7 +19,6 @@
 #include <vector>
 
 #include "core/analysis/psychophysics/LevelGrid.h"
-#include "core/analysis/psychophysics/TwoIntervalPosterior.h"
 #include "core/analysis/psychophysics/TwoIntervalTrials.h"
 #include "core/analysis/statistics/Estimate.h"
 

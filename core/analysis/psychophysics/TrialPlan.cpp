@@ -1,8 +1,10 @@
 #include "core/analysis/psychophysics/TrialPlan.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
+#include "core/analysis/statistics/GivenFigure.h"
 #include "core/base/Random.h"
 
 namespace tacto {
@@ -64,25 +66,14 @@ std::optional<PlannedOrder> orderOfPhase(const PlannedBlocks& wanted, std::uint6
 }
 
 Result<void> validatePlan(const TrialPlanSettings& settings) {
-    const struct {
-        std::string_view name;
-        std::size_t value;
-        std::size_t low;
-        std::size_t high;
-    } asked[] = {{"conditions", settings.conditions, 2, 16},
-                 {"rounds of familiarisation", settings.familiarisationRounds, 0, 20},
-                 {"blocks of training", settings.trainingBlocks, 0, 20},
-                 {"trials of a condition in a block of training", settings.trainingPerCondition, 1, 20},
-                 {"blocks of the test", settings.blocks, 1, 50},
-                 {"trials of a condition in a block of the test", settings.perCondition, 1, 20},
-                 {"catch trials in a block of the test", settings.catchTrials, 0, 20}};
-    for (const auto& each : asked) {
-        if (each.value < each.low || each.value > each.high) {
-            return fail(ErrorCode::InvalidArgument, "{} {}; {} to {} are accepted", each.value, each.name, each.low,
-                        each.high);
-        }
-    }
-    return {};
+    return checkFigures(
+        {givenCount("the number of conditions", settings.conditions, 2, 16),
+         givenCount("the number of rounds of familiarisation", settings.familiarisationRounds, 0, 20),
+         givenCount("the number of blocks of training", settings.trainingBlocks, 0, 20),
+         givenCount("trials of a condition in a block of training", settings.trainingPerCondition, 1, 20),
+         givenCount("the number of blocks of the test", settings.blocks, 1, 50),
+         givenCount("trials of a condition in a block of the test", settings.perCondition, 1, 20),
+         givenCount("catch trials in a block of the test", settings.catchTrials, 0, 20)});
 }
 
 }  // namespace
@@ -103,15 +94,43 @@ Result<std::vector<PlannedTrial>> planTrials(const TrialPlanSettings& settings, 
     for (const auto& phase : phases) {
         const auto order = orderOfPhase(phase, seed);
         if (!order) {
-            return fail(ErrorCode::InvalidArgument,
-                        "no order of {} times {} conditions and {} catch trials in a block was found with no condition "
-                        "more than {} times in a row, no catch trial first or right after another",
-                        phase.perCondition, phase.conditions, phase.catchTrials, kMaxInARow);
+            return invalid(
+                "no order of {} times {} conditions and {} catch trials in a block was found with no condition "
+                "more than {} times in a row, no catch trial first or right after another",
+                phase.perCondition, phase.conditions, phase.catchTrials, kMaxInARow);
         }
         const std::size_t size = phase.conditions * phase.perCondition + phase.catchTrials;
         for (std::size_t i = 0; i < order->size(); ++i) append(phase.phase, 1 + i / size, (*order)[i]);
     }
     return plan;
+}
+
+Result<TrainingRule> TrainingRule::create(const TrainingRuleSettings& settings) {
+    auto valid = checkFigures({givenCount("the size of a block of training", settings.blockSize, 1, 1e9),
+                               givenAboveZero("the share of right answers that ends training", settings.share, 1)});
+    if (!valid) return failure(valid);
+    return TrainingRule(settings);
+}
+
+bool TrainingRule::done() const noexcept {
+    return result_.reached || (result_.right.size() >= settings_.most && inBlock_ == 0);
+}
+
+std::optional<TrainingTrial> TrainingRule::next() const {
+    if (done()) return std::nullopt;
+    if (inBlock_ == 0) return TrainingTrial{result_.right.size() + 1, 1};
+    return TrainingTrial{result_.right.size(), inBlock_ + 1};
+}
+
+Result<void> TrainingRule::answer(bool right) {
+    if (done()) return invalid("training is over; no answer is accepted");
+    if (inBlock_ == 0) result_.right.push_back(0);
+    if (right) ++result_.right.back();
+    if (++inBlock_ < settings_.blockSize) return {};
+    inBlock_ = 0;
+    const double needed = settings_.share * static_cast<double>(settings_.blockSize);
+    result_.reached = static_cast<double>(result_.right.back()) >= needed - 1e-9;
+    return {};
 }
 
 }  // namespace tacto

@@ -1,4 +1,5 @@
-// TrialPlan.h - which condition comes when: drawn from the seed and stored before the first trial (pilot.md section 4).
+// TrialPlan.h - which condition comes when: drawn from the seed and stored before the first trial (pilot.md section 4);
+// and when training ends.
 //
 // Familiarisation: named rounds of every condition in order and one empty presentation. Training: blocks with each
 // condition equally often. Test: blocks with each condition equally often and a few catch trials (nothing presented).
@@ -9,11 +10,12 @@
 // Thread-safety: values; pure functions.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
-#include "core/analysis/identification/IdentificationTrial.h"
+#include "core/analysis/identification/Identification.h"
 #include "core/base/Result.h"
 
 namespace tacto {
@@ -40,5 +42,45 @@ inline constexpr std::size_t kMaxInARow = 3;
 
 /// Errors: InvalidArgument naming the setting, its value and what is accepted, or when no order was found that obeys.
 [[nodiscard]] Result<std::vector<PlannedTrial>> planTrials(const TrialPlanSettings& settings, std::uint64_t seed);
+
+// When training ends: after a block with 7 of 8 right, or after four blocks (pilot.md section 4).
+//
+// A participant who does not reach it goes on to the test all the same.
+
+struct TrainingRuleSettings {
+    std::size_t blockSize = 8;  ///< ≥ 1
+    double share = 7.0 / 8;     ///< right answers of a block that end it; above 0 to 1
+    std::size_t most = 4;       ///< blocks; 0: no training
+};
+
+struct TrainingTrial {
+    std::size_t block = 0;  ///< from 1
+    std::size_t trial = 0;  ///< from 1 within the block
+};
+
+struct TrainingResult {
+    std::vector<std::size_t> right;  ///< right answers in each block that has begun
+    bool reached = false;            ///< the share was reached
+};
+
+class TrainingRule {
+public:
+    /// Errors: InvalidArgument naming the setting, its value and what is accepted.
+    [[nodiscard]] static Result<TrainingRule> create(const TrainingRuleSettings& settings);
+
+    /// Nothing when done().
+    [[nodiscard]] std::optional<TrainingTrial> next() const;
+    /// Errors: InvalidArgument when done().
+    [[nodiscard]] Result<void> answer(bool right);
+    [[nodiscard]] bool done() const noexcept;
+    [[nodiscard]] const TrainingResult& result() const noexcept { return result_; }
+
+private:
+    explicit TrainingRule(const TrainingRuleSettings& settings) noexcept : settings_(settings) {}
+
+    TrainingRuleSettings settings_;
+    std::size_t inBlock_ = 0;  // Answered in the current block
+    TrainingResult result_;
+};
 
 }  // namespace tacto

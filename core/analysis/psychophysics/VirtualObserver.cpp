@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/analysis/statistics/GivenFigure.h"
+
 namespace tacto {
 
 namespace {
@@ -32,39 +34,23 @@ TrialInterval other(TrialInterval interval) noexcept {
 
 Result<VirtualObserver> VirtualObserver::create(const VirtualObserverSettings& settings) {
     const auto& who = settings.who;
-    if (!(settings.adaptation >= 0 && settings.adaptation <= 10)) {
-        return fail(ErrorCode::InvalidArgument, "the adaptation is {}; 0 to 10 is accepted", settings.adaptation);
-    }
-    if (!(settings.adaptationTime.count() > 0 && std::isfinite(settings.adaptationTime.count()))) {
-        return fail(ErrorCode::InvalidArgument, "the time of adaptation is {} s; above 0 is accepted",
-                    settings.adaptationTime.count());
-    }
-    const struct {
-        std::string_view name;
-        double value;
-        double high;
-    } asked[] = {{"perception threshold (mA)", who.detection.value(), 1e6},
-                 {"attention threshold (mA)", who.attention.value(), 1e6},
-                 {"intolerance threshold (mA)", who.intolerance.value(), 1e6},
-                 {"level that is too strong (mA)", who.discomfort.value(), 1e6},
-                 {"Weber fraction of amplitude", who.amplitudeWeber, 10},
-                 {"Weber fraction of interval", who.intervalWeber, 10},
-                 {"noise (JND)", who.noise_jnd, 100}};
-    for (const auto& each : asked) {
-        if (!(each.value > 0 && each.value <= each.high)) {
-            return fail(ErrorCode::InvalidArgument, "the virtual participant's {} is {}; above 0 to {:g} is accepted",
-                        each.name, each.value, each.high);
-        }
-    }
+    auto valid = checkFigures(
+        {{"the adaptation", settings.adaptation, {.low = 0, .high = 10}},
+         givenAboveZero("the time of adaptation in s", settings.adaptationTime.count()),
+         givenAboveZero("the virtual participant's perception threshold (mA)", who.detection.value(), 1e6),
+         givenAboveZero("the virtual participant's attention threshold (mA)", who.attention.value(), 1e6),
+         givenAboveZero("the virtual participant's intolerance threshold (mA)", who.intolerance.value(), 1e6),
+         givenAboveZero("the virtual participant's level that is too strong (mA)", who.discomfort.value(), 1e6),
+         givenAboveZero("the virtual participant's Weber fraction of amplitude", who.amplitudeWeber, 10),
+         givenAboveZero("the virtual participant's Weber fraction of interval", who.intervalWeber, 10),
+         givenAboveZero("the virtual participant's noise (JND)", who.noise_jnd, 100),
+         {"the virtual participant's lapse rate", who.lapse, {.low = 0, .high = 1}}});
+    if (!valid) return failure(valid);
     if (!(who.discomfort > who.detection)) {
-        return fail(ErrorCode::InvalidArgument,
-                    "the virtual participant's discomfort level is {} mA; it must exceed the perception threshold "
-                    "({} mA)",
-                    who.discomfort.value(), who.detection.value());
-    }
-    if (!(who.lapse >= 0 && who.lapse <= 1)) {
-        return fail(ErrorCode::InvalidArgument, "the virtual participant's lapse rate is {}; 0 to 1 is accepted",
-                    who.lapse);
+        return invalid(
+            "the virtual participant's discomfort level is {} mA; it must exceed the perception threshold "
+            "({} mA)",
+            who.discomfort.value(), who.detection.value());
     }
     return VirtualObserver(settings);
 }
@@ -90,13 +76,16 @@ Random VirtualObserver::randomFor(std::string_view question, std::string_view ke
 }
 
 double VirtualObserver::jnd(double level) const noexcept {
-    return std::log(level) / std::log1p(settings_.who.amplitudeWeber);
+    return feltBy(settings_.who, level, Seconds(1)).amplitude_jnd;
+}
+
+double VirtualObserver::noisy(Random random, double level) const noexcept {
+    return jnd(level) + settings_.who.noise_jnd * random.normal();
 }
 
 StrengthWord VirtualObserver::strength(std::string_view key, double level, Seconds stimulated) const {
     if (!(level > 0)) return StrengthWord::Nothing;
-    Random random = randomFor("strength", key);
-    const double felt = jnd(level / risen(stimulated)) + settings_.who.noise_jnd * random.normal();
+    const double felt = noisy(randomFor("strength", key), level / risen(stimulated));
     if (felt < jnd(detection_)) return StrengthWord::Nothing;
     if (felt >= jnd(tooStrong_)) return StrengthWord::TooStrong;
     return felt < jnd(attention_) ? StrengthWord::Weak : StrengthWord::Strong;
@@ -125,19 +114,14 @@ TrialInterval VirtualObserver::compare(std::string_view key, double weaker, doub
 IdentificationTask VirtualObserver::taskFor(std::span<const DeliveredCondition> conditions) const {
     IdentificationTask task;
     for (const auto& condition : conditions) {
-        task.points.push_back(
-            {jnd(condition.level), std::log(condition.interval.count()) / std::log1p(settings_.who.intervalWeber)});
+        task.points.push_back(feltBy(settings_.who, condition.level, condition.interval));
     }
     task.given.assign(conditions.size(), true);
     return task;
 }
 
 Observer VirtualObserver::observerAfter(Seconds stimulated) const {
-    Observer observer;
-    observer.noise_jnd = settings_.who.noise_jnd;
-    observer.lapse = settings_.who.lapse;
-    observer.detection_jnd = jnd(detection_ * risen(stimulated));
-    return observer;
+    return observerOf(settings_.who, detection_ * risen(stimulated));
 }
 
 std::size_t VirtualObserver::identify(std::string_view key, std::span<const DeliveredCondition> conditions,
@@ -149,8 +133,7 @@ std::size_t VirtualObserver::identify(std::string_view key, std::span<const Deli
 }
 
 bool VirtualObserver::acceptable(std::string_view key, double level, Seconds stimulated) const {
-    Random random = randomFor("consent to a level", key);
-    return jnd(level / risen(stimulated)) + settings_.who.noise_jnd * random.normal() < jnd(tooStrong_);
+    return noisy(randomFor("consent to a level", key), level / risen(stimulated)) < jnd(tooStrong_);
 }
 
 VirtualRating VirtualObserver::rate(std::string_view key, double level, Seconds stimulated) const {

@@ -99,6 +99,8 @@ private:
     explicit VirtualObserver(const VirtualObserverSettings& settings) noexcept;
     [[nodiscard]] Random randomFor(std::string_view question, std::string_view key) const;
     [[nodiscard]] double jnd(double level) const noexcept;
+    /// The same as it is felt, with the observer's noise.
+    [[nodiscard]] double noisy(Random random, double level) const noexcept;
     [[nodiscard]] IdentificationTask taskFor(std::span<const DeliveredCondition> conditions) const;
     [[nodiscard]] Observer observerAfter(Seconds stimulated) const;
 

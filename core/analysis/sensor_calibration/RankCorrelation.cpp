@@ -57,26 +57,22 @@ std::vector<double> midRanks(std::span<const double> values) {
 
 Result<RankCorrelation> spearman(std::span<const double> x, std::span<const double> y) {
     if (x.size() != y.size()) {
-        return fail(ErrorCode::InvalidArgument, "rank correlation: {} values against {}; as many are expected",
-                    x.size(), y.size());
+        return invalid("rank correlation: {} values against {}; as many are expected", x.size(), y.size());
     }
     if (x.size() < kMinRanked) {
-        return fail(ErrorCode::InvalidArgument, "rank correlation: {} pairs; at least {} are expected", x.size(),
-                    kMinRanked);
+        return invalid("rank correlation: {} pairs; at least {} are expected", x.size(), kMinRanked);
     }
     for (const auto side : {x, y}) {
         for (const double value : side) {
             if (!std::isfinite(value)) {
-                return fail(ErrorCode::InvalidArgument, "rank correlation: a value is {}; a finite one is expected",
-                            value);
+                return invalid("rank correlation: a value is {}; a finite one is expected", value);
             }
         }
     }
     const auto ranksX = midRanks(x), ranksY = midRanks(y);
     const double rho = correlation(ranksX, ranksY);
     if (std::isnan(rho)) {
-        return fail(ErrorCode::InvalidArgument,
-                    "rank correlation: all {} values of one side are equal; they cannot be ranked", x.size());
+        return invalid("rank correlation: all {} values of one side are equal; they cannot be ranked", x.size());
     }
     RankCorrelation out;
     out.n = x.size();

@@ -57,22 +57,20 @@ std::size_t indexOf(SensorFeature feature) { return static_cast<std::size_t>(fea
 
 constexpr std::size_t kMaxTaxels = 100'000;
 
-RecordFields<SensorRest> buildRestFields() {
-    RecordFields<SensorRest> all;
-    all.list("taxel_baseline", in(&SensorRest::levels, &RestLevels::taxelBaseline), numberKind<double>({}), 0,
-             kMaxTaxels)
-        .required = true;
-    all.number("taxel_floor", in(&SensorRest::levels, &RestLevels::taxelFloor), {.low = 0}).required = true;
-    all.number("mean_square", in(&SensorRest::levels, &RestLevels::slidingMeanSquare));
-    all.word("taxel_unit", &SensorRest::taxelUnit, kTaxelUnits);
-    all.word("unit", &SensorRest::restUnit, kRestUnits);
-    all.takeNullAsMissing();
-    all.passOverUnknownKeys();
-    return all;
-}
-
 const RecordFields<SensorRest>& restFields() {
-    static const auto fields = buildRestFields();
+    static const auto fields = [] {
+        RecordFields<SensorRest> all;
+        all.list("taxel_baseline", in(&SensorRest::levels, &RestLevels::taxelBaseline), numberKind<double>({}), 0,
+                 kMaxTaxels)
+            .required = true;
+        all.number("taxel_floor", in(&SensorRest::levels, &RestLevels::taxelFloor), {.low = 0}).required = true;
+        all.number("mean_square", in(&SensorRest::levels, &RestLevels::slidingMeanSquare));
+        all.word("taxel_unit", &SensorRest::taxelUnit, kTaxelUnits);
+        all.word("unit", &SensorRest::restUnit, kRestUnits);
+        all.takeNullAsMissing();
+        all.passOverUnknownKeys();
+        return all;
+    }();
     return fields;
 }
 
@@ -85,42 +83,38 @@ RecordFields<ForceInUse> forceFields() {
     return all;
 }
 
-RecordFields<WeightReading> buildWeightFields() {
-    using W = WeightReading;
-    RecordFields<W> all;
-    all.number("mass_g", &W::mass_g, {.unit = "g"});
-    all.number("reference_n", &W::reference_n, {.unit = "N"}).required = true;
-    all.number("force", &W::force);
-    all.word("force_unit", &W::forceUnit, kForceUnits).leftOutIfEmpty = true;
-    all.list("taxels", &W::taxels, readingKind(), 0, kMaxTaxels);
-    all.word("taxel_unit", &W::taxelUnit, kTaxelUnits).leftOutIfEmpty = true;
-    all.record("force_in_use", &W::inUse, forceFields());
-    all.takeNullAsMissing();
-    all.passOverUnknownKeys();
-    return all;
-}
-
 const RecordFields<WeightReading>& weightFields() {
-    static const auto fields = buildWeightFields();
+    static const auto fields = [] {
+        using W = WeightReading;
+        RecordFields<W> all;
+        all.number("mass_g", &W::mass_g, {.unit = "g"});
+        all.number("reference_n", &W::reference_n, {.unit = "N"}).required = true;
+        all.number("force", &W::force);
+        all.word("force_unit", &W::forceUnit, kForceUnits).leftOutIfEmpty = true;
+        all.list("taxels", &W::taxels, readingKind(), 0, kMaxTaxels);
+        all.word("taxel_unit", &W::taxelUnit, kTaxelUnits).leftOutIfEmpty = true;
+        all.record("force_in_use", &W::inUse, forceFields());
+        all.takeNullAsMissing();
+        all.passOverUnknownKeys();
+        return all;
+    }();
     return fields;
 }
 
-RecordFields<SlideReading> buildSlideFields() {
-    using S = SlideReading;
-    RecordFields<S> all;
-    all.number("h", &S::h);
-    all.number("h_abs", &S::hAbs);
-    all.number("v_static", &S::vStatic);
-    all.number("v_dynamic", &S::vDynamic);
-    all.number("force_n", &S::force_n);
-    all.number("sliding_frames", &S::slidingFrames).required = true;
-    all.takeNullAsMissing();
-    all.passOverUnknownKeys();
-    return all;
-}
-
 const RecordFields<SlideReading>& slideFields() {
-    static const auto fields = buildSlideFields();
+    static const auto fields = [] {
+        using S = SlideReading;
+        RecordFields<S> all;
+        all.number("h", &S::h);
+        all.number("h_abs", &S::hAbs);
+        all.number("v_static", &S::vStatic);
+        all.number("v_dynamic", &S::vDynamic);
+        all.number("force_n", &S::force_n);
+        all.number("sliding_frames", &S::slidingFrames).required = true;
+        all.takeNullAsMissing();
+        all.passOverUnknownKeys();
+        return all;
+    }();
     return fields;
 }
 

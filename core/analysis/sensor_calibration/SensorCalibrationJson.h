@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/analysis/sensor_calibration/SensorCalibration.h"
-#include "core/analysis/sensor_calibration/SensorScale.h"
+#include "core/analysis/sensor_calibration/SensorReading.h"
 
 namespace tacto {
 

@@ -41,14 +41,12 @@ double noncentralityAt(double t, double degreesOfFreedom, double p) noexcept {
 
 Result<Statistics> readingsOf(std::span<const double> readings) {
     if (readings.size() < kMinSlides) {
-        return fail(ErrorCode::InvalidArgument,
-                    "distance of two surfaces: one surface has only {} slides; at least {} are needed", readings.size(),
-                    kMinSlides);
+        return invalid("distance of two surfaces: one surface has only {} slides; at least {} are needed",
+                       readings.size(), kMinSlides);
     }
     for (const double reading : readings) {
         if (!std::isfinite(reading)) {
-            return fail(ErrorCode::InvalidArgument,
-                        "distance of two surfaces: a reading is {}; a finite one is expected", reading);
+            return invalid("distance of two surfaces: a reading is {}; a finite one is expected", reading);
         }
     }
     return statisticsOf(readings);

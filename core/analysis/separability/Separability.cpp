@@ -27,11 +27,11 @@ Result<std::vector<std::string>> conditionsOf(std::span<const SeparabilityTrial>
                                               const SeparabilityOptions& options) {
     std::vector<std::string> names = options.conditions;
     for (const auto& trial : trials) {
-        if (trial.condition.empty()) return fail(ErrorCode::InvalidArgument, "a trial names no condition");
+        if (trial.condition.empty()) return invalid("a trial names no condition");
         if (std::find(names.begin(), names.end(), trial.condition) != names.end()) continue;
         if (!options.conditions.empty()) {
-            return fail(ErrorCode::InvalidArgument, "a trial of condition '{}'; {} were expected", trial.condition,
-                        fmt::join(options.conditions, ", "));
+            return invalid("a trial of condition '{}'; {} were expected", trial.condition,
+                           fmt::join(options.conditions, ", "));
         }
         names.push_back(trial.condition);
     }
@@ -42,7 +42,7 @@ Result<std::vector<std::string>> conditionsOf(std::span<const SeparabilityTrial>
         std::stable_sort(names.begin(), names.end(), [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
     }
     if (names.size() < 2) {
-        return fail(ErrorCode::InvalidArgument, "{} condition(s); at least two are needed to tell apart", names.size());
+        return invalid("{} condition(s); at least two are needed to tell apart", names.size());
     }
     return names;
 }
@@ -53,9 +53,8 @@ Result<void> checkValues(std::span<const SeparabilityTrial> trials) {
              {std::pair{"amplitude", trials[i].amplitude}, std::pair{"interval", trials[i].interval_s}}) {
             if (std::isnan(value)) continue;  // not measured
             if (!(value > 0) || !std::isfinite(value)) {
-                return fail(ErrorCode::InvalidArgument,
-                            "trial {} ('{}') has {} {}; a finite value above 0 was expected", i + 1,
-                            trials[i].condition, name, value);
+                return invalid("trial {} ('{}') has {} {}; a finite value above 0 was expected", i + 1,
+                               trials[i].condition, name, value);
             }
         }
     }

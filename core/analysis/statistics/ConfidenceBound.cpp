@@ -1,7 +1,10 @@
+// Boost.Math in few files: its headers take seconds to compile.
 #include "core/analysis/statistics/ConfidenceBound.h"
 
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
 #include "core/analysis/statistics/UncertaintyBudget.h"
@@ -49,6 +52,14 @@ Bounds logRatioBounds(const MeanReading& a, const MeanReading& b) noexcept {
     const double freedom = bySquares > 0 ? square * square / bySquares : std::numeric_limits<double>::infinity();
     const double reach = studentQuantile(kOneSided, freedom) * std::sqrt(square);
     return {std::max(0.0, distance - reach), distance + reach};
+}
+
+double studentQuantile(double p, double degreesOfFreedom) noexcept {
+    if (!(p > 0) || !(p < 1) || !(degreesOfFreedom > 0)) return std::numeric_limits<double>::quiet_NaN();
+    if (std::isinf(degreesOfFreedom)) {
+        return boost::math::quantile(boost::math::normal_distribution<double, QuietBound>(), p);
+    }
+    return boost::math::quantile(boost::math::students_t_distribution<double, QuietBound>(degreesOfFreedom), p);
 }
 
 }  // namespace tacto

@@ -22,4 +22,11 @@ ValueKind<double> readingKind() {
         [](double reading) { return numberOrNull(reading); });
 }
 
+ValueKind<std::string> textOrNullKind() {
+    return codedKind<std::string>(
+        "a text or null",
+        [](const json& value) { return std::optional(value.is_string() ? value.get<std::string>() : ""); },
+        [](const std::string& text) { return text.empty() ? json() : json(text); });
+}
+
 }  // namespace tacto

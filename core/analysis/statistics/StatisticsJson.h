@@ -19,5 +19,7 @@ namespace tacto {
 [[nodiscard]] nlohmann::json toJson(const Estimate& estimate);
 /// A reading in a list, where null keeps the place of one that failed: NaN.
 [[nodiscard]] ValueKind<double> readingKind();
+/// A text, or null for an empty one.
+[[nodiscard]] ValueKind<std::string> textOrNullKind();
 
 }  // namespace tacto

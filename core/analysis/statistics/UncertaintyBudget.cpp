@@ -15,20 +15,17 @@ constexpr std::size_t kMinDraws = 1000;
 
 Result<void> check(const Contribution& row) {
     if (row.value < 0 || std::isinf(row.value)) {
-        return fail(ErrorCode::InvalidArgument, "uncertainty of {}: {} was given; 0 or more was expected", row.name,
-                    row.value);
+        return invalid("uncertainty of {}: {} was given; 0 or more was expected", row.name, row.value);
     }
     if (!(row.divisor > 0) || !std::isfinite(row.divisor)) {
-        return fail(ErrorCode::InvalidArgument, "uncertainty of {}: divisor {}; above 0 was expected", row.name,
-                    row.divisor);
+        return invalid("uncertainty of {}: divisor {}; above 0 was expected", row.name, row.divisor);
     }
     if (!std::isfinite(row.sensitivity)) {
-        return fail(ErrorCode::InvalidArgument, "uncertainty of {}: sensitivity {}; a finite one was expected",
-                    row.name, row.sensitivity);
+        return invalid("uncertainty of {}: sensitivity {}; a finite one was expected", row.name, row.sensitivity);
     }
     if (!(row.degreesOfFreedom > 0)) {
-        return fail(ErrorCode::InvalidArgument, "uncertainty of {}: {} degrees of freedom; above 0 were expected",
-                    row.name, row.degreesOfFreedom);
+        return invalid("uncertainty of {}: {} degrees of freedom; above 0 were expected", row.name,
+                       row.degreesOfFreedom);
     }
     return {};
 }
@@ -88,11 +85,10 @@ std::string_view nameOf(CoverageMethod method) noexcept { return wordFor(kCovera
 
 Result<UncertaintyBudget> combine(std::vector<Contribution> rows, const BudgetOptions& options) {
     if (rows.empty()) {
-        return fail(ErrorCode::InvalidArgument, "an uncertainty budget without rows; at least one was expected");
+        return invalid("an uncertainty budget without rows; at least one was expected");
     }
     if (options.draws < kMinDraws) {
-        return fail(ErrorCode::InvalidArgument, "{} draws for an uncertainty budget; at least {} were expected",
-                    options.draws, kMinDraws);
+        return invalid("{} draws for an uncertainty budget; at least {} were expected", options.draws, kMinDraws);
     }
     UncertaintyBudget budget;
     double squares = 0, widestRectangle = 0;

@@ -6,20 +6,37 @@
 // Thread-safety: pure functions.
 #pragma once
 
+#include <cmath>
 #include <string_view>
+
+#include "core/base/Words.h"
 
 namespace tacto {
 
 enum class Verdict { Pass, Fail, Indeterminate };
-[[nodiscard]] std::string_view nameOf(Verdict verdict) noexcept;  // "pass", "fail", "indeterminate"
+inline constexpr Word<Verdict> kVerdicts[] = {
+    {"pass", Verdict::Pass}, {"fail", Verdict::Fail}, {"indeterminate", Verdict::Indeterminate}};
+[[nodiscard]] constexpr std::string_view nameOf(Verdict verdict) noexcept { return wordFor(kVerdicts, verdict); }
 
 /// Pass when |error| + U ≤ tolerance, fail when |error| - U > tolerance, else indeterminate. What is NaN, a negative U
 /// or a tolerance that is not above 0 can prove nothing: indeterminate (hazard H9).
-[[nodiscard]] Verdict guardBanded(double error, double expandedUncertainty, double tolerance) noexcept;
+[[nodiscard]] inline Verdict guardBanded(double error, double expandedUncertainty, double tolerance) noexcept {
+    if (!(expandedUncertainty >= 0) || !(tolerance > 0)) return Verdict::Indeterminate;
+    if (std::abs(error) + expandedUncertainty <= tolerance) return Verdict::Pass;
+    if (std::abs(error) - expandedUncertainty > tolerance) return Verdict::Fail;
+    return Verdict::Indeterminate;
+}
 /// The name of guardBanded(); "not evaluated" where the error or its uncertainty is NaN.
-[[nodiscard]] std::string_view guardBandedName(double error, double expandedUncertainty, double tolerance) noexcept;
+[[nodiscard]] inline std::string_view guardBandedName(double error, double expandedUncertainty,
+                                                      double tolerance) noexcept {
+    if (std::isnan(error) || std::isnan(expandedUncertainty)) return "not evaluated";
+    return nameOf(guardBanded(error, expandedUncertainty, tolerance));
+}
 
 /// Fail if either fails, else indeterminate if either is, else pass.
-[[nodiscard]] Verdict worseOf(Verdict a, Verdict b) noexcept;
+[[nodiscard]] constexpr Verdict worseOf(Verdict a, Verdict b) noexcept {
+    if (a == Verdict::Fail || b == Verdict::Fail) return Verdict::Fail;
+    return a == Verdict::Indeterminate ? a : b;
+}
 
 }  // namespace tacto

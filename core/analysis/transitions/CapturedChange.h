@@ -94,4 +94,45 @@ struct ChangeJudgement {
 [[nodiscard]] ChangeJudgement judgeChanges(std::span<const CapturedChange> changes,
                                            const std::vector<std::string>& names, const ChangeLimits& limits);
 
+// Rows gathered by their names, in the order in which the names first come.
+
+/// The group of that name, made where there is none yet. `Group` has a `name`.
+template <class Group>
+[[nodiscard]] Group& groupNamed(std::vector<Group>& groups, const std::string& name) {
+    for (auto& group : groups) {
+        if (group.name == name) return group;
+    }
+    groups.emplace_back().name = name;
+    return groups.back();
+}
+
+/// Empty groups of these names, so that a name without rows is missed.
+template <class Group>
+[[nodiscard]] std::vector<Group> groupsOf(const std::vector<std::string>& names) {
+    std::vector<Group> groups;
+    for (const auto& name : names) static_cast<void>(groupNamed(groups, name));
+    return groups;
+}
+
+// The latency of steps, name by name: what was measured against what the scheduler's design says.
+
+struct LatencyGroup {
+    std::string name;
+    std::size_t steps = 0;
+    Statistics latency_s, designed_s, difference_s, trains, designedTrains;
+    Verdict verdict = Verdict::Indeterminate;
+};
+
+struct LatencyJudgement {
+    double tolerance_s = 0;
+    std::vector<LatencyGroup> groups;
+    Verdict verdict = Verdict::Indeterminate;
+    std::vector<std::string> reasons;
+};
+
+/// `names` must all be there for a pass. A step that was not measured makes its group indeterminate; one that is
+/// further from the design than `tolerance_s`, or takes more trains, makes it a fail.
+[[nodiscard]] LatencyJudgement judgeLatency(std::span<const CapturedChange> steps,
+                                            const std::vector<std::string>& names, double tolerance_s);
+
 }  // namespace tacto

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "core/analysis/transitions/CapturedChange.h"
-#include "core/analysis/transitions/StepLatency.h"
 #include "core/base/Result.h"
 
 namespace tacto {

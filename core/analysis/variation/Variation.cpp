@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/analysis/statistics/GivenFigure.h"
 #include "core/analysis/statistics/InformationTransfer.h"
 #include "core/analysis/variation/IndexedWork.h"
 #include "core/analysis/variation/VariationBench.h"
@@ -17,13 +18,9 @@ constexpr std::size_t kPeopleKept = 1000;
 Result<void> check(const VariationOptions& options) {
     if (auto valid = validate(options.population); !valid) return failure(valid);
     if (auto valid = validate(options.stimulation); !valid) return failure(valid);
-    if (options.participants < 1 || options.participants > 100'000) {
-        return fail(ErrorCode::InvalidArgument, "{} virtual participants; 1 to 100000 is accepted",
-                    options.participants);
-    }
-    if (options.trials < 1 || options.trials > 10'000) {
-        return fail(ErrorCode::InvalidArgument, "{} trials per condition; 1 to 10000 is accepted", options.trials);
-    }
+    auto valid = checkFigures({givenCount("the number of virtual participants", options.participants, 1, 100'000),
+                               givenCount("the number of trials per condition", options.trials, 1, 10'000)});
+    if (!valid) return valid;
     return validate(options.wanted);
 }
 
@@ -192,14 +189,11 @@ ParticipantPrediction predictParticipant(const VariationOptions& options, std::s
     out.who = drawParticipant(options.population, options.seed, index, options.stimulation.encoding.train.phaseWidth,
                               options.stimulation.electrodeArea);
     out.delivery = deliverTo(out.who, options.stimulation);
-    const double perAmplitude = std::log1p(out.who.amplitudeWeber);
-    const double perInterval = std::log1p(out.who.intervalWeber);
     IdentificationTask task;
     for (const auto& stimulus : out.delivery.stimuli) {
         const bool given = stimulus.outcome == DeliveryOutcome::Presented;
         const double unknown = std::nan("");
-        out.points.push_back(given ? FeltPoint{std::log(stimulus.current.value()) / perAmplitude,
-                                               std::log(stimulus.interval.count()) / perInterval}
+        out.points.push_back(given ? feltBy(out.who, stimulus.current.value(), stimulus.interval)
                                    : FeltPoint{unknown, unknown});
         out.presented += given ? 1 : 0;
         task.points.push_back(out.points.back());
@@ -207,8 +201,7 @@ ParticipantPrediction predictParticipant(const VariationOptions& options, std::s
     }
     out.complete = out.presented == task.points.size();
     out.served = std::ranges::all_of(out.delivery.stimuli, &PredictedStimulus::felt);
-    const Observer observer{out.who.noise_jnd, out.who.lapse, std::log(out.who.detection.value()) / perAmplitude,
-                            options.guess};
+    const auto observer = observerOf(out.who, out.who.detection.value(), options.guess);
     out.responses = responseProbabilities(task, observer);
     Random random(options.seed, fmt::format("answers of virtual participant {}", index));
     out.counts = sampleResponses(task, observer, options.trials, random);

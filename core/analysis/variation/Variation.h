@@ -20,7 +20,6 @@
 
 #include "core/analysis/variation/VariationDelivery.h"
 #include "core/analysis/variation/VariationObserver.h"
-#include "core/analysis/variation/VariationPilot.h"
 #include "core/analysis/variation/VariationTrials.h"
 
 namespace tacto {

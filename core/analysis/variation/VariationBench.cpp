@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/analysis/statistics/GivenFigure.h"
 #include "core/base/JustNoticeable.h"
 #include "core/base/Random.h"
 
@@ -11,22 +12,13 @@ namespace tacto {
 namespace {
 
 Result<void> check(const BenchTolerances& tolerances) {
-    const struct {
-        const char* name;
-        double value;
-        double most;
-    } fields[] = {{"the stimulator's gain tolerance", tolerances.stimulatorGain, 0.5},
-                  {"the stimulator's offset in V", tolerances.stimulatorOffset.value(), 1e3},
-                  {"the load's tolerance", tolerances.load, 0.5},
-                  {"the oscilloscope's gain tolerance", tolerances.scopeGain, 0.5},
-                  {"the oscilloscope's offset tolerance", tolerances.scopeOffset, 0.5},
-                  {"the clocks' tolerance", tolerances.clock, 0.5},
-                  {"the jitter in us", tolerances.jitter.count(), 1e6}};
-    for (const auto& field : fields) {
-        if (field.value >= 0 && field.value <= field.most) continue;
-        return fail(ErrorCode::InvalidArgument, "{} is {}; 0 to {:g} is accepted", field.name, field.value, field.most);
-    }
-    return {};
+    return checkFigures({{"the stimulator's gain tolerance", tolerances.stimulatorGain, {.low = 0, .high = 0.5}},
+                         {"the stimulator's offset in V", tolerances.stimulatorOffset.value(), {.low = 0, .high = 1e3}},
+                         {"the load's tolerance", tolerances.load, {.low = 0, .high = 0.5}},
+                         {"the oscilloscope's gain tolerance", tolerances.scopeGain, {.low = 0, .high = 0.5}},
+                         {"the oscilloscope's offset tolerance", tolerances.scopeOffset, {.low = 0, .high = 0.5}},
+                         {"the clocks' tolerance", tolerances.clock, {.low = 0, .high = 0.5}},
+                         {"the jitter in us", tolerances.jitter.count(), {.low = 0, .high = 1e6}}});
 }
 
 }  // namespace
@@ -48,9 +40,8 @@ Result<BenchVariation> predictBench(const EncodingProfile& encoding, Drive drive
                                     std::size_t draws, std::uint64_t seed) {
     if (auto valid = validate(encoding); !valid) return failure(valid);
     if (auto valid = check(tolerances); !valid) return failure(valid);
-    if (draws < 100 || draws > 1'000'000) {
-        return fail(ErrorCode::InvalidArgument, "{} draws of a bench; 100 to 1000000 is accepted", draws);
-    }
+    if (auto valid = checkFigures({givenCount("the number of draws of a bench", draws, 100, 1e6)}); !valid)
+        return failure(valid);
     std::vector<Command> commands;
     const Encoder encoder(encoding);
     for (const auto& condition : encoding.conditions) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/analysis/statistics/GivenFigure.h"
 #include "core/base/Words.h"
 #include "core/electrode/LoadResponse.h"
 #include "core/safety/SourceTraits.h"
@@ -94,7 +95,7 @@ std::string_view nameOf(AmplitudeLevels levels) noexcept { return wordFor(kAmpli
 
 Result<AmplitudeLevels> amplitudeLevelsFrom(std::string_view name) {
     if (const auto known = valueFor(kAmplitudeLevels, name)) return *known;
-    return fail(ErrorCode::InvalidArgument, "the amplitude levels are \"{}\"; profile or personal is accepted", name);
+    return invalid("the amplitude levels are \"{}\"; profile or personal is accepted", name);
 }
 
 std::string_view nameOf(DeliveryOutcome outcome) noexcept { return wordFor(kDeliveryOutcomeWords, outcome); }
@@ -113,32 +114,24 @@ SourceTraits idealSource(Drive drive) noexcept {
 Result<void> validate(const VirtualStimulation& stimulation) {
     if (auto valid = validate(stimulation.encoding); !valid) return failure(valid);
     if (stimulation.encoding.conditions.size() < 2) {
-        return fail(ErrorCode::InvalidArgument, "{} conditions; two or more can be told apart",
-                    stimulation.encoding.conditions.size());
+        return invalid("{} conditions; two or more can be told apart", stimulation.encoding.conditions.size());
     }
     if (stimulation.limits.empty()) {
-        return fail(ErrorCode::InvalidArgument, "no limit set is given; what would be refused cannot be determined");
+        return invalid("no limit set is given; what would be refused cannot be determined");
     }
     if (const auto area = stimulation.electrodeArea; area && !(area->value() > 0 && area->value() <= 1e4)) {
-        return fail(ErrorCode::InvalidArgument, "an electrode of {} cm2; above 0 to 10000 is accepted", area->value());
+        return invalid("an electrode of {} cm2; above 0 to 10000 is accepted", area->value());
     }
     if (stimulation.source.drive == Drive::HighImpedance) {
-        return fail(ErrorCode::InvalidArgument,
-                    "a source of high impedance; a voltage or a current source is accepted");
+        return invalid("a source of high impedance; a voltage or a current source is accepted");
     }
     if (!(stimulation.loadLow.value() > 0 && stimulation.loadLow < stimulation.loadHigh)) {
-        return fail(ErrorCode::InvalidArgument, "loads of {} to {} ohm; a range above 0 is accepted",
-                    stimulation.loadLow.value(), stimulation.loadHigh.value());
+        return invalid("loads of {} to {} ohm; a range above 0 is accepted", stimulation.loadLow.value(),
+                       stimulation.loadHigh.value());
     }
-    if (!(stimulation.aboveDetection >= 1 && stimulation.aboveDetection <= 10)) {
-        return fail(ErrorCode::InvalidArgument, "the lower level is {} times detection; 1 to 10 is accepted",
-                    stimulation.aboveDetection);
-    }
-    if (!(stimulation.belowDiscomfort > 0 && stimulation.belowDiscomfort <= 1)) {
-        return fail(ErrorCode::InvalidArgument, "the upper level is {} times discomfort; above 0 to 1 is accepted",
-                    stimulation.belowDiscomfort);
-    }
-    return {};
+    return checkFigures(
+        {{"the lower level, in detection thresholds,", stimulation.aboveDetection, {.low = 1, .high = 10}},
+         givenAboveZero("the upper level, in parts of discomfort,", stimulation.belowDiscomfort, 1)});
 }
 
 Delivery deliverTo(const VirtualParticipant& who, const VirtualStimulation& stimulation) {

@@ -27,6 +27,9 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "core/analysis/variation/Variation.h"
 #include "core/analysis/variation/VariationBench.h"
@@ -38,5 +41,26 @@ namespace tacto {
 /// {"draws", "conditions": [{"name", "amplitude_v", "interval_s"}], "pairs": [{"a", "b", "amplitude_jnd",
 /// "interval_jnd"}]}
 [[nodiscard]] nlohmann::json toJson(const BenchVariation& found);
+
+// What a prediction rests on: each figure with its source, or said to be a choice of ours.
+
+enum class PremiseMark {
+    Source,  ///< the value is the source's
+    Choice,  ///< no source was found, or several would do: replace it with the laboratory's own
+    Set,     ///< other than shipped: the operator answers for it
+};
+[[nodiscard]] std::string_view nameOf(PremiseMark mark) noexcept;  // "source", "choice", "set"
+
+struct Premise {
+    std::string quantity;
+    std::string value;   ///< median, with its unit
+    std::string spread;  ///< geometric standard deviation and its own mark, "1.4 (choice)": no source gives one; empty
+                         ///< for one value for all
+    PremiseMark mark = PremiseMark::Choice;
+    std::string source;  ///< source of the shipped value; for a choice what it leans on, in a sentence
+};
+
+/// In the order of the chain: thresholds, skin, discrimination, levels. `options` has been predicted with.
+[[nodiscard]] std::vector<Premise> premisesOf(const VariationOptions& options);
 
 }  // namespace tacto

@@ -129,11 +129,20 @@ std::string_view nameOf(GuessBehaviour guess) noexcept { return wordFor(kGuessBe
 
 Result<GuessBehaviour> guessBehaviourFrom(std::string_view name) {
     if (const auto known = valueFor(kGuessBehaviours, name)) return *known;
-    return fail(ErrorCode::InvalidArgument, "the guess behaviour is \"{}\"; none or uniform is accepted", name);
+    return invalid("the guess behaviour is \"{}\"; none or uniform is accepted", name);
 }
 
 double distance_jnd(const FeltPoint& a, const FeltPoint& b) noexcept {
     return std::hypot(a.amplitude_jnd - b.amplitude_jnd, a.interval_jnd - b.interval_jnd);
+}
+
+FeltPoint feltBy(const VirtualParticipant& who, double level, Seconds interval) noexcept {
+    return {std::log(level) / std::log1p(who.amplitudeWeber),
+            std::log(interval.count()) / std::log1p(who.intervalWeber)};
+}
+
+Observer observerOf(const VirtualParticipant& who, double detection, GuessBehaviour guess) noexcept {
+    return {who.noise_jnd, who.lapse, feltBy(who, detection, Seconds(1)).amplitude_jnd, guess};
 }
 
 std::vector<std::vector<double>> responseProbabilities(const IdentificationTask& task, const Observer& observer) {

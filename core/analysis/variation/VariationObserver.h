@@ -15,8 +15,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/base/Random.h"
-#include "core/base/Result.h"
+#include "core/analysis/variation/VirtualParticipant.h"
 
 namespace tacto {
 
@@ -36,6 +35,9 @@ struct FeltPoint {
 /// Euclidean: the d' of two conditions for an observer whose noise is 1.
 [[nodiscard]] double distance_jnd(const FeltPoint& a, const FeltPoint& b) noexcept;
 
+/// What `who` feels of a train of `level` (a current, or an intensity) that comes every `interval`.
+[[nodiscard]] FeltPoint feltBy(const VirtualParticipant& who, double level, Seconds interval) noexcept;
+
 struct Observer {
     double noise_jnd = 1;  ///< > 0, both dimensions
     double lapse = 0;      ///< 0 to 1
@@ -43,6 +45,10 @@ struct Observer {
     double detection_jnd = -std::numeric_limits<double>::infinity();
     GuessBehaviour guess = GuessBehaviour::None;
 };
+
+/// `who` as an observer whose detection threshold is `detection`, in the levels' unit.
+[[nodiscard]] Observer observerOf(const VirtualParticipant& who, double detection,
+                                  GuessBehaviour guess = GuessBehaviour::None) noexcept;
 
 /// A condition that is never given keeps its row and column, so that indices are those of the experiment.
 struct IdentificationTask {

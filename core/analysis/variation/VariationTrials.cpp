@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/analysis/statistics/Binomial.h"
+#include "core/analysis/statistics/Estimate.h"
+#include "core/analysis/statistics/GivenFigure.h"
 
 namespace tacto {
 
@@ -17,16 +18,7 @@ double widthOf(std::size_t k, std::size_t n) noexcept {
 /// Smallest k from n/2 up whose interval is narrow enough, n + 1 if none is: the interval is the widest in the
 /// middle and the same for k and n - k.
 std::size_t narrowFrom(std::size_t n, double width) noexcept {
-    std::size_t low = (n + 1) / 2, high = n + 1;
-    while (low < high) {
-        const std::size_t middle = low + (high - low) / 2;
-        if (widthOf(middle, n) <= width) {
-            high = middle;
-        } else {
-            low = middle + 1;
-        }
-    }
-    return low;
+    return firstEnough((n + 1) / 2, n + 1, [&](std::size_t k) { return widthOf(k, n) <= width; });
 }
 
 /// The mean over people of a probability that depends on their accuracy.
@@ -64,16 +56,7 @@ std::optional<std::size_t> fewest(std::size_t step, std::size_t enoughFrom, doub
 
 /// At this many trials every outcome is narrow enough, or `most`.
 std::size_t alwaysNarrow(double width, std::size_t most) noexcept {
-    std::size_t low = 1, high = most;
-    while (low < high) {
-        const std::size_t middle = low + (high - low) / 2;
-        if (widthOf((middle + 1) / 2, middle) <= width) {
-            high = middle;
-        } else {
-            low = middle + 1;
-        }
-    }
-    return low;
+    return firstEnough(1, most, [&](std::size_t n) { return widthOf((n + 1) / 2, n) <= width; });
 }
 
 /// Trials that are enough for certain, in the sense that more cannot spoil it, found by doubling.
@@ -142,26 +125,13 @@ Estimate widthsAt(std::span<const double> accuracies, std::size_t n) {
 }  // namespace
 
 Result<void> validate(const TrialsWanted& wanted) {
-    if (!(wanted.width >= 0.02 && wanted.width <= 1)) {
-        return fail(ErrorCode::InvalidArgument, "the wanted width of the interval is {}; 0.02 to 1 is accepted",
-                    wanted.width);
-    }
-    if (!(wanted.chance > 0 && wanted.chance < 1)) {
-        return fail(ErrorCode::InvalidArgument, "the chance level is {}; above 0 and below 1 is accepted",
-                    wanted.chance);
-    }
-    if (!(wanted.assurance >= 0.5 && wanted.assurance <= 0.999)) {
-        return fail(ErrorCode::InvalidArgument, "the assurance is {}; 0.5 to 0.999 is accepted", wanted.assurance);
-    }
-    if (wanted.conditions < 1 || wanted.participants < 1) {
-        return fail(ErrorCode::InvalidArgument, "a pilot with {} conditions and {} participants; 1 or more is accepted",
-                    wanted.conditions, wanted.participants);
-    }
-    if (wanted.most < wanted.conditions || wanted.most > 1'000'000) {
-        return fail(ErrorCode::InvalidArgument, "the most trials searched are {}; {} to 1000000 is accepted",
-                    wanted.most, wanted.conditions);
-    }
-    return {};
+    return checkFigures(
+        {{"the wanted width of the interval", wanted.width, {.low = 0.02, .high = 1}},
+         {"the chance level", wanted.chance, {.low = 0, .high = 1, .openLow = true, .openHigh = true}},
+         {"the assurance", wanted.assurance, {.low = 0.5, .high = 0.999}},
+         givenCount("the number of conditions", wanted.conditions, 1, 1e9),
+         givenCount("the number of participants", wanted.participants, 1, 1e9),
+         givenCount("the most trials searched", wanted.most, static_cast<double>(wanted.conditions), 1e6)});
 }
 
 double widthReached(std::span<const double> accuracies, std::size_t n, double width) noexcept {
@@ -173,15 +143,8 @@ double widthReached(std::span<const double> accuracies, std::size_t n, double wi
 }
 
 double chanceExceeded(std::span<const double> accuracies, std::size_t n, double chance) noexcept {
-    std::size_t low = 0, high = n + 1;  // the lower end rises with k
-    while (low < high) {
-        const std::size_t middle = low + (high - low) / 2;
-        if (wilsonInterval(middle, n).low > chance) {
-            high = middle;
-        } else {
-            low = middle + 1;
-        }
-    }
+    // The lower end rises with k.
+    const auto low = firstEnough(0, n + 1, [&](std::size_t k) { return wilsonInterval(k, n).low > chance; });
     if (low > n) return 0;
     return over(accuracies, [&](double p) { return binomialAtLeast(low, n, p); });
 }
@@ -194,10 +157,10 @@ Estimate intervalWidths(std::span<const double> accuracies, std::size_t n) {
 
 Result<TrialsNeeded> trialsNeeded(std::span<const double> accuracies, const TrialsWanted& wanted) {
     if (auto valid = validate(wanted); !valid) return failure(valid);
-    if (accuracies.empty()) return fail(ErrorCode::InvalidArgument, "no accuracy is given; at least one is needed");
+    if (accuracies.empty()) return invalid("no accuracy is given; at least one is needed");
     double sum = 0;
     for (const double p : accuracies) {
-        if (!(p >= 0 && p <= 1)) return fail(ErrorCode::InvalidArgument, "an accuracy is {}; 0 to 1 is accepted", p);
+        if (!(p >= 0 && p <= 1)) return invalid("an accuracy is {}; 0 to 1 is accepted", p);
         sum += p;
     }
     const double mean = sum / static_cast<double>(accuracies.size());
@@ -229,6 +192,22 @@ Result<TrialsNeeded> trialsNeeded(std::span<const double> accuracies, const Tria
         const std::size_t n = blocks * wanted.conditions;
         out.curve.push_back({n, widthsAt(people, n)});
     }
+    return out;
+}
+
+PilotOutlook outlookOf(const PilotPeople& population, std::size_t people, std::size_t trials, double chance) {
+    PilotOutlook out;
+    out.people = people;
+    out.trials = trials;
+    out.rightFrom = aboveChanceFrom(trials, chance);
+    double above = 0;
+    for (const double p : population.accuracies) above += binomialAtLeast(out.rightFrom, trials, p);
+    const double all = static_cast<double>(population.all), n = static_cast<double>(people);
+    out.allServed = std::pow(static_cast<double>(population.accuracies.size()) / all, n);
+    out.allAboveChance = std::pow(above / all, n);
+    out.prevalenceAll = prevalenceInterval(people, people).low;
+    out.prevalenceButOne = prevalenceInterval(people - 1, people).low;
+    out.width = intervalWidths(population.accuracies, trials);
     return out;
 }
 

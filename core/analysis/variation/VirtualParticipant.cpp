@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/analysis/variation/PopulationField.h"
+#include "core/analysis/statistics/GivenFigure.h"
 
 namespace tacto {
 
@@ -29,50 +29,30 @@ double thresholdScale(const PopulationModel& model, Micros width) noexcept {
 }
 
 Result<void> validate(const PopulationModel& model) {
-    PopulationModel copy = model;
     for (const auto& field : populationFields()) {
-        const double value = field.in(copy);
-        if (field.accepted.contain(value)) continue;
-        return invalid("the {} is {}; {} is expected", field.name, value, field.accepted.text());
-    }
-    const std::pair<std::string_view, const LogNormal&> drawn[] = {
-        {"series resistance", model.series_ohm},
-        {"parallel resistance", model.parallel_ohm},
-        {"capacitance", model.capacitance_nf},
-        {"perception threshold", model.detection_ma},
-        {"attention threshold", model.attention_ma},
-        {"intolerance threshold", model.intolerance_ma},
-        {"Weber fraction of amplitude", model.amplitudeWeber},
-        {"Weber fraction of interval", model.intervalWeber}};
-    for (const auto& [name, of] : drawn) {
-        if (kAcceptedSpread.contain(of.spread)) continue;
-        return invalid("the spread of the {} is {}; {} is expected", name, of.spread, kAcceptedSpread.text());
+        if (!field.accepted.contain(field.of(model)))
+            return invalid("the {} is {}; {} is expected", field.name, field.of(model), field.accepted.text());
+        if (const double spread = field.drawn ? (model.*field.drawn).spread : 1; !kAcceptedSpread.contain(spread)) {
+            constexpr std::string_view kMedian = "median ";  // begins its name
+            return invalid("the spread of the {} is {}; {} is expected", field.name.substr(kMedian.size()), spread,
+                           kAcceptedSpread.text());
+        }
     }
     const double detection = model.detection_ma.median, attention = model.attention_ma.median;
     if (!(detection < attention && attention < model.intolerance_ma.median)) {
-        return fail(ErrorCode::InvalidArgument,
-                    "the thresholds of perception, attention and intolerance are {:g}, {:g} and {:g} mA; each more "
-                    "than the one before is accepted",
-                    detection, attention, model.intolerance_ma.median);
+        return invalid(
+            "the thresholds of perception, attention and intolerance are {:g}, {:g} and {:g} mA; each more "
+            "than the one before is accepted",
+            detection, attention, model.intolerance_ma.median);
     }
     if (!(model.discomfort_ma > detection)) {
-        return fail(ErrorCode::InvalidArgument,
-                    "stimulation is too strong from {:g} mA; more than the perception threshold of {:g} mA is accepted",
-                    model.discomfort_ma, detection);
+        return invalid(
+            "stimulation is too strong from {:g} mA; more than the perception threshold of {:g} mA is accepted",
+            model.discomfort_ma, detection);
     }
-    if (!(model.skinArea.value() > 0 && std::isfinite(model.skinArea.value()))) {
-        return fail(ErrorCode::InvalidArgument, "the area that the skin is given for is {} cm2; above 0 is accepted",
-                    model.skinArea.value());
-    }
-    if (!(model.thresholdWidth.count() > 0 && std::isfinite(model.thresholdWidth.count()))) {
-        return fail(ErrorCode::InvalidArgument, "the phase width of the thresholds is {} us; above 0 is accepted",
-                    model.thresholdWidth.count());
-    }
-    if (!(model.strengthDuration.count() >= 0 && std::isfinite(model.strengthDuration.count()))) {
-        return fail(ErrorCode::InvalidArgument, "the strength-duration constant is {} us; 0 or more is accepted",
-                    model.strengthDuration.count());
-    }
-    return {};
+    return checkFigures({givenAboveZero("the area in cm2 that the skin is given for", model.skinArea.value()),
+                         givenAboveZero("the phase width of the thresholds in us", model.thresholdWidth.count()),
+                         {"the strength-duration constant in us", model.strengthDuration.count(), {.low = 0}}});
 }
 
 VirtualParticipant drawParticipant(const PopulationModel& model, std::uint64_t seed, std::size_t index, Micros width,
@@ -105,6 +85,46 @@ VirtualParticipant drawParticipant(const PopulationModel& model, std::uint64_t s
     out.lapse = model.lapseMost * random.uniform();
     out.noise_jnd = model.noise_jnd;
     return out;
+}
+
+namespace {
+constexpr PopulationField drawnField(std::string_view key, std::string_view name, std::string_view holdsFor,
+                                     const AcceptedNumbers& accepted, LogNormal PopulationModel::*member) {
+    return {key, name, holdsFor, accepted, member, nullptr};
+}
+constexpr PopulationField singleField(std::string_view key, std::string_view name, std::string_view holdsFor,
+                                      const AcceptedNumbers& accepted, double PopulationModel::*member) {
+    return {key, name, holdsFor, accepted, nullptr, member};
+}
+}  // namespace
+
+std::span<const PopulationField> populationFields() noexcept {
+    using Model = PopulationModel;
+    static constexpr PopulationField kFields[] = {
+        drawnField("series_ohm", "median R_s of the skin", "", {.low = 1, .high = 1e6, .unit = "ohm"},
+                   &Model::series_ohm),
+        drawnField("parallel_ohm", "median R_p of the skin", "under 1 cm2", {.low = 1, .high = 1e8, .unit = "ohm"},
+                   &Model::parallel_ohm),
+        drawnField("capacitance_nf", "median C of the skin", "under 1 cm2", {.low = 0.001, .high = 1e5, .unit = "nF"},
+                   &Model::capacitance_nf),
+        drawnField("detection_ma", "median perception threshold", "at 150 us per phase",
+                   {.low = 0.01, .high = 100, .unit = "mA"}, &Model::detection_ma),
+        drawnField("attention_ma", "median attention threshold", "", {.low = 0.01, .high = 1000, .unit = "mA"},
+                   &Model::attention_ma),
+        singleField("discomfort_ma", "current that is too strong for the median participant", "",
+                    {.low = 0.01, .high = 1000, .unit = "mA"}, &Model::discomfort_ma),
+        drawnField("intolerance_ma", "median intolerance threshold", "", {.low = 0.01, .high = 1000, .unit = "mA"},
+                   &Model::intolerance_ma),
+        singleField("threshold_correlation", "correlation of the logarithms of a participant's thresholds", "",
+                    {.low = 0, .high = 1}, &Model::thresholdCorrelation),
+        drawnField("weber_amplitude", "median Weber fraction of amplitude", "", {.low = 0.001, .high = 1},
+                   &Model::amplitudeWeber),
+        drawnField("weber_interval", "median Weber fraction of interval", "", {.low = 0.001, .high = 1},
+                   &Model::intervalWeber),
+        singleField("lapse_most", "largest lapse rate", "which begins at 0", {.low = 0, .high = 1}, &Model::lapseMost),
+        singleField("noise_jnd", "standard deviation of what is felt", "", {.low = 0.01, .high = 100, .unit = "JND"},
+                    &Model::noise_jnd)};
+    return kFields;
 }
 
 }  // namespace tacto

@@ -2,7 +2,7 @@
 //
 // Everything drawn is log-normal, given by its median and its geometric standard deviation (1.5: two thirds of all
 // people lie between median / 1.5 and median · 1.5), except lapses, which are uniform. What comes out is a prediction,
-// never a measurement. VariationPremises.h says about each default where it is from and which are choices.
+// never a measurement. premisesOf() (VariationJson.h) says about each default where it is from and which are choices.
 //
 // Three thresholds are told apart, each a distribution of its own: perception (felt at all), attention (draws attention
 // to itself) and intolerance (not borne). A person's three are correlated and in this order.
@@ -13,12 +13,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "core/base/JustNoticeable.h"
 #include "core/base/Random.h"
 #include "core/base/Result.h"
 #include "core/base/Units.h"
+#include "core/base/ValueKind.h"
 #include "core/electrode/Load.h"
 
 namespace tacto {
@@ -34,7 +36,7 @@ struct LogNormal {
     bool operator==(const LogNormal&) const = default;
 };
 
-/// What is accepted of each figure stands in PopulationField.h.
+/// What is accepted of each figure: populationFields().
 struct PopulationModel {
     LogNormal series_ohm{200, 1.5};     ///< R_s
     LogNormal parallel_ohm{10e3, 1.5};  ///< R_p under `skinArea`: falls with the area
@@ -83,5 +85,28 @@ struct VirtualParticipant {
 /// electrode (nothing: `skinArea`). Thresholds do not depend on the area.
 [[nodiscard]] VirtualParticipant drawParticipant(const PopulationModel& model, std::uint64_t seed, std::size_t index,
                                                  Micros width, std::optional<SquareCentimetres> area = {});
+
+// The figures that a population of virtual people is given by: what each is called, its unit and what is accepted.
+// validate() and the script function analysis.variation() both take them from here.
+
+struct PopulationField {
+    std::string_view key;       ///< "detection_ma"
+    std::string_view name;      ///< "median perception threshold"
+    std::string_view holdsFor;  ///< what the name leaves out: "at 150 us per phase"; may be empty
+    AcceptedNumbers accepted;
+    LogNormal PopulationModel::*drawn = nullptr;  ///< what each person draws, of which this is the median; else:
+    double PopulationModel::*single = nullptr;
+
+    [[nodiscard]] double& in(PopulationModel& model) const { return drawn ? (model.*drawn).median : model.*single; }
+    [[nodiscard]] double of(const PopulationModel& model) const {
+        return drawn ? (model.*drawn).median : model.*single;
+    }
+};
+
+/// One for each figure that is set individually. Geometric standard deviations are set for several at once.
+[[nodiscard]] std::span<const PopulationField> populationFields() noexcept;
+
+/// Geometric standard deviations; 1: all people are alike.
+inline constexpr AcceptedNumbers kAcceptedSpread{.low = 1, .high = 10};
 
 }  // namespace tacto

@@ -34,14 +34,13 @@ struct Course {
 };
 
 Result<void> checkBursts(std::span<const CommandedBurst> bursts) {
-    if (bursts.empty()) return fail(ErrorCode::InvalidArgument, "no burst; at least one is expected");
+    if (bursts.empty()) return invalid("no burst; at least one is expected");
     for (std::size_t i = 0; i < bursts.size(); ++i) {
         const auto& burst = bursts[i];
         const bool ascends = i == 0 || burst.onset_s > bursts[i - 1].onset_s;
         if (std::isfinite(burst.onset_s) && ascends && burst.duration.count() > 0) continue;
-        return fail(ErrorCode::InvalidArgument,
-                    "burst {} begins at {} s and lasts {} s; one after the other, each above 0 s, is expected", i + 1,
-                    burst.onset_s, burst.duration.count());
+        return invalid("burst {} begins at {} s and lasts {} s; one after the other, each above 0 s, is expected",
+                       i + 1, burst.onset_s, burst.duration.count());
     }
     return {};
 }
@@ -50,8 +49,7 @@ Result<void> checkStamps(std::span<const AccelerationSample> samples) {
     double before = -std::numeric_limits<double>::infinity();
     for (const auto& sample : samples) {
         if (!(sample.t_s > before) || !std::isfinite(sample.t_s))
-            return fail(ErrorCode::InvalidArgument, "a sample at {} s after one at {} s; ascending stamps are expected",
-                        sample.t_s, before);
+            return invalid("a sample at {} s after one at {} s; ascending stamps are expected", sample.t_s, before);
         before = sample.t_s;
     }
     return {};

@@ -172,10 +172,11 @@ const CsvLine* lineCalled(const CsvHead& head, std::string_view key) {
     return nullptr;
 }
 
-std::string_view wordCalled(const CsvHead& head, std::string_view key) {
-    const auto* line = lineCalled(head, key);
-    return line == nullptr || line->fields.size() < 2 ? std::string_view() : line->fields[1];
+std::string_view fieldIn(const CsvLine* line, std::size_t index) {
+    return line != nullptr && index < line->fields.size() ? std::string_view(line->fields[index]) : std::string_view();
 }
+
+std::string_view wordCalled(const CsvHead& head, std::string_view key) { return fieldIn(lineCalled(head, key), 1); }
 
 std::optional<double> numberCalled(const CsvHead& head, std::string_view key) {
     auto text = wordCalled(head, key);

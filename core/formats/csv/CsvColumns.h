@@ -58,6 +58,9 @@ struct StatedInterval {
 /// The sentence about a column of `line` whose unit the file does not state.
 [[nodiscard]] std::string unitNotStated(std::string_view file, const CsvLine& line, std::string_view column);
 
+/// The field of that index; empty where there is no line or no such field.
+[[nodiscard]] std::string_view fieldIn(const CsvLine* line, std::size_t index);
+
 /// How many fields a line has without the empty ones at its end.
 [[nodiscard]] std::size_t filled(const CsvLine& line);
 

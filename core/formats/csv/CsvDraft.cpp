@@ -104,6 +104,12 @@ void CsvDraft::countRows(std::optional<double> interval_s, double start_s, std::
         fmt::format("{}: the time between samples is '{}'; a finite one above 0 was expected", file, stated);
 }
 
+void CsvDraft::addNamed(const std::string& named) {
+    const auto column = columnNamed(named);
+    layout.names.push_back(named);
+    columns.push_back({column.name, layout.names.size(), column.unit, column.factor, column.unknownUnit});
+}
+
 CsvDraft twoLineDraft(const CsvLine& names, const CsvLine& units, std::size_t width) {
     CsvDraft draft(names, units);
     const auto time = unitField(units.fields.front());
@@ -112,8 +118,7 @@ CsvDraft twoLineDraft(const CsvLine& names, const CsvLine& units, std::size_t wi
     for (std::size_t c = 1; c < width; ++c) {
         // "CH1 [mV]" above "(mV)"
         const auto named = columnNamed(names.fields[c]);
-        draft.addChannel(named.unit.empty() ? names.fields[c] : named.name,
-                         c < units.fields.size() ? std::string_view(units.fields[c]) : "");
+        draft.addChannel(named.unit.empty() ? names.fields[c] : named.name, fieldIn(&units, c));
     }
     return draft;
 }
@@ -223,8 +228,8 @@ Result<void> chooseTimeColumn(CsvDraft& draft, const CsvHead& head, ReadOptions&
     if (!options.timeColumn.empty()) {
         const auto column = columnCalled(layout.names, options.timeColumn);
         if (!column) {
-            return fail(ErrorCode::InvalidArgument, "{}:{}: there is no time column '{}'; the columns are {}", file,
-                        layout.headerLine, options.timeColumn, fmt::join(layout.names, ", "));
+            return invalid("{}:{}: there is no time column '{}'; the columns are {}", file, layout.headerLine,
+                           options.timeColumn, fmt::join(layout.names, ", "));
         }
         if (layout.times != RowTimes::Column || layout.timeColumn != *column) {
             const auto plan = std::ranges::find(draft.columns, *column + 1, &ChannelPlan::number);
@@ -245,9 +250,8 @@ Result<void> chooseTimeColumn(CsvDraft& draft, const CsvHead& head, ReadOptions&
             const bool said = std::ranges::any_of(
                 options.units, [&](const auto& unit) { return columnCalled(layout.names, unit.first) == *column; });
             if (!wrong.empty() && !said && !firstStampIn(head, layout, *column)) {
-                return fail(ErrorCode::InvalidArgument,
-                            "{}:{}: column '{}' is in '{}'; a column of times, in s, ms, us or ns, was expected", file,
-                            layout.headerLine, layout.names[*column], wrong);
+                return invalid("{}:{}: column '{}' is in '{}'; a column of times, in s, ms, us or ns, was expected",
+                               file, layout.headerLine, layout.names[*column], wrong);
             }
         }
     }
@@ -256,9 +260,8 @@ Result<void> chooseTimeColumn(CsvDraft& draft, const CsvHead& head, ReadOptions&
         if (columnCalled(layout.names, unit->first) != layout.timeColumn) continue;
         const auto spelled = spelledUnit(unit->second);
         if (!spelled || spelled->unit != "s") {
-            return fail(ErrorCode::InvalidArgument,
-                        "the unit '{}' of the time column '{}' is unknown; s, ms, us or ns was expected", unit->second,
-                        unit->first);
+            return invalid("the unit '{}' of the time column '{}' is unknown; s, ms, us or ns was expected",
+                           unit->second, unit->first);
         }
         layout.timeFactor = spelled->factor;
         options.units.erase(unit);

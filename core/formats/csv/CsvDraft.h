@@ -25,6 +25,8 @@ struct CsvDraft {
     }
     /// Another column, behind those in layout.names: a channel. `spelled` is its unit as written in the file.
     void addChannel(std::string name, std::string_view spelled);
+    /// The same of a column whose name says its unit.
+    void addNamed(const std::string& named);
     /// The same of a column that is not read.
     void addOther(std::string name) { layout.names.push_back(std::move(name)); }
     /// The rows are apart by `interval_s`, from `start_s` on. Where it is not finite and above 0 the table needs a rate

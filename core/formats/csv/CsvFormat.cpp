@@ -3,7 +3,7 @@
 #include "core/formats/csv/CsvAdvice.h"
 #include "core/formats/csv/CsvColumns.h"
 #include "core/formats/csv/CsvMakers.h"
-#include "core/formats/csv/CsvTable.h"
+#include "core/formats/csv/CsvRows.h"
 #include "core/measure/CaptureDescription.h"
 #include "core/measure/CaptureFile.h"
 

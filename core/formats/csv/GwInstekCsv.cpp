@@ -12,9 +12,7 @@ constexpr double kStepsPerDivision = 25;
 
 /// What line `key` says of trace `k`.
 std::string_view ofTrace(const CsvHead& head, std::string_view key, std::size_t k) {
-    const auto* line = lineCalled(head, key);
-    const auto at = 2 * k + 1;
-    return line != nullptr && at < line->fields.size() ? std::string_view(line->fields[at]) : std::string_view();
+    return fieldIn(lineCalled(head, key), 2 * k + 1);
 }
 
 bool isGwInstek(const CsvHead& head) {

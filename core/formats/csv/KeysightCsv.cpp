@@ -62,12 +62,9 @@ Result<CsvDraft> infiniium(const CsvHead& head, std::string_view file) {
     if (hasTime) draft.addOther("time");
     const auto* names = lineCalled(head, "Source");
     const auto* units = lineCalled(head, "YUnits");
-    const auto fieldOf = [](const CsvLine* line, std::size_t c) {
-        return line != nullptr && c < line->fields.size() ? line->fields[c] : std::string();
-    };
     for (std::size_t c = 1; c <= sources; ++c) {
-        const auto name = fieldOf(names, c);
-        draft.addChannel(name.empty() ? fmt::format("CH{}", c) : name, fieldOf(units, c));
+        const std::string name(fieldIn(names, c));
+        draft.addChannel(name.empty() ? fmt::format("CH{}", c) : name, fieldIn(units, c));
     }
     draft.layout.rows = numberCalled(head, "Points");
     if (numberCalled(head, "Segments").value_or(0) > 1) draft.layout.otherRows = kOneSegment;

@@ -34,9 +34,7 @@ Result<CsvDraft> labView(const CsvHead& head, std::string_view file) {
     draft.addOther(names->fields.front());
     const auto* units = lineCalled(head, "Y_Unit_Label");
     for (std::size_t c = 1; c < width; ++c) {
-        if (static_cast<double>(c) <= *channels)
-            draft.addChannel(names->fields[c],
-                             units != nullptr && c < units->fields.size() ? std::string_view(units->fields[c]) : "");
+        if (static_cast<double>(c) <= *channels) draft.addChannel(names->fields[c], fieldIn(units, c));
     }
     draft.layout.interval_s = numberCalled(head, "Delta_X");
     draft.layout.rows = numberCalled(head, "Samples");

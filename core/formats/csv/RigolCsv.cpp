@@ -9,9 +9,7 @@ namespace tacto {
 
 namespace {
 
-std::string fieldAt(const CsvLine& line, std::size_t index) {
-    return index < line.fields.size() ? folded(line.fields[index]) : std::string();
-}
+std::string fieldAt(const CsvLine& line, std::size_t index) { return folded(fieldIn(&line, index)); }
 
 std::string withoutBlanks(std::string_view text) {
     auto word = folded(text);
@@ -75,16 +73,12 @@ CsvDraft startAndIncrement(const CsvHead& head, std::string_view file) {
     CsvDraft draft(names, units != nullptr ? *units : names);
     if (hasIndex) draft.addOther(names.fields.front());
     for (std::size_t c = hasIndex ? 1 : 0; c < width; ++c) {
-        draft.addChannel(names.fields[c],
-                         units != nullptr && c < units->fields.size() ? std::string_view(units->fields[c]) : "");
+        draft.addChannel(names.fields[c], fieldIn(units, c));
         if (units == nullptr) draft.layout.warnings.push_back(unitNotStated(file, names, names.fields[c]));
     }
-    const auto number = [&](std::size_t column) {
-        return units != nullptr && column < units->fields.size() ? fieldNumber(units->fields[column], head.point)
-                                                                 : std::nullopt;
-    };
-    const auto start_s = number(width);
-    draft.countRows(start_s ? number(width + 1) : std::nullopt, start_s.value_or(0), "", file);
+    const auto start_s = fieldNumber(fieldIn(units, width), head.point);
+    draft.countRows(start_s ? fieldNumber(fieldIn(units, width + 1), head.point) : std::nullopt, start_s.value_or(0),
+                    "", file);
     if (units == nullptr) {
         draft.layout.noInterval = fmt::format(
             "{}:{}: no line of units, start and increment below the names; one, as in Volt,-0.006,1e-05, was expected",
@@ -125,11 +119,7 @@ Result<CsvDraft> memoryTimes(const CsvHead& head, std::string_view file) {
         return secondsIn(field.substr(field.find('=') + 1), head.point);
     };
     CsvDraft draft(line, line);
-    for (std::size_t c = 0; c < first; ++c) {
-        auto column = columnNamed(line.fields[c]);
-        draft.addOther(line.fields[c]);
-        draft.columns.push_back({column.name, c + 1, column.unit, column.factor, column.unknownUnit});
-    }
+    for (std::size_t c = 0; c < first; ++c) draft.addNamed(line.fields[c]);
     const auto start_s = valueOf("t0=");
     draft.countRows(start_s ? valueOf("tinc=") : std::nullopt, start_s.value_or(0),
                     fmt::format("{}, {}", line.fields[first], line.fields[first + 1]), file);
@@ -140,11 +130,7 @@ CsvDraft unitsInNames(const CsvHead& head) {
     const auto& line = head.header.front();
     CsvDraft draft(line, line);
     draft.addOther(line.fields.front());
-    for (std::size_t c = 1; c < filled(line); ++c) {
-        const auto column = columnNamed(line.fields[c]);
-        draft.addOther(line.fields[c]);
-        draft.columns.push_back({column.name, c + 1, column.unit, column.factor, ""});
-    }
+    for (std::size_t c = 1; c < filled(line); ++c) draft.addNamed(line.fields[c]);
     return draft;
 }
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "core/formats/csv/CsvColumns.h"
-#include "core/formats/csv/KeyedCsv.h"
+#include "core/formats/csv/CsvMakers.h"
 
 namespace tacto {
 

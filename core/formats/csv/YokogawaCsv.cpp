@@ -38,10 +38,7 @@ Result<CsvDraft> yokogawa(const CsvHead& head, std::string_view file) {
     CsvDraft draft(names, head.header.back());
     draft.startAt(first);
     if (indent == 1) draft.addOther("");
-    for (std::size_t c = 1; c <= traces; ++c) {
-        draft.addChannel(names.fields[c],
-                         units != nullptr && c < units->fields.size() ? std::string_view(units->fields[c]) : "");
-    }
+    for (std::size_t c = 1; c <= traces; ++c) draft.addChannel(names.fields[c], fieldIn(units, c));
     draft.layout.rows = numberCalled(head, "BlockSize");
     if (numberCalled(head, "BlockNumber").value_or(1) > 1) {
         draft.layout.otherRows = "one block per file was expected; save the waveforms of the history by themselves";

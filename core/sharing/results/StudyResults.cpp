@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <set>
 
+#include "core/analysis/identification/IdentificationJson.h"
+#include "core/analysis/vibration/VibrationSeparability.h"
 #include "core/base/JsonText.h"
+#include "core/base/WholeNumber.h"
 #include "core/encoding/EncodingProfile.h"
+#include "core/pilot/PilotRecord.h"
 #include "core/session/SessionReader.h"
-#include "core/sharing/results/SessionResults.h"
 
 namespace tacto {
 
@@ -156,6 +160,202 @@ BidsStudy sharedStudy(const StudyRecord& record) {
         out.participants.push_back(std::move(shared));
     }
     return out;
+}
+
+namespace {
+
+using nlohmann::json;
+
+/// "detection 12" → {"detection", "12"}: the last word, and what comes before it.
+std::pair<std::string, std::string> lastWordOf(const std::string& name) {
+    const auto blank = name.rfind(' ');
+    if (blank == std::string::npos) return {name, {}};
+    return {name.substr(0, blank), name.substr(blank + 1)};
+}
+
+/// The answer to a question of any kind.
+std::string saidIn(const json& body) {
+    if (const auto keys = textsOr(body, "keys"); !keys.empty()) return fmt::format("{}", fmt::join(keys, ","));
+    if (const auto key = textOr(body, "key"); !key.empty()) return key;
+    const double value = numberOr(body, "value");
+    return std::isfinite(value) ? fmt::format("{:g}", value) : std::string();
+}
+
+/// Goes through the rows once; what was measured last stands beside each trial.
+class SessionRows {
+public:
+    explicit SessionRows(std::vector<std::string> labels) { out_.labels = std::move(labels); }
+
+    void take(const SessionRow& each) {
+        const auto& body = each.body;
+        const auto name = textOr(body, "name");
+        if (each.name == row::kPlan) {
+            auto plan = planRowFrom(body);
+            out_.encoding = std::move(plan.encoding);
+            out_.answers = std::move(plan.answers);
+        } else if (each.name == row::kImpedance) {
+            impedance_ = numberOr(body, "impedance_ohm");
+            if (std::isnan(out_.impedance.value())) out_.impedance = Ohms(impedance_);
+        } else if (each.name == row::kEstimate && body.contains("amplitude_weber")) {
+            // At the edge of what was considered it may be anything beyond: no figure.
+            if (!flagOr(body, "at_edge")) out_.amplitudeWeber = estimateFrom(body["amplitude_weber"]).value;
+        } else if (each.name == row::kEstimate) {
+            const auto estimate =
+                flagOr(body, "at_edge") ? Estimate{kNaN, kNaN, kNaN} : estimateFrom(valueOr(body, "estimate"));
+            out_.detection = detectionLevel_ = estimate.value;
+            out_.detectionLow = estimate.low;
+            out_.detectionHigh = estimate.high;
+        } else if (each.name == row::kDrift) {
+            const auto found = driftRowFrom(body);
+            detectionLevel_ = found.detection.value;
+            if (found.adapted) adapted_.insert(found.block);
+            out_.drift.push_back({found.block, detectionLevel_, found.adapted});
+        } else if (each.name == row::kRange) {
+            takeRange(rangeRowFrom(body));
+        } else if (each.name == row::kSkin) {
+            takeSkin(name, body);
+        } else if (each.name == row::kRating) {
+            const auto [condition, item] = lastWordOf(name);
+            out_.ratings.push_back({item, condition == row::kEncodings ? "" : condition, saidIn(body)});
+        } else if (each.name == row::kSideEffect) {
+            takeSideEffect(name, body);
+        } else if (each.name == row::kAnswer) {
+            takeAnswer(name, body);
+        } else if (each.name == row::kNoAnswer && countOr(body, "number") > 0) {
+            silent_.insert_or_assign(countOr(body, "number"), trialOf(body));
+        }
+    }
+
+    [[nodiscard]] BidsSession result() {
+        for (const auto& [number, trial] : silent_) out_.trials.push_back(trial);
+        out_.saidTooStrong = std::isfinite(out_.tooStrong);
+        if (!out_.saidTooStrong) out_.tooStrong = highestLevel_;
+        return std::move(out_);
+    }
+
+private:
+    [[nodiscard]] BidsTrial trialOf(const json& body) const {
+        BidsTrial made;
+        made.trial = identificationTrialFrom(body);
+        const auto& trial = made.trial;
+        made.intensity = numberOr(body, "intensity");
+        if (body.contains("vibration")) made.vibration = burstFiguresFrom(body["vibration"]);
+        made.impedance = Ohms(impedance_);
+        made.voltage = Volts(trial.current.value() * impedance_ / 1000);
+        made.detection = detectionLevel_;
+        made.adapted = trial.phase == TrialPhase::Test && adapted_.contains(trial.block);
+        return made;
+    }
+
+    void takeAnswer(const std::string& name, const json& body) {
+        if (countOr(body, "number") > 0) {
+            auto made = trialOf(body);
+            silent_.erase(made.trial.number);
+            out_.trials.push_back(std::move(made));
+            return;
+        }
+        const auto [procedure, place] = lastWordOf(name);
+        BidsThresholdTrial trial;
+        trial.procedure = procedure;
+        trial.current = Milliamps(numberOr(body, "current_ma"));
+        trial.intensity = numberOr(body, "intensity");
+        trial.response = textOr(body, "response");
+        trial.response_s = numberOr(body, "rt_s");
+        if (procedure == "ascending") {
+            takeAscending(trial, body);
+        } else if (procedure == "detection" || procedure == "drift" || procedure == "comparison") {
+            trial.weaker = numberOr(body, body.contains("weaker_ma") ? "weaker_ma" : "weaker_intensity");
+            trial.type = textOr(body, "right");
+            trial.correct = trial.response == trial.type;
+        } else if (procedure == "range") {
+            trial.type = "stimulus";
+        } else {
+            return;  // felt again, without a question of its own
+        }
+        const auto dot = place.find('.');
+        if (dot != std::string::npos)
+            trial.series = static_cast<std::size_t>(parseWhole<int>(place.substr(0, dot)).value_or(0));
+        trial.number = static_cast<std::size_t>(
+            parseWhole<int>(dot == std::string::npos ? place : place.substr(dot + 1)).value_or(0));
+        out_.thresholds.push_back(std::move(trial));
+    }
+
+    /// U is the lowest level called too strong, else the highest given. The answer to an empty presentation counts
+    /// for the level before it.
+    void takeAscending(BidsThresholdTrial& trial, const json& body) {
+        trial.series = countOr(body, "series");
+        const double level = std::isfinite(trial.intensity) ? trial.intensity : trial.current.value();
+        trial.type = level > 0 ? "stimulus" : "catch";
+        if (level > 0) {
+            beforeLevel_ = level;
+            highestLevel_ = std::isnan(highestLevel_) ? level : std::max(highestLevel_, level);
+        }
+        if (trial.response != "too-strong") return;
+        const double strong = level > 0 ? level : beforeLevel_;
+        out_.tooStrong = std::isnan(out_.tooStrong) ? strong : std::min(out_.tooStrong, strong);
+    }
+
+    void takeRange(const RangeRow& found) {
+        if (found.unit == LevelUnit::Intensity) {
+            out_.lowIntensity = found.min;
+            out_.highIntensity = found.max;
+        } else {
+            out_.low = Milliamps(found.min);
+            out_.high = Milliamps(found.max);
+        }
+        out_.rangeNotUsable.clear();
+        if (!found.usable) out_.rangeNotUsable = found.reason.empty() ? "it was not confirmed" : found.reason;
+    }
+
+    void takeSkin(const std::string& name, const json& body) {
+        const auto moment = lastWordOf(name).first;
+        auto* const score = moment == "before" ? &out_.skinBefore : moment == "after" ? &out_.skinAfter : nullptr;
+        const auto said = parseWhole<int>(textOr(body, "key"));
+        if (score == nullptr || !said) return;
+        *score = std::max(score->value_or(0), *said);
+    }
+
+    void takeSideEffect(const std::string& name, const json& body) {
+        if (body.contains("keys")) {
+            out_.sideEffectsAsked.push_back(name);
+            for (const auto& item : textsOr(body, "keys")) out_.sideEffects.push_back({name, item, {}, {}});
+            return;
+        }
+        const double value = numberOr(body, "value");
+        if (!std::isfinite(value)) return;
+        const auto [noticed, what] = lastWordOf(name);
+        const auto [moment, item] = lastWordOf(noticed);
+        const auto same = [&](const BidsSideEffect& each) { return each.moment == moment && each.item == item; };
+        const auto entry = std::ranges::find_if(out_.sideEffects, same);
+        if (entry == out_.sideEffects.end()) return;
+        (what == "severity" ? entry->severity : entry->relation) = static_cast<int>(std::lround(value));
+    }
+
+    BidsSession out_;
+    double impedance_ = kNaN;
+    double detectionLevel_ = kNaN;
+    double beforeLevel_ = kNaN, highestLevel_ = kNaN;  // of the ascending limits
+    std::set<std::size_t> adapted_;                    // blocks
+    std::map<std::size_t, BidsTrial> silent_;          // without an answer so far
+};
+
+}  // namespace
+
+BidsSession sessionResults(const std::vector<SessionRow>& rows, std::vector<std::string> labels) {
+    SessionRows taken(std::move(labels));
+    for (const auto& each : rows) taken.take(each);
+    return taken.result();
+}
+
+Result<void> exportBids(Study& study, const BidsWith& with, const std::filesystem::path& out,
+                        std::string_view version) {
+    const auto record = readStudyRecord(study);
+    if (!record) return failure(record);
+    const auto files = bidsFiles(sharedStudy(*record), with, version);
+    if (!files) return failure(files);
+    if (auto free = checkBidsFolder(out); !free) return free;
+    if (auto noted = study.exported(std::filesystem::absolute(out), "bids"); !noted) return noted;
+    return writeBids(*files, out);
 }
 
 }  // namespace tacto

@@ -4,11 +4,15 @@
 // Thread-safety: one caller of the study at a time.
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "core/session/SessionTypes.h"
+#include "core/sharing/BidsFiles.h"
 #include "core/sharing/BidsStudy.h"
 #include "core/study/Study.h"
 
@@ -59,5 +63,16 @@ struct StudyRecord {
 
 /// What may leave the study: participants who are active or left.
 [[nodiscard]] BidsStudy sharedStudy(const StudyRecord& record);
+
+/// What a pilot session comes to, as it may leave the study: trials, thresholds, range, ratings, side effects, skin.
+/// `rows` are the events of all parts, in order; `labels` the names offered. What no row says stays unknown; number,
+/// days, complete and parts are the caller's.
+[[nodiscard]] BidsSession sessionResults(const std::vector<SessionRow>& rows, std::vector<std::string> labels);
+
+/// A study's results to a BIDS dataset in `out`, which is new or empty and lies outside the study; noted in its ledger
+/// first: no export is without its note, and a place inside the study is refused before anything is there.
+/// Errors: as readStudyRecord(), bidsFiles(), Study::exported() and writeBids().
+[[nodiscard]] Result<void> exportBids(Study& study, const BidsWith& with, const std::filesystem::path& out,
+                                      std::string_view version);
 
 }  // namespace tacto

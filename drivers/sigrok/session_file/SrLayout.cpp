@@ -7,7 +7,7 @@
 #include <zip.h>
 
 #include "core/base/Text.h"
-#include "core/formats/ByteFile.h"
+#include "core/formats/TextBlocks.h"
 
 namespace tacto::sigrok_driver {
 

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/analysis/identification/FewPeople.h"
-#include "core/analysis/statistics/Binomial.h"
+#include "core/analysis/statistics/Estimate.h"
 
 namespace tacto {
 namespace {

@@ -1,9 +1,12 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "core/analysis/identification/OverSessions.h"
+#include "core/analysis/statistics/Estimate.h"
 #include "tests/support/Figures.h"
+#include "tests/support/Refused.h"
 
 namespace tacto {
 namespace {
@@ -25,17 +28,17 @@ TEST(OverSessions, TwoSessionsOf80At70PerCentShow14PerCent) {
 }
 
 TEST(OverSessions, EachIsHeldAgainstTheFirst) {
-    const auto found = compareSessions({sessionOn(0, 56, {2, 1.6, 2.5}), sessionOn(7, 68, {3, 2.7, 3.3})});
-    ASSERT_TRUE(found) << found.error().message;
-    ASSERT_EQ(found->againstFirst.size(), 1U);
-    const auto& change = found->againstFirst[0];
+    const auto found =
+        test::accepted(compareSessions({sessionOn(0, 56, {2, 1.6, 2.5}), sessionOn(7, 68, {3, 2.7, 3.3})}));
+    ASSERT_EQ(found.againstFirst.size(), 1U);
+    const auto& change = found.againstFirst[0];
     EXPECT_NEAR(change.accuracy.value, 0.15, 1e-12);
     EXPECT_NEAR(change.detection.value, 1.5, 1e-12);
     EXPECT_NEAR(change.detection.low, 1.5 * std::exp(-std::hypot(std::log(3 / 2.7), std::log(2.5 / 2))), 1e-12);
     EXPECT_NEAR(change.detection.high, 1.5 * std::exp(std::hypot(std::log(3.3 / 3), std::log(2 / 1.6))), 1e-12);
     EXPECT_TRUE(std::isnan(change.impedance));
-    EXPECT_TRUE(std::isnan(found->trend.value));  // from three on
-    EXPECT_NEAR(found->smallestChange, smallestChange(80, 124.0 / 160), 1e-12);
+    EXPECT_TRUE(std::isnan(found.trend.value));  // from three on
+    EXPECT_NEAR(found.smallestChange, smallestChange(80, 124.0 / 160), 1e-12);
 }
 
 Estimate estimateIn(const nlohmann::json& three) {
@@ -66,27 +69,25 @@ TEST(OverSessions, AFigureIsHeldAgainstTheFirstSessionThatHasIt) {
     third.tooStrong = 10;
     third.high = 7.5;
     third.impedance = Ohms(3600);
-    const auto found = compareSessions({first, second, third});
-    ASSERT_TRUE(found) << found.error().message;
-    ASSERT_EQ(found->againstFirst.size(), 2U);
-    EXPECT_TRUE(std::isnan(found->againstFirst[0].accuracy.value)) << "it is the first with test trials";
-    EXPECT_TRUE(std::isnan(found->againstFirst[0].detection.value));
-    const auto& change = found->againstFirst[1];
+    const auto found = test::accepted(compareSessions({first, second, third}));
+    ASSERT_EQ(found.againstFirst.size(), 2U);
+    EXPECT_TRUE(std::isnan(found.againstFirst[0].accuracy.value)) << "it is the first with test trials";
+    EXPECT_TRUE(std::isnan(found.againstFirst[0].detection.value));
+    const auto& change = found.againstFirst[1];
     EXPECT_NEAR(change.accuracy.value, 0.1, 1e-12);
     EXPECT_NEAR(change.detection.value, 1.5, 1e-12);
     EXPECT_NEAR(change.tooStrong, 1.25, 1e-12);
     EXPECT_NEAR(change.high, 1.25, 1e-12);
     EXPECT_NEAR(change.impedance, 1.2, 1e-12);
-    EXPECT_TRUE(std::isnan(found->trend.value)) << "two have test trials";
-    EXPECT_NEAR(found->smallestChange, smallestChange(80, 120.0 / 160), 1e-12);
+    EXPECT_TRUE(std::isnan(found.trend.value)) << "two have test trials";
+    EXPECT_NEAR(found.smallestChange, smallestChange(80, 120.0 / 160), 1e-12);
 }
 
 TEST(OverSessions, ThreeHaveATrend) {
     const auto& scipy = test::figuresOf("identification").at("logistic")[0];
-    const auto found = compareSessions({sessionOn(0, 50), sessionOn(3, 61), sessionOn(10, 70)});
-    ASSERT_TRUE(found) << found.error().message;
-    EXPECT_NEAR(found->trend.value, scipy.at("value").get<double>(), 1e-8);
-    EXPECT_NEAR(found->trend.low, scipy.at("low").get<double>(), 1e-7);
+    const auto found = test::accepted(compareSessions({sessionOn(0, 50), sessionOn(3, 61), sessionOn(10, 70)}));
+    EXPECT_NEAR(found.trend.value, scipy.at("value").get<double>(), 1e-8);
+    EXPECT_NEAR(found.trend.low, scipy.at("low").get<double>(), 1e-7);
 }
 
 TEST(OverSessions, RefusesSessionsOutOfOrder) {
@@ -95,6 +96,85 @@ TEST(OverSessions, RefusesSessionsOutOfOrder) {
     EXPECT_EQ(compareSessions({sessionOn(0, 81)}).error().message,
               "session 1 has 81 right answers of 80; at most 80 were expected");
     EXPECT_TRUE(compareSessions({}));
+}
+
+TEST(LogisticTrend, AgreesWithScipy) {
+    for (const auto& scipy : test::figuresOf("identification").at("logistic")) {
+        std::vector<LogisticPoint> points;
+        for (const auto& point : scipy.at("points")) points.push_back({point[0], point[1], point[2]});
+        const auto found = logisticSlope(points);
+        EXPECT_NEAR(found.value, scipy.at("value").get<double>(), 1e-8) << scipy;
+        EXPECT_NEAR(found.low, scipy.at("low").get<double>(), 1e-7) << scipy;
+        EXPECT_NEAR(found.high, scipy.at("high").get<double>(), 1e-7) << scipy;
+    }
+}
+
+TEST(LogisticTrend, OfWhatItCannotTellIsUnknown) {
+    RecordProperty("hazard", "H9");
+    for (const auto& points : {std::vector<LogisticPoint>{},
+                               {{1, 16, 8}},
+                               {{1, 16, 16}, {2, 16, 16}},
+                               {{1, 16, 0}, {2, 16, 0}},
+                               {{1, 16, 8}, {2, 0, 0}},
+                               {{1, 8, 4}, {1, 8, 2}}})
+        EXPECT_TRUE(std::isnan(logisticSlope(points).value));
+}
+
+TEST(LogisticTrend, ASlopeThatEveryAnswerAgreesWithIsOpen) {
+    const std::vector<LogisticPoint> risen = {{1, 16, 0}, {2, 16, 16}};
+    const auto found = logisticSlope(risen);
+    EXPECT_EQ(found.value, std::numeric_limits<double>::infinity());
+    EXPECT_EQ(found.high, std::numeric_limits<double>::infinity());
+    EXPECT_GT(found.low, 2);
+    EXPECT_TRUE(std::isfinite(found.low));
+    const std::vector<LogisticPoint> fallen = {{1, 16, 16}, {2, 16, 16}, {3, 16, 16}, {4, 16, 16}, {5, 16, 4}};
+    EXPECT_EQ(logisticSlope(fallen).value, -std::numeric_limits<double>::infinity());
+    EXPECT_EQ(logisticSlope(fallen).low, -std::numeric_limits<double>::infinity());
+    EXPECT_LT(logisticSlope(fallen).high, 0);
+}
+
+TEST(Encodings, TwoAlternate) {
+    using Order = std::vector<std::size_t>;
+    EXPECT_EQ(williamsOrder(2, 0), (Order{0, 1}));
+    EXPECT_EQ(williamsOrder(2, 1), (Order{1, 0}));
+    EXPECT_EQ(williamsOrder(2, 2), (Order{0, 1}));
+    EXPECT_EQ(williamsOrder(1, 5), (Order{0}));
+    EXPECT_TRUE(williamsOrder(0, 0).empty());
+    EXPECT_EQ(williamsRows(3), 6U);
+    EXPECT_EQ(williamsRows(4), 4U);
+}
+
+/// Each in each place, and each after each other, equally often.
+TEST(Encodings, TheDesignIsBalanced) {
+    for (const std::size_t n : {2U, 3U, 4U, 5U, 6U}) {
+        std::map<std::pair<std::size_t, std::size_t>, std::size_t> places, following;
+        std::set<std::vector<std::size_t>> orders;
+        for (std::size_t row = 0; row < williamsRows(n); ++row) {
+            const auto order = williamsOrder(n, row);
+            EXPECT_EQ(std::set(order.begin(), order.end()).size(), n);
+            orders.insert(order);
+            for (std::size_t i = 0; i < n; ++i) {
+                ++places[{order[i], i}];
+                if (i > 0) ++following[{order[i - 1], order[i]}];
+            }
+        }
+        EXPECT_EQ(orders.size(), williamsRows(n)) << n;
+        EXPECT_EQ(places.size(), n * n) << n;
+        EXPECT_EQ(following.size(), n * (n - 1)) << n;
+        for (const auto& [place, count] : places) EXPECT_EQ(count, williamsRows(n) / n) << n;
+        for (const auto& [pair, count] : following) EXPECT_EQ(count, williamsRows(n) / n) << n;
+    }
+}
+
+TEST(Encodings, TheLaterIsHeldAgainstTheEarlier) {
+    const auto found = compareEncodings(
+        {{.encoding = "paper", .n = 80, .hits = 56}, {.encoding = "swapped", .n = 80, .hits = 68}}, "swapped");
+    ASSERT_EQ(found.pairs.size(), 1U);
+    EXPECT_EQ(found.pairs[0].a, "swapped");
+    EXPECT_NEAR(found.pairs[0].difference.value, 0.15, 1e-12);
+    EXPECT_GT(found.pairs[0].difference.low, 0);
+    const auto all = std::vector{found, found, compareEncodings({{.encoding = "paper"}, {.encoding = "swapped"}})};
+    EXPECT_EQ(preferences(all), (std::map<std::string, std::size_t>{{"paper", 0}, {"swapped", 2}}));
 }
 
 }  // namespace

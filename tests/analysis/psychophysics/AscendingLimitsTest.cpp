@@ -6,6 +6,7 @@
 
 #include "core/analysis/psychophysics/AscendingLimits.h"
 #include "tests/analysis/psychophysics/Procedures.h"
+#include "tests/support/Refused.h"
 
 namespace tacto {
 namespace {
@@ -271,10 +272,9 @@ TEST(AscendingLimits, RefusesUnknownWordsAndCoarseDevices) {
     const auto before = limits.next();
     EXPECT_FALSE(limits.answer(static_cast<StrengthWord>(7)));
     EXPECT_EQ(limits.next()->number, before->number);
-    const auto coarse = AscendingLimits::create(test::gridUpTo(15, 2), 1);
-    ASSERT_FALSE(coarse);
-    EXPECT_EQ(coarse.error().message,
-              "levels would rise by the device's step of 2 mA; at most 1 mA at a time is accepted");
+    EXPECT_THAT(AscendingLimits::create(test::gridUpTo(15, 2), 1),
+                test::refusedSaying(testing::StrEq(
+                    "levels would rise by the device's step of 2 mA; at most 1 mA at a time is accepted")));
 }
 
 }  // namespace

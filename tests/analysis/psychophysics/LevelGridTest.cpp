@@ -4,6 +4,7 @@
 
 #include "core/analysis/psychophysics/LevelGrid.h"
 #include "tests/analysis/psychophysics/Procedures.h"
+#include "tests/support/Refused.h"
 
 namespace tacto {
 namespace {
@@ -11,11 +12,10 @@ namespace {
 TEST(LevelGrid, EndsAtTheLowestCeilingAndNamesIt) {
     const std::vector<LevelCeiling> ceilings = {
         {15, LevelLimit::Cap}, {11.3, LevelLimit::Gate}, {100, LevelLimit::Device}};
-    const auto grid = LevelGrid::create(LevelUnit::Current, 0.5, ceilings);
-    ASSERT_TRUE(grid);
-    EXPECT_EQ(grid->count(), 22U);
-    EXPECT_EQ(grid->highest(), 11);
-    EXPECT_EQ(grid->limitedBy(), LevelLimit::Gate);
+    const auto grid = test::accepted(LevelGrid::create(LevelUnit::Current, 0.5, ceilings));
+    EXPECT_EQ(grid.count(), 22U);
+    EXPECT_EQ(grid.highest(), 11);
+    EXPECT_EQ(grid.limitedBy(), LevelLimit::Gate);
 }
 
 TEST(LevelGrid, CountsWhatLiesOnALevelAsOnIt) {

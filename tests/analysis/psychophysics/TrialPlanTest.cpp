@@ -3,7 +3,6 @@
 #include <map>
 #include <string>
 
-#include "core/analysis/psychophysics/TrainingRule.h"
 #include "core/analysis/psychophysics/TrialPlan.h"
 #include "core/analysis/statistics/ConfidenceBound.h"
 #include "tests/support/Trials.h"

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/analysis/sensor_calibration/ProfilometerFile.h"
+#include "tests/support/Refused.h"
 #include "tests/support/Support.h"
 
 namespace tacto {
@@ -21,14 +22,13 @@ class ProfilometerDialect : public ::testing::TestWithParam<Dialect> {};
 
 TEST_P(ProfilometerDialect, GivesRaAndRz) {
     const auto& dialect = GetParam();
-    const auto found = parseProfilometer(dialect.text, "x.csv");
-    ASSERT_TRUE(found) << found.error().message;
-    EXPECT_NEAR(found->ra_um, dialect.ra_um, 1e-9 * dialect.ra_um);
-    EXPECT_EQ(found->raValues, dialect.values);
+    const auto found = test::accepted(parseProfilometer(dialect.text, "x.csv"));
+    EXPECT_NEAR(found.ra_um, dialect.ra_um, 1e-9 * dialect.ra_um);
+    EXPECT_EQ(found.raValues, dialect.values);
     if (std::isnan(dialect.rz_um)) {
-        EXPECT_TRUE(std::isnan(found->rz_um));
+        EXPECT_TRUE(std::isnan(found.rz_um));
     } else {
-        EXPECT_NEAR(found->rz_um, dialect.rz_um, 1e-9 * dialect.rz_um);
+        EXPECT_NEAR(found.rz_um, dialect.rz_um, 1e-9 * dialect.rz_um);
     }
 }
 
@@ -87,9 +87,7 @@ TEST(ProfilometerFile, IsReadFromDiskAndMissedByName) {
     test::ScratchDir folder;
     const auto path = folder.write("p120.csv", "Ra;42,4;µm\n");
     EXPECT_NEAR(readProfilometer(path).value().ra_um, 42.4, 1e-9);
-    const auto missing = readProfilometer(folder.path() / "none.csv");
-    ASSERT_FALSE(missing);
-    EXPECT_EQ(missing.error().code, ErrorCode::NotFound);
+    EXPECT_THAT(readProfilometer(folder.path() / "none.csv"), test::refused(ErrorCode::NotFound));
     const auto large = folder.write("profile.csv", std::string(kLargestProfilometerFile + 1, '1'));
     EXPECT_FALSE(readProfilometer(large));
 }

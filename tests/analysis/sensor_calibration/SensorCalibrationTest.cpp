@@ -5,6 +5,7 @@
 
 #include "core/analysis/sensor_calibration/SensorCalibrationJson.h"
 #include "core/base/Random.h"
+#include "tests/support/Refused.h"
 
 namespace tacto {
 namespace {
@@ -159,9 +160,7 @@ TEST(SensorCalibration, RefusesReferencesThatAreNone) {
                                                                       {{a, unknown}, "nan"},
                                                                       {{a, b, a}, "surface a is given twice"}};
     for (const auto& [surfaces, message] : wrong) {
-        const auto found = calibrateSensor(surfaces, {}, restOf(1e-4));
-        ASSERT_FALSE(found) << message;
-        EXPECT_THAT(found.error().message, HasSubstr(message));
+        EXPECT_THAT(calibrateSensor(surfaces, {}, restOf(1e-4)), test::refusedSaying(message)) << message;
     }
 }
 
@@ -278,10 +277,8 @@ TEST(SensorScale, IsAsUncertainAsItsReferencesAndUnknownWithThem) {
 TEST(SensorScale, RefusesASensorThatDoesNotFollow) {
     RecordProperty("hazard", "H7");
     Random random(12, "dead");
-    const auto dead = fitSensorScale(weighed(random, 0, 1000, 10, 3), {}, "taxel 3");
-    ASSERT_FALSE(dead);
-    EXPECT_EQ(dead.error().code, ErrorCode::Device);
-    EXPECT_THAT(dead.error().message, HasSubstr("taxel 3 does not follow the references"));
+    EXPECT_THAT(fitSensorScale(weighed(random, 0, 1000, 10, 3), {}, "taxel 3"),
+                test::refused(ErrorCode::Device, "taxel 3 does not follow the references"));
     EXPECT_FALSE(fitSensorScale(weighed(random, 250, 0, 1, 1), {1.0}, "force"));
 }
 

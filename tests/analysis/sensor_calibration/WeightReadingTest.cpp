@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include "core/analysis/sensor_calibration/SensorCalibrationJson.h"
+#include "tests/support/Refused.h"
 
 namespace tacto {
 namespace {
 
 using nlohmann::json;
-using ::testing::HasSubstr;
 
 TEST(WeightReading, IsWrittenAsItWasRead) {
     const json row{{"mass_g", 100},
@@ -19,14 +19,13 @@ TEST(WeightReading, IsWrittenAsItWasRead) {
                    {"taxels", {1.5, nullptr, 3}},
                    {"taxel_unit", "Pa"},
                    {"force_in_use", {{"mean", 1.01}, {"unit", "N"}, {"u", 0.002}}}};
-    const auto reading = weightReadingFrom(row);
-    ASSERT_TRUE(reading) << reading.error().message;
-    EXPECT_TRUE(std::isnan(reading->force));
-    EXPECT_EQ(reading->forceUnit, StreamUnit::Count);
-    ASSERT_EQ(reading->taxels.size(), 3U);
-    EXPECT_TRUE(std::isnan(reading->taxels[1]));
-    EXPECT_EQ(reading->inUse->mean, 1.01);
-    EXPECT_EQ(toJson(*reading), row);
+    const auto reading = test::accepted(weightReadingFrom(row));
+    EXPECT_TRUE(std::isnan(reading.force));
+    EXPECT_EQ(reading.forceUnit, StreamUnit::Count);
+    ASSERT_EQ(reading.taxels.size(), 3U);
+    EXPECT_TRUE(std::isnan(reading.taxels[1]));
+    EXPECT_EQ(reading.inUse->mean, 1.01);
+    EXPECT_EQ(toJson(reading), row);
 }
 
 TEST(WeightReading, AFingertipWithoutForceAndTaxelsStatesNoUnits) {
@@ -39,10 +38,8 @@ TEST(WeightReading, AFingertipWithoutForceAndTaxelsStatesNoUnits) {
 }
 
 TEST(WeightReading, RefusesOneWithoutItsWeightAndUnitsThatAFingertipDoesNotHave) {
-    const auto none = weightReadingFrom({{"force", 1}});
-    ASSERT_FALSE(none);
-    EXPECT_EQ(none.error().code, ErrorCode::InvalidArgument);
-    EXPECT_THAT(none.error().message, HasSubstr("\"reference_n\" is missing"));
+    EXPECT_THAT(weightReadingFrom({{"force", 1}}),
+                test::refused(ErrorCode::InvalidArgument, "\"reference_n\" is missing"));
     EXPECT_FALSE(weightReadingFrom({{"reference_n", 1}, {"force_unit", "kg"}}));
     EXPECT_FALSE(weightReadingFrom({{"reference_n", 1}, {"taxels", {"1"}}}));
 }

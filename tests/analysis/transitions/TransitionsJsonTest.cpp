@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include "core/analysis/transitions/TransitionsJson.h"
+#include "tests/support/Refused.h"
 
 namespace tacto {
 namespace {
 
 using nlohmann::json;
-using ::testing::HasSubstr;
 
 json stepRow() {
     return {{"name", "pressed"},
@@ -44,31 +44,26 @@ json stepRow() {
 }
 
 TEST(TransitionsJson, AStepIsWrittenAsItWasRead) {
-    const auto step = capturedChangeFrom(stepRow());
-    ASSERT_TRUE(step) << step.error().message;
-    EXPECT_EQ(step->kind, ChangeKind::Step);
-    EXPECT_TRUE(std::isnan(step->measured.trains));
-    EXPECT_EQ(step->designedLast.trains, 9);
-    EXPECT_EQ(step->before_v.size(), 3U);
-    EXPECT_EQ(toJson(*step), stepRow());
+    const auto step = test::accepted(capturedChangeFrom(stepRow()));
+    EXPECT_EQ(step.kind, ChangeKind::Step);
+    EXPECT_TRUE(std::isnan(step.measured.trains));
+    EXPECT_EQ(step.designedLast.trains, 9);
+    EXPECT_EQ(step.before_v.size(), 3U);
+    EXPECT_EQ(toJson(step), stepRow());
 }
 
 TEST(TransitionsJson, AMovementIsWrittenAsItWasRead) {
     const json row{{"name", "across"}, {"type", "movement"}, {"seconds", 5}, {"onsets", stepRow()["onsets"]}};
-    const auto movement = capturedChangeFrom(row);
-    ASSERT_TRUE(movement) << movement.error().message;
-    EXPECT_EQ(movement->kind, ChangeKind::Movement);
-    EXPECT_EQ(toJson(*movement), row);
+    const auto movement = test::accepted(capturedChangeFrom(row));
+    EXPECT_EQ(movement.kind, ChangeKind::Movement);
+    EXPECT_EQ(toJson(movement), row);
 }
 
 TEST(TransitionsJson, TheBenchGivesNoName) {
     EXPECT_FALSE(toJson(CapturedChange{}).contains("name"));
     auto row = stepRow();
     row.erase("name");
-    const auto nameless = capturedChangeFrom(row);
-    ASSERT_FALSE(nameless);
-    EXPECT_EQ(nameless.error().code, ErrorCode::InvalidArgument);
-    EXPECT_THAT(nameless.error().message, HasSubstr("\"name\" is missing"));
+    EXPECT_THAT(capturedChangeFrom(row), test::refused(ErrorCode::InvalidArgument, "\"name\" is missing"));
 }
 
 TEST(TransitionsJson, RefusesWhatIsOfAnotherType) {
@@ -77,9 +72,7 @@ TEST(TransitionsJson, RefusesWhatIsOfAnotherType) {
     for (const auto& [key, value] : wrong) {
         auto row = stepRow();
         row[key] = value;
-        const auto read = capturedChangeFrom(row);
-        ASSERT_FALSE(read) << key;
-        EXPECT_THAT(read.error().message, HasSubstr(key));
+        EXPECT_THAT(capturedChangeFrom(row), test::refusedSaying(key)) << key;
     }
 }
 

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "core/analysis/variation/VariationJson.h"
-#include "core/analysis/variation/VariationPremises.h"
 #include "tests/support/Limits.h"
 
 namespace tacto {

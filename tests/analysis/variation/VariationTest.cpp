@@ -8,6 +8,7 @@
 #include "core/analysis/variation/VariationJson.h"
 #include "tests/support/InTime.h"
 #include "tests/support/Limits.h"
+#include "tests/support/Refused.h"
 
 namespace tacto {
 namespace {
@@ -186,9 +187,7 @@ TEST(Variation, ACancelKeepsThePeopleWhoAreDone) {
     }
     EXPECT_EQ(whole, part);
 
-    const auto none = predictVariation(wanted, stop.get_token());
-    ASSERT_FALSE(none);
-    EXPECT_EQ(none.error().code, ErrorCode::Stopped);
+    EXPECT_THAT(predictVariation(wanted, stop.get_token()), test::refused(ErrorCode::Stopped));
 }
 
 TEST(Variation, RefusesOptionsThatMakeNoSense) {
@@ -225,10 +224,7 @@ TEST(IndexedWork, AThrowBecomesAnErrorAndCrossesNoThread) {
     work.work = [](std::size_t index) {
         if (index == 17) throw std::bad_alloc();
     };
-    const auto done = runIndexed(work, {});
-    ASSERT_FALSE(done);
-    EXPECT_EQ(done.error().code, ErrorCode::Unsupported);
-    EXPECT_NE(done.error().message.find("bad_alloc"), std::string::npos) << done.error().message;
+    EXPECT_THAT(runIndexed(work, {}), test::refused(ErrorCode::Unsupported, "bad_alloc"));
 }
 
 TEST(IndexedWork, DoesEveryPieceOnce) {

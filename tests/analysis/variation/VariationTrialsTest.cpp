@@ -1,6 +1,10 @@
+#include <cmath>
 #include <gtest/gtest.h>
 
+#include "core/analysis/statistics/Estimate.h"
 #include "core/analysis/variation/VariationTrials.h"
+#include "tests/analysis/statistics/CountedOut.h"
+#include "tests/support/Refused.h"
 
 namespace tacto {
 namespace {
@@ -120,10 +124,20 @@ TEST(VariationTrials, RefusesWhatNoPilotCouldMean) {
     for (const TrialsWanted& wanted :
          {TrialsWanted{0}, TrialsWanted{std::nan("")}, TrialsWanted{0.1, 1}, TrialsWanted{0.1, 0.25, 1},
           TrialsWanted{0.1, 0.25, 0.8, 0}, TrialsWanted{0.1, 0.25, 0.8, 4, 0}}) {
-        const auto found = trialsNeeded(accuracies, wanted);
-        ASSERT_FALSE(found);
-        EXPECT_EQ(found.error().code, ErrorCode::InvalidArgument);
+        EXPECT_THAT(trialsNeeded(accuracies, wanted), test::refused(ErrorCode::InvalidArgument));
     }
+}
+
+TEST(VariationPilot, SomeoneWhoIsNotServedShowsNothing) {
+    const double accuracies[] = {0.9, 0.5, 0.3};
+    const auto found = outlookOf({accuracies, 6}, 4, 40, 0.25);
+    EXPECT_EQ(found.people, 4U);
+    EXPECT_EQ(found.rightFrom, aboveChanceFrom(40, 0.25));
+    EXPECT_NEAR(found.allServed, std::pow(0.5, 4), 1e-12);
+    double one = 0;
+    for (const double p : accuracies) one += test::countedOut(found.rightFrom, 40, p) / 6;
+    EXPECT_NEAR(found.allAboveChance, std::pow(one, 4), 1e-10);
+    EXPECT_GT(found.width.high, found.width.low);
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "core/analysis/variation/PopulationField.h"
 #include "core/analysis/variation/VirtualParticipant.h"
 #include "core/base/Statistics.h"
+#include "tests/support/Refused.h"
 
 namespace tacto {
 namespace {
@@ -15,18 +15,16 @@ TEST(PopulationModel, RefusesEachFigureOutsideItsRangeByName) {
             PopulationModel model;
             field.in(model) = wrong;
             const auto refused = validate(model);
-            ASSERT_FALSE(refused) << field.key << " " << wrong;
-            EXPECT_EQ(refused.error().code, ErrorCode::InvalidArgument);
+            ASSERT_THAT(refused, test::refused(ErrorCode::InvalidArgument)) << field.key << " " << wrong;
             EXPECT_EQ(refused.error().message.find("the " + std::string(field.name) + " is "), 0U)
                 << refused.error().message;
         }
     }
     PopulationModel spread;
     spread.attention_ma.spread = 0.99;
-    const auto refused = validate(spread);
-    ASSERT_FALSE(refused);
-    EXPECT_EQ(refused.error().message,
-              "the spread of the attention threshold is 0.99; a number from 1 to 10 is expected");
+    EXPECT_THAT(validate(spread),
+                test::refusedSaying(testing::StrEq(
+                    "the spread of the attention threshold is 0.99; a number from 1 to 10 is expected")));
 }
 
 TEST(VirtualParticipant, EachThresholdHasItsMedianAndSpread) {

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "core/analysis/vibration/VibrationSeparability.h"
+#include "tests/support/Refused.h"
 
 namespace tacto {
 namespace {
@@ -43,20 +44,19 @@ std::vector<VibrationTrial> trials(double smooth = 1, double rough = 3) {
 }
 
 TEST(VibrationSeparability, StrengthAndRhythmSeparateTheFour) {
-    const auto found = judgeVibration(trials(), kFourNames);
-    ASSERT_TRUE(found) << found.error().message;
-    EXPECT_TRUE(found->measured);
-    EXPECT_EQ(found->verdict, Verdict::Pass) << testing::PrintToString(found->reasons);
-    ASSERT_EQ(found->conditions.size(), 4U);
-    const auto& first = found->conditions.front();
+    const auto found = test::accepted(judgeVibration(trials(), kFourNames));
+    EXPECT_TRUE(found.measured);
+    EXPECT_EQ(found.verdict, Verdict::Pass) << testing::PrintToString(found.reasons);
+    ASSERT_EQ(found.conditions.size(), 4U);
+    const auto& first = found.conditions.front();
     EXPECT_EQ(first.name, "smooth-low");
     EXPECT_EQ(first.presentations, 25U);
     EXPECT_EQ(first.moved, 75U);
     EXPECT_NEAR(first.strength_m_s2.mean, 1, 0.01);
     EXPECT_NEAR(first.measuredInterval_s.mean, 2, 0.01);
     EXPECT_NEAR(first.latency_s.mean, 0.012, 1e-9);
-    EXPECT_EQ(found->pairs.size(), 6U);
-    const auto json = toJson(*found);
+    EXPECT_EQ(found.pairs.size(), 6U);
+    const auto json = toJson(found);
     EXPECT_EQ(json["verdict"], "pass");
     EXPECT_EQ(json["conditions"][3]["name"], "rough-high");
     for (const char* electrical : {"_ma\"", "_v\"", "amplitude"})
@@ -65,10 +65,9 @@ TEST(VibrationSeparability, StrengthAndRhythmSeparateTheFour) {
 
 TEST(VibrationSeparability, StrengthsThatAreAlikeFail) {
     RecordProperty("hazard", "H9");
-    const auto found = judgeVibration(trials(1, 1.1), kFourNames);
-    ASSERT_TRUE(found);
-    EXPECT_EQ(found->verdict, Verdict::Fail);
-    EXPECT_THAT(found->reasons.front(), HasSubstr("just-noticeable differences"));
+    const auto found = test::accepted(judgeVibration(trials(1, 1.1), kFourNames));
+    EXPECT_EQ(found.verdict, Verdict::Fail);
+    EXPECT_THAT(found.reasons.front(), HasSubstr("just-noticeable differences"));
 }
 
 TEST(VibrationSeparability, AMotorThatStoodStillFails) {
@@ -77,28 +76,25 @@ TEST(VibrationSeparability, AMotorThatStoodStillFails) {
     for (auto& each : all) {
         if (each.condition == "smooth-low") each.measured = still();
     }
-    const auto found = judgeVibration(all, kFourNames);
-    ASSERT_TRUE(found);
-    EXPECT_TRUE(found->measured);
-    EXPECT_EQ(found->verdict, Verdict::Fail);
-    EXPECT_EQ(found->reasons.front(), "The motor did not move in 75 of 75 bursts of smooth-low.");
+    const auto found = test::accepted(judgeVibration(all, kFourNames));
+    EXPECT_TRUE(found.measured);
+    EXPECT_EQ(found.verdict, Verdict::Fail);
+    EXPECT_EQ(found.reasons.front(), "The motor did not move in 75 of 75 bursts of smooth-low.");
 }
 
 TEST(VibrationSeparability, WhatWasNotMeasuredNeverPasses) {
     RecordProperty("hazard", "H9");
     auto some = trials();
     some[0].measured = still(3);
-    const auto open = judgeVibration(some, kFourNames);
-    ASSERT_TRUE(open);
-    EXPECT_EQ(open->verdict, Verdict::Indeterminate);
+    const auto open = test::accepted(judgeVibration(some, kFourNames));
+    EXPECT_EQ(open.verdict, Verdict::Indeterminate);
     for (auto& each : some) each.measured = BurstFigures{};
-    const auto none = judgeVibration(some, kFourNames);
-    ASSERT_TRUE(none);
-    EXPECT_FALSE(none->measured);
-    EXPECT_EQ(none->verdict, Verdict::Indeterminate);
-    ASSERT_EQ(none->reasons.size(), 1U);
-    EXPECT_THAT(none->reasons.front(), HasSubstr("Not measured"));
-    const auto json = toJson(*none);
+    const auto none = test::accepted(judgeVibration(some, kFourNames));
+    EXPECT_FALSE(none.measured);
+    EXPECT_EQ(none.verdict, Verdict::Indeterminate);
+    ASSERT_EQ(none.reasons.size(), 1U);
+    EXPECT_THAT(none.reasons.front(), HasSubstr("Not measured"));
+    const auto json = toJson(none);
     EXPECT_FALSE(json["measured"].get<bool>());
     EXPECT_TRUE(json["verdict"].is_null());
     EXPECT_TRUE(json["conditions"][0]["strength_m_s2"]["mean"].is_null()) << "unknown is not zero";

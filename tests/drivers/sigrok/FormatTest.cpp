@@ -6,7 +6,7 @@
 #include <random>
 #include <unistd.h>
 
-#include "core/formats/ByteFile.h"
+#include "core/formats/TextBlocks.h"
 #include "drivers/sigrok/session_file/SigrokFormat.h"
 #include "tests/drivers/sigrok/ZipWriter.h"
 #include "tests/support/Support.h"

@@ -1,5 +1,5 @@
-// Participant.h - the interface through which a pilot session reaches its two people: a window with a person before it,
-// or a virtual participant. The session does not know which.
+// PilotParticipant.h - the interface through which a pilot session reaches its two people: a window with a person
+// before it, or a virtual participant. The session does not know which.
 //
 // The session calls show() and ask() from its own thread (a script's). An implementation with a window hands them to
 // the window's thread and waits there; a virtual one answers at once from what was delivered.
