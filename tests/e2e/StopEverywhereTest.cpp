@@ -26,7 +26,6 @@
 
 #include "app/gui/pilot/PilotWorkspace.h"
 #include "app/gui/runner/ScriptEditor.h"
-#include "app/gui/study/NewStudyPage.h"
 #include "app/gui/study/StudyForm.h"
 #include "app/gui/study/StudyPage.h"
 #include "app/gui/theme/TabbedPage.h"
@@ -344,7 +343,7 @@ protected:
                  }));
                  press(window, "Choose the file");
              },
-             "ParameterForm"},
+             "FieldForm"},
             {"Folder of a recording",
              [this] {
                  page(2);

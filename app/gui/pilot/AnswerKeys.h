@@ -8,9 +8,12 @@
 #pragma once
 
 #include <QString>
+#include <chrono>
+#include <map>
 #include <optional>
 #include <vector>
 
+#include "app/gui/theme/InputTime.h"
 #include "core/pilot/Prompt.h"
 
 namespace tacto::gui {
@@ -32,5 +35,24 @@ private:
 
 /// How many targets the prompt shows: its own, or one for each value of a scale, one to hold.
 [[nodiscard]] int targetCount(const PilotPrompt& prompt);
+
+/// Keys and buttons that went down while no target was there: while still held they do not answer.
+class EarlierPresses {
+public:
+    /// Whether a press is one that went down before: marked as `repeated`, or too soon after the last for another.
+    [[nodiscard]] bool isHeld(int code, SteadyTime at, bool repeated) {
+        const auto before = last_.find(code);
+        const bool held = repeated || (before != last_.end() && at - before->second < kRepeats);
+        if (before != last_.end() && held) before->second = at;
+        return held;
+    }
+    void note(int code, SteadyTime at) { last_[code] = at; }
+    void forget(int code) { last_.erase(code); }
+    void clear() { last_.clear(); }
+
+private:
+    static constexpr std::chrono::milliseconds kRepeats{150};  // X does not mark every press of a held key as repeated
+    std::map<int, SteadyTime> last_;
+};
 
 }  // namespace tacto::gui

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "app/gui/pilot/AnswerKeys.h"
+
 namespace tacto::gui {
 
 std::vector<ButtonUse> usualUses(std::size_t buttons) {
@@ -46,6 +48,19 @@ int SeatedDevice::answers() const {
     int reached = 0;
     while (std::ranges::find(uses, ButtonUse{ButtonUse::Does::Answer, reached + 1}) != uses.end()) ++reached;
     return reached;
+}
+
+std::optional<int> AnswerButtons::targetOf(int answer, const PilotPrompt& prompt) const {
+    if (prompt.kind == PromptKind::Scale || prompt.kind == PromptKind::Several || prompt.kind == PromptKind::Hold)
+        return std::nullopt;
+    const int count = targetCount(prompt);
+    return answer >= 1 && answer <= count && count <= reached ? std::optional(answer - 1) : std::nullopt;
+}
+
+QStringList AnswerButtons::textsFor(const PilotPrompt& prompt) const {
+    QStringList texts;
+    for (int i = 0; i < targetCount(prompt) && targetOf(i + 1, prompt) == i; ++i) texts << labels.answers.value(i);
+    return texts;
 }
 
 }  // namespace tacto::gui

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <QStringList>
+#include <optional>
 #include <vector>
 
 #include "core/devices/ButtonDevice.h"
@@ -43,5 +44,18 @@ struct ButtonLabels {
 };
 /// The labels are those of the participant's device that reaches the most answers; what holds may be on another.
 [[nodiscard]] ButtonLabels labelsOf(const std::vector<SeatedDevice>& seats);
+
+/// Which target of a question the participant's buttons answer, and what is written on it.
+/// Buttons answer a question only where they reach all its targets: those that they do not reach would be chosen less.
+/// They answer no scale and no question with several answers.
+struct AnswerButtons {
+    int reached = 0;  ///< answers 1 to this have a button
+    ButtonLabels labels;
+
+    /// The target, from 0, of answer 1 to n.
+    [[nodiscard]] std::optional<int> targetOf(int answer, const PilotPrompt& prompt) const;
+    /// The label of each target; empty where buttons do not answer.
+    [[nodiscard]] QStringList textsFor(const PilotPrompt& prompt) const;
+};
 
 }  // namespace tacto::gui

@@ -32,21 +32,23 @@ void chooseAgain(QComboBox& box, const QVariant& before) {
 
 }  // namespace
 
-DeviceRows::DeviceRows(QFormLayout& form, QWidget& parent, const DeviceWatch& watch)
-    : QObject(&parent), form_(form), watch_(watch), delivers_(new QComboBox(&parent)), looks_(new QComboBox(&parent)) {
+DeviceRows::DeviceRows(FieldForm& form, const DeviceWatch& watch)
+    : QObject(&form), form_(form), watch_(watch), delivers_(new QComboBox), looks_(new QComboBox) {
     delivers_->setObjectName("deliversWith");
     delivers_->setToolTip(tr("It is opened for the session alone; a bench that is open under Live is closed first."));
-    form.addRow(tr("Delivers"), delivers_);
     looks_->setObjectName("looksAtMotor");
     looks_->setPlaceholderText(tr("none chosen"));
     looks_->setToolTip(
         tr("A sensor board on the motor measures what the massager really does. Without one, its vibration is not "
            "measured."));
-    form.addRow(tr("On its motor"), looks_);
     for (auto* box : {delivers_, looks_}) connect(box, &QComboBox::currentIndexChanged, this, &DeviceRows::judge);
     connect(&watch_, &DeviceWatch::changed, this, [this] {
         if (watch_.devices() != listed_) list();
     });
+}
+
+std::vector<FormField> DeviceRows::fields() const {
+    return {ownField(tr("Delivers"), delivers_), ownField(tr("On its motor"), looks_)};
 }
 
 void DeviceRows::offer(const StudySettings& study, bool person) {
@@ -86,7 +88,7 @@ void DeviceRows::list() {
 
 void DeviceRows::judge() {
     const auto delivered = delivers_->currentData();
-    form_.setRowVisible(looks_, role_ == Role::Massager && delivered.isValid() && delivered != QString(kSimulated));
+    form_.setRowVisible(*looks_, role_ == Role::Massager && delivered.isValid() && delivered != QString(kSimulated));
     emit changed();
 }
 
@@ -95,7 +97,7 @@ std::vector<DeviceUri> DeviceRows::chosen() const {
     std::vector<DeviceUri> uris;
     for (auto* box : {delivers_, looks_}) {
         const auto text = box->currentData().toString();
-        if (text.isEmpty() || !form_.isRowVisible(box)) continue;
+        if (text.isEmpty() || !form_.isRowVisible(*box)) continue;
         if (auto uri = DeviceUri::parse(text.toStdString())) uris.push_back(std::move(*uri));
     }
     return uris;
@@ -106,7 +108,7 @@ QString DeviceRows::missing() const {
     if (delivers_->count() == 0)
         return massager ? tr("No massager is plugged in.") : tr("No stimulator is plugged in.");
     if (delivers_->currentIndex() < 0) return tr("Choose the device that delivers.");
-    if (form_.isRowVisible(looks_) && looks_->currentIndex() < 0)
+    if (form_.isRowVisible(*looks_) && looks_->currentIndex() < 0)
         return tr("The sensor board on the motor is gone. Choose another, or nothing.");
     return {};
 }

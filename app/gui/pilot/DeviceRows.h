@@ -8,10 +8,10 @@
 #pragma once
 
 #include <QComboBox>
-#include <QFormLayout>
 #include <vector>
 
 #include "app/gui/controller/DeviceWatch.h"
+#include "app/gui/theme/FieldForm.h"
 #include "core/study/StudySettings.h"
 
 namespace tacto::gui {
@@ -19,8 +19,9 @@ namespace tacto::gui {
 class DeviceRows final : public QObject {
     Q_OBJECT
 public:
-    /// The rows are added to `form`, and belong to `parent`. `watch` outlives them.
-    DeviceRows(QFormLayout& form, QWidget& parent, const DeviceWatch& watch);
+    /// fields() are to be shown in `form` before anything else is called. `watch` outlives them.
+    DeviceRows(FieldForm& form, const DeviceWatch& watch);
+    [[nodiscard]] std::vector<FormField> fields() const;
     /// Afresh: for a person, or for a virtual participant.
     void offer(const StudySettings& study, bool person);
     /// None while one is missing.
@@ -35,7 +36,7 @@ private:
     void list();
     void judge();
 
-    QFormLayout& form_;
+    FieldForm& form_;
     const DeviceWatch& watch_;
     QComboBox* delivers_;
     QComboBox* looks_;

@@ -1,12 +1,10 @@
 #include "app/gui/pilot/ImpedanceTrend.h"
 
 #include <QApplication>
-#include <QHBoxLayout>
-#include <QVBoxLayout>
 #include <cmath>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/PlotPicture.h"
-#include "app/gui/theme/Theme.h"
 #include "app/report/ShownText.h"
 
 namespace tacto::gui {
@@ -20,9 +18,7 @@ constexpr int kPoint_px = 7, kMinPlot = 120;
 
 ImpedanceTrend::ImpedanceTrend(QWidget* parent)
     : QWidget(parent), title_(new QLabel(this)), now_(new QLabel(this)), plot_(new QCustomPlot(this)) {
-    auto* column = new QVBoxLayout(this);
-    column->setContentsMargins(0, 0, 0, 0);
-    column->setSpacing(4);
+    auto* column = columnIn(*this, 4);
     auto* row = new QHBoxLayout;
     row->addWidget(title_);
     row->addStretch();

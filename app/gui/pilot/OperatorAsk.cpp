@@ -1,15 +1,13 @@
 #include "app/gui/pilot/OperatorAsk.h"
 
 #include <QCheckBox>
-#include <QHBoxLayout>
-#include <QLabel>
 #include <QLineEdit>
 #include <QPainter>
 
 #include "app/gui/pilot/AnswerKeys.h"
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/ConfirmButton.h"
 #include "app/gui/theme/Text.h"
-#include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 
@@ -47,8 +45,7 @@ void OperatorAsk::ask(const PilotPrompt& prompt, quint64 id) {
     column_->setContentsMargins(0, 0, 0, 0);
     auto* says = new QLabel(qtext(prompt.text), body_);
     says->setObjectName("operatorQuestion");
-    says->setTextFormat(Qt::PlainText);
-    says->setWordWrap(true);
+    wrapPlain(*says);
     setTextSize(*says, TextSize::Body, true);
     column_->addWidget(says);
     if (prompt.to == PromptTo::Both)

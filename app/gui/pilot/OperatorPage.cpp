@@ -1,17 +1,15 @@
 #include "app/gui/pilot/OperatorPage.h"
 
 #include <QFrame>
-#include <QHBoxLayout>
-#include <QVBoxLayout>
 #include <cmath>
 
 #include "app/gui/pilot/ImpedanceTrend.h"
 #include "app/gui/pilot/SessionPath.h"
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/ConfirmButton.h"
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/Labels.h"
 #include "app/gui/theme/Text.h"
-#include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 
@@ -57,9 +55,7 @@ OperatorPage::OperatorPage(QWidget* parent)
       ask_(new OperatorAsk(this)),
       obstacle_(new QWidget(this)) {
     setObjectName("operatorPage");
-    auto* all = new QVBoxLayout(this);
-    all->setContentsMargins(0, 0, 0, 0);
-    all->setSpacing(0);
+    auto* all = columnIn(*this, 0);
     auto* column = new QVBoxLayout;
     column->setContentsMargins(kOperatorPad, kOperatorPad, kOperatorPad, kOperatorPad / 2);
     column->setSpacing(kOperatorPad / 4);
@@ -72,8 +68,7 @@ OperatorPage::OperatorPage(QWidget* parent)
     }
     column->addSpacing(kOperatorPad / 2);
     column->addWidget(phase_);
-    auto* row = new QHBoxLayout(obstacle_);
-    row->setContentsMargins(0, 0, 0, 0);
+    auto* row = rowIn(*obstacle_);
     obstacleText_ = new QLabel(obstacle_);
     obstacleText_->setObjectName("presentationObstacle");
     obstacleText_->setWordWrap(true);
@@ -106,43 +101,35 @@ QWidget* OperatorPage::buildBar() {
     bar->setObjectName("sessionBar");
     bar->setAutoFillBackground(true);
     bar->setBackgroundRole(QPalette::Window);
-    auto* both = new QVBoxLayout(bar);
-    both->setContentsMargins(0, 0, 0, 0);
-    both->setSpacing(0);
+    auto* both = columnIn(*bar, 0);
     both->addWidget(lineAcross(bar));
     auto* row = new QHBoxLayout;
     row->setContentsMargins(kOperatorPad, kOperatorPad / 2 + 4, kOperatorPad, kOperatorPad / 2 + 4);
     row->setSpacing(8);
-    after_ = new QPushButton(tr("Break after this trial"), bar);
-    after_->setObjectName("breakAfterTrial");
+    after_ = pageButton(tr("Break after this trial"), "breakAfterTrial",
+                        tr("The trial under way is answered first; the next one waits for you."), bar);
     after_->setIcon(icon("break", Ink::Primary));
-    after_->setAutoDefault(false);
-    after_->setToolTip(tr("The trial under way is answered first; the next one waits for you."));
     makePrimary(*after_);
     connect(after_, &QPushButton::clicked, this, [this] { emit breakAfterTrialWanted(!breakDue_); });
-    now_ = new QPushButton(tr("Break now"), bar);
-    now_->setObjectName("breakNow");
-    now_->setAutoDefault(false);
-    now_->setToolTip(
+    now_ = pageButton(
+        tr("Break now"), "breakNow",
         tr("No further train follows, and the present trial is repeated after the break. STOP ends a train that is "
-           "under way."));
+           "under way."),
+        bar);
     connect(now_, &QPushButton::clicked, this, &OperatorPage::breakNowWanted);
     kept_ = new ElidedLabel(bar);
     kept_->setObjectName("answersKept");
     setTextSize(*kept_, TextSize::Small);
     setTone(*kept_, Tone::Quiet);
     kept_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
-    abort_ = new QPushButton(tr("Abort session…"), bar);
-    abort_->setObjectName("abortSession");
-    abort_->setAutoDefault(false);
-    abort_->setToolTip(tr("First of two steps. Ends the session; what was answered is kept."));
+    abort_ = pageButton(tr("Abort session…"), "abortSession",
+                        tr("First of two steps. Ends the session; what was answered is kept."), bar);
     connect(abort_, &QPushButton::clicked, this, [this] {
         abort_->hide();
         sure_->show();
     });
     sure_ = new QWidget(bar);
-    auto* sureRow = new QHBoxLayout(sure_);
-    sureRow->setContentsMargins(0, 0, 0, 0);
+    auto* sureRow = rowIn(*sure_);
     reallyAbort_ = new ConfirmButton(tr("End it now"), sure_);
     reallyAbort_->setObjectName("reallyAbort");
     connect(reallyAbort_, &QPushButton::clicked, this, &OperatorPage::abortWanted);

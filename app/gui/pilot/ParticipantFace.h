@@ -12,6 +12,7 @@
 #include <QWidget>
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "app/gui/pilot/AnswerKeys.h"
 #include "app/gui/pilot/AnswerTarget.h"
@@ -91,5 +92,25 @@ private:
     QLabel* mostWord_;
     QWidget* strip_ = nullptr;
 };
+
+/// Bars that fill: the blocks of a test side by side, the time to answer, the time of a phase.
+class ShareBars final : public QWidget {
+    Q_OBJECT
+public:
+    explicit ShareBars(QWidget* parent);
+    /// One bar each, 0 to 1.
+    void setShares(const std::vector<double>& shares);
+    [[nodiscard]] const std::vector<double>& shares() const { return shares_; }
+
+protected:
+    void paintEvent(QPaintEvent* event) override;
+
+private:
+    std::vector<double> shares_;
+};
+
+/// How full each block's bar is: finished blocks are full, the present one in proportion to its trials. `trial` counts
+/// all `trials` from 1; all blocks have the same length.
+[[nodiscard]] std::vector<double> blockShares(int block, int blocks, int trial, int trials);
 
 }  // namespace tacto::gui

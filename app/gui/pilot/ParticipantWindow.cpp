@@ -1,12 +1,15 @@
 #include "app/gui/pilot/ParticipantWindow.h"
 
 #include <QCloseEvent>
+#include <QGuiApplication>
 #include <QScreen>
 #include <QWindow>
 #include <algorithm>
+#include <cstdlib>
+#include <memory>
 #include <utility>
+#include <xcb/xcb.h>
 
-#include "app/gui/pilot/HeldKey.h"
 #include "app/gui/pilot/ParticipantFace.h"
 #include "app/gui/pilot/ParticipantField.h"
 
@@ -19,6 +22,24 @@ constexpr int kHoldKey = Qt::Key_H, kHoldKeyLeft = Qt::Key_G;
 constexpr int kFirstButton = 0x4000'0000;    // above each Qt::Key
 constexpr const char* kDone = "done";        // the target that ends Several
 constexpr const char* kStopsAs = "stopsAs";  // StopKeys looks for it
+
+/// Whether a key is still down though its window heard that it came up. X repeats a held key as pairs of a release and
+/// a press. Qt marks a pair as repeated only where both wait for it at once; otherwise it hands on a release of a key
+/// that is still held. Letting go is a STOP, so the server, which has just sent `released`, is asked: a round trip on
+/// this computer. False on any other platform, where repeats are marked. A key that was pressed again before its
+/// release is heard counts as held: its next one is heard.
+bool isStillDown(const QKeyEvent& released) {
+    // The offscreen platform has the interface too, and no server behind it.
+    const auto* x11 = qGuiApp->nativeInterface<QNativeInterface::QX11Application>();
+    auto* server = x11 != nullptr && QGuiApplication::platformName() == "xcb" ? x11->connection() : nullptr;
+    if (server == nullptr) return false;
+    const std::unique_ptr<xcb_query_keymap_reply_t, decltype(&std::free)> keys(
+        xcb_query_keymap_reply(server, xcb_query_keymap(server), nullptr), &std::free);
+    const auto code = released.nativeScanCode();
+    constexpr quint32 kBits = 8;
+    return keys != nullptr && code / kBits < std::size(keys->keys) &&
+           (keys->keys[code / kBits] >> (code % kBits) & 1) != 0;
+}
 
 }  // namespace
 

@@ -16,9 +16,8 @@
 #include <QWidget>
 #include <functional>
 
-#include "app/gui/pilot/AnswerButtons.h"
 #include "app/gui/pilot/AnswerKeys.h"
-#include "app/gui/pilot/EarlierPresses.h"
+#include "app/gui/pilot/ButtonUse.h"
 #include "app/gui/pilot/ParticipantDesk.h"
 
 namespace tacto::gui {

@@ -1,16 +1,13 @@
 #include "app/gui/pilot/PilotResult.h"
 
 #include <QFrame>
-#include <QHBoxLayout>
-#include <QHeaderView>
 #include <QRegularExpression>
 #include <cmath>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/Pages.h"
-#include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/Text.h"
-#include "app/gui/theme/Theme.h"
 #include "core/analysis/identification/IdentificationJson.h"
 #include "core/analysis/identification/IdentificationText.h"
 #include "core/base/JsonText.h"
@@ -110,7 +107,7 @@ PilotResult::PilotResult(QWidget* parent)
       why_(new QLabel(this)),
       more_(new QLabel(this)),
       matrixTitle_(new QLabel(tr("Stimulus in rows; answer in columns"), this)),
-      matrix_(new QTableWidget(this)),
+      matrix_(new PageTable("confusion", tr("Confusion matrix"), *this, kPagePad, false)),
       blocks_(new QLabel(this)),
       note_(new QLabel(this)),
       goOn_(new QPushButton(tr("Go on with the session"), this)),
@@ -118,9 +115,7 @@ PilotResult::PilotResult(QWidget* parent)
       back_(new QPushButton(this)),
       place_(new QPushButton(tr("Open the folder"), this)) {
     setObjectName("pilotResult");
-    auto* all = new QVBoxLayout(this);
-    all->setContentsMargins(0, 0, 0, 0);
-    all->setSpacing(0);
+    auto* all = columnIn(*this, 0);
     auto* column = new QVBoxLayout;
     column->setContentsMargins(kPagePad, kPagePad, kPagePad, kPagePad / 2);
     column->setSpacing(8);
@@ -128,8 +123,7 @@ PilotResult::PilotResult(QWidget* parent)
     why_->setObjectName("pilotReason");
     note_->setObjectName("pilotNote");
     for (auto* label : {head_, why_, more_, blocks_, note_}) {
-        label->setWordWrap(true);
-        label->setTextFormat(Qt::PlainText);
+        wrapPlain(*label);
         label->setTextInteractionFlags(Qt::TextSelectableByMouse);
     }
     setTextSize(*head_, TextSize::Large);
@@ -141,9 +135,6 @@ PilotResult::PilotResult(QWidget* parent)
     column->addWidget(more_);
     column->addSpacing(8);
     column->addWidget(matrixTitle_);
-    matrix_->setObjectName("confusion");
-    matrix_->setAccessibleName(tr("Confusion matrix"));
-    onFontChange(*matrix_, [this] { layOutMatrix(); });
     column->addWidget(matrix_);
     column->addWidget(blocks_);
     column->addWidget(note_);
@@ -240,43 +231,32 @@ void PilotResult::showMatrix(const nlohmann::json& results) {
     const bool there = labels.is_array() && columns.is_array() && counts.is_array() && counts.size() == labels.size();
     matrix_->setVisible(there);
     matrixTitle_->setVisible(there);
-    // clear() takes the headers and keeps the columns.
-    matrix_->clear();
-    matrix_->setRowCount(there ? int(labels.size()) : 0);
-    matrix_->setColumnCount(there ? int(columns.size()) + 1 : 0);
-    if (!there) return;
-    QStringList heads{tr("stimulus")};
-    for (const auto& column : columns)
-        heads << (column.is_string() ? qtext(answerWords(column.get<std::string>())).replace(' ', '\n') : QString());
-    matrix_->setHorizontalHeaderLabels(heads);
-    for (int c = 0; c < matrix_->columnCount(); ++c)
-        matrix_->horizontalHeaderItem(c)->setTextAlignment((c == 0 ? Qt::AlignLeft : Qt::AlignRight) |
-                                                           Qt::AlignVCenter);
-    for (int r = 0; r < int(labels.size()); ++r) {
-        const auto& label = labels[std::size_t(r)];
-        putText(*matrix_, r, 0, label.is_string() ? qtext(answerWords(label.get<std::string>())) : QString(), false);
-        const auto& row = counts[std::size_t(r)];
-        for (int i = 0; row.is_array() && i < int(columns.size()) && std::size_t(i) < row.size(); ++i) {
-            putText(*matrix_, r, i + 1,
-                    row[std::size_t(i)].is_number() ? QString::number(row[std::size_t(i)].get<int>()) : "–", true);
-            if (label != columns[std::size_t(i)]) continue;
+    std::vector<ResultColumn> shown;
+    auto rows = nlohmann::json::array();
+    if (there) shown.push_back({tr("stimulus").toStdString(), "stimulus"});
+    const auto wordsOf = [](const nlohmann::json& key) {
+        return key.is_string() ? answerWords(key.get<std::string>()) : std::string();
+    };
+    for (std::size_t i = 0; there && i < columns.size(); ++i) {
+        auto title = wordsOf(columns[i]);
+        std::ranges::replace(title, ' ', '\n');
+        shown.push_back({title, fmt::format("{}", i), ResultColumn::As::Number});
+    }
+    for (std::size_t r = 0; there && r < labels.size(); ++r) {
+        nlohmann::json row{{"stimulus", wordsOf(labels[r])}};
+        for (std::size_t i = 0; counts[r].is_array() && i < counts[r].size(); ++i)
+            row[fmt::format("{}", i)] = counts[r][i];
+        rows.push_back(std::move(row));
+    }
+    matrix_->show(shown, rows);
+    for (int r = 0; r < matrix_->rowCount(); ++r) {
+        for (int c = 1; c < matrix_->columnCount(); ++c) {
+            if (labels[std::size_t(r)] != columns[std::size_t(c - 1)]) continue;
             auto font = matrix_->font();
             font.setBold(true);
-            matrix_->item(r, i + 1)->setFont(font);
+            matrix_->item(r, c)->setFont(font);
         }
     }
-    layOutMatrix();
-}
-
-void PilotResult::layOutMatrix() {
-    if (matrix_->columnCount() == 0) return;
-    // Six answers have no room in large text beside open docks: the matrix scrolls, not the page.
-    layOutRecordTable(*matrix_, std::max(1, widthInSight(*this) - 2 * (kPagePad + 1)));
-}
-
-void PilotResult::resizeEvent(QResizeEvent* event) {
-    QWidget::resizeEvent(event);
-    if (event->size().width() != event->oldSize().width()) layOutMatrix();
 }
 
 }  // namespace tacto::gui

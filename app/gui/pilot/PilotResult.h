@@ -6,11 +6,11 @@
 
 #include <QLabel>
 #include <QPushButton>
-#include <QTableWidget>
 #include <QVBoxLayout>
 #include <QWidget>
 #include <nlohmann/json.hpp>
 
+#include "app/gui/study/PageTable.h"
 #include "app/run/ProtocolRun.h"
 
 namespace tacto::gui {
@@ -36,18 +36,14 @@ signals:
     void goOnWanted();  ///< the unfinished session
     void folderWanted(const QString& folder);
 
-protected:
-    void resizeEvent(QResizeEvent* event) override;
-
 private:
-    void layOutMatrix();
     void showMatrix(const nlohmann::json& results);
     QString folder_;
     QLabel* head_;
     QLabel* why_;
     QLabel* more_;
     QLabel* matrixTitle_;
-    QTableWidget* matrix_;
+    PageTable* matrix_;
     QLabel* blocks_;
     QLabel* note_;
     QPushButton* goOn_;

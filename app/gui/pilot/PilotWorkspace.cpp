@@ -1,7 +1,5 @@
 #include "app/gui/pilot/PilotWorkspace.h"
 
-#include <QHBoxLayout>
-
 #include "app/gui/pilot/OperatorPage.h"
 #include "app/gui/pilot/PilotResult.h"
 #include "app/gui/pilot/RehearsalPage.h"
@@ -10,6 +8,7 @@
 #include "app/gui/pilot/SessionStartPage.h"
 #include "app/gui/study/StudyList.h"
 #include "app/gui/study/StudyPage.h"
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/Pages.h"
 #include "app/gui/theme/RecordColumns.h"
@@ -42,9 +41,7 @@ PilotWorkspace::PilotWorkspace(BenchController& controller, QWidget* parent)
       session_(std::make_unique<SessionConduct>(controller, *page_)) {
     setObjectName("pilotWorkspace");
     study_.setProfile([&controller] { return controller.profile(); });
-    auto* row = new QHBoxLayout(this);
-    row->setContentsMargins(0, 0, 0, 0);
-    row->setSpacing(0);
+    auto* row = rowIn(*this, 0);
     const auto edge = [this, row] {
         auto* line = new QFrame(this);
         line->setFrameShape(QFrame::VLine);

@@ -3,15 +3,14 @@
 #include <QDateTime>
 #include <QDir>
 #include <QStandardPaths>
-#include <QVBoxLayout>
 
-#include "app/gui/pilot/ProcedureRows.h"
-#include "app/gui/pilot/RememberedInputs.h"
+#include "app/gui/pilot/InputRows.h"
+#include "app/gui/pilot/SessionPath.h"
 #include "app/gui/pilot/UnfinishedOffer.h"
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Text.h"
-#include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 
@@ -51,22 +50,11 @@ RehearsalPage::RehearsalPage(QWidget* parent)
       folder_(new FolderRow(newFolder(), tr("A new folder, or the folder of a rehearsal to continue."),
                             tr("The rehearsal’s folder"), this)),
       offer_(new UnfinishedOffer(this)),
-      who_(new QComboBox(this)),
-      pace_(new QComboBox(this)),
-      seed_(new QSpinBox(this)),
-      modality_(new QComboBox(this)),
-      procedure_(new ProcedureRows("rehearsal", *this)),
-      blocks_(new QSpinBox(this)),
-      trouble_(new TroubleLine("rehearsalTrouble", this)),
-      begin_(new QPushButton(tr("Begin rehearsal"), this)) {
-    auto* whole = new QVBoxLayout(this);
-    whole->setContentsMargins(0, 0, 0, 0);
-    whole->setSpacing(0);
+      trouble_(new TroubleLine("rehearsalTrouble", this)) {
+    auto* whole = columnIn(*this, 0);
     auto* page = new ScrollingPage(this);
     auto* inside = new QWidget(page->viewport());
-    auto* column = new QVBoxLayout(inside);
-    column->setContentsMargins(kPagePad, kPagePad, kPagePad, kPagePad / 2);
-    column->setSpacing(8);
+    auto* column = columnIn(*inside, 8, {kPagePad, kPagePad, kPagePad, kPagePad / 2});
     title_->setObjectName("rehearsalTitle");
     setTextSize(*title_, TextSize::Large);
     column->addWidget(title_);
@@ -74,124 +62,100 @@ RehearsalPage::RehearsalPage(QWidget* parent)
         tr("The whole session as participant and operator see it, on simulated devices: checklist, thresholds, "
            "training, test, ratings. No person receives any output."),
         inside));
-    auto* holder = new QWidget(inside);
-    boundWidth(*holder, kFormWide);
-    rows_ = new QFormLayout(holder);
-    rows_->setContentsMargins(0, 4, 0, 0);
-    rows_->setVerticalSpacing(8);
-    rows_->setRowWrapPolicy(QFormLayout::WrapLongRows);
-    addStudyRows();
-    addParticipantRows();
-    addSessionRows();
-    seats_ = std::make_unique<SeatRows>(*rows_, *holder);
+    folder_->line().setObjectName("studyFolder");
+    folder_->line().setAccessibleName(tr("Folder of the rehearsal"));
+    form_ = new FieldForm(inside, FieldForm::Labels::Beside);
+    boundWidth(*form_, kFormWide);
+    seats_ = std::make_unique<SeatRows>(*form_);
+    form_->show(fields());
+    seats_->connectFields();
     seats_->recall(kRehearsals);
-    setTabOrder(seats_->last(), begin_);
-    column->addWidget(holder);
+    column->addWidget(form_);
     column->addWidget(seats_->about());
     column->addStretch();
     page->hold(inside);
     whole->addWidget(page, 1);
     auto* foot = addPageFoot(*whole, this, QBoxLayout::TopToBottom);
     foot->addWidget(trouble_);
-    begin_->setObjectName("beginRehearsal");
+    begin_ = pageButton(tr("Begin rehearsal"), "beginRehearsal", {}, this);
     begin_->setIcon(icon("run", Ink::Primary));
-    begin_->setAutoDefault(false);
     makePrimary(*begin_);
     connect(begin_, &QPushButton::clicked, this, &RehearsalPage::beginWanted);
     foot->addWidget(begin_, 0, Qt::AlignLeft);
+    connect(&folder_->line(), &QLineEdit::textChanged, this, &RehearsalPage::look);
+    connect(offer_, &UnfinishedOffer::changed, this, &RehearsalPage::judge);
     connect(&seats_->inputs(), &InputRows::changed, this, &RehearsalPage::judge);
-    connect(&seats_->markers(), &QLineEdit::textChanged, this, &RehearsalPage::judge);
+    connect(form_, &FieldForm::edited, this, [this] { form_->text("rehearsalSeed") == seen_ ? judge() : look(); });
     look();
 }
 
-/// Where it lies, and what was interrupted there.
-void RehearsalPage::addStudyRows() {
-    folder_->line().setObjectName("studyFolder");
-    folder_->line().setAccessibleName(tr("Folder of the rehearsal"));
-    rows_->addRow(tr("Folder"), folder_);
-    rows_->addRow(offer_);
-    connect(&folder_->line(), &QLineEdit::textChanged, this, &RehearsalPage::look);
-    connect(offer_, &UnfinishedOffer::changed, this, &RehearsalPage::judge);
+/// Where it lies and what was interrupted there, who answers, and how fast, what is run, and on what.
+std::vector<FormField> RehearsalPage::fields() const {
+    std::vector<FormField> all{
+        ownField(tr("Folder"), folder_),
+        ownField({}, offer_),
+        choiceField("whoAnswers", tr("Participant"),
+                    {{"virtual", tr("a virtual participant")}, {"person", tr("you, in their window")}},
+                    tr("A virtual participant answers by itself. Either way nothing but simulated devices is used.")),
+        choiceField("rehearsalPace", tr("Pace"),
+                    {{"fast", tr("as fast as possible")}, {"own", tr("the session’s own")}},
+                    tr("As fast as possible: seconds. The session’s own: as long as with a person, to watch what is "
+                       "delivered.")),
+        wholeField("rehearsalSeed", tr("Seed"), 1, kMaxSeed, 1,
+                   tr("The same seed gives the same order, and the same virtual participant.")),
+        choiceField("rehearsalModality", tr("Felt through"),
+                    {{qtext(nameOf(Modality::Electrodes)), tr("electrodes")},
+                     {qtext(nameOf(Modality::Massager)), tr("a massager")}},
+                    tr("These devices make what is felt; a massager has a strength instead of a current. A rehearsal "
+                       "keeps the devices that it began with."))};
+    std::ranges::copy(procedureFields(), std::back_inserter(all));
+    all.push_back(wholeField("rehearsalBlocks", tr("Blocks of the test"), 1, kMaxBlocks, kUsualBlocks,
+                             tr("Each block has 18 trials: four per condition and two empty.")));
+    std::ranges::copy(seats_->fields(), std::back_inserter(all));
+    return all;
 }
 
-/// Who answers, and how fast.
-void RehearsalPage::addParticipantRows() {
-    who_->setObjectName("whoAnswers");
-    who_->addItem(tr("a virtual participant"), false);
-    who_->addItem(tr("you, in their window"), true);
-    who_->setToolTip(tr("A virtual participant answers by itself. Either way nothing but simulated devices is used."));
-    rows_->addRow(tr("Participant"), who_);
-    pace_->setObjectName("rehearsalPace");
-    pace_->addItem(tr("as fast as possible"), false);
-    pace_->addItem(tr("the session’s own"), true);
-    pace_->setToolTip(
-        tr("As fast as possible: seconds. The session’s own: as long as with a person, to watch what is delivered."));
-    rows_->addRow(tr("Pace"), pace_);
-    seed_->setObjectName("rehearsalSeed");
-    seed_->setRange(1, kMaxSeed);
-    seed_->setButtonSymbols(QAbstractSpinBox::NoButtons);  // no seed is more than another
-    seed_->setToolTip(tr("The same seed gives the same order, and the same virtual participant."));
-    rows_->addRow(tr("Seed"), seed_);
-    connect(seed_, &QSpinBox::valueChanged, this, &RehearsalPage::look);
-    connect(who_, &QComboBox::currentIndexChanged, this, &RehearsalPage::judge);
-    connect(pace_, &QComboBox::currentIndexChanged, this, &RehearsalPage::judge);
-}
+bool RehearsalPage::person() const { return form_->text("whoAnswers") == "person"; }
 
-/// What is run, and on what.
-void RehearsalPage::addSessionRows() {
-    modality_->setObjectName("rehearsalModality");
-    modality_->addItem(tr("electrodes"), qtext(nameOf(Modality::Electrodes)));
-    modality_->addItem(tr("a massager"), qtext(nameOf(Modality::Massager)));
-    modality_->setToolTip(
-        tr("These devices make what is felt; a massager has a strength instead of a current. A rehearsal keeps the "
-           "devices that it began with."));
-    rows_->addRow(tr("Felt through"), modality_);
-    procedure_->addTo(*rows_);
-    blocks_->setObjectName("rehearsalBlocks");
-    blocks_->setRange(1, kMaxBlocks);
-    blocks_->setValue(5);
-    blocks_->setToolTip(tr("Each block has 18 trials: four per condition and two empty."));
-    rows_->addRow(tr("Blocks of the test"), blocks_);
-    connect(procedure_, &ProcedureRows::changed, this, &RehearsalPage::judge);
-}
+bool RehearsalPage::ownPace() const { return form_->text("rehearsalPace") == "own"; }
 
 PilotStart RehearsalPage::rehearsal() const {
     PilotStart made;
     made.folder = folder_->folder();
     made.title = made.folder.section('/', -1);
-    made.seed = std::uint64_t(seed_->value());
+    made.seed = form_->text("rehearsalSeed").toULongLong();
     made.participant = fmt::format("virtual:{}", made.seed);
-    made.person = who_->currentData().toBool();
-    made.realTime = !made.person && pace_->currentData().toBool();
+    made.person = person();
+    made.realTime = !made.person && ownPace();
     made.who = made.person ? tr("you") : tr("virtual, seed %1").arg(made.seed);
-    procedure_->writeTo(made);
     made.unfinished = offer_->chosen();
-    made.massager = modality_->currentData() == qtext(nameOf(Modality::Massager));
-    if (modality_->isEnabled()) made.modality = modality_->currentData().toString().toStdString();
-    if (!offer_->goesOn()) made.blocks = blocks_->value();
+    const auto modality = form_->text("rehearsalModality").toStdString();
+    made.massager = modality == nameOf(Modality::Massager);
+    if (!modality_) made.modality = modality;
+    if (!offer_->goesOn()) made.blocks = form_->text("rehearsalBlocks").toInt();
     made.inputsOf = kRehearsals;
     seats_->writeTo(made);
     return made;
 }
 
 void RehearsalPage::look() {
-    const auto known = modalityIn(folder_->folder());
-    if (known) modality_->setCurrentIndex(modality_->findData(qtext(nameOf(*known))));
-    modality_->setEnabled(!known);
-    title_->setText(known ? tr("Another session of this rehearsal") : tr("A new rehearsal"));
-    offer_->offer(unfinishedIn(folder_->folder(), fmt::format("virtual:{}", seed_->value())));
+    seen_ = form_->text("rehearsalSeed");
+    modality_ = modalityIn(folder_->folder());
+    if (modality_) form_->set("rehearsalModality", qtext(nameOf(*modality_)));
+    form_->setFieldEnabled("rehearsalModality", !modality_);
+    title_->setText(modality_ ? tr("Another session of this rehearsal") : tr("A new rehearsal"));
+    offer_->offer(unfinishedIn(folder_->folder(), "virtual:" + seen_.toStdString()));
     judge();
 }
 
 void RehearsalPage::renew() { folder_->line().setText(newFolder()); }
 
 void RehearsalPage::judge() {
-    procedure_->follow(*offer_);
-    const bool person = who_->currentData().toBool();
-    rows_->setRowVisible(pace_, !person);
-    seats_->showFor(person, pace_->currentData().toBool());
-    blocks_->setEnabled(!offer_->goesOn() && procedure_->isWhole());
-    const auto lacks = seats_->missing(person);
+    followOffer(*form_, *offer_);
+    form_->setRowVisible("rehearsalPace", !person());
+    seats_->showFor(person(), ownPace());
+    form_->setFieldEnabled("rehearsalBlocks", !offer_->goesOn() && isWholeSession(*form_));
+    const auto lacks = seats_->missing(person());
     begin_->setEnabled(offer_->isSettled() && lacks.isEmpty() && !folder_->folder().isEmpty());
     begin_->setToolTip(
         !lacks.isEmpty() ? lacks : tr("Opens both windows. Nothing is delivered before the checklist is answered."));

@@ -4,11 +4,8 @@
 // Thread-safety: the GUI thread.
 #pragma once
 
-#include <QComboBox>
-#include <QFormLayout>
 #include <QLabel>
 #include <QPushButton>
-#include <QSpinBox>
 #include <QWidget>
 #include <memory>
 
@@ -19,7 +16,6 @@
 
 namespace tacto::gui {
 
-class ProcedureRows;
 class UnfinishedOffer;
 
 class RehearsalPage final : public QWidget {
@@ -42,24 +38,20 @@ signals:
     void beginWanted();
 
 private:
-    void addStudyRows();
-    void addParticipantRows();
-    void addSessionRows();
+    [[nodiscard]] std::vector<FormField> fields() const;
+    [[nodiscard]] bool person() const;   ///< answers
+    [[nodiscard]] bool ownPace() const;  ///< the session's
     void judge();
 
     QLabel* title_;
-    QFormLayout* rows_ = nullptr;
+    FieldForm* form_ = nullptr;
     FolderRow* folder_;
     UnfinishedOffer* offer_;
-    QComboBox* who_;
-    QComboBox* pace_;
-    QSpinBox* seed_;
-    QComboBox* modality_;
-    ProcedureRows* procedure_;
-    QSpinBox* blocks_;
+    std::optional<Modality> modality_;  ///< of the rehearsal that is there already
+    QString seen_;                      ///< the seed that was looked for
     std::unique_ptr<SeatRows> seats_;
     TroubleLine* trouble_;
-    QPushButton* begin_;
+    QPushButton* begin_ = nullptr;
 };
 
 }  // namespace tacto::gui

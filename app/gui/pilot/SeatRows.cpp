@@ -1,8 +1,9 @@
 #include "app/gui/pilot/SeatRows.h"
 
+#include <QGuiApplication>
+#include <QScreen>
 #include <QSettings>
 
-#include "app/gui/pilot/ScreenChoice.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 
@@ -10,84 +11,105 @@ namespace tacto::gui {
 
 namespace {
 
+constexpr const char* kScreenKey = "pilot/screen";
 constexpr const char* kMarkersKey = "pilot/markers";
 constexpr const char* kNoMarkers = "off";
+constexpr const char* kWholeSession = "pilot-identification";
+
+QString rememberedMarkers() { return QSettings().value(kMarkersKey, kNoMarkers).toString(); }
 
 /// Nothing where none are wanted.
-std::optional<Result<MarkerAddress>> markersFrom(const QLineEdit& line) {
-    const auto text = line.text().trimmed();
+std::optional<Result<MarkerAddress>> markersFrom(const FieldForm& form) {
+    const auto text = form.text("markers");
     if (text.isEmpty() || text == kNoMarkers) return std::nullopt;
     return MarkerAddress::parse(text.toStdString());
 }
 
 }  // namespace
 
-SeatRows::SeatRows(QFormLayout& form, QWidget& parent)
-    : form_(form),
-      screen_(new ScreenChoice(&parent)),
-      keys_(new QComboBox(&parent)),
-      inputs_(new InputRows(&parent)),
-      markers_(new QLineEdit(QSettings().value(kMarkersKey, kNoMarkers).toString(), &parent)),
-      blind_(new QCheckBox(QObject::tr("Blind: conditions and answers are hidden"), &parent)),
-      about_(new QLabel(&parent)) {
-    form.addRow(QObject::tr("Their screen"), screen_);
-    keys_->setObjectName("answerKeys");
-    keys_->addItem(QObject::tr("figures 1 to 6"), int(KeySet::Figures));
-    keys_->addItem(QObject::tr("left hand: W E, S D, X C"), int(KeySet::LeftHand));
-    keys_->addItem(QObject::tr("right hand: U I, J K, M and comma"), int(KeySet::RightHand));
-    keys_->setToolTip(QObject::tr("Touch and mouse work with each of them."));
-    form.addRow(QObject::tr("Their keys"), keys_);
-    form.addRow(QObject::tr("Game pads, pedals"), inputs_);
-    markers_->setObjectName("markers");
-    markers_->setAccessibleName(QObject::tr("Markers: off, or the TCP port"));
-    markers_->setPlaceholderText(kNoMarkers);
-    markers_->setToolTip(
-        QObject::tr("“off”, or the port at which a recorder of EEG or EMG on this computer connects: 5005. For one on "
-                    "another computer an address of this one too: 192.168.1.20:5005. A line for each event with its "
-                    "time, and nothing of conditions, answers or people."));
-    QObject::connect(markers_, &QLineEdit::editingFinished, markers_,
-                     [this] { QSettings().setValue(kMarkersKey, markers_->text().trimmed()); });
-    form.addRow(QObject::tr("Markers, TCP port"), markers_);
-    blind_->setObjectName("blind");
-    setBlind(false);
-    blind_->setChecked(true);
-    form.addRow(blind_);
+std::vector<FormField> procedureFields() {
+    return {choiceField("protocol", QObject::tr("What is run"),
+                        {{kWholeSession, QObject::tr("the whole session")},
+                         {"pilot-thresholds", QObject::tr("thresholds alone")}},
+                        QObject::tr("Thresholds, training, test and ratings; or only the first part: what is just "
+                                    "felt, and what is too strong.")),
+            choiceField("method", QObject::tr("Detection by"),
+                        {{"quest", QObject::tr("QUEST+")}, {"staircase", QObject::tr("weighted staircase")}},
+                        QObject::tr("How the level that is just felt is found after the ascending limits."))};
+}
+
+void followOffer(FieldForm& form, const UnfinishedOffer& offer) {
+    if (offer.goesOn()) form.set("protocol", qtext(offer.offered()->protocol));
+    for (const char* field : {"protocol", "method"}) form.setFieldEnabled(field, !offer.goesOn());
+}
+
+bool isWholeSession(const FieldForm& form) { return form.text("protocol") == kWholeSession; }
+
+SeatRows::SeatRows(FieldForm& form)
+    : form_(form), screen_(new ScreenChoice), inputs_(new InputRows), about_(new QLabel(&form)) {
     about_->setWordWrap(true);
     about_->setObjectName("seatsAbout");
     setTone(*about_, Tone::Quiet);
 }
 
+std::vector<FormField> SeatRows::fields() const {
+    const auto key = [](KeySet set) { return QString::number(int(set)); };
+    return {ownField(QObject::tr("Their screen"), screen_),
+            choiceField("answerKeys", QObject::tr("Their keys"),
+                        {{key(KeySet::Figures), QObject::tr("figures 1 to 6")},
+                         {key(KeySet::LeftHand), QObject::tr("left hand: W E, S D, X C")},
+                         {key(KeySet::RightHand), QObject::tr("right hand: U I, J K, M and comma")}},
+                        QObject::tr("Touch and mouse work with each of them.")),
+            ownField(QObject::tr("Game pads, pedals"), inputs_),
+            textField("markers", QObject::tr("Markers, TCP port"), rememberedMarkers(),
+                      QObject::tr("“off”, or the port at which a recorder of EEG or EMG on this computer connects: "
+                                  "5005. For one on another computer an address of this one too: 192.168.1.20:5005. A "
+                                  "line for each event with its time, and nothing of conditions, answers or people."),
+                      kNoMarkers),
+            tickField("blind", QObject::tr("Blind: conditions and answers are hidden"), true)};
+}
+
+void SeatRows::connectFields() {
+    QObject::connect(form_.findChild<QLineEdit*>("markers"), &QLineEdit::editingFinished, &form_,
+                     [this] { QSettings().setValue(kMarkersKey, form_.text("markers")); });
+    setBlind(false);
+    form_.set("blind", "true");
+}
+
 void SeatRows::writeTo(PilotStart& start) const {
-    start.keys = KeySet(keys_->currentData().toInt());
-    start.blind = blind_->isChecked();
+    start.protocol = form_.text("protocol").toStdString();
+    start.method = form_.text("method").toStdString();
+    start.keys = KeySet(form_.text("answerKeys").toInt());
+    start.blind = form_.text("blind") == "true";
     start.inputs = inputs_->seats();
     start.buttons = inputs_->devices();
-    const auto to = markersFrom(*markers_);
+    const auto to = markersFrom(form_);
     start.markers = to && *to ? std::optional(**to) : std::nullopt;
 }
 
 QString SeatRows::missing(bool person) const {
-    if (const auto to = markersFrom(*markers_); to && !*to) return sentence(to->error());
+    if (form_.refused(false) > 0) return QObject::tr("Correct the field that is refused first.");
+    if (const auto to = markersFrom(form_); to && !*to) return sentence(to->error());
     return person ? inputs_->missing() : QString();
 }
 
 void SeatRows::recall(const QString& place) {
     inputs_->setPlace(place);
-    markers_->setText(QSettings().value(kMarkersKey, kNoMarkers).toString());
+    form_.set("markers", rememberedMarkers());
 }
 
 void SeatRows::setBlind(bool study) {
-    blind_->setChecked(study);
-    blind_->setEnabled(!study);
-    blind_->setToolTip(study ? QObject::tr("Blind is what the study’s approval says; an amendment changes it.")
-                             : QObject::tr("The operator sees no condition, level or answer until the session has "
-                                           "ended."));
+    form_.set("blind", study ? "true" : "false");
+    form_.setFieldEnabled("blind", !study);
+    form_.findChild<QWidget*>("blind")->setToolTip(
+        study ? QObject::tr("Blind is what the study’s approval says; an amendment changes it.")
+              : QObject::tr("The operator sees no condition, level or answer until the session has ended."));
 }
 
 void SeatRows::showFor(bool person, bool realTime) {
-    form_.setRowVisible(screen_, person);
-    form_.setRowVisible(keys_, person);
-    form_.setRowVisible(inputs_, person);
+    form_.setRowVisible(*screen_, person);
+    form_.setRowVisible("answerKeys", person);
+    form_.setRowVisible(*inputs_, person);
     about_->setText(
         !person && realTime
             ? QObject::tr("The virtual participant answers every question of both people, and the session takes about "
@@ -101,4 +123,56 @@ void SeatRows::showFor(bool person, bool realTime) {
             : QObject::tr("Their window opens on the screen chosen above; this one stays yours."));
 }
 
+ScreenChoice::ScreenChoice(QWidget* parent) : QComboBox(parent) {
+    setObjectName("participantScreen");
+    setAccessibleName(tr("The participant’s screen"));
+    setToolTip(tr("Where the participant’s window opens, full screen. Remembered by name."));
+    fill();
+    connect(this, &QComboBox::activated, this, [this] { QSettings().setValue(kScreenKey, chosenName()); });
+    connect(qGuiApp, &QGuiApplication::screenAdded, this, [this](const QScreen* screen) {
+        const bool wanted = screen->name() == chosenName();
+        fill();
+        if (wanted) emit back(screen->name());
+    });
+    connect(qGuiApp, &QGuiApplication::screenRemoved, this, [this](const QScreen* screen) {
+        const auto name = screen->name();
+        if (name == chosenName()) emit lost(name);
+        if (name != chosenName()) fill();
+    });
+}
+
+/// The remembered one; else one that is not the operator's; else the only one.
+void ScreenChoice::fill() {
+    const auto before = currentIndex() >= 0 ? chosenName() : QSettings().value(kScreenKey).toString();
+    clear();
+    for (const auto* screen : QGuiApplication::screens()) {
+        const auto size = screen->geometry().size();
+        addItem(tr("%1, %2 × %3").arg(screen->name()).arg(size.width()).arg(size.height()), screen->name());
+    }
+    int index = findData(before);
+    if (index < 0) {
+        index = 0;
+        for (int i = 0; i < count(); ++i) {
+            if (itemData(i).toString() != QGuiApplication::primaryScreen()->name()) index = i;
+        }
+    }
+    setCurrentIndex(index);
+}
+
+QScreen* ScreenChoice::chosen() const {
+    for (auto* screen : QGuiApplication::screens()) {
+        if (screen->name() == chosenName()) return screen;
+    }
+    return nullptr;
+}
+
+QScreen* ScreenChoice::seat() {
+    if (chosen() == nullptr) fill();
+    return chosen();
+}
+
+bool ScreenChoice::isOnly() { return QGuiApplication::screens().size() < 2; }
+
 }  // namespace tacto::gui
+
+#include "moc_SeatRows.cpp"

@@ -2,15 +2,16 @@
 
 #include <QScreen>
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
+#include "app/gui/pilot/InputRows.h"
 #include "app/gui/pilot/OperatorPage.h"
 #include "app/gui/pilot/OperatorStrip.h"
 #include "app/gui/pilot/ParticipantWindow.h"
-#include "app/gui/pilot/PilotOrder.h"
-#include "app/gui/pilot/RememberedInputs.h"
-#include "app/gui/pilot/ScreenChoice.h"
+#include "app/gui/pilot/SeatRows.h"
 #include "app/gui/theme/Text.h"
+#include "app/scripting/engine/ProtocolLibrary.h"
 
 namespace tacto::gui {
 
@@ -18,6 +19,26 @@ namespace {
 
 constexpr const char* kScreenWent = "the participant's screen went";
 constexpr const char* kScreenClosed = "the participant's screen was closed";
+
+/// The run that a pilot session is, with the profile, the limits and the notes of the day as they are now.
+Result<RunOrder> pilotOrder(const PilotStart& start, BenchController& controller) {
+    auto source = ProtocolLibrary().find(start.protocol);
+    if (!source) return failure(source);
+    auto declaration = readDeclaration(*source);
+    if (!declaration) return failure(declaration);
+    std::map<std::string, std::string> given{
+        {"participant", start.participant}, {"method", start.method}, {"modality", start.modality}};
+    if (!start.unfinished.empty()) given["unfinished"] = start.unfinished;
+    if (start.blocks) given["blocks"] = std::to_string(*start.blocks);
+    auto settings = applySettings(*declaration, given);
+    if (!settings) return failure(settings);
+    auto order = controller.orderOf(std::move(*source), std::move(*declaration), std::move(*settings));
+    order.uris = start.devices;
+    order.needed = order.declaration.needs;
+    order.seed = start.seed;
+    order.realtime = start.person || start.realTime;
+    return order;
+}
 
 }  // namespace
 
@@ -382,6 +403,51 @@ void SessionConduct::finish(const std::shared_ptr<const FinishedRun>& run) {
     emit ended(run);
     emit attentionWanted();
     emit runningChanged();
+}
+
+namespace {
+
+constexpr std::chrono::milliseconds kOnePress{100};
+
+/// An operator who aborts or closes the window, or a screen that goes, has tested no STOP.
+bool isPressOfStop(std::string_view by) {
+    return by.starts_with("operator (") && by != kOperatorAborts && by != "operator (signal)";
+}
+
+}  // namespace
+
+void SessionStops::begin() {
+    stoppedAt_ = testedAt_ = SteadyTime();
+    heldTested_ = false;
+}
+
+bool SessionStops::isAnotherPress(const char* by) {
+    auto last = stoppedAt_.load();
+    const auto now = std::chrono::steady_clock::now();
+    if (now - last >= kOnePress && stoppedAt_.compare_exchange_strong(last, now)) return true;
+    if (std::string_view(by) != kParticipantLetGo) desk_.notePressed();
+    return false;
+}
+
+std::optional<HeardStop> SessionStops::participantPressed(const char* by) {
+    if (!isAnotherPress(by)) return {};
+    HeardStop stop;
+    stop.tested = desk_.testsStopOf(PromptTo::Participant) || desk_.testsStopOf(PromptTo::Operator);
+    stop.heard = desk_.stopBy(by);
+    if (!stop.heard) controller_.stop(by);  // the session has not begun, or is over
+    return stop;
+}
+
+bool SessionStops::isTested(const char* by) {
+    if (std::string_view(by).ends_with(kStillHeld)) return heldTested_.load();
+    if (!isPressOfStop(by)) return false;
+    // What the press tested is off already, and a question comes next.
+    if (std::chrono::steady_clock::now() - testedAt_.load() < kOnePress) return true;
+    // In the test of the participant's it is a press of the wrong one: asked again, and no stop of the session.
+    const bool tests = desk_.testsStopOf(PromptTo::Operator) || desk_.testsStopOf(PromptTo::Participant);
+    heldTested_ = tests && desk_.stopBy(by);
+    if (heldTested_) testedAt_ = std::chrono::steady_clock::now();
+    return heldTested_.load();
 }
 
 }  // namespace tacto::gui

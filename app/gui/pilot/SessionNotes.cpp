@@ -1,11 +1,10 @@
 #include "app/gui/pilot/SessionNotes.h"
 
-#include <QHBoxLayout>
 #include <QTime>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/Labels.h"
-#include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 
@@ -18,13 +17,10 @@ constexpr int kLongestNote = 500;  // characters
 
 SessionNotes::SessionNotes(QWidget* parent)
     : QWidget(parent), line_(new QLineEdit(this)), mark_(new QPushButton(tr("Mar&k"), this)), list_(new QVBoxLayout) {
-    auto* column = new QVBoxLayout(this);
-    column->setContentsMargins(0, 0, 0, 0);
-    column->setSpacing(4);
+    auto* column = columnIn(*this, 4);
     auto* row = new QHBoxLayout;
     row->setSpacing(8);
-    auto* title = new QLabel(tr("Notes"), this);
-    setTextSize(*title, TextSize::Body, true);
+    auto* title = strongLabel(tr("Notes"), this);
     row->addWidget(title);
     line_->setObjectName("noteLine");
     line_->setAccessibleName(tr("Note"));
@@ -32,26 +28,22 @@ SessionNotes::SessionNotes(QWidget* parent)
     line_->setPlaceholderText(tr("A note; never a name. Space types here, Esc and Pause stop."));
     line_->setToolTip(tr(
         "Enter keeps the note with its time. Space types here and stops elsewhere; Esc and Pause stop from here too."));
-    connect(line_, &QLineEdit::returnPressed, this, &SessionNotes::enter);
+    connect(line_, &QLineEdit::returnPressed, this, [this] {
+        if (!line_->text().trimmed().isEmpty()) keep();
+    });
     row->addWidget(line_, 1);
     mark_->setIcon(icon("mark"));
     mark_->setAutoDefault(false);
     mark_->setToolTip(tr("Marks this moment, with the words of the line if there are any."));
-    connect(mark_, &QPushButton::clicked, this, [this] {
-        emit noted(line_->text().trimmed());
-        line_->clear();
-        emit typingEnded();
-    });
+    connect(mark_, &QPushButton::clicked, this, &SessionNotes::keep);
     row->addWidget(mark_);
     column->addLayout(row);
     list_->setSpacing(0);
     column->addLayout(list_);
 }
 
-void SessionNotes::enter() {
-    const auto note = line_->text().trimmed();
-    if (note.isEmpty()) return;
-    emit noted(note);
+void SessionNotes::keep() {
+    emit noted(line_->text().trimmed());
     line_->clear();
     emit typingEnded();
 }
@@ -66,9 +58,7 @@ void SessionNotes::clear() {
 
 void SessionNotes::add(const QString& note) {
     auto* row = new QWidget(this);
-    auto* line = new QHBoxLayout(row);
-    line->setContentsMargins(0, 4, 0, 4);
-    line->setSpacing(16);
+    auto* line = rowIn(*row, 16, {0, 4, 0, 4});
     auto* at = new QLabel(QTime::currentTime().toString("HH:mm:ss"), row);
     setTextSize(*at, TextSize::Small);
     setTone(*at, Tone::Quiet);

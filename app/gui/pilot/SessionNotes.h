@@ -25,7 +25,7 @@ signals:
     void typingEnded();  ///< the keys may go back to the participant
 
 private:
-    void enter();
+    void keep();
     QLineEdit* line_;
     QPushButton* mark_;
     QVBoxLayout* list_;

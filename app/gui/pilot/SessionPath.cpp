@@ -1,14 +1,13 @@
 #include "app/gui/pilot/SessionPath.h"
 
 #include <QTime>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 
 #include "app/gui/runner/StepList.h"
-#include "app/gui/theme/Theme.h"
+#include "app/gui/theme/Building.h"
 
 namespace tacto::gui {
 
@@ -73,8 +72,7 @@ QString stepAsked(const std::string& prompt, const std::string& phase, bool mass
 SessionPath::SessionPath(QWidget* parent) : QWidget(parent) {
     setObjectName("path");
     fixWidth(*this, kPilotPath);
-    auto* column = new QVBoxLayout(this);
-    column->setContentsMargins(0, kPathPad / 2, 0, kPathPad);
+    auto* column = columnIn(*this, -1, {0, kPathPad / 2, 0, kPathPad});
     auto* top = new QVBoxLayout;
     top->setContentsMargins(kPathPad, 0, kPathPad, kPathPad / 2);
     top->setSpacing(4);

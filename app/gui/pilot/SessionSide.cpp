@@ -1,12 +1,12 @@
 #include "app/gui/pilot/SessionSide.h"
 
-#include <QVBoxLayout>
+#include <QPainter>
 
-#include "app/gui/pilot/FactsCard.h"
 #include "app/gui/pilot/ParticipantWindow.h"
 #include "app/gui/pilot/SessionConduct.h"
-#include "app/gui/pilot/TheirScreen.h"
-#include "app/gui/theme/Theme.h"
+#include "app/gui/theme/Building.h"
+#include "app/gui/theme/ElidedLabel.h"
+#include "app/gui/theme/Icons.h"
 
 namespace tacto::gui {
 
@@ -22,9 +22,7 @@ SessionSide::SessionSide(QWidget* parent) : QScrollArea(parent) {
     setFocusPolicy(Qt::NoFocus);
     fixWidth(*this, kPilotSide);
     auto* inside = new QWidget(this);
-    auto* column = new QVBoxLayout(inside);
-    column->setContentsMargins(0, 0, 0, 0);
-    column->setSpacing(0);
+    auto* column = columnIn(*inside, 0);
     who_ = new FactsCard(tr("Participant"), "pilot", inside);
     screen_ = new FactsCard(tr("Their screen"), "plot-only", inside);
     theirs_ = new TheirScreen(screen_);
@@ -62,6 +60,115 @@ void SessionSide::show(const SessionConduct& session) {
                                start.keys == KeySet::Figures    ? tr("the figures")
                                : start.keys == KeySet::LeftHand ? tr("the left hand’s")
                                                                 : tr("the right hand’s")));
+}
+
+namespace {
+constexpr int kCardPad = 12, kCardIcon = 16;
+}
+
+FactsCard::FactsCard(const QString& title, const QString& iconName, QWidget* parent)
+    : QFrame(parent),
+      icon_(iconName),
+      picture_(new QLabel(this)),
+      column_(new QVBoxLayout(this)),
+      grid_(new QGridLayout) {
+    setAccessibleName(title);
+    column_->setContentsMargins(kCardPad, kCardPad / 2, kCardPad, kCardPad);
+    column_->setSpacing(kCardPad / 2);
+    auto* head = new QHBoxLayout;
+    head->setSpacing(8);
+    auto* words = strongLabel(title, this);
+    head->addWidget(picture_);
+    head->addWidget(words, 1);
+    column_->addLayout(head);
+    grid_->setVerticalSpacing(8);
+    grid_->setColumnStretch(1, 1);
+    column_->addLayout(grid_);
+    dress();
+    onLookChange(*this, [this] { dress(); });
+}
+
+void FactsCard::setFacts(const std::vector<Fact>& facts) {
+    if (facts == facts_) return;
+    facts_ = facts;
+    while (auto* item = grid_->takeAt(0)) {
+        delete item->widget();
+        delete item;
+    }
+    int row = 0;
+    for (const auto& fact : facts_) {
+        auto* name = new QLabel(fact.name, this);
+        auto* value = new ElidedLabel(fact.value, this);
+        for (auto* label : {name, static_cast<QLabel*>(value)}) label->setTextFormat(Qt::PlainText);
+        setTextSize(*name, TextSize::Small);
+        setTextSize(*value, TextSize::Small, fact.strong);
+        if (!fact.strong) setTone(*value, Tone::Quiet);
+        value->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+        value->setToolTip(fact.value);
+        grid_->addWidget(name, row, 0);
+        grid_->addWidget(value, row, 1);
+        ++row;
+    }
+}
+
+void FactsCard::setPicture(QWidget* picture) { column_->insertWidget(1, picture); }
+
+void FactsCard::setWords(const QString& words) {
+    if (words_ == nullptr) {
+        words_ = new QLabel(this);
+        words_->setWordWrap(true);
+        setTextSize(*words_, TextSize::Small);
+        setTone(*words_, Tone::Quiet);
+        column_->addWidget(words_);
+    }
+    words_->setText(words);
+}
+
+void FactsCard::dress() {
+    picture_->setPixmap(iconPixmap(icon_, colours().text, scaledPx(kCardIcon), devicePixelRatioF()));
+}
+
+namespace {
+constexpr int kThumbWide = 200, kThumbHigh = 125;
+}
+
+TheirScreen::TheirScreen(QWidget* parent) : QWidget(parent) {
+    setAccessibleName(tr("The participant’s screen"));
+    setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+}
+
+void TheirScreen::setShows(Shows shows) {
+    if (std::exchange(shows_, shows) != shows) update();
+}
+
+QSize TheirScreen::sizeHint() const { return {scaledPx(kThumbWide), scaledPx(kThumbHigh)}; }
+
+void TheirScreen::paintEvent(QPaintEvent* /*event*/) {
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    const auto& c = colours();
+    painter.setPen(QPen(c.edge, 1));
+    painter.setBrush(c.window);
+    painter.drawRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5));
+    const QRectF inside = QRectF(rect()).adjusted(9, 9, -9, -9);
+    const double wide = inside.width(), high = inside.height();
+    if (shows_ == Shows::Targets) {
+        painter.setBrush(c.base);
+        const double rows[] = {0.36, 0.36, 0.18};
+        double y = inside.top();
+        for (const double share : rows) {
+            for (int i = 0; i < 2; ++i)
+                painter.drawRoundedRect(QRectF(inside.left() + i * wide * 0.33, y, wide * 0.31, high * share), 2, 2);
+            y += high * (share + 0.05);
+        }
+    } else if (shows_ == Shows::Dot) {
+        painter.setPen(Qt::NoPen);
+        painter.setBrush(c.text);
+        painter.drawEllipse(QPointF(inside.left() + wide * 0.32, inside.center().y()), 4, 4);
+    }
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(c.stop);
+    painter.drawRoundedRect(QRectF(inside.left() + wide * 0.68, inside.top(), wide * 0.32, high), 2, 2);
 }
 
 }  // namespace tacto::gui

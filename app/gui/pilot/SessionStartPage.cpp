@@ -1,17 +1,15 @@
 #include "app/gui/pilot/SessionStartPage.h"
 
-#include <QFormLayout>
+#include <QGridLayout>
+#include <QRadioButton>
 #include <QRandomGenerator>
-#include <QVBoxLayout>
 
 #include "app/gui/pilot/DeviceRows.h"
-#include "app/gui/pilot/ExclusionChecklist.h"
-#include "app/gui/pilot/ProcedureRows.h"
 #include "app/gui/pilot/UnfinishedOffer.h"
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Text.h"
-#include "app/gui/theme/Theme.h"
 #include "app/gui/theme/ToolRow.h"
 
 namespace tacto::gui {
@@ -26,24 +24,18 @@ SessionStartPage::SessionStartPage(const DeviceWatch& watch, QWidget* parent)
       head_(new QLabel(this)),
       about_(new QLabel(this)),
       offer_(new UnfinishedOffer(this)),
-      procedure_(new ProcedureRows("session", *this)),
       trouble_(new TroubleLine("sessionTrouble", this)) {
     setObjectName("sessionStart");
-    auto* whole = new QVBoxLayout(this);
-    whole->setContentsMargins(0, 0, 0, 0);
-    whole->setSpacing(0);
+    auto* whole = columnIn(*this, 0);
     auto* page = new ScrollingPage(this);
     auto* inside = new QWidget(page->viewport());
     boundWidth(*inside, kStartWide);
-    auto* column = new QVBoxLayout(inside);
-    column->setContentsMargins(kPagePad, kPagePad, kPagePad, kPagePad);
-    column->setSpacing(12);
+    auto* column = columnIn(*inside, 12, {kPagePad, kPagePad, kPagePad, kPagePad});
     head_->setObjectName("sessionHead");
     setTextSize(*head_, TextSize::Large);
     setTone(*about_, Tone::Quiet);
     for (auto* label : {head_, about_}) {
-        label->setTextFormat(Qt::PlainText);
-        label->setWordWrap(true);
+        wrapPlain(*label);
     }
     column->addWidget(head_);
     column->addWidget(about_);
@@ -81,31 +73,29 @@ SessionStartPage::SessionStartPage(const DeviceWatch& watch, QWidget* parent)
 
 /// What is run, on what, and how both people sit.
 QLayout* SessionStartPage::buildForm(QWidget& parent, const DeviceWatch& watch) {
-    auto* form = new QFormLayout;
-    form->setVerticalSpacing(8);
-    form->setRowWrapPolicy(QFormLayout::WrapLongRows);
-    procedure_->addTo(*form);
-    devices_ = new DeviceRows(*form, parent, watch);
-    seats_ = std::make_unique<SeatRows>(*form, parent);
+    form_ = new FieldForm(&parent, FieldForm::Labels::Beside);
+    devices_ = new DeviceRows(*form_, watch);
+    seats_ = std::make_unique<SeatRows>(*form_);
+    auto fields = procedureFields();
+    for (const auto& more : {devices_->fields(), seats_->fields()}) std::ranges::copy(more, std::back_inserter(fields));
+    form_->show(fields);
+    seats_->connectFields();
     auto* column = new QVBoxLayout;
     column->setSpacing(12);
-    column->addLayout(form);
+    column->addWidget(form_);
     column->addWidget(seats_->about());
     column->addStretch();
     connect(devices_, &DeviceRows::changed, this, &SessionStartPage::judge);
     connect(&seats_->inputs(), &InputRows::changed, this, &SessionStartPage::judge);
-    connect(&seats_->markers(), &QLineEdit::textChanged, this, &SessionStartPage::judge);
+    connect(form_, &FieldForm::edited, this, &SessionStartPage::judge);
     return column;
 }
 
 void SessionStartPage::buildChecklist() {
     asks_ = new QWidget(this);
     checklist_ = new ExclusionChecklist(asks_);
-    auto* column = new QVBoxLayout(asks_);
-    column->setContentsMargins(0, 0, 0, 0);
-    column->setSpacing(8);
-    auto* title = new QLabel(tr("Exclusion checklist: ask each, today"), asks_);
-    setTextSize(*title, TextSize::Body, true);
+    auto* column = columnIn(*asks_, 8);
+    auto* title = strongLabel(tr("Exclusion checklist: ask each, today"), asks_);
     column->addWidget(title);
     column->addWidget(
         explanation(tr("A yes ends the day, whatever is answered later. Which one it was is sealed."), asks_));
@@ -125,7 +115,7 @@ void SessionStartPage::prepare(const Study& study, const Participant& participan
     seats_->setBlind(study.settings().blind);
     study_ = qtext(study.settings().id);
     seats_->recall(study_);
-    if (const auto& approved = study.settings().procedure) procedure_->setMethod(qtext(nameOf(approved->method)));
+    if (const auto& approved = study.settings().procedure) form_->set("method", qtext(nameOf(approved->method)));
     const auto unfinished = unfinishedOf(study, participant);
     say(unfinished ? QString() : sentence(unfinished.error()));
     offer_->offer(unfinished ? *unfinished : std::nullopt);
@@ -151,7 +141,6 @@ PilotStart SessionStartPage::start() const {
     made.confirmsCode = !virtual_;
     made.rehearsal = rehearsal_;
     if (!virtual_) made.exclusions = checklist_->answers();
-    procedure_->writeTo(made);
     made.unfinished = offer_->chosen();
     made.inputsOf = study_;
     made.seed = std::uint64_t(QRandomGenerator::system()->bounded(1, kMaxPlanSeed));
@@ -160,7 +149,7 @@ PilotStart SessionStartPage::start() const {
 }
 
 void SessionStartPage::judge() {
-    procedure_->follow(*offer_);
+    followOffer(*form_, *offer_);
     const auto open = checklist_->answers().size();
     const bool whole = virtual_ || checklist_->whole();
     const bool chosen = offer_->isSettled();
@@ -177,6 +166,50 @@ void SessionStartPage::judge() {
 }
 
 void SessionStartPage::say(const QString& what) { trouble_->say(what); }
+
+ExclusionChecklist::ExclusionChecklist(QWidget* parent) : QWidget(parent) {
+    setObjectName("exclusionChecklist");
+    setAccessibleName(tr("Exclusion checklist"));
+    auto* grid = new QGridLayout(this);
+    grid->setContentsMargins(0, 0, 0, 0);
+    grid->setHorizontalSpacing(scaledPx(16));
+    grid->setVerticalSpacing(scaledPx(8));
+    grid->setColumnStretch(0, 1);
+    int row = 0;
+    for (const auto& item : exclusionItems()) {
+        auto* question = new QLabel(qtext(item.question), this);
+        wrapPlain(*question);
+        grid->addWidget(question, row, 0);
+        auto* group = new QButtonGroup(this);
+        for (const auto answer : {kNo, kYes}) {
+            auto* choice = new QRadioButton(answer == kYes ? tr("yes") : tr("no"), this);
+            choice->setObjectName(qtext(item.key) + (answer == kYes ? "-yes" : "-no"));
+            choice->setAccessibleName(tr("%1 %2").arg(qtext(item.question), choice->text()));
+            group->addButton(choice, answer);
+            grid->addWidget(choice, row, 1 + answer, Qt::AlignTop);
+        }
+        connect(group, &QButtonGroup::idToggled, this, &ExclusionChecklist::changed);
+        groups_.push_back(group);
+        ++row;
+    }
+}
+
+void ExclusionChecklist::clear() {
+    for (auto* group : groups_) {
+        group->setExclusive(false);
+        for (auto* choice : group->buttons()) choice->setChecked(false);
+        group->setExclusive(true);
+    }
+}
+
+std::vector<ExclusionAnswer> ExclusionChecklist::answers() const {
+    std::vector<ExclusionAnswer> all;
+    for (std::size_t i = 0; i < groups_.size(); ++i) {
+        if (const int given = groups_[i]->checkedId(); given >= 0)
+            all.push_back({std::string(exclusionItems()[i].key), given == kYes});
+    }
+    return all;
+}
 
 }  // namespace tacto::gui
 

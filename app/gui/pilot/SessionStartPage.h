@@ -5,13 +5,16 @@
 #pragma once
 
 #include <QBoxLayout>
+#include <QButtonGroup>
 #include <QLabel>
 #include <QPushButton>
 #include <QWidget>
+#include <vector>
 
 #include "app/gui/pilot/PilotStart.h"
 #include "app/gui/pilot/SeatRows.h"
 #include "app/gui/theme/Labels.h"
+#include "core/study/Gates.h"
 #include "core/study/Study.h"
 
 namespace tacto::gui {
@@ -19,7 +22,6 @@ namespace tacto::gui {
 class DeviceRows;
 class DeviceWatch;
 class ExclusionChecklist;
-class ProcedureRows;
 class UnfinishedOffer;
 
 class SessionStartPage final : public QWidget {
@@ -56,13 +58,32 @@ private:
     QLabel* head_;
     QLabel* about_;
     UnfinishedOffer* offer_;
-    ProcedureRows* procedure_;
-    DeviceRows* devices_;
+    FieldForm* form_ = nullptr;
+    DeviceRows* devices_ = nullptr;
     std::unique_ptr<SeatRows> seats_;
     QWidget* asks_ = nullptr;
     ExclusionChecklist* checklist_ = nullptr;
     TroubleLine* trouble_;
     QPushButton* begin_ = nullptr;
+};
+
+/// The questions of the exclusion checklist, each answered by yes or no. No answer is
+/// preselected.
+class ExclusionChecklist final : public QWidget {
+    Q_OBJECT
+public:
+    explicit ExclusionChecklist(QWidget* parent = nullptr);
+    void clear();
+    /// Those that are answered, in order.
+    [[nodiscard]] std::vector<ExclusionAnswer> answers() const;
+    [[nodiscard]] bool whole() const { return answers().size() == groups_.size(); }
+
+signals:
+    void changed();
+
+private:
+    enum Answer { kNo, kYes };
+    std::vector<QButtonGroup*> groups_;  ///< as exclusionItems()
 };
 
 }  // namespace tacto::gui

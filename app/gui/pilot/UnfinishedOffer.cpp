@@ -2,10 +2,9 @@
 
 #include <QButtonGroup>
 #include <QPainter>
-#include <QVBoxLayout>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Text.h"
-#include "app/gui/theme/Theme.h"
 #include "app/run/PilotRows.h"
 
 namespace tacto::gui {
@@ -46,11 +45,9 @@ UnfinishedOffer::UnfinishedOffer(QWidget* parent)
     setFrameShape(QFrame::StyledPanel);
     setAutoFillBackground(true);
     setBackgroundRole(QPalette::Base);
-    auto* column = new QVBoxLayout(this);
-    column->setContentsMargins(kOfferStripe * 3, kOfferStripe * 2, kOfferStripe * 2, kOfferStripe * 2);
+    auto* column = columnIn(*this, -1, {kOfferStripe * 3, kOfferStripe * 2, kOfferStripe * 2, kOfferStripe * 2});
     says_->setObjectName("unfinishedSays");
-    says_->setWordWrap(true);
-    says_->setTextFormat(Qt::PlainText);
+    wrapPlain(*says_);
     setTextSize(*says_, TextSize::Body, true);
     column->addWidget(says_);
     goOn_->setObjectName("goOnWithIt");

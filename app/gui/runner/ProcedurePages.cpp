@@ -4,7 +4,7 @@
 
 #include "app/gui/calibrate/WiringPage.h"
 #include "app/gui/runner/NotesPanel.h"
-#include "app/gui/runner/ParameterForm.h"
+#include "app/gui/theme/FieldForm.h"
 #include "app/gui/runner/RunViews.h"
 #include "app/gui/runner/SignPage.h"
 #include "app/gui/runner/WiringPanel.h"
@@ -91,7 +91,7 @@ QWidget* formColumn(QWidget* part) {
 }  // namespace
 
 ProcedurePages::ProcedurePages(DayNotes& day, QWidget* parent) : PageStack(parent) {
-    form_ = new ParameterForm(this);
+    form_ = new FieldForm(this);
     addWidget(buildWiring());
     addWidget(buildReference());
     addWidget(buildSettings(day));
@@ -135,6 +135,7 @@ QWidget* ProcedurePages::buildReference() {
                               tr("It is read first. If the known load reads wrong, nothing else can be judged, so the "
                                  "run stops."));
     boundWidth(form_->referencePart(), kFormWidth * 3 / 2);
+    form_->referencePart().show();
     column->addWidget(scrolling(formColumn(&form_->referencePart()), page), 1);
     return page;
 }

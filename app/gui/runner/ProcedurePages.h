@@ -12,7 +12,7 @@ namespace tacto::gui {
 
 class DayNotes;
 class NotesPanel;
-class ParameterForm;
+class FieldForm;
 class RunViews;
 class SignPage;
 class WiringPage;
@@ -33,7 +33,7 @@ public:
     void setChangeable(bool changeable);
 
     [[nodiscard]] WiringPanel& wiring() noexcept { return *wiring_; }
-    [[nodiscard]] ParameterForm& form() noexcept { return *form_; }
+    [[nodiscard]] FieldForm& form() noexcept { return *form_; }
     [[nodiscard]] WorstPage& worst() noexcept { return *worst_; }
     [[nodiscard]] RunViews& views() noexcept { return *views_; }
     [[nodiscard]] SignPage& sign() noexcept { return *sign_; }
@@ -45,7 +45,7 @@ private:
     [[nodiscard]] QBoxLayout* turning();
     WiringPanel* wiring_ = nullptr;
     WiringPage* drawing_ = nullptr;
-    ParameterForm* form_ = nullptr;
+    FieldForm* form_ = nullptr;
     NotesPanel* notes_ = nullptr;
     WorstPage* worst_ = nullptr;
     RunViews* views_ = nullptr;

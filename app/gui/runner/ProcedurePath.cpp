@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "app/gui/runner/CellLegend.h"
-#include "app/gui/runner/ParameterForm.h"
+#include "app/gui/theme/FieldForm.h"
 #include "app/gui/runner/ProtocolHead.h"
 #include "app/gui/runner/RunPanel.h"
 #include "app/gui/runner/StepList.h"
@@ -115,7 +115,7 @@ void ProcedurePath::showNoRun(bool hasReference) {
     panel_->setLeading(true);
 }
 
-void ProcedurePath::showSetup(ParameterForm& form, const QString& devices, bool declared, bool begun,
+void ProcedurePath::showSetup(FieldForm& form, const QString& devices, bool declared, bool begun,
                               const std::set<Step>& seen) {
     using State = StepList::State;
     const auto state = [&](Step step, bool troubled) {

@@ -12,7 +12,7 @@
 namespace tacto::gui {
 
 class CellLegend;
-class ParameterForm;
+class FieldForm;
 class ProtocolHead;
 class RunPanel;
 class StepList;
@@ -31,7 +31,7 @@ public:
     /// Another procedure was read: nothing of it has run.
     void showNoRun(bool hasReference);
     /// The steps before the run. A tick says that a step was seen, or that the run used it.
-    void showSetup(ParameterForm& form, const QString& devices, bool declared, bool begun, const std::set<Step>& seen);
+    void showSetup(FieldForm& form, const QString& devices, bool declared, bool begun, const std::set<Step>& seen);
     void showRun();
     /// The result can be gone to. `early`: the run was stopped or failed.
     void showEnd(bool early, std::optional<Seconds> benchTime);

@@ -6,7 +6,7 @@
 #include <QShortcut>
 #include <QVBoxLayout>
 
-#include "app/gui/runner/ParameterForm.h"
+#include "app/gui/theme/FieldForm.h"
 #include "app/gui/runner/ProcedurePath.h"
 #include "app/gui/runner/PromptPanel.h"
 #include "app/gui/runner/ProtocolHead.h"
@@ -121,7 +121,7 @@ void ProtocolWorkspace::connectPath() {
 }
 
 void ProtocolWorkspace::connectPages() {
-    connect(&pages_->form(), &ParameterForm::edited, this, &ProtocolWorkspace::judge);
+    connect(&pages_->form(), &FieldForm::edited, this, &ProtocolWorkspace::judge);
     connect(&pages_->wiring(), &WiringPanel::edited, this, &ProtocolWorkspace::judge);
     connect(&pages_->views(), &RunViews::scriptErrorChosen, this,
             [this](int line, const QString& why) { edit(source_, line, why); });

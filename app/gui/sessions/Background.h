@@ -9,6 +9,8 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <type_traits>
 
 #include "core/base/Result.h"
 
@@ -30,6 +32,22 @@ public:
     /// Cancels earlier work and begins when that has ended, without making the caller wait. `then` gets the result,
     /// unless other work was started meanwhile.
     void start(Work work, std::function<void(Result<void>)> then);
+    /// The same for work that makes a value: `then` gets Result<Value>.
+    template <class Make, class Then>
+    void take(Make make, Then then) {
+        using Value = typename std::invoke_result_t<Make&, const WorkPort&>::value_type;
+        const auto made = std::make_shared<std::optional<Value>>();
+        start(
+            [made, make = std::move(make)](const WorkPort& port) -> Result<void> {
+                auto done = make(port);
+                if (!done) return failure(done);
+                made->emplace(std::move(*done));
+                return {};
+            },
+            [made, then = std::move(then)](const Result<void>& done) {
+                then(done ? Result<Value>(std::move(**made)) : Result<Value>(failure(done)));
+            });
+    }
     void cancel();
     [[nodiscard]] bool busy() const { return then_ != nullptr; }
 

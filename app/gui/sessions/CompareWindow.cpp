@@ -191,26 +191,27 @@ void CompareWindow::colourStreams() {
 void CompareWindow::drawStream() {
     if (stream_->count() == 0) return;
     const auto& drawn = drawn_[stream_->currentData().toULongLong()];
-    auto samples = std::make_shared<std::array<SampleBlock, 2>>();
     std::array<std::pair<std::filesystem::path, int>, 2> where;
     for (std::size_t s = 0; s < 2; ++s) {
         for (const auto& info : sessions_[s]->streams) {
             if (info.stream == drawn.stream) where[s] = {sessions_[s]->path, info.id};
         }
     }
-    background_.start(
-        [samples, where](const WorkPort&) -> Result<void> {
+    using Samples = std::array<SampleBlock, 2>;
+    background_.take(
+        [where](const WorkPort&) -> Result<Samples> {
+            Samples samples;
             for (std::size_t s = 0; s < 2; ++s) {
                 const auto reader = SessionReader::open(where[s].first);
                 if (!reader) return failure(reader);
                 auto read = reader->samples(where[s].second);
                 if (!read) return failure(read);
-                (*samples)[s] = std::move(*read);
+                samples[s] = std::move(*read);
             }
-            return {};
+            return samples;
         },
-        [this, samples, drawn](const Result<void>& done) {
-            if (done) overlay((*samples)[0], (*samples)[1], drawn);
+        [this, drawn](const Result<Samples>& samples) {
+            if (samples) overlay((*samples)[0], (*samples)[1], drawn);
         });
 }
 

@@ -2,18 +2,14 @@
 
 #include <QEvent>
 #include <QGridLayout>
-#include <QHBoxLayout>
 #include <QSplitter>
-#include <QTimer>
-#include <QVBoxLayout>
 
-#include "app/gui/sessions/MomentsBrowser.h"
 #include "app/gui/sessions/SessionPreview.h"
 #include "app/gui/sessions/SessionWords.h"
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/Labels.h"
 #include "app/gui/theme/Text.h"
-#include "app/gui/theme/Theme.h"
 #include "app/report/NumberText.h"
 #include "core/session/SessionLabels.h"
 
@@ -26,9 +22,6 @@ constexpr int kHeadIcon = 32;
 constexpr int kShownMoments = 500;
 constexpr int kMinMoments = 3;  // lines
 constexpr int kMinNote = 16;    // characters
-constexpr int kWhyLines = 2;
-constexpr int kLowPage = 560;      // on lower pages the reason is one line
-constexpr double kWrapped = 0.85;  // share of a line's width that is used where words wrap
 
 SessionEntry entryOf(const ReadSession& session) {
     ListedSession listed;
@@ -45,17 +38,14 @@ SessionEntry entryOf(const ReadSession& session) {
 
 SessionOverview::SessionOverview(QWidget* parent)
     : QWidget(parent), content_(new QWidget(this)), nothing_(new QLabel(this)) {
-    auto* page = new QVBoxLayout(this);
-    page->setContentsMargins(0, 0, 0, 0);
+    auto* page = columnIn(*this);
     nothing_->setWordWrap(true);
     nothing_->setAlignment(Qt::AlignCenter);
     nothing_->setTextInteractionFlags(Qt::TextSelectableByMouse);
     setTone(*nothing_, Tone::Quiet);
     page->addWidget(nothing_, 1);
     page->addWidget(content_, 1);
-    auto* column = new QVBoxLayout(content_);
-    column->setContentsMargins(2 * kGrid, kGrid, 2 * kGrid, kGrid);
-    column->setSpacing(kGrid);
+    auto* column = columnIn(*content_, kGrid, {2 * kGrid, kGrid, 2 * kGrid, kGrid});
     column->addWidget(buildHead());
     column->addWidget(buildFields());
     auto* split = new QSplitter(Qt::Vertical, content_);
@@ -65,6 +55,7 @@ SessionOverview::SessionOverview(QWidget* parent)
     split->addWidget(buildHappened());
     split->setStretchFactor(0, 3);
     split->setStretchFactor(1, 2);
+    split->setSizes({10'000, 1});  // the plot takes the room
     column->addWidget(split, 1);
     say(tr("Choose a session at the left."));
 }
@@ -93,13 +84,11 @@ QWidget* SessionOverview::buildHead() {
 
 QWidget* SessionOverview::buildHappened() {
     auto* holder = new QWidget(content_);
-    auto* column = new QVBoxLayout(holder);
-    column->setContentsMargins(0, kGrid, 0, 0);
-    column->setSpacing(kGrid / 2);
-    auto* heading = new QLabel(tr("What happened"), holder);
-    setTextSize(*heading, TextSize::Body, true);
+    auto* column = columnIn(*holder, kGrid / 2, {0, kGrid, 0, 0});
+    auto* heading = strongLabel(tr("What happened"), holder);
     column->addWidget(heading);
-    happened_ = new MomentsBrowser(holder);
+    happened_ = new QTextBrowser(holder);
+    happened_->document()->setDocumentMargin(0);
     happened_->setObjectName("whatHappened");
     happened_->setAccessibleName(tr("What happened"));
     happened_->setTabChangesFocus(true);
@@ -177,10 +166,8 @@ void SessionOverview::show(std::shared_ptr<const ReadSession> session) {
     content_->show();
     showFields();
     preview_->show(*session_);
-    layout()->activate();
     showHead();
     showHappened();
-    QTimer::singleShot(0, this, &SessionOverview::fitWhy);  // once the head has its width
 }
 
 void SessionOverview::showHead() {
@@ -191,24 +178,12 @@ void SessionOverview::showHead() {
     QStringList why;
     if (!session_->verdicts.empty())
         for (const auto& reason : session_->verdicts.back().reasons) why << sentence(qtext(reason));
-    whole_ = why.isEmpty() ? tr("%1, %2%3.")
-                                 .arg(beganText(entryOf(*session_).began), durationText(toSeconds(session_->length)),
-                                      session_->about.simulated ? tr(", simulated") : QString())
-                           : why.first();
-    fitWhy();
+    why_->setText(why.isEmpty()
+                      ? tr("%1, %2%3.")
+                            .arg(beganText(entryOf(*session_).began), durationText(toSeconds(session_->length)),
+                                 session_->about.simulated ? tr(", simulated") : QString())
+                      : why.first());
     why_->setToolTip(why.join('\n'));
-}
-
-/// The plot below keeps its room, however long the reason is; the tool tip has all of it.
-void SessionOverview::fitWhy() {
-    const bool low = height() < scaledPx(kLowPage);
-    const int room = low ? why_->width() - 4 : int(kWhyLines * kWrapped * why_->width());
-    why_->setText(why_->fontMetrics().elidedText(whole_, Qt::ElideRight, std::max(room, why_->fontMetrics().height())));
-}
-
-void SessionOverview::resizeEvent(QResizeEvent* event) {
-    QWidget::resizeEvent(event);
-    if (session_) QTimer::singleShot(0, this, &SessionOverview::fitWhy);  // once the head has its width
 }
 
 void SessionOverview::showFields() {
@@ -261,12 +236,13 @@ void SessionOverview::save() {
     refused_.clear();  // what was refused is tried again
     ++pending_;
     saySaved(tr("Saving…"), false);
-    saves_.save(session_->path, before, labels,
-                [this, before, labels, session = session_](const Result<SessionLabels>& done) {
-                    if (done) emit labelsSaved(qtext(session->path.string()));
-                    if (session_ == session) return saved(before, labels, done);
-                    if (!done) emit labelsRefused(sentence(done.error()));
-                });
+    saves_.start(
+        this, [path = session_->path, before, labels] { return saveLabels(path, before, labels); },
+        [this, before, labels, session = session_](const Result<SessionLabels>& done) {
+            if (done) emit labelsSaved(qtext(session->path.string()));
+            if (session_ == session) return saved(before, labels, done);
+            if (!done) emit labelsRefused(sentence(done.error()));
+        });
 }
 
 void SessionOverview::saved(const SessionLabels& before, const SessionLabels& edited,

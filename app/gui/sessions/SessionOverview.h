@@ -9,14 +9,14 @@
 
 #include <QLabel>
 #include <QLineEdit>
+#include <QTextBrowser>
 #include <memory>
 
-#include "app/gui/sessions/LabelSaves.h"
+#include "app/gui/controller/SideWork.h"
 #include "app/gui/sessions/ReadSession.h"
 
 namespace tacto::gui {
 
-class MomentsBrowser;
 class SessionPreview;
 
 class SessionOverview final : public QWidget {
@@ -35,13 +35,11 @@ signals:
 protected:
     void changeEvent(QEvent* event) override;
     void hideEvent(QHideEvent* event) override;
-    void resizeEvent(QResizeEvent* event) override;
 
 private:
     [[nodiscard]] QWidget* buildHead();
     [[nodiscard]] QWidget* buildFields();
     [[nodiscard]] QWidget* buildHappened();
-    void fitWhy();
     void showHead();
     void showFields();
     void showLabels(const SessionLabels& labels);
@@ -55,20 +53,19 @@ private:
     SessionLabels kept_;  ///< as they are in the session, or on their way into it
     QString refused_;     ///< why an edit that still stands in the fields is not in the session
     int pending_ = 0;     ///< edits of this session on their way
-    LabelSaves saves_;
+    SideWork saves_;      ///< edits follow each other; its end waits: what was typed is kept
     QWidget* content_;
     QLabel* nothing_;
     QLabel* icon_ = nullptr;
     QLabel* title_ = nullptr;
     QLabel* why_ = nullptr;
-    QString whole_;  ///< what why_ says, before it is elided
     QLineEdit* operator_ = nullptr;
     QLineEdit* sample_ = nullptr;
     QLineEdit* tags_ = nullptr;
     QLineEdit* note_ = nullptr;
     QLabel* saved_ = nullptr;
     SessionPreview* preview_ = nullptr;
-    MomentsBrowser* happened_ = nullptr;
+    QTextBrowser* happened_ = nullptr;
 };
 
 }  // namespace tacto::gui

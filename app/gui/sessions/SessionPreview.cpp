@@ -1,13 +1,12 @@
 #include "app/gui/sessions/SessionPreview.h"
 
 #include <QPainter>
-#include <QVBoxLayout>
 #include <algorithm>
 
 #include "app/gui/runner/TrialPlane.h"
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/PlotLegend.h"
 #include "app/gui/theme/PlotPicture.h"
-#include "app/gui/theme/Theme.h"
 #include "app/report/FigureDrawing.h"
 #include "core/base/JsonText.h"
 
@@ -58,9 +57,7 @@ void SheetView::paintEvent(QPaintEvent* /*event*/) {
 
 SessionPreview::SessionPreview(QWidget* parent)
     : QWidget(parent), title_(new QLabel(this)), stack_(new QStackedWidget(this)) {
-    auto* column = new QVBoxLayout(this);
-    column->setContentsMargins(0, 0, 0, 0);
-    column->setSpacing(4);
+    auto* column = columnIn(*this, 4);
     title_->setObjectName("previewTitle");
     title_->setWordWrap(true);
     setTextSize(*title_, TextSize::Small, true);

@@ -9,7 +9,7 @@
 #include <QString>
 
 #include "app/gui/sessions/ReadSession.h"
-#include "app/gui/sessions/SessionEntry.h"
+#include "app/gui/sessions/SessionModel.h"
 
 namespace tacto::gui {
 

@@ -3,19 +3,19 @@
 #include <QDragEnterEvent>
 #include <QFileInfo>
 #include <QMimeData>
-#include <QSplitter>
-#include <QVBoxLayout>
 #include <algorithm>
+#include <utility>
 
 #include "app/gui/runner/ReportWindow.h"
 #include "app/gui/sessions/CompareWindow.h"
 #include "app/gui/sessions/SessionExport.h"
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Dialogs.h"
+#include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/Labels.h"
 #include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Text.h"
-#include "app/gui/theme/Theme.h"
 #include "core/session/SessionReader.h"
 #include "core/session/SessionVerify.h"
 
@@ -25,19 +25,6 @@ namespace {
 
 constexpr int kPanesFrom = 820;  // pixels for both of them beside each other
 constexpr int kListMargin = 16, kAroundActions = 12;
-
-/// Its keys stand in the buttons' tool tips, too: in part it is worth nothing.
-class HintLabel final : public QLabel {
-public:
-    HintLabel(const QString& text, QWidget* parent) : QLabel(text, parent) {
-        setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-    }
-
-protected:
-    void paintEvent(QPaintEvent* event) override {
-        if (width() >= sizeHint().width()) QLabel::paintEvent(event);
-    }
-};
 
 bool holdsTouch(const ReadSession& session) {
     return std::ranges::any_of(session.streams, [](const auto& info) {
@@ -51,9 +38,7 @@ bool holdsTouch(const ReadSession& session) {
 SessionsWorkspace::SessionsWorkspace(BenchController& controller, QWidget* parent)
     : QWidget(parent), controller_(controller), reports_(this) {
     setAcceptDrops(true);
-    auto* layout = new QVBoxLayout(this);
-    layout->setContentsMargins(0, 0, 0, 0);
-    layout->setSpacing(0);
+    auto* layout = columnIn(*this, 0);
     auto* split = split_ = new QSplitter(Qt::Horizontal, this);
     split->setChildrenCollapsible(false);
     auto* left = new QWidget(split);
@@ -122,8 +107,7 @@ void SessionsWorkspace::layOut(QWidget& pane, QWidget& shown, QWidget& actions) 
 
 QWidget* SessionsWorkspace::buildListActions() {
     auto* holder = new QWidget(this);
-    auto* row = new QHBoxLayout(holder);
-    row->setContentsMargins(kListMargin, kAroundActions, kListMargin, kAroundActions);
+    auto* row = rowIn(*holder, -1, {kListMargin, kAroundActions, kListMargin, kAroundActions});
     compare_ = actions_.add(*row, "compare", tr("Co&mpare two"), tr("Shows the differences between two sessions."),
                             [this] { compare(); });
     actions_.add(*row, "verify", tr("Verif&y"),
@@ -132,7 +116,7 @@ QWidget* SessionsWorkspace::buildListActions() {
                  tr("A file per stream, trials, events with their marks, commands and captures."),
                  [this] { askExport(); });
     row->addStretch();
-    auto* hint = new HintLabel(tr("Ctrl+click: a second · Ctrl+F: search"), holder);
+    auto* hint = new ElidedLabel(tr("Ctrl+click: a second · Ctrl+F: search"), holder);
     hint->setToolTip(hint->text());
     hint->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
     setTone(*hint, Tone::Quiet);
@@ -143,8 +127,7 @@ QWidget* SessionsWorkspace::buildListActions() {
 
 QWidget* SessionsWorkspace::buildSessionActions() {
     auto* holder = new QWidget(this);
-    auto* row = new QHBoxLayout(holder);
-    row->setContentsMargins(kListMargin, kAroundActions, kListMargin, kAroundActions);
+    auto* row = rowIn(*holder, -1, {kListMargin, kAroundActions, kListMargin, kAroundActions});
     auto* report = actions_.add(*row, "report", tr("Rep&ort"), tr("The report as PDF, from the session alone."),
                                 [this] { makeReport(); });
     report->setIcon(icon("report", Ink::Primary));
@@ -205,20 +188,14 @@ void SessionsWorkspace::chosen() {
         return details_->say(tr("Two sessions are chosen: “Compare two” shows what differs between them."));
     if (entry == nullptr) return details_->say(tr("Choose a session at the left."));
     if (!entry->problem.isEmpty()) return details_->say(entry->problem);
-    const auto session = std::make_shared<ReadSession>();
-    reading_.start(
-        [path = entry->path, session](const WorkPort&) -> Result<void> {
-            auto read = readSession(path);
-            if (!read) return failure(read);
-            *session = std::move(*read);
-            return {};
-        },
-        [this, session](const Result<void>& done) {
-            if (!done) return details_->say(qtext(done.error().message));
-            read_ = session;
-            details_->show(session);
-            actions_.offer(capture_, session->captures.empty() ? tr("This session holds no capture.") : QString());
-            actions_.offer(replay_, holdsTouch(*session) ? QString() : tr("This session holds no touch to replay."));
+    reading_.take(
+        [path = entry->path](const WorkPort&) { return readSession(path); },
+        [this](Result<ReadSession> read) {
+            if (!read) return details_->say(qtext(read.error().message));
+            read_ = std::make_shared<ReadSession>(std::move(*read));
+            details_->show(read_);
+            actions_.offer(capture_, read_->captures.empty() ? tr("This session holds no capture.") : QString());
+            actions_.offer(replay_, holdsTouch(*read_) ? QString() : tr("This session holds no touch to replay."));
         });
 }
 
@@ -241,39 +218,28 @@ bool SessionsWorkspace::openSession(const QString& path) {
 
 void SessionsWorkspace::openCapture(qint64 seq) {
     if (!read_) return;
-    const auto capture = std::make_shared<Capture>();
-    work_.start(
-        [path = read_->path, seq, capture](const WorkPort&) -> Result<void> {
+    work_.take(
+        [path = read_->path, seq](const WorkPort&) {
             const auto reader = SessionReader::open(path);
-            if (!reader) return failure(reader);
-            auto taken = reader->capture(seq);
-            if (!taken) return failure(taken);
-            *capture = std::move(*taken);
-            return {};
+            return reader ? reader->capture(seq) : failure(reader);
         },
-        [this, capture](const Result<void>& done) {
-            if (!done) return say(qtext(done.error().message));
-            emit captureChosen(capture);
+        [this](Result<Capture> taken) {
+            if (!taken) return say(qtext(taken.error().message));
+            emit captureChosen(std::make_shared<Capture>(std::move(*taken)));
         });
 }
 
 void SessionsWorkspace::drawStream(int stream) {
     if (!read_) return;
-    const auto samples = std::make_shared<SampleBlock>();
-    const auto info =
-        std::find_if(read_->streams.begin(), read_->streams.end(), [&](const auto& s) { return s.id == stream; });
+    const auto info = std::ranges::find(read_->streams, stream, &SessionStreamInfo::id);
     if (info == read_->streams.end()) return;
-    reading_.start(
-        [path = read_->path, stream, samples](const WorkPort&) -> Result<void> {
+    reading_.take(
+        [path = read_->path, stream](const WorkPort&) {
             const auto reader = SessionReader::open(path);
-            if (!reader) return failure(reader);
-            auto read = reader->samples(stream);
-            if (!read) return failure(read);
-            *samples = std::move(*read);
-            return {};
+            return reader ? reader->samples(stream) : failure(reader);
         },
-        [this, samples, info = *info](const Result<void>& done) {
-            if (!done) return say(qtext(done.error().message));
+        [this, info = *info](const Result<SampleBlock>& samples) {
+            if (!samples) return say(qtext(samples.error().message));
             details_->showStream(info, *samples);
         });
 }
@@ -281,29 +247,22 @@ void SessionsWorkspace::drawStream(int stream) {
 void SessionsWorkspace::verify() {
     const auto* entry = list_->current();
     if (entry == nullptr) return;
-    const auto report = std::make_shared<VerifyReport>();
     say(tr("Verifying…"));
-    work_.start(
-        [path = entry->path, report](const WorkPort&) -> Result<void> {
-            auto verified = verifySession(path);
-            if (!verified) return failure(verified);
-            *report = std::move(*verified);
-            return {};
-        },
-        [this, report, name = qtext(entry->path.filename().string())](const Result<void>& done) {
-            if (!done) return say(qtext(done.error().message));
-            QStringList words;
-            for (const auto& note : report->notes) words << qtext(note);
-            for (const auto& problem : report->problems) words << qtext(problem);
-            if (report->status == SessionStatus::Intact)
-                say(tr("✔ %1 is intact: %2 rows, %3 samples. %4")
-                        .arg(name)
-                        .arg(report->rows)
-                        .arg(report->samples)
-                        .arg(words.join(" ")));
-            else
-                say(tr("✖ %1 is damaged: %2").arg(name, words.join(" ")));
-        });
+    work_.take([path = entry->path](const WorkPort&) { return verifySession(path); },
+               [this, name = qtext(entry->path.filename().string())](const Result<VerifyReport>& report) {
+                   if (!report) return say(qtext(report.error().message));
+                   QStringList words;
+                   for (const auto& note : report->notes) words << qtext(note);
+                   for (const auto& problem : report->problems) words << qtext(problem);
+                   if (report->status == SessionStatus::Intact)
+                       say(tr("✔ %1 is intact: %2 rows, %3 samples. %4")
+                               .arg(name)
+                               .arg(report->rows)
+                               .arg(report->samples)
+                               .arg(words.join(" ")));
+                   else
+                       say(tr("✖ %1 is damaged: %2").arg(name, words.join(" ")));
+               });
 }
 
 void SessionsWorkspace::makeReport() {
@@ -360,19 +319,19 @@ void SessionsWorkspace::replay() {
 void SessionsWorkspace::compare() {
     const auto rows = list_->selected();
     if (rows.size() != 2) return;
-    const auto both = std::make_shared<std::array<std::shared_ptr<ReadSession>, 2>>();
-    const std::array<std::filesystem::path, 2> paths{rows[0]->path, rows[1]->path};
-    work_.start(
-        [paths, both](const WorkPort&) -> Result<void> {
+    using Both = std::array<std::shared_ptr<ReadSession>, 2>;
+    work_.take(
+        [paths = std::array{rows[0]->path, rows[1]->path}](const WorkPort&) -> Result<Both> {
+            Both both;
             for (std::size_t i = 0; i < 2; ++i) {
                 auto read = readSession(paths[i]);
                 if (!read) return failure(read);
-                (*both)[i] = std::make_shared<ReadSession>(std::move(*read));
+                both[i] = std::make_shared<ReadSession>(std::move(*read));
             }
-            return {};
+            return both;
         },
-        [this, both](const Result<void>& done) {
-            if (!done) return say(qtext(done.error().message));
+        [this](const Result<Both>& both) {
+            if (!both) return say(qtext(both.error().message));
             openDialog(new CompareWindow((*both)[0], (*both)[1], this));
         });
 }
@@ -392,6 +351,47 @@ void SessionsWorkspace::dragEnterEvent(QDragEnterEvent* event) {
 void SessionsWorkspace::dropEvent(QDropEvent* event) {
     for (const auto& url : event->mimeData()->urls()) openSession(url.toLocalFile());
     event->acceptProposedAction();
+}
+
+namespace {
+constexpr int kWordsFrom = 1020;  // pixels for both panes
+}
+
+QPushButton* ActionButtons::add(QBoxLayout& row, const char* iconName, const QString& text, const QString& tip,
+                                std::function<void()> act) {
+    auto* button = new QPushButton(icon(iconName), text, row.parentWidget());
+    button->setAutoDefault(false);
+    button->setAccessibleName(QString(text).remove('&'));
+    QObject::connect(button, &QPushButton::clicked, button, std::move(act));
+    row.addWidget(button);
+    all_.push_back({button, text, tip, {}});
+    explain(all_.back());
+    return button;
+}
+
+void ActionButtons::explain(const Action& action) {
+    const auto& says = action.refusal.isEmpty() ? action.tip : action.refusal;
+    action.button->setToolTip(
+        action.button->text().isEmpty() ? QString("%1: %2").arg(action.button->accessibleName(), says) : says);
+}
+
+void ActionButtons::offer(QPushButton* button, const QString& refusal) {
+    const auto action = std::ranges::find(all_, button, &Action::button);
+    action->refusal = refusal;
+    button->setEnabled(refusal.isEmpty());
+    explain(*action);
+}
+
+void ActionButtons::offerAll(const QString& refusal) {
+    for (auto& action : all_) offer(action.button, refusal);
+}
+
+void ActionButtons::dress(int room) {
+    const bool worded = room >= scaledPx(kWordsFrom);
+    for (const auto& action : all_) {
+        action.button->setText(worded ? action.text : QString());
+        explain(action);
+    }
 }
 
 }  // namespace tacto::gui

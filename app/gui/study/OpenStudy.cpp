@@ -2,12 +2,49 @@
 
 #include <utility>
 
-#include "app/gui/study/RecordedResult.h"
 #include "app/gui/theme/Text.h"
 #include "app/run/Shipped.h"
+#include "core/base/Words.h"
+#include "core/session/SessionReader.h"
 #include "core/sharing/results/StudyResults.h"
 
 namespace tacto::gui {
+
+namespace {
+
+/// What a session came to, read again from its files with the study's key: verdict, reasons and results as the session
+/// recorded them, and whether it was simulated; the rest is empty. Errors: kGateRefused for a session that is not
+/// complete; NotFound where its files hold no result; as Study::part().
+Result<RunResult> recordedResult(const Study& study, const StudySession& session) {
+    if (session.state != StudySessionState::Complete)
+        return fail(kGateRefused, "session {} is {}; only a complete one has a result", session.number,
+                    nameOf(session.state));
+    RunResult result;
+    bool found = false;
+    for (const auto& part : session.parts) {
+        const auto file = study.part(part.file);
+        if (!file) return failure(file);
+        if (!*file) continue;  // booked, and never begun
+        auto verdicts = (*file)->verdicts();
+        if (!verdicts) return failure(verdicts);
+        const auto& about = (*file)->about();
+        result.simulated = result.simulated || about.simulated;
+        result.devices = about.devices;
+        result.session = study.pathOf(part.file);
+        if (verdicts->empty()) continue;
+        auto& last = verdicts->back();
+        result.outcome.verdict = valueFor(kScriptVerdicts, last.verdict).value_or(ScriptVerdict::None);
+        result.outcome.reasons = std::move(last.reasons);
+        result.outcome.results = std::move(last.results);
+        found = true;
+    }
+    if (!found)
+        return fail(ErrorCode::NotFound, "the record of session {} of {} holds no result", session.number,
+                    session.code);
+    return result;
+}
+
+}  // namespace
 
 OpenStudy::OpenStudy(QObject* parent, Study::Surroundings around) : QObject(parent), around_(std::move(around)) {}
 
@@ -21,27 +58,20 @@ Result<OpenStudy::Look> OpenStudy::look(const QString& folder) const {
 
 void OpenStudy::begin(Make make) {
     study_.reset();
-    const auto made = std::make_shared<std::optional<Study>>();
-    work_.start(
-        [made, make = std::move(make)](const WorkPort&) -> Result<void> {
-            auto study = make();
-            if (!study) return failure(study);
-            made->emplace(std::move(*study));
-            return {};
-        },
-        [this, made](const Result<void>& done) {
-            if (done) {
-                study_ = std::move(*made);
-            } else {
-                folder_.clear();
-                passphrase_.reset();
-            }
-            emit changed();
-            if (done)
-                emit opened();
-            else
-                emit refused(sentence(done.error()));
-        });
+    work_.take([make = std::move(make)](const WorkPort&) { return make(); },
+               [this](Result<Study> made) {
+                   if (made) {
+                       study_.emplace(std::move(*made));
+                   } else {
+                       folder_.clear();
+                       passphrase_.reset();
+                   }
+                   emit changed();
+                   if (made)
+                       emit opened();
+                   else
+                       emit refused(sentence(made.error()));
+               });
     emit changed();
 }
 
@@ -107,21 +137,14 @@ void OpenStudy::readResult(const QString& id) {
     if (study() == nullptr) return;
     const auto session = study_->session(id.toStdString());
     if (!session) return emit refused(sentence(session.error()));
-    const auto read = std::make_shared<RunResult>();
-    work_.start(
-        [this, read, session = *session](const WorkPort&) -> Result<void> {
-            auto found = recordedResult(*study_, session);
-            if (!found) return failure(found);
-            *read = std::move(*found);
-            return {};
-        },
-        [this, read](const Result<void>& done) {
-            emit changed();
-            if (done)
-                emit resultRead(*read);
-            else
-                emit refused(sentence(done.error()));
-        });
+    work_.take([this, session = *session](const WorkPort&) { return recordedResult(*study_, session); },
+               [this](const Result<RunResult>& read) {
+                   emit changed();
+                   if (read)
+                       emit resultRead(*read);
+                   else
+                       emit refused(sentence(read.error()));
+               });
     emit changed();
 }
 

@@ -1,10 +1,9 @@
 #include "app/gui/study/StudyForm.h"
 
 #include <QApplication>
-#include <QVBoxLayout>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Text.h"
-#include "app/gui/theme/Theme.h"
 #include "app/gui/theme/ToolRow.h"
 #include "app/run/StudyProgram.h"
 
@@ -25,43 +24,25 @@ constexpr const char* kGroupTitles[kStudyGroups] = {WORDS("Approval"), WORDS("Pa
 
 std::vector<StudyFormField> describedFields() {
     return {
-        {Group::Approval,
-         "title",
-         WORDS("Title"),
-         WORDS("As the committee knows the study. It is not sealed."),
-         {},
+        {Group::Approval, "title", WORDS("Title"), WORDS("As the committee knows the study. It is not sealed."),
          WORDS("the study has no title")},
-        {Group::Approval,
-         "approval.reference",
-         WORDS("Reference of the approval"),
-         WORDS("As the ethics committee wrote it. Without one no session begins."),
-         {},
-         WORDS("no session can begin")},
+        {Group::Approval, "approval.reference", WORDS("Reference of the approval"),
+         WORDS("As the ethics committee wrote it. Without one no session begins."), WORDS("no session can begin")},
         {Group::Approval, "approval.committee", WORDS("Committee"), WORDS("Who approved it. May be left empty.")},
-        {Group::Approval,
-         "approval.from",
-         WORDS("First day"),
-         WORDS("From this day on sessions can begin."),
-         {},
+        {Group::Approval, "approval.from", WORDS("First day"), WORDS("From this day on sessions can begin."),
          WORDS("no session can begin")},
-        {Group::Approval,
-         "approval.expires",
-         WORDS("Last day"),
-         WORDS("After this day no session begins."),
-         {},
+        {Group::Approval, "approval.expires", WORDS("Last day"), WORDS("After this day no session begins."),
          WORDS("no session can begin")},
         {Group::Approval, "approval.protocol_version", WORDS("Version of the study plan"),
          WORDS("The one that was approved. May be left empty.")},
-        {Group::Approval,
-         "consent_version",
-         WORDS("Version of the consent form"),
+        {Group::Approval, "consent_version", WORDS("Version of the consent form"),
          WORDS("The one in force. Each participant consents to it before their first session."),
-         {},
          WORDS("no consent can be noted")},
         {Group::Approval,
          "data_on_request",
          WORDS("Data of participants who withdraw"),
          WORDS("As the consent form promises. “Destroyed”: their key is destroyed, and their data cannot be opened."),
+         nullptr,
          {WORDS("are destroyed"), WORDS("are kept")}},
         {Group::Approval, "license", WORDS("License of exports"),
          WORDS("Under which others may use exported results: CC-BY-4.0. May be left empty.")},
@@ -77,21 +58,25 @@ std::vector<StudyFormField> describedFields() {
          "modality",
          WORDS("Felt through"),
          WORDS("The output device that the participant feels."),
+         nullptr,
          {WORDS("electrodes"), WORDS("massager")}},
         {Group::Site,
          "site",
          WORDS("Site"),
          WORDS("Chest, neck and head cannot be chosen."),
+         nullptr,
          {WORDS("forearm"), WORDS("residual limb’s end"), WORDS("upper arm"), WORDS("hand")}},
         {Group::Site,
          "nerve",
          WORDS("Over the nerve"),
          WORDS("Both electrodes lie over it."),
+         nullptr,
          {WORDS("radial"), WORDS("median"), WORDS("ulnar")}},
         {Group::Site,
          "limb",
          WORDS("Side"),
          WORDS("Both electrodes lie on one limb."),
+         nullptr,
          {WORDS("left"), WORDS("right")}},
         {Group::Site, "electrode.type", WORDS("Electrodes"), WORDS("Kind or product.")},
         {Group::Site, "electrode.area_cm2", WORDS("Area of one"),
@@ -110,6 +95,7 @@ std::vector<StudyFormField> describedFields() {
          "procedure.method",
          WORDS("Detection by"),
          WORDS("Every session asks by this method."),
+         nullptr,
          {WORDS("QUEST+"), WORDS("weighted staircase")}},
         {Group::Test, "procedure.comparison", WORDS("Weber fraction of strength"),
          WORDS("Sessions of thresholds measure it too, by 40 trials.")},
@@ -156,11 +142,11 @@ std::vector<std::pair<std::string, std::string>> encodingChoices(const std::stri
     return all;
 }
 
-/// As the form of a protocol's parameters takes it.
-ProtocolParameter parameterOf(const StudyFormField& field, nlohmann::json defaults, bool isNew) {
+FormField formFieldOf(const StudyFormField& field, nlohmann::json defaults, bool isNew) {
     const auto& stored = *storedField(field.key);
     auto& value = memberOf(defaults, field.key);
-    ProtocolParameter made;
+    FormField shown{.parameter = {}, .tip = translated(field.tip)};
+    auto& made = shown.parameter;
     made.name = field.key;
     made.label = translated(field.label).toStdString();
     if (field.needed != nullptr) made.needed = translated(field.needed).toStdString();
@@ -190,27 +176,13 @@ ProtocolParameter parameterOf(const StudyFormField& field, nlohmann::json defaul
         made.type = day ? ParameterType::Date : ParameterType::Text;
         made.value = day && isNew ? nlohmann::json("") : value;
     }
-    return made;
+    return shown;
 }
 
 }  // namespace
 
 const std::vector<StudyFormField>& studyForm() {
     static const auto all = describedFields();
-    return all;
-}
-
-const std::vector<std::string_view>& studyFieldsOfTheProgram() {
-    static const std::vector<std::string_view> all{"id",
-                                                   "kind",
-                                                   "approval.protocol_sha256",
-                                                   "limits",
-                                                   "conditions",
-                                                   "train.shape",
-                                                   "scripts",
-                                                   "procedure.interval_min_s",
-                                                   "procedure.interval_max_s",
-                                                   "procedure.conditions_sha256"};
     return all;
 }
 
@@ -226,12 +198,10 @@ StudyForm::StudyForm(QWidget* parent) : QWidget(parent) {
     }
     for (int g = 0; g < kStudyGroups; ++g) {
         auto* column = columns[g < 2 ? 0 : 1];
-        auto* title = new QLabel(translated(kGroupTitles[g]), this);
-        setTextSize(*title, TextSize::Body, true);
+        auto* title = strongLabel(translated(kGroupTitles[g]), this);
         column->addWidget(title);
-        auto* form = new ParameterForm(this);
-        connect(form, &ParameterForm::edited, this, &StudyForm::edited);
-        form->referencePart().hide();  // a study has none
+        auto* form = new FieldForm(this);
+        connect(form, &FieldForm::edited, this, &StudyForm::edited);
         form->setMissingSaidOnceLeft();
         column->addWidget(form);
         column->addSpacing(scaledPx(16));
@@ -256,18 +226,14 @@ void StudyForm::fill() {
     shown.approval.reference.clear();
     const auto values = studyFields().write(shown);
     for (int g = 0; g < kStudyGroups; ++g) {
-        ProtocolDeclaration fields;
+        std::vector<FormField> fields;
         for (const auto& field : studyForm()) {
             if (int(field.group) != g) continue;
-            fields.parameters.push_back(parameterOf(field, values, !amended_));
+            fields.push_back(formFieldOf(field, values, !amended_));
             if (amended_ && field.key == "approval.reference")
-                fields.parameters.back().label = tr("Reference of the amendment").toStdString();
+                fields.back().parameter.label = tr("Reference of the amendment").toStdString();
         }
-        auto& form = *groups_[std::size_t(g)];
-        form.show(fields);
-        for (const auto& field : studyForm()) {
-            if (auto* editor = form.findChild<QWidget*>(qtext(field.key))) editor->setToolTip(translated(field.tip));
-        }
+        groups_[std::size_t(g)]->show(fields);
     }
 }
 

@@ -11,7 +11,7 @@
 #include <QWidget>
 #include <vector>
 
-#include "app/gui/runner/ParameterForm.h"
+#include "app/gui/theme/FieldForm.h"
 #include "core/bench/Profile.h"
 #include "core/study/StudySettings.h"
 
@@ -25,12 +25,10 @@ struct StudyFormField {
     std::string_view key;  ///< "electrode.area_cm2" for a member of a record
     const char* label;
     const char* tip;
-    std::vector<const char*> words{};  ///< for the words of the file, in their order; empty: as they are
     const char* needed = nullptr;      ///< what is not known without it; null: its default will do
+    std::vector<const char*> words{};  ///< for the words of the file, in their order; empty: as they are
 };
 [[nodiscard]] const std::vector<StudyFormField>& studyForm();
-/// Fields of the core that the program fills in by itself.
-[[nodiscard]] const std::vector<std::string_view>& studyFieldsOfTheProgram();
 
 class StudyForm final : public QWidget {
     Q_OBJECT
@@ -51,7 +49,7 @@ signals:
 private:
     void fill();
     std::optional<StudySettings> amended_;  ///< nothing for a new study
-    std::vector<ParameterForm*> groups_;
+    std::vector<FieldForm*> groups_;
 };
 
 }  // namespace tacto::gui

@@ -1,26 +1,20 @@
 #include "app/gui/study/StudyList.h"
 
+#include <QDateTime>
 #include <QFileInfo>
-#include <QHBoxLayout>
-#include <QHeaderView>
 #include <QMenu>
+#include <utility>
 
 #include "app/gui/runner/ReportWindow.h"
-#include "app/gui/study/AdverseEventDialog.h"
-#include "app/gui/study/AmendDialog.h"
-#include "app/gui/study/ConsentDialog.h"
-#include "app/gui/study/EndPartDialog.h"
-#include "app/gui/study/EnrolDialog.h"
-#include "app/gui/study/GoBackDialog.h"
-#include "app/gui/study/NextDayDialog.h"
-#include "app/gui/study/StudySessions.h"
+#include "app/gui/study/PageTable.h"
+#include "app/gui/study/StudyDialogs.h"
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/Pages.h"
-#include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/Text.h"
-#include "app/gui/theme/Theme.h"
 #include "app/gui/theme/ToolRow.h"
+#include "core/results/ResultKind.h"
 #include "core/study/StudyFiles.h"
 
 namespace tacto::gui {
@@ -74,13 +68,11 @@ StudyList::StudyList(OpenStudy& study, QWidget* parent)
       title_(new QLabel(this)),
       facts_(new QLabel(this)),
       trouble_(new QLabel(this)),
-      tables_(new QVBoxLayout),
+      participants_(new PageTable("participants", tr("Participants"), *this, kListPad, true)),
       withdrawn_(new QLabel(this)),
-      sessions_(new StudySessions(this)) {
+      sessions_(new StudySessions(*this)) {
     setObjectName("studyList");
-    auto* column = new QVBoxLayout(this);
-    column->setContentsMargins(kListPad, kListPad, kListPad, kListPad);
-    column->setSpacing(8);
+    auto* column = columnIn(*this, 8, {kListPad, kListPad, kListPad, kListPad});
     title_->setObjectName("studyTitle");
     setTextSize(*title_, TextSize::Large);
     facts_->setObjectName("studyFacts");
@@ -88,8 +80,7 @@ StudyList::StudyList(OpenStudy& study, QWidget* parent)
     trouble_->setObjectName("studyTrouble");
     setTone(*withdrawn_, Tone::Quiet);
     for (auto* label : {title_, facts_, trouble_, withdrawn_}) {
-        label->setWordWrap(true);
-        label->setTextFormat(Qt::PlainText);
+        wrapPlain(*label);
     }
     column->addWidget(title_);
     column->addWidget(facts_);
@@ -97,9 +88,14 @@ StudyList::StudyList(OpenStudy& study, QWidget* parent)
     trouble_->hide();
     column->addSpacing(8);
     column->addWidget(buildParticipants());
-    tables_->setSpacing(8);
     ofOneRow_ = buildOfOne();
-    column->addLayout(tables_);
+    for (QWidget* each : std::initializer_list<QWidget*>{participants_, withdrawn_, ofOneRow_, sessions_})
+        column->addWidget(each);
+    connect(participants_, &QTableWidget::itemSelectionChanged, this, [this] {
+        const int row = participants_->chosenRow();
+        code_ = row < 0 ? QString() : participants_->item(row, 0)->text();
+        judge();
+    });
     column->addStretch();
     column->addWidget(buildFoot());
     connect(&study_, &OpenStudy::changed, this, &StudyList::refresh);
@@ -114,16 +110,17 @@ StudyList::StudyList(OpenStudy& study, QWidget* parent)
         if (out.endsWith(".pdf", Qt::CaseInsensitive)) ReportWindow::showReport(*this, out);
     });
     connect(&reports_, &ReportMaker::failed, this, [this](const QString& why) { say(why); });
-    afterLookChange(*this, [this] { layOut(); });
     refresh();
 }
 
-QPushButton* StudyList::button(const QString& text, const QString& tip, const char* name, QWidget* parent) {
-    auto* made = new QPushButton(text, parent);
-    made->setToolTip(tip);
-    made->setObjectName(name);
-    made->setAutoDefault(false);
-    return made;
+QAction* StudyList::addAction(QPushButton& to, const QString& text, const char* name, std::function<void()> act) {
+    auto* action = to.menu()->addAction(text);
+    action->setObjectName(name);
+    connect(action, &QAction::triggered, this, [this, act = std::move(act)] {
+        say({});
+        act();
+    });
+    return action;
 }
 
 void StudyList::choose(const QString& code) {
@@ -132,25 +129,22 @@ void StudyList::choose(const QString& code) {
     }
 }
 
-void StudyList::askForConsent(const QString& code) { openDialog(new ConsentDialog(study_, code, this)); }
+void StudyList::askForConsent(const QString& code) { openDialog(consentDialog(study_, code, this)); }
 
 QWidget* StudyList::buildParticipants() {
     auto* holder = new QWidget(this);
-    auto* row = new QHBoxLayout(holder);
-    row->setContentsMargins(0, 0, 0, 0);
-    auto* title = new QLabel(tr("Participants"), holder);
-    setTextSize(*title, TextSize::Body, true);
+    auto* row = rowIn(*holder);
+    auto* title = strongLabel(tr("Participants"), holder);
     row->addWidget(title);
     row->addStretch();
-    auto* enrol = button(tr("Enrol…"), tr("A new participant, who is given a code."), "enrol", holder);
+    auto* enrol = pageButton(tr("Enrol…"), "enrol", tr("A new participant, who is given a code."), holder);
     connect(enrol, &QPushButton::clicked, this, [this] {
         say({});
-        auto* asks = new EnrolDialog(study_, this);
-        connect(asks, &EnrolDialog::consentWanted, this, [this](const QString& code) {
+        const auto consentWanted = [this](const QString& code) {
             choose(code);
             askForConsent(code);
-        });
-        openDialog(asks);
+        };
+        openDialog(enrolDialog(study_, consentWanted, this));
     });
     row->addWidget(enrol);
     all_.push_back(enrol);
@@ -160,11 +154,9 @@ QWidget* StudyList::buildParticipants() {
 /// What can be done with the participant who is chosen in the table.
 QWidget* StudyList::buildOfOne() {
     auto* holder = new QWidget(this);
-    auto* row = new QHBoxLayout(holder);
-    row->setContentsMargins(0, 0, 0, 0);
-    row->setSpacing(8);
-    auto* start =
-        button(tr("Start a session…"), tr("Starts a session for the selected participant."), "startSession", holder);
+    auto* row = rowIn(*holder, 8);
+    auto* start = pageButton(tr("Start a session…"), "startSession",
+                             tr("Starts a session for the selected participant."), holder);
     start->setIcon(icon("run", Ink::Primary));
     makePrimary(*start);
     connect(start, &QPushButton::clicked, this, [this] {
@@ -172,29 +164,20 @@ QWidget* StudyList::buildOfOne() {
         emit sessionWanted(code_);
     });
     auto* consent =
-        button(tr("Consent…"), tr("Notes that the participant signed the form in force."), "consentOne", holder);
+        pageButton(tr("Consent…"), "consentOne", tr("Notes that the participant signed the form in force."), holder);
     connect(consent, &QPushButton::clicked, this, [this] {
         say({});
         askForConsent(code_);
     });
-    auto* more = button(tr("More"), tr("Their page, leaving, withdrawing."), "moreOfOne", holder);
-    auto* menu = new QMenu(more);
-    const auto add = [&](const QString& text, const char* name, auto open) {
-        auto* action = menu->addAction(text);
-        action->setObjectName(name);
-        connect(action, &QAction::triggered, this, [this, open] {
-            say({});
-            open();
-        });
-    };
-    add(tr("Their page in plain words…"), "pageOfOne", [this] {
+    auto* more = pageButton(tr("More"), "moreOfOne", tr("Their page, leaving, withdrawing."), holder);
+    more->setMenu(new QMenu(more));
+    addAction(*more, tr("Their page in plain words…"), "pageOfOne", [this] {
         makeReport(tr("The page for %1").arg(code_), "for-participant.pdf", {"--participant", code_});
     });
-    add(tr("Leaves the study…"), "leaveOne",
-        [this] { openDialog(new EndPartDialog(study_, EndPartDialog::How::Leave, code_, this)); });
-    add(tr("Withdraws…"), "withdrawOne",
-        [this] { openDialog(new EndPartDialog(study_, EndPartDialog::How::Withdraw, code_, this)); });
-    more->setMenu(menu);
+    addAction(*more, tr("Leaves the study…"), "leaveOne",
+              [this] { openDialog(endPartDialog(study_, EndOfPart::Leave, code_, this)); });
+    addAction(*more, tr("Withdraws…"), "withdrawOne",
+              [this] { openDialog(endPartDialog(study_, EndOfPart::Withdraw, code_, this)); });
     for (auto* each : {start, consent, more}) {
         row->addWidget(each);
         ofOne_.push_back(each);
@@ -209,49 +192,30 @@ QWidget* StudyList::buildFoot() {
     auto* row = new TurningRow({}, holder);
     row->setContentsMargins(0, 0, 0, 0);
     for (QBoxLayout* each : {static_cast<QBoxLayout*>(about), static_cast<QBoxLayout*>(row)}) each->setSpacing(8);
-    auto* reports = button(tr("Report"), tr("As PDF or HTML, outside the study’s folder."), "reports", holder);
-    auto* menu = new QMenu(reports);
-    const auto addReport = [&](const QString& text, const char* name, const QString& file, const QStringList& more) {
-        auto* action = menu->addAction(text);
-        action->setObjectName(name);
-        connect(action, &QAction::triggered, this, [this, text, file, more] { makeReport(text, file, more); });
-    };
-    addReport(tr("For the study: results, with codes…"), "studyReport", "study-report.pdf", {});
-    addReport(tr("For the committee: side effects and events, no codes…"), "committeeReport", "committee-report.pdf",
-              {"--for", "committee"});
-    reports->setMenu(menu);
-    auto* out = button(tr("Export…"), tr("Results without codes and dates, as a BIDS dataset in a new folder."),
-                       "exportStudy", holder);
-    auto* exports = new QMenu(out);
-    const auto addExport = [&](const QString& text, const char* name, const BidsWith& with) {
-        auto* action = exports->addAction(text);
-        action->setObjectName(name);
-        connect(action, &QAction::triggered, this, [this, with] { askForExport(with); });
-    };
-    addExport(tr("Results as BIDS…"), "exportResults", {});
-    addExport(tr("Results as BIDS, with age, sex and handedness…"), "exportWithAbout",
-              {.age = true, .sex = true, .handedness = true});
-    out->setMenu(exports);
-    auto* note = button(tr("Note"), tr("What happened, is changed or is reported later."), "noteOfStudy", holder);
-    auto* notes = new QMenu(note);
-    const auto addNote = [&](const QString& text, const char* name, auto dialog) {
-        auto* action = notes->addAction(text);
-        action->setObjectName(name);
-        connect(action, &QAction::triggered, this, [this, dialog] {
-            say({});
-            openDialog(dialog());
-        });
-        return action;
-    };
-    addNote(tr("An amendment of the committee…"), "amendStudy", [this] { return new AmendDialog(study_, this); });
-    addNote(tr("An adverse event…"), "noteAdverseEvent",
-            [this] { return new AdverseEventDialog(study_, code_, this); });
-    addNote(tr("The day after a session…"), "noteNextDay", [this] { return new NextDayDialog(study_, code_, this); });
-    goBack_ = addNote(tr("Go back to this older ledger…"), "goBackInStudy",
-                      [this] { return new GoBackDialog(study_, this); });
-    note->setMenu(notes);
-    auto* close = button(tr("Close the study"), tr("Forgets its passphrase. Another program can change it then."),
-                         "closeStudy", holder);
+    auto* reports = pageButton(tr("Report"), "reports", tr("As PDF or HTML, outside the study’s folder."), holder);
+    auto* out = pageButton(tr("Export…"), "exportStudy",
+                           tr("Results without codes and dates, as a BIDS dataset in a new folder."), holder);
+    auto* note = pageButton(tr("Note"), "noteOfStudy", tr("What happened, is changed or is reported later."), holder);
+    for (auto* each : {reports, out, note}) each->setMenu(new QMenu(each));
+    const auto results = tr("For the study: results, with codes…");
+    addAction(*reports, results, "studyReport", [=, this] { makeReport(results, "study-report.pdf", {}); });
+    const auto committee = tr("For the committee: side effects and events, no codes…");
+    addAction(*reports, committee, "committeeReport", [=, this] {
+        makeReport(committee, "committee-report.pdf", {"--for", "committee"});
+    });
+    addAction(*out, tr("Results as BIDS…"), "exportResults", [this] { askForExport({}); });
+    addAction(*out, tr("Results as BIDS, with age, sex and handedness…"), "exportWithAbout",
+              [this] { askForExport({.age = true, .sex = true, .handedness = true}); });
+    addAction(*note, tr("An amendment of the committee…"), "amendStudy",
+              [this] { openDialog(amendDialog(study_, this)); });
+    addAction(*note, tr("An adverse event…"), "noteAdverseEvent",
+              [this] { openDialog(adverseEventDialog(study_, code_, this)); });
+    addAction(*note, tr("The day after a session…"), "noteNextDay",
+              [this] { openDialog(nextDayDialog(study_, code_, this)); });
+    goBack_ = addAction(*note, tr("Go back to this older ledger…"), "goBackInStudy",
+                        [this] { openDialog(goBackDialog(study_, this)); });
+    auto* close = pageButton(tr("Close the study"), "closeStudy",
+                             tr("Forgets its passphrase. Another program can change it then."), holder);
     connect(close, &QPushButton::clicked, this, [this] { study_.close(); });
     for (auto* each : {note, reports, out}) about->addWidget(each);
     about->addStretch();
@@ -296,26 +260,16 @@ void StudyList::showTables(const Study& study) {
                               .arg(settings.participantsMax));
     goBack_->setVisible(study.lossOfGoingBack().has_value());
     if (!study.stillApproved()) sayWhatHinders();
-    delete std::exchange(participants_, nullptr);
     const auto people = participantRows(study);
-    participants_ = makeRecordTable({{"Code", "code"},
-                                     {"Who", "who"},
-                                     {"Group", "group"},
-                                     {"State", "state"},
-                                     {"Sessions", "sessions", ResultColumn::As::Number},
-                                     {"Consent", "consent"}},
-                                    people, this);
-    participants_->setObjectName("participants");
-    participants_->setAccessibleName(tr("Participants"));
-    participants_->setSelectionBehavior(QAbstractItemView::SelectRows);
-    participants_->setFocusPolicy(Qt::StrongFocus);
-    connect(participants_, &QTableWidget::itemSelectionChanged, this, [this] {
-        const auto rows = participants_->selectionModel()->selectedRows();
-        code_ = rows.isEmpty() ? QString() : participants_->item(rows.front().row(), 0)->text();
-        judge();
-    });
-    layOut();
-    choose(std::exchange(code_, QString()));
+    const auto before = std::exchange(code_, QString());
+    participants_->show({{"Code", "code"},
+                         {"Who", "who"},
+                         {"Group", "group"},
+                         {"State", "state"},
+                         {"Sessions", "sessions", ResultColumn::As::Number},
+                         {"Consent", "consent"}},
+                        people);
+    choose(before);
     if (code_.isEmpty() && participants_->rowCount() > 0) participants_->selectRow(participants_->rowCount() - 1);
     const auto gone = std::ranges::count(study.participants(), ParticipantState::Withdrawn, &Participant::state);
     withdrawn_->setText(people.empty() && gone == 0 ? tr("No participant is enrolled. Enrol one first.")
@@ -323,30 +277,9 @@ void StudyList::showTables(const Study& study) {
                         : gone == 1                 ? tr("One more has withdrawn.")
                                                     : tr("%1 more have withdrawn.").arg(gone));
     withdrawn_->setVisible(!withdrawn_->text().isEmpty());
-    tables_->addWidget(participants_);
-    tables_->addWidget(withdrawn_);
-    tables_->addWidget(ofOneRow_);
-    tables_->addWidget(sessions_);
     participants_->setVisible(!people.empty());
     ofOneRow_->setVisible(!people.empty());
     sessions_->show(study);
-    layOut();
-}
-
-/// In the style and size of text that they have where they stand.
-void StudyList::layOut() {
-    const int room = std::max(1, widthInSight(*this) - 2 * (kListPad + 1));
-    sessions_->layOut(room);
-    if (participants_ == nullptr) return;
-    participants_->ensurePolished();
-    participants_->horizontalHeader()->ensurePolished();
-    layOutRecordTable(*participants_, room);
-    participants_->setSelectionMode(QAbstractItemView::SingleSelection);
-}
-
-void StudyList::resizeEvent(QResizeEvent* event) {
-    QWidget::resizeEvent(event);
-    if (event->size().width() != event->oldSize().width()) layOut();
 }
 
 void StudyList::judge() {
@@ -401,6 +334,105 @@ void StudyList::askForExport(const BidsWith& with) {
         say(tr("The results are being written…"), false);
         study_.exportBids(place, with);
     });
+}
+
+namespace {
+
+using nlohmann::json;
+
+QString stateWords(StudySessionState state) {
+    switch (state) {
+        case StudySessionState::Unfinished:
+            return QObject::tr("interrupted, can continue");
+        case StudySessionState::Complete:
+            return QObject::tr("complete");
+        case StudySessionState::Stopped:
+            break;
+    }
+    return QObject::tr("ended before its end");
+}
+
+QString protocolWords(const std::string& protocol) {
+    switch (resultTraits(protocol).kind) {
+        case ResultKind::PilotIdentification:
+            return QObject::tr("identification");
+        case ResultKind::PilotThresholds:
+            return QObject::tr("thresholds");
+        default:
+            return qtext(protocol);
+    }
+}
+
+std::string localText(std::chrono::sys_seconds at) {
+    return QDateTime::fromSecsSinceEpoch(at.time_since_epoch().count()).toString("yyyy-MM-dd HH:mm").toStdString();
+}
+
+/// {code, number, protocol, state, answered, begun}.
+json sessionRows(const std::vector<StudySession>& sessions) {
+    auto rows = json::array();
+    for (const auto& one : sessions)
+        rows.push_back({{"code", one.code.empty() ? json() : json(namedWith(one.basis, one.code))},
+                        {"number", one.number},
+                        {"protocol", protocolWords(one.protocol).toStdString()},
+                        {"state", stateWords(one.state).toStdString()},
+                        {"answered", one.answered},
+                        {"begun", localText(one.parts.front().begun)}});
+    return rows;
+}
+
+}  // namespace
+
+StudySessions::StudySessions(QWidget& page)
+    : QWidget(&page), table_(new PageTable("studySessions", tr("Sessions"), page, kListPad, true)) {
+    auto* column = columnIn(*this, 8);
+    column->addWidget(strongLabel(tr("Sessions"), this));
+    column->addWidget(table_);
+    result_ = pageButton(tr("Show result"), "showResult", {}, this);
+    column->addWidget(result_, 0, Qt::AlignLeft);
+    connect(result_, &QPushButton::clicked, this, [this] {
+        if (const auto* one = chosen()) emit resultWanted(qtext(one->id));
+    });
+    connect(table_, &QTableWidget::cellActivated, result_, [this] { result_->click(); });
+    connect(table_, &QTableWidget::itemSelectionChanged, this, [this] {
+        const int row = table_->chosenRow();
+        id_ = row < 0 ? std::string() : sessions_.at(std::size_t(row)).id;
+        judge();
+    });
+    judge();
+}
+
+void StudySessions::show(const Study& study) {
+    sessions_ = study.sessions();
+    const auto known = std::ranges::find(sessions_, std::exchange(id_, {}), &StudySession::id);
+    table_->show({{"Participant", "code"},
+                  {"Session", "number", ResultColumn::As::Number},
+                  {"Begun", "begun"},
+                  {"Protocol", "protocol"},
+                  {"Answers", "answered", ResultColumn::As::Number},
+                  {"State", "state"}},
+                 sessionRows(sessions_));
+    if (!sessions_.empty())
+        table_->selectRow(known == sessions_.end() ? table_->rowCount() - 1 : int(known - sessions_.begin()));
+    setVisible(!sessions_.empty());
+    judge();
+}
+
+void StudySessions::setReadable(bool readable) {
+    readable_ = readable;
+    judge();
+}
+
+const StudySession* StudySessions::chosen() const {
+    const auto found = std::ranges::find(sessions_, id_, &StudySession::id);
+    return found == sessions_.end() ? nullptr : &*found;
+}
+
+void StudySessions::judge() {
+    const auto* one = chosen();
+    const bool complete = one != nullptr && one->state == StudySessionState::Complete;
+    result_->setEnabled(readable_ && complete);
+    result_->setToolTip(complete ? tr("What the selected session came to, read from its record.")
+                                 : tr("Select a session that is complete: only those have a result."));
 }
 
 }  // namespace tacto::gui

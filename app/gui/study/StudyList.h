@@ -6,17 +6,20 @@
 
 #include <QLabel>
 #include <QPushButton>
-#include <QTableWidget>
-#include <QVBoxLayout>
+#include <QString>
 #include <QWidget>
+#include <nlohmann/json.hpp>
+#include <vector>
 
 #include "app/gui/runner/ReportMaker.h"
 #include "app/gui/study/OpenStudy.h"
+#include "core/study/Study.h"
 
 namespace tacto::gui {
 
 /// As RecordColumns.h shows them: {code, who, group, state, consent, sessions}; without those who withdrew.
 [[nodiscard]] nlohmann::json participantRows(const Study& study);
+class PageTable;
 class StudySessions;
 
 class StudyList final : public QWidget {
@@ -34,15 +37,12 @@ public:
 signals:
     void sessionWanted(const QString& code);
 
-protected:
-    void resizeEvent(QResizeEvent* event) override;
-
 private:
-    void layOut();
     [[nodiscard]] QWidget* buildParticipants();
     [[nodiscard]] QWidget* buildOfOne();
     [[nodiscard]] QWidget* buildFoot();
-    [[nodiscard]] QPushButton* button(const QString& text, const QString& tip, const char* name, QWidget* parent);
+    /// Into its menu; what was said before is taken back.
+    QAction* addAction(QPushButton& to, const QString& text, const char* name, std::function<void()> act);
     void refresh();
     void showTables(const Study& study);
     void judge();
@@ -58,14 +58,39 @@ private:
     QLabel* title_;
     QLabel* facts_;
     QLabel* trouble_;
-    QVBoxLayout* tables_;
-    QTableWidget* participants_ = nullptr;
+    PageTable* participants_;
     QLabel* withdrawn_;
     StudySessions* sessions_;
     std::vector<QPushButton*> ofOne_;  ///< need a participant
     std::vector<QPushButton*> all_;    ///< need the study
     QAction* goBack_ = nullptr;        ///< in sight where the ledger is not the newest known
     QWidget* ofOneRow_ = nullptr;
+};
+
+/// The sessions of a study as a table, and the way to the result of one that is complete.
+class StudySessions final : public QWidget {
+    Q_OBJECT
+public:
+    /// The table is as wide as `page` has room for.
+    explicit StudySessions(QWidget& page);
+    /// Hidden where there are none.
+    void show(const Study& study);
+    /// False while the study is not there to be read.
+    void setReadable(bool readable);
+    using QWidget::show;
+
+signals:
+    void resultWanted(const QString& id);
+
+private:
+    void judge();
+    /// Null where none is chosen.
+    [[nodiscard]] const StudySession* chosen() const;
+    std::vector<StudySession> sessions_;  ///< in the order of the rows
+    std::string id_;                      ///< of the one that is chosen
+    bool readable_ = false;
+    PageTable* table_;
+    QPushButton* result_ = nullptr;
 };
 
 }  // namespace tacto::gui

@@ -9,6 +9,9 @@
 #include <QWidget>
 
 #include "app/gui/study/OpenStudy.h"
+#include "app/gui/study/PassphraseDialog.h"
+#include "app/gui/study/StudyForm.h"
+#include "app/gui/theme/FolderRow.h"
 #include "app/gui/theme/Labels.h"
 
 namespace tacto::gui {
@@ -40,6 +43,27 @@ private:
     NewStudyPage* new_;
     StudyList* list_ = nullptr;
     TroubleLine* trouble_ = nullptr;
+    QPointer<PassphraseDialog> asks_;
+};
+
+/// What a new study needs before it is made: its folder, its settings, and then a passphrase.
+class NewStudyPage final : public QWidget {
+    Q_OBJECT
+public:
+    /// `study` outlives it.
+    explicit NewStudyPage(OpenStudy& study, QWidget* parent = nullptr);
+    /// As a new one.
+    void clear();
+
+signals:
+    void cancelled();
+
+private:
+    void askForPassphrase();
+    OpenStudy& study_;
+    FolderRow* folder_;
+    StudyForm* form_ = nullptr;
+    TroubleLine* trouble_;
     QPointer<PassphraseDialog> asks_;
 };
 

@@ -7,9 +7,9 @@
 
 #include "app/gui/pilot/OperatorPage.h"
 #include "app/gui/pilot/OperatorStrip.h"
+#include "app/gui/pilot/ParticipantFace.h"
 #include "app/gui/pilot/ParticipantStop.h"
 #include "app/gui/pilot/RehearsalPage.h"
-#include "app/gui/pilot/ShareBars.h"
 #include "core/base/Random.h"
 #include "tests/gui/Looks.h"
 #include "tests/gui/Person.h"

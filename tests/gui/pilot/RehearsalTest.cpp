@@ -3,7 +3,6 @@
 #include <QComboBox>
 #include <QLineEdit>
 #include <QPointer>
-#include <QSpinBox>
 #include <QTableWidget>
 #include <QToolButton>
 #include <algorithm>
@@ -11,13 +10,13 @@
 #include <future>
 #include <thread>
 
+#include "app/gui/pilot/InputRows.h"
 #include "app/gui/pilot/OperatorStrip.h"
 #include "app/gui/pilot/ParticipantStop.h"
 #include "app/gui/pilot/ParticipantWindow.h"
 #include "app/gui/pilot/PilotWorkspace.h"
 #include "app/gui/pilot/RehearsalPage.h"
-#include "app/gui/pilot/RememberedInputs.h"
-#include "app/gui/pilot/ScreenChoice.h"
+#include "app/gui/pilot/SeatRows.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/window/RecordingLine.h"
 #include "core/pilot/PilotRecord.h"
@@ -43,7 +42,7 @@ protected:
         pilot->findChild<QLineEdit*>("studyFolder")
             ->setText(QString::fromStdString((folder.path() / "study").string()));
         pilot->findChild<QComboBox*>("whoAnswers")->setCurrentIndex(person ? 1 : 0);
-        pilot->findChild<QSpinBox*>("rehearsalBlocks")->setValue(1);
+        pilot->findChild<QLineEdit*>("rehearsalBlocks")->setText("1");
         auto* through = pilot->findChild<QComboBox*>("rehearsalModality");
         through->setCurrentIndex(through->findData(modality));
         click(*pilot->findChild<QPushButton*>("beginRehearsal"));
@@ -129,7 +128,15 @@ TEST_F(RehearsalInTheWindow, ALongFolderIsReadFromItsBeginningAndASeedIsTyped) {
     place->setText(path);
     EXPECT_EQ(place->cursorPosition(), 0) << "its beginning is in sight";
     EXPECT_TRUE(place->toolTip().startsWith(path)) << "and all of it in the tip";
-    EXPECT_EQ(pilot->findChild<QSpinBox*>("rehearsalSeed")->buttonSymbols(), QAbstractSpinBox::NoButtons);
+    auto* seed = pilot->findChild<QLineEdit*>("rehearsalSeed");
+    const auto* begin = pilot->findChild<QPushButton*>("beginRehearsal");
+    for (const char* refused : {"0", "1000001", "1.5", "two", ""}) {
+        seed->setText(refused);
+        EXPECT_FALSE(begin->isEnabled()) << refused;
+    }
+    seed->setText("2");
+    place->setText(QString::fromStdString((folder.path() / "study").string()));
+    EXPECT_TRUE(begin->isEnabled());
 }
 
 TEST_F(RehearsalInTheWindow, ANewOneHasAFolderOfItsOwnAndKeepsTheRest) {
@@ -139,7 +146,7 @@ TEST_F(RehearsalInTheWindow, ANewOneHasAFolderOfItsOwnAndKeepsTheRest) {
     click(*pilot->findChild<QPushButton*>("anotherRehearsal"));
     EXPECT_EQ(pilot->findChild<QLabel*>("rehearsalTitle")->text(), "A new rehearsal");
     EXPECT_NE(pilot->findChild<QLineEdit*>("studyFolder")->text(), first);
-    EXPECT_EQ(pilot->findChild<QSpinBox*>("rehearsalBlocks")->value(), 1);
+    EXPECT_EQ(pilot->findChild<QLineEdit*>("rehearsalBlocks")->text(), "1");
     const auto* through = pilot->findChild<QComboBox*>("rehearsalModality");
     EXPECT_EQ(through->currentData(), "massager");
     EXPECT_TRUE(through->isEnabled());

@@ -9,7 +9,6 @@
 #include <gmock/gmock.h>
 
 #include "app/gui/pilot/InputRows.h"
-#include "app/gui/pilot/RememberedInputs.h"
 #include "app/gui/pilot/SessionInputs.h"
 #include "app/gui/theme/Theme.h"
 #include "drivers/hid_input/HidInput.h"

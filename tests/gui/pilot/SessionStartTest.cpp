@@ -9,7 +9,6 @@
 #include <gmock/gmock.h>
 
 #include "app/gui/controller/DeviceWatch.h"
-#include "app/gui/pilot/ExclusionChecklist.h"
 #include "app/gui/pilot/SessionStartPage.h"
 #include "app/gui/pilot/UnfinishedOffer.h"
 #include "tests/gui/Looks.h"

@@ -4,7 +4,7 @@
 #include <QSettings>
 #include <QSignalSpy>
 
-#include "app/gui/study/PassphraseEdit.h"
+#include "app/gui/study/PassphraseDialog.h"
 #include "tests/gui/study/OpenedStudy.h"
 #include "tests/support/InTime.h"
 

@@ -2,9 +2,9 @@
 #include <QScrollArea>
 #include <set>
 
-#include "app/gui/runner/ParameterForm.h"
-#include "app/gui/study/NewStudyPage.h"
 #include "app/gui/study/StudyForm.h"
+#include "app/gui/study/StudyPage.h"
+#include "app/gui/theme/FieldForm.h"
 #include "tests/gui/study/OpenedStudy.h"
 
 namespace tacto::test {
@@ -12,10 +12,22 @@ namespace {
 
 using testing::HasSubstr;
 
+/// Fields of the core that the program fills in by itself.
+const std::vector<std::string> kOfTheProgram{"id",
+                                             "kind",
+                                             "approval.protocol_sha256",
+                                             "limits",
+                                             "conditions",
+                                             "train.shape",
+                                             "scripts",
+                                             "procedure.interval_min_s",
+                                             "procedure.interval_max_s",
+                                             "procedure.conditions_sha256"};
+
 TEST(StudyForm, HasEveryFieldOfTheCoreOnceAndNoOther) {
     std::multiset<std::string> described;
     for (const auto& field : gui::studyForm()) described.emplace(field.key);
-    for (const auto key : gui::studyFieldsOfTheProgram()) described.emplace(key);
+    described.insert(kOfTheProgram.begin(), kOfTheProgram.end());
     std::multiset<std::string> stored;
     for (const auto& info : studyFields().infos()) {
         const bool list = info.key == "limits" || info.key == "scripts";
@@ -100,7 +112,7 @@ TEST_F(StudyInThePage, ANewStudyIsMade) {
                                     {"consent_version", "2"}})
         form->set(key, text);
     looksRight(page, "study-new", {QSize(1100, 640), QSize(1160, 640)});
-    for (const auto* group : form->findChildren<gui::ParameterForm*>()) {
+    for (const auto* group : form->findChildren<gui::FieldForm*>()) {
         int below = 1000;
         for (const auto* title : form->findChildren<QLabel*>(QString(), Qt::FindDirectChildrenOnly))
             if (title->x() == group->x() && title->geometry().bottom() < group->y())

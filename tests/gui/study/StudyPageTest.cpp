@@ -1,7 +1,6 @@
 // A study in the window: enrolled, consented, left, withdrawn, reported and exported, as a person does it.
 #include <QComboBox>
 #include <QFileDialog>
-#include <QSpinBox>
 
 #include "app/gui/theme/ConfirmButton.h"
 #include "tests/gui/Person.h"
@@ -28,7 +27,7 @@ protected:
         auto* asks = dialog("enrolDialog");
         if (asks == nullptr) return {};
         asks->findChild<QComboBox*>("enrolWho")->setCurrentIndex(isVirtual ? 1 : 0);
-        asks->findChild<QSpinBox*>("enrolSeed")->setValue(seed);
+        asks->findChild<QLineEdit*>("enrolSeed")->setText(QString::number(seed));
         click(*asks->findChild<QPushButton*>("enrolNow"));
         const auto code = asks->findChild<QLabel*>("enrolledCode")->text();
         looksRight(*asks, "study-enrolled", kDialog);

@@ -1,8 +1,8 @@
 // Without a mouse, where results are: Tab goes from STOP through each page once, in the order of reading.
 #include <QComboBox>
+#include <QLineEdit>
 #include <QDockWidget>
 #include <QSettings>
-#include <QSpinBox>
 #include <QStackedWidget>
 #include <QStatusBar>
 #include <QTabBar>
@@ -112,7 +112,7 @@ TEST_F(FocusOrder, OfAPilotsResultIsThatOfReading) {
     visit(4);
     auto& pilot = *window.findChild<gui::PilotWorkspace*>();
     pilot.findChild<QLineEdit*>("studyFolder")->setText(QString::fromStdString((folder.path() / "study").string()));
-    pilot.findChild<QSpinBox*>("rehearsalBlocks")->setValue(1);
+    pilot.findChild<QLineEdit*>("rehearsalBlocks")->setText("1");
     click(*pilot.findChild<QPushButton*>("beginRehearsal"));
     ASSERT_IN_TIME(comesTrue([&] { return pilot.running(); }));
     ASSERT_IN_TIME(comesTrue([&] { return !pilot.running(); }, 100'000));

@@ -1,9 +1,11 @@
-// ParameterForm.h - a protocol's parameters as a form: labels, units and ranges as the script declares them. Days are
-// chosen in a calendar, files by a dialog. What decides the verdict stands first. The parameters of the known reference
-// are a part of their own.
+// FieldForm.h - the one form of the program: a label, an editor, a range and a refusal for each field of a description.
+//
+// A field is what a protocol declares of a parameter: name, label, unit, range, choices. Days are chosen in a calendar,
+// files by a dialog. What decides a verdict stands first. The parameters of the known reference are a part of their
+// own.
 //
 // Every field is text checked by the same rules as the command line; a refusal stands below its field. Where the
-// script says what 0 stands for, those words stand in an empty field, which reads as 0.
+// description says what 0 stands for, those words stand in an empty field, which reads as 0.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -13,18 +15,39 @@
 #include <QWidget>
 #include <functional>
 #include <set>
+#include <vector>
 
 #include "app/gui/theme/Labels.h"
 #include "app/scripting/engine/ProtocolDeclaration.h"
 
 namespace tacto::gui {
 
-class ParameterForm final : public QWidget {
+struct FormField {
+    ProtocolParameter parameter;
+    QString tip{};
+    QString hint{};          ///< stands in a line that is empty
+    QWidget* own = nullptr;  ///< in place of an editor: it is shown and placed, and not read; the form takes it
+};
+/// `choices`: key and words; the first is chosen.
+[[nodiscard]] FormField choiceField(const char* name, const QString& label,
+                                    const std::vector<std::pair<QString, QString>>& choices, const QString& tip);
+[[nodiscard]] FormField textField(const char* name, const QString& label, const QString& value, const QString& tip,
+                                  const QString& hint = {});
+[[nodiscard]] FormField wholeField(const char* name, const QString& label, int least, int most, int value,
+                                   const QString& tip);
+[[nodiscard]] FormField tickField(const char* name, const QString& label, bool value, const QString& tip = {});
+/// Without a label it has the whole width.
+[[nodiscard]] FormField ownField(const QString& label, QWidget* own);
+
+class FieldForm final : public QWidget {
     Q_OBJECT
 public:
-    explicit ParameterForm(QWidget* parent = nullptr);
+    /// Labels above their fields, in a narrow column; or beside them where there is room.
+    enum class Labels { Above, Beside };
+    explicit FieldForm(QWidget* parent = nullptr, Labels labels = Labels::Above);
     void show(const ProtocolDeclaration& declaration);
-    /// The fields of the known reference, to be placed by the owner. Empty where the protocol has none.
+    void show(const std::vector<FormField>& fields);
+    /// The fields of the known reference, to be placed and shown by the owner. Empty where the protocol has none.
     [[nodiscard]] QWidget& referencePart() { return *reference_; }
     [[nodiscard]] bool hasReference() const;
     /// Errors: of the first field that is refused; all refusals are shown.
@@ -33,6 +56,10 @@ public:
     [[nodiscard]] QString text(const std::string& name) const;
     /// Writes into a field, as if it were typed; a name or a choice that is not there is left alone.
     void set(const std::string& name, const QString& text);
+    void setRowVisible(const std::string& name, bool visible);
+    void setRowVisible(QWidget& own, bool visible);
+    [[nodiscard]] bool isRowVisible(QWidget& own) const;
+    void setFieldEnabled(const std::string& name, bool enabled);
     /// Parameters whose answer is known from elsewhere, as the electrode's area from the profile: 0 will do there.
     void setKnown(std::set<std::string> names);
     /// What is missing is said about a field only once the operator has left it, or read() or goToRefused() was called.
@@ -55,10 +82,12 @@ protected:
 private:
     struct Field {
         ProtocolParameter parameter;
+        QString tip{}, hint{};
         std::function<QString()> text;
         std::function<void(const QString&)> write;
         QWidget* editor = nullptr;  // has the parameter's name
         QWidget* whole = nullptr;   // the editor with its buttons
+        QWidget* row = nullptr;
         TroubleLine* trouble = nullptr;
         QLabel* label = nullptr;
         QLabel* range = nullptr;  // empty where it has none
@@ -66,7 +95,10 @@ private:
         QString why{};            // it is refused as it stands
         bool left = false;        // once, or what it lacks was asked for
     };
-    [[nodiscard]] Field makeField(const ProtocolParameter& parameter);
+    [[nodiscard]] Field makeField(const FormField& described);
+    void showFields(const std::vector<FormField>& fields);
+    void addOwn(const FormField& described);
+    [[nodiscard]] const Field* find(const std::string& name) const;
     void addLine(Field& field);
     void addFileChooser(Field& field);
     void addRow(Field& field);
@@ -75,6 +107,7 @@ private:
     void judge();
     void say(const Field& field, bool lacking) const;
     void askForAll();
+    const Labels labels_;
     ProtocolDeclaration declaration_;
     QFormLayout* settingsRows_;
     QWidget* reference_;

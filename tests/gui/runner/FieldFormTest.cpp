@@ -6,14 +6,14 @@
 #include <QTest>
 #include <gtest/gtest.h>
 
-#include "app/gui/runner/ParameterForm.h"
+#include "app/gui/theme/FieldForm.h"
 #include "tests/support/InTime.h"
 
 namespace tacto::test {
 namespace {
 
 /// The form shows less of it than the script wrote, and what it shows reads as another value.
-TEST(ParameterForm, ADefaultThatWasLeftAloneIsTheScriptsWordToTheLastDigitAndBlank) {
+TEST(FieldForm, ADefaultThatWasLeftAloneIsTheScriptsWordToTheLastDigitAndBlank) {
     RecordProperty("hazard", "H9");
     ProtocolDeclaration declaration;
     ProtocolParameter area;
@@ -24,7 +24,7 @@ TEST(ParameterForm, ADefaultThatWasLeftAloneIsTheScriptsWordToTheLastDigitAndBla
     file.type = ParameterType::File;
     file.value = "/some/path ";
     declaration.parameters = {area, file};
-    gui::ParameterForm form;
+    gui::FieldForm form;
     form.show(declaration);
     const auto untouched = form.read().value();
     EXPECT_TRUE(untouched.given.empty());
@@ -37,7 +37,7 @@ TEST(ParameterForm, ADefaultThatWasLeftAloneIsTheScriptsWordToTheLastDigitAndBla
     EXPECT_EQ(chosen.parameters.at("area"), 5);
 }
 
-TEST(ParameterForm, ATickSaysYesByItself) {
+TEST(FieldForm, ATickSaysYesByItself) {
     ProtocolDeclaration declaration;
     ProtocolParameter keep;
     keep.name = "keep";
@@ -45,7 +45,7 @@ TEST(ParameterForm, ATickSaysYesByItself) {
     keep.type = ParameterType::Boolean;
     keep.value = true;
     declaration.parameters = {keep};
-    gui::ParameterForm form;
+    gui::FieldForm form;
     form.show(declaration);
     const auto* box = form.findChild<QCheckBox*>("keep");
     ASSERT_NE(box, nullptr);
@@ -65,7 +65,7 @@ TEST(ParameterForm, ATickSaysYesByItself) {
     EXPECT_FALSE(box->isChecked()) << "its words are part of it";
 }
 
-TEST(ParameterForm, AChoiceOfALoadHasTheSignOfItsUnit) {
+TEST(FieldForm, AChoiceOfALoadHasTheSignOfItsUnit) {
     ProtocolDeclaration declaration;
     ProtocolParameter load;
     load.name = "reference";
@@ -74,7 +74,7 @@ TEST(ParameterForm, AChoiceOfALoadHasTheSignOfItsUnit) {
     load.choices = {{"1 kohm", ""}, {"100 ohm", ""}};
     load.value = "1 kohm";
     declaration.parameters = {load};
-    gui::ParameterForm form;
+    gui::FieldForm form;
     form.show(declaration);
     EXPECT_EQ(form.findChild<QComboBox*>("reference")->currentText(), "1 kΩ");
     EXPECT_EQ(form.text("reference"), "1 kohm") << "the script's own word";
@@ -92,14 +92,14 @@ ProtocolParameter areaFromTheProfile() {
     return area;
 }
 
-TEST(ParameterForm, FieldsWithARangeEndInOneLine) {
+TEST(FieldForm, FieldsWithARangeEndInOneLine) {
     ProtocolDeclaration declaration;
     auto area = areaFromTheProfile();
     auto load = area;
     load.name = "load";
     load.max = 1'000'000;
     declaration.parameters = {area, load};
-    gui::ParameterForm form;
+    gui::FieldForm form;
     form.show(declaration);
     form.resize(400, form.sizeHint().height());
     form.setVisible(true);
@@ -112,7 +112,7 @@ TEST(ParameterForm, FieldsWithARangeEndInOneLine) {
     EXPECT_LT(*ends.begin(), 400) << "the ranges have no room";
 }
 
-TEST(ParameterForm, ALargeRangeIsReadInGroupsAndARefusalNamesNoParameterOfTheScript) {
+TEST(FieldForm, ALargeRangeIsReadInGroupsAndARefusalNamesNoParameterOfTheScript) {
     ProtocolDeclaration declaration;
     auto load = areaFromTheProfile();
     load.name = "load";
@@ -123,7 +123,7 @@ TEST(ParameterForm, ALargeRangeIsReadInGroupsAndARefusalNamesNoParameterOfTheScr
     load.value = 1000;
     load.zero.clear();
     declaration.parameters = {load};
-    gui::ParameterForm form;
+    gui::FieldForm form;
     form.show(declaration);
     const auto shown = [&](const char* words) {
         for (const auto* label : form.findChildren<QLabel*>())
@@ -136,10 +136,10 @@ TEST(ParameterForm, ALargeRangeIsReadInGroupsAndARefusalNamesNoParameterOfTheScr
         << form.findChild<QLabel*>("trouble-load")->text().toStdString();
 }
 
-TEST(ParameterForm, WhatZeroStandsForIsSaidInAnEmptyField) {
+TEST(FieldForm, WhatZeroStandsForIsSaidInAnEmptyField) {
     ProtocolDeclaration declaration;
     declaration.parameters = {areaFromTheProfile()};
-    gui::ParameterForm form;
+    gui::FieldForm form;
     form.show(declaration);
     auto* area = form.findChild<QLineEdit*>("area");
     EXPECT_EQ(area->text(), "");
@@ -160,7 +160,7 @@ TEST(ParameterForm, WhatZeroStandsForIsSaidInAnEmptyField) {
     EXPECT_EQ(area->placeholderText(), "from the profile");
 }
 
-TEST(ParameterForm, WhatIsMissingIsSaidOnceTheFieldWasLeftOrTheFormWasTried) {
+TEST(FieldForm, WhatIsMissingIsSaidOnceTheFieldWasLeftOrTheFormWasTried) {
     ProtocolDeclaration declaration;
     for (const char* name : {"title", "reference"}) {
         ProtocolParameter text;
@@ -170,7 +170,7 @@ TEST(ParameterForm, WhatIsMissingIsSaidOnceTheFieldWasLeftOrTheFormWasTried) {
         text.needed = "no session can begin";
         declaration.parameters.push_back(text);
     }
-    gui::ParameterForm form;
+    gui::FieldForm form;
     form.setMissingSaidOnceLeft();
     form.show(declaration);
     static_cast<QWidget&>(form).show();

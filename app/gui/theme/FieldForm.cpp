@@ -1,4 +1,4 @@
-#include "app/gui/runner/ParameterForm.h"
+#include "app/gui/theme/FieldForm.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -33,6 +33,17 @@ QString rangeText(const ProtocolParameter& parameter) {
     return {};
 }
 
+QString scriptsTip(const ProtocolParameter& parameter) {
+    const auto range = rangeText(parameter);
+    const auto takes = range.isEmpty()          ? QString()
+                       : parameter.unit.empty() ? QObject::tr(" and takes %1").arg(range)
+                                                : QObject::tr(" and takes %1 %2").arg(range, shownUnit(parameter));
+    const auto zero =
+        parameter.zero.empty() ? QString() : QObject::tr(" 0, or nothing: %1.").arg(qtext(parameter.zero));
+    return QObject::tr("%1. The script calls it \"%2\"%3.").arg(qtext(parameter.label), qtext(parameter.name), takes) +
+           zero;
+}
+
 /// What a script calls "load" has a label on the screen.
 QString refusalText(const ProtocolParameter& parameter, const Error& refused) {
     auto words = qtext(refused.message);
@@ -52,33 +63,79 @@ QString shown(const ProtocolParameter& parameter, const nlohmann::json& value) {
     return !parameter.zero.empty() && value == 0 ? QString() : plain(value);
 }
 
-QFormLayout* rowsIn(QWidget& part) {
+QFormLayout* rowsIn(QWidget& part, FieldForm::Labels labels) {
     auto* form = new QFormLayout(&part);
     form->setContentsMargins(0, 0, 0, 0);
     form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
-    form->setRowWrapPolicy(QFormLayout::WrapAllRows);  // a narrow column: nothing is cut
+    form->setRowWrapPolicy(labels == FieldForm::Labels::Above ? QFormLayout::WrapAllRows  // a narrow column
+                                                              : QFormLayout::WrapLongRows);
     return form;
+}
+
+FormField described(const char* name, const QString& label, ParameterType type, nlohmann::json value,
+                    const QString& tip) {
+    FormField field;
+    field.parameter.name = name;
+    field.parameter.label = label.toStdString();
+    field.parameter.type = type;
+    field.parameter.value = std::move(value);
+    field.tip = tip;
+    return field;
 }
 
 }  // namespace
 
-ParameterForm::ParameterForm(QWidget* parent)
+FormField choiceField(const char* name, const QString& label, const std::vector<std::pair<QString, QString>>& choices,
+                      const QString& tip) {
+    auto field = described(name, label, ParameterType::Choice, choices.front().first.toStdString(), tip);
+    for (const auto& [key, words] : choices)
+        field.parameter.choices.emplace_back(key.toStdString(), words.toStdString());
+    return field;
+}
+
+FormField textField(const char* name, const QString& label, const QString& value, const QString& tip,
+                    const QString& hint) {
+    auto field = described(name, label, ParameterType::Text, value.toStdString(), tip);
+    field.hint = hint;
+    return field;
+}
+
+FormField wholeField(const char* name, const QString& label, int least, int most, int value, const QString& tip) {
+    auto field = described(name, label, ParameterType::Integer, value, tip);
+    field.parameter.min = least;
+    field.parameter.max = most;
+    return field;
+}
+
+FormField tickField(const char* name, const QString& label, bool value, const QString& tip) {
+    return described(name, label, ParameterType::Boolean, value, tip);
+}
+
+FormField ownField(const QString& label, QWidget* own) {
+    auto field = described("", label, ParameterType::Text, "", {});
+    field.own = own;
+    return field;
+}
+
+FieldForm::FieldForm(QWidget* parent, Labels labels)
     : QWidget(parent),
-      settingsRows_(rowsIn(*this)),
+      labels_(labels),
+      settingsRows_(rowsIn(*this, labels)),
       reference_(new QWidget(parent)),
-      referenceRows_(rowsIn(*reference_)) {
+      referenceRows_(rowsIn(*reference_, labels)) {
+    reference_->hide();
     onFontChange(*this, [this] { fitLabels(); });
 }
 
 /// A label wraps where it is long, and not between two short words. Fields with a range end where the widest range
 /// begins.
-void ParameterForm::fitLabels() {
+void FieldForm::fitLabels() {
     int widest = 0;
     for (const auto& field : fields_) {
         field.range->ensurePolished();
         field.range->setVisible(!field.range->text().isEmpty());
         if (!field.range->text().isEmpty()) widest = std::max(widest, field.range->sizeHint().width());
-        if (field.label == nullptr) continue;
+        if (field.label == nullptr || labels_ == Labels::Beside) continue;
         field.label->setMinimumWidth(
             std::min(scaledPx(kLabelWidth), 2 * fontMetrics().averageCharWidth() * int(field.label->text().size())));
     }
@@ -87,8 +144,9 @@ void ParameterForm::fitLabels() {
     }
 }
 
-ParameterForm::Field ParameterForm::makeField(const ProtocolParameter& parameter) {
-    Field field{parameter, {}, {}};
+FieldForm::Field FieldForm::makeField(const FormField& described) {
+    const auto& parameter = described.parameter;
+    Field field{parameter, described.tip, described.hint, {}, {}};
     if (parameter.type == ParameterType::Choice) {
         auto* box = new QComboBox(this);
         for (const auto& [key, text] : parameter.choices)
@@ -97,7 +155,7 @@ ParameterForm::Field ParameterForm::makeField(const ProtocolParameter& parameter
         box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
         box->setMinimumContentsLength(8);  // characters; grows with the column
         box->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-        connect(box, &QComboBox::currentIndexChanged, this, &ParameterForm::judge);
+        connect(box, &QComboBox::currentIndexChanged, this, &FieldForm::judge);
         field.text = [box] { return box->currentData().toString(); };
         field.write = [box](const QString& key) {
             if (const int index = box->findData(key); index >= 0) box->setCurrentIndex(index);
@@ -106,7 +164,7 @@ ParameterForm::Field ParameterForm::makeField(const ProtocolParameter& parameter
     } else if (parameter.type == ParameterType::Boolean) {
         auto* box = new QCheckBox(this);
         box->setChecked(parameter.value.is_boolean() && parameter.value.get<bool>());
-        connect(box, &QCheckBox::toggled, this, &ParameterForm::judge);
+        connect(box, &QCheckBox::toggled, this, &FieldForm::judge);
         field.text = [box] { return box->isChecked() ? QString("true") : QString("false"); };
         field.write = [box](const QString& word) { box->setChecked(word == "true"); };
         field.editor = box;
@@ -116,19 +174,12 @@ ParameterForm::Field ParameterForm::makeField(const ProtocolParameter& parameter
     if (field.whole == nullptr) field.whole = field.editor;
     field.editor->setObjectName(QString::fromStdString(parameter.name));
     field.editor->installEventFilter(this);
-    const auto range = rangeText(parameter);
-    const auto label = QString::fromStdString(parameter.label);
-    field.editor->setAccessibleName(label);
-    const auto takes = range.isEmpty()          ? QString()
-                       : parameter.unit.empty() ? tr(" and takes %1").arg(range)
-                                                : tr(" and takes %1 %2").arg(range, shownUnit(parameter));
-    auto tip = tr("%1. The script calls it \"%2\"%3.").arg(label, QString::fromStdString(parameter.name), takes);
-    if (!parameter.zero.empty()) tip += tr(" 0, or nothing: %1.").arg(QString::fromStdString(parameter.zero));
-    field.editor->setToolTip(tip);
+    field.editor->setAccessibleName(qtext(parameter.label).remove('&'));
+    field.editor->setToolTip(described.tip);
     return field;
 }
 
-void ParameterForm::addLine(Field& field) {
+void FieldForm::addLine(Field& field) {
     QLineEdit* line = nullptr;
     if (field.parameter.type == ParameterType::Date) {
         auto* day = new DayField(QString::fromStdString(field.parameter.name), tr("not stated"), this);
@@ -138,7 +189,8 @@ void ParameterForm::addLine(Field& field) {
         line = new QLineEdit(this);
     }
     line->setText(shown(field.parameter, field.parameter.value));
-    connect(line, &QLineEdit::textChanged, this, &ParameterForm::judge);
+    if (!field.hint.isEmpty()) line->setPlaceholderText(field.hint);
+    connect(line, &QLineEdit::textChanged, this, &FieldForm::judge);
     field.text = [line, zero = !field.parameter.zero.empty()] {
         return zero && line->text().trimmed().isEmpty() ? QString("0") : line->text();
     };
@@ -147,7 +199,7 @@ void ParameterForm::addLine(Field& field) {
     if (field.parameter.type == ParameterType::File) addFileChooser(field);
 }
 
-void ParameterForm::addFileChooser(Field& field) {
+void FieldForm::addFileChooser(Field& field) {
     auto* line = static_cast<QLineEdit*>(field.editor);
     line->setPlaceholderText(tr("no file"));
     line->setClearButtonEnabled(true);
@@ -166,16 +218,33 @@ void ParameterForm::addFileChooser(Field& field) {
     placeInLine(*field.whole, *line, *button);
 }
 
-void ParameterForm::show(const ProtocolDeclaration& declaration) {
+void FieldForm::show(const ProtocolDeclaration& declaration) {
+    declaration_ = declaration;
+    std::vector<FormField> fields;
+    for (const auto& parameter : declaration.parameters) fields.push_back({parameter, scriptsTip(parameter)});
+    showFields(fields);
+}
+
+void FieldForm::show(const std::vector<FormField>& fields) {
+    declaration_ = {};
+    for (const auto& field : fields)
+        if (field.own == nullptr) declaration_.parameters.push_back(field.parameter);
+    showFields(fields);
+}
+
+void FieldForm::showFields(const std::vector<FormField>& fields) {
     fields_.clear();
     for (auto* rows : {settingsRows_, referenceRows_}) {
         while (rows->rowCount() > 0) rows->removeRow(0);
     }
-    declaration_ = declaration;
     for (const bool decisive : {true, false}) {
-        for (const auto& parameter : declaration.parameters) {
-            if (parameter.needed.empty() == decisive) continue;
-            auto field = makeField(parameter);
+        for (const auto& described : fields) {
+            if (described.parameter.needed.empty() == decisive) continue;
+            if (described.own != nullptr) {
+                addOwn(described);
+                continue;
+            }
+            auto field = makeField(described);
             field.atFirst = field.text();
             addRow(field);
             fields_.push_back(std::move(field));
@@ -192,9 +261,17 @@ void ParameterForm::show(const ProtocolDeclaration& declaration) {
     judge();
 }
 
-void ParameterForm::addRow(Field& field) {
+void FieldForm::addOwn(const FormField& described) {
+    described.own->setParent(this);  // its turn in the order of Tab
+    if (described.parameter.label.empty())
+        settingsRows_->addRow(described.own);
+    else
+        settingsRows_->addRow(qtext(described.parameter.label), described.own);
+}
+
+void FieldForm::addRow(Field& field) {
     const auto& parameter = field.parameter;
-    auto* column = new QWidget(this);
+    auto* column = field.row = new QWidget(this);
     auto* stack = new QVBoxLayout(column);
     stack->setContentsMargins(0, 0, 0, 0);
     stack->setSpacing(0);
@@ -226,11 +303,11 @@ void ParameterForm::addRow(Field& field) {
     setTextSize(*field.label, TextSize::Body, !parameter.needed.empty());
 }
 
-bool ParameterForm::hasReference() const {
+bool FieldForm::hasReference() const {
     return std::any_of(fields_.begin(), fields_.end(), [](const Field& field) { return field.parameter.reference; });
 }
 
-Result<ProtocolSettings> ParameterForm::read() {
+Result<ProtocolSettings> FieldForm::read() {
     std::map<std::string, std::string> settings;
     for (const auto& field : fields_) settings[field.parameter.name] = field.text().trimmed().toStdString();
     askForAll();
@@ -246,33 +323,46 @@ Result<ProtocolSettings> ParameterForm::read() {
     return applied;
 }
 
-QString ParameterForm::text(const std::string& name) const {
-    for (const auto& field : fields_) {
-        if (field.parameter.name == name) return field.text().trimmed();
-    }
-    return {};
+const FieldForm::Field* FieldForm::find(const std::string& name) const {
+    const auto found = std::ranges::find(fields_, name, [](const Field& field) { return field.parameter.name; });
+    return found == fields_.end() ? nullptr : &*found;
 }
 
-void ParameterForm::set(const std::string& name, const QString& text) {
-    for (const auto& field : fields_) {
-        if (field.parameter.name == name) field.write(text);
-    }
+QString FieldForm::text(const std::string& name) const {
+    const auto* field = find(name);
+    return field == nullptr ? QString() : field->text().trimmed();
 }
 
-void ParameterForm::setKnown(std::set<std::string> names) {
+void FieldForm::set(const std::string& name, const QString& text) {
+    if (const auto* field = find(name)) field->write(text);
+}
+
+void FieldForm::setRowVisible(const std::string& name, bool visible) {
+    if (const auto* field = find(name)) settingsRows_->setRowVisible(field->row, visible);
+}
+
+void FieldForm::setRowVisible(QWidget& own, bool visible) { settingsRows_->setRowVisible(&own, visible); }
+
+bool FieldForm::isRowVisible(QWidget& own) const { return settingsRows_->isRowVisible(&own); }
+
+void FieldForm::setFieldEnabled(const std::string& name, bool enabled) {
+    if (const auto* field = find(name)) field->editor->setEnabled(enabled);
+}
+
+void FieldForm::setKnown(std::set<std::string> names) {
     if (names == known_) return;
     known_ = std::move(names);
     judge();
 }
 
 /// Neither 0 nor an empty field answers what the verdict needs.
-bool ParameterForm::lacks(const Field& field) const {
+bool FieldForm::lacks(const Field& field) const {
     if (field.parameter.needed.empty() || known_.contains(field.parameter.name)) return false;
     const auto value = parseSetting(field.parameter, field.text().trimmed().toStdString());
     return value && (*value == 0 || (value->is_string() && value->get_ref<const std::string&>().empty()));
 }
 
-QString ParameterForm::unanswered() const {
+QString FieldForm::unanswered() const {
     for (const auto& field : fields_) {
         if (!lacks(field)) continue;
         return tr("Enter “%1” first.").arg(qtext(field.parameter.label));
@@ -280,7 +370,7 @@ QString ParameterForm::unanswered() const {
     return {};
 }
 
-QString ParameterForm::summary() const {
+QString FieldForm::summary() const {
     QStringList said;
     int changed = 0;
     for (const auto& field : fields_) {
@@ -297,13 +387,13 @@ QString ParameterForm::summary() const {
     return said.join(" · ");
 }
 
-int ParameterForm::refused(bool reference) const {
+int FieldForm::refused(bool reference) const {
     return int(std::count_if(fields_.begin(), fields_.end(), [reference](const Field& field) {
         return field.parameter.reference == reference && !field.why.isEmpty();
     }));
 }
 
-std::optional<bool> ParameterForm::goToRefused() {
+std::optional<bool> FieldForm::goToRefused() {
     askForAll();
     for (const auto& field : fields_) {
         if (field.why.isEmpty()) continue;
@@ -313,7 +403,7 @@ std::optional<bool> ParameterForm::goToRefused() {
     return std::nullopt;
 }
 
-void ParameterForm::judge() {
+void FieldForm::judge() {
     for (auto& field : fields_) {
         const auto value = parseSetting(field.parameter, field.text().trimmed().toStdString());
         const bool lacking = lacks(field);
@@ -327,12 +417,12 @@ void ParameterForm::judge() {
     emit edited();
 }
 
-void ParameterForm::say(const Field& field, bool lacking) const {
+void FieldForm::say(const Field& field, bool lacking) const {
     const bool said = !field.why.isEmpty() && (!lacking || !missingSaidOnceLeft_ || field.left);
     field.trouble->say(said ? field.why : QString());
 }
 
-bool ParameterForm::eventFilter(QObject* watched, QEvent* event) {
+bool FieldForm::eventFilter(QObject* watched, QEvent* event) {
     if (event->type() == QEvent::MouseButtonRelease) {
         for (const auto& field : fields_)
             if (auto* tick = qobject_cast<QCheckBox*>(field.editor); tick != nullptr && field.label == watched)
@@ -350,7 +440,7 @@ bool ParameterForm::eventFilter(QObject* watched, QEvent* event) {
     return QWidget::eventFilter(watched, event);
 }
 
-void ParameterForm::askForAll() {
+void FieldForm::askForAll() {
     for (auto& field : fields_) {
         field.left = true;
         say(field, lacks(field));
@@ -359,4 +449,4 @@ void ParameterForm::askForAll() {
 
 }  // namespace tacto::gui
 
-#include "moc_ParameterForm.cpp"
+#include "moc_FieldForm.cpp"
