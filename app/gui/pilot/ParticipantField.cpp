@@ -1,5 +1,6 @@
 #include "app/gui/pilot/ParticipantField.h"
 
+#include <QGridLayout>
 #include <QMouseEvent>
 #include <QPainter>
 #include <QScreen>
@@ -14,7 +15,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr double kInch_mm = 25.4, kUsualDpi = 96;
-constexpr double kLowRow = 0.54;  // of the others: "nothing" and "not sure"
+constexpr int kLowRow = 54, kFullRow = 100;  // "nothing" and "not sure"; the others
 constexpr int kTallestTarget_mm = 60;
 
 }  // namespace
@@ -117,58 +118,42 @@ void ParticipantField::setChosen(int target, bool chosen) { targets_.at(std::siz
 
 bool ParticipantField::chosen(int target) const { return targets_.at(std::size_t(target))->isChecked(); }
 
+/// Targets of 20 mm at least; where they are a condition's they fill the field, and "nothing" and "not sure" are lower.
 void ParticipantField::arrange() {
     if (content_ != Content::Targets || targets_.empty()) return;
     const int count = int(targets_.size());
     const int columns = kind_ == PromptKind::Scale ? std::min(6, count) : fieldColumns(count);
-    std::vector<std::vector<int>> rows;
+    const int rows = (count + columns - 1) / columns, least = pixelsOf(kTarget_mm, *this);
+    const bool whole = kind_ == PromptKind::Condition;
+    delete layout();
+    auto* grid = new QGridLayout(this);
+    grid->setContentsMargins(0, 0, 0, 0);
+    grid->setSpacing(gap_px_);
     for (int i = 0; i < count; ++i) {
-        if (i % columns == 0) rows.emplace_back();
-        rows.back().push_back(i);
+        auto* target = targets_[std::size_t(i)];
+        target->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Ignored);
+        target->setMinimumSize(least, least);
+        target->setMaximumHeight(whole ? QWIDGETSIZE_MAX : std::max(least, pixelsOf(kTallestTarget_mm, *this)));
+        grid->addWidget(target, i / columns, i % columns);
     }
-    std::vector<double> weights(rows.size(), 1.0);
-    if (kind_ == PromptKind::Condition && rows.size() == 3) weights.back() = kLowRow;
-    arrangeRows(rows, weights);
+    for (int column = 0; column < columns; ++column) grid->setColumnStretch(column, 1);
+    for (int row = 0; row < rows; ++row) grid->setRowStretch(row, whole && rows == 3 && row == 2 ? kLowRow : kFullRow);
+    if (!whole) grid->setRowStretch(rows, 1);
     alignWords();
 }
 
 /// A target in smaller letters than the others would be chosen less.
 void ParticipantField::alignWords() {
+    if (content_ != Content::Targets || layout() == nullptr) return;
+    layout()->activate();
     int px = words_px_;
     for (const auto* target : targets_) px = std::min(px, target->fittingPx());
     for (auto* target : targets_) target->limitWords(px);
 }
 
-void ParticipantField::arrangeRows(const std::vector<std::vector<int>>& rows, const std::vector<double>& weights) {
-    const auto least = double(pixelsOf(kTarget_mm, *this));
-    const double tallest = std::max(least, double(pixelsOf(kTallestTarget_mm, *this)));
-    const double gaps = gap_px_ * double(rows.size() - 1);
-    const bool whole = kind_ == PromptKind::Condition;
-    double sum = 0;
-    for (const double weight : weights) sum += weight;
-    // The low row keeps its 20 mm where there is room for it: the others give way.
-    double unit = (height() - gaps) / sum;
-    double last = weights.back() * unit;
-    if (weights.back() < 1 && last < least) {
-        last = std::min(least, (height() - gaps) / double(rows.size()));
-        unit = (height() - gaps - last) / (sum - weights.back());
-    }
-    double y = 0;
-    for (std::size_t r = 0; r < rows.size(); ++r) {
-        double high = r + 1 == rows.size() && weights[r] < 1 ? last : weights[r] * unit;
-        if (!whole) high = std::min(high, tallest);
-        const auto inRow = double(std::max(rows[r].size(), rows.front().size()));
-        const double wide = (width() - gap_px_ * (inRow - 1)) / inRow;
-        for (std::size_t i = 0; i < rows[r].size(); ++i)
-            targets_[std::size_t(rows[r][i])]->setGeometry(int(double(i) * (wide + gap_px_)), int(y), int(wide),
-                                                           int(high));
-        y += high + gap_px_;
-    }
-}
-
 void ParticipantField::resizeEvent(QResizeEvent* event) {
     QWidget::resizeEvent(event);
-    arrange();
+    alignWords();
 }
 
 void ParticipantField::mousePressEvent(QMouseEvent* /*event*/) { emit missed(); }

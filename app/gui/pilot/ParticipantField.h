@@ -58,7 +58,6 @@ protected:
 private:
     enum class Content { Nothing, Dot, Word, Intervals, Targets };
     void arrange();
-    void arrangeRows(const std::vector<std::vector<int>>& rows, const std::vector<double>& weights);
     void alignWords();
     void drop();
     void paintIntervals(QPainter& painter) const;

@@ -43,7 +43,7 @@ struct PilotStart {
     std::vector<SeatedDevice> inputs{};              ///< game pads and foot switches, each assigned to one person
     std::shared_ptr<const ButtonDevices> buttons{};  ///< opens them; null where there are none
 
-    QString inputsOf{};                      ///< where their assignment is remembered (RememberedInputs.h)
+    QString inputsOf{};                      ///< where their assignment is remembered (InputRows.h)
     std::optional<MarkerAddress> markers{};  ///< nothing: none are sent
 
     [[nodiscard]] bool simulated() const {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/gui/sessions/Differences.h"
+#include "app/gui/sessions/SessionPreview.h"
 #include "app/gui/sessions/SessionWords.h"
 #include "app/gui/theme/PlotLegend.h"
 #include "app/gui/theme/PlotPicture.h"
@@ -20,7 +21,6 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr std::size_t kDrawnPoints = 4000;
 constexpr int kPlotChars = 30;  // the width of a plot that can be read
 
 double feature(const SessionTrial& trial, const char* key) {
@@ -218,15 +218,9 @@ void CompareWindow::drawStream() {
 /// Both from their own beginning; the difference below, where the second has a sample at the same time.
 void CompareWindow::overlay(const SampleBlock& a, const SampleBlock& b, const Drawn& drawn) {
     streams_->clearGraphs();
-    const auto shown = [&](const std::vector<double>& t, const std::vector<double>& values, const QString& name) {
-        QVector<double> x, y;
-        for (const auto i : visiblePoints(values, kDrawnPoints)) {
-            x << t[i] - t.front();
-            y << values[i];
-        }
-        auto* graph = streams_->addGraph();
-        graph->setName(name);
-        graph->setData(x, y, true);
+    const auto shown = [&](std::vector<double> t, const std::vector<double>& values, const QString& name) {
+        for (const double from = t.front(); double& at_s : t) at_s -= from;
+        addCurve(*streams_, streams_->yAxis, t, values, name);
     };
     const auto column = [&](const SampleBlock& block) {
         std::vector<double> values(block.samples());

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "app/gui/sessions/SessionOverview.h"
+#include "app/gui/sessions/SessionPreview.h"
 #include "app/gui/sessions/SessionWords.h"
 #include "app/gui/theme/Pages.h"
 #include "app/gui/theme/PlotLegend.h"
@@ -14,7 +15,6 @@
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/Verdict.h"
-#include "app/report/FigureDrawing.h"
 #include "app/report/NumberText.h"
 #include "app/report/Reach.h"
 #include "app/report/ShownText.h"
@@ -26,7 +26,6 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr std::size_t kDetailPoints = 4000;
 constexpr int kPlotLines = 10;  // lines of text: the height of a plot that can be read
 constexpr int kMinStreams = 2;  // rows
 
@@ -346,17 +345,11 @@ void SessionDetails::showStream(const SessionStreamInfo& info, const SampleBlock
         const auto& unit = units.at(columnUnit(info.stream, c));
         std::vector<double> values(samples.samples());
         for (std::size_t i = 0; i < values.size(); ++i) values[i] = unit.factor * samples.values[i * columns + c];
-        QVector<double> x, y;
-        for (const auto i : visiblePoints(values, kDetailPoints)) {
-            x << samples.t_s[i];
-            y << values[i];
-        }
         auto& axis = axisFor(columnUnit(info.stream, c));
-        auto* graph = plot_->addGraph(plot_->xAxis, &axis);
-        graph->setData(x, y, true);
-        graph->setName(columnTitle(info.stream, c));
+        const auto title = columnTitle(info.stream, c);
+        addCurve(*plot_, &axis, samples.t_s, values, title);
         const bool shared = !axis.label().isEmpty();
-        axis.setLabel(axisTitle(shared ? quantityOf(info.stream) : graph->name(), unit.unit));
+        axis.setLabel(axisTitle(shared ? quantityOf(info.stream) : title, unit.unit));
     }
     watermark_->setVisible(session_ && session_->about.simulated);
     plot_->legend->setVisible(columns > 1);

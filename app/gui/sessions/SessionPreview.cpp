@@ -14,7 +14,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr std::size_t kCoursePoints = 3000;
+constexpr std::size_t kCurvePoints = 4000;
 constexpr int kMinLines = 10;  // lines of text: the height of a plot that can be read
 
 bool inThePlane(const SessionTrial& trial) {
@@ -22,19 +22,20 @@ bool inThePlane(const SessionTrial& trial) {
            std::isfinite(numberOr(trial.measured, "interval_s"));
 }
 
-void addCurve(QCustomPlot& plot, QCPAxis* values, const std::vector<double>& t, const std::vector<double>& y,
-              const QString& name) {
+}  // namespace
+
+QCPGraph* addCurve(QCustomPlot& plot, QCPAxis* values, const std::vector<double>& t, const std::vector<double>& y,
+                   const QString& name) {
     auto* graph = plot.addGraph(plot.xAxis, values);
     graph->setName(name);
     QVector<double> x, shown;
-    for (const auto i : visiblePoints(y, kCoursePoints)) {
+    for (const auto i : visiblePoints(y, kCurvePoints)) {
         x << t[i];
         shown << y[i];
     }
     graph->setData(x, shown, true);
+    return graph;
 }
-
-}  // namespace
 
 void SheetView::show(std::unique_ptr<PlotSheet> sheet) {
     sheet_ = std::move(sheet);

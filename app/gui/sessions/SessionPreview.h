@@ -17,6 +17,10 @@ namespace tacto::gui {
 
 class TrialPlane;
 
+/// Values over time, thinned to what can be seen.
+QCPGraph* addCurve(QCustomPlot& plot, QCPAxis* values, const std::vector<double>& t, const std::vector<double>& y,
+                   const QString& name);
+
 /// A sheet of the report, as large as there is room for.
 class SheetView final : public QWidget {
     Q_OBJECT

@@ -74,21 +74,6 @@ TEST(PilotResult, SaysTheHeadlineOnceWhateverItIs) {
     }
 }
 
-TEST(PilotResult, ANumberAndItsUnitStandOnOneLine) {
-    RunResult run;
-    run.outcome.results = someResults();
-    run.outcome.reasons = {"the range is 2 mA wide, 3 mA were expected"};
-    gui::PilotResult view;
-    view.show(run, "/home/lab/rehearsal-1");
-    static const QRegularExpression breaks("\\d (mA|V|kΩ|%)");
-    for (const char* name : {"pilotHeadline", "pilotReason"}) {
-        const auto said = view.findChild<QLabel*>(name)->text();
-        EXPECT_FALSE(said.isEmpty()) << name;
-        EXPECT_FALSE(said.contains(breaks)) << said.toStdString();
-    }
-    EXPECT_TRUE(view.findChild<QLabel*>("pilotReason")->text().contains(u"3\u202fmA"));
-}
-
 TEST(PilotResult, ShowsTheMatrixAndLooksRight) {
     RunResult run;
     run.outcome.results = someResults();

@@ -54,6 +54,17 @@ protected:
                 pilot->findChild<QLabel*>("pilotReason")->text())
             .toStdString();
     }
+    /// The rows of the only session.
+    [[nodiscard]] Result<std::vector<SessionRow>> rows() const {
+        const auto study = Study::open(folder.path() / "study", nullptr, Study::Access::Read);
+        if (!study) return failure(study);
+        return study->events(study->sessions().at(0));
+    }
+    [[nodiscard]] std::ptrdiff_t count(std::string_view row) const {
+        const auto all = rows();
+        EXPECT_TRUE(all) << all.error().message;
+        return all ? std::ranges::count(*all, std::string(row), &SessionRow::name) : -1;
+    }
     const ScratchDir folder;
     gui::PilotWorkspace* pilot = nullptr;
 };
@@ -247,7 +258,7 @@ TEST_F(RehearsalInTheWindow, AnAbortIsNoTestOfTheOperatorsStop) {
     ASSERT_TRUE(study) << study.error().message;
     ASSERT_EQ(study->sessions().size(), 1U);
     EXPECT_EQ(study->sessions()[0].state, StudySessionState::Unfinished) << "it may be gone on with";
-    const auto events = study->events(study->sessions()[0]).value();
+    const auto events = rows().value();
     const auto note = std::ranges::find(events, row::kNote, &SessionRow::name);
     ASSERT_NE(note, events.end());
     EXPECT_EQ(note->body["reason"], "fire alarm");
@@ -340,11 +351,8 @@ TEST_F(RehearsalInTheWindow, AScreenThatGoesIsAPauseUntilTheWindowIsSeatedAgain)
     letLive(150);
     window.controller().stop("operator (signal)");  // a press would be one of the wrong STOP
     ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 20'000));
-    const auto study = Study::open(folder.path() / "study", nullptr, Study::Access::Read);
-    ASSERT_TRUE(study) << study.error().message;
-    const auto events = study->events(study->sessions()[0]).value();
-    EXPECT_EQ(std::ranges::count(events, std::string(row::kPause), &SessionRow::name), 1);
-    EXPECT_EQ(std::ranges::count(events, std::string(row::kParticipantStop), &SessionRow::name), 0);
+    EXPECT_EQ(count(row::kPause), 1);
+    EXPECT_EQ(count(row::kParticipantStop), 0);
 }
 
 TEST_F(RehearsalInTheWindow, PauseFromTheMenuIsTheSessionsOwnBreak) {
@@ -372,11 +380,8 @@ TEST_F(RehearsalInTheWindow, PauseFromTheMenuIsTheSessionsOwnBreak) {
             return !pilot->running();
         },
         20'000));
-    const auto study = Study::open(folder.path() / "study", nullptr, Study::Access::Read);
-    ASSERT_TRUE(study) << study.error().message;
-    const auto events = study->events(study->sessions()[0]).value();
-    EXPECT_EQ(std::ranges::count(events, std::string(row::kPause), &SessionRow::name), 1);
-    EXPECT_EQ(std::ranges::count(events, std::string(row::kParticipantStop), &SessionRow::name), 0);
+    EXPECT_EQ(count(row::kPause), 1);
+    EXPECT_EQ(count(row::kParticipantStop), 0);
 }
 
 TEST_F(RehearsalInTheWindow, AStopByTheirPadIsTheirsAndOneThatIsUnpluggedIsABreak) {
@@ -420,9 +425,8 @@ TEST_F(RehearsalInTheWindow, AStopByTheirPadIsTheirsAndOneThatIsUnpluggedIsABrea
     letLive(150);
     std::async(std::launch::async, [&] { plugged->press("pad", 6); }).get();  // and now it is tested
     const auto tested = [&] {
-        const auto study = Study::open(folder.path() / "study", nullptr, Study::Access::Read);
-        const auto rows = study ? study->events(study->sessions().at(0)) : failure(study);
-        return rows && std::ranges::count(*rows, std::string(row::kStopTest), &SessionRow::name) == 1;
+        const auto all = rows();
+        return all && std::ranges::count(*all, std::string(row::kStopTest), &SessionRow::name) == 1;
     };
     bool seen = false;  // while the window's thread is held: no event of it is looked at
     for (int i = 0; i < 500 && !(seen = tested()); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -438,14 +442,12 @@ TEST_F(RehearsalInTheWindow, AStopByTheirPadIsTheirsAndOneThatIsUnpluggedIsABrea
     ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 20'000));
     EXPECT_EQ(plugged->open("pad") + plugged->open("pedal"), 0U);
 
-    const auto study = Study::open(folder.path() / "study", nullptr, Study::Access::Read);
-    ASSERT_TRUE(study) << study.error().message;
-    const auto events = study->events(study->sessions()[0]).value();
+    const auto events = rows().value();
     const auto pause = std::ranges::find(events, row::kPause, &SessionRow::name);
     ASSERT_NE(pause, events.end());
     EXPECT_EQ(pause->body["why"], "the participant's pad is unplugged");
-    EXPECT_EQ(std::ranges::count(events, std::string(row::kParticipantStop), &SessionRow::name), 0);
-    EXPECT_EQ(std::ranges::count(events, std::string(row::kStopTest), &SessionRow::name), 2) << "each at the first try";
+    EXPECT_EQ(count(row::kParticipantStop), 0);
+    EXPECT_EQ(count(row::kStopTest), 2) << "each at the first try";
 }
 
 TEST_F(RehearsalInTheWindow, ClosingTheParticipantsWindowPausesAndStopsNothingForGood) {

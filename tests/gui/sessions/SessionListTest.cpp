@@ -57,6 +57,12 @@ protected:
         choose(row);
         ASSERT_IN_TIME(comesTrue([&] { return field("labelOperator").isVisible(); }));
     }
+    /// The only session, chosen.
+    void showOne() {
+        begin();
+        ASSERT_NO_FATAL_FAILURE(listed(1));
+        chosen(0);
+    }
     WrittenSessions sessions;
     gui::BenchController controller{simulatedRegistry};
     gui::SessionsWorkspace workspace{controller};
@@ -160,9 +166,7 @@ TEST_F(Sessions, AreEditedInPlaceAndKeptInTheSession) {
     RecordProperty("hazard", "H8");
     const auto path = sessions.write({.name = "a"});
     const auto head = SessionReader::open(path)->chainHead();
-    begin();
-    listed(1);
-    ASSERT_NO_FATAL_FAILURE(chosen(0));
+    ASSERT_NO_FATAL_FAILURE(showOne());
     EXPECT_EQ(field("labelOperator").text(), "A. Weber");
     EXPECT_EQ(field("labelSample").text(), "S-014");
     field("labelNote").setFocus();
@@ -181,9 +185,7 @@ TEST_F(Sessions, AreEditedInPlaceAndKeptInTheSession) {
 TEST_F(Sessions, ARefusedEditStaysSaidThoughAnotherFollowsAtOnce) {
     RecordProperty("hazard", "H8");
     const auto path = sessions.write({.name = "a"});
-    begin();
-    listed(1);
-    ASSERT_NO_FATAL_FAILURE(chosen(0));
+    ASSERT_NO_FATAL_FAILURE(showOne());
     field("labelTags").setText(QString(60, 'x'));
     QTest::keyClick(&field("labelTags"), Qt::Key_Return);
     field("labelNote").setText("table bumped once");
@@ -206,9 +208,7 @@ TEST_F(Sessions, ARefusedEditStaysSaidThoughAnotherFollowsAtOnce) {
 TEST_F(Sessions, ThatWereEditedElsewhereMeanwhileKeepThatAndShowIt) {
     RecordProperty("hazard", "H8");
     const auto path = sessions.write({.name = "a"});
-    begin();
-    listed(1);
-    ASSERT_NO_FATAL_FAILURE(chosen(0));
+    ASSERT_NO_FATAL_FAILURE(showOne());
     const auto shown = SessionReader::open(path)->labels().value();
     auto elsewhere = shown;
     elsewhere.operatorName = "B. Ott";
@@ -223,9 +223,7 @@ TEST_F(Sessions, ThatWereEditedElsewhereMeanwhileKeepThatAndShowIt) {
 TEST_F(Sessions, ThatAreReadOnlySayWhyAndTakeNoEdit) {
     const auto path = sessions.write({.name = "a"});
     fs::permissions(path, fs::perms::owner_read);
-    begin();
-    listed(1);
-    ASSERT_NO_FATAL_FAILURE(chosen(0));
+    ASSERT_NO_FATAL_FAILURE(showOne());
     EXPECT_TRUE(field("labelNote").isReadOnly());
     EXPECT_THAT(saidOfLabels().toStdString(), HasSubstr("a.tacto is read-only"));
     EXPECT_THAT(field("labelNote").toolTip().toStdString(), HasSubstr("read-only"));
@@ -271,9 +269,7 @@ TEST_F(Sessions, WhatAnIndexSaysWrongIsCorrectedBeforeItIsReadTwice) {
 
 TEST_F(Sessions, AChoiceIsSaidInTheWordsOfItsProtocol) {
     (void)sessions.write({.name = "a"});
-    begin();
-    listed(1);
-    ASSERT_NO_FATAL_FAILURE(chosen(0));
+    ASSERT_NO_FATAL_FAILURE(showOne());
     const QTextBrowser* about = nullptr;
     for (const auto* browser : workspace.findChildren<QTextBrowser*>())
         if (browser->accessibleName() == "About the session") about = browser;
@@ -295,9 +291,7 @@ TEST_F(Sessions, AChoiceIsSaidInTheWordsOfItsProtocol) {
 
 TEST_F(Sessions, ThePreviewKeepsItsHeightInALowWindow) {
     (void)sessions.write({.name = "a"});
-    begin();
-    listed(1);
-    ASSERT_NO_FATAL_FAILURE(chosen(0));
+    ASSERT_NO_FATAL_FAILURE(showOne());
     workspace.resize(1180, 600);
     const auto* plane = workspace.findChild<gui::TrialPlane*>();
     ASSERT_IN_TIME(comesTrue([&] { return plane->isVisible() && workspace.height() <= 610; })) << workspace.height();

@@ -63,11 +63,30 @@ protected:
     static gui::WorkPort port(bool cancelled = false) {
         return {std::make_shared<std::atomic<bool>>(cancelled), [](int, int) {}};
     }
+    gui::SessionsWorkspace& show() {
+        workspace_ = std::make_unique<gui::SessionsWorkspace>(controller);
+        workspace_->resize(1200, 700);
+        workspace_->show();
+        return *workspace_;
+    }
+    /// With the session chosen.
+    gui::SessionsWorkspace& opened() {
+        EXPECT_TRUE(show().openSession(QString::fromStdString(session.string())));
+        return *workspace_;
+    }
+    /// Once it can be pressed.
+    void press(const char* name) {
+        auto* button = find<QPushButton>(*workspace_, name);
+        ASSERT_NE(button, nullptr) << name;
+        ASSERT_IN_TIME(comesTrue([&] { return button->isEnabled(); }));
+        click(*button);
+    }
     gui::BenchController controller{simulatedRegistry};
     std::filesystem::path session;
     const ScratchDir folder;
 
 private:
+    std::unique_ptr<gui::SessionsWorkspace> workspace_;
     std::vector<std::filesystem::path> made_;
 };
 
@@ -78,12 +97,8 @@ TEST_F(Recorded, IsALineThatSaysWhatItHolds) {
     EXPECT_TRUE(entry.summary.closed);
     EXPECT_GT(entry.summary.duration_s, 1.5);
     EXPECT_TRUE(entry.searched.contains("simulated stimulator"));
-}
-
-TEST_F(Recorded, AForeignFileIsListedWithItsReason) {
-    const auto entry =
-        gui::SessionEntry(gui::userSessionIndex().read(folder.write("notes.tacto", "no session of any kind")));
-    EXPECT_NE(entry.problem, "");
+    const auto foreign = folder.write("notes.tacto", "no session of any kind");
+    EXPECT_NE(gui::SessionEntry(gui::userSessionIndex().read(foreign)).problem, "") << "is listed with its reason";
 }
 
 TEST_F(Recorded, AnExportTouchesNothingThatItDidNotMake) {
@@ -94,13 +109,13 @@ TEST_F(Recorded, AnExportTouchesNothingThatItDidNotMake) {
         return std::distance(std::filesystem::directory_iterator(folder.path()), std::filesystem::directory_iterator());
     };
     const auto before = entries();
-    EXPECT_FALSE(gui::exportCsv(session, target, port(true))) << "cancelled";
+    EXPECT_EQ(gui::exportCsv(session, target, port(true)).error().code, ErrorCode::Stopped);
     EXPECT_TRUE(std::filesystem::exists(kept));
     EXPECT_EQ(entries(), before) << "a cancelled export leaves nothing";
     ASSERT_TRUE(gui::exportCsv(session, target, port()));
     EXPECT_TRUE(std::filesystem::exists(kept));
     EXPECT_EQ(entries(), before + 1);
-    EXPECT_FALSE(gui::exportCsv(session, target, port())) << "it is there already";
+    EXPECT_THAT(gui::exportCsv(session, target, port()).error().message, HasSubstr("exists already"));
     std::filesystem::create_directory(folder.path() / "empty");
     EXPECT_FALSE(gui::exportCsv(session, folder.path() / "empty", port())) << "an empty folder may be in use too";
     std::filesystem::create_symlink(folder.path() / "nowhere", folder.path() / "link");
@@ -141,18 +156,6 @@ TEST_F(Recorded, ExportsEverySampleAsItWasRecorded) {
     EXPECT_EQ(rows, samples->samples());
 }
 
-TEST_F(Recorded, ACancelledExportLeavesNothing) {
-    const auto target = folder.path() / "csv";
-    EXPECT_EQ(gui::exportCsv(session, target, port(true)).error().code, ErrorCode::Stopped);
-    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
-}
-
-TEST_F(Recorded, AnExportWritesOverNothing) {
-    const auto error = gui::exportCsv(session, folder.path(), port());
-    ASSERT_FALSE(error);
-    EXPECT_THAT(error.error().message, HasSubstr("exists already"));
-}
-
 TEST_F(Recorded, ReplaysAsARecording) {
     const auto target = folder.path() / "again";
     const auto written = gui::exportRecording(session, target, port());
@@ -163,18 +166,13 @@ TEST_F(Recorded, ReplaysAsARecording) {
 }
 
 TEST_F(Recorded, IsFoundVerifiedAndSearchedInTheWorkspace) {
-    gui::SessionsWorkspace workspace(controller);
-    workspace.resize(1200, 700);
-    workspace.show();
+    auto& workspace = opened();
     auto* table = workspace.findChild<QTableView*>("sessionsTable");
     ASSERT_NE(table, nullptr);
-    ASSERT_TRUE(workspace.openSession(QString::fromStdString(session.string())));
     ASSERT_IN_TIME(
         comesTrue([&] { return table->model()->rowCount() >= 1 && table->selectionModel()->hasSelection(); }));
     auto* verify = find<QPushButton>(workspace, "Verify");
-    ASSERT_NE(verify, nullptr);
-    ASSERT_IN_TIME(comesTrue([&] { return verify->isEnabled(); }));
-    click(*verify);
+    ASSERT_NO_FATAL_FAILURE(press("Verify"));
     auto* says = workspace.findChild<QLabel*>("sessionsSay");
     EXPECT_IN_TIME(comesTrue([&] { return says->text().contains("is intact"); })) << says->text().toStdString();
     shot(workspace, "sessions");
@@ -223,22 +221,19 @@ TEST(Background, NewWorkWaitsForTheOldAndTheWindowForNeither) {
 
 TEST_F(Recorded, TwoAreComparedOverEachOther) {
     (void)record({"sim:stimulator?gain=1.05", "sim:"}, 3, "lead off");
-    gui::SessionsWorkspace workspace(controller);
-    workspace.resize(1200, 700);
-    workspace.show();
+    auto& workspace = show();
     auto* table = workspace.findChild<QTableView*>("sessionsTable");
     ASSERT_IN_TIME(comesTrue([&] { return table->model()->rowCount() == 2; }));
     auto* compare = find<QPushButton>(workspace, "Compare two");
     ASSERT_NE(compare, nullptr);
-    const auto press = [&](int row, Qt::KeyboardModifiers modifiers) {
+    const auto chooses = [&](int row, Qt::KeyboardModifiers modifiers) {
         QTest::mouseClick(table->viewport(), Qt::LeftButton, modifiers,
                           table->visualRect(table->model()->index(row, 0)).center());
     };
-    press(0, Qt::NoModifier);
+    chooses(0, Qt::NoModifier);
     EXPECT_FALSE(compare->isEnabled()) << "one is compared with nothing";
-    press(1, Qt::ControlModifier);
-    ASSERT_IN_TIME(comesTrue([&] { return compare->isEnabled(); }));
-    click(*compare);
+    chooses(1, Qt::ControlModifier);
+    ASSERT_NO_FATAL_FAILURE(press("Compare two"));
     gui::CompareWindow* both = nullptr;
     ASSERT_IN_TIME(comesTrue([&] { return (both = workspace.findChild<gui::CompareWindow*>()) != nullptr; }));
     ASSERT_IN_TIME(comesTrue([&] { return both->isVisible(); }));
@@ -277,10 +272,7 @@ TEST_F(Recorded, TwoAreComparedOverEachOther) {
 TEST_F(Recorded, AStreamOfASimulatedSessionSaysSoAndNamesItsTraces) {
     RecordProperty("hazard", "H9");
     session = record({"sim:"}, 2, "table bumped");
-    gui::SessionsWorkspace workspace(controller);
-    workspace.resize(1200, 700);
-    workspace.show();
-    ASSERT_TRUE(workspace.openSession(QString::fromStdString(session.string())));
+    auto& workspace = opened();
     auto* details = workspace.findChild<gui::SessionDetails*>();
     auto* streams = details->findChild<QTableWidget*>("streamsTable");
     ASSERT_IN_TIME(comesTrue([&] { return streams->rowCount() > 0; }));
@@ -310,13 +302,7 @@ TEST_F(Recorded, AStreamOfASimulatedSessionSaysSoAndNamesItsTraces) {
 }
 
 TEST_F(Recorded, ItsReportOpensInTheProgram) {
-    gui::SessionsWorkspace workspace(controller);
-    workspace.resize(1200, 700);
-    workspace.show();
-    ASSERT_TRUE(workspace.openSession(QString::fromStdString(session.string())));
-    auto* report = find<QPushButton>(workspace, "Report");
-    ASSERT_NE(report, nullptr);
-    ASSERT_IN_TIME(comesTrue([&] { return report->isEnabled(); }));
+    auto& workspace = opened();
     const auto windows = [&] { return workspace.findChildren<QDialog*>("reportWindow"); };
     const auto shown = [&] {
         if (windows().isEmpty()) return false;
@@ -324,7 +310,7 @@ TEST_F(Recorded, ItsReportOpensInTheProgram) {
         return view->isVisible() && view->document()->pageCount() > 0;
     };
     for (int time = 0; time < 2; ++time) {
-        click(*report);
+        ASSERT_NO_FATAL_FAILURE(press("Report"));
         ASSERT_IN_TIME(comesTrue(shown, 60'000)) << workspace.findChild<QLabel*>("sessionsSay")->text().toStdString();
         EXPECT_IN_TIME(comesTrue([&] { return windows().size() == 1; })) << "the same one, when it is drawn again";
     }
@@ -337,17 +323,11 @@ TEST_F(Recorded, ItsReportOpensInTheProgram) {
 }
 
 TEST_F(Recorded, ReplayGoesToTheLiveWorkspace) {
-    gui::SessionsWorkspace workspace(controller);
-    workspace.resize(1200, 700);
-    workspace.show();
-    ASSERT_TRUE(workspace.openSession(QString::fromStdString(session.string())));
+    auto& workspace = opened();
     QString ready;
     QObject::connect(&workspace, &gui::SessionsWorkspace::recordingReady, &workspace,
                      [&](const QString& target) { ready = target; });
-    auto* replay = find<QPushButton>(workspace, "Replay");
-    ASSERT_NE(replay, nullptr);
-    ASSERT_IN_TIME(comesTrue([&] { return replay->isEnabled(); }));
-    click(*replay);
+    ASSERT_NO_FATAL_FAILURE(press("Replay"));
     ASSERT_IN_TIME(comesTrue([&] { return !ready.isEmpty(); }));
     EXPECT_TRUE(Recording::open(ready.toStdString()).has_value());
 }
