@@ -5,7 +5,6 @@
 #include "app/cli/Command.h"
 #include "app/cli/TextTable.h"
 #include "app/cli/Verdicts.h"
-#include "core/analysis/calibration/CalibrationFile.h"
 #include "core/analysis/calibration/CalibrationJson.h"
 #include "core/analysis/identification/IdentificationFile.h"
 #include "core/analysis/identification/IdentificationJson.h"

@@ -6,6 +6,7 @@
 
 #include "app/cli/Command.h"
 #include "app/run/CaptureFormatsList.h"
+#include "app/run/Shipped.h"
 #include "core/base/Text.h"
 
 namespace tacto::cli {
@@ -140,6 +141,10 @@ Result<ReadOptions> captureOptions(const QCommandLineParser& parser) {
 Result<CaptureReading> readCaptureFile(const std::string& path, const ReadOptions& options) {
     ReadingBar bar;
     return captureFormats()->read(path, options, {[&](double fraction) { bar.show(fraction); }, {}});
+}
+
+Result<Profile> profileOption(const QCommandLineParser& parser) {
+    return parser.isSet("profile") ? loadProfile(parser.value("profile").toStdString()) : shippedProfile();
 }
 
 }  // namespace tacto::cli

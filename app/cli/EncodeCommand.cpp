@@ -1,7 +1,7 @@
 #include <nlohmann/json.hpp>
 
+#include "app/cli/CaptureOptions.h"
 #include "app/cli/Command.h"
-#include "app/cli/ProfileOption.h"
 #include "app/cli/TextTable.h"
 #include "app/run/Shipped.h"
 #include "core/analysis/statistics/StatisticsJson.h"

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "app/cli/CaptureOptions.h"
 #include "app/cli/Command.h"
-#include "app/cli/ProfileOption.h"
 #include "app/cli/TextTable.h"
 #include "core/acquisition/Recording.h"
 #include "core/acquisition/RecordingDraft.h"

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "app/cli/CaptureOptions.h"
 #include "app/cli/Command.h"
-#include "app/cli/ProfileOption.h"
 #include "app/cli/ReportProgram.h"
 #include "app/cli/TerminalOperator.h"
 #include "app/cli/Verdicts.h"
@@ -264,14 +264,7 @@ void printAnyResults(const json& results) {
     if (!results.is_object()) return;
     const auto kind = results.contains("kind") && results["kind"].is_string() ? results["kind"].get<std::string>() : "";
     try {
-        switch (const auto& traits = resultTraits(kind); traits.kind) {
-            case ResultKind::PilotThresholds:
-                return printPilotThresholds(results);
-            case ResultKind::PilotIdentification:
-                return printPilotIdentification(results);
-            default:
-                return traits.tables.empty() ? printResults(results) : printTables(kind, results);
-        }
+        resultTraits(kind).tables.empty() ? printResults(results) : printTables(kind, results);
     } catch (const json::exception& problem) {
         say("\n  The results do not have the shape that is shown here ({}); the session holds them as they are.\n",
             printable(problem.what()));

@@ -6,8 +6,8 @@
 
 #include "app/cli/BenchPulse.h"
 #include "app/cli/Command.h"
-#include "app/cli/Confirmation.h"
 #include "app/cli/PulseText.h"
+#include "app/cli/TerminalOperator.h"
 #include "app/cli/Verdicts.h"
 #include "app/run/AllDrivers.h"
 #include "app/run/Shipped.h"

@@ -1,18 +1,82 @@
 // sensor: what a technician asks of a sensor board: who it is, what it is set to, how its line is.
+#include <chrono>
 #include <cmath>
+#include <cstdio>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <thread>
+#include <unistd.h>
+#include <vector>
 
 #include "app/cli/Command.h"
-#include "app/cli/SensorListening.h"
+#include "app/cli/Say.h"
 #include "app/cli/TextTable.h"
 #include "app/run/AllDrivers.h"
+#include "app/run/SignalStop.h"
+#include "core/acquisition/StreamHealth.h"
 #include "core/base/JsonText.h"
 #include "drivers/sensor_board/BoardReport.h"
+#include "drivers/sensor_board/SensorBoard.h"
 #include "drivers/sensor_board/SensorBoardDriver.h"
 
 namespace tacto::cli {
 
 namespace {
+
+struct Listened {
+    double seconds = 0;                ///< how long it listened
+    std::vector<HealthReport> health;  ///< by SensorBoard::streams()
+    SensorBoardReport report;
+};
+
+using SteadyTime = std::chrono::steady_clock::time_point;
+
+constexpr std::chrono::milliseconds kReadEvery(2);
+constexpr double kShowEvery_s = 0.25;
+
+/// Says on a terminal how much longer it will take.
+class Countdown {
+public:
+    explicit Countdown(double whole_s) : whole_s_(whole_s), terminal_(isatty(STDERR_FILENO) != 0) {}
+    ~Countdown() {
+        if (terminal_) say(stderr, "\r\033[K");
+    }
+    Countdown(const Countdown&) = delete;
+    Countdown& operator=(const Countdown&) = delete;
+    void show(double passed_s) {
+        if (!terminal_ || passed_s < next_s_) return;
+        next_s_ = passed_s + kShowEvery_s;
+        say(stderr, "\r\033[Klistening, {:.0f} s left", whole_s_ - passed_s);
+        std::fflush(stderr);
+    }
+
+private:
+    const double whole_s_;
+    const bool terminal_;
+    double next_s_ = 0;
+};
+
+/// For `time`, or until Ctrl+C is pressed. Errors: as SensorBoard::read().
+Result<Listened> listenTo(SensorBoard& board, Seconds time, const SignalStop& interrupts) {
+    const auto streams = board.streams();
+    std::vector<StreamHealth> health;
+    for (const auto& stream : streams) health.emplace_back(stream.rate_hz);
+    std::vector<SampleBlock> blocks(streams.size());
+    Countdown countdown(time.count());
+    const SteadyTime begin = std::chrono::steady_clock::now();
+    Listened heard;
+    while (heard.seconds < time.count() && !interrupts.signalled()) {
+        std::this_thread::sleep_for(kReadEvery);
+        for (auto& block : blocks) block.clear();
+        if (const auto read = board.read(blocks); !read) return failure(read);
+        for (std::size_t i = 0; i < blocks.size(); ++i) health[i].feed(blocks[i], streams[i].channels);
+        heard.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        countdown.show(heard.seconds);
+    }
+    for (const auto& one : health) heard.health.push_back(one.report());
+    heard.report = board.report();
+    return heard;
+}
 
 using nlohmann::json;
 using sensorboard::SampleFormat;

@@ -4,7 +4,6 @@
 #include "app/cli/Command.h"
 #include "app/cli/StudyOptions.h"
 #include "app/cli/StudyPassphrase.h"
-#include "app/cli/StudyText.h"
 #include "app/run/PilotRows.h"
 #include "core/analysis/identification/IdentificationJson.h"
 #include "core/pilot/PilotRecord.h"

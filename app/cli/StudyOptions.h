@@ -6,6 +6,7 @@
 // Thread-safety: the main thread only.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "app/cli/Command.h"
@@ -27,5 +28,16 @@ void declareStudyOptions(QCommandLineParser& parser);
 /// A new participant, without what `virtual` says. The study checks it. Errors: InvalidArgument for another group.
 [[nodiscard]] Result<Participant> participantGiven(const QCommandLineParser& parser);
 [[nodiscard]] Result<AdverseEvent> adverseEventGiven(const QCommandLineParser& parser);
+
+// A study as `study` shows it: JSON (cli.md), and lines for people.
+
+[[nodiscard]] nlohmann::json participantJson(const Participant& participant);
+[[nodiscard]] nlohmann::json amendmentJson(const StudyAmendment& amendment);
+[[nodiscard]] nlohmann::json studyJson(const Study& study);
+
+/// What an amendment changed, in words.
+[[nodiscard]] std::string changesText(const StudyAmendment& amendment, Modality modality);
+/// Prints all of it; what is sealed, as "(sealed)".
+void sayStudy(const Study& study);
 
 }  // namespace tacto::cli

@@ -17,9 +17,6 @@ namespace tacto::cli {
 void printVerdict(std::string_view verdict, const std::vector<std::string>& reasons);
 /// The tables of a kind of results, but for those that are too long for a screen.
 void printTables(std::string_view kind, const nlohmann::json& results);
-/// A pilot session's: thresholds and range; the answers to each condition, and how well they were told apart.
-void printPilotThresholds(const nlohmann::json& results);
-void printPilotIdentification(const nlohmann::json& results);
 /// The results of a laboratory's own kind, a line each.
 void printResults(const nlohmann::json& results);
 

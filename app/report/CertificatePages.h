@@ -9,7 +9,7 @@
 
 #include <vector>
 
-#include "app/report/Captions.h"
+#include "app/report/ReportContent.h"
 
 namespace tacto {
 

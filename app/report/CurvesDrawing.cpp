@@ -3,7 +3,6 @@
 
 #include "app/report/FigureDrawing.h"
 #include "app/report/NumberText.h"
-#include "app/report/Reach.h"
 #include "app/report/ShownText.h"
 
 namespace tacto {

@@ -6,6 +6,9 @@
 #pragma once
 
 #include <QByteArray>
+#include <QString>
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <span>
 
@@ -45,5 +48,27 @@ inline constexpr std::size_t kWaveformsShown = 8;  ///< the first; more would no
 
 /// A sheet that holds nothing but the sentence `why`.
 [[nodiscard]] std::unique_ptr<PlotSheet> emptySheet(const QString& why, bool simulated);
+
+// Texts of a drawn SVG, each in one piece: Qt writes a text again wherever another face helps out, at a
+// place that holds for the reader's faces only if they are ours, and a number must not come apart from its minus.
+
+/// `svg`, as QSvgGenerator writes it, with each text joined to the one before that ends where it begins; the faces are
+/// named with those that stand in for them elsewhere.
+[[nodiscard]] QString withWholeTexts(const QString& svg);
+
+// How far a drawing's axis must go.
+
+/// The smallest range that holds everything finite it was shown.
+struct Reach {
+    double low = kUnknown, high = kUnknown;
+    void include(double value) {
+        if (!std::isfinite(value)) return;
+        low = std::fmin(low, value);
+        high = std::fmax(high, value);
+    }
+    [[nodiscard]] bool known() const { return std::isfinite(low); }
+    /// 1 where nothing is known.
+    [[nodiscard]] double magnitude() const { return known() ? std::max(std::abs(low), std::abs(high)) : 1; }
+};
 
 }  // namespace tacto

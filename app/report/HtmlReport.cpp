@@ -1,7 +1,6 @@
-#include "app/report/HtmlReport.h"
-
 #include "app/report/FigureDrawing.h"
 #include "app/report/NumberText.h"
+#include "app/report/Report.h"
 
 namespace tacto {
 namespace {

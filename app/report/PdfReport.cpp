@@ -1,9 +1,7 @@
-#include "app/report/PdfReport.h"
-
 #include "app/report/Fonts.h"
-#include "app/report/PdfMatrix.h"
 #include "app/report/PdfPages.h"
 #include "app/report/PdfTable.h"
+#include "app/report/Report.h"
 
 namespace tacto {
 namespace {

@@ -15,4 +15,13 @@ void setTable(PdfPages& pages, const TableBlock& table);
 /// The height below which the table begins on the next page: a heading above it needs as much.
 [[nodiscard]] double tableBeginning(const TableBlock& table);
 
+// Sets a matrix on pages.
+
+/// Caption above, legend below. Rows are never split; the header is repeated on every page. What is close to its limit
+/// or beyond is shaded and bold, what was not evaluated hatched: told apart without colour.
+void setMatrix(PdfPages& pages, const MatrixBlock& matrix);
+
+/// The height below which the matrix begins on the next page.
+[[nodiscard]] double matrixBeginning(const MatrixBlock& matrix);
+
 }  // namespace tacto

@@ -3,8 +3,6 @@
 #include <QBuffer>
 #include <QFileInfo>
 
-#include "app/report/HtmlReport.h"
-#include "app/report/PdfReport.h"
 #include "core/base/WholeFile.h"
 
 namespace tacto {

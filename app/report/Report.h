@@ -6,6 +6,8 @@
 // Thread-safety: the GUI thread only (plots are widgets).
 #pragma once
 
+#include <QByteArray>
+#include <QIODevice>
 #include <QString>
 
 #include "app/report/Fonts.h"
@@ -29,6 +31,13 @@ enum class ReportFormat { Pdf, Html };
 /// The same for a content that is not a session's (StudyReport.h).
 [[nodiscard]] Result<void> writeContent(const ReportContent& content, const QString& path,
                                         const FontCheck& installed = fontInstalled);
+
+/// One HTML page that needs no other file: styles and figures are inside it. It follows the reader's light or dark
+/// theme for text (figures keep paper white), prints well, and is well-formed XML, so that any tool can read it.
+[[nodiscard]] QByteArray reportHtml(const ReportContent& content);
+/// A4 pages. A figure stays with its caption, a heading with what follows; a long table repeats its header, and one too
+/// wide for the page continues below with its first column repeated. Errors: Io when `device` refuses.
+[[nodiscard]] Result<void> writePdf(const ReportContent& content, QIODevice& device);
 
 /// Verifies `sessionFile` and writes its report to `path`. The value is what is wrong with the session: the report of
 /// one that was altered is marked DAMAGED on every page (hazard H8). Empty when it is intact.

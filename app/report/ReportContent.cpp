@@ -4,11 +4,10 @@
 #include <initializer_list>
 #include <set>
 
-#include "app/report/Captions.h"
 #include "app/report/CertificatePages.h"
 #include "app/report/FigureDrawing.h"
-#include "app/report/FrontPage.h"
 #include "app/report/NumberText.h"
+#include "app/report/ReportBasis.h"
 #include "app/report/ShownText.h"
 #include "app/report/TableContent.h"
 #include "core/session/Origin.h"
@@ -168,12 +167,13 @@ TableBlock tableOf(const ResultTable& source, const nlohmann::json& records, con
         const bool known = std::ranges::any_of(text.cells, [](const QString& cell) { return cell != u"–"; });
         if (!known && !records.empty()) continue;  // a column of which no row says anything is not there
         if (column.as == ResultColumn::As::Text) sharePrefix(text.cells);
-        if (text.right) alignPoints(text.cells);
-        table.columns.push_back({text.header.replace('\n', ' '), text.right});
-        if (column.as == ResultColumn::As::Verdict) {
-            for (auto& cell : text.cells) cell.replace(' ', QChar(0x00a0));  // shape and word stay on one line
-            if (table.columns.size() == 1) table.naming = 1;
+        auto title = text.header.replace('\n', ' ');
+        if (text.right) {
+            if (const auto unit = takeUnit(text.cells); !unit.isEmpty()) title += " (" + unit + ")";
+            alignPoints(text.cells);
         }
+        table.columns.push_back({title, text.right});
+        if (column.as == ResultColumn::As::Verdict && table.columns.size() == 1) table.naming = 1;
         for (std::size_t r = 0; r < records.size(); ++r)
             table.rows[r] << shownText(text.cells[qsizetype(r)], kShownCell);
     }
@@ -209,7 +209,12 @@ void addResults(const nlohmann::json& results, Captions& captions, std::vector<R
             add(tableOf(table, rows, captions.table(title)));
         else if (table.shape == Shape::Facts && value.is_object())
             add(factsOf(table, value, captions.table(title)));
-        else if (table.shape == Shape::Sentences)
+        else if (table.shape == Shape::Across && !rows.empty())
+            blocks.emplace_back(shortened(acrossOf(table, rows), captions.table(title)));
+        else if (auto limits = limitsOf(value); table.shape == Shape::Limits && !limits.rows.empty()) {
+            add(closestOf(limits, captions.table("Closest to their limits" + partial)));
+            blocks.emplace_back(shortened(std::move(limits), captions.table(title)));
+        } else if (table.shape == Shape::Sentences)
             for (const auto& text : sentencesIn(value)) blocks.emplace_back(ParagraphBlock{shownText(text)});
         if (blocks.size() > before && !table.note.empty())
             blocks.emplace_back(ParagraphBlock{QString::fromStdString(table.note), true});

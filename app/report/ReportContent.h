@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "app/report/MatrixBlock.h"
 #include "app/report/PlotSheet.h"
 #include "app/report/ReportModel.h"
 #include "app/report/VerdictMark.h"
@@ -54,23 +55,6 @@ struct FigureBlock {
     QString legend;
     std::unique_ptr<PlotSheet> sheet;
 };
-/// Rows against columns, a number in each cell and a smaller one below it; what needs attention stands out, in print
-/// without colour too.
-struct MatrixBlock {
-    enum class State { Plain, Close, Broken, Open, Empty };  ///< Open: not evaluated; Empty: nothing asked there
-    struct Cell {
-        QString main, detail;
-        State state = State::Empty;
-    };
-    struct Row {
-        QString title, note;
-        std::vector<Cell> cells;
-    };
-    QString caption;
-    QStringList columns;
-    std::vector<Row> rows;
-    QString legend;
-};
 /// Lines to be filled in by hand: who did it, who checked it.
 struct SignaturesBlock {
     QStringList roles;    ///< a line each
@@ -98,5 +82,28 @@ struct ReportContent {
 
 /// Long texts are cut as ShownText.h says.
 [[nodiscard]] ReportContent contentOf(const ReportModel& model);
+
+// Numbers the headings, figures and tables of a report, and marks the captions of what is simulated.
+
+class Captions {
+public:
+    explicit Captions(bool simulated = false) : simulated_(simulated) {}
+    /// Whether the tables that follow are of what is simulated.
+    void setSimulated(bool simulated) { simulated_ = simulated; }
+    QString figure(const QString& text, bool simulated) { return numbered("Figure", ++figures_, text, simulated); }
+    QString table(const QString& text) { return numbered("Table", ++tables_, text, simulated_); }
+    HeadingBlock heading(const QString& text) { return {QString("%1  %2").arg(++headings_).arg(text)}; }
+
+private:
+    [[nodiscard]] QString numbered(const char* kind, int number, const QString& text, bool simulated) const {
+        QString caption = QString("%1 %2. %3").arg(QLatin1String(kind)).arg(number).arg(text);
+        if (simulated) caption += " (simulated)";
+        return caption;
+    }
+    bool simulated_;
+    int figures_ = 0;
+    int tables_ = 0;
+    int headings_ = 0;
+};
 
 }  // namespace tacto

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "app/report/NumberText.h"
+#include "core/analysis/identification/IdentificationText.h"
 #include "core/base/JsonText.h"
 #include "core/base/QuantityText.h"
 #include "core/encoding/StimulatorCalibration.h"
@@ -52,9 +53,11 @@ QString unitOf(const ResultColumn& column) { return QString::fromStdString(colum
 QString titleOf(const ResultColumn& column) { return QString::fromStdString(column.title); }
 
 Known knownOf(const ResultColumn& column, const json& record) {
-    const auto& value = memberAt(record, column.at);
+    const auto minus = column.at.find('-');
+    const auto& value = memberAt(record, column.at.substr(0, minus));
     Known known;
     known.value = numberOr(value);
+    if (minus != std::string::npos) known.value -= numberOr(memberAt(record, column.at.substr(minus + 1)));
     if (value.is_object()) {
         const bool spread = value.contains("mean") || value.contains("sd");
         known.value = numberOr(memberAt(value, value.contains("mean")     ? "mean"
@@ -192,7 +195,13 @@ ColumnText numbersText(const ResultColumn& column, const json& records) {
 
 ColumnText usedText(const ResultColumn& column, const json& records) {
     ColumnText out{titleOf(column), {}, true};
-    for (const auto& record : records) out.cells << limitShareText(100 * numberOr(memberAt(record, column.at)));
+    for (const auto& record : records) {
+        double used = numberOr(memberAt(record, column.at));
+        if (!column.beside.empty())
+            used = (std::abs(used) + numberOr(memberAt(record, column.beside))) /
+                   numberOr(memberAt(record, column.unit.substr(1)));
+        out.cells << limitShareText(100 * used);
+    }
     return out;
 }
 
@@ -206,12 +215,12 @@ ColumnText tolerancesText(const ResultColumn& column, const json& records) {
 }
 
 QString wordsText(As as, const json& value) {
-    if (value.is_null()) return kNone;
+    if (value.is_null()) return as == As::Freedom ? QStringLiteral("∞") : kNone;
     const auto text = textOf(value);
     switch (as) {
         case As::Verdict:
             if (value.is_boolean()) return wordsText(as, value.get<bool>() ? "pass" : "fail");
-            return text.isEmpty() || text == kNone ? kNone : verdictShape(text) + ' ' + text;
+            return text.isEmpty() ? kNone : verdictCell(text);
         case As::Load:
             return loadText(text);
         case As::LimitSet:
@@ -220,6 +229,14 @@ QString wordsText(As as, const json& value) {
             const auto* known = calibratedQuantity(text.toStdString());
             return known != nullptr ? QString::fromStdString(std::string(known->title)) : text;
         }
+        case As::Condition:
+            return QString::fromStdString(answerWords(text.toStdString())).replace('-', ' ');
+        case As::Chance:
+            return QString::fromStdString(chanceText(numberOr(value)));
+        case As::Heading:
+            return QString(text).replace(0, 1, text.left(1).toUpper());
+        case As::Freedom:
+            return decimalText(numberOr(value), 0);
         default:
             return text.isEmpty() ? kNone : withSigns(text);
     }
@@ -262,6 +279,13 @@ QString limitSetTitle(const QString& id) {
     return QString::fromStdString(std::string(shortTitleOf(text)));
 }
 
+QString limitText(const json& line) {
+    const double limit = numberOr(line, "limit");
+    if (!std::isfinite(limit)) return {};
+    const QString sign = textOr(line, "compare") == "<" ? "< " : "≤ ";
+    return sign + settingText(limit, visible(QString::fromStdString(textOr(line, "unit"))));
+}
+
 QString limitShareText(double used_pct) {
     if (!std::isfinite(used_pct)) return "–";
     if (used_pct > 0 && used_pct < 0.1) return "<\u202f0.1\u202f%";
@@ -294,6 +318,27 @@ QStringList sentencesIn(const json& value) {
     return texts;
 }
 
+CountsText countsText(const ResultTable& table, const json& results) {
+    CountsText out;
+    const auto& conditions = memberAt(results, "conditions");
+    const auto as = conditions.is_array() ? As::Text : As::Condition;
+    const auto namesIn = [as](const json& list) {
+        QStringList names;
+        for (const auto& each : list) names << wordsText(as, each.is_object() ? memberAt(each, "name") : each);
+        return names;
+    };
+    out.down = namesIn(conditions.is_array() ? conditions : memberAt(results, "labels"));
+    out.across = namesIn(memberAt(results, "columns"));
+    if (out.across.isEmpty()) out.across = out.down;
+    for (const auto& row : memberAt(results, table.at)) {
+        QStringList counts;
+        for (const auto& count : row) counts << (count.is_number() ? settingText(count.get<double>(), {}) : kNone);
+        if (counts.size() != out.across.size()) return {};
+        out.counts.push_back(std::move(counts));
+    }
+    return qsizetype(out.counts.size()) == out.down.size() ? out : CountsText();
+}
+
 std::vector<ResultTable> tablesOf(const json& results) {
     const auto& kind = memberAt(results, "kind");
     const auto& known = resultTraits(kind.is_string() ? kind.get<std::string>() : std::string());
@@ -306,7 +351,15 @@ ColumnText columnText(const ResultColumn& column, const json& records) {
     if (column.as == As::Used) return usedText(column, records);
     if (column.as == As::Number || column.as == As::Spread) return numbersText(column, records);
     if (column.as == As::Tolerance) return tolerancesText(column, records);
-    ColumnText out{titleOf(column), {}, false};
+    if (column.as == As::Limit) {
+        ColumnText limits{titleOf(column), {}, false};
+        for (const auto& record : records) {
+            const auto text = limitText(record);
+            limits.cells << (text.isEmpty() ? QObject::tr(kUntilNextTrain) : text);
+        }
+        return limits;
+    }
+    ColumnText out{titleOf(column), {}, column.as == As::Chance || column.as == As::Freedom};
     for (const auto& record : records) out.cells << wordsText(column.as, memberAt(record, column.at));
     return out;
 }

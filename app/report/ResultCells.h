@@ -20,6 +20,13 @@ struct ColumnText {
 };
 [[nodiscard]] ColumnText columnText(const ResultColumn& column, const nlohmann::json& records);
 
+/// A table of Confusion; without rows where the results have none, or one whose names are not as many.
+struct CountsText {
+    QStringList down, across;
+    std::vector<QStringList> counts;
+};
+[[nodiscard]] CountsText countsText(const ResultTable& table, const nlohmann::json& results);
+
 /// For results of a kind that is not known, a lab's own: their numbers, texts and lists of records, with the words of
 /// their keys. What is nested deeper is left out.
 [[nodiscard]] std::vector<ResultTable> tablesIn(const nlohmann::json& results);
@@ -37,6 +44,10 @@ struct ColumnText {
 
 /// "FDA guidance" of "fda-pms"; "this program" of "gate"; an id that is not known stands as it is.
 [[nodiscard]] QString limitSetTitle(const QString& id);
+/// What a limit is that has no number.
+inline constexpr const char* kUntilNextTrain = "before the next train";
+/// "≤ 40 V" of {"limit", "unit", "compare"}; empty without a limit.
+[[nodiscard]] QString limitText(const nlohmann::json& line);
 /// The share of a limit that value and U use together, "23 %"; "–" where it is not known.
 [[nodiscard]] QString limitShareText(double used_pct);
 /// "200 Ω + 10 kΩ ∥ 50 nF" of a load's name.

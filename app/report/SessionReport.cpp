@@ -5,7 +5,6 @@
 #include <map>
 
 #include "app/report/NumberText.h"
-#include "app/report/QtJson.h"
 #include "app/report/Report.h"
 #include "app/report/ReportBasis.h"
 #include "app/report/TableContent.h"

@@ -23,9 +23,12 @@
 // Thread-safety: pure function of the file.
 #pragma once
 
+#include <QJsonDocument>
+#include <QJsonObject>
 #include <filesystem>
 
 #include "app/report/ReportModel.h"
+#include "core/base/JsonText.h"
 
 namespace tacto {
 
@@ -34,5 +37,12 @@ namespace tacto {
 /// InvalidArgument for exposure rows that break their contract. A report item that does so is shown as a sentence in
 /// its place instead.
 [[nodiscard]] Result<ReportModel> readSessionReport(const std::filesystem::path& sessionFile);
+
+// JSON of a session file as Qt has it: figures, tables and reports are read with Qt's classes.
+
+/// Empty for what is not an object. What no JSON text can hold (a broken byte in a name) is replaced.
+[[nodiscard]] inline QJsonObject qtObject(const nlohmann::json& json) {
+    return QJsonDocument::fromJson(QByteArray::fromStdString(dumpJson(json))).object();
+}
 
 }  // namespace tacto

@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 
 #include "app/report/StudyText.h"
+#include "core/analysis/identification/Encodings.h"
 #include "core/analysis/identification/IdentificationText.h"
 #include "core/analysis/identification/OverSessions.h"
+#include "core/analysis/psychophysics/VirtualObserver.h"
 #include "core/base/Statistics.h"
 #include "core/base/Text.h"
+#include "core/pilot/PilotRecord.h"
 
 namespace tacto {
 
@@ -155,6 +160,198 @@ Result<void> addOverSessions(std::vector<ReportBlock>& blocks, Captions& caption
             ParagraphBlock{QString("Trend: %1 (%2 to %3) in log odds per day.")
                                .arg(figureText(trend.value, 3), figureText(trend.low, 3), figureText(trend.high, 3))});
     }
+    return {};
+}
+
+namespace {
+
+struct Preference {
+    const char* item;
+    const char* title;
+};
+constexpr Preference kPreferences[] = {{row::kEasier, "Easier to tell"}, {row::kMoreLikeTouch, "More like touch"}};
+
+/// What was said last; empty where it was not asked.
+std::string preferredBy(const ParticipantRecord& participant, const char* item) {
+    std::string said;
+    for (const auto& session : participant.sessions) {
+        for (const auto& rating : session.results.ratings) {
+            if (rating.item == item && rating.condition.empty()) said = rating.value;
+        }
+    }
+    return said;
+}
+
+/// In the order in which the person had them.
+std::vector<EncodingResult> encodingsOf(const ParticipantRecord& participant) {
+    std::vector<EncodingResult> had;
+    for (const auto& session : participant.sessions) {
+        const auto& encoding = session.results.encoding;
+        if (session.results.trials.empty()) continue;
+        if (std::ranges::find(had, encoding, &EncodingResult::encoding) == had.end())
+            had.push_back({.encoding = encoding});
+    }
+    return had;
+}
+
+/// Comparisons by the participants who were asked.
+std::vector<EncodingComparison> comparisons(const StudyRecord& study, const char* item) {
+    std::vector<EncodingComparison> all;
+    for (const auto& participant : study.participants) {
+        if (participant.about.state == ParticipantState::Withdrawn) continue;
+        auto said = preferredBy(participant, item);
+        if (!said.empty()) all.push_back(compareEncodings(encodingsOf(participant), std::move(said)));
+    }
+    return all;
+}
+
+QString encodingText(const std::string& key) {
+    return key == row::kNoDifference ? QString("no difference") : QString::fromStdString(key);
+}
+
+}  // namespace
+
+QString preferenceText(const ParticipantRecord& participant) {
+    QStringList all;
+    for (const auto& [item, title] : kPreferences) {
+        if (const auto said = preferredBy(participant, item); !said.empty())
+            all << QString("%1: %2.").arg(title, encodingText(said));
+    }
+    return all.join(' ');
+}
+
+std::optional<TableBlock> preferencesTable(const StudyRecord& study) {
+    std::map<std::string, std::vector<std::size_t>> rows;
+    for (std::size_t i = 0; i < std::size(kPreferences); ++i) {
+        for (const auto& [encoding, people] : preferences(comparisons(study, kPreferences[i].item))) {
+            auto& counts = rows[encoding];
+            counts.resize(std::size(kPreferences));
+            counts[i] = people;
+        }
+    }
+    if (rows.empty()) return std::nullopt;
+    rows.try_emplace(row::kNoDifference, std::size(kPreferences), 0U);
+    TableBlock table;
+    table.columns = {{"Encoding"}};
+    for (const auto& each : kPreferences) table.columns.push_back({each.title, true});
+    const auto add = [&](const std::string& encoding, const std::vector<std::size_t>& counts) {
+        QStringList cells = {encodingText(encoding)};
+        for (const auto people : counts) cells << QString::number(people);
+        table.rows.push_back(std::move(cells));
+    };
+    for (const auto& [encoding, counts] : rows) {
+        if (encoding != row::kNoDifference) add(encoding, counts);
+    }
+    add(row::kNoDifference, rows.at(row::kNoDifference));
+    return table;
+}
+
+QString preferencesNote(const StudyRecord& study) {
+    std::map<QString, std::size_t> orders;
+    for (const auto& person : comparisons(study, row::kEasier)) {
+        QStringList names;
+        for (const auto& each : person.encodings) names << QString::fromStdString(each.encoding);
+        ++orders[names.join(", ")];
+    }
+    QStringList had;
+    bool balanced = orders.size() == williamsRows(study.settings.encodings.size());
+    for (const auto& [order, people] : orders) {
+        had << QString("%1 participant(s) had %2").arg(people).arg(order);
+        balanced = balanced && people == orders.begin()->second;
+    }
+    return QString(
+               "Preferences are shown and not tested: five alike of five people have p = 0.06 (two-sided). In the "
+               "order in which they had the encodings: %1.%2")
+        .arg(had.join("; "),
+             balanced ? "" : " The orders are not balanced, so a preference may be one for what came first or last.");
+}
+
+namespace {
+
+/// Weber fractions of amplitude: half, once and twice the one that is assumed, since 0.10 has no source.
+constexpr double kWeberFractions[] = {kAmplitudeWeberFraction / 2, kAmplitudeWeberFraction,
+                                      2 * kAmplitudeWeberFraction};
+
+/// As delivered in the test, in the order of the labels; nothing where one of them was not.
+std::optional<std::vector<DeliveredCondition>> deliveredIn(const AnalysedSession& one, bool massager) {
+    std::vector<DeliveredCondition> all;
+    for (const auto& label : one.found.labels) {
+        double level = 0, interval_s = 0;
+        std::size_t n = 0;
+        for (const auto& row : one.session->results.trials) {
+            if (row.trial.phase != TrialPhase::Test || row.trial.condition != label) continue;
+            level += massager ? row.intensity : row.trial.current.value();
+            interval_s += row.trial.interval_s;
+            ++n;
+        }
+        const auto mean = [n](double sum) { return sum / static_cast<double>(n); };
+        if (!(level > 0) || !(interval_s > 0) || !std::isfinite(level + interval_s)) return std::nullopt;
+        all.push_back({mean(level), Seconds(mean(interval_s))});
+    }
+    return all;
+}
+
+Result<VirtualObserver> personWith(double detection, double weber, bool massager) {
+    const double unit = massager ? kVirtualFullIntensity.value() : 1;
+    VirtualObserverSettings settings;
+    settings.unit = massager ? LevelUnit::Intensity : LevelUnit::Current;
+    auto& who = settings.who;
+    who.detection = Milliamps(detection * unit);
+    // What is named does not depend on these.
+    who.attention = who.intolerance = who.discomfort = Milliamps(2 * detection * unit);
+    who.amplitudeWeber = weber;
+    return VirtualObserver::create(settings);
+}
+
+}  // namespace
+
+Result<void> addPredicted(std::vector<ReportBlock>& blocks, Captions& captions, const QString& caption,
+                          const AnalysedSession& one, double weber, bool massager) {
+    const double detection = one.session->results.detection;
+    const auto delivered = deliveredIn(one, massager);
+    if (!(detection > 0) || !delivered || delivered->empty()) return {};
+    const auto& found = one.found;
+    const auto count = found.labels.size();
+    TableBlock table;
+    table.columns = {{"Presented"}};
+    for (const auto& label : found.labels) table.columns.push_back({QString::fromStdString(label), true});
+    table.columns.push_back({"none", true});
+    table.columns.push_back({"Right, predicted", true});
+    table.columns.push_back({"Right, answered", true});
+    QStringList accuracies;
+    std::vector<double> tried(std::begin(kWeberFractions), std::end(kWeberFractions));
+    const bool measured = std::isfinite(weber);
+    if (measured) tried.push_back(weber);
+    const double inTable = measured ? weber : kAmplitudeWeberFraction;
+    for (const double fraction : tried) {
+        const auto person = personWith(detection, fraction, massager);
+        if (!person) return failure(person);
+        const auto shares = person->predicted(*delivered, Seconds(0));
+        double right = 0;
+        for (std::size_t i = 0; i < count; ++i) right += shares[i][i] / static_cast<double>(count);
+        accuracies << QString("%1 % at %2").arg(100 * right, 0, 'f', 0).arg(fraction, 0, 'f', 2);
+        if (fraction != inTable) continue;
+        for (std::size_t i = 0; i < count; ++i) {
+            std::size_t n = 0;
+            for (const auto answers : found.confusion[i]) n += answers;
+            QStringList row = {QString::fromStdString(found.labels[i])};
+            for (const double share : shares[i]) row << QString("%1 %").arg(100 * share, 0, 'f', 0);
+            row << QString("%1 %").arg(100 * shares[i][i], 0, 'f', 0)
+                << QString("%1 of %2").arg(found.confusion[i][i]).arg(n);
+            table.rows.push_back(std::move(row));
+        }
+    }
+    table.caption = captions.table(caption);
+    blocks.emplace_back(std::move(table));
+    blocks.emplace_back(ParagraphBlock{
+        QString(
+            "The prediction is a model's with this session's detection threshold, without lapses and drift. All "
+            "together it expects %1 as the Weber fraction of amplitude%2. It is shown beside the answers and judges "
+            "nothing.")
+            .arg(accuracies.join(", "), measured
+                                            ? QString(", of which the last was measured and stands in the table")
+                                            : QString(", which is not known of this person; 0.10 stands in the table")),
+        true});
     return {};
 }
 

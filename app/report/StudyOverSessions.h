@@ -3,10 +3,10 @@
 // Thread-safety: pure functions.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "app/report/Captions.h"
 #include "app/report/ReportContent.h"
 #include "core/analysis/identification/Identification.h"
 #include "core/sharing/results/StudyResults.h"
@@ -27,5 +27,25 @@ struct AnalysedSession {
 [[nodiscard]] Result<void> addOverSessions(std::vector<ReportBlock>& blocks, Captions& captions,
                                            const std::string& name, const std::vector<AnalysedSession>& sessions,
                                            bool massager);
+
+// Which of several encodings people say they prefer. Shown with the order in which they had them,
+// and never tested: five alike of five people have p = 0.06.
+
+/// "Easier to tell: swapped. More like touch: no difference."; empty where the person was not asked.
+[[nodiscard]] QString preferenceText(const ParticipantRecord& participant);
+
+/// A row for each encoding, and one for no difference; without a caption. Empty where no participant was asked.
+[[nodiscard]] std::optional<TableBlock> preferencesTable(const StudyRecord& study);
+/// The orders in which those people had the encodings, whether they are balanced, and why nothing is tested.
+[[nodiscard]] QString preferencesNote(const StudyRecord& study);
+
+// What a model of a person with the thresholds that they had in a session would have answered,
+// beside what they answered (pilot.md section 8). It is shown and never judged: a person's Weber fraction of interval
+// is not known, that of amplitude only where they compared strengths.
+
+/// `weber`: their own, of amplitude; NaN where it was not measured. Nothing where the session has no detection
+/// threshold, or some condition was not presented in its test. Errors: as VirtualObserver::create().
+[[nodiscard]] Result<void> addPredicted(std::vector<ReportBlock>& blocks, Captions& captions, const QString& caption,
+                                        const AnalysedSession& one, double weber, bool massager);
 
 }  // namespace tacto

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "app/report/Captions.h"
 #include "app/report/ReportContent.h"
 #include "app/report/StudyOverSessions.h"
 #include "core/analysis/identification/FewPeople.h"
 #include "core/base/Result.h"
+#include "core/sharing/BidsStudy.h"
 #include "core/sharing/results/StudyResults.h"
 
 namespace tacto {
@@ -41,5 +41,11 @@ private:
     const ParticipantRecord* participant_;
     std::vector<AnalysedSession> sessions_;
 };
+
+// What a massager's motor did in a session, beside what it was commanded to do.
+
+/// One sentence where no accelerometer was on it. Errors: as judgeVibration().
+[[nodiscard]] Result<void> addVibration(std::vector<ReportBlock>& blocks, Captions& captions,
+                                        const BidsSession& session, const std::string& name);
 
 }  // namespace tacto

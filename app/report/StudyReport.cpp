@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <map>
 
-#include "app/report/Captions.h"
+#include "app/report/ReportContent.h"
 #include "app/report/StudyFlow.h"
+#include "app/report/StudyOverSessions.h"
 #include "app/report/StudyPerson.h"
-#include "app/report/StudyPreferences.h"
 #include "app/report/StudyText.h"
 #include "app/report/TableContent.h"
 #include "core/analysis/identification/FewPeople.h"

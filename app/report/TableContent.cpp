@@ -1,5 +1,6 @@
 #include "app/report/TableContent.h"
 
+#include <QJsonDocument>
 #include <QRegularExpression>
 #include <algorithm>
 #include <cmath>
@@ -99,95 +100,6 @@ void fillColumn(TableBlock& table, const ReportTable& source, const QString& key
     for (qsizetype r = 0; r < cells.size(); ++r) table.rows[static_cast<std::size_t>(r)] << cells[r];
 }
 
-/// How much of a limit used is worth a second look, %.
-constexpr double kClose_pct = 80;
-
-MatrixBlock::Cell judgedCell(const QJsonObject& cell, const QString& unit) {
-    using State = MatrixBlock::State;
-    const double used = 100 - numberOf(cell, "margin_pct");
-    const QString verdict = cell.value("verdict").toString();
-    const double value = numberOf(cell, "value"), expanded = numberOf(cell, "expanded_uncertainty");
-    const bool timed = std::isfinite(used) && !std::isfinite(expanded);  // how soon the output ended, at most
-    const QString measured = timed ? "≤ " + quantityText(value, unit, 2) : uncertainText(value, expanded, unit);
-    if (verdict == "not evaluated") return {"–", "not evaluated", State::Open};
-    if (verdict == "not applicable") return {"–", measured + "\nnot judged", State::Plain};
-    if (!std::isfinite(used)) {  // no limit to be within: it happened or it did not
-        return {verdictMark(verdict).shape, quantityText(numberOf(cell, "value"), unit),
-                verdict == "fail" ? State::Broken : State::Plain};
-    }
-    const QString share = limitShareText(used);
-    const auto marked = [&](const char* key) { return verdictMark(QString(key)).shape + " " + share; };
-    if (verdict == "fail") return {marked("fail"), measured, State::Broken};
-    if (verdict == "indeterminate") return {marked("indeterminate"), measured, State::Close};
-    if (verdict == "attention") return {marked("attention"), measured, State::Close};
-    return {share, measured, used >= kClose_pct ? State::Close : State::Plain};
-}
-
-MatrixBlock::Cell cellOf(const QJsonValue& value, const QString& rowUnit) {
-    using State = MatrixBlock::State;
-    if (!value.isObject()) return {};
-    const auto cell = value.toObject();
-    if (cell.contains("text"))
-        return {verdictCell(shownText(cell.value("text").toString(), kShownCell)), {}, State::Plain};
-    const QString unit = cell.value("unit").toString(rowUnit);
-    if (cell.contains("margin_pct")) return judgedCell(cell, unit);
-    const double measured = numberOf(cell, "value");
-    if (!std::isfinite(measured)) return {"–", {}, State::Plain};
-    if (!cell.contains("expanded_uncertainty")) return {quantityText(measured, unit), {}, State::Plain};
-    const double expanded = numberOf(cell, "expanded_uncertainty");
-    if (!std::isfinite(expanded)) return {quantityText(measured, unit), "U unknown", State::Plain};
-    const QString text = uncertainText(measured, expanded, unit);
-    const auto at = text.indexOf(" ± ");
-    if (at < 0) return {text, {}, State::Plain};
-    return {text.left(at), text.mid(at + 1), State::Plain};
-}
-
-/// One prefix for each unit of a matrix, whose columns are columns and whose rows are compared; the unit that all of a
-/// row share stands in its title. What stands in two lines of a cell is one figure.
-void shareUnits(std::vector<MatrixBlock::Row>& rows) {
-    const auto isOne = [](const MatrixBlock::Cell& cell) { return cell.detail.startsWith("± "); };
-    std::vector<QStringList> figures;
-    std::vector<QString*> all;
-    for (const auto& row : rows) {
-        figures.emplace_back();
-        for (const auto& cell : row.cells)
-            figures.back() << (isOne(cell)             ? cell.main + ' ' + cell.detail
-                               : cell.detail.isEmpty() ? cell.main
-                                                       : cell.detail);
-    }
-    for (auto& row : figures)
-        for (auto& figure : row) all.push_back(&figure);
-    sharePrefix(all);
-    for (std::size_t r = 0; r < rows.size(); ++r) {
-        if (const auto unit = takeUnit(figures[r]); !unit.isEmpty()) rows[r].title += " (" + unit + ")";
-        for (std::size_t c = 0; c < rows[r].cells.size(); ++c) {
-            auto& cell = rows[r].cells[c];
-            const auto& figure = figures[r][static_cast<qsizetype>(c)];
-            const auto at = figure.indexOf(" ± ");
-            if (isOne(cell)) cell.main = figure.left(at);
-            (isOne(cell)             ? cell.detail
-             : cell.detail.isEmpty() ? cell.main
-                                     : cell.detail) = isOne(cell) ? figure.mid(at + 1) : figure;
-        }
-    }
-}
-
-QString noteOf(const QJsonObject& row) {
-    QStringList parts;
-    if (row.value("limit").isDouble()) {
-        parts << QString(row.value("compare").toString() == "<" ? "< " : "≤ ") +
-                     settingText(numberOf(row, "limit"), row.value("unit").toString());
-    }
-    if (row.contains("set")) parts << limitSetTitle(row.value("set").toString());
-    if (row.contains("sets")) {
-        QStringList titles;
-        for (const auto& set : row.value("sets").toArray()) titles << limitSetTitle(set.toString());
-        parts << titles.join(", ");
-    }
-    if (row.contains("note")) parts << row.value("note").toString();
-    return shownText(parts.join(" · "), kShownCell);
-}
-
 }  // namespace
 
 TableBlock tableOf(const ReportTable& source, const QString& caption) {
@@ -204,31 +116,37 @@ TableBlock tableOf(const ReportTable& source, const QString& caption) {
     return table;
 }
 
-MatrixBlock matrixOf(const ReportMatrix& source, const QString& caption) {
-    MatrixBlock matrix;
+MatrixBlock shortened(MatrixBlock matrix, const QString& caption) {
     matrix.caption = caption;
-    bool judged = false;
-    for (const auto& column : source.columns) matrix.columns << shownText(loadText(column), kShownCell);
-    for (const auto& element : source.rows) {
-        const auto object = element.toObject();
-        MatrixBlock::Row row{capitalised(shownText(object.value("title").toString(), kShownCell)), noteOf(object), {}};
-        for (const auto& cell : object.value("cells").toArray()) {
-            judged = judged || cell.toObject().contains("margin_pct");
-            row.cells.push_back(cellOf(cell, object.value("unit").toString()));
-        }
-        row.cells.resize(static_cast<std::size_t>(matrix.columns.size()));
-        matrix.rows.push_back(std::move(row));
-    }
-    shareUnits(matrix.rows);
-    if (judged) {
-        matrix.legend =
-            "Each cell: the share of the limit used, (value + U) / limit, and below it the value ± U (95\u202f%); what "
-            "was "
-            "commanded stands without a U. ✖ "
-            "exceeded, ? indeterminate, ▲ above a figure that asks for attention; shaded: 80\u202f% or more used, "
-            "hatched: not evaluated. Rows of which the most is used come first.";
+    const auto cut = [](QString& text) { text = shownText(text, kShownCell); };
+    std::ranges::for_each(matrix.columns, cut);
+    for (auto& row : matrix.rows) {
+        cut(row.title);
+        cut(row.note);
+        for (auto& cell : row.cells) cut(cell.main);
     }
     return matrix;
+}
+
+MatrixBlock matrixOf(const ReportMatrix& source, const QString& caption) {
+    return shortened(matrixOf(source.columns, nlohmann::json::parse(QJsonDocument(source.rows).toJson().toStdString())),
+                     caption);
+}
+
+TableBlock closestOf(const MatrixBlock& limits, const QString& caption) {
+    constexpr std::size_t kCritical = 3;
+    TableBlock table;
+    table.caption = caption;
+    table.columns = {{"Verdict"}, {"Requirement"}, {"Load"}, {"Value", true}, {"Limit"}, {"Used", true}, {"Remark"}};
+    table.naming = 1;
+    for (const auto& row : limits.rows) {
+        if (table.rows.size() == kCritical) break;
+        if (row.worst < 0) continue;
+        const auto& cell = row.cells[static_cast<std::size_t>(row.worst)];
+        table.rows.push_back({verdictCell(cell.verdict), row.name, limits.columns[row.worst], cell.measured, row.limit,
+                              cell.share, withSigns(cell.note)});
+    }
+    return table;
 }
 
 void sharePrefixes(std::vector<ReportBlock>& blocks) {

@@ -13,6 +13,10 @@ namespace tacto {
 /// column, "40.12 ± 0.46 V".
 [[nodiscard]] TableBlock tableOf(const ReportTable& source, const QString& caption);
 [[nodiscard]] MatrixBlock matrixOf(const ReportMatrix& source, const QString& caption);
+/// Long texts are cut as ShownText.h says.
+[[nodiscard]] MatrixBlock shortened(MatrixBlock matrix, const QString& caption);
+/// The three limits of which the most is used, each where it is.
+[[nodiscard]] TableBlock closestOf(const MatrixBlock& limits, const QString& caption);
 /// One prefix for each unit in each column of the tables that were not made by tableOf().
 void sharePrefixes(std::vector<ReportBlock>& blocks);
 [[nodiscard]] TableBlock eventsTable(const ReportModel& model, const QString& caption);

@@ -4,6 +4,51 @@
 
 namespace tacto::describe {
 
+namespace {
+
+/// The uncertainty of each quantity at one command.
+ResultTable budgets(const char* title, const char* at) {
+    return rows(title, at,
+                {as(As::Quantity, "Quantity", "quantity"), number("Combined, u", "combined", "@unit"),
+                 number("Expanded, U (95 %)", "expanded_uncertainty", "@unit"), number("k", "coverage_factor"),
+                 text("Method", "method")},
+                Else::InTheTerminal);
+}
+
+/// Levels, what the uncertainty is made of at both ends (what weighs at one need not at the other), marked readings.
+void addQuantity(Tables& all, const std::string& title, const std::string& id) {
+    const auto add = [&](const char* what, const char* at, Columns columns) -> ResultTable& {
+        all.push_back(rows((title + what).c_str(), (id + at).c_str(), std::move(columns), Else::InTheTerminal));
+        return all.back();
+    };
+    add(": levels", ".levels",
+        {verdict(),
+         number("Commanded", "commanded", "@unit"),
+         number("n", "n"),
+         number("Error, going up", "mean_up-commanded", "@unit"),
+         number("Error, going down", "mean_down-commanded", "@unit"),
+         spread("s", "s", "@unit"),
+         number("Error judged", "worst_error", "@unit", "worst_expanded_uncertainty"),
+         number("k", "worst_coverage_factor"),
+         number("Tolerance, ±", "tolerance", "@unit"),
+         {"Used", "worst_error", As::Used, "@tolerance", "worst_expanded_uncertainty"}})
+        .note = "The error that is judged is that of the worse direction, with its U (95 %).";
+    const auto contributions = [&](const char* what, const char* at) {
+        add(what, at,
+            {text("Contribution", "name"), text("Distribution", "distribution"), number("u", "contribution", "@unit"),
+             as(As::Freedom, "Degrees of freedom", "degrees_of_freedom")});
+    };
+    contributions(": uncertainty at the largest command", ".budget.rows");
+    contributions(": uncertainty at the smallest command", ".budget_smallest.rows");
+    all.back().shown = Else::OnlyInTheReport;
+    add(": readings that stand out, marked and kept", ".readings",
+        {number("Commanded", "commanded", "@unit"), number("Measured", "measured", "@unit"),
+         text("Direction", "direction")});
+    all.back() = whose(std::move(all.back()), "outlier", true);
+}
+
+}  // namespace
+
 ResultTraits stimulatorCalibration() {
     Tables all{rows(
         "What was found: gain and offset ± U (95 %), the rest in % of the largest command",
@@ -11,13 +56,14 @@ ResultTraits stimulatorCalibration() {
         {verdict(), as(As::Quantity, "Quantity", "quantity"), number("Gain", "gain", "", "gain_expanded_uncertainty"),
          number("k", "gain_coverage_factor"), number("Offset", "offset", "@unit", "offset_expanded_uncertainty"),
          number("k", "offset_coverage_factor"), spread("Residual", "residual_max_pct_fs", "%"),
-         spread("Repeatability", "repeatability_pct_fs", "%"), spread("Hysteresis", "hysteresis_pct_fs", "%")},
-        Else::InTheWindow)};
-    for (const auto& one : kCalibratedQuantities)
-        all.push_back({.title = std::string(one.title),
-                       .at = std::string(one.id),
-                       .shape = Shape::Calibration,
-                       .shown = Else::InBoth});
+         spread("Repeatability", "repeatability_pct_fs", "%"), spread("Hysteresis", "hysteresis_pct_fs", "%"),
+         number("n", "n"), number("Not measured", "not_measured"), number("Stand out", "outliers")})};
+    all.push_back(
+        budgets("Uncertainty at the largest command", "amplitude.budget|interval.budget|width.budget|gap.budget"));
+    all.push_back(budgets("Uncertainty at the smallest command",
+                          "amplitude.budget_smallest|interval.budget_smallest|width.budget_smallest|"
+                          "gap.budget_smallest"));
+    for (const auto& one : kCalibratedQuantities) addQuantity(all, std::string(one.title), std::string(one.id));
     all.push_back(rows("Check of the stored calibration", "check",
                        {verdict(), as(As::Quantity, "Quantity", "quantity"), number("Commanded", "commanded", "@unit"),
                         number("Expected", "expected", "@unit"), number("Measured", "measured", "@unit"),

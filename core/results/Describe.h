@@ -44,6 +44,15 @@ inline ResultTable sentences(const char* title, const char* at, Else shown = Els
 inline ResultTable confusion(const char* title = "Presented and recognised") {
     return {.title = title, .at = "confusion", .shape = Shape::Confusion, .shown = Else::InTheReport};
 }
+inline ResultTable across(const char* title, const char* at, Columns columns, Else shown = Else::Nowhere) {
+    return {.title = title, .at = at, .shape = Shape::Across, .columns = std::move(columns), .shown = shown};
+}
+/// Those records alone of which a member is that.
+inline ResultTable whose(ResultTable table, const char* member, nlohmann::json is) {
+    table.where = member;
+    table.is = std::move(is);
+    return table;
+}
 inline ResultTable failing(ResultTable table) {
     table.but = "pass";
     return table;

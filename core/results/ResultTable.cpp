@@ -12,6 +12,17 @@ using nlohmann::json;
 
 const json kNothing;
 
+/// "a" and "b" of "a|b".
+std::vector<std::string> partsOf(const std::string& at) {
+    std::vector<std::string> parts;
+    for (std::size_t from = 0; from <= at.size();) {
+        const auto end = std::min(at.find('|', from), at.size());
+        parts.push_back(at.substr(from, end - from));
+        from = end + 1;
+    }
+    return parts;
+}
+
 }  // namespace
 
 const json& memberAt(const json& record, const std::string& path) {
@@ -28,21 +39,27 @@ const json& memberAt(const json& record, const std::string& path) {
 }
 
 json rowsOf(const ResultTable& table, const json& results) {
-    json all = json::array();
-    if (table.at.find('|') == table.at.npos) {
-        const auto& list = memberAt(results, table.at);
-        if (list.is_array()) all = list;
-    } else {
-        for (std::size_t from = 0; from <= table.at.size();) {
-            const auto end = std::min(table.at.find('|', from), table.at.size());
-            all.push_back(memberAt(results, table.at.substr(from, end - from)));
-            from = end + 1;
-        }
-    }
     json rows = json::array();
-    for (auto& record : all) {
-        if (record.is_object() && (table.but.empty() || memberAt(record, "verdict") != table.but))
-            rows.push_back(std::move(record));
+    const bool several = table.at.find('|') != table.at.npos;
+    const auto take = [&](json record, const std::string& path) {
+        if (!record.is_object() || (!table.but.empty() && memberAt(record, "verdict") == table.but)) return;
+        if (!table.where.empty() && memberAt(record, table.where) != table.is) return;
+        for (auto at = path.rfind('.'); at != path.npos && at > 0; at = path.rfind('.', at - 1)) {
+            for (const char* key : {"unit", "quantity"}) {
+                const auto& whole = memberAt(results, path.substr(0, at) + '.' + key);
+                if (!record.contains(key) && whole.is_string()) record[key] = whole;
+            }
+        }
+        if (several && !record.contains("of")) record["of"] = path.empty() ? "all" : path;
+        rows.push_back(std::move(record));
+    };
+    for (const auto& path : partsOf(table.at)) {
+        const auto& found = memberAt(results, path);
+        if (!found.is_array()) {
+            take(found, path);
+        } else {
+            for (const auto& record : found) take(record, path);
+        }
     }
     return rows;
 }
@@ -54,11 +71,7 @@ json shownIn(const std::vector<ResultTable>& tables, const json& results) {
         if (const auto& member = memberAt(results, key); !member.is_null()) shown[key] = member;
     };
     for (const auto& table : tables) {
-        for (std::size_t from = 0; from <= table.at.size();) {
-            const auto end = std::min(table.at.find('|', from), table.at.size());
-            keep(table.at.substr(from, end - from));
-            from = end + 1;
-        }
+        for (const auto& path : partsOf(table.at)) keep(path);
         if (!table.at.empty()) continue;
         for (const auto& column : table.columns) keep(column.at);
     }

@@ -64,7 +64,6 @@ function run(p) {
     bench.loadSafety.silence();
   }
   const found = bench.loadSafety.judge();
-  report.loadSafety(found);
   if (known) bench.loadSafety.tracings();
   return verdict(found);
 }

@@ -251,18 +251,18 @@ TEST(Pilot, ItsResultsAreReadInTheTerminalWithoutJson) {
     const auto told = run("pilot-identification", "study", {"--device", "sim:", "--set", "blocks=1"});
     ASSERT_EQ(told.code, 0) << told.err;
     EXPECT_THAT(told.out, HasSubstr("(virtual)"));
-    EXPECT_THAT(told.out, testing::ContainsRegex("range +[0-9.]+ mA to [0-9.]+ mA"));
-    EXPECT_THAT(told.out, HasSubstr("given, answered"));
-    EXPECT_THAT(told.out, testing::ContainsRegex("the four +1[0-6]  16"));
+    EXPECT_THAT(told.out, testing::ContainsRegex("Range, from \\(mA\\) +[0-9.]+\n  to \\(mA\\) +[0-9.]+"));
+    EXPECT_THAT(told.out, HasSubstr("Given, and answered"));
+    EXPECT_THAT(told.out, testing::ContainsRegex("all +1[0-6]  16"));
     EXPECT_EQ(told.out.find_first_of("{}"), std::string::npos) << told.out;
     const auto vibrated = run("pilot-identification", "massager",
                               {"--device", "sim:massager", "--device", "sim:finger?on=motor", "--set", "blocks=1"});
     ASSERT_EQ(vibrated.code, 0) << vibrated.err;
     EXPECT_EQ(vibrated.out.find("mA"), std::string::npos) << vibrated.out;
-    EXPECT_THAT(vibrated.out, testing::ContainsRegex("smooth, firm +[0-9.]+ +[0-9.]+ +0.5"));
+    EXPECT_THAT(vibrated.out, testing::ContainsRegex("smooth, firm +[0-9.]+ +0.500"));
     const auto limits = run("pilot-thresholds", "thresholds", {"--device", "sim:"});
     ASSERT_EQ(limits.code, 0) << limits.err;
-    EXPECT_THAT(limits.out, testing::ContainsRegex("detection +[0-9.]+ mA"));
+    EXPECT_THAT(limits.out, testing::ContainsRegex("Detection \\(mA\\) +[0-9.]+"));
     EXPECT_EQ(limits.out.find_first_of("{}"), std::string::npos) << limits.out;
 }
 

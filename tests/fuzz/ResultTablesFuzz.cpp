@@ -7,7 +7,7 @@
 #include <iterator>
 #include <string_view>
 
-#include "core/analysis/calibration/CalibrationFile.h"
+#include "core/analysis/calibration/CalibrationJson.h"
 #include "core/analysis/identification/Identification.h"
 #include "core/analysis/identification/IdentificationFile.h"
 #include "core/analysis/sensor_calibration/ProfilometerFile.h"

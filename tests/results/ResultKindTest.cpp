@@ -22,5 +22,18 @@ TEST(ResultKinds, OfALaboratorysOwnDeclareNothing) {
     }
 }
 
+TEST(ResultTables, ARecordHasTheUnitOfWhatItIsAPartOf) {
+    const nlohmann::json found = {
+        {"gap", {{"unit", "s"}, {"budget", {{"rows", {{{"name", "a"}}, {{"name", "b"}, {"unit", "V"}}}}}}}}};
+    const auto rows = rowsOf({.at = "gap.budget.rows"}, found);
+    ASSERT_EQ(rows.size(), 2U);
+    EXPECT_EQ(rows[0]["unit"], "s");
+    EXPECT_EQ(rows[1]["unit"], "V");
+    const auto parts = rowsOf({.at = "|gap"}, found);
+    EXPECT_EQ(parts[0]["of"], "all");
+    EXPECT_EQ(parts[1]["of"], "gap");
+    EXPECT_EQ(rowsOf({.at = "gap.budget.rows", .where = "name", .is = "b"}, found).size(), 1U);
+}
+
 }  // namespace
 }  // namespace tacto

@@ -38,16 +38,14 @@ TEST(LoadSafetyRun, PassesOnTheCleanTwinAndFindsEveryLoadsValue) {
     EXPECT_NEAR(skin["measured_ohm"].get<double>(), 10'200, 0.01 * 10'200);
     EXPECT_LE(skin["imbalance"].get<double>(), 0.005);
     EXPECT_EQ(outcome.results["worst_case"]["verdict"], "pass");
-    std::size_t tables = 0, figures = 0, matrices = 0, pulses = 0;
+    std::size_t figures = 0, limits = 0, pulses = 0;
     for (const auto& item : rig.reportItems()) {
-        tables += item.value("kind", "") == "table" ? 1 : 0;
-        matrices += item.value("kind", "") == "matrix" ? 1 : 0;
+        if (item.value("kind", "") == "results") limits += item["results"]["matrix"]["lines"].size();
         if (item.value("kind", "") != "figure") continue;
         ++figures;
         pulses += item["figure"]["captures"].size();
     }
-    EXPECT_GE(tables, 5U);
-    EXPECT_GE(matrices, 1U) << "limits against loads";
+    EXPECT_GE(limits, 10U) << "limits against loads, as results of this kind are reported";
     EXPECT_EQ(figures, 2U) << "single pulses, a burst";
     EXPECT_EQ(pulses, 4U) << "three single pulses and a burst";
 }
@@ -108,8 +106,7 @@ TEST(LoadSafetyRun, WithoutAnElectrodeAreaIsIndeterminate) {
     EXPECT_EQ(outcome.verdict, ScriptVerdict::Indeterminate);
     EXPECT_EQ(loadOf(outcome.results, "500 ohm")["verdict"], "not evaluated");
     EXPECT_TRUE(loadOf(outcome.results, "500 ohm")["power_density_w_cm2"].is_null());
-    EXPECT_THAT(nlohmann::json(rig.reportItems()).dump(),
-                testing::HasSubstr("not evaluated into 500 Ω: the electrode's area is not known"));
+    EXPECT_THAT(nlohmann::json(rig.reportItems()).dump(), testing::HasSubstr("the electrode's area is not known"));
 }
 
 TEST(LoadSafetyRun, AStimulatorThatCannotReadBackIsNoPass) {

@@ -2,8 +2,8 @@
 
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Theme.h"
+#include "app/report/FigureDrawing.h"
 #include "app/report/PlotSheet.h"
-#include "app/report/Reach.h"
 #include "app/report/ShownText.h"
 #include "app/report/TableContent.h"
 

@@ -4,10 +4,33 @@
 #pragma once
 
 #include <QPlainTextEdit>
-
-#include "app/gui/runner/ScriptHighlighter.h"
+#include <QRegularExpression>
+#include <QSyntaxHighlighter>
+#include <vector>
 
 namespace tacto::gui {
+
+// Colours of a protocol script: JavaScript's words, strings, comments, numbers, and the host's
+// own objects.
+
+class ScriptHighlighter final : public QSyntaxHighlighter {
+    Q_OBJECT
+public:
+    explicit ScriptHighlighter(QTextDocument* document);
+    /// After a change of theme.
+    void recolour();
+
+protected:
+    void highlightBlock(const QString& text) override;
+
+private:
+    struct Rule {
+        QRegularExpression pattern;
+        QTextCharFormat format;
+    };
+    std::vector<Rule> rules_;
+    QTextCharFormat comment_;
+};
 
 class CodeEdit final : public QPlainTextEdit {
     Q_OBJECT

@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "app/gui/runner/CaptureStrip.h"
-#include "app/gui/runner/LoadCaptures.h"
 #include "app/gui/theme/Pages.h"
 #include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/Text.h"

@@ -12,9 +12,8 @@
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/Verdict.h"
 #include "app/report/NumberText.h"
-#include "app/report/TableContent.h"
+#include "app/report/ResultCells.h"
 #include "core/base/JsonText.h"
-
 namespace tacto::gui {
 
 namespace {
@@ -27,7 +26,6 @@ constexpr int kCellNear = Qt::UserRole + 2;   // 80 % or more of the limit used
 constexpr int kLineNote = Qt::UserRole;       // below a limit's title
 constexpr int kLineUnit = Qt::UserRole + 3;   // the limit's unit
 constexpr int kRow = 36, kHighRow = 44, kIconSize = 14, kPad = 8, kHeaderPad = 5;
-constexpr double kNear_pct = 80;
 constexpr int kLimitChars = 30, kLoadChars = 9;
 
 QString wordsOf(const json& value) {
@@ -209,23 +207,22 @@ void LimitMatrixView::show(const json& matrix) {
     loadKeys_.clear();
     setRowCount(0);
     setColumnCount(0);
-    const auto& lines = memberAt(matrix, "lines");
-    const auto& loads = memberAt(matrix, "loads");
-    if (!lines.is_array() || !loads.is_array()) return;
+    const auto limits = limitsOf(matrix);
+    if (limits.rows.empty()) return;
     QStringList header{QString()};
-    for (const auto& load : loads) {
-        const auto name = wordsOf(load);
-        loads_.push_back(loadText(name));
-        loadKeys_.push_back(name);
-        header << (name.contains("||") ? tr("skin RC") : loadText(name));
+    for (qsizetype c = 0; c < limits.columns.size(); ++c) {
+        const auto name = limits.columns[c];
+        loads_.push_back(name);
+        loadKeys_.push_back(wordsOf(memberAt(matrix, "loads")[std::size_t(c)]));
+        header << (name.contains(QChar(0x2225)) ? tr("skin RC") : name);
     }
     setColumnCount(int(header.size()));
     setHorizontalHeaderLabels(header);
     headings_ = header;
     horizontalHeaderItem(0)->setTextAlignment(Qt::AlignLeft | Qt::AlignVCenter);
     for (int c = 1; c < columnCount(); ++c) horizontalHeaderItem(c)->setToolTip(loads_[std::size_t(c) - 1]);
-    setRowCount(int(lines.size()));
-    for (int row = 0; row < rowCount(); ++row) addLine(row, lines[std::size_t(row)]);
+    setRowCount(int(limits.rows.size()));
+    for (int row = 0; row < rowCount(); ++row) addLine(row, limits.rows[std::size_t(row)]);
     fitColumns();
 }
 
@@ -249,58 +246,35 @@ void LimitMatrixView::choose(int row, int column) {
     emit chosen(item(row, 0)->text(), loadKeys_[std::size_t(column) - 1], item(row, 0)->data(kLineUnit).toString());
 }
 
-void LimitMatrixView::addLine(int row, const json& line) {
-    const auto unit = wordsOf(memberAt(line, "unit"));
-    const auto title = titled(wordsOf(memberAt(line, "title")));
-    const double most = numberOr(memberAt(line, "limit"));
-    const bool hasLimit = std::isfinite(most);  // without one the words are the rule, and whose it is says the tool tip
-    const auto limit =
-        hasLimit ? (wordsOf(memberAt(line, "compare")) == "<" ? QString("< ") : QString("≤ ")) + settingText(most, unit)
-                 : tr("before the next train");
-    const auto set = limitSetTitle(wordsOf(memberAt(line, "set")));
-    const auto verdict = wordsOf(memberAt(line, "verdict"));
-    auto* head = new QTableWidgetItem(title);
-    head->setData(kLineUnit, unit);
-    head->setData(
-        kLineNote,
-        (QStringList{verdictText(verdict), limit} + (hasLimit ? QStringList{set} : QStringList{})).join(" · "));
-    head->setToolTip(QStringList{title, limit, set, wordsOf(memberAt(line, "source")), verdict}.join(" · "));
+void LimitMatrixView::addLine(int row, const MatrixBlock::Row& line) {
+    auto* head = new QTableWidgetItem(line.name);
+    head->setData(kLineUnit, line.unit);
+    head->setData(kLineNote, verdictCell(line.verdict) + " · " + line.note);
+    head->setToolTip(QStringList{line.name, line.limit, line.set, line.source, line.verdict}.join(" · "));
     setItem(row, 0, head);
-    const auto& cells = memberAt(line, "cells");
     for (int c = 1; c < columnCount(); ++c) {
-        const auto at = std::size_t(c) - 1;
-        const json none;
-        const auto& cell = cells.is_array() && at < cells.size() ? cells[at] : none;
+        const auto& cell = line.cells[std::size_t(c) - 1];
+        const auto& load = loads_[std::size_t(c) - 1];
         auto* item = new QTableWidgetItem("–");
         setItem(row, c, item);
         item->setData(kCellShare, QString("–"));
-        if (!cell.is_object()) {
-            item->setToolTip(tr("%1 is not judged on %2.").arg(title, loads_[at]));
+        if (cell.state == MatrixBlock::State::Empty) {
+            item->setToolTip(tr("%1 is not judged on %2.").arg(line.name, load));
             continue;
         }
-        const auto judged = wordsOf(memberAt(cell, "verdict"));
-        const double used = 100 - numberOr(memberAt(cell, "margin_pct"));
-        const double value = numberOr(memberAt(cell, "value"));
-        const auto share = judged == "not evaluated"         ? tr("n. e.")
-                           : judged == "not applicable"      ? QString("–")
-                           : hasLimit || std::isfinite(used) ? limitShareText(used)
-                           : !std::isfinite(value)           ? (judged == "fail" ? tr("no") : QString("–"))
-                                                             : decimalText(value, 2) + " " + unit;
-        item->setText(verdictStyle(judged).shape + " " + share);
-        item->setData(kCellVerdict, judged);
-        item->setData(kCellShare, share);
-        item->setData(kCellNear, used >= kNear_pct);
-        const auto measured = uncertainText(value, numberOr(memberAt(cell, "expanded_uncertainty")), unit);
-        const auto note = wordsOf(memberAt(cell, "note"));
-        const bool timed = !hasLimit && std::isfinite(used);
-        QStringList says{hasLimit ? tr("%1 on %2: %3 of %4 (%5).").arg(title, loads_[at], measured, limit, set)
-                         : timed  ? tr("%1 on %2: %3.").arg(title, loads_[at], note)
-                         : judged == "pass"
-                             ? tr("%1 on %2: after %3, %4.").arg(title, loads_[at], quantityText(value, unit), limit)
-                             : tr("%1 on %2: not shown to be %3.").arg(title, loads_[at], limit)};
-        if (std::isfinite(used))
-            says << (timed ? tr("At most %1 of that time.") : tr("%1 used, with its uncertainty.")).arg(share);
-        says << tr("Verdict: %1.").arg(judged) << (timed ? QString() : note);
+        item->setText(verdictShape(cell.verdict) + " " + cell.share);
+        item->setData(kCellVerdict, cell.verdict);
+        item->setData(kCellShare, cell.share);
+        item->setData(kCellNear, cell.isNear);
+        const bool timed = !line.hasLimit && cell.hasShare;
+        QStringList says{
+            line.hasLimit ? tr("%1 on %2: %3 of %4 (%5).").arg(line.name, load, cell.measured, line.limit, line.set)
+            : timed       ? tr("%1 on %2: %3.").arg(line.name, load, cell.note)
+            : cell.verdict == "pass" ? tr("%1 on %2: after %3, %4.").arg(line.name, load, cell.measured, line.limit)
+                                     : tr("%1 on %2: not shown to be %3.").arg(line.name, load, line.limit)};
+        if (cell.hasShare)
+            says << (timed ? tr("At most %1 of that time.") : tr("%1 used, with its uncertainty.")).arg(cell.share);
+        says << tr("Verdict: %1.").arg(cell.verdict) << (timed ? QString() : cell.note);
         item->setToolTip(says.join(' ').trimmed());
         item->setData(Qt::AccessibleTextRole, item->toolTip());
     }
@@ -354,6 +328,57 @@ void LimitMatrixView::fitColumns() {
 void LimitMatrixView::resizeEvent(QResizeEvent* event) {
     QTableWidget::resizeEvent(event);
     fitColumns();
+}
+
+namespace {
+
+constexpr int kSampleWide = 24, kSampleHigh = 18, kRowHigh = 22, kBesideSample = 8, kAbove = 10, kBelowTitle = 8;
+constexpr int kSampleIcon = 14;
+
+}  // namespace
+
+CellLegend::CellLegend(QWidget* parent)
+    : QWidget(parent),
+      kinds_{{"pass", false, tr("inside, uncertainty included")},
+             {"pass", true, tr("inside, 80\u202f% or more used")},
+             {"refused as expected", false, tr("also asked above: refused")},
+             {"attention", false, tr("attention, not a failure")},
+             {"indeterminate", false, tr("indeterminate")},
+             {"fail", false, tr("exceeded")},
+             {"not evaluated", false, tr("n.\u00a0e.: not evaluated")},
+             {{}, false, tr("not judged on this load")}} {
+    QStringList said;
+    for (const auto& kind : kinds_) said << kind.words;
+    setAccessibleName(tr("How to read a cell"));
+    setAccessibleDescription(said.join("; "));
+}
+
+QSize CellLegend::sizeHint() const {
+    const int title = QFontMetrics(textFont(TextSize::Small, QFont::DemiBold)).height();
+    return {0, scaledPx(kAbove) + title + scaledPx(kBelowTitle) + int(kinds_.size()) * scaledPx(kRowHigh)};
+}
+
+void CellLegend::paintEvent(QPaintEvent* /*event*/) {
+    QPainter painter(this);
+    const auto& c = colours();
+    painter.setPen(c.line);
+    painter.drawLine(0, 0, width(), 0);
+    painter.setFont(textFont(TextSize::Small, QFont::DemiBold));
+    painter.setPen(c.text);
+    QRect line(0, scaledPx(kAbove), width(), painter.fontMetrics().height());
+    painter.drawText(line, Qt::AlignLeft | Qt::AlignVCenter, tr("How to read a cell"));
+    line = QRect(0, line.bottom() + 1 + scaledPx(kBelowTitle), width(), scaledPx(kRowHigh));
+    painter.setFont(textFont(TextSize::Small));
+    const int left = scaledPx(kSampleWide) + kBesideSample;
+    for (const auto& kind : kinds_) {
+        const QRect sample(0, line.top(), scaledPx(kSampleWide), scaledPx(kSampleHigh));
+        paintCellGround(painter, sample, kind.verdict, kind.isNear);
+        paintCellShape(painter, sample, kind.verdict, kind.isNear, scaledPx(kSampleIcon));
+        painter.setPen(c.text);
+        painter.drawText(QRect(left, sample.top(), width() - left, sample.height()), Qt::AlignLeft | Qt::AlignVCenter,
+                         painter.fontMetrics().elidedText(kind.words, Qt::ElideRight, width() - left));
+        line.translate(0, line.height());
+    }
 }
 
 }  // namespace tacto::gui

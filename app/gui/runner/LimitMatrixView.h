@@ -6,9 +6,12 @@
 #pragma once
 
 #include <QTableWidget>
+#include <QWidget>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "app/gui/theme/PlotPicture.h"
+#include "app/report/MatrixBlock.h"
 
 class QPainter;
 
@@ -43,7 +46,7 @@ protected:
     void resizeEvent(QResizeEvent* event) override;
 
 private:
-    void addLine(int row, const nlohmann::json& line);
+    void addLine(int row, const MatrixBlock::Row& line);
     void fitRows();
     void fitColumns();
     void choose(int row, int column);
@@ -52,6 +55,26 @@ private:
     std::vector<QString> loads_;     // as people write them
     std::vector<QString> loadKeys_;  // as the results do
     QStringList headings_;           // the columns' headings, each in one line
+};
+
+// How to read a cell of the limits x loads, beside them: each kind of cell with its shape and words.
+
+class CellLegend final : public QWidget {
+    Q_OBJECT
+public:
+    explicit CellLegend(QWidget* parent);
+    [[nodiscard]] QSize sizeHint() const override;
+
+protected:
+    void paintEvent(QPaintEvent* event) override;
+
+private:
+    struct Kind {
+        QString verdict;  ///< empty: not judged
+        bool isNear;
+        QString words;
+    };
+    std::vector<Kind> kinds_;
 };
 
 }  // namespace tacto::gui

@@ -3,7 +3,7 @@
 #include <QVBoxLayout>
 #include <utility>
 
-#include "app/gui/runner/CellLegend.h"
+#include "app/gui/runner/LimitMatrixView.h"
 #include "app/gui/theme/FieldForm.h"
 #include "app/gui/runner/ProtocolHead.h"
 #include "app/gui/runner/RunPanel.h"

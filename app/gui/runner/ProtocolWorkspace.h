@@ -14,7 +14,7 @@
 #include "app/gui/runner/AskedRun.h"
 #include "app/gui/runner/NextSteps.h"
 #include "app/gui/runner/ProcedurePages.h"
-#include "app/gui/runner/ScriptReading.h"
+#include "app/gui/runner/ScriptEditor.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
 
 namespace tacto::gui {

@@ -3,7 +3,6 @@
 #include <QFormLayout>
 #include <QLabel>
 
-#include "app/gui/calibrate/CalibrationResult.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -15,23 +14,6 @@ namespace {
 
 using nlohmann::json;
 using Shape = ResultTable::Shape;
-
-QStringList namesOf(const json& records) {
-    QStringList names;
-    if (!records.is_array()) return names;
-    for (const auto& one : records) {
-        const auto& name = memberAt(one, "name");
-        names << (name.is_string() ? visible(QString::fromStdString(name.get<std::string>())) : QString());
-    }
-    return names;
-}
-
-bool isMatrix(const json& value) {
-    return value.is_array() && !value.empty() && std::all_of(value.begin(), value.end(), [&](const json& row) {
-               return row.is_array() && row.size() == value.front().size() &&
-                      std::all_of(row.begin(), row.end(), [](const json& cell) { return cell.is_number(); });
-           });
-}
 
 }  // namespace
 
@@ -50,7 +32,7 @@ void ResultTables::show(const json& results) {
     column_ = new QVBoxLayout(body_);
     column_->setContentsMargins(0, 0, 0, 0);
     for (const auto& table : tablesOf(results)) {
-        if (table.shown != ResultTable::Else::InTheWindow) add(table, results);
+        if (isInWindow(table.shown)) add(table, results);
     }
     column_->addStretch();
     layout_->addWidget(body_);
@@ -70,11 +52,11 @@ void ResultTables::add(const ResultTable& table, const json& results) {
             addSentences(table, value);
             break;
         case Shape::Confusion:
-            if (isMatrix(value)) addConfusion(table, results);
+            addConfusion(table, countsText(table, results));
             break;
-        case Shape::Calibration:
-            if (CalibrationResult::isCalibration(value)) column_->addWidget(new CalibrationResult(table.at, value));
-            break;
+        case Shape::Limits:
+        case Shape::Across:
+            break;  // LimitMatrixView has them
     }
 }
 
@@ -136,23 +118,15 @@ void ResultTables::addNote(const ResultTable& table) {
     if (!table.note.empty()) setTone(*addSentence(qtext(table.note)), Tone::Quiet);
 }
 
-void ResultTables::addConfusion(const ResultTable& table, const json& results) {
-    const auto& counts = memberAt(results, table.at);
-    const auto names = namesOf(memberAt(results, "conditions"));
-    auto across = sentencesIn(memberAt(results, "columns"));
-    if (across.isEmpty()) across = names;
+void ResultTables::addConfusion(const ResultTable& table, const CountsText& text) {
+    if (text.counts.empty()) return;
     addHeading(table.title);
-    auto* made = new QTableWidget(int(counts.size()), int(counts.front().size()) + 1, body_);
+    auto* made = new QTableWidget(int(text.down.size()), int(text.across.size()) + 1, body_);
     made->setAccessibleName(qtext(table.title));
-    QStringList header{tr("Presented ↓  recognised as →")};
-    for (int c = 1; c < made->columnCount(); ++c) header << across.value(c - 1, QString::number(c));
-    made->setHorizontalHeaderLabels(header);
+    made->setHorizontalHeaderLabels(QStringList{tr("Presented ↓  recognised as →")} + text.across);
     for (int r = 0; r < made->rowCount(); ++r) {
-        putText(*made, r, 0, names.value(r, QString::number(r + 1)), false);
-        for (int c = 1; c < made->columnCount(); ++c) {
-            const double count = counts[std::size_t(r)][std::size_t(c) - 1].get<double>();
-            putText(*made, r, c, settingText(count, {}), true);
-        }
+        putText(*made, r, 0, text.down[r], false);
+        for (int c = 1; c < made->columnCount(); ++c) putText(*made, r, c, text.counts[std::size_t(r)][c - 1], true);
     }
     layOutRecordTable(*made);
     column_->addWidget(made);

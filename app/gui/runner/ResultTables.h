@@ -26,7 +26,7 @@ private:
     void addFacts(const ResultTable& table, const nlohmann::json& record);
     void addRows(const ResultTable& table, const nlohmann::json& records);
     void addSentences(const ResultTable& table, const nlohmann::json& sentences);
-    void addConfusion(const ResultTable& table, const nlohmann::json& results);
+    void addConfusion(const ResultTable& table, const CountsText& text);
     QLabel* addSentence(const QString& text);
     void addNote(const ResultTable& table);
     QVBoxLayout* layout_;

@@ -8,7 +8,6 @@
 #include "app/gui/runner/CaptureStrip.h"
 #include "app/gui/runner/DisclosedPanel.h"
 #include "app/gui/runner/LimitMatrixView.h"
-#include "app/gui/runner/LoadCaptures.h"
 #include "app/gui/runner/LoadRows.h"
 #include "app/gui/runner/ResultHead.h"
 #include "app/gui/runner/ResultTables.h"

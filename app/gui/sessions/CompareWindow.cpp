@@ -13,7 +13,6 @@
 #include "app/gui/theme/Theme.h"
 #include "app/report/FigureDrawing.h"
 #include "app/report/NumberText.h"
-#include "app/report/Reach.h"
 #include "app/report/ShownText.h"
 #include "core/session/SessionReader.h"
 

@@ -1,7 +1,7 @@
 #include "app/gui/sessions/ReadSession.h"
 
 #include "app/gui/theme/Text.h"
-#include "app/report/QtJson.h"
+#include "app/report/SessionReport.h"
 #include "core/base/DriveSegment.h"
 #include "core/base/JsonText.h"
 #include "core/session/Origin.h"

@@ -16,7 +16,6 @@
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/Verdict.h"
 #include "app/report/NumberText.h"
-#include "app/report/Reach.h"
 #include "app/report/ShownText.h"
 #include "core/base/JsonText.h"
 #include "core/base/QuantityText.h"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/gui/runner/ReportWindow.h"
+#include "app/gui/runner/ReportView.h"
 #include "app/gui/sessions/CompareWindow.h"
 #include "app/gui/sessions/SessionExport.h"
 #include "app/gui/theme/Building.h"

@@ -5,7 +5,7 @@
 #include <QMenu>
 #include <utility>
 
-#include "app/gui/runner/ReportWindow.h"
+#include "app/gui/runner/ReportView.h"
 #include "app/gui/study/PageTable.h"
 #include "app/gui/study/StudyDialogs.h"
 #include "app/gui/theme/Building.h"

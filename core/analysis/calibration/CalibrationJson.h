@@ -4,9 +4,14 @@
 // Thread-safety: pure functions.
 #pragma once
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string_view>
+#include <vector>
 
+#include "core/analysis/calibration/Calibration.h"
 #include "core/analysis/calibration/CalibrationVerdict.h"
+#include "core/base/Result.h"
 
 namespace tacto {
 
@@ -20,5 +25,16 @@ namespace tacto {
 /// {"expanded_uncertainty" (at the largest command), "gain_expanded_uncertainty", "offset_expanded_uncertainty",
 /// "budget" (at the largest command), "tolerance_pct","verdict","reasons"}; k of each as "..._coverage_factor".
 [[nodiscard]] nlohmann::json toJson(const JudgedCalibration& judged);
+
+// The table that `analyze calibration` reads.
+
+/// Readings from CSV columns `commanded`, `measured` and, where there are such, `direction` (up, down or empty) and `u`
+/// (standard uncertainty), in any order among others; names are trimmed. An empty or nan measured value was not
+/// measured; an empty or nan `u` is not stated.
+/// Errors: NotFound, Io; ParseError naming file, line and what was expected.
+[[nodiscard]] Result<std::vector<CalibrationReading>> readCalibrationReadings(const std::filesystem::path& path);
+/// The same from text; `name` stands for the file in messages.
+[[nodiscard]] Result<std::vector<CalibrationReading>> parseCalibrationReadings(std::string_view text,
+                                                                               std::string_view name);
 
 }  // namespace tacto

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/analysis/load_safety/FineRange.h"
 #include "core/analysis/load_safety/LoadFigures.h"
 #include "core/measure/InstrumentStatement.h"
 

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "core/analysis/load_safety/LoadSafetyRows.h"
-#include "core/analysis/load_safety/LoadSafetyTables.h"
 #include "core/base/Words.h"
 
 namespace tacto {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/analysis/load_safety/LoadSafetyTables.h"
 #include "core/base/QuantityText.h"
 #include "core/base/Statistics.h"
 #include "core/encoding/PulseTrain.h"

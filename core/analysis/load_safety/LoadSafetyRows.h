@@ -1,4 +1,5 @@
-// LoadSafetyRows.h - the rows of one load. Private to core/analysis.
+// LoadSafetyRows.h - the rows of one load, and what is judged over all loads: trips, the open circuit, the worst case
+// over the permitted loads and the outputs to be disclosed. Private to core/analysis.
 //
 // Thread-safety: pure functions.
 #pragma once
@@ -15,5 +16,14 @@ namespace tacto {
 
 /// What a step's reading says about a quantity; not measured for what only a command has, or without an area.
 [[nodiscard]] Reading readingOf(const LoadReading& reading, Quantity quantity, const LoadSafetyInput& input);
+
+/// Largest of the steps, quantity by quantity; not measured when one step was not.
+[[nodiscard]] LoadReading strongestOf(const LoadRecord& record);
+
+/// Limits on the voltage are judged on the open circuit, measured there, or not evaluated.
+[[nodiscard]] std::vector<SafetyRow> openCircuitRows(const LoadSafetyInput& input);
+[[nodiscard]] std::vector<SafetyRow> tripRows(const LoadSafetyInput& input);
+[[nodiscard]] LoadWorstCase worstCaseOf(const LoadSafetyInput& input);
+[[nodiscard]] std::vector<DisclosedOutput> disclosedOf(const LoadSafetyInput& input);
 
 }  // namespace tacto

@@ -1,4 +1,3 @@
-#include "core/analysis/load_safety/LoadSafetyTables.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
-#include "core/analysis/load_safety/LoadSafetyTables.h"
+#include "core/analysis/load_safety/LoadSafetyRows.h"
 #include "core/base/QuantityText.h"
 #include "core/base/Words.h"
 #include "core/encoding/PulseTrain.h"

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "core/analysis/calibration/Calibration.h"
-#include "core/analysis/calibration/CalibrationFile.h"
 #include "core/analysis/calibration/CalibrationJson.h"
 #include "core/base/Statistics.h"
 #include "tests/analysis/calibration/CalibrationTwin.h"

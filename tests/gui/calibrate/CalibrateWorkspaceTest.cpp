@@ -91,10 +91,16 @@ TEST_F(Calibrate, FromNeverToCalibratedAndChecked) {
     EXPECT_EQ(errors->drawnUp(), 55);
     EXPECT_EQ(errors->drawnDown(), 55);
     EXPECT_EQ(errors->drawnMeans(), 11);
-    const auto* budget = workspace.runner().findChild<QTableWidget*>("calibrationBudget");
-    ASSERT_NE(budget, nullptr);
+    const auto tableOf = [&](const char* title) {
+        const auto all = workspace.runner().findChildren<QTableWidget*>();
+        const auto at = std::ranges::find(all, QString(title), &QTableWidget::accessibleName);
+        return at == all.end() ? nullptr : *at;
+    };
+    const auto* budget = tableOf("Amplitude: uncertainty at the largest command");
+    const auto* levels = tableOf("Amplitude: levels");
+    ASSERT_TRUE(budget != nullptr && levels != nullptr);
     EXPECT_EQ(budget->item(0, 0)->text(), "repeatability");
-    EXPECT_EQ(workspace.runner().findChild<QTableWidget*>("calibrationLevels")->rowCount(), 11);
+    EXPECT_EQ(levels->rowCount(), 11);
     EXPECT_THAT(workspace.runner().findChild<QLabel*>("verdictWhy")->text().toStdString(),
                 HasSubstr("of its tolerance at"));
     const auto more = workspace.runner().findChild<QLabel*>("verdictMore")->text().toStdString();

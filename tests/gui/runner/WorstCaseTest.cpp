@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "app/gui/runner/WorstCase.h"
+#include "app/gui/runner/WorstPage.h"
 #include "tests/gui/runner/Lab.h"
 #include "tests/support/InTime.h"
 

@@ -1,8 +1,6 @@
 // Trials, measurements and events, and what is kept of a run that ends early.
 #include "app/scripting/engine/Arguments.h"
 #include "app/scripting/engine/ScriptSession.h"
-#include "app/scripting/host/report/LoadSafetyTables.h"
-#include "core/results/ResultKind.h"
 
 namespace tacto::host::record {
 
@@ -35,9 +33,7 @@ Result<Json> event(ScriptSession& session, const Arguments& arguments) {
 
 Result<Json> partial(ScriptSession& session, const Arguments& arguments) {
     const Json& found = arguments.object("found");
-    const bool checksLoads = resultTraits(session.kindOf(found)).kind == ResultKind::LoadSafety;
-    const Json tables =
-        !arguments.has("tables") && checksLoads ? report::loadSafetyTables(found) : arguments.list("tables");
+    const Json& tables = arguments.list("tables");
     for (const auto& table : tables) {
         if (!table.value("caption", Json()).is_string() || !table.value("rows", Json()).is_array())
             return arguments.wrong("a table", table, "an object with a caption and a list of rows");
@@ -81,7 +77,7 @@ std::vector<HostFunction> rowFunctions() {
          .parameters = {object("found", "results so far, as verdict() takes them"),
                         list("tables", "{ caption, rows, columns }, for the report; kind is \"table\" or \"matrix\"")
                             .of(ValueType::Object)
-                            .optional("those of report.loadSafety() for a load-safety check, else none")},
+                            .optional("those of the results' kind alone")},
          .text = "Keeps what a run has come to, in case it ends early: results and tables then say that they are "
                  "partial. The last one counts; a run that ends by itself uses none.",
          .call = host::record::partial},

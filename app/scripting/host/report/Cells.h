@@ -1,4 +1,4 @@
-// Cells.h - what the tables of reports are made of, from results as analyses return them.
+// Cells.h - words and numbers of results, as sentences and captions have them.
 //
 // Thread-safety: pure functions.
 #pragma once
@@ -12,6 +12,7 @@
 #include "core/base/JsonText.h"
 #include "core/base/QuantityText.h"
 #include "core/base/Text.h"
+#include "core/encoding/CalibratedQuantity.h"
 
 namespace tacto::host::report {
 
@@ -36,9 +37,10 @@ using Json = nlohmann::json;
     return at != row.end() && at->is_array() ? *at : kNone;
 }
 
-/// Takes `from`'s member over, if there is one.
-inline void copy(Json& row, const char* key, const Json& from, const char* fromKey) {
-    if (const auto at = from.find(fromKey); at != from.end()) row[key] = *at;
+/// "Amplitude", "Phase width" of "amplitude", "width".
+[[nodiscard]] inline std::string titleOfQuantity(const std::string& quantity) {
+    const auto* known = calibratedQuantity(quantity);
+    return known != nullptr ? std::string(known->title) : quantity;
 }
 
 /// A load as people write it: "200 Ω + 10 kΩ ∥ 50 nF".

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "app/scripting/host/report/CalibrationTables.h"
 #include "app/scripting/host/report/Cells.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/analysis/statistics/Verdict.h"

@@ -3,10 +3,8 @@
 
 #include "app/scripting/engine/ScriptSession.h"
 #include "app/scripting/host/plot/PlotFigures.h"
-#include "app/scripting/host/report/CalibrationTables.h"
 #include "app/scripting/host/report/Cells.h"
 #include "app/scripting/host/report/CertificateItem.h"
-#include "app/scripting/host/report/LoadSafetyTables.h"
 #include "app/scripting/host/report/LoadTracings.h"
 #include "app/scripting/host/report/ReportObject.h"
 #include "core/base/QuantityText.h"
@@ -83,10 +81,8 @@ Result<Json> matrix(ScriptSession& session, const Arguments& arguments) {
 Result<Json> calibration(ScriptSession& session, const Arguments& arguments) {
     const Json& found = arguments.object("found");
     const auto caption = titleOfQuantity(textOr(found, "quantity")) + ": error, tolerance and the two sweep directions";
-    const Json figure = {
-        {"kind", "figure"}, {"caption", caption}, {"figure", plot::calibrationFigure(found, "errors")}};
-    if (auto written = writeItem(session, figure); !written) return written;
-    return writeItems(session, calibrationItems(found));
+    return writeItem(session,
+                     {{"kind", "figure"}, {"caption", caption}, {"figure", plot::calibrationFigure(found, "errors")}});
 }
 
 Result<Json> certificate(ScriptSession& session, const Arguments& arguments) {
@@ -118,16 +114,6 @@ Result<Json> certificate(ScriptSession& session, const Arguments& arguments) {
                  {"kept", Json()}};
     if (kept) item["kept"] = {{"made", dateText(kept->made)}, {"valid_until", dateText(kept->validUntil)}};
     return writeItem(session, item);
-}
-
-/// A table that has no rows is left out.
-Result<Json> loadSafety(ScriptSession& session, const Arguments& arguments) {
-    Json items = Json::array();
-    for (auto& item : loadSafetyTables(arguments.object("found"))) {
-        if (!item.contains("kind")) item["kind"] = "table";
-        if (item["kind"] == "matrix" || !item["rows"].empty()) items.push_back(std::move(item));
-    }
-    return writeItems(session, items);
 }
 
 Result<Json> loadTracingsFigures(ScriptSession& session, const Arguments& arguments) {

@@ -34,8 +34,7 @@ std::vector<HostFunction> reportFunctions() {
          .call = host::report::matrix},
         {.name = "calibration",
          .parameters = {object("found", "from analysis.calibration()")},
-         .text = "Adds a calibration to the report: errors against the tolerance, levels, uncertainty budget, coverage "
-                 "and the readings that stand out.",
+         .text = "Adds a figure to the report: a calibration's errors against the tolerance.",
          .errors = "Throws when the session file cannot be written.",
          .call = host::report::calibration},
         {.name = "certificate",
@@ -48,12 +47,6 @@ std::vector<HostFunction> reportFunctions() {
                    "cannot be written.",
          .needs = Role::Stimulator,
          .call = host::report::certificate},
-        {.name = "loadSafety",
-         .parameters = {object("found", "from analysis.loadSafety()")},
-         .text = "Adds a judged load-safety check to the report: limits against loads, what was measured into each, "
-                 "outputs, refusals, trips and where each limit comes from.",
-         .errors = "Throws when the session file cannot be written.",
-         .call = host::report::loadSafety},
         {.name = "loadTracings",
          .parameters =
              {list("loads", "as analysis.loadSafety() takes them; steps from loads.give()").of(ValueType::Object),

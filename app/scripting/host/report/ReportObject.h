@@ -10,7 +10,7 @@ namespace tacto::host::report {
 
 using Json = nlohmann::json;
 
-HostCall figure, table, matrix, quantity, rounded, text, calibration, certificate, loadSafety,
+HostCall figure, table, matrix, quantity, rounded, text, calibration, certificate,
     loadTracingsFigures;  // Report.cpp
 
 }  // namespace tacto::host::report

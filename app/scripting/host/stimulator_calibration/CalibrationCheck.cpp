@@ -2,7 +2,6 @@
 #include <cmath>
 #include <utility>
 
-#include "app/scripting/host/report/CalibrationTables.h"
 #include "app/scripting/host/report/Cells.h"
 #include "app/scripting/host/stimulator_calibration/StimulatorParts.h"
 #include "core/analysis/statistics/StatisticsJson.h"
