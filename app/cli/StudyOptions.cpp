@@ -8,7 +8,7 @@
 #include "app/cli/Say.h"
 #include "app/cli/StudyPassphrase.h"
 #include "app/run/StudyProgram.h"
-#include "core/study/ProcedureWords.h"
+#include "core/study/StudySettings.h"
 
 namespace tacto::cli {
 

@@ -7,7 +7,7 @@
 
 #include "app/report/NumberText.h"
 #include "app/report/ResultCells.h"
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 
 namespace tacto {
 namespace {

@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "app/report/StudyText.h"
-#include "core/analysis/identification/Encodings.h"
 #include "core/analysis/identification/IdentificationText.h"
 #include "core/analysis/identification/OverSessions.h"
 #include "core/analysis/psychophysics/VirtualObserver.h"

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "core/analysis/psychophysics/VirtualObserver.h"
-#include "core/base/Ascii.h"
 #include "core/base/JsonText.h"
 #include "core/base/Random.h"
+#include "core/base/Text.h"
 #include "core/study/NextDay.h"
 
 namespace tacto {

@@ -25,8 +25,8 @@
 #include "core/analysis/psychophysics/LevelGrid.h"
 #include "core/analysis/statistics/Estimate.h"
 #include "core/base/Clock.h"
-#include "core/base/NaN.h"
 #include "core/base/Result.h"
+#include "core/base/Statistics.h"
 #include "core/base/Units.h"
 #include "core/session/SessionTypes.h"
 

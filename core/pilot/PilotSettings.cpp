@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <set>
 
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 #include "core/pilot/PilotRecord.h"
 #include "core/study/Study.h"
 

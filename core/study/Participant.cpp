@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 #include "core/base/Text.h"
 #include "core/seal/SealedText.h"
 

@@ -7,7 +7,6 @@
 
 #include "core/base/Csv.h"
 #include "core/base/JsonText.h"
-#include "core/base/LockHolder.h"
 #include "core/base/Text.h"
 #include "core/base/WholeFile.h"
 #include "core/session/Digest.h"

@@ -13,7 +13,7 @@
 #include <optional>
 #include <vector>
 
-#include "app/gui/theme/InputTime.h"
+#include "app/gui/theme/ConfirmButton.h"
 #include "core/pilot/Prompt.h"
 
 namespace tacto::gui {

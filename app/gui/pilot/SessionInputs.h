@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "app/gui/pilot/ButtonUse.h"
-#include "app/gui/theme/InputTime.h"
+#include "app/gui/theme/ConfirmButton.h"
 #include "core/devices/ButtonDevice.h"
 
 namespace tacto::gui {

@@ -5,8 +5,8 @@
 #include "app/gui/pilot/ParticipantWindow.h"
 #include "app/gui/pilot/SessionConduct.h"
 #include "app/gui/theme/Building.h"
-#include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/Icons.h"
+#include "app/gui/theme/Labels.h"
 
 namespace tacto::gui {
 

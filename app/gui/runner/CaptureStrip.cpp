@@ -7,7 +7,7 @@
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/FigureDrawing.h"
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 #include "core/session/SessionReader.h"
 namespace tacto::gui {
 

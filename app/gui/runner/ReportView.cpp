@@ -8,7 +8,7 @@
 
 #include "app/gui/runner/ReportPrinter.h"
 #include "app/gui/theme/Dialogs.h"
-#include "app/gui/theme/ElidedLabel.h"
+#include "app/gui/theme/Labels.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/ToolRow.h"
 namespace tacto::gui {

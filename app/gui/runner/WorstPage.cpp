@@ -13,7 +13,7 @@
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/TableContent.h"
-#include "core/bench/CommandPreview.h"
+#include "core/bench/arming/CommandPreview.h"
 #include "core/electrode/Load.h"
 namespace tacto::gui {
 

@@ -12,7 +12,6 @@
 #include "app/gui/scope/panels/ScopeStatus.h"
 #include "app/gui/scope/panels/ScopeTools.h"
 #include "app/gui/scope/screen/ScopeScreen.h"
-#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {

@@ -18,9 +18,9 @@
 #include "app/gui/scope/panels/ScopeStatus.h"
 #include "app/gui/scope/panels/ScopeTools.h"
 #include "app/gui/scope/screen/ScopeGestures.h"
+#include "app/gui/theme/Labels.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Theme.h"
-#include "app/gui/theme/TroubleLine.h"
 #include "app/run/CaptureFormatsList.h"
 #include "core/base/Words.h"
 

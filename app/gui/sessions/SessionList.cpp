@@ -8,8 +8,8 @@
 #include <algorithm>
 
 #include "app/gui/theme/Building.h"
-#include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/Icons.h"
+#include "app/gui/theme/Labels.h"
 #include "app/gui/theme/Text.h"
 #include "app/run/RunFiles.h"
 

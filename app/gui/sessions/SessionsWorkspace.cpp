@@ -11,7 +11,6 @@
 #include "app/gui/sessions/SessionExport.h"
 #include "app/gui/theme/Building.h"
 #include "app/gui/theme/Dialogs.h"
-#include "app/gui/theme/ElidedLabel.h"
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/Labels.h"
 #include "app/gui/theme/Pages.h"

@@ -4,8 +4,8 @@
 #include <QResizeEvent>
 #include <algorithm>
 
-#include "app/gui/theme/LookChange.h"
-#include "app/gui/theme/ScrollingPage.h"
+#include "app/gui/theme/Pages.h"
+#include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 

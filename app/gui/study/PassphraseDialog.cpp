@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "app/gui/theme/Building.h"
-#include "core/base/Utf8.h"
+#include "core/base/Utf16.h"
 
 namespace tacto::gui {
 

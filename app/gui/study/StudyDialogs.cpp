@@ -10,11 +10,11 @@
 #include "app/gui/study/StudyForm.h"
 #include "app/gui/theme/Building.h"
 #include "app/gui/theme/ConfirmButton.h"
+#include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/FieldForm.h"
-#include "app/gui/theme/GrowingDialog.h"
-#include "app/gui/theme/ScrollingPage.h"
+#include "app/gui/theme/Labels.h"
+#include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Text.h"
-#include "app/gui/theme/TroubleLine.h"
 
 namespace tacto::gui {
 

@@ -7,9 +7,9 @@
 #include "app/gui/study/StudyList.h"
 #include "app/gui/theme/Building.h"
 #include "app/gui/theme/Dialogs.h"
-#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 

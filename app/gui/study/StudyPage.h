@@ -11,7 +11,7 @@
 #include "app/gui/study/OpenStudy.h"
 #include "app/gui/study/PassphraseDialog.h"
 #include "app/gui/study/StudyForm.h"
-#include "app/gui/theme/FolderRow.h"
+#include "app/gui/theme/EntryFields.h"
 #include "app/gui/theme/Labels.h"
 
 namespace tacto::gui {

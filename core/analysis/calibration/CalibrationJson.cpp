@@ -5,7 +5,7 @@
 
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/base/Csv.h"
-#include "core/base/NaN.h"
+#include "core/base/Statistics.h"
 #include "core/base/Text.h"
 
 namespace tacto {

@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "core/analysis/statistics/Estimate.h"
-#include "core/base/NaN.h"
 #include "core/base/Result.h"
+#include "core/base/Statistics.h"
 #include "core/base/Units.h"
 #include "core/base/Words.h"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/analysis/statistics/Estimate.h"
-#include "core/base/NaN.h"
+#include "core/base/Statistics.h"
 
 namespace tacto {
 

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"

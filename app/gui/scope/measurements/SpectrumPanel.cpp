@@ -17,7 +17,6 @@
 #include "app/gui/scope/model/ScopeModel.h"
 #include "app/gui/scope/screen/LaneLegend.h"
 #include "app/gui/theme/Labels.h"
-#include "app/gui/theme/LookChange.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"

@@ -5,7 +5,7 @@
 #include "app/scripting/host/analysis/AnalysisParts.h"
 #include "core/analysis/calibration/CalibrationJson.h"
 #include "core/analysis/statistics/StatisticsJson.h"
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 
 namespace tacto::host::analysis {
 

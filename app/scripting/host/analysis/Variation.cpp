@@ -3,8 +3,8 @@
 #include <stop_token>
 
 #include "app/scripting/host/analysis/AnalysisParts.h"
-#include "core/analysis/variation/PopulationField.h"
 #include "core/analysis/variation/VariationJson.h"
+#include "core/analysis/variation/VirtualParticipant.h"
 
 namespace tacto::host::analysis {
 

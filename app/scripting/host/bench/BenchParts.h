@@ -10,7 +10,7 @@
 
 #include "app/scripting/engine/Arguments.h"
 #include "app/scripting/engine/ScriptSession.h"
-#include "core/base/NaN.h"
+#include "core/base/Statistics.h"
 
 namespace tacto::host::bench {
 

@@ -9,7 +9,7 @@
 #include "app/scripting/host/analysis/AnalysisParts.h"
 #include "app/scripting/host/bench/BenchParts.h"
 #include "core/analysis/statistics/StatisticsJson.h"
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 #include "core/base/JustNoticeable.h"
 
 namespace tacto {

@@ -7,7 +7,7 @@
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/base/QuantityText.h"
 #include "core/encoding/Encoder.h"
-#include "core/safety/SourceTrain.h"
+#include "core/safety/SourceTraits.h"
 #include "core/safety/TrainExposure.h"
 #include "core/session/SessionWriter.h"
 

@@ -7,7 +7,6 @@
 #include "app/scripting/host/bench/BenchParts.h"
 #include "app/scripting/host/load_safety/LoadCommands.h"
 #include "app/scripting/host/measure/Readings.h"
-#include "app/scripting/host/report/LoadSafetyTables.h"
 #include "app/scripting/host/report/LoadTracings.h"
 #include "core/analysis/load_safety/LimitMatrix.h"
 #include "core/analysis/load_safety/LoadSafetyJson.h"
@@ -98,7 +97,7 @@ Result<Json> judged(ScriptSession& session, const LoadCheck& check) {
 /// The same, kept in case the run ends early.
 Result<Json> keep(ScriptSession& session, const LoadCheck& check) {
     auto found = judged(session, check);
-    if (found) session.keepPartial(*found, report::loadSafetyTables(*found));
+    if (found) session.keepPartial(*found, Json::array());
     return found;
 }
 
@@ -438,7 +437,7 @@ std::vector<HostFunction> loadSafetyFunctions() {
          .text = "Judges everything measured so far against every limit set with its guard band.",
          .returns =
              "{ kind, verdict, reasons, loads, rows, matrix, disclosed, described, worst_case } for "
-             "report.loadSafety() and verdict(): what is missing reads \"not evaluated\", and then the verdict is "
+             "verdict(): what is missing reads \"not evaluated\", and then the verdict is "
              "not a pass. matrix is { loads, lines }, every limit once with a cell per load and the margin left, "
              "the smallest first.",
          .call = host::load_safety::judge},

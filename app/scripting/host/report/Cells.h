@@ -12,7 +12,7 @@
 #include "core/base/JsonText.h"
 #include "core/base/QuantityText.h"
 #include "core/base/Text.h"
-#include "core/encoding/CalibratedQuantity.h"
+#include "core/encoding/StimulatorCalibration.h"
 
 namespace tacto::host::report {
 

@@ -13,7 +13,7 @@
 #include "app/scripting/engine/ScriptSession.h"
 #include "app/scripting/host/bench/BenchParts.h"
 #include "core/analysis/sensor_calibration/SensorCalibration.h"
-#include "core/analysis/sensor_calibration/SensorScale.h"
+#include "core/analysis/sensor_calibration/SensorReading.h"
 
 namespace tacto::host::sensor_calibration {
 

@@ -9,7 +9,7 @@
 #include "core/analysis/sensor_calibration/SensorCalibrationJson.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/analysis/statistics/Verdict.h"
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 #include "core/base/QuantityText.h"
 
 namespace tacto {

@@ -6,7 +6,7 @@
 #include "app/scripting/host/bench/BenchParts.h"
 #include "app/scripting/host/measure/Readings.h"
 #include "app/scripting/host/stimulator_calibration/StimulatorParts.h"
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 
 namespace tacto::host::stimulator_calibration {
 

@@ -9,7 +9,7 @@
 
 #include "app/scripting/engine/Arguments.h"
 #include "app/scripting/engine/ScriptSession.h"
-#include "core/encoding/CalibratedQuantity.h"
+#include "core/encoding/StimulatorCalibration.h"
 
 namespace tacto::host::stimulator_calibration {
 

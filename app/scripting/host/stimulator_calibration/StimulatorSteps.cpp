@@ -9,7 +9,6 @@
 #include "app/scripting/host/analysis/AnalysisParts.h"
 #include "app/scripting/host/bench/BenchParts.h"
 #include "app/scripting/host/record/KeptCalibration.h"
-#include "app/scripting/host/report/CalibrationTables.h"
 #include "app/scripting/host/report/Cells.h"
 #include "app/scripting/host/stimulator_calibration/StimulatorParts.h"
 #include "core/base/QuantityText.h"

@@ -6,7 +6,7 @@
 #include "app/scripting/host/analysis/AnalysisParts.h"
 #include "app/scripting/host/variation/PredictedFigures.h"
 #include "core/analysis/variation/VariationJson.h"
-#include "core/base/JsonFields.h"
+#include "core/base/JsonText.h"
 
 namespace tacto {
 
