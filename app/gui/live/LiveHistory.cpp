@@ -54,12 +54,6 @@ std::size_t Series::firstFrom(double t_s) const noexcept {
     return low;
 }
 
-void TrainRing::push(const TrainReport& train) noexcept {
-    trains_[head_] = train;
-    head_ = (head_ + 1) % kCapacity;
-    count_ = std::min(count_ + 1, kCapacity);
-}
-
 LiveHistory::LiveHistory() : frames_(kColumns, kFrames), commands_(kCommandColumns, kCommands) {}
 
 void LiveHistory::begin(const std::vector<StreamInfo>& streams) {
@@ -92,7 +86,10 @@ void LiveHistory::take(BenchTap& tap, const Telemetry& telemetry, QTime clock) {
                                          frame->contact ? 1.F : 0.F,   frame->sliding ? 1.F : 0.F};
         frames_.push(frame->t_s, columns);
     }
-    while (const auto train = tap.trains.pop()) trains_.push(*train);
+    while (const auto train = tap.trains.pop()) {
+        if (trains_.size() == kMaxTrains) trains_.pop_front();
+        trains_.push_back(*train);
+    }
     if (commands_.empty() || now_s_ >= commands_.newest() + kCommandStep_s) {
         const float columns[kCommandColumns] = {static_cast<float>(telemetry.amplitude_v),
                                                 static_cast<float>(telemetry.interval_s),

@@ -1,9 +1,7 @@
 // LiveHistory.h - the last minute of what the bench showed: samples, roughness frames, the encoder's command, trains,
-// the operator's marks.
-// What the live plots draw.
+// the operator's marks. What the live plots draw.
 //
-// Bounded: each series is a ring of fixed size that forgets its oldest; nothing is allocated after begin() but for a
-// mark. Times are the session's, in seconds.
+// Bounded: each series is a ring of fixed size that forgets its oldest. Times are the session's, in seconds.
 //
 // Thread-safety: the GUI thread; the one reader of the bench's tap.
 #pragma once
@@ -11,6 +9,7 @@
 #include <QTime>
 #include <array>
 #include <cstddef>
+#include <deque>
 #include <limits>
 #include <optional>
 #include <span>
@@ -66,30 +65,11 @@ private:
     std::size_t count_ = 0;
 };
 
-/// The newest trains, oldest first.
-class TrainRing {
-public:
-    static constexpr std::size_t kCapacity = 512;
-    TrainRing() : trains_(kCapacity) {}
-    void push(const TrainReport& train) noexcept;
-    void clear() noexcept { count_ = head_ = 0; }
-    [[nodiscard]] bool empty() const noexcept { return count_ == 0; }
-    [[nodiscard]] std::size_t size() const noexcept { return count_; }
-    [[nodiscard]] const TrainReport& operator[](std::size_t i) const noexcept {
-        return trains_[(head_ + kCapacity - count_ + i) % kCapacity];
-    }
-    [[nodiscard]] const TrainReport& back() const noexcept { return (*this)[count_ - 1]; }
-
-private:
-    std::vector<TrainReport> trains_;
-    std::size_t head_ = 0;
-    std::size_t count_ = 0;
-};
-
 class LiveHistory {
 public:
     static constexpr double kKept_s = 60;
-    static constexpr std::size_t kMaxMarks = 64;  ///< the newest marks in the kept time
+    static constexpr std::size_t kMaxMarks = 64;    ///< the newest marks in the kept time
+    static constexpr std::size_t kMaxTrains = 512;  ///< the newest trains
     /// Columns of frames(): R, P, h, v; contact and sliding are 0 or 1.
     enum Column : std::size_t { kRoughness, kPressure, kSpectral, kSpatial, kContact, kSliding, kColumns };
     /// Columns of commands(): what the encoder asked for, and |Z| at that time; NaN while it asked for nothing.
@@ -107,8 +87,8 @@ public:
     [[nodiscard]] const StreamInfo* info(StreamKind kind) const noexcept;
     [[nodiscard]] const Series& frames() const noexcept { return frames_; }
     [[nodiscard]] const Series& commands() const noexcept { return commands_; }
-    /// Impedance checks included.
-    [[nodiscard]] const TrainRing& trains() const noexcept { return trains_; }
+    /// Oldest first, impedance checks included.
+    [[nodiscard]] const std::deque<TrainReport>& trains() const noexcept { return trains_; }
     /// The operator's marks, in the order in which they were made.
     [[nodiscard]] const std::vector<PlotMark>& marks() const noexcept { return marks_; }
     void addMark(PlotMark mark);
@@ -130,7 +110,7 @@ private:
     std::vector<Series> samples_;
     Series frames_;
     Series commands_;
-    TrainRing trains_;
+    std::deque<TrainReport> trains_;
     std::vector<PlotMark> marks_;  // kMaxMarks at most
     double now_s_ = 0;
     std::uint64_t missed_ = 0;

@@ -33,7 +33,6 @@ TrainGraphs::TrainGraphs(Strip& strip)
         *graph = strip.time().parentPlot()->addGraph(&strip.time(), &strip.values());
         (*graph)->setLineStyle(QCPGraph::lsNone);
     }
-    readings_.reserve(kReadings);
     off_ = new QCPItemRect(strip.time().parentPlot());
     offSays_ = new QCPItemText(strip.time().parentPlot());
     offSays_->setText(QObject::tr("output off"));
@@ -46,16 +45,11 @@ TrainGraphs::TrainGraphs(Strip& strip)
     off_->setPen(Qt::NoPen);
 }
 
-void TrainGraphs::begin() {
-    readings_.clear();
-    nextReading_ = 0;
-}
+void TrainGraphs::begin() { readings_.clear(); }
 
 void TrainGraphs::addScopeReading(double t_s, double amplitude) {
-    if (readings_.size() < kReadings)
-        readings_.emplace_back(t_s, amplitude);
-    else
-        readings_[nextReading_++ % kReadings] = QCPGraphData(t_s, amplitude);
+    if (readings_.size() == kReadings) readings_.pop_front();
+    readings_.emplace_back(t_s, amplitude);
 }
 
 void TrainGraphs::draw(const LiveHistory& history, const QCPRange& time) {
@@ -108,9 +102,7 @@ void TrainGraphs::drawCommand(const LiveHistory& history, const QCPRange& time) 
 void TrainGraphs::drawTrains(const LiveHistory& history, const QCPRange& time) {
     double most = 0;
     for (auto* list : {&at_, &value_, &measuredAt_, &measuredValue_, &failedAt_, &failedValue_}) list->clear();
-    const auto& trains = history.trains();
-    for (std::size_t i = 0; i < trains.size(); ++i) {
-        const auto& train = trains[i];
+    for (const auto& train : history.trains()) {
         const double t = toSeconds(train.onset);
         if (!time.contains(t) || train.isCheck) continue;
         if (train.outcome != TrainOutcome::Delivered) {

@@ -5,6 +5,7 @@
 // Thread-safety: the GUI thread.
 #pragma once
 
+#include <deque>
 #include <optional>
 #include <qcustomplot.h>
 #include <vector>
@@ -53,8 +54,7 @@ private:
     QCPItemRect* off_ = nullptr;
     QCPItemText* offSays_ = nullptr;
     static constexpr std::size_t kReadings = 256;
-    std::vector<QCPGraphData> readings_;  // the oscilloscope's readings, a ring
-    std::size_t nextReading_ = 0;
+    std::deque<QCPGraphData> readings_;                                                 // the oscilloscope's newest
     QVector<double> at_, value_, measuredAt_, measuredValue_, failedAt_, failedValue_;  // reused
 };
 

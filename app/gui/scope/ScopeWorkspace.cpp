@@ -136,13 +136,12 @@ void ScopeWorkspace::addKeys() {
         shortcut->setContext(Qt::WindowShortcut);
         connect(shortcut, &QShortcut::activated, this, task);
     };
-    for (const auto& [key, mode] : {std::pair(Qt::Key_A, ScopeMode::Auto), std::pair(Qt::Key_N, ScopeMode::Normal),
-                                    std::pair(Qt::Key_S, ScopeMode::Single)})
-        onKey(key, [this, mode = mode] { setMode(mode); });
-    for (const auto& [key, tool] :
-         {std::pair(Qt::Key_T, ScopeTool::TimeCursors), std::pair(Qt::Key_L, ScopeTool::LevelCursors),
-          std::pair(Qt::Key_B, ScopeTool::Box)})
-        onKey(key, [this, tool = tool] { tools_->tool(tool).toggle(); });
+    onKey(Qt::Key_A, [this] { setMode(ScopeMode::Auto); });
+    onKey(Qt::Key_N, [this] { setMode(ScopeMode::Normal); });
+    onKey(Qt::Key_S, [this] { setMode(ScopeMode::Single); });
+    onKey(Qt::Key_T, [this] { tools_->tool(ScopeTool::TimeCursors).toggle(); });
+    onKey(Qt::Key_L, [this] { tools_->tool(ScopeTool::LevelCursors).toggle(); });
+    onKey(Qt::Key_B, [this] { tools_->tool(ScopeTool::Box).toggle(); });
     onKey(Qt::Key_R, [this] { running() ? hold() : run(); });
     onKey(Qt::Key_D, [this] { emit driveWanted(); });
     onKey(QKeySequence::Save, [this] {

@@ -401,18 +401,6 @@ TEST(TaxelMap, SaysThatItIsSimulatedWhereNoNumberStands) {
     shot(map, "taxels");
 }
 
-TEST(TaxelMap, IsAsLowAsTwoLinesWhereRoomIsShort) {
-    gui::TaxelMap map;
-    const float eight[] = {0, 0, 0, 0, 0, 0, 0, 0};
-    map.show(eight, "Pa");
-    EXPECT_LE(map.minimumSizeHint().height(), 4 * map.fontMetrics().height());
-    EXPECT_LE(map.sizeHint().height(), 5 * map.fontMetrics().height());
-    const float sixteen[16] = {};
-    const int before = map.minimumSizeHint().height();
-    map.show(sixteen, "Pa");
-    EXPECT_EQ(map.minimumSizeHint().height(), 2 * before) << "four rows";
-}
-
 TEST(CommandPanel, NamesTheConditionThatThePointIsNear) {
     gui::CommandPanel panel;
     const std::vector<Condition> conditions{{"smooth-low", 0, 0}, {"rough-high", 1, 1}};
@@ -442,8 +430,6 @@ TEST(Plane, ThePresentPointIsSeenWhereItStandsOnACondition) {
     plane.show(Series(1, 10), 0, 1, 1, true);
     EXPECT_NE(atTheMark(), without);
 }
-
-using gui::TrainRing;
 
 const std::vector<StreamInfo> kStreams{{StreamKind::Acceleration, StreamUnit::MetrePerSecondSquared, 3, 4000, "a"},
                                        {StreamKind::Force, StreamUnit::Newton, 1, 200, "f"}};
@@ -491,18 +477,6 @@ TEST(Series, LeavesOutRepeatsAndBeginsAnewOnAnotherClock) {
     series.push(2.0, std::array{2.F});
     ASSERT_EQ(series.size(), 1U);
     EXPECT_DOUBLE_EQ(series.newest(), 2.0);
-}
-
-TEST(TrainRing, ForgetsTheOldest) {
-    TrainRing trains;
-    for (std::size_t i = 0; i < TrainRing::kCapacity + 30; ++i) {
-        TrainReport report;
-        report.amplitude = double(i);
-        trains.push(report);
-    }
-    ASSERT_EQ(trains.size(), TrainRing::kCapacity);
-    EXPECT_DOUBLE_EQ(trains[0].amplitude, 30);
-    EXPECT_DOUBLE_EQ(trains.back().amplitude, double(TrainRing::kCapacity) + 29);
 }
 
 TEST(LiveHistory, IsBoundedToAMinute) {
@@ -561,10 +535,16 @@ TEST(LiveHistory, AnotherBenchLeavesNothingOfTheOneBefore) {
     history.begin(kStreams);
     BenchTap tap;
     tap.samples.push(sampleAt(1, 1, 3));
-    tap.trains.push(TrainReport{});
+    for (std::size_t i = 0; i < LiveHistory::kMaxTrains + 30; ++i) {
+        TrainReport train;
+        train.amplitude = double(i);
+        tap.trains.push(train);
+        history.take(tap, at(1));
+    }
     tap.frames.push(RoughnessFrame{});
     history.take(tap, at(1));
-    ASSERT_EQ(history.trains().size(), 1U);
+    ASSERT_EQ(history.trains().size(), LiveHistory::kMaxTrains) << "the oldest go";
+    EXPECT_DOUBLE_EQ(history.trains().front().amplitude, 30);
     history.begin({kStreams.back()});
     EXPECT_EQ(history.samples(StreamKind::Acceleration), nullptr);
     EXPECT_TRUE(history.samples(StreamKind::Force)->empty());

@@ -103,8 +103,7 @@ TEST_F(LiveBench, TheSlidersDriveAfterArmingAndTheTrainsHaveTheirAmplitude) {
 
 TEST_F(LiveBench, AStopComesBackToOffAndArmingAgainDeliversNothing) {
     RecordProperty("hazard", "H2");
-    ASSERT_IN_TIME(openSimulated());
-    ASSERT_IN_TIME(armed());
+    ASSERT_IN_TIME(openSimulated() && armed());
     auto* hand = find<QPushButton>(drive, "By hand");
     click(*hand);
     ASSERT_IN_TIME(comesTrue([this] { return controller.telemetry().trainsDelivered > 0; }));
@@ -121,8 +120,7 @@ TEST_F(LiveBench, AStopComesBackToOffAndArmingAgainDeliversNothing) {
 TEST_F(LiveBench, FromOffByHandBeginsAtNothingWhateverTheFingertipFelt) {
     RecordProperty("hazard", "H6");
     RecordProperty("hazard", "H12");
-    ASSERT_IN_TIME(openSimulated());
-    ASSERT_IN_TIME(armed());
+    ASSERT_IN_TIME(openSimulated() && armed());
     auto* hand = find<QPushButton>(drive, "By hand");
     auto* roughness = find<QSlider>(drive, "Roughness R");
     auto* pressure = find<QSlider>(drive, "Pressure P");
@@ -152,8 +150,7 @@ TEST_F(LiveBench, FromOffByHandBeginsAtNothingWhateverTheFingertipFelt) {
 
 TEST_F(LiveBench, ByHandGoesOnWithWhatTheFingertipDelivers) {
     RecordProperty("hazard", "H6");
-    ASSERT_IN_TIME(openSimulated());
-    ASSERT_IN_TIME(armed());
+    ASSERT_IN_TIME(openSimulated() && armed());
     auto* hand = find<QPushButton>(drive, "By hand");
     auto* roughness = find<QSlider>(drive, "Roughness R");
     controller.present("P120", 50, 1);
@@ -203,7 +200,7 @@ TEST_F(LiveBench, AStopWhileDisarmedShowsAsOffToo) {
     EXPECT_IN_TIME(comesTrue([&] { return !hand->isChecked(); }));
 }
 
-TEST_F(LiveBench, TheTaxelMapShowsAPressAndALift) {
+TEST_F(LiveBench, TaxelMapAndPlaneFollowTheSurface) {
     ASSERT_IN_TIME(openSimulated());
     auto* map = live.findChild<gui::TaxelMap*>();
     auto* surface = live.findChild<QComboBox*>("surface");
@@ -217,21 +214,14 @@ TEST_F(LiveBench, TheTaxelMapShowsAPressAndALift) {
     ASSERT_IN_TIME(comesTrue([&] { return mean() < 100; })) << mean();
     choose(*surface, "glass");
     EXPECT_IN_TIME(comesTrue([&] { return mean() > 3000; })) << mean();
+    const auto* plane = live.findChild<gui::TactilePlane*>();
+    EXPECT_IN_TIME(comesTrue([&] { return plane->point() && plane->point()->x() < 0.3; }));
+    choose(*surface, "P60");
+    EXPECT_IN_TIME(comesTrue([&] { return plane->point() && plane->point()->x() > 0.8; }));
     choose(*surface, "");
     EXPECT_IN_TIME(comesTrue([&] { return mean() < 100; })) << mean();
-    EXPECT_TRUE(complaints.isEmpty()) << complaints.join(" ").toStdString();
-}
-
-TEST_F(LiveBench, ThePlaneFollowsTheSurface) {
-    ASSERT_IN_TIME(openSimulated());
-    auto* plane = live.findChild<gui::TactilePlane*>();
-    auto* surface = live.findChild<QComboBox*>("surface");
-    choose(*surface, "P60");
-    ASSERT_IN_TIME(comesTrue([&] { return plane->point() && plane->point()->x() > 0.8; }));
-    choose(*surface, "glass");
-    ASSERT_IN_TIME(comesTrue([&] { return plane->point() && plane->point()->x() < 0.3; }));
-    choose(*surface, "");
     EXPECT_IN_TIME(comesTrue([&] { return !plane->point(); })) << "nothing is felt, nothing is shown";
+    EXPECT_TRUE(complaints.isEmpty()) << complaints.join(" ").toStdString();
 }
 
 TEST_F(LiveBench, TheExampleHasEveryStreamAndMovesRoughnessAndPressure) {
@@ -298,8 +288,7 @@ TEST_F(LiveBench, ARecordingThatCannotBeReadLeavesTheWorkspaceEmptyAndSaysWhy) {
 }
 
 TEST_F(LiveBench, FreezingThePictureDoesNotFreezeTheOutput) {
-    ASSERT_IN_TIME(openSimulated());
-    ASSERT_IN_TIME(armed());
+    ASSERT_IN_TIME(openSimulated() && armed());
     click(*find<QPushButton>(drive, "By hand"));
     ASSERT_IN_TIME(passes(1));
     auto* freeze = find<QPushButton>(live, "Freeze");
@@ -313,7 +302,7 @@ TEST_F(LiveBench, FreezingThePictureDoesNotFreezeTheOutput) {
     EXPECT_IN_TIME(comesTrue([&] { return live.plots().shownTime().upper > shown.upper + 2; }));
 }
 
-TEST_F(LiveBench, AFrozenPictureIsZoomedFittedSavedCopiedAndMarked) {
+TEST_F(LiveBench, AFrozenPictureIsZoomedFittedAndMarked) {
     ASSERT_IN_TIME(openSimulated());
     ASSERT_IN_TIME(passes(1));
     auto* fit = find<QToolButton>(live, "Fit");
@@ -346,26 +335,18 @@ TEST_F(LiveBench, AFrozenPictureIsZoomedFittedSavedCopiedAndMarked) {
     EXPECT_EQ(live.plots().shownTime(), whole);
     EXPECT_FALSE(undo->isEnabled());
 
-    QApplication::clipboard()->clear();
-    click(*find<QToolButton>(live, "Copy picture"));
-    EXPECT_EQ(QApplication::clipboard()->image().width(), 2 * (plots->width() + 2 * gui::PictureCaption::kMargin));
     int marks = 0;
     QObject::connect(&live, &gui::LiveWorkspace::markWanted, [&] { ++marks; });
     click(*find<QToolButton>(live, "Mark"));
     EXPECT_EQ(marks, 1);
-    click(*find<QToolButton>(live, "Save picture"));
-    auto* asks = QApplication::activeModalWidget() != nullptr ? QApplication::activeModalWidget()
-                                                              : live.findChild<QFileDialog*>();
-    EXPECT_NE(asks, nullptr) << "it asks where to";
-    if (asks != nullptr) asks->close();
 }
 
 TEST_F(LiveBench, ASavedPictureIsOfTheMomentAndSaysWhatItShows) {
     ASSERT_IN_TIME(openSimulated());
     ASSERT_IN_TIME(passes(1));
     click(*find<QToolButton>(live, "Copy picture"));
-    if (const auto shots = qEnvironmentVariable("TACTO_SHOTS"); !shots.isEmpty())
-        QApplication::clipboard()->image().save(shots + "/live_picture.png");
+    EXPECT_EQ(QApplication::clipboard()->image().width(),
+              2 * (live.findChild<gui::StripPlots*>()->width() + 2 * gui::PictureCaption::kMargin));
     click(*find<QToolButton>(live, "Save picture"));
     auto* dialog = live.findChild<QFileDialog*>("fileChooser");
     ASSERT_NE(dialog, nullptr);
@@ -389,9 +370,6 @@ TEST_F(LiveBench, ASavedPictureIsOfTheMomentAndSaysWhatItShows) {
     QObject::connect(&live, &gui::LiveWorkspace::plotOnlyWanted, [&] { ++alone; });
     click(*find<QToolButton>(live, "Plot only"));
     EXPECT_EQ(alone, 1);
-    const auto* save = find<QToolButton>(live, "Save picture");
-    const auto* health = find<QLabel>(live, "sensorHealth");
-    EXPECT_GT(save->mapTo(&live, QPoint()).x(), health->mapTo(&live, QPoint()).x()) << "at the right end";
 }
 
 TEST_F(LiveBench, OldSamplesAreSaidAndMarked) {
@@ -433,8 +411,7 @@ TEST_F(LiveBench, ACurrentSourceIsDrawnInItsOwnUnit) {
 }
 
 TEST_F(LiveBench, TheOscilloscopesReadingStandsBesideTheTrain) {
-    ASSERT_IN_TIME(openSimulated());
-    ASSERT_IN_TIME(armed());
+    ASSERT_IN_TIME(openSimulated() && armed());
     controller.drive(DriveSource::Manual, 1, 1);
     ScopeSettings settings;
     settings.sampleRate = Hertz(1e6);
@@ -457,32 +434,9 @@ TEST_F(LiveBench, TheFingerKeepsItsOwnStrokesUntilASurfaceIsChosen) {
     EXPECT_EQ(surface->findText("its own strokes"), -1) << "there is no way back to them";
 }
 
-TEST_F(LiveBench, EveryControlIsReachableAndExplained) {
-    ASSERT_IN_TIME(openSimulated());
-    std::set<QWidget*> reached;
-    live.setFocus();
-    live.activateWindow();
-    for (int i = 0; i < 60; ++i) {
-        QTest::keyClick(QApplication::focusWidget() != nullptr ? QApplication::focusWidget() : &live, Qt::Key_Tab);
-        if (QApplication::focusWidget() != nullptr) reached.insert(QApplication::focusWidget());
-    }
-    for (auto* control : live.findChildren<QWidget*>()) {
-        const bool interactive = qobject_cast<QAbstractButton*>(control) || qobject_cast<QComboBox*>(control) ||
-                                 qobject_cast<QAbstractSlider*>(control) || qobject_cast<QAbstractSpinBox*>(control);
-        if (!interactive || !control->isVisible() || !control->isEnabled()) continue;
-        if (control->focusPolicy() == Qt::NoFocus || control->parentWidget()->inherits("QAbstractScrollArea")) continue;
-        if (control->inherits("QScrollBar") || control->inherits("QSplitterHandle")) continue;
-        const auto who =
-            control->objectName() + " " + control->accessibleName() + " " + control->metaObject()->className();
-        EXPECT_FALSE(control->toolTip().isEmpty()) << who.toStdString();
-        EXPECT_TRUE(reached.contains(control)) << who.toStdString();
-    }
-}
-
 TEST_F(LiveBench, OnTheWayToTheFingertipNothingDrivesByHand) {
     RecordProperty("hazard", "H12");
-    ASSERT_IN_TIME(openSimulated());
-    ASSERT_IN_TIME(armed());
+    ASSERT_IN_TIME(openSimulated() && armed());
     auto* off = find<QPushButton>(drive, "Off");
     drive.raise();
     drive.activateWindow();
@@ -504,8 +458,7 @@ TEST_F(LiveBench, LooksRightInBothThemesAndSizes) {
         shot(live, name);
         EXPECT_EQ(faultsOf(live), "") << name;
     };
-    ASSERT_IN_TIME(openSimulated());
-    ASSERT_IN_TIME(armed());
+    ASSERT_IN_TIME(openSimulated() && armed());
     click(*find<QPushButton>(drive, "Fingertip"));
     ASSERT_IN_TIME(passes(2));
     choose(*live.findChild<QComboBox*>("surface"), "plastic");
@@ -608,8 +561,7 @@ TEST_F(DriveThatWas, ByHandSaysBeforeArmingWhatItAsksForAndAfterwardsWhatWasSet)
 }
 
 TEST_F(DriveThatWas, IsTheFingertipWhereItDroveAndAnotherBenchKnowsOfNone) {
-    ASSERT_IN_TIME(openSimulated());
-    ASSERT_IN_TIME(armed());
+    ASSERT_IN_TIME(openSimulated() && armed());
     controller.present("P120", 50, 1);
     controller.drive(DriveSource::Sensor);
     ASSERT_IN_TIME(comesTrue([this] { return controller.telemetry().trainsDelivered > 0; }));

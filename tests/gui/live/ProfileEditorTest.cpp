@@ -95,8 +95,7 @@ TEST_F(Editor, AppliesARightValueToAnOpenBench) {
 }
 
 TEST_F(Editor, SaysWhyItWasNotAppliedWhileArmed) {
-    ASSERT_IN_TIME(openSimulated());
-    ASSERT_IN_TIME(armed());
+    ASSERT_IN_TIME(openSimulated() && armed());
     type("amplitude_max_v", "30");
     click(button("Apply"));
     ASSERT_IN_TIME(comesTrue([this] { return says().contains("Not applied"); }));
@@ -171,8 +170,7 @@ TEST_F(Editor, TellsChargeAndImbalanceOfThePulse) {
 }
 
 TEST_F(Editor, MarksWhereTouchStandsOnTheCurves) {
-    ASSERT_IN_TIME(openSimulated());
-    ASSERT_IN_TIME(armed());
+    ASSERT_IN_TIME(openSimulated() && armed());
     controller.drive(DriveSource::Manual, 0.5, 1);
     auto* preview = editor.findChild<gui::ProfilePreview*>();
     ASSERT_IN_TIME(comesTrue([&] {

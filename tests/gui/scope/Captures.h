@@ -36,7 +36,7 @@ inline Capture twoPulses(double start_s = 99.999, double level = 40) {
 }
 
 inline gui::ShownPtr prepared(Capture capture, const gui::MathOptions& math = {}) {
-    return gui::prepareCapture(std::make_shared<const Capture>(std::move(capture)), {}, math);
+    return gui::prepareCapture(std::make_shared<const Capture>(std::move(capture)), math);
 }
 
 /// Places on the screen, in divisions from the left and above the middle.

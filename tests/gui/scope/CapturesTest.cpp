@@ -81,7 +81,7 @@ TEST(TriggerCrossing, TheEdgeCrossesTheLevelAtTime0WhereverTheSamplesFall) {
     for (const double level : {40.0, -40.0}) {
         for (double late = 0.05; late < 1; late += 0.1) {
             const auto stated = steepPulse(late, level);
-            const auto shown = gui::prepareCapture(triggeredAtCrossing(stated, triggeredAt(8)), {}, {});
+            const auto shown = gui::prepareCapture(triggeredAtCrossing(stated, triggeredAt(8)));
             gui::ScopeModel model;
             model.show(shown);
             EXPECT_NEAR(std::abs(model.trace("channel/voltage")->valueAt(shown->zero_s)), 8, 1e-6) << late;
@@ -89,7 +89,7 @@ TEST(TriggerCrossing, TheEdgeCrossesTheLevelAtTime0WhereverTheSamplesFall) {
             furthest_s = std::max(furthest_s, std::abs(shown->zero_s - stated->trigger_s));
             EXPECT_EQ(shown->capture->start_s, stated->start_s);
             EXPECT_EQ(shown->capture->channels[0].samples, stated->channels[0].samples) << "samples stay as they are";
-            const auto before = gui::prepareCapture(stated, {}, {});
+            const auto before = gui::prepareCapture(stated);
             EXPECT_EQ(shown->measurement[0].pulses[0].onset_s(), before->measurement[0].pulses[0].onset_s());
             EXPECT_EQ(shown->measurement[0].width_s.mean, before->measurement[0].width_s.mean);
         }

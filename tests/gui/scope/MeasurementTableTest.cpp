@@ -17,13 +17,20 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-TEST(MeasurementTable, ShowsWhatCoreMeasures) {
-    const auto shown = prepared(twoPulses());
+class MeasurementTable : public testing::Test {
+protected:
+    MeasurementTable() {
+        table.resize(1000, 420);
+        table.show();
+    }
     gui::ChosenReadings chosen;
+    gui::MeasurementTable table{chosen};
+    const QTableWidget* cells = table.findChild<QTableWidget*>("measurements");
+};
+
+TEST_F(MeasurementTable, ShowsWhatCoreMeasures) {
+    const auto shown = prepared(twoPulses());
     for (const auto reading : gui::allReadings()) chosen.choose(reading, true);
-    gui::MeasurementTable table(chosen);
-    table.resize(1000, 420);
-    table.show();
     table.add(shown);
     const auto& volts = table.statistics().channels()[0];
     const auto& truth = shown->measurement[0];
@@ -63,7 +70,6 @@ TEST(MeasurementTable, ShowsWhatCoreMeasures) {
     EXPECT_NEAR(volts.of(gui::Reading::SecondWidth).mean(), 200e-6, 1e-6);
 
     // A row for each reading; for each channel the last value, mean, deviation, extremes and n.
-    const auto* cells = table.findChild<QTableWidget*>("measurements");
     ASSERT_EQ(cells->rowCount(), int(gui::kReadings));
     ASSERT_EQ(cells->columnCount(), 1 + 2 * 6);
     EXPECT_EQ(cells->horizontalHeaderItem(1)->text(), "Voltage");
@@ -103,15 +109,10 @@ Capture steepVoltage(double start_s = 99.999, double edge_s = 200e-9) {
     return capture;
 }
 
-TEST(MeasurementTable, AnEdgeThatTheSamplesDoNotResolveIsAnUpperBoundAndNotCounted) {
-    gui::ChosenReadings chosen;
-    gui::MeasurementTable table(chosen);
-    table.resize(1000, 420);
-    table.show();
+TEST_F(MeasurementTable, AnEdgeThatTheSamplesDoNotResolveIsAnUpperBoundAndNotCounted) {
     table.add(prepared(steepVoltage()));
     const auto& rise = table.statistics().channels()[0].of(gui::Reading::Rise);
     EXPECT_EQ(rise.n(), 0U);
-    const auto* cells = table.findChild<QTableWidget*>("measurements");
     int row = 0;
     while (cells->item(row, 0)->text() != "Rise") ++row;
     EXPECT_EQ(cells->item(row, 1)->text(), "≤\u202f1\u202fµs");
@@ -126,12 +127,8 @@ TEST(MeasurementTable, AnEdgeThatTheSamplesDoNotResolveIsAnUpperBoundAndNotCount
     EXPECT_TRUE(cells->item(row, 1)->toolTip().isEmpty());
 }
 
-TEST(MeasurementTable, NeverScrollsSidewaysAndSaysInATipWhatHasNoRoom) {
-    gui::ChosenReadings chosen;
-    gui::MeasurementTable table(chosen);
-    table.show();
+TEST_F(MeasurementTable, NeverScrollsSidewaysAndSaysInATipWhatHasNoRoom) {
     table.add(prepared(twoPulses()));
-    const auto* cells = table.findChild<QTableWidget*>("measurements");
     const auto tip = [&] { return cells->item(0, 1)->toolTip().toStdString(); };
     for (const int width : {1400, 800, 560, 400}) {
         table.resize(width, 320);
@@ -146,11 +143,7 @@ TEST(MeasurementTable, NeverScrollsSidewaysAndSaysInATipWhatHasNoRoom) {
     shot(table, "table-narrow");
 }
 
-TEST(MeasurementTable, SaysWhatTheScreenHoldsWhenNoTriggerComes) {
-    gui::ChosenReadings chosen;
-    gui::MeasurementTable table(chosen);
-    table.resize(1000, 420);
-    table.show();
+TEST_F(MeasurementTable, SaysWhatTheScreenHoldsWhenNoTriggerComes) {
     table.add(prepared(twoPulses()));
     table.passOverUntriggered(true);
     EXPECT_NE(find<QLabel>(table, "Over 1 capture · no trigger since: the last train is held on the screen"), nullptr);

@@ -37,17 +37,6 @@ protected:
     gui::ScopeScreen screen{model};
 };
 
-TEST_F(Exports, PicturesOfEveryKind) {
-    const auto png = folder.filePath("a.png"), svg = folder.filePath("a.svg"), pdf = folder.filePath("a.pdf");
-    for (const auto& path : {png, svg, pdf}) ASSERT_EQ(gui::savePicture(screen, path), std::nullopt);
-    EXPECT_EQ(QImage(png).size(), screen.size() * 2);
-    const auto drawing = QString::fromUtf8(bytes(svg));
-    EXPECT_TRUE(drawing.startsWith("<?xml"));
-    EXPECT_TRUE(drawing.contains("Voltage (V)"));
-    EXPECT_FALSE(drawing.contains("<image")) << "a drawing, not a picture";
-    EXPECT_TRUE(bytes(pdf).startsWith("%PDF"));
-}
-
 TEST_F(Exports, APictureSaysWhatItShows) {
     auto averaged = std::make_shared<gui::ShownCapture>(*model.shown());
     averaged->averaged = 16;

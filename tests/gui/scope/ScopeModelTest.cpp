@@ -167,18 +167,7 @@ TEST_F(Model, TheTriggerIsDraggedUnlessItFollowsTheCommand) {
     EXPECT_FALSE(model.trigger().moment_s());
 }
 
-TEST_F(Model, PersistenceRollAndReferences) {
-    model.setPersistence(2);
-    for (int i = 1; i <= 3; ++i) model.show(prepared(twoPulses(99.999 + 0.1 * i)));
-    EXPECT_EQ(model.lane(volts)->behind.size(), 2U);
-    EXPECT_EQ(model.lane(volts)->spans.size(), 1U);
-    model.setRoll(true);
-    EXPECT_TRUE(model.lane(volts)->behind.empty());
-    EXPECT_EQ(model.lane(volts)->spans.size(), 4U);
-    EXPECT_NEAR(model.lane(volts)->spans[1].key_s - model.lane(volts)->spans[0].key_s, 0.1, 1e-9);
-    EXPECT_DOUBLE_EQ(model.zero_s(), 0) << "the session's time";
-    model.setRoll(false);
-
+TEST_F(Model, AReferenceIsStoredOnceAndGoesAlone) {
     const auto key = model.storeReference();
     ASSERT_NE(model.lane(key), nullptr);
     EXPECT_TRUE(model.lane(key)->reference());

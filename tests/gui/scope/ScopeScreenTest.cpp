@@ -2,7 +2,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/gui/scope/screen/LaneLegend.h"
 #include "app/gui/scope/screen/TimeFlags.h"
 #include "app/gui/theme/Theme.h"
 #include "core/base/Random.h"
@@ -28,7 +27,6 @@ protected:
     }
     void draw() { screen.replot(QCustomPlot::rpImmediateRefresh); }
     gui::LaneScale scaleOf(const QString& key) { return model.scaleOf(*model.lane(key)); }
-    QColor colourOf(const QString& key) { return gui::laneColour(model, *model.lane(key)); }
     /// Voltage at the left edge, current at the right.
     QPoint letterOf(const QString& key) { return at(screen, key == amps ? 9.9 : 0.1, scaleOf(key).position); }
 
@@ -219,6 +217,11 @@ TEST_F(Screen, CursorsReadEveryLaneInFlagsBeyondThePulse) {
     model.dragTimeCursor(0, model.viewport().right_s(), 0);
     model.dragTimeCursor(1, model.viewport().left_s, 0);
     draw();
+    const gui::ScopePlane plane(screen.xAxis, screen.yAxis);
+    const auto flags = gui::TimeFlags(plane, screen.overlay()).boxes();
+    ASSERT_EQ(flags.size(), 2U);
+    for (const auto& box : flags) EXPECT_TRUE(plane.area().adjusted(-1, -1, 1, 1).contains(box));
+    EXPECT_FALSE(flags[0].intersects(flags[1]));
     shot(screen, "flags-edge");
 }
 
@@ -367,18 +370,14 @@ TEST_F(Screen, BetweenTwoEdgesTheMouseReadsWidthAndInterval) {
         << "the rest between pulses";
     hoverAt(screen, atTime(screen, -0.5e-3, 0.2));
     EXPECT_FALSE(screen.overlay().hover);
-}
-
-TEST_F(Screen, ACursorMovedByArrowsReadsWhatTheMouseWould) {
+    // By arrows a cursor reads the same: back over the edges of the first pulse, then into its leading phase.
     model.setTimeCursors(true);
     QTest::keyClick(&screen, Qt::Key_1);
-    // From the rest between the pulses back over the edges of the first one, then into its leading phase.
     for (int i = 0; i < 4; ++i) QTest::keyClick(&screen, Qt::Key_Left, Qt::ControlModifier);
     EXPECT_NEAR(model.readout().x1_s, 0, 1e-7) << "onset of the first pulse";
     QTest::keyClick(&screen, Qt::Key_Right);
     ASSERT_TRUE(screen.overlay().hover);
     EXPECT_THAT(screen.overlay().hover->text.toStdString(), HasSubstr("Width 200.0"));
-    EXPECT_THAT(screen.overlay().hover->text.toStdString(), HasSubstr("interval 4.000"));
     QTest::keyClick(&screen, Qt::Key_Left, Qt::ShiftModifier);
     EXPECT_FALSE(screen.overlay().hover) << "before the first pulse there is nothing to read";
 }
@@ -410,14 +409,6 @@ TEST_F(Screen, APulseThatTheRecordCutsIsNamed) {
     ASSERT_EQ(screen.overlay().marks.size(), 1U);
     EXPECT_EQ(screen.overlay().marks[0].why, "cut by the record's end");
     EXPECT_NEAR(screen.overlay().marks[0].from_s, 9.9e-3, 1e-5);
-}
-
-TEST_F(Screen, FewSamplesAreDrawnOneByOne) {
-    EXPECT_FALSE(screen.graph(volts)->drewSamples());
-    for (int i = 0; i < 5; ++i) turnWheel(screen, atTime(screen, 0, 0), 1);
-    draw();
-    EXPECT_TRUE(screen.graph(volts)->drewSamples());
-    shot(screen, "samples");
 }
 
 TEST_F(Screen, OlderCapturesStayWhenAskedTo) {
@@ -462,94 +453,6 @@ TEST_F(Screen, RollStringsCapturesOnTheSessionsTime) {
     EXPECT_THAT(screen.xAxis->label().toStdString(), HasSubstr("Session time"));
     model.setRoll(false);
     EXPECT_NEAR(model.viewport().left_s, -1e-3, 1e-5);
-}
-
-TEST_F(Screen, CalculatedLanesComeAndGo) {
-    gui::MathOptions math;
-    math.power = true;
-    math.charge = true;
-    model.replaceMath(gui::withMath(*model.shown(), math));
-    ASSERT_EQ(model.lanes().size(), 4U);
-    model.fit();
-    draw();
-    shot(screen, "math");
-    EXPECT_EQ(model.lane("math/power")->unit, "W");
-    EXPECT_NEAR(model.trace("math/power")->valueAt(model.shown()->zero_s + 0.1e-3), 1.6, 0.05);
-    model.replaceMath(gui::withMath(*model.shown(), {}));
-    EXPECT_EQ(model.lanes().size(), 2U);
-}
-
-TEST_F(Screen, TakesTheColoursOfTheTheme) {
-    const auto before = colourOf(volts);
-    gui::applyTheme(gui::Theme::Dark);
-    QCoreApplication::processEvents();
-    EXPECT_NE(colourOf(volts), before);
-    EXPECT_EQ(colourOf(volts), gui::colours().voltage);
-    EXPECT_EQ(screen.graph(volts)->pen().color(), gui::colours().voltage);
-    draw();
-    const auto ground = screen.grab().toImage().pixelColor(2, 2);
-    EXPECT_EQ(ground, gui::colours().base);
-    shot(screen, "view-dark");
-}
-
-using gui::OverlayState;
-
-class TimeFlagsTest : public testing::Test {
-protected:
-    TimeFlagsTest() : plane_(plot_.xAxis, plot_.yAxis) {
-        plot_.resize(1000, 700);
-        plot_.xAxis->setRange(0, 10);
-        plot_.yAxis->setRange(-4, 4);
-        plot_.replot(QCustomPlot::rpImmediateRefresh);
-        for (const auto* name : {"t₁", "t₂"}) {
-            OverlayState::Flag flag;
-            flag.name = name;
-            flag.position = "200.0 µs";
-            flag.rows = {{"V", "20.1 V", Qt::blue}, {"A", "20.1 mA", Qt::darkGreen}};
-            state_.flags.push_back(flag);
-        }
-        state_.timeSpan = "Δt 4.0 s";
-    }
-    [[nodiscard]] std::vector<QRectF> boxesAt(double first_s, double second_s) {
-        state_.timeCursors_s = {first_s, second_s};
-        return gui::TimeFlags(plane_, state_).boxes();
-    }
-
-    QCustomPlot plot_;
-    gui::ScopePlane plane_;
-    OverlayState state_;
-};
-
-TEST_F(TimeFlagsTest, StandOutsideWhatTheCursorsEnclose) {
-    const auto boxes = boxesAt(3, 7);
-    ASSERT_EQ(boxes.size(), 2U);
-    EXPECT_LE(boxes[0].right(), plane_.x(3) + 1);
-    EXPECT_GE(boxes[1].left(), plane_.x(7) - 1);
-}
-
-TEST_F(TimeFlagsTest, StayInsideTheScreenAndOffEachOther) {
-    for (const auto& [first, second] : {std::pair(0.0, 10.0), std::pair(-5.0, 15.0), std::pair(5.0, 5.0)}) {
-        const auto boxes = boxesAt(first, second);
-        ASSERT_EQ(boxes.size(), 2U);
-        for (const auto& box : boxes) EXPECT_TRUE(plane_.area().adjusted(-1, -1, 1, 1).contains(box)) << first;
-        EXPECT_FALSE(boxes[0].intersects(boxes[1])) << first;
-    }
-}
-
-TEST_F(TimeFlagsTest, GoOffTheTraces) {
-    const auto free = boxesAt(3, 7);
-    const double top = 4;
-    state_.drawn = {{0, 10, 0.5, top}};  // the upper half is full
-    const auto moved = boxesAt(3, 7);
-    for (std::size_t i = 0; i < 2; ++i) {
-        EXPECT_LT(free[i].top(), plane_.y(0.5)) << i;
-        EXPECT_GE(moved[i].top(), plane_.y(0.5)) << i;
-    }
-}
-
-TEST_F(TimeFlagsTest, ThereAreNoneWithoutCursors) {
-    state_.flags.clear();
-    EXPECT_TRUE(gui::TimeFlags(plane_, state_).boxes().empty());
 }
 
 }  // namespace

@@ -271,26 +271,6 @@ TEST_F(Scope, CursorsReadInFlagsAndForThoseWhoDoNotSeeThem) {
     shot(scope, "workspace-cursors");
 }
 
-TEST_F(Scope, TheTabKeyReachesToolsScreenAndControlsInThatOrder) {
-    showTwoPulses();
-    find<QToolButton>(scope, "Auto")->setFocus();
-    QStringList met;
-    for (int i = 0; i < 60; ++i) {
-        auto* at = scope.focusWidget();
-        const auto* button = qobject_cast<QAbstractButton*>(at);
-        met << (at->accessibleName().isEmpty() && button != nullptr ? button->text() : at->accessibleName());
-        QTest::keyClick(at, Qt::Key_Tab);
-    }
-    const auto place = [&](const char* name) { return met.indexOf(name); };
-    EXPECT_GE(place("Fit"), 0);
-    EXPECT_GT(place("Oscilloscope screen"), place("Fit"));
-    EXPECT_GT(place("Scale of Voltage"), place("Oscilloscope screen"));
-    EXPECT_GT(place("Store as reference"), place("Scale of Voltage"));
-    EXPECT_GT(place("Time base"), place("Store as reference"));
-    EXPECT_GT(place("Trigger source"), place("Time base"));
-    EXPECT_GT(place("Measurements"), place("Trigger source"));
-}
-
 TEST_F(Scope, EverythingThatIsUsedHasANameAndTeaches) {
     showTwoPulses();
     for (const auto* widget : scope.findChildren<QWidget*>()) {

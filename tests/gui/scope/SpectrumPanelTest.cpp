@@ -14,18 +14,22 @@ namespace {
 
 using testing::HasSubstr;
 
-TEST(SpectrumPanel, EachWindowReadsASineRightAndNamesItsPeaks) {
+/// `n` samples of `of(i)`.
+gui::TracePtr traceOf(int n, double rate_hz, const std::function<double(int)>& of) {
     auto samples = std::make_shared<std::vector<float>>();
+    for (int i = 0; i < n; ++i) samples->push_back(static_cast<float>(of(i)));
+    return gui::makeTrace("channel/voltage", "Voltage", "V", samples, rate_hz, 0, 0);
+}
+
+TEST(SpectrumPanel, EachWindowReadsASineRightAndNamesItsPeaks) {
     // 1 kHz and 2.5 kHz on lines of 8192 samples, some noise.
     constexpr double kRate = 81'920;
     Random random(3, "spectrum");
-    for (int i = 0; i < 8192; ++i) {
+    const auto trace = traceOf(8192, kRate, [&](int i) {
         const double t = i / kRate;
-        samples->push_back(static_cast<float>(2 * std::sqrt(2.0) * std::sin(2 * M_PI * 1000 * t) +
-                                              0.1 * std::sqrt(2.0) * std::sin(2 * M_PI * 2500 * t) +
-                                              1e-4 * random.normal()));
-    }
-    const auto trace = gui::makeTrace("channel/voltage", "Voltage", "V", samples, kRate, 0, 0);
+        return 2 * std::sqrt(2.0) * std::sin(2 * M_PI * 1000 * t) +
+               0.1 * std::sqrt(2.0) * std::sin(2 * M_PI * 2500 * t) + 1e-4 * random.normal();
+    });
     gui::SpectrumPanel panel;
     panel.resize(900, 260);
     panel.QWidget::show();
@@ -64,15 +68,13 @@ TEST(SpectrumPanel, EachWindowReadsASineRightAndNamesItsPeaks) {
 }
 
 TEST(SpectrumPanel, NamesAtAnEdgeLieOnNoneOfTheOthersAndTheLineNamesTheHighestAsItsMarkDoes) {
-    auto samples = std::make_shared<std::vector<float>>();
     constexpr double kRate = 81'920;
-    for (int i = 0; i < 8192; ++i) {
+    const auto trace = traceOf(8192, kRate, [](int i) {
         double sum = 0;
         for (int k = 1; k <= 12; ++k)
             sum += std::sqrt(2.0) / k * std::sin(2 * M_PI * (155 + 330 * (k - 1)) * i / kRate);
-        samples->push_back(static_cast<float>(sum));
-    }
-    const auto trace = gui::makeTrace("channel/voltage", "Voltage", "V", samples, kRate, 0, 0);
+        return sum;
+    });
     gui::SpectrumPanel panel;
     panel.QWidget::show();
     auto* log = find<QCheckBox>(panel, "Log frequency");
@@ -95,10 +97,8 @@ TEST(SpectrumPanel, NamesAtAnEdgeLieOnNoneOfTheOthersAndTheLineNamesTheHighestAs
 }
 
 TEST(SpectrumPanel, ASmallSignalsAxisHasAPrefixAndItsPeakStandsThere) {
-    auto samples = std::make_shared<std::vector<float>>();
-    for (int i = 0; i < 10'000; ++i)
-        samples->push_back(static_cast<float>(0.02 * std::sqrt(2.0) * std::sin(2 * M_PI * 1000 * i / 100e3)));
-    const auto trace = gui::makeTrace("channel/voltage", "Voltage", "V", samples, 100e3, 0, 0);
+    const auto trace =
+        traceOf(10'000, 100e3, [](int i) { return 0.02 * std::sqrt(2.0) * std::sin(2 * M_PI * 1000 * i / 100e3); });
     gui::SpectrumPanel panel;
     panel.resize(800, 250);
     panel.QWidget::show();
@@ -113,10 +113,8 @@ TEST(SpectrumPanel, ASmallSignalsAxisHasAPrefixAndItsPeakStandsThere) {
 }
 
 TEST(SpectrumPanel, SaysThatSamplesAreMissing) {
-    auto holed = std::make_shared<std::vector<float>>(10'000, 1.0F);
-    (*holed)[5000] = NAN;
     gui::SpectrumPanel panel;
-    panel.show(gui::makeTrace("channel/voltage", "Voltage", "V", holed, 100e3, 5, 5), 5, 5.1, Qt::blue);
+    panel.show(traceOf(10'000, 100e3, [](int i) { return i == 5000 ? NAN : 1; }), 0, 0.1, Qt::blue);
     EXPECT_TRUE(panel.spectrum().rms.empty());
     EXPECT_THAT(panel.spectrum().note.toStdString(), HasSubstr("missing"));
 }

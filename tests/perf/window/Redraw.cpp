@@ -109,7 +109,7 @@ void twoChannels(const Cost& baseline) {
         return notMeasured(what, "the simulated bench does not deliver");
     std::vector<gui::ShownPtr> captures;
     QObject::connect(&controller, &gui::BenchController::captured, [&](std::shared_ptr<const Capture> capture) {
-        captures.push_back(gui::prepareCapture(std::move(capture), {}, {}));
+        captures.push_back(gui::prepareCapture(std::move(capture)));
     });
     ScopeSettings settings;
     {

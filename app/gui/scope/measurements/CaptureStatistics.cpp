@@ -48,12 +48,11 @@ double RunningStatistics::of(Statistic statistic) const noexcept {
     return all[static_cast<std::size_t>(statistic)];
 }
 
-QString statisticText(Reading reading, Statistic statistic, const RunningStatistics& its, const QString& channelUnit,
-                      int digits) {
+QString statisticText(Reading reading, Statistic statistic, const RunningStatistics& its, const QString& channelUnit) {
     if (statistic == Statistic::Count) return QString::number(its.n());
     if (statistic == Statistic::Last && its.upperBound()) return upperBoundText(*its.upperBound());
     // A deviation is known to two digits at best.
-    return readingText(reading, its.of(statistic), channelUnit, statistic == Statistic::Sd ? 2 : digits);
+    return readingText(reading, its.of(statistic), channelUnit, statistic == Statistic::Sd ? 2 : 4);
 }
 
 void CaptureStatistics::clear() {

@@ -49,7 +49,7 @@ private:
 
 /// As it stands in a cell; the number of readings without a unit. The last may be an upper bound.
 [[nodiscard]] QString statisticText(Reading reading, Statistic statistic, const RunningStatistics& its,
-                                    const QString& channelUnit, int digits = 4);
+                                    const QString& channelUnit);
 
 class CaptureStatistics {
 public:

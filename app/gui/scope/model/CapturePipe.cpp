@@ -60,7 +60,7 @@ void CapturePipe::take(std::shared_ptr<const Capture> capture, const QString& so
         if (mask && !capture->untriggered) judged = mask->check(*capture);
         const bool averages = ours && average_.captures() > 1 && std::isfinite(capture->trigger_s);
         if (averages) capture = average_.add(std::move(capture));
-        auto shown = std::const_pointer_cast<ShownCapture>(prepareCapture(std::move(capture), {}, math));
+        auto shown = std::const_pointer_cast<ShownCapture>(prepareCapture(std::move(capture), math));
         shown->source = source;
         shown->taken = taken;
         shown->asked = asked;
@@ -89,7 +89,7 @@ void CapturePipe::open(const QString& path) {
         ShownPtr shown;
         if (read && wantedOpen_ == number) {
             auto its = std::const_pointer_cast<ShownCapture>(
-                prepareCapture(std::make_shared<const Capture>(std::move(read->capture)), {}, math));
+                prepareCapture(std::make_shared<const Capture>(std::move(read->capture)), math));
             its->source = QFileInfo(path).fileName();
             // Says what is not evident: which instrument's table it was taken for.
             if (read->formatId != "csv") its->source += " (" + QString::fromStdString(read->formatName) + ")";

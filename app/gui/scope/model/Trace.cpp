@@ -108,11 +108,10 @@ std::shared_ptr<Trace> makeTrace(const QString& key, const QString& title, const
     return trace;
 }
 
-ShownPtr prepareCapture(std::shared_ptr<const Capture> capture, const MeasureOptions& options,
-                        const MathOptions& math) {
+ShownPtr prepareCapture(std::shared_ptr<const Capture> capture, const MathOptions& math) {
     auto shown = std::make_shared<ShownCapture>();
     shown->zero_s = std::isfinite(capture->trigger_s) ? capture->trigger_s : capture->start_s;
-    auto measured = measureCapture(*capture, {}, options);
+    auto measured = measureCapture(*capture);
     for (std::size_t c = 0; c < capture->channels.size(); ++c) {
         shown->traces.push_back(channelTrace(capture, c, measured.channels[c], shown->zero_s));
         shown->waveforms.push_back(measureWaveform(*capture, c, measured.channels[c]));

@@ -109,8 +109,7 @@ using ShownPtr = std::shared_ptr<const ShownCapture>;
 [[nodiscard]] QString channelKey(const std::string& name);
 
 /// Measures every channel, builds every pyramid. Takes as long as the capture is; call it off the window's thread.
-[[nodiscard]] ShownPtr prepareCapture(std::shared_ptr<const Capture> capture, const MeasureOptions& options,
-                                      const MathOptions& math);
+[[nodiscard]] ShownPtr prepareCapture(std::shared_ptr<const Capture> capture, const MathOptions& math = {});
 /// The same measurement with other calculations.
 [[nodiscard]] ShownPtr withMath(const ShownCapture& shown, const MathOptions& math);
 

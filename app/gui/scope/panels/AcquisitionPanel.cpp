@@ -65,16 +65,14 @@ AcquisitionPanel::AcquisitionPanel(QWidget* parent)
     preTrigger_->setKeyboardTracking(false);
     preTrigger_->setAccessibleName(tr("Pre-trigger"));
     preTrigger_->setToolTip(tr("How much of the record lies before the trigger. Or drag T at the top of the screen."));
-    for (const double s : stepsBetween(100e-6, 5)) length_->addItem(settingText(s, "s"), s);
-    choose(length_, 10e-3);
-    for (const double v : {1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0}) {
-        volts_->addItem("±" + settingText(v, "V"), v);
-    }
-    choose(volts_, 50);
-    for (const double a : {1e-3, 2e-3, 5e-3, 10e-3, 20e-3, 50e-3, 100e-3, 200e-3, 500e-3}) {
-        amps_->addItem("±" + settingText(a, "A"), a);
-    }
-    choose(amps_, 200e-3);
+    const auto offer = [](QComboBox* box, double low, double high, const QString& before, const QString& unit,
+                          double at) {
+        for (const double step : stepsBetween(low, high)) box->addItem(before + settingText(step, unit), step);
+        choose(box, at);
+    };
+    offer(length_, 100e-6, 5, {}, "s", 10e-3);
+    offer(volts_, 1, kMaxVolts, "±", "V", 50);
+    offer(amps_, 1e-3, kMaxAmps, "±", "A", 200e-3);
     fillRates();
     setTone(*said_, Tone::Quiet);
     said_->setWordWrap(true);

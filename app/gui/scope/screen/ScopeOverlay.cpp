@@ -168,9 +168,7 @@ void ScopeOverlay::drawMarks(QCPPainter& painter) const {
         double left = std::clamp((from + to - width) / 2, a.left(), std::max(a.left(), a.right() - width));
         if (left < written) continue;
         written = left + width + 4;
-        auto ground = colours().base;
-        ground.setAlpha(225);
-        painter.fillRect(QRectF(left, top + 4, width, line), ground);
+        painter.fillRect(QRectF(left, top + 4, width, line), ScopePlane::ground());
         painter.setPen(colours().text);
         painter.setBrush(Qt::NoBrush);
         painter.drawText(QRectF(left, top + 4, width, line), Qt::AlignCenter, mark.why);
@@ -275,9 +273,7 @@ void ScopeOverlay::drawComing(QCPPainter& painter) const {
         painter.setBrush(Qt::NoBrush);
         painter.drawPolyline(line);
         const auto box = wordsBox(coming, plane_);
-        auto ground = colours().base;
-        ground.setAlpha(225);
-        painter.fillRect(box, ground);
+        painter.fillRect(box, ScopePlane::ground());
         painter.setFont(comingFont());
         painter.setPen(colours().text);
         painter.drawText(box, Qt::AlignCenter, coming.text);

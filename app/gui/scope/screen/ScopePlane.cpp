@@ -64,6 +64,12 @@ void ScopePlane::drawPennant(QCPPainter& painter, const Pennant& pennant, const 
     painter.drawText(pennant.box, Qt::AlignCenter, text);
 }
 
+QColor ScopePlane::ground() {
+    auto ground = colours().base;
+    ground.setAlpha(225);
+    return ground;
+}
+
 QRectF ScopePlane::tagBox(const QPointF& centre, const QString& text) const {
     const QFontMetricsF metrics(font());
     const auto a = area();
@@ -75,10 +81,8 @@ QRectF ScopePlane::tagBox(const QPointF& centre, const QString& text) const {
 
 void ScopePlane::drawTag(QCPPainter& painter, const QPointF& centre, const QString& text, const QColor& colour) const {
     const auto box = tagBox(centre, text);
-    auto ground = colours().base;
-    ground.setAlpha(225);
     painter.setPen(QPen(colours().grid, 1));
-    painter.setBrush(ground);
+    painter.setBrush(ground());
     painter.drawRect(box);
     painter.setPen(colour);
     painter.drawText(box, Qt::AlignCenter, text);
