@@ -17,8 +17,7 @@ protected:
     }
     [[nodiscard]] std::vector<double> presented() const {
         std::vector<double> all;
-        for (const auto& each : rows())
-            if (each.name == row::kTrialBegin) all.push_back(each.body["current_ma"]);
+        for (const auto& body : bodies(row::kTrialBegin)) all.push_back(body["current_ma"]);
         return all;
     }
 };

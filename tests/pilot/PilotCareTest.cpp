@@ -14,12 +14,6 @@ using testing::SizeIs;
 
 class PilotCareTest : public PilotStageTest {
 protected:
-    [[nodiscard]] std::vector<nlohmann::json> bodies(const char* kind) const {
-        std::vector<nlohmann::json> all;
-        for (const auto& each : rows())
-            if (each.name == kind) all.push_back(each.body);
-        return all;
-    }
     void openReal() {
         looksReal_ = true;
         calibration_ = StimulatorCalibration{{1, 0, 0.5, 50},
@@ -162,12 +156,7 @@ TEST_F(PilotCareTest, ASessionThatWasStoppedGoesOnWithNothingButItsQuestions) {
         EXPECT_FALSE(care.skin("break 3"));
     }
     // As if it had died when it asked for the skin afterwards.
-    std::vector<SessionRow> earlier;
-    for (const auto& each : rows()) {
-        earlier.push_back(each);
-        if (each.name == row::kSessionEnd) break;
-    }
-    begin(earlier);
+    begin(rowsUntil(row::kSessionEnd));
     PilotSession session(*bench_, someone_, *record_, PilotSettings{}, nullptr, 2);
     session.resumesFrom("part 1", "head");
     EXPECT_THAT(session.begin(false), test::refusedSaying("the skin scores 2 (break 3)"));

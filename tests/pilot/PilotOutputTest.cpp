@@ -18,13 +18,6 @@ using testing::SizeIs;
 
 class PilotOutputTest : public PilotStageTest {
 protected:
-    void acceptOne() {
-        for (const double level : {0.5, 1.0}) {
-            const auto made = rising(level);
-            ASSERT_TRUE(stage_->trial(made));
-            ASSERT_TRUE(stage_->judged(level, false, made.name, false));
-        }
-    }
     /// A session in which 0.5 and 1 mA were accepted.
     void reachOne() {
         someone_.letsGo = true;
@@ -36,22 +29,6 @@ protected:
             return {};
         });
         someone_.asked.clear();
-    }
-    [[nodiscard]] StageTrial rising(double level) const {
-        auto made = trial(fmt::format("ascending {}", level), level);
-        made.held = made.stopAnswers = true;
-        return made;
-    }
-    [[nodiscard]] std::vector<nlohmann::json> bodies(const char* kind) const {
-        std::vector<nlohmann::json> all;
-        for (const auto& each : rows())
-            if (each.name == kind) all.push_back(each.body);
-        return all;
-    }
-    [[nodiscard]] std::vector<std::string> answered() const {
-        std::vector<std::string> all;
-        for (const auto& body : bodies(row::kAnswer)) all.push_back(body["name"]);
-        return all;
     }
     /// The first time that trains may come.
     void atFirstFeel(std::function<void()> happens) {
@@ -297,12 +274,7 @@ TEST_F(PilotOutputTest, AStopOfARisingLevelIsItsAnswerAlsoWhereTheProgramWasKill
     RecordProperty("hazard", "H6");
     atFirstFeel([this] { someone_.press("participant"); });
     ASSERT_EQ(stage_->trial(rising(0.5)).value().response, "stop");
-    std::vector<SessionRow> earlier;
-    for (const auto& each : rows()) {
-        earlier.push_back(each);
-        if (each.name == row::kParticipantStop) break;
-    }
-    begin(earlier);
+    begin(rowsUntil(row::kParticipantStop));
     const auto answer = accepted(stage_->trial(rising(0.5)));
     EXPECT_EQ(answer.response, "stop");
     EXPECT_EQ(bench_->telemetry().trainsDelivered, 0U) << "it is not presented once more";

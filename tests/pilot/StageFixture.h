@@ -132,6 +132,23 @@ protected:
     }
     [[nodiscard]] std::filesystem::path file() const { return dir_.path() / fmt::format("{}.tacto", part_); }
     [[nodiscard]] std::vector<SessionRow> rows() const { return SessionReader::open(file()).value().events().value(); }
+    /// All up to the first of this kind, as if the program had died there.
+    [[nodiscard]] std::vector<SessionRow> rowsUntil(const char* kind) const {
+        auto all = rows();
+        all.erase(std::next(std::ranges::find(all, kind, &SessionRow::name)), all.end());
+        return all;
+    }
+    [[nodiscard]] std::vector<nlohmann::json> bodies(const char* kind) const {
+        std::vector<nlohmann::json> all;
+        for (const auto& each : rows())
+            if (each.name == kind) all.push_back(each.body);
+        return all;
+    }
+    [[nodiscard]] std::vector<std::string> answered() const {
+        std::vector<std::string> all;
+        for (const auto& body : bodies(row::kAnswer)) all.push_back(body["name"]);
+        return all;
+    }
     /// Those of the session's own kinds, in order.
     [[nodiscard]] std::vector<std::string> kinds() const {
         std::vector<std::string> all;
@@ -159,6 +176,18 @@ protected:
         made.prompt = strengthPrompt();
         made.screen.state = ScreenState::Feel;
         return made;
+    }
+    [[nodiscard]] StageTrial rising(double level) const {
+        auto made = trial(fmt::format("ascending {}", level), level);
+        made.held = made.stopAnswers = true;
+        return made;
+    }
+    void acceptOne() {
+        for (const double level : {0.5, 1.0}) {
+            const auto made = rising(level);
+            ASSERT_TRUE(stage_->trial(made));
+            ASSERT_TRUE(stage_->judged(level, false, made.name, false));
+        }
     }
 
     ScratchDir dir_;

@@ -56,10 +56,7 @@ TEST_F(VibratedStageTest, AResumedSessionReachesItsStrengthsAgainStepByStep) {
     EXPECT_EQ(bench_->telemetry().trainsDelivered, 0U) << "what has an answer is not presented again";
     const auto answer = stage_->trial(vibrated("test 1", 4));
     ASSERT_TRUE(answer) << answer.error().message;
-    std::vector<std::string> answered;
-    for (const auto& each : rows())
-        if (each.name == row::kAnswer) answered.push_back(each.body["name"]);
-    EXPECT_THAT(answered, ElementsAre("ramp 0 0.05", "ramp 0 0.1", "ramp 0 0.15000000000000002", "test 1"));
+    EXPECT_THAT(answered(), ElementsAre("ramp 0 0.05", "ramp 0 0.1", "ramp 0 0.15000000000000002", "test 1"));
 }
 
 TEST_F(VibratedStageTest, AStrengthThatWasNotReachedByStepsIsRefused) {

@@ -16,6 +16,18 @@ namespace {
 
 class StudyFolder : public test::StudyDesk {
 protected:
+    /// Another process, for which `besides` holds too.
+    [[nodiscard]] bool refusedInAnotherProgram(const std::function<bool()>& besides) const {
+        const pid_t child = ::fork();
+        if (child == 0) {
+            const auto second = open();
+            const bool refused = !second && second.error().code == ErrorCode::Io &&
+                                 second.error().message.find("is open in test_study (process") != std::string::npos;
+            ::_exit(refused && besides() ? 0 : 1);
+        }
+        int status = -1;
+        return ::waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    }
     [[nodiscard]] std::filesystem::path keyFile() const {
         for (const auto& entry : std::filesystem::directory_iterator(scratch.path() / "home" / "keys"))
             if (entry.path().extension() == ".json") return entry.path();
@@ -74,10 +86,10 @@ TEST_F(StudyFolder, TellsNeitherWhoNorWhatWhileASessionRunsAndAfterIt) {
     }
 }
 
-TEST_F(StudyFolder, TheKeyFileIsItsOwnersAloneAndSealed) {
+using WithStudyFolder = test::WithPerson<StudyFolder>;
+
+TEST_F(WithStudyFolder, TheKeyFileIsItsOwnersAloneAndSealed) {
     RecordProperty("hazard", "H11");
-    auto study = make();
-    const auto code = enrolled(study);
     struct stat about {};
     ASSERT_EQ(::stat(keyFile().c_str(), &about), 0);
     EXPECT_EQ(about.st_mode & 0777, 0600U);
@@ -180,10 +192,8 @@ TEST_F(StudyFolder, AKeyFileOfAnEarlierVersionIsReadAndSaysHowFarTheLedgerGoesFr
     EXPECT_FALSE(open());
 }
 
-TEST_F(StudyFolder, TheKeyFileOfBeforeAWithdrawalIsOverwritten) {
+TEST_F(WithStudyFolder, TheKeyFileOfBeforeAWithdrawalIsOverwritten) {
     RecordProperty("hazard", "H11");
-    auto study = make();
-    const auto code = enrolled(study);
     const auto before = textOf(keyFile()), kept = (scratch.path() / "still has a name").string();
     ASSERT_NE(before.find("sealed"), std::string::npos);
     std::filesystem::create_hard_link(keyFile(), kept);
@@ -223,35 +233,14 @@ TEST_F(StudyFolder, WhereExportsLieIsKnownWithTheKeyAlone) {
 TEST_F(StudyFolder, ASecondProgramIsRefusedByName) {
     RecordProperty("hazard", "H12");
     auto study = make();
-    const pid_t child = ::fork();
-    if (child == 0) {
-        const auto second = open();
-        const bool refused = !second && second.error().code == ErrorCode::Io &&
-                             second.error().message.find("is open in test_study (process") != std::string::npos;
-        const bool readable = openWithoutKey().has_value();
-        ::_exit(refused && readable ? 0 : 1);
-    }
-    int status = -1;
-    ASSERT_EQ(::waitpid(child, &status, 0), child);
-    EXPECT_TRUE(WIFEXITED(status));
-    EXPECT_EQ(WEXITSTATUS(status), 0);
+    EXPECT_TRUE(refusedInAnotherProgram([&] { return openWithoutKey().has_value(); }));
 }
 
 TEST_F(StudyFolder, ASecondProgramIsRefusedAlsoWhenTheLockFileWasRemoved) {
     RecordProperty("hazard", "H12");
     auto study = make();
     ASSERT_TRUE(std::filesystem::remove(folder() / "study.lock"));
-    const pid_t child = ::fork();
-    if (child == 0) {
-        const auto second = open();
-        const bool refused = !second && second.error().code == ErrorCode::Io &&
-                             second.error().message.find("is open in test_study (process") != std::string::npos;
-        ::_exit(refused && !std::filesystem::exists(folder() / "study.lock") ? 0 : 1);
-    }
-    int status = -1;
-    ASSERT_EQ(::waitpid(child, &status, 0), child);
-    EXPECT_TRUE(WIFEXITED(status));
-    EXPECT_EQ(WEXITSTATUS(status), 0);
+    EXPECT_TRUE(refusedInAnotherProgram([&] { return !std::filesystem::exists(folder() / "study.lock"); }));
 }
 
 TEST_F(StudyFolder, ALedgerThatWasCutShortOrIsAnOlderCopyBeginsNoSession) {
@@ -380,10 +369,8 @@ TEST_F(StudyFolder, RowsThatCannotFollowInALedgerAreFound) {
     EXPECT_TRUE(open()) << "a word of another type is none";
 }
 
-TEST_F(StudyFolder, ASessionThatIsALinkIsNotOneThatWasNeverMade) {
+TEST_F(WithStudyFolder, ASessionThatIsALinkIsNotOneThatWasNeverMade) {
     RecordProperty("hazard", "H8");
-    auto study = make();
-    const auto code = enrolled(study);
     const auto begun = study.beginSession(test::someRequest(code)).value();
     for (const auto& target : {begun.path.filename(), std::filesystem::path("/nowhere/session.tacto")}) {
         std::filesystem::remove(begun.path);
@@ -434,10 +421,8 @@ TEST_F(StudyFolder, ADamagedLedgerIsFound) {
     EXPECT_EQ(verifyStudy(folder())->status, SessionStatus::Damaged);
 }
 
-TEST_F(StudyFolder, IsVerifiedWithoutAKeyBeforeAndAfterAWithdrawal) {
+TEST_F(WithStudyFolder, IsVerifiedWithoutAKeyBeforeAndAfterAWithdrawal) {
     RecordProperty("hazard", "H8");
-    auto study = make();
-    const auto code = enrolled(study);
     const auto begun = study.beginSession(test::someRequest(code)).value();
     ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Complete, record(begun)));
     const auto problemsOf = [&] {

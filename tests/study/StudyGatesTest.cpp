@@ -132,10 +132,10 @@ TEST_F(GateOfASession, AClockThatIsSetBackDatesNothingBack) {
     }
 }
 
-TEST_F(Desk, TheNextSessionWaitsForTheGap) {
+using WithDesk = test::WithPerson<Desk>;
+
+TEST_F(WithDesk, TheNextSessionWaitsForTheGap) {
     RecordProperty("hazard", "H12");
-    auto study = make();
-    const auto code = enrolled(study);
     const auto begun = study.beginSession(test::someRequest(code)).value();
     EXPECT_EQ(study.beginSession(test::someRequest(code)).error().code, ErrorCode::Unsupported);  // unfinished
     ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Stopped, record(begun)));
@@ -146,10 +146,8 @@ TEST_F(Desk, TheNextSessionWaitsForTheGap) {
     EXPECT_EQ(next.session.number, 2);
 }
 
-TEST_F(Desk, TheGapIsCountedFromTheFirstTrainAndNotFromTheChecklist) {
+TEST_F(WithDesk, TheGapIsCountedFromTheFirstTrainAndNotFromTheChecklist) {
     RecordProperty("hazard", "H12");
-    auto study = make();
-    const auto code = enrolled(study);
     const auto begun = study.beginSession(test::someRequest(code)).value();
     test::HandClock clock;  // as on a real bench, an event's time is that of the wall
     auto writer = test::accepted(SessionWriter::create(begun.path, {}, clock, begun.seal));
@@ -195,10 +193,8 @@ TEST_F(Desk, OnTheComputersOwnClockSessionsWaitForTheGapAndOneThatWasCancelledFo
     EXPECT_FALSE(study.sessions().front().opened);
 }
 
-TEST_F(Desk, ASessionInWhichNothingWasPresentedCostsNoDay) {
+TEST_F(WithDesk, ASessionInWhichNothingWasPresentedCostsNoDay) {
     RecordProperty("hazard", "H12");
-    auto study = make();
-    const auto code = enrolled(study);
     for (int i = 0; i < study.settings().sessionsMax + 1; ++i) {
         const auto booked = test::accepted(study.beginSession(test::someRequest(code)));
         ASSERT_TRUE(study.cancelSession(booked.session.id));
@@ -210,10 +206,8 @@ TEST_F(Desk, ASessionInWhichNothingWasPresentedCostsNoDay) {
     EXPECT_EQ(study.beginSession(test::someRequest(code)).error().code, kGateRefused);
 }
 
-TEST_F(Desk, ASessionWhoseFileIsGoneCountsFromItsBeginning) {
+TEST_F(WithDesk, ASessionWhoseFileIsGoneCountsFromItsBeginning) {
     RecordProperty("hazard", "H12");
-    auto study = make();
-    const auto code = enrolled(study);
     const auto begun = study.beginSession(test::someRequest(code)).value();
     ASSERT_FALSE(std::filesystem::exists(begun.path)) << "killed before it was made, or lost: both look like this";
     EXPECT_EQ(study.mayBegin(test::someRequest(code)).error().code, kGateRefused);
@@ -235,10 +229,8 @@ TEST_F(Desk, ARecordThatWasExchangedBarsTheNextSession) {
                 test::refused(kGateRefused, "is not the one that the ledger notes"));
 }
 
-TEST_F(Desk, ARecordThatWasChangedAmongItsRowsBarsTheNextSession) {
+TEST_F(WithDesk, ARecordThatWasChangedAmongItsRowsBarsTheNextSession) {
     RecordProperty("hazard", "H12");
-    auto study = make();
-    const auto code = enrolled(study);
     const auto begun = study.beginSession(test::someRequest(code)).value();
     ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Complete, record(begun)));
     ASSERT_TRUE(study.stillApproved());
@@ -272,10 +264,10 @@ private:
     std::optional<std::string> before_;
 };
 
-TEST_F(GateOfASession, NoTimeZoneMovesADay) {
+using WithGateOfASession = test::WithPerson<GateOfASession>;
+
+TEST_F(WithGateOfASession, NoTimeZoneMovesADay) {
     RecordProperty("hazard", "H11");
-    auto study = make();
-    const auto code = enrolled(study);
     const auto person = study.enrol({}).value().code;
     const auto last = std::chrono::sys_days(std::chrono::year(2027) / 10 / 31);
     using namespace std::chrono_literals;

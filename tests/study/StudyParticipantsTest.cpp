@@ -98,10 +98,10 @@ TEST_F(Desk, APersonAndAVirtualParticipantAreNeverOneParticipantOfARehearsal) {
     }
 }
 
-TEST_F(Desk, WhoLeavesKeepsTheirData) {
+using WithDesk = test::WithPerson<Desk>;
+
+TEST_F(WithDesk, WhoLeavesKeepsTheirData) {
     RecordProperty("hazard", "H11");
-    auto study = make();
-    const auto code = enrolled(study);
     ASSERT_TRUE(study.leave(code));
     EXPECT_EQ(study.find(code)->state, ParticipantState::Left);
     EXPECT_EQ(study.leave(code).error().code, kGateRefused);
@@ -169,9 +169,7 @@ TEST_F(Desk, ACodeAndASeedAreEnrolledOnce) {
     EXPECT_EQ(study.participants().size(), 2U);
 }
 
-TEST_F(Desk, AConsentIsNotDatedInTheFuture) {
-    auto study = make();
-    const auto code = enrolled(study);
+TEST_F(WithDesk, AConsentIsNotDatedInTheFuture) {
     EXPECT_EQ(study.consent(code, {"2", std::chrono::year(2026) / 11 / 25, "KL"}).error().code,
               ErrorCode::InvalidArgument);
     EXPECT_EQ(study.consent(code, {"2", study.today(), ""}).error().code, ErrorCode::InvalidArgument);
@@ -245,10 +243,8 @@ TEST_F(Desk, AgeSexAndHandednessAreWordsOfBidsOrLeftOut) {
     EXPECT_EQ(study.participants().size(), 1U);
 }
 
-TEST_F(Desk, WhatCouldNotBeReadBackIsNotWritten) {
+TEST_F(WithDesk, WhatCouldNotBeReadBackIsNotWritten) {
     RecordProperty("hazard", "H8");
-    auto study = make();
-    const auto code = enrolled(study);
     const auto begun = study.beginSession(test::someRequest(code)).value();
     const auto head = study.ledgerHead();
     const std::string tooLong(2001, 'x');

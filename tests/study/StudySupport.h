@@ -145,4 +145,12 @@ protected:
     ScratchDir scratch;
 };
 
+/// It and the one participant, as a test begins with them.
+template <typename Desk>
+class WithPerson : public Desk {
+protected:
+    Study study = Desk::make();
+    std::string code = Desk::enrolled(study);
+};
+
 }  // namespace tacto::test

@@ -26,9 +26,9 @@ TEST_F(Desk, WhatWasMadeIsThereForTheNextProgram) {
     EXPECT_TRUE(study.stillApproved());
 }
 
-TEST_F(Desk, ASessionIsBegunSealedEndedAndListed) {
-    auto study = make();
-    const auto code = enrolled(study);
+using WithDesk = test::WithPerson<Desk>;
+
+TEST_F(WithDesk, ASessionIsBegunSealedEndedAndListed) {
     const auto begun = test::accepted(study.beginSession(test::someRequest(code)));
     EXPECT_EQ(begun.session.number, 1);
     EXPECT_EQ(begun.path, folder() / "sessions" / (begun.session.id + ".tacto"));
@@ -75,10 +75,8 @@ TEST_F(Desk, AWrongPassphraseIsOneSentence) {
                 test::refused(ErrorCode::NotFound, "does not open the key file"));
 }
 
-TEST_F(Desk, APartOfAResumedSessionIsWhatItWasWhenItWasGoneOnWith) {
+TEST_F(WithDesk, APartOfAResumedSessionIsWhatItWasWhenItWasGoneOnWith) {
     RecordProperty("hazard", "H8");
-    auto study = make();
-    const auto code = enrolled(study);
     const auto first = study.beginSession(test::someRequest(code)).value();
     static_cast<void>(record(first));
     const auto second = test::accepted(study.continueSession(first.session.id, test::someRequest(code)));
@@ -129,10 +127,8 @@ TEST_F(Desk, NothingGoesOnFromARecordThatIsNotWholeAndNothingIsReadFromIt) {
     }
 }
 
-TEST_F(Desk, ARecordThatIsNotSealedIsNotOneOfAStudy) {
+TEST_F(WithDesk, ARecordThatIsNotSealedIsNotOneOfAStudy) {
     RecordProperty("hazard", "H8");
-    auto study = make();
-    const auto code = enrolled(study);
     const auto begun = study.beginSession(test::someRequest(code)).value();
     auto unsealed = begun;
     unsealed.seal = nullptr;  // anyone can make one, with any answers
@@ -141,10 +137,8 @@ TEST_F(Desk, ARecordThatIsNotSealedIsNotOneOfAStudy) {
     EXPECT_EQ(study.continueSession(begun.session.id, test::someRequest(code)).error().code, ErrorCode::ParseError);
 }
 
-TEST_F(Desk, ARecordThatIsGoneOrCutShortGivesNoResults) {
+TEST_F(WithDesk, ARecordThatIsGoneOrCutShortGivesNoResults) {
     RecordProperty("hazard", "H9");
-    auto study = make();
-    const auto code = enrolled(study);
     const auto begun = study.beginSession(test::someRequest(code)).value();
     ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Complete, record(begun)));
     ASSERT_TRUE(study.events(begun.session));
@@ -155,10 +149,8 @@ TEST_F(Desk, ARecordThatIsGoneOrCutShortGivesNoResults) {
     EXPECT_FALSE(study.events(begun.session)) << "gone is not without answers";
 }
 
-TEST_F(Desk, AnUnfinishedSessionGoesOnInANewPartUnderTheSameNumber) {
+TEST_F(WithDesk, AnUnfinishedSessionGoesOnInANewPartUnderTheSameNumber) {
     RecordProperty("hazard", "H8");
-    auto study = make();
-    const auto code = enrolled(study);
     const auto begun = study.beginSession(test::someRequest(code)).value();
     record(begun);
     const auto again = test::accepted(study.continueSession(begun.session.id, test::someRequest(code)));
@@ -198,10 +190,8 @@ TEST_F(Desk, AnAmendmentHasAReferenceOfItsOwnAndBindsWhatItChanges) {
     EXPECT_EQ(again.amendments()[0].changed, (std::vector<std::string>{"approval.expires", "blocks"}));
 }
 
-TEST_F(Desk, AdverseEventsSurviveAWithdrawal) {
+TEST_F(WithDesk, AdverseEventsSurviveAWithdrawal) {
     RecordProperty("hazard", "H12");
-    auto study = make();
-    const auto code = enrolled(study);
     const auto begun = study.beginSession(test::someRequest(code)).value();
     EXPECT_FALSE(study.adverseEvent(begun.session.id, {.what = "redness", .severity = 5}));
     ASSERT_TRUE(study.adverseEvent(begun.session.id, {.what = "redness", .severity = 2, .relation = 4}));
