@@ -155,8 +155,9 @@ MatrixBlock matrixOf(const QStringList& columns, const json& rows) {
     bool judged = false;
     for (const auto& column : columns) matrix.columns << loadText(visible(column));
     for (const auto& line : rows) {
-        matrix.rows.push_back(rowOf(line));
-        matrix.rows.back().cells.resize(static_cast<std::size_t>(columns.size()));
+        auto& row = matrix.rows.emplace_back(rowOf(line.is_object() ? line : json::object()));
+        row.cells.resize(static_cast<std::size_t>(columns.size()));
+        if (row.worst >= columns.size()) row.worst = -1;
         for (const auto& cell : memberAt(line, "cells")) judged = judged || cell.contains("margin_pct");
     }
     shareUnits(matrix.rows);
@@ -171,14 +172,20 @@ MatrixBlock matrixOf(const QStringList& columns, const json& rows) {
 
 MatrixBlock limitsOf(const json& matrix) {
     json rows = json::array();
-    const auto& lines = memberAt(matrix, "lines");
-    for (const auto& line : lines.is_array() ? lines : json::array()) {
-        const auto same = std::ranges::find_if(rows, [&](const json& row) { return isSameLimit(row, line); });
-        auto& row = same == rows.end() ? rows.emplace_back(line) : *same;
-        row["sets"].push_back(memberAt(line, "set"));
-        if (textOr(line, "compare") == "<") row["compare"] = "<";
+    const auto &lines = memberAt(matrix, "lines"), &loads = memberAt(matrix, "loads");
+    if (!lines.is_array() || !loads.is_array() || sentencesIn(loads).size() != qsizetype(loads.size())) return {};
+    for (const auto& line : lines) {
+        if (!line.is_object()) continue;
+        auto same = std::ranges::find_if(rows, [&](const json& row) { return isSameLimit(row, line); });
+        if (same == rows.end()) {
+            rows.push_back(line);
+            same = std::prev(rows.end());
+            (*same)["sets"] = json::array();
+        }
+        (*same)["sets"].push_back(memberAt(line, "set"));
+        if (textOr(line, "compare") == "<") (*same)["compare"] = "<";
     }
-    auto block = matrixOf(sentencesIn(memberAt(matrix, "loads")), rows);
+    auto block = matrixOf(sentencesIn(loads), rows);
     for (auto& row : block.rows) {
         if (row.hasLimit) continue;
         row.limit = row.note = kUntilNextTrain;

@@ -209,8 +209,8 @@ void addResults(const nlohmann::json& results, Captions& captions, std::vector<R
             add(tableOf(table, rows, captions.table(title)));
         else if (table.shape == Shape::Facts && value.is_object())
             add(factsOf(table, value, captions.table(title)));
-        else if (table.shape == Shape::Across && !rows.empty())
-            blocks.emplace_back(shortened(acrossOf(table, rows), captions.table(title)));
+        else if (auto beside = acrossOf(table, rows); table.shape == Shape::Across && !beside.columns.isEmpty())
+            blocks.emplace_back(shortened(std::move(beside), captions.table(title)));
         else if (auto limits = limitsOf(value); table.shape == Shape::Limits && !limits.rows.empty()) {
             add(closestOf(limits, captions.table("Closest to their limits" + partial)));
             blocks.emplace_back(shortened(std::move(limits), captions.table(title)));

@@ -56,8 +56,11 @@ ResultTraits stimulatorCalibration() {
         {verdict(), as(As::Quantity, "Quantity", "quantity"), number("Gain", "gain", "", "gain_expanded_uncertainty"),
          number("k", "gain_coverage_factor"), number("Offset", "offset", "@unit", "offset_expanded_uncertainty"),
          number("k", "offset_coverage_factor"), spread("Residual", "residual_max_pct_fs", "%"),
-         spread("Repeatability", "repeatability_pct_fs", "%"), spread("Hysteresis", "hysteresis_pct_fs", "%"),
-         number("n", "n"), number("Not measured", "not_measured"), number("Stand out", "outliers")})};
+         spread("Repeatability", "repeatability_pct_fs", "%"), spread("Hysteresis", "hysteresis_pct_fs", "%")})};
+    all.push_back(rows("Readings", "amplitude|interval|width|gap",
+                       {as(As::Quantity, "Quantity", "quantity"), number("Measured", "n"),
+                        number("Not measured", "not_measured"), number("Stand out, marked and kept", "outliers")},
+                       Else::InTheTerminal));
     all.push_back(
         budgets("Uncertainty at the largest command", "amplitude.budget|interval.budget|width.budget|gap.budget"));
     all.push_back(budgets("Uncertainty at the smallest command",

@@ -349,6 +349,46 @@ TEST_F(Report, AJudgedCellSaysHowMuchOfItsLimitIsUsed) {
     EXPECT_FALSE(html.contains("margin,"));
 }
 
+TEST(LimitMatrix, OneLimitFromTwoDocumentsIsOneRowThatNamesBoth) {
+    RecordProperty("hazard", "H9");
+    using State = MatrixBlock::State;
+    const auto line = [](const char* set, const char* compare, const char* verdict, double margin_pct) {
+        const nlohmann::json cell = {{"load", "500 ohm"}, {"value", 9.0},       {"expanded_uncertainty", 0.1},
+                                     {"note", "noted"},   {"verdict", verdict}, {"margin_pct", margin_pct}};
+        return nlohmann::json{
+            {"title", "peak"},    {"unit", "mA"},  {"limit", 10.0},           {"compare", compare},      {"set", set},
+            {"verdict", verdict}, {"source", set}, {"worst_load", "500 ohm"}, {"cells", {nullptr, cell}}};
+    };
+    nlohmann::json matrix = {{"loads", {"open", "500 ohm"}},
+                             {"lines",
+                              {line("paper", "<=", "pass", 9), line("gate", "<", "pass", 9),
+                               line("gate", "<", "fail", -1), line("gate", "<", "not evaluated", 9)}}};
+    const auto block = limitsOf(matrix);
+    ASSERT_EQ(block.rows.size(), 3U);
+    EXPECT_EQ(block.rows[0].set, limitSetTitle("paper") + ", " + limitSetTitle("gate"));
+    EXPECT_TRUE(block.rows[0].limit.startsWith('<')) << "the stricter of the two";
+    EXPECT_EQ(block.rows[0].cells[0].state, State::Empty);
+    EXPECT_EQ(block.rows[0].cells[1].state, State::Close) << "91 % used";
+    EXPECT_EQ(block.rows[1].cells[1].state, State::Broken);
+    EXPECT_EQ(block.rows[2].cells[1].state, State::Open) << "and no share of what was not evaluated";
+    EXPECT_EQ(closestOf(block, "").rows.front().last(), "noted");
+    // Whatever a script gives under these names is no reason to end.
+    const nlohmann::json shapes[] = {nullptr, 1, "text", true, nlohmann::json::array({1, "a", nullptr}), {{"a", 1}}};
+    for (const auto& shape : shapes) {
+        EXPECT_TRUE(limitsOf(shape).rows.empty());
+        for (const auto& [key, was] : matrix["lines"][0].items()) {
+            auto odd = matrix;
+            odd["lines"][0][key] = shape;
+            EXPECT_LE(closestOf(limitsOf(odd), "").rows.size(), 3U) << key;
+        }
+        for (const char* key : {"loads", "lines"}) {
+            auto odd = matrix;
+            odd[key] = shape;
+            EXPECT_LE(limitsOf(odd).rows.size(), 4U) << key;
+        }
+    }
+}
+
 TEST_F(Report, WhatIsNotEvaluatedOnSeveralLoadsForOneReasonIsOneSentence) {
     const auto row = [](const char* load, const char* join) {
         return QJsonObject{

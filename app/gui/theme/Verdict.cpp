@@ -38,7 +38,7 @@ VerdictStyle verdictStyle(const QString& key) {
     return {shape, "verdict-none", QObject::tr("NO VERDICT"), c.sunken, c.text, c.quiet};
 }
 
-QString verdictText(const QString& key) { return verdictStyle(key).shape + " " + key; }
+QString verdictText(const QString& key) { return verdictCell(key); }
 
 VerdictBlock::VerdictBlock(QWidget* parent) : QLabel(parent) {
     setObjectName("verdict");

@@ -1,6 +1,8 @@
 #include "core/analysis/load_safety/LoadSafetyJson.h"
 
 #include <cmath>
+#include <set>
+#include <string_view>
 
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/base/RecordFields.h"
@@ -135,39 +137,30 @@ RecordFields<AbsoluteError> buildAbsoluteFields() {
 }
 
 json toJson(const LoadLine& line) {
-    const auto& most = line.strongest;
-    return {{"name", line.name},
-            {"serial", line.serial.empty() ? json() : json(line.serial)},
-            {"nominal_ohm", numberOrNull(line.nominal_ohm)},
-            {"measured_ohm", numberOrNull(line.measured_ohm.value)},
-            {"measured_u_ohm", numberOrNull(line.measured_ohm.u)},
-            {"measured_expanded_ohm", numberOrNull(line.measured_ohm.expanded)},
-            {"peak_v", numberOrNull(most.peak_v.value)},
-            {"peak_v_u", numberOrNull(most.peak_v.u)},
-            {"peak_v_expanded", numberOrNull(most.peak_v.expanded)},
-            {"peak_ma", numberOrNull(most.peak_ma.value)},
-            {"peak_ma_u", numberOrNull(most.peak_ma.u)},
-            {"peak_ma_expanded", numberOrNull(most.peak_ma.expanded)},
-            {"rms_train_ma", numberOrNull(most.rms_train_ma.value)},
-            {"rms_train_ma_expanded", numberOrNull(most.rms_train_ma.expanded)},
-            {"rms_1s_ma", numberOrNull(most.rms_1s_ma.value)},
-            {"rms_1s_ma_expanded", numberOrNull(most.rms_1s_ma.expanded)},
-            {"rms_5s_ma", numberOrNull(most.rms_5s_ma.value)},
-            {"rms_5s_ma_u", numberOrNull(most.rms_5s_ma.u)},
-            {"rms_5s_ma_expanded", numberOrNull(most.rms_5s_ma.expanded)},
-            {"charge_uc", numberOrNull(most.charge_uc.value)},
-            {"charge_uc_expanded", numberOrNull(most.charge_uc.expanded)},
-            {"net_charge_uc", numberOrNull(most.net_charge_uc.value)},
-            {"net_charge_uc_expanded", numberOrNull(most.net_charge_uc.expanded)},
-            {"imbalance", numberOrNull(most.imbalance.value)},
-            {"energy_mj", numberOrNull(most.energy_mj.value)},
-            {"energy_mj_expanded", numberOrNull(most.energy_mj.expanded)},
-            {"current_density_ma_cm2", numberOrNull(line.currentDensity_ma_cm2)},
-            {"power_density_w_cm2", numberOrNull(line.powerDensity_w_cm2)},
-            {"trains", most.trains},
-            {"commands_delivered", line.steps},
-            {"commands_refused", line.refused},
-            {"verdict", nameOf(line.verdict)}};
+    json out = {{"name", line.name},
+                {"serial", line.serial.empty() ? json() : json(line.serial)},
+                {"nominal_ohm", numberOrNull(line.nominal_ohm)},
+                {"measured_ohm", numberOrNull(line.measured_ohm.value)},
+                {"measured_u_ohm", numberOrNull(line.measured_ohm.u)},
+                {"measured_expanded_ohm", numberOrNull(line.measured_ohm.expanded)},
+                {"imbalance", numberOrNull(line.strongest.imbalance.value)},
+                {"current_density_ma_cm2", numberOrNull(line.currentDensity_ma_cm2)},
+                {"power_density_w_cm2", numberOrNull(line.powerDensity_w_cm2)},
+                {"trains", line.strongest.trains},
+                {"commands_delivered", line.steps},
+                {"commands_refused", line.refused},
+                {"verdict", nameOf(line.verdict)}};
+    const std::set<std::string_view> withU{"peak_v", "peak_ma", "rms_5s_ma"};
+    const std::set<std::string_view> shown{"rms_train_ma", "rms_1s_ma", "charge_uc", "net_charge_uc", "energy_mj"};
+    for (const auto& [key, reading] : kMembers) {
+        if (!withU.contains(key) && !shown.contains(key)) continue;
+        const auto& most = line.strongest.*reading;
+        const std::string name = key;
+        out[name] = numberOrNull(most.value);
+        if (withU.contains(key)) out[name + "_u"] = numberOrNull(most.u);
+        out[name + "_expanded"] = numberOrNull(most.expanded);
+    }
+    return out;
 }
 
 }  // namespace
