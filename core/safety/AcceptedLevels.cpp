@@ -55,6 +55,7 @@ constexpr Rule<AskedLevel> kLevelRules[] = {
 constexpr Rule<Result<void>> kAcceptanceRules[] = {
     {LevelAccept, [](auto& permitted) { return !permitted; }, [](auto& permitted) { return failure(permitted); }},
 };
+
 /// An intensity beside what the person permits.
 struct AskedIntensity {
     double intensity, discomfort, ceiling, step;
@@ -117,7 +118,7 @@ void AcceptedLevels::begin(Milliamps discomfortLimit, Milliamps rampStep, std::o
 
 void AcceptedLevels::resume(Milliamps discomfortLimit, Milliamps rampStep, std::optional<Milliamps> cap) noexcept {
     AcceptedScale::resume(discomfortLimit.value(), rampStep.value());
-    cap_ = cap ? cap->value() : AcceptedLevels{}.cap_;
+    cap_ = cap ? cap->value() : std::numeric_limits<double>::infinity();
 }
 
 bool AcceptedLevels::sameKind(const PulseTrain& train) const noexcept { return kindOf(train) == kindOf(kind_); }
