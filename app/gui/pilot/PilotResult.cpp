@@ -110,10 +110,12 @@ PilotResult::PilotResult(QWidget* parent)
       matrix_(new PageTable("confusion", tr("Confusion matrix"), *this, kPagePad, false)),
       blocks_(new QLabel(this)),
       note_(new QLabel(this)),
-      goOn_(new QPushButton(tr("Go on with the session"), this)),
-      another_(new QPushButton(tr("New rehearsal"), this)),
-      back_(new QPushButton(this)),
-      place_(new QPushButton(tr("Open the folder"), this)) {
+      goOn_(pageButton(tr("Go on with the session"), "goOnWithSession",
+                       tr("Answered trials are not repeated; the order stays the same."), this)),
+      another_(pageButton(tr("New rehearsal"), "anotherRehearsal",
+                          tr("In a folder of its own: the same seed gives the same session."), this)),
+      back_(pageButton({}, "backFromResult", {}, this)),
+      place_(pageButton(tr("Open the folder"), "openFolder", {}, this)) {
     setObjectName("pilotResult");
     auto* all = columnIn(*this, 0);
     auto* column = new QVBoxLayout;
@@ -143,14 +145,7 @@ PilotResult::PilotResult(QWidget* parent)
     auto* row = addPageFoot(*all, this);
     goOn_->setIcon(icon("run", Ink::Primary));
     makePrimary(*goOn_);
-    goOn_->setToolTip(tr("Answered trials are not repeated; the order stays the same."));
-    another_->setObjectName("anotherRehearsal");
-    another_->setToolTip(tr("In a folder of its own: the same seed gives the same session."));
-    back_->setObjectName("backFromResult");
-    for (auto* button : {goOn_, another_, back_, place_}) {
-        button->setAutoDefault(false);
-        row->addWidget(button);
-    }
+    for (auto* button : {goOn_, another_, back_, place_}) row->addWidget(button);
     row->addStretch();
     connect(goOn_, &QPushButton::clicked, this, &PilotResult::goOnWanted);
     connect(another_, &QPushButton::clicked, this, &PilotResult::anotherWanted);

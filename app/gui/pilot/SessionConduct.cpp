@@ -75,12 +75,14 @@ void SessionConduct::connectPage() {
     connect(&page_, &OperatorPage::breakNowWanted, this, &SessionConduct::breakNow);
     connect(&page_, &OperatorPage::abortWanted, this, &SessionConduct::abort);
     connect(&page_, &OperatorPage::keysWanted, this, &SessionConduct::giveKeys);
-    connect(&page_.question(), &OperatorAsk::answered, this, [this](quint64 id, const PilotAnswer& answer) {
-        answerAsOperator(id, answer);
-        giveKeys();
-    });
-    connect(&page_.notes(), &SessionNotes::noted, this, &SessionConduct::keep);
+    connectDesk(page_.question(), page_.notes());
+    connect(&page_.question(), &OperatorAsk::answered, this, &SessionConduct::giveKeys);
     connect(&page_.notes(), &SessionNotes::typingEnded, this, &SessionConduct::giveKeys);
+}
+
+void SessionConduct::connectDesk(OperatorAsk& question, SessionNotes& notes) {
+    connect(&question, &OperatorAsk::answered, this, &SessionConduct::answerAsOperator);
+    connect(&notes, &SessionNotes::noted, this, &SessionConduct::keep);
 }
 
 void SessionConduct::connectInputs() {
@@ -137,11 +139,8 @@ void SessionConduct::connectStrip() {
     connect(strip_, &OperatorStrip::abortWanted, this, &SessionConduct::abort);
     connect(strip_, &OperatorStrip::stopWanted, this, [this] { controller_.stop("operator (STOP)"); });
     connect(strip_, &OperatorStrip::closeWanted, this, [this] { window_->openStrip(false); });
-    connect(&strip_->question(), &OperatorAsk::answered, this, [this](quint64 id, const PilotAnswer& answer) {
-        answerAsOperator(id, answer);
-        window_->openStrip(false);
-    });
-    connect(&strip_->notes(), &SessionNotes::noted, this, &SessionConduct::keep);
+    connectDesk(strip_->question(), strip_->notes());
+    connect(&strip_->question(), &OperatorAsk::answered, this, [this] { window_->openStrip(false); });
 }
 
 QString SessionConduct::begin(const PilotStart& start, ScreenChoice& screens) {

@@ -57,10 +57,12 @@ private:
     std::atomic<bool> heldTested_{false};  ///< by a key of theirs that may be held still
 };
 
+class OperatorAsk;
 class OperatorPage;
 class OperatorStrip;
 class ParticipantWindow;
 class ScreenChoice;
+class SessionNotes;
 
 class SessionConduct final : public QObject {
     Q_OBJECT
@@ -107,6 +109,7 @@ private:
     /// A stop by the participant of a person's session: the output first, and that alone. Any thread.
     std::optional<HeardStop> switchOff(const char* by);
     void connectPage();
+    void connectDesk(OperatorAsk& question, SessionNotes& notes);
     void connectInputs();
     void openWindow();
     void connectStrip();

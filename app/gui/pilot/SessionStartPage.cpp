@@ -43,7 +43,7 @@ SessionStartPage::SessionStartPage(const DeviceWatch& watch, QWidget* parent)
     // Tab goes from what is made first to what is made later: devices and seats, the checklist, then the buttons.
     auto* form = buildForm(*inside, watch);
     buildChecklist();
-    begin_ = new QPushButton(tr("Begin the session"), this);
+    begin_ = pageButton(tr("Begin the session"), "beginSession", {}, this);
     // The checklist stands beside the rest where there is room.
     auto* body = new TurningRow([] { return scaledPx(kTwoColumns); });
     body->setSpacing(scaledPx(32));
@@ -56,15 +56,10 @@ SessionStartPage::SessionStartPage(const DeviceWatch& watch, QWidget* parent)
     trouble_->setContentsMargins(kPagePad, 0, kPagePad, 8);
     whole->addWidget(trouble_);
     auto* foot = addPageFoot(*whole, this);
-    begin_->setObjectName("beginSession");
     begin_->setIcon(icon("run", Ink::Primary));
     makePrimary(*begin_);
-    auto* back = new QPushButton(tr("Back to the study"), this);
-    back->setObjectName("backToStudy");
-    for (auto* button : {begin_, back}) {
-        button->setAutoDefault(false);
-        foot->addWidget(button);
-    }
+    auto* back = pageButton(tr("Back to the study"), "backToStudy", {}, this);
+    for (auto* button : {begin_, back}) foot->addWidget(button);
     foot->addStretch();
     connect(begin_, &QPushButton::clicked, this, &SessionStartPage::beginWanted);
     connect(back, &QPushButton::clicked, this, &SessionStartPage::backWanted);

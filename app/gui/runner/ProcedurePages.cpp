@@ -4,11 +4,11 @@
 
 #include "app/gui/calibrate/WiringPage.h"
 #include "app/gui/runner/NotesPanel.h"
-#include "app/gui/theme/FieldForm.h"
 #include "app/gui/runner/RunViews.h"
 #include "app/gui/runner/SignPage.h"
 #include "app/gui/runner/WiringPanel.h"
 #include "app/gui/runner/WorstPage.h"
+#include "app/gui/theme/FieldForm.h"
 #include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/ToolRow.h"

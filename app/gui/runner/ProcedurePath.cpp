@@ -4,10 +4,10 @@
 #include <utility>
 
 #include "app/gui/runner/LimitMatrixView.h"
-#include "app/gui/theme/FieldForm.h"
 #include "app/gui/runner/ProtocolHead.h"
 #include "app/gui/runner/RunPanel.h"
 #include "app/gui/runner/StepList.h"
+#include "app/gui/theme/FieldForm.h"
 #include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/ToolRow.h"

@@ -6,7 +6,6 @@
 #include <QShortcut>
 #include <QVBoxLayout>
 
-#include "app/gui/theme/FieldForm.h"
 #include "app/gui/runner/ProcedurePath.h"
 #include "app/gui/runner/PromptPanel.h"
 #include "app/gui/runner/ProtocolHead.h"
@@ -17,6 +16,7 @@
 #include "app/gui/runner/StepList.h"
 #include "app/gui/runner/WiringPanel.h"
 #include "app/gui/runner/WorstPage.h"
+#include "app/gui/theme/FieldForm.h"
 #include "app/gui/theme/Pages.h"
 #include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/Text.h"

@@ -1,12 +1,12 @@
 #include "app/gui/study/StudyPage.h"
 
 #include <QDir>
-#include <QFormLayout>
 #include <QStandardPaths>
 
 #include "app/gui/study/StudyList.h"
 #include "app/gui/theme/Building.h"
 #include "app/gui/theme/Dialogs.h"
+#include "app/gui/theme/PageFoot.h"
 #include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -14,8 +14,18 @@
 namespace tacto::gui {
 
 namespace {
-constexpr int kNonePad = 16;
+
+constexpr int kFormWide = 900;
+
+/// It closes once the study is open, and asks again where that is refused.
+PassphraseDialog* asksFor(OpenStudy& study, PassphraseDialog::Purpose purpose, const QString& title, QWidget* parent) {
+    auto* asks = new PassphraseDialog(purpose, title, parent);
+    QObject::connect(&study, &OpenStudy::opened, asks, &QDialog::accept);
+    QObject::connect(&study, &OpenStudy::refused, asks, &PassphraseDialog::refuse);
+    return asks;
 }
+
+}  // namespace
 
 StudyPage::StudyPage(OpenStudy& study, QWidget* parent)
     : QWidget(parent), study_(study), pages_(new PageStack(this)), new_(new NewStudyPage(study, pages_)) {
@@ -31,18 +41,12 @@ StudyPage::StudyPage(OpenStudy& study, QWidget* parent)
     connect(new_, &NewStudyPage::cancelled, this, [this] { pages_->setCurrentIndex(kNone); });
     connect(list_, &StudyList::sessionWanted, this, &StudyPage::sessionWanted);
     connect(&study_, &OpenStudy::opened, this, [this] {
-        if (asks_) asks_->accept();
         say({});
         list_->sayWhatHinders();
         pages_->setCurrentIndex(kList);
     });
     connect(&study_, &OpenStudy::refused, this, [this](const QString& why) {
-        if (asks_)
-            asks_->refuse(why);
-        else if (pages_->currentIndex() == kList)
-            list_->say(why);
-        else
-            say(why);
+        if (!asks_) pages_->currentIndex() == kList ? list_->say(why) : say(why);
     });
     connect(&study_, &OpenStudy::changed, this, [this] {
         if (study_.folder().isEmpty() && pages_->currentIndex() == kList) pages_->setCurrentIndex(kNone);
@@ -52,7 +56,7 @@ StudyPage::StudyPage(OpenStudy& study, QWidget* parent)
 QWidget* StudyPage::buildNone() {
     auto* around = new ScrollingPage(pages_);
     auto* page = new QWidget(around->viewport());
-    auto* column = columnIn(*page, 12, {kNonePad, kNonePad, kNonePad, kNonePad});
+    auto* column = columnIn(*page, 12, {kPagePad, kPagePad, kPagePad, kPagePad});
     column->addWidget(heading(tr("A study"), page));
     column->addWidget(explanation(
         tr("A study has an approval, participants known by codes, their consents, and sessions that are sealed under a "
@@ -63,17 +67,11 @@ QWidget* StudyPage::buildNone() {
     column->addWidget(trouble_);
     auto* row = new QHBoxLayout;
     row->setSpacing(8);
-    auto* open = new QPushButton(tr("Open a study…"), page);
-    open->setObjectName("openStudy");
-    open->setToolTip(tr("By its folder, which holds study.json."));
+    auto* open = pageButton(tr("Open a study…"), "openStudy", tr("By its folder, which holds study.json."), page);
     makePrimary(*open);
-    auto* create = new QPushButton(tr("New study…"), page);
-    create->setObjectName("newStudyWanted");
-    create->setToolTip(tr("Its approval and settings first, then a passphrase."));
-    for (auto* button : {open, create}) {
-        button->setAutoDefault(false);
-        row->addWidget(button);
-    }
+    auto* create =
+        pageButton(tr("New study…"), "newStudyWanted", tr("Its approval and settings first, then a passphrase."), page);
+    for (auto* button : {open, create}) row->addWidget(button);
     row->addStretch();
     column->addLayout(row);
     column->addStretch();
@@ -99,17 +97,13 @@ void StudyPage::open(const QString& folder) {
     if (!look) return say(sentence(look.error()));
     say({});
     if (!look->sealed) return study_.open(folder, nullptr);
-    asks_ = new PassphraseDialog(PassphraseDialog::Purpose::Open, look->title, this);
+    asks_ = asksFor(study_, PassphraseDialog::Purpose::Open, look->title, this);
     connect(asks_, &PassphraseDialog::given, this, [this, folder] { study_.open(folder, asks_->passphrase()); });
     connect(asks_, &PassphraseDialog::givenUp, &study_, &OpenStudy::giveUpOpening);
     openDialog(asks_);
 }
 
 void StudyPage::say(const QString& what) { trouble_->say(what); }
-
-namespace {
-constexpr int kNewPad = 16, kFormWide = 900;
-}
 
 NewStudyPage::NewStudyPage(OpenStudy& study, QWidget* parent)
     : QWidget(parent),
@@ -122,7 +116,7 @@ NewStudyPage::NewStudyPage(OpenStudy& study, QWidget* parent)
     auto* whole = columnIn(*this, 0);
     auto* page = new ScrollingPage(this);
     auto* inside = new QWidget(page->viewport());
-    auto* column = columnIn(*inside, 12, {kNewPad, kNewPad, kNewPad, kNewPad});
+    auto* column = columnIn(*inside, 12, {kPagePad, kPagePad, kPagePad, kPagePad});
     column->addWidget(heading(tr("A new study"), inside));
     column->addWidget(explanation(
         tr("As the ethics committee approved it. Settings and protocols are fixed with it: a later change is an "
@@ -144,33 +138,19 @@ NewStudyPage::NewStudyPage(OpenStudy& study, QWidget* parent)
     column->addStretch();
     page->hold(inside);
     whole->addWidget(page, 1);
-    auto* below = new QVBoxLayout;
-    below->setContentsMargins(kNewPad, 12, kNewPad, 12);
-    below->setSpacing(8);
+    auto* below = addPageFoot(*whole, this, QBoxLayout::TopToBottom);
     below->addWidget(trouble_);
     auto* foot = new QHBoxLayout;
-    foot->setSpacing(8);
-    auto* create = new QPushButton(tr("Create the study…"), this);
-    create->setObjectName("createStudy");
-    create->setToolTip(tr("Asks for a passphrase, then makes folder and keys."));
+    auto* create = pageButton(tr("Create the study…"), "createStudy",
+                              tr("Asks for a passphrase, then makes folder and keys."), this);
     makePrimary(*create);
-    auto* cancel = new QPushButton(tr("Back"), this);
-    for (auto* button : {create, cancel}) {
-        button->setAutoDefault(false);
-        foot->addWidget(button);
-    }
+    auto* cancel = pageButton(tr("Back"), "newStudyBack", {}, this);
+    for (auto* button : {create, cancel}) foot->addWidget(button);
     foot->addStretch();
     below->addLayout(foot);
-    whole->addLayout(below);
     connect(form_, &StudyForm::edited, trouble_, &QLabel::hide);
     connect(create, &QPushButton::clicked, this, &NewStudyPage::askForPassphrase);
     connect(cancel, &QPushButton::clicked, this, &NewStudyPage::cancelled);
-    connect(&study_, &OpenStudy::opened, this, [this] {
-        if (asks_) asks_->accept();
-    });
-    connect(&study_, &OpenStudy::refused, this, [this](const QString& why) {
-        if (asks_) asks_->refuse(why);
-    });
 }
 
 void NewStudyPage::clear() {
@@ -190,10 +170,10 @@ void NewStudyPage::askForPassphrase() {
                          : QString();
     trouble_->say(why);
     if (!why.isEmpty()) return;
-    asks_ = new PassphraseDialog(PassphraseDialog::Purpose::New, qtext(settings->title), this);
-    connect(asks_, &PassphraseDialog::given, this,
-            [this, folder, settings = *settings] { study_.create(folder, settings, asks_->passphrase()); });
-    openDialog(asks_);
+    auto* asks = asksFor(study_, PassphraseDialog::Purpose::New, qtext(settings->title), this);
+    connect(asks, &PassphraseDialog::given, this,
+            [this, asks, folder, settings = *settings] { study_.create(folder, settings, asks->passphrase()); });
+    openDialog(asks);
 }
 
 }  // namespace tacto::gui

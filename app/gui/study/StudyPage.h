@@ -64,7 +64,6 @@ private:
     FolderRow* folder_;
     StudyForm* form_ = nullptr;
     TroubleLine* trouble_;
-    QPointer<PassphraseDialog> asks_;
 };
 
 }  // namespace tacto::gui

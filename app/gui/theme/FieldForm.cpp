@@ -67,6 +67,7 @@ QFormLayout* rowsIn(QWidget& part, FieldForm::Labels labels) {
     auto* form = new QFormLayout(&part);
     form->setContentsMargins(0, 0, 0, 0);
     form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
+    if (labels == FieldForm::Labels::Beside) form->setVerticalSpacing(8);
     form->setRowWrapPolicy(labels == FieldForm::Labels::Above ? QFormLayout::WrapAllRows  // a narrow column
                                                               : QFormLayout::WrapLongRows);
     return form;

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "app/gui/scope/screen/ScopeScreen.h"
-#include "app/gui/theme/FieldForm.h"
 #include "app/gui/sessions/SessionDetails.h"
+#include "app/gui/theme/FieldForm.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/window/FoldingDock.h"
 #include "app/gui/window/MainWindow.h"

@@ -1,7 +1,7 @@
 // Without a mouse, where results are: Tab goes from STOP through each page once, in the order of reading.
 #include <QComboBox>
-#include <QLineEdit>
 #include <QDockWidget>
+#include <QLineEdit>
 #include <QSettings>
 #include <QStackedWidget>
 #include <QStatusBar>
