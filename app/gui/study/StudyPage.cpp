@@ -6,7 +6,6 @@
 #include "app/gui/study/StudyList.h"
 #include "app/gui/theme/Building.h"
 #include "app/gui/theme/Dialogs.h"
-#include "app/gui/theme/PageFoot.h"
 #include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"

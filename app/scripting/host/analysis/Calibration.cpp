@@ -2,7 +2,7 @@
 #include <cmath>
 #include <optional>
 
-#include "app/scripting/host/analysis/AnalysisParts.h"
+#include "app/scripting/host/analysis/RunAnalysis.h"
 #include "core/analysis/calibration/CalibrationJson.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/base/JsonText.h"

@@ -3,7 +3,7 @@
 #include <set>
 #include <string>
 
-#include "app/scripting/host/analysis/AnalysisParts.h"
+#include "app/scripting/host/analysis/RunAnalysis.h"
 #include "core/analysis/separability/SeparabilityJson.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "app/scripting/host/analysis/AnalysisParts.h"
+#include "app/scripting/host/analysis/RunAnalysis.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 
 namespace tacto::host::analysis {

@@ -2,7 +2,7 @@
 #include <array>
 #include <stop_token>
 
-#include "app/scripting/host/analysis/AnalysisParts.h"
+#include "app/scripting/host/analysis/RunAnalysis.h"
 #include "core/analysis/variation/VariationJson.h"
 #include "core/analysis/variation/VirtualParticipant.h"
 

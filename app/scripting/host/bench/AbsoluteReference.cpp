@@ -3,7 +3,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
-#include "app/scripting/host/bench/BenchParts.h"
+#include "app/scripting/host/bench/BenchCalls.h"
 #include "core/analysis/load_safety/LoadReading.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/analysis/statistics/Verdict.h"

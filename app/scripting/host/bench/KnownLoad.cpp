@@ -3,7 +3,7 @@
 #include <string_view>
 
 #include "app/scripting/engine/Arming.h"
-#include "app/scripting/host/bench/BenchParts.h"
+#include "app/scripting/host/bench/BenchCalls.h"
 #include "app/scripting/host/measure/Readings.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/analysis/statistics/Verdict.h"

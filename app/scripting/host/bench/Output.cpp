@@ -1,6 +1,6 @@
 // The output of the bench: arm, drive, wait, fit a load.
 #include "app/scripting/engine/Arming.h"
-#include "app/scripting/host/bench/BenchParts.h"
+#include "app/scripting/host/bench/BenchCalls.h"
 
 namespace tacto::host::bench {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "app/scripting/host/bench/BenchParts.h"
+#include "app/scripting/host/bench/BenchCalls.h"
 #include "core/calibration/CalibrationStore.h"
 #include "core/session/SessionWriter.h"
 

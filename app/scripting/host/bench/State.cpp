@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "app/scripting/host/bench/BenchParts.h"
+#include "app/scripting/host/bench/BenchCalls.h"
 
 namespace tacto::host::bench {
 

@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "app/scripting/engine/Arming.h"
-#include "app/scripting/host/analysis/AnalysisParts.h"
-#include "app/scripting/host/bench/BenchParts.h"
+#include "app/scripting/host/analysis/RunAnalysis.h"
+#include "app/scripting/host/bench/BenchCalls.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/base/JsonText.h"
 #include "core/base/JustNoticeable.h"

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "app/scripting/engine/ScriptSession.h"
-#include "app/scripting/host/bench/BenchParts.h"
+#include "app/scripting/host/bench/BenchCalls.h"
 
 namespace tacto::host::load_safety {
 

@@ -4,7 +4,7 @@
 
 #include "app/scripting/engine/Arguments.h"
 #include "app/scripting/engine/Arming.h"
-#include "app/scripting/host/bench/BenchParts.h"
+#include "app/scripting/host/bench/BenchCalls.h"
 #include "app/scripting/host/load_safety/LoadCommands.h"
 #include "app/scripting/host/measure/Readings.h"
 #include "app/scripting/host/report/LoadTracings.h"

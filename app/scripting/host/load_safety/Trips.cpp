@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "app/scripting/engine/Arming.h"
-#include "app/scripting/host/bench/BenchParts.h"
+#include "app/scripting/host/bench/BenchCalls.h"
 #include "app/scripting/host/load_safety/LoadCommands.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/bench/sensing/ScopeSession.h"

@@ -9,8 +9,8 @@
 
 namespace tacto::host::report {
 
-/// Report items: the single pulses into `loads`, as analysis.loadSafety() takes them, on one time axis, and the burst
-/// of loads.burst() with its load and condition, on another. `burst` null: none was captured.
+/// Report items: the single pulses into `loads`, as loadRecordFrom() reads them, on one time axis, and the burst
+/// of captureBurst() with its load and condition, on another. `burst` null: none was captured.
 [[nodiscard]] nlohmann::json loadTracings(ScriptSession& session, const nlohmann::json& loads,
                                           const nlohmann::json& burst);
 

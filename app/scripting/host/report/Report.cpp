@@ -5,7 +5,6 @@
 #include "app/scripting/host/plot/PlotFigures.h"
 #include "app/scripting/host/report/Cells.h"
 #include "app/scripting/host/report/CertificateItem.h"
-#include "app/scripting/host/report/LoadTracings.h"
 #include "app/scripting/host/report/ReportObject.h"
 #include "core/base/QuantityText.h"
 #include "core/calibration/CalibrationTrend.h"
@@ -19,13 +18,6 @@ namespace {
 Result<Json> writeItem(ScriptSession& session, const Json& item) {
     if (session.writer() == nullptr) return Json();
     return done(session.writer()->reportItem(session.now(), item));
-}
-
-Result<Json> writeItems(ScriptSession& session, const Json& items) {
-    for (const auto& item : items) {
-        if (auto written = writeItem(session, item); !written) return written;
-    }
-    return Json();
 }
 
 /// The correction that a stored calibration makes of one quantity.
@@ -92,7 +84,8 @@ Result<Json> certificate(ScriptSession& session, const Arguments& arguments) {
     for (const auto& found : arguments.list("found")) {
         const auto* own = session.own().calibration(found.value("calibration", Json()));
         if (own == nullptr)
-            return arguments.wrong("found", found, "what calibration.judge() made of this run's own readings");
+            return arguments.wrong("found", found,
+                                   "what bench.stimulatorCalibration.judge() made of this run's own readings");
         all.push_back(own);
     }
     if (session.writer() == nullptr) return Json();
@@ -114,13 +107,6 @@ Result<Json> certificate(ScriptSession& session, const Arguments& arguments) {
                  {"kept", Json()}};
     if (kept) item["kept"] = {{"made", dateText(kept->made)}, {"valid_until", dateText(kept->validUntil)}};
     return writeItem(session, item);
-}
-
-Result<Json> loadTracingsFigures(ScriptSession& session, const Arguments& arguments) {
-    const Json& burst = arguments.any("burst");
-    if (!burst.is_null() && !burst.is_object()) return arguments.wrong("burst", burst, "what loads.burst() returned");
-    if (session.writer() == nullptr) return Json();  // tens of thousands of samples, for no report
-    return writeItems(session, loadTracings(session, arguments.list("loads"), burst));
 }
 
 Result<Json> quantity(ScriptSession&, const Arguments& arguments) {

@@ -27,7 +27,7 @@ std::vector<HostFunction> reportFunctions() {
                         list("rows",
                              "{ title, note, unit, limit, compare, set, cells }; a cell per column: null, or { value, "
                              "expanded_uncertainty, margin_pct, verdict, text }, as in the lines of "
-                             "analysis.loadSafety()'s matrix")
+                             "bench.loadSafety.judge()'s matrix")
                             .of(ValueType::Object)},
          .text = "Adds rows against columns to the report: limits or quantities against loads.",
          .errors = "Throws when the session file cannot be written.",
@@ -38,8 +38,9 @@ std::vector<HostFunction> reportFunctions() {
          .errors = "Throws when the session file cannot be written.",
          .call = host::report::calibration},
         {.name = "certificate",
-         .parameters = {list("found", "from calibration.judge(), a quantity each").of(ValueType::Object),
-                        object("before", "bench.calibration, read before anything was kept")},
+         .parameters =
+             {list("found", "from bench.stimulatorCalibration.judge(), a quantity each").of(ValueType::Object),
+              object("before", "bench.calibration, read before anything was kept")},
          .text = "Makes the report a calibration certificate, once a new calibration is kept or is not to be: what was "
                  "measured without a correction, as found with the one that was stored, as left with the one that this "
                  "run keeps. The last two are computed from the readings.",
@@ -47,16 +48,6 @@ std::vector<HostFunction> reportFunctions() {
                    "cannot be written.",
          .needs = Role::Stimulator,
          .call = host::report::certificate},
-        {.name = "loadTracings",
-         .parameters =
-             {list("loads", "as analysis.loadSafety() takes them; steps from loads.give()").of(ValueType::Object),
-              any("burst",
-                  "from loads.burst(), with load and condition, the name of the trial that recorded it; null "
-                  "where there is none")},
-         .text = "Adds the strongest trains into 500 ohm, 2 kohm and 10 kohm to the report on one time axis, and a "
-                 "burst on another.",
-         .errors = "Throws when the session file cannot be written.",
-         .call = host::report::loadTracingsFigures},
         {.name = "quantity",
          .parameters =
              {number("value", "", "null where it is not known").orNull(),

@@ -10,7 +10,6 @@ namespace tacto::host::report {
 
 using Json = nlohmann::json;
 
-HostCall figure, table, matrix, quantity, rounded, text, calibration, certificate,
-    loadTracingsFigures;  // Report.cpp
+HostCall figure, table, matrix, quantity, rounded, text, calibration, certificate;  // Report.cpp
 
 }  // namespace tacto::host::report

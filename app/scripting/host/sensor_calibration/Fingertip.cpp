@@ -1,7 +1,7 @@
 // Reading a fingertip: its rest, slides over surfaces and weights on it.
 #include <cmath>
 
-#include "app/scripting/host/sensor_calibration/SensorParts.h"
+#include "app/scripting/host/sensor_calibration/FingertipCalibration.h"
 #include "core/analysis/sensor_calibration/SensorCalibrationJson.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/scripting/host/sensor_calibration/SensorParts.h"
+#include "app/scripting/host/sensor_calibration/FingertipCalibration.h"
 #include "core/analysis/sensor_calibration/SensorCalibrationJson.h"
 
 namespace tacto::host::sensor_calibration {

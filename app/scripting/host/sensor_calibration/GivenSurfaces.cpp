@@ -3,7 +3,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "app/scripting/host/sensor_calibration/SensorParts.h"
+#include "app/scripting/host/sensor_calibration/FingertipCalibration.h"
 #include "core/analysis/sensor_calibration/ProfilometerFile.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/base/Text.h"

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <cstring>
 
-#include "app/scripting/host/sensor_calibration/SensorParts.h"
+#include "app/scripting/host/sensor_calibration/FingertipCalibration.h"
 #include "core/base/JsonText.h"
 #include "core/calibration/CalibrationStore.h"
 

@@ -5,7 +5,7 @@
 
 #include "app/scripting/host/plot/PlotFigures.h"
 #include "app/scripting/host/report/Cells.h"
-#include "app/scripting/host/sensor_calibration/SensorParts.h"
+#include "app/scripting/host/sensor_calibration/FingertipCalibration.h"
 #include "core/analysis/sensor_calibration/SensorCalibrationJson.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/analysis/statistics/Verdict.h"

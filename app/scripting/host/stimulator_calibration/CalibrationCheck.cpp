@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "app/scripting/host/report/Cells.h"
-#include "app/scripting/host/stimulator_calibration/StimulatorParts.h"
+#include "app/scripting/host/stimulator_calibration/StimulatorLevels.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/analysis/statistics/Verdict.h"
 #include "core/base/QuantityText.h"

@@ -3,9 +3,9 @@
 #include <string_view>
 
 #include "app/scripting/engine/Arming.h"
-#include "app/scripting/host/bench/BenchParts.h"
+#include "app/scripting/host/bench/BenchCalls.h"
 #include "app/scripting/host/measure/Readings.h"
-#include "app/scripting/host/stimulator_calibration/StimulatorParts.h"
+#include "app/scripting/host/stimulator_calibration/StimulatorLevels.h"
 #include "core/base/JsonText.h"
 
 namespace tacto::host::stimulator_calibration {

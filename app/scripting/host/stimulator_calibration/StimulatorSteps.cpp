@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "app/scripting/engine/Arming.h"
-#include "app/scripting/host/analysis/AnalysisParts.h"
-#include "app/scripting/host/bench/BenchParts.h"
+#include "app/scripting/host/analysis/RunAnalysis.h"
+#include "app/scripting/host/bench/BenchCalls.h"
 #include "app/scripting/host/record/KeptCalibration.h"
 #include "app/scripting/host/report/Cells.h"
-#include "app/scripting/host/stimulator_calibration/StimulatorParts.h"
+#include "app/scripting/host/stimulator_calibration/StimulatorLevels.h"
 #include "core/base/QuantityText.h"
 
 namespace tacto {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "app/scripting/host/bench/BenchParts.h"
+#include "app/scripting/host/bench/BenchCalls.h"
 #include "app/scripting/host/measure/Readings.h"
 #include "core/bench/sensing/ScopeSession.h"
 

@@ -5,8 +5,8 @@
 
 #include "app/scripting/engine/Arguments.h"
 #include "app/scripting/engine/Arming.h"
-#include "app/scripting/host/analysis/AnalysisParts.h"
-#include "app/scripting/host/bench/BenchParts.h"
+#include "app/scripting/host/analysis/RunAnalysis.h"
+#include "app/scripting/host/bench/BenchCalls.h"
 #include "app/scripting/host/transitions/Changes.h"
 #include "core/encoding/Transitions.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/scripting/host/analysis/AnalysisParts.h"
+#include "app/scripting/host/analysis/RunAnalysis.h"
 #include "app/scripting/host/variation/PredictedFigures.h"
 #include "core/analysis/variation/VariationJson.h"
 #include "core/base/JsonText.h"

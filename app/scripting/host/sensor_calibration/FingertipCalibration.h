@@ -11,7 +11,7 @@
 
 #include "app/scripting/engine/Arguments.h"
 #include "app/scripting/engine/ScriptSession.h"
-#include "app/scripting/host/bench/BenchParts.h"
+#include "app/scripting/host/bench/BenchCalls.h"
 #include "core/analysis/sensor_calibration/SensorCalibration.h"
 #include "core/analysis/sensor_calibration/SensorReading.h"
 
