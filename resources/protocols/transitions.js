@@ -5,9 +5,8 @@
 // encoder's design makes of the whole R-P plane is computed beside it. Definitions: science.md sections 4, 10 and 12.
 //
 // Results: { transitions: from analysis.transitions(), steps, and jumps with small steps among them: [{ name, and what
-// bench.step() returned }], movements: [{ name, and what bench.traverse() returned }], changes: from
-// analysis.changes(), latency: from analysis.latency(), reference: { load_ohm, measured_ohm, allowed_pct, passed },
-// verdict, reasons, notes }.
+// was seen of it }], movements: [{ name, and what was seen }], changes and latency as judged, reference: { load_ohm,
+// measured_ohm, allowed_pct, passed }, verdict, reasons, notes }.
 protocol({
   title: "Transitions",
   purpose: "The largest step from train to train, and the time until a change is felt and is complete",

@@ -66,16 +66,16 @@ function run() { operator.wired(500); bench.arm({ load: 500 }); bench.present("s
 TEST(ProtocolDeclaration, NamesTheConfirmationOfArmingWhicheverFunctionArms) {
     RecordProperty("hazard", "H12");
     for (const char* call :
-         {"loads.arm(name)", "loads.askToArm(command)", "bench.tripBySilence('1 kohm', 1)", "calibration.warmUp(1, 2)",
-          "calibration . readLevel('gap', step, p)", "calibration.readKnownLoad(p)",
-          "calibration.beginLevels('gap', p)", "bench.readKnownLoad(1000, 5)"}) {
+         {"bench.loadSafety.trip('open')", "bench . loadSafety . silence()", "bench.transitions.knownLoad()",
+          "bench.stimulatorCalibration . read(level)", "bench.stimulatorCalibration.knownLoad(p)",
+          "bench.stimulatorCalibration.levels('gap')", "bench.readKnownLoad(1000, 5)"}) {
         const auto read =
             readDeclaration(probe(fmt::format("protocol({{ title: 'x' }});\nfunction run(p) {{ {}; }}", call)));
         ASSERT_TRUE(read) << read.error().message;
         EXPECT_EQ(read->questions, (std::vector<std::string>{"confirm-arming"})) << call;
     }
-    const auto read =
-        readDeclaration(probe("protocol({ title: 'x' });\nfunction run(p) { bench.disarm(); loads.armed(); }"));
+    const auto read = readDeclaration(
+        probe("protocol({ title: 'x' });\nfunction run(p) { bench.disarm(); bench.loadSafety.silenced(); }"));
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_TRUE(read->questions.empty());
 }

@@ -113,8 +113,16 @@ TEST_F(ForgedCalibration, AReadingCountsOnce) {
 
 TEST_F(ForgedCalibration, WhatAScriptSaysBesideAReadingDoesNotCount) {
     RecordProperty("hazard", "H1");
-    const auto lied = altered("rows.push(level.row);",
-                              "rows.push(Object.assign({}, level.row, { measured: 0.83 * level.row.measured }));", {});
+    const auto lied = altered("const results = bench.stimulatorCalibration.conclude();", R"(
+  const forged = {};
+  for (const quantity of Object.keys(TITLES)) {
+    const trials = record.trials().filter((trial) => trial.condition.startsWith(quantity + " "));
+    forged[quantity] = analysis.calibration(trials.map((trial) => ({ reading: trial.reading, commanded: 1 + trial.trial,
+      measured: 0.83 * (1 + trial.trial), direction: trial.condition.split(" ")[1] })), { quantity });
+  }
+  record.calibration(forged);
+  return;)",
+                              {});
     ASSERT_FALSE(lied.error) << lied.error->message;
     const auto all = kept();
     ASSERT_EQ(all.size(), 1U);
@@ -237,7 +245,8 @@ TEST_F(ForgedCalibration, ReadingsThatWereTakenWithACalibrationAppliedAreNotKept
                                         CalibrationLine{1, 0, 0.5, 2},
                                         CalibrationLine{1, 0, 100e-6, 400e-6},
                                         CalibrationLine{1, 0, 100e-6, 400e-6}};
-    const auto outcome = altered("bench.useCalibration(false);", "", {}, "sim:stimulator?gain=0.9", false, applied);
+    const auto outcome = altered("operator.wired(p.load);", "operator.wired(p.load); bench.useCalibration(true);", {},
+                                 "sim:stimulator?gain=0.9", false, applied);
     ASSERT_TRUE(outcome.error);
     EXPECT_THAT(outcome.error->message, HasSubstr("were taken with the stored calibration applied"));
     EXPECT_TRUE(kept().empty());

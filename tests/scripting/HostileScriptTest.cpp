@@ -117,7 +117,11 @@ TEST(HostileScript, ACallThatWouldComputeForLongIsRefused) {
          {"analysis.transitions({ lines: 101, traverse_s: 600 });",
           "const t = []; for (let i = 0; i < 3e4; ++i) t.push({ condition: 'c' + i % 6000, amplitude: 1, interval_s: 1 "
           "});\nanalysis.separability(t);",
-          "const m = []; for (let i = 0; i < 1e5; ++i) m.push(i);\ncalibration.weighings(m, 1000);"}) {
+          "const m = []; for (let i = 1; i < 1e5; ++i) m.push(i);\nbench.sensorCalibration.begin({ smooth: 'a', "
+          "smooth_ra_um: 1, smooth_rz_um: 0, smooth_file: '', rough: 'b', rough_ra_um: 2, rough_rz_um: 0, rough_file: "
+          "'', more: '', weights_g: m.join(';'), weight_repeats: 1000, weight_tolerance_pct: 0, gravity_m_s2: 9.8, "
+          "gravity_tolerance_pct: 0, contact_area_cm2: 0, contact_area_tolerance_pct: 0, reference_tolerance_pct: 1, "
+          "speed_mm_s: 50, force_n: 1, duration_s: 1, store: false });"}) {
         const auto begun = steady_clock::now();
         const auto left = runToItsEnd(call);
         ASSERT_TRUE(left.outcome.error) << call;

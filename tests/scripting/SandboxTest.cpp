@@ -88,7 +88,8 @@ INSTANTIATE_TEST_SUITE_P(
         // overwriting what belongs to the program
         Attempt{"AssignBench", "bench = {}"}, Attempt{"AssignVerdict", "verdict = () => 'pass'"},
         Attempt{"AssignMember", "bench.wait = () => 0"}, Attempt{"AddMember", "bench.extra = 1"},
-        Attempt{"DeleteMember", "delete bench.wait"},
+        Attempt{"DeleteMember", "delete bench.wait"}, Attempt{"AssignSteps", "bench.loadSafety = {}"},
+        Attempt{"AssignStep", "bench.loadSafety.load = () => 0"}, Attempt{"AddStep", "bench.loadSafety.extra = 1"},
         Attempt{"DefineMember", "Object.defineProperty(bench, 'wait', { value: 1 })"},
         Attempt{"DefineGlobal", "Object.defineProperty(Function('return this')(), 'bench', { value: 1 })"},
         Attempt{"DeleteGlobal", "delete (Function('return this')()).bench"},
@@ -118,17 +119,18 @@ TEST(Sandbox, RefusesTopLevelNamesThatHideTheProgramsOwn) {
 TEST(Sandbox, ShowsNothingOfTheObjectBehindIt) {
     RecordProperty("hazard", "H10");
     EXPECT_EQ(outcomeOf(R"js(function run() {
-        const own = ["arm", "attempt", "calibration", "capture", "conditions", "devices", "disarm", "drive",
-                     "electrodeArea", "exposure", "finished", "fitLoad", "lift", "live", "loads", "measureReference",
-                     "measureRest", "measureSlide", "measureWeight", "predict", "present", "profilometer",
-                     "readKnownLoad", "readReference", "replayed", "sensorStreams", "setElectrodeArea", "setEncoding",
-                     "setReferences", "step", "surfaces", "time", "traverse",
-                     "tripBySilence", "tripWhenArming", "tripWhileDelivering", "useCalibration",
-                     "useFingertipScales", "wait", "watch", "weights"];
+        const own = ["arm", "calibration", "capture", "conditions", "devices", "disarm", "drive", "encodingComparison",
+                     "exposure", "fitLoad", "lift", "live", "loadSafety", "loads", "measureReference", "measureRest",
+                     "measureWeight", "present", "profilometer", "readKnownLoad", "readReference",
+                     "sensorCalibration", "setElectrodeArea", "setEncoding", "setReferences",
+                     "stimulatorCalibration", "time", "transitions", "useCalibration", "variation", "wait", "watch"];
         if (Object.getOwnPropertyNames(bench).sort().join() !== own.join()) {
             throw Object.getOwnPropertyNames(bench).sort().join();
         }
-        if (Object.getPrototypeOf(bench) !== null) throw "bench has a prototype";
+        for (const held of [bench, bench.loadSafety, bench.variation]) {
+            if (Object.getPrototypeOf(held) !== null) throw "an object of the bench has a prototype";
+            if (!Object.isFrozen(held)) throw "an object of the bench is not frozen";
+        }
         for (const name of ["objectName", "deleteLater", "destroyed", "destroy", "call"]) {
             if (bench[name] !== undefined) throw name;
         }

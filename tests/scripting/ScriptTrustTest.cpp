@@ -105,20 +105,23 @@ TEST_F(ScriptTrust, WithoutAnAreaInTheProfileTheOperatorsWordIsNeeded) {
 
 // The shortest calibration of the twin's fingertip.
 constexpr const char* kCalibrates = R"js(
-const rest = bench.measureRest({ duration_s: 1 });
-const slidOver = (name, ra_um) => ({ name, ra_um, rz_um: null,
-  slides: [1, 2, 3].map(() => bench.measureSlide(name, rest, { duration_s: 2 })) });
-const surfaces = [slidOver("glass", 0.02), slidOver("P120", 42)];
-const calibrate = () => analysis.sensorCalibration(surfaces, rest);
+const steps = bench.sensorCalibration;
+const surfaces = steps.begin({ smooth: "glass", smooth_ra_um: 0.02, smooth_rz_um: 0, smooth_file: "", rough: "P120",
+  rough_ra_um: 42, rough_rz_um: 0, rough_file: "", more: "", weights_g: "100; 200", weight_repeats: 1,
+  weight_tolerance_pct: 0.1, gravity_m_s2: 9.8, gravity_tolerance_pct: 0.1, contact_area_cm2: 1,
+  contact_area_tolerance_pct: 1, reference_tolerance_pct: 20, speed_mm_s: 50, force_n: 1, duration_s: 2, store: true });
+steps.knownWeight();
+for (const step of steps.weighings) steps.weigh(step);
+steps.scale();
+const slideAll = () => { for (const surface of surfaces) for (let i = 0; i < 3; ++i) steps.slide(surface); };
 )js";
 
 TEST_F(ScriptTrust, AStoredProfileTakesOverTheScalesAndNothingElse) {
     RecordProperty("hazard", "H1");
     const auto error = run(
         std::string("bench.setElectrodeArea(1); bench.setEncoding({ amplitude_max_v: 20, pulses: 3 });") + kCalibrates +
-            "const found = calibrate();\n"
-            "return verdict({ verdict: null, smooth: found.roughness.references.h.smooth,"
-            " kept: record.sensorProfile(found, { store: true }) });",
+            "slideAll(); const found = steps.conclude();\n"
+            "return verdict({ verdict: null, smooth: found.roughness.references.h.smooth, kept: found.profile });",
         3);
     ASSERT_EQ(error, "");
     const auto kept = loadProfile(results_["kept"]["file"].get<std::string>()).value();
@@ -132,20 +135,24 @@ TEST_F(ScriptTrust, AStoredProfileTakesOverTheScalesAndNothingElse) {
 
 TEST_F(ScriptTrust, AProfileComesFromSlidesThatTheProgramMeasured) {
     RecordProperty("hazard", "H9");
-    const auto roughness = toJson(RoughnessSettings{}).dump();
-    for (const std::string& forged : {
-             "const found = { accepted: true, roughness: " + roughness + " };",
-             kCalibrates + std::string("const found = calibrate(); found.roughness.references.h.smooth = 0.0123;"),
-             kCalibrates + std::string("surfaces[1].slides[0].h *= 3; const found = calibrate();"),
-             kCalibrates + std::string("surfaces[1].slides[1] = surfaces[1].slides[0]; const found = calibrate();"),
-             kCalibrates + std::string("surfaces[0].name = \"steel\"; const found = calibrate();"),
-             kCalibrates + std::string("rest.mean_square *= 2; const found = calibrate();"),
-         }) {
-        EXPECT_THAT(run(forged + "found.accepted = true; record.sensorProfile(found, { store: true });", 3),
-                    HasSubstr("does not come from this run's own slides"))
-            << forged.substr(forged.size() - 60);
+    // What a script hands over beside is not looked at, and what was not measured is refused.
+    for (const auto& [forged, refusal] :
+         {std::pair("steps.slide('steel');", "surface is \"steel\", one of the surfaces is expected"),
+          std::pair("steps.weigh({ mass_g: 150, direction: 'up', repeat: 1 });", "one of the weights is expected"),
+          std::pair("for (const surface of surfaces) steps.slide(surface); steps.conclude();",
+                    "at least 3 are expected"),
+          std::pair("steps.conclude({ accepted: true });", "at least 3 are expected"),
+          std::pair("steps.begin({});", "is expected")}) {
+        EXPECT_THAT(run(std::string(kCalibrates) + forged, 3), HasSubstr(refusal)) << forged;
     }
+    EXPECT_THAT(run("bench.sensorCalibration.conclude();", 3), HasSubstr("begin() is expected first"));
     EXPECT_FALSE(std::filesystem::exists(folder_.path() / "tactoscope" / "profiles"));
+}
+
+TEST_F(ScriptTrust, ScalesThatAScriptMakesUpAreNotUsed) {
+    RecordProperty("hazard", "H7");
+    ASSERT_EQ(run(std::string(kCalibrates) + "steps.scale({ force: { unit: 'N', scale: 0.01, offset: 0 } });", 3), "");
+    EXPECT_NEAR(rig_->bench().profile().roughness.sensor->force->scale, 1, 0.05);
 }
 
 TEST_F(ScriptTrust, WhatTheProgramSaysOfExposureIsNotTheScripts) {

@@ -157,18 +157,6 @@ TEST(SensorCalibrationRun, TheScalesCarryTheTolerancesOfWeightsGravityAndArea) {
     EXPECT_TRUE(without.results["force"]["scale_expanded_uncertainty"].is_number());
 }
 
-TEST(SensorCalibrationRun, ScalesThatAScriptMakesUpAreNotUsed) {
-    RecordProperty("hazard", "H7");
-    RunBench rig(true, "sim:", 1, false, kSensorBench);
-    const auto outcome = rig.run(test::withRun(
-        "const weighed = [100, 200].map((mass) => ({ reading: bench.measureWeight(mass), direction: 'up' }));"
-        "const found = analysis.fingertipScales(weighed, { contact_area_cm2: 1 });"
-        "found.force.scale = 0.01; bench.useFingertipScales(found);"));
-    ASSERT_TRUE(outcome.error);
-    EXPECT_THAT(outcome.error->message, HasSubstr("do not come from this run's own weights"));
-    EXPECT_FALSE(rig.bench().profile().roughness.sensor);
-}
-
 TEST(SensorCalibrationRun, WhoStartsTouchedIsToldSo) {
     // A finger that never lifts: on a rig without a presenter nothing else would notice.
     RunBench rig(true, "sim:", 1, false, kSensorBench);

@@ -1,8 +1,12 @@
 // The transitions protocol on twins: its latency is the scheduler's, and it fails where it must.
 #include <cmath>
+#include <functional>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/analysis/transitions/CapturedChange.h"
+#include "core/analysis/transitions/StepLatency.h"
+#include "core/encoding/Transitions.h"
 #include "core/session/SessionReader.h"
 #include "tests/scripting/RunBench.h"
 
@@ -168,51 +172,56 @@ TEST(TransitionsProtocol, NothingMeasuredIsNoPass) {
 
 TEST(TransitionsProtocol, UnmeasuredStepsMakeALatencyIndeterminate) {
     RecordProperty("hazard", "H9");
-    RunBench rig(true, "sim:", 1, false, kNeeded);
-    const auto outcome = rig.run(test::withRun(
-        "const good = { name: 'a', latency_s: 0.201, designed_latency_s: 0.2, trains: 1, designed_trains: 1 };\n"
-        "const blind = { name: 'b', latency_s: null, designed_latency_s: 0.2, trains: null, designed_trains: 1 };\n"
-        "const late = { name: 'b', latency_s: 0.3, designed_latency_s: 0.2, trains: 1, designed_trains: 1 };\n"
-        "const slow = { name: 'b', latency_s: 0.2, designed_latency_s: 0.2, trains: 3, designed_trains: 1 };\n"
-        "const judge = (steps, names) => analysis.latency(steps, { tolerance_s: 0.02, names: names }).verdict;\n"
-        "return verdict({ verdict: null, all: judge([good], ['a']), blind: judge([good, blind], ['a', 'b']),\n"
-        "  missing: judge([good], ['a', 'b']), late: judge([good, late], ['a', 'b']), none: judge([], []),\n"
-        "  slow: judge([good, slow], ['a', 'b']) });"));
-    ASSERT_FALSE(outcome.error) << outcome.error->message;
-    EXPECT_EQ(outcome.results["all"], "pass");
-    for (const char* key : {"blind", "missing", "none"}) EXPECT_EQ(outcome.results[key], "indeterminate") << key;
-    for (const char* key : {"late", "slow"}) EXPECT_EQ(outcome.results[key], "fail") << key;
+    const auto step = [](const char* name, double latency_s, double trains) {
+        CapturedChange change{.name = name};
+        change.measured = {.latency_s = latency_s, .trains = trains};
+        change.designed = {.latency_s = 0.2, .trains = 1};
+        return change;
+    };
+    const auto good = step("a", 0.201, 1);
+    const auto judge = [](const std::vector<CapturedChange>& steps, const std::vector<std::string>& names) {
+        return judgeLatency(steps, names, 0.02).verdict;
+    };
+    EXPECT_EQ(judge({good}, {"a"}), Verdict::Pass);
+    EXPECT_EQ(judge({good, step("b", kNaN, kNaN)}, {"a", "b"}), Verdict::Indeterminate);
+    EXPECT_EQ(judge({good}, {"a", "b"}), Verdict::Indeterminate);
+    EXPECT_EQ(judge({}, {}), Verdict::Indeterminate);
+    EXPECT_EQ(judge({good, step("b", 0.3, 1)}, {"a", "b"}), Verdict::Fail);
+    EXPECT_EQ(judge({good, step("b", 0.2, 3)}, {"a", "b"}), Verdict::Fail);
 }
 
 TEST(TransitionsProtocol, UnmeasuredTrainsMakeChangesIndeterminate) {
     RecordProperty("hazard", "H9");
-    RunBench rig(true, "sim:", 1, false, kNeeded);
-    const auto outcome = rig.run(test::withRun(
-        "const train = { amplitude_v: 11, interval_s: 1, onset_u_s: 1e-6, amplitude_u_v: 1e-3, amplitude_jnd: 1, "
-        "interval_jnd: 0 };\n"
-        "const make = (name, train, more) => Object.assign({ name: name, from_v: 10, to_v: 11, from_s: 1, to_s: 1,\n"
-        "  before_v: [10, 10.001], complete_s: 1, fastest_complete_s: 1, trains: 1, fewest_trains: 1,\n"
-        "  onsets: [train] }, more);\n"
-        "const good = make('a', train);\n"
-        "const judge = (changes, names) => analysis.changes(changes, { names: names }).verdict;\n"
-        "const but = (more) => make('a', Object.assign({}, train, more));\n"
-        "return verdict({ verdict: null, good: judge([good], ['a']), none: judge([], []), missing: judge([good], ['a', "
-        "'b']),\n"
-        "  blind: judge([but({ amplitude_jnd: null })], ['a']), stamp: judge([but({ onset_u_s: null })], ['a']),\n"
-        "  once: judge([make('a', train, { before_v: [10] })], ['a']), never: judge([make('a', train, { complete_s: "
-        "null })], []),\n"
-        "  edge: judge([but({ amplitude_jnd: 1.999 })], ['a']), large: judge([but({ interval_jnd: 2.2 })], ['a']),\n"
-        "  late: judge([make('a', train, { complete_s: 2.1 })], []),\n"
-        "  slow: judge([make('a', train, { complete_s: 9, fastest_complete_s: 8, trains: 9, fewest_trains: 8 })], "
-        "[]),\n"
-        "  least: judge([make('a', train, { complete_s: 9, fastest_complete_s: 8, trains: 8, fewest_trains: 8 })], []) "
-        "});"));
-    ASSERT_FALSE(outcome.error) << outcome.error->message;
-    for (const char* key : {"good", "least"}) EXPECT_EQ(outcome.results[key], "pass") << key;
-    for (const char* key : {"none", "missing", "blind", "stamp", "once", "never", "edge"}) {
-        EXPECT_EQ(outcome.results[key], "indeterminate") << key;
-    }
-    for (const char* key : {"large", "late", "slow"}) EXPECT_EQ(outcome.results[key], "fail") << key;
+    CapturedChange good{.name = "a", .from_v = 10, .to_v = 11, .from_s = 1, .to_s = 1, .before_v = {10, 10.001}};
+    good.trains = {{kNaN, 11, 1, 1e-6, 1e-3, 1, 0}};
+    good.measured = {.trains = 1, .complete_s = 1};
+    good.fastest = {.trains = 1, .complete_s = 1};
+    const auto judge = [](const std::vector<CapturedChange>& changes, const std::vector<std::string>& names = {}) {
+        return judgeChanges(changes, names, {kWantedPerTrain}).verdict;
+    };
+    const auto but = [&good](const std::function<void(CapturedChange&)>& alter) {
+        auto other = good;
+        alter(other);
+        return other;
+    };
+    const auto slow = [&](double trains) {
+        return but([trains](CapturedChange& change) {
+            change.measured = {.trains = trains, .complete_s = 9};
+            change.fastest = {.trains = 8, .complete_s = 8};
+        });
+    };
+    for (const auto& passed : {good, slow(8)}) EXPECT_EQ(judge({passed}), Verdict::Pass);
+    EXPECT_EQ(judge({}), Verdict::Indeterminate);
+    EXPECT_EQ(judge({good}, {"a", "b"}), Verdict::Indeterminate);
+    for (const auto& open : {but([](auto& change) { change.trains[0].amplitude_jnd = kNaN; }),
+                             but([](auto& change) { change.trains[0].onsetUncertainty_s = kNaN; }),
+                             but([](auto& change) { change.before_v = {10}; }),
+                             but([](auto& change) { change.measured.complete_s = kNaN; }),
+                             but([](auto& change) { change.trains[0].amplitude_jnd = 1.999; })})
+        EXPECT_EQ(judge({open}), Verdict::Indeterminate);
+    for (const auto& failed : {but([](auto& change) { change.trains[0].interval_jnd = 2.2; }),
+                               but([](auto& change) { change.measured.complete_s = 2.1; }), slow(9)})
+        EXPECT_EQ(judge({failed}), Verdict::Fail);
 }
 
 TEST(TransitionsProtocol, SameSeedSameMoments) {

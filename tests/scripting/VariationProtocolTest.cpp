@@ -162,8 +162,8 @@ TEST(VariationProtocol, WrongOptionsAreRefusedByName) {
                  {"analysis.variation({ attention_ma: 3 })", "attention_ma"},
                  {"analysis.variation({ intolerance_ma: 6 })", "intolerance_ma"},
                  {"analysis.variation({ persons: 5 })", "persons"},
-                 {"analysis.uncertainBench({ load_pct: -1 })", "load_pct"},
-                 {"plot.predicted({}, \"width\")", "analysis.variation()"}};
+                 {"bench.variation.begin({ attention_ma: 3 })", "attention_ma"},
+                 {"bench.variation.conclude()", "bench.variation.begin() is expected first"}};
     for (const auto& [call, names] : wrong) {
         const auto outcome = rig.run(test::withRun(call));
         ASSERT_TRUE(outcome.error) << call;

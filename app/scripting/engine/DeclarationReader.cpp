@@ -48,8 +48,9 @@ bool mayAsk(const QString& text, std::string_view question) {
         const auto of = [](std::string_view word) {
             return QRegularExpression::escape(QString::fromUtf8(word.data(), static_cast<qsizetype>(word.size())));
         };
-        const QRegularExpression call(
-            QStringLiteral(R"(\b%1\s*\.\s*%2\b)").arg(of(function.object), of(function.name)));
+        // "bench . loadSafety . load": blanks around each dot.
+        const auto object = of(function.object).replace(QStringLiteral("\\."), QStringLiteral("\\s*\\.\\s*"));
+        const QRegularExpression call(QStringLiteral(R"(\b%1\s*\.\s*%2\b)").arg(object, of(function.name)));
         return call.match(text).hasMatch();
     });
 }

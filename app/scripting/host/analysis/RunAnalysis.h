@@ -1,4 +1,4 @@
-// AnalysisParts.h - what is judged and predicted, for the object "analysis" and for the steps of protocols.
+// RunAnalysis.h - what is judged and predicted, for the object "analysis" and for the steps of protocols.
 //
 // Thread-safety: calls come from the script's thread.
 #pragma once

@@ -1,4 +1,4 @@
-// BenchParts.h - what the steps of protocols take from the object "bench".
+// BenchCalls.h - what the steps of protocols take from the object "bench".
 //
 // Thread-safety: calls come from the script's thread.
 #pragma once

@@ -1,5 +1,5 @@
-// SensorParts.h - the parts of a fingertip's calibration: its readings, what the operator says of the specimens, the
-// scales, and the profile that is kept.
+// FingertipCalibration.h - the parts of a fingertip's calibration: its readings, what the operator says of the
+// specimens, the scales, and the profile that is kept.
 //
 // Thread-safety: calls come from the script's thread.
 #pragma once
@@ -66,6 +66,19 @@ struct Weighed {
 struct WeighingTolerances {
     double weights = 0, gravity = kNaN, area = kNaN;
 };
+/// { mass_g, reference_n, measured, expanded_uncertainty, unit, deviation_pct, expanded_uncertainty_pct, allowed_pct,
+/// verdict, passed }: verdict "not evaluated" and passed false where nothing was read or U is not known, passed null
+/// without a reading.
+struct KnownWeight {
+    Json check;
+    std::string reason;  ///< empty where it passed, and without a reading
+};
+/// Before anything is believed: a weight must read as what it is, within the tolerance with its U, which is that of the
+/// weight, of local gravity and of both readings. In counts it is not known what it should read; then it must stand out
+/// from rest by five standard deviations. `reading`: nothing where there is no weight or no force sensor.
+[[nodiscard]] KnownWeight judgeWeight(const std::optional<WeightReading>& reading, const FingertipRest& rest,
+                                      const WeighingTolerances& known, double tolerance_pct);
+
 /// What one unit of force and of each taxel stands for: { force, taxels: list }: force as SensorScale with unit, taxels
 /// { taxel, unit, scale, offset_pa, … }; scale is null with a reason where there is none. `area_cm2` 0: not known.
 [[nodiscard]] Json fingertipScales(const std::vector<Weighed>& weighed, double area_cm2,

@@ -54,6 +54,49 @@ std::string whyNot(const Json& check, double measured, double expanded) {
                   : std::string());
 }
 
+}  // namespace
+
+KnownWeight judgeWeight(const std::optional<WeightReading>& reading, const FingertipRest& rest,
+                        const WeighingTolerances& known, double tolerance_pct) {
+    Json check = {{"mass_g", nullptr},
+                  {"reference_n", nullptr},
+                  {"measured", nullptr},
+                  {"expanded_uncertainty", nullptr},
+                  {"deviation_pct", nullptr},
+                  {"expanded_uncertainty_pct", nullptr},
+                  {"allowed_pct", tolerance_pct},
+                  {"verdict", "not evaluated"},
+                  {"passed", nullptr}};
+    if (!reading) return {check, {}};
+    check["mass_g"] = numberOrNull(reading->mass_g);
+    check["reference_n"] = reading->reference_n;
+    check["unit"] = reading->inUse ? Json(symbolOf(reading->inUse->unit)) : Json();
+    const double atRest = rest.inUse ? rest.inUse->mean : kNaN;
+    const double measured = reading->inUse ? reading->inUse->mean - atRest : kNaN;
+    double expanded = kNaN;
+    if (std::isfinite(measured)) {
+        check["measured"] = measured;
+        if (reading->inUse->unit == StreamUnit::Newton) {
+            const double ofWeight = known.weights > 0 ? known.weights : kNaN;
+            expanded = weightError(*reading, *rest.inUse, ofWeight, known.gravity).expanded;
+            const double percent = 100 / reading->reference_n;
+            check["deviation_pct"] = percent * (measured - reading->reference_n);
+            check["expanded_uncertainty"] = numberOrNull(expanded);
+            check["expanded_uncertainty_pct"] = numberOrNull(percent * expanded);
+            check["verdict"] =
+                guardBandedName(percent * (measured - reading->reference_n), percent * expanded, tolerance_pct);
+        } else {
+            const bool standsOut = std::abs(measured) > kStandsOut * rest.force.sd;
+            check["verdict"] = nameOf(standsOut ? Verdict::Pass : Verdict::Fail);
+        }
+    }
+    const bool passed = check["verdict"] == "pass";
+    check["passed"] = passed;
+    return {check, passed ? std::string() : whyNot(check, measured, expanded)};
+}
+
+namespace {
+
 /// What a calibration has come to.
 struct SensorRun {
     std::vector<GivenSurface> given;
@@ -145,48 +188,6 @@ Result<Json> begin(ScriptSession& session, const Arguments& arguments) {
     return names;
 }
 
-/// Before anything is believed: a weight must read as what it is, within the tolerance with its U, which is that of the
-/// weight, of local gravity and of both readings. In counts it is not known what it should read; then it must stand out
-/// from rest. `reading`: nothing where there is no weight or no force sensor.
-Json checkOf(const std::optional<WeightReading>& reading, SensorRun& run) {
-    Json check = {{"mass_g", nullptr},
-                  {"reference_n", nullptr},
-                  {"measured", nullptr},
-                  {"expanded_uncertainty", nullptr},
-                  {"deviation_pct", nullptr},
-                  {"expanded_uncertainty_pct", nullptr},
-                  {"allowed_pct", run.reference_pct},
-                  {"verdict", "not evaluated"},
-                  {"passed", nullptr}};
-    if (!reading) return check;
-    check["mass_g"] = numberOrNull(reading->mass_g);
-    check["reference_n"] = reading->reference_n;
-    check["unit"] = reading->inUse ? Json(symbolOf(reading->inUse->unit)) : Json();
-    const double atRest = run.rest.inUse ? run.rest.inUse->mean : kNaN;
-    const double measured = reading->inUse ? reading->inUse->mean - atRest : kNaN;
-    double expanded = kNaN;
-    if (std::isfinite(measured)) {
-        check["measured"] = measured;
-        if (reading->inUse->unit == StreamUnit::Newton) {
-            const double ofWeight = run.known.weights > 0 ? run.known.weights : kNaN;
-            expanded = weightError(*reading, *run.rest.inUse, ofWeight, run.known.gravity).expanded;
-            const double percent = 100 / reading->reference_n;
-            check["deviation_pct"] = percent * (measured - reading->reference_n);
-            check["expanded_uncertainty"] = numberOrNull(expanded);
-            check["expanded_uncertainty_pct"] = numberOrNull(percent * expanded);
-            check["verdict"] =
-                guardBandedName(percent * (measured - reading->reference_n), percent * expanded, run.reference_pct);
-        } else {
-            const bool standsOut = std::abs(measured) > kStandsOut * run.rest.force.sd;
-            check["verdict"] = nameOf(standsOut ? Verdict::Pass : Verdict::Fail);
-        }
-    }
-    const bool passed = check["verdict"] == "pass";
-    check["passed"] = passed;
-    if (!passed) run.notKnown = whyNot(check, measured, expanded);
-    return check;
-}
-
 Result<Json> knownWeight(ScriptSession& session, const Arguments& arguments) {
     const auto begun = session.begun<SensorRun>(arguments.object());
     if (!begun) return failure(begun);
@@ -197,7 +198,9 @@ Result<Json> knownWeight(ScriptSession& session, const Arguments& arguments) {
         if (!read) return failure(read);
         reading = std::move(*read);
     }
-    run.results["reference"] = checkOf(reading, run);
+    const auto known = judgeWeight(reading, run.rest, run.known, run.reference_pct);
+    run.results["reference"] = known.check;
+    run.notKnown = known.reason;
     if (reading) {
         if (auto kept = session.keepMeasurement("known-reference check", run.results["reference"]); !kept)
             return failure(kept);

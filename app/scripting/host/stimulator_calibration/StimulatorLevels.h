@@ -1,4 +1,4 @@
-// StimulatorParts.h - the parts of a stimulator's calibration: its levels, how each is set and read, and whether a
+// StimulatorLevels.h - the parts of a stimulator's calibration: its levels, how each is set and read, and whether a
 // stored calibration still holds.
 //
 // Thread-safety: calls come from the script's thread.
@@ -56,5 +56,13 @@ struct LevelSettings {
 /// commanded, expected, measured, direction, off, expanded_uncertainty, allowed, not_measured, unit, verdict }; widths
 /// and gaps in us. `found` as analysis.calibration() returns it.
 [[nodiscard]] Json checkAgainst(const Json& line, const Json& found, double tolerance_pct);
+
+/// The oscilloscope's time base by the computer's clock, which hands out the trains: one that reads the clock wrong
+/// reads every time wrong. Empty when it is right or was not read (null), else why not.
+[[nodiscard]] std::string timeBaseProblem(const Json& interval);
+/// { verdict, reasons } of what was found of each quantity: the worst quantity's, and indeterminate where `clock` says
+/// that the time base is not sure; and the same of checks of what is `stored`.
+[[nodiscard]] Json verdictOf(const std::vector<Json>& found, const std::string& clock, bool store);
+[[nodiscard]] Json checkVerdictOf(const std::vector<Json>& checks, const std::string& stored);
 
 }  // namespace tacto::host::stimulator_calibration

@@ -41,6 +41,48 @@ double worstUse(const Json& found) {
     return worst;
 }
 
+}  // namespace
+
+std::string timeBaseProblem(const Json& interval) {
+    if (interval.is_null()) return {};
+    const double off_pct = 100 * std::abs(numberOr(interval, "gain") - 1);
+    const double expanded_pct = 100 * numberOr(interval, "gain_expanded_uncertainty");
+    if (off_pct + expanded_pct <= kClock_pct) return {};
+    return fmt::format(
+        "the time base is not sure: intervals by the computer's clock are read {} off, at most {} % is allowed "
+        "(choice)",
+        measuredText(off_pct, expanded_pct, "%"), kClock_pct);
+}
+
+Json verdictOf(const std::vector<Json>& found, const std::string& clock, bool store) {
+    auto verdict = worstOf(found);
+    Json reasons = Json::array();
+    if (!clock.empty()) {
+        if (verdict == "pass") verdict = "indeterminate";
+        reasons.push_back(clock + (store ? "; nothing was stored" : ""));
+    }
+    // The nearest to its tolerance comes first: it is the headline.
+    std::vector<const Json*> nearestFirst;
+    for (const auto& one : found) nearestFirst.push_back(&one);
+    std::ranges::stable_sort(nearestFirst, std::greater(), [](const Json* one) { return worstUse(*one); });
+    for (const auto* one : nearestFirst) {
+        const auto title = report::titleOfQuantity(textOr(*one, "quantity"));
+        for (const auto& reason : listIn(*one, "reasons")) reasons.push_back(title + ": " + reason.get<std::string>());
+    }
+    return {{"verdict", verdict}, {"reasons", std::move(reasons)}};
+}
+
+Json checkVerdictOf(const std::vector<Json>& checks, const std::string& stored) {
+    const auto verdict = worstOf(checks);
+    Json reasons = Json::array();
+    for (const auto& check : checks)
+        for (const auto& reason : listIn(check, "reasons")) reasons.push_back(reason);
+    if (verdict == "pass") reasons = Json::array({stored + "; it still holds at three levels of each"});
+    return {{"type", "check"}, {"verdict", verdict}, {"reasons", std::move(reasons)}};
+}
+
+namespace {
+
 /// What a calibration has come to.
 struct StimulatorRun {
     LevelSettings settings;
@@ -55,49 +97,6 @@ struct StimulatorRun {
     std::vector<Json> found;  ///< of each quantity, or its check
     std::string unknown;      ///< why a reference does not read as what it is
 };
-
-/// The oscilloscope's time base by the computer's clock, which hands out the trains: one that reads the clock wrong
-/// reads every time wrong. Empty when it is right or was not read, else why not.
-std::string timeBaseProblem(const Json& interval) {
-    if (interval.is_null()) return {};
-    const double off_pct = 100 * std::abs(numberOr(interval, "gain") - 1);
-    const double expanded_pct = 100 * numberOr(interval, "gain_expanded_uncertainty");
-    if (off_pct + expanded_pct <= kClock_pct) return {};
-    return fmt::format(
-        "the time base is not sure: intervals by the computer's clock are read {} off, at most {} % is allowed "
-        "(choice)",
-        measuredText(off_pct, expanded_pct, "%"), kClock_pct);
-}
-
-/// The worst quantity's, and indeterminate where the time base is not sure.
-void addVerdict(StimulatorRun& run, const std::string& clock) {
-    auto verdict = worstOf(run.found);
-    Json reasons = Json::array();
-    if (!clock.empty()) {
-        if (verdict == "pass") verdict = "indeterminate";
-        reasons.push_back(clock + (run.store ? "; nothing was stored" : ""));
-    }
-    // The nearest to its tolerance comes first: it is the headline.
-    std::vector<const Json*> nearestFirst;
-    for (const auto& one : run.found) nearestFirst.push_back(&one);
-    std::ranges::stable_sort(nearestFirst, std::greater(), [](const Json* one) { return worstUse(*one); });
-    for (const auto* one : nearestFirst) {
-        const auto title = report::titleOfQuantity(textOr(*one, "quantity"));
-        for (const auto& reason : listIn(*one, "reasons")) reasons.push_back(title + ": " + reason.get<std::string>());
-    }
-    run.results["verdict"] = verdict;
-    run.results["reasons"] = std::move(reasons);
-}
-
-void addCheckVerdict(StimulatorRun& run) {
-    const auto verdict = worstOf(run.found);
-    Json reasons = Json::array();
-    for (const auto& check : run.found)
-        for (const auto& reason : listIn(check, "reasons")) reasons.push_back(reason);
-    if (verdict == "pass")
-        reasons = Json::array({textOr(run.stored, "text") + "; it still holds at three levels of each"});
-    run.results.update({{"type", "check"}, {"verdict", verdict}, {"reasons", std::move(reasons)}});
-}
 
 /// What would be refused at the end is refused before an hour's work.
 Result<Json> begin(ScriptSession& session, const Arguments& arguments) {
@@ -117,7 +116,7 @@ Result<Json> begin(ScriptSession& session, const Arguments& arguments) {
     first.validity = {arguments.whole("settings.valid_days"), arguments.text("settings.scope_due")};
     const auto quantities = arguments.text("settings.quantities");
     if (first.store && !first.checks && quantities != "all")
-        return arguments.wrong("quantities", quantities, "all, to keep a result,");
+        return fail(ErrorCode::InvalidArgument, "quantities is {}; all is expected to keep a result", quantities);
     auto stored = bench::storedCalibration(session);
     if (!stored) return stored;
     first.stored = std::move(*stored);
@@ -266,7 +265,7 @@ Result<Json> conclude(ScriptSession& session, const Arguments& arguments) {
         return run.results;
     }
     if (run.checks) {
-        addCheckVerdict(run);
+        run.results.update(checkVerdictOf(run.found, textOr(run.stored, "text")));
         return run.results;
     }
     const auto clock = timeBaseProblem(run.results.value("interval", Json()));
@@ -276,7 +275,7 @@ Result<Json> conclude(ScriptSession& session, const Arguments& arguments) {
         run.results["stored"] = *stored;
         if (auto noted = session.keepEvent("calibration stored", *stored); !noted) return failure(noted);
     }
-    addVerdict(run, clock);
+    run.results.update(verdictOf(run.found, clock, run.store));
     return run.results;
 }
 

@@ -7,6 +7,7 @@
 #include "app/scripting/engine/Arming.h"
 #include "app/scripting/host/analysis/RunAnalysis.h"
 #include "app/scripting/host/bench/BenchCalls.h"
+#include "app/scripting/host/report/Cells.h"
 #include "app/scripting/host/transitions/Changes.h"
 #include "core/encoding/Transitions.h"
 
@@ -69,14 +70,13 @@ double largest(const std::vector<ChangeGroup>& groups, const Of& of) {
 
 /// Judged with what the captures leave open of a step; the largest of all changes.
 std::string openText(const std::vector<ChangeGroup>& groups) {
-    const auto shortened = [](double value) { return std::stod(fmt::format("{:.2g}", value)); };
     const double amplitude = largest(groups, [](const ChangeGroup& group) { return group.amplitude.uncertainty; });
     const double interval = largest(groups, [](const ChangeGroup& group) { return group.interval.uncertainty; });
     if (std::isnan(amplitude) || std::isnan(interval)) return "What captures leave open of a step is unknown. ";
     return fmt::format(
         "Captures leave ± {} differences of amplitude open, by the scatter of trains of one command and what the "
         "oscilloscope states, and ± {} of interval. ",
-        shortened(amplitude), shortened(interval));
+        report::digitsOf(amplitude, 2), report::digitsOf(interval, 2));
 }
 
 /// What is asked for and what cannot be had, before the figures.
