@@ -173,7 +173,12 @@ MatrixBlock matrixOf(const QStringList& columns, const json& rows) {
 MatrixBlock limitsOf(const json& matrix) {
     json rows = json::array();
     const auto &lines = memberAt(matrix, "lines"), &loads = memberAt(matrix, "loads");
-    if (!lines.is_array() || !loads.is_array() || sentencesIn(loads).size() != qsizetype(loads.size())) return {};
+    if (!lines.is_array() || !loads.is_array()) return {};
+    QStringList columns;
+    for (const auto& load : loads) {
+        if (!load.is_string()) return {};
+        columns << QString::fromStdString(load.get<std::string>());
+    }
     for (const auto& line : lines) {
         if (!line.is_object()) continue;
         auto same = std::ranges::find_if(rows, [&](const json& row) { return isSameLimit(row, line); });
@@ -185,7 +190,7 @@ MatrixBlock limitsOf(const json& matrix) {
         (*same)["sets"].push_back(memberAt(line, "set"));
         if (textOr(line, "compare") == "<") (*same)["compare"] = "<";
     }
-    auto block = matrixOf(sentencesIn(loads), rows);
+    auto block = matrixOf(columns, rows);
     for (auto& row : block.rows) {
         if (row.hasLimit) continue;
         row.limit = row.note = kUntilNextTrain;

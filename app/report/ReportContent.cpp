@@ -173,7 +173,10 @@ TableBlock tableOf(const ResultTable& source, const nlohmann::json& records, con
             alignPoints(text.cells);
         }
         table.columns.push_back({title, text.right});
-        if (column.as == ResultColumn::As::Verdict && table.columns.size() == 1) table.naming = 1;
+        if (column.as == ResultColumn::As::Verdict) {
+            for (auto& cell : text.cells) cell.replace(' ', QChar(0x00a0));  // shape and word stay on one line
+            if (table.columns.size() == 1) table.naming = 1;
+        }
         for (std::size_t r = 0; r < records.size(); ++r)
             table.rows[r] << shownText(text.cells[qsizetype(r)], kShownCell);
     }

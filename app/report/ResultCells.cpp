@@ -220,7 +220,7 @@ QString wordsText(As as, const json& value) {
     switch (as) {
         case As::Verdict:
             if (value.is_boolean()) return wordsText(as, value.get<bool>() ? "pass" : "fail");
-            return text.isEmpty() ? kNone : verdictCell(text);
+            return text.isEmpty() ? kNone : verdictCell(text).replace(QChar(0x00a0), ' ');
         case As::Load:
             return loadText(text);
         case As::LimitSet:

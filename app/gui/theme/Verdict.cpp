@@ -38,7 +38,7 @@ VerdictStyle verdictStyle(const QString& key) {
     return {shape, "verdict-none", QObject::tr("NO VERDICT"), c.sunken, c.text, c.quiet};
 }
 
-QString verdictText(const QString& key) { return verdictCell(key); }
+QString verdictText(const QString& key) { return verdictCell(key).replace(QChar(0x00a0), ' '); }
 
 VerdictBlock::VerdictBlock(QWidget* parent) : QLabel(parent) {
     setObjectName("verdict");
