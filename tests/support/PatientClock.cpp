@@ -22,6 +22,7 @@
 #include <pthread.h>
 #include <string>
 #include <sys/mman.h>
+#include <sys/timerfd.h>
 #include <unistd.h>
 
 namespace {
@@ -196,6 +197,17 @@ extern "C" int nanosleep(const std::timespec* time, std::timespec* left) {
     const int ended = clock_nanosleep(CLOCK_MONOTONIC, 0, time, left);
     if (ended != 0) errno = ended;
     return ended == 0 ? 0 : -1;
+}
+
+/// Of a timer by this clock: libusb's, which looks again at the time when it is over.
+extern "C" int timerfd_settime(int timer, int flags, const itimerspec* time, itimerspec* before) {
+    static auto* const set = next<int(int, int, const itimerspec*, itimerspec*)>("timerfd_settime");
+    const bool isOff = time->it_value.tv_sec == 0 && time->it_value.tv_nsec == 0;
+    if ((flags & TFD_TIMER_ABSTIME) == 0 || isOff) return set(timer, flags, time, before);
+    const auto present = now();
+    auto machines = *time;
+    machines.it_value = textOf(present.machine + std::max(present.until(countOf(time->it_value)), Nanoseconds{0}));
+    return set(timer, flags, &machines, before);
 }
 
 /// Who waits longer than the machine's time looks again, as after any waking without a reason.
