@@ -8,7 +8,6 @@
 #include <unistd.h>
 
 #include "app/scripting/engine/ScriptProcess.h"
-#include "tests/perf/Verdict.h"
 
 extern char** environ;
 
@@ -35,17 +34,14 @@ void scriptCall(benchmark::State& state) {
     QuickPort port;
     const auto process = ScriptProcess::start(kMemory).value();
     if (process->load(port, scriptOf("for (let i = 0; i < p.calls; ++i) bench.time;"))) state.SkipWithError("load");
-    double best_us = 1e9;
     for (auto _ : state) {
         const auto begun = std::chrono::steady_clock::now();
         if (process->run({{"calls", kCalls}})) state.SkipWithError("run");
-        const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - begun;
-        best_us = std::min(best_us, took.count() / kCalls);
+        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
+        state.SetIterationTime(took.count() / kCalls);
     }
-    state.counters["us_per_call"] = best_us;
-    state.SetLabel(fmt::format("wanted: at most 50 us a call: {}", verdict(best_us <= 50)));
 }
-BENCHMARK(scriptCall)->Name("script/calls")->Iterations(5)->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(scriptCall)->Name("script/call")->Iterations(5)->UseManualTime()->Unit(benchmark::kMicrosecond);
 
 void wordToAndFro(benchmark::State& state) {
     int ends[2];
@@ -70,16 +66,10 @@ BENCHMARK(wordToAndFro)->Name("script/baseline: a word to and fro")->UseRealTime
 
 void scriptStart(benchmark::State& state) {
     QuickPort port;
-    double best_ms = 1e9;
     for (auto _ : state) {
-        const auto begun = std::chrono::steady_clock::now();
         const auto process = ScriptProcess::start(kMemory).value();
         if (process->load(port, scriptOf(""))) state.SkipWithError("load");
-        const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begun;
-        best_ms = std::min(best_ms, took.count());
     }
-    state.counters["best_ms"] = best_ms;
-    state.SetLabel(fmt::format("wanted: at most 25 ms: {}", verdict(best_ms <= 25)));
 }
 BENCHMARK(scriptStart)->Name("script/start")->Iterations(20)->UseRealTime()->Unit(benchmark::kMillisecond);
 

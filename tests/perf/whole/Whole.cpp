@@ -1,8 +1,10 @@
 // Whole.cpp - times tactoscope-cli as its users run it, with the memory it takes. Each figure stands beside its
-// baseline or its target, measured in the same run.
+// baseline, measured in the same run: a fixed sum that takes a processor a third of a second.
 //
 //   perf_whole PATH-OF-tactoscope-cli
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <fcntl.h>
@@ -48,6 +50,20 @@ Ran runQuietly(const std::vector<std::string>& words) {
     return ran;
 }
 
+/// 2e8 products, each of the last: what a processor does when nothing can be done at once, and no memory is asked.
+double fixedSum_s() {
+    double best = 1e9;
+    for (int round = 0; round < 3; ++round) {
+        const auto begun = std::chrono::steady_clock::now();
+        double x = 1;
+        for (int i = 0; i < 200'000'000; ++i) x = x * 1.0000001 + 1e-9;
+        const volatile double kept = x;
+        static_cast<void>(kept);
+        best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count());
+    }
+    return best;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -60,26 +76,28 @@ int main(int argc, char** argv) {
     const auto out = [&](const char* name) { return (scratch / name).string(); };
 
     std::printf("%-44s %10s %10s  %s\n", "whole program", "seconds", "MB", "");
+    const double sum_s = fixedSum_s();
+    std::printf("%-44s %10.2f %10s  baseline\n", "a fixed sum", sum_s, "");
     const auto idle = runQuietly({cli, "--version"});
-    std::printf("%-44s %10.2f %10.0f  baseline: start and end\n", "--version", idle.seconds, idle.megabytes);
+    std::printf("%-44s %10.2f %10.0f  start and end\n", "--version", idle.seconds, idle.megabytes);
+    const auto judged = [&](const Ran& ran, double most) {
+        return tacto::verdict(ran.exitCode == 0 ? ran.seconds / sum_s : std::nan(""), "the sum", most);
+    };
     const auto separability =
         runQuietly({cli, "run", "separability", "--device", "sim:", "--out", out("separability")});
-    std::printf("%-44s %10.2f %10.0f  wanted: under 10 s, report included: %s\n", "run separability, 25 repeats",
-                separability.seconds, separability.megabytes,
-                tacto::verdict(separability.seconds < 10 && separability.exitCode == 0));
+    std::printf("%-44s %10.2f %10.0f  report included: %s\n", "run separability, 25 repeats", separability.seconds,
+                separability.megabytes, judged(separability, 30).c_str());
     Ran hours[2];
     const int lengths[] = {1, 10};
     for (int i = 0; i < 2; ++i) {
         const int seconds = lengths[i] * 3600;
         hours[i] = runQuietly({cli, "run", "live", "--device", "sim:", "--set", "duration=" + std::to_string(seconds),
                                "--out", out(i == 0 ? "live1" : "live10")});
-        const double speed = seconds / hours[i].seconds;
-        std::printf("run live, %2d simulated h %30.2f %10.0f  %.0f times real time; wanted: 200: %s\n", lengths[i],
-                    hours[i].seconds, hours[i].megabytes, speed,
-                    tacto::verdict(speed >= 200 && hours[i].exitCode == 0));
+        std::printf("run live, %2d simulated h %30.2f %10.0f  %.0f times real time; %s\n", lengths[i], hours[i].seconds,
+                    hours[i].megabytes, seconds / hours[i].seconds, judged(hours[i], 55 * lengths[i]).c_str());
     }
-    const double more = hours[1].megabytes / hours[0].megabytes - 1;
-    std::printf("memory from 1 to 10 h: %+.1f %%; wanted: within 5 %%: %s\n", 100 * more, tacto::verdict(more <= 0.05));
+    std::printf("memory of 10 h: %s\n",
+                tacto::verdict(hours[1].megabytes / hours[0].megabytes, "that of 1 h", 1.05).c_str());
     std::error_code ignored;
     std::filesystem::remove_all(scratch, ignored);
     return 0;

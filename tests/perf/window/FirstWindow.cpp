@@ -220,8 +220,7 @@ int main(int argc, char** argv) {
                             theirs->most);
             std::printf("  %-42s %8.3f %8.3f %8.3f  ", "tactoscope", ours.median, ours.least, ours.most);
             if (theirs)
-                std::printf("%.2f times %s; wanted: no later: %s\n", ours.median / theirs->median, argv[2],
-                            tacto::verdict(ours.median <= theirs->median));
+                std::printf("%s\n", tacto::verdict(ours.median / theirs->median, argv[2], 1).c_str());
             else
                 std::printf("not compared: %s is not installed\n", argc == 3 ? argv[2] : "a baseline");
         }

@@ -2,7 +2,7 @@
 // process (the simulated bench and its recording included) over some seconds of wall time, beside a plot with nothing
 // in it that is redrawn as often.
 //
-// To be met: two channels under 25 % of one core.
+// To be met: two channels at three times the empty plot's cost, and as many pictures. The limit is 25 % of one core.
 #include <QTabWidget>
 #include <fmt/format.h>
 #include <qcustomplot.h>
@@ -26,7 +26,8 @@ using SteadyTime = std::chrono::steady_clock::time_point;
 constexpr double kFrames_hz = 60;
 constexpr int kSettle_ms = 1000;
 constexpr int kMeasured_ms = 5000;
-constexpr double kGoal_percent = 25;
+constexpr double kMaxTimes = 3;
+constexpr double kMaxOfCore_percent = 25;
 const QSize kScreen(1280, 720);
 
 struct Cost {
@@ -75,11 +76,12 @@ void tell(const std::string& what, const Cost& cost, const Cost& baseline, bool 
           const std::string& remarks = {}) {
     const auto figures =
         fmt::format("{:7.1f} % {:7.1f} % {:9.1f}", cost.window_percent, cost.process_percent, cost.frames_hz);
-    auto remark = fmt::format("{:.1f} times the empty plot", cost.window_percent / baseline.window_percent);
+    const double times = cost.window_percent / baseline.window_percent;
+    auto remark = fmt::format("{:.1f} times the empty plot", times);
     if (hasGoal) {
-        const bool met = cost.window_percent < kGoal_percent && cost.frames_hz > 0.95 * kFrames_hz;
-        remark += fmt::format("; wanted: under {:.0f} % of one core at {:.0f}/s: {}", kGoal_percent, kFrames_hz,
-                              verdict(met));
+        remark = verdict(times, "the empty plot", kMaxTimes) + "; " +
+                 verdict(baseline.frames_hz / cost.frames_hz, "as long for a picture", 1.05) +
+                 ofLimit(cost.window_percent, kMaxOfCore_percent, "% of one core");
     }
     line(what, figures, remark + remarks);
 }
@@ -154,7 +156,7 @@ void touch(const Cost& baseline) {
     fill.stop();
     if (!filled) return notMeasured(what, "the simulated bench stands still");
     tell(what, costOf([&] { live.refresh(controller.telemetry(), true); }, drawn), baseline, false,
-         fmt::format("; 14 traces and a spectrum, where {:.0f} % are asked of two channels", kGoal_percent));
+         fmt::format("; 14 traces and a spectrum, where {:.0f} % are asked of two channels", kMaxOfCore_percent));
 }
 
 /// The program as it is, redrawn as often as it does by itself.

@@ -3,7 +3,7 @@
 // The event is put into the window's queue by another thread at a moment that the window does not choose, so that
 // waiting for a picture that is being drawn counts. The baseline is the same click in a window that draws nothing.
 //
-// To be met: 10 ms.
+// To be met: nineteen of twenty within ten times the baseline's nineteen of twenty. The limit is 10 ms.
 #include <QCoreApplication>
 #include <QDialog>
 #include <QKeyEvent>
@@ -26,7 +26,8 @@ namespace tacto::perf {
 namespace {
 
 constexpr int kRounds = 100;
-constexpr double kGoal_ms = 10;
+constexpr double kMaxTimes = 10;
+constexpr double kMaxStop_ms = 10;
 
 /// When forceOff() came through last, since it was cleared.
 std::atomic<std::int64_t> offAt_ns{0};
@@ -138,8 +139,8 @@ void rounds(gui::BenchController& controller, const std::string& what, const Tak
     }
     const auto taken = takenOf(std::move(all));
     line(what, figures(taken),
-         fmt::format("{:.1f} times the empty window; wanted: within {:.0f} ms: {}",
-                     taken.median_ms / baseline.median_ms, kGoal_ms, verdict(taken.worst_ms <= kGoal_ms)));
+         verdict(taken.p95_ms / baseline.p95_ms, "the empty window's p95", kMaxTimes) +
+             ofLimit(taken.worst_ms, kMaxStop_ms, "ms that a stop may take"));
 }
 
 }  // namespace
