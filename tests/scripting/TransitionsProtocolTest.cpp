@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "core/analysis/transitions/CapturedChange.h"
-#include "core/analysis/transitions/StepLatency.h"
 #include "core/encoding/Transitions.h"
 #include "core/session/SessionReader.h"
 #include "tests/scripting/RunBench.h"
