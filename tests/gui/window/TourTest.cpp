@@ -232,14 +232,17 @@ TEST_F(TourOfTheWindow, LooksRightInEverySizeAndTheme) {
                 gui::applyTheme(theme);
                 QSettings().remove("tourStep");
                 window.beginTour();
-                for (int step = 0; step < 9; ++step) {
-                    SCOPED_TRACE(title().toStdString());
+                for (int step = 0; tour().isVisible(); ++step) {
+                    const auto now = title();
+                    SCOPED_TRACE(now.toStdString());
                     letLive(80);
                     const auto& bar = named<QWidget>("safetyBar");
                     const auto covers = [&](const QRect& what) { return tour().geometry().intersects(what); };
-                    // The page that a step opens is laid out first; then the panel finds its place.
-                    EXPECT_IN_TIME(comesTrue([&] { return frame() != nullptr && !covers(frame()->geometry()); }))
-                        << "no control is framed, or the panel hides it at " << percent << " %";
+                    // The page that a step opens is laid out first; then the panel finds its place. A step that is
+                    // done goes on by itself after longer than this.
+                    const auto stands = [&] { return frame() != nullptr && !covers(frame()->geometry()); };
+                    static_cast<void>(comesTrue(stands, 1000));
+                    EXPECT_TRUE(stands()) << "no control is framed, or the panel hides it at " << percent << " %";
                     EXPECT_TRUE(window.rect().contains(tour().geometry()));
                     EXPECT_FALSE(covers({bar.mapTo(&window, QPoint()), bar.size()})) << "STOP is covered";
                     EXPECT_EQ(faultsOf(tour()), "");
@@ -250,7 +253,8 @@ TEST_F(TourOfTheWindow, LooksRightInEverySizeAndTheme) {
                                 .arg(step + 1)
                                 .toUtf8()
                                 .constData());
-                    press(step < 8 ? "Next" : "Done");
+                    // On a busy machine a step that is done has gone on by itself.
+                    if (title() == now) press(find<QPushButton>(tour(), "Next") != nullptr ? "Next" : "Done");
                 }
             }
         }
