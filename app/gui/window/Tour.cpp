@@ -131,10 +131,13 @@ void Tour::bringIntoView(QWidget* control) {
 /// Where it hides least of the control, the lower right corner first; below the safety bar: STOP is never covered.
 void Tour::place() {
     // Never half of the window: a control beside it has room.
-    text_->setFixedWidth(
-        std::min(fontMetrics().averageCharWidth() * kWidthChars, parentWidget()->width() / 2 - 4 * kMargin));
-    const int wide = layout()->totalMinimumSize().width();
-    resize(wide, layout()->totalHeightForWidth(wide));
+    const int wide =
+        std::min(fontMetrics().averageCharWidth() * kWidthChars, parentWidget()->width() / 2 - 4 * kMargin);
+    // Measured here: the label's own answer is that of the size of text before, when that has just changed.
+    const QRect any(0, 0, wide, QWIDGETSIZE_MAX);
+    text_->setFixedSize(wide, text_->fontMetrics().boundingRect(any, Qt::TextWordWrap, text_->text()).height() + 2);
+    layout()->activate();
+    resize(sizeHint());
     auto room = parentWidget()->rect().adjusted(kMargin, kMargin, -kMargin, -kAboveStatus);
     if (const auto* bar = parentWidget()->findChild<QWidget*>("safetyBar"))
         room.setTop(bar->mapTo(parentWidget(), QPoint(0, bar->height())).y());
@@ -144,7 +147,8 @@ void Tour::place() {
     int least = std::numeric_limits<int>::max();
     for (const auto down : {Qt::AlignBottom, Qt::AlignTop, Qt::AlignVCenter}) {
         for (const auto across : {Qt::AlignRight, Qt::AlignLeft, Qt::AlignHCenter}) {
-            const auto here = QStyle::alignedRect(Qt::LeftToRight, across | down, size(), room);
+            auto here = QStyle::alignedRect(Qt::LeftToRight, across | down, size(), room);
+            here.moveTop(std::max(here.top(), room.top()));
             const auto hidden = (here & control).size();
             if (hidden.width() * hidden.height() >= least) continue;
             least = hidden.width() * hidden.height();
