@@ -309,10 +309,10 @@ bool FieldForm::hasReference() const {
 }
 
 Result<ProtocolSettings> FieldForm::read() {
-    std::map<std::string, std::string> settings;
-    for (const auto& field : fields_) settings[field.parameter.name] = field.text().trimmed().toStdString();
+    std::map<std::string, std::string> typed;
+    for (const auto& field : fields_) typed[field.parameter.name] = field.text().trimmed().toStdString();
     askForAll();
-    auto applied = applySettings(declaration_, settings);
+    auto applied = applySettings(declaration_, typed);
     if (!applied) return applied;
     // A default that was left as it is stays the script's word, to the last digit and blank: what a field shows of it
     // may read as another value, which the operator did not choose.

@@ -3,7 +3,7 @@
 // The event is put into the window's queue by another thread at a moment that the window does not choose, so that
 // waiting for a picture that is being drawn counts. The baseline is the same click in a window that draws nothing.
 //
-// To be met: nineteen of twenty within ten times the baseline's nineteen of twenty. The limit is 10 ms.
+// To be met: nineteen of twenty within fifteen times the baseline's nineteen of twenty. The limit is 10 ms.
 #include <QCoreApplication>
 #include <QDialog>
 #include <QKeyEvent>
@@ -26,7 +26,7 @@ namespace tacto::perf {
 namespace {
 
 constexpr int kRounds = 100;
-constexpr double kMaxTimes = 10;
+constexpr double kMaxTimes = 15;
 constexpr double kMaxStop_ms = 10;
 
 /// When forceOff() came through last, since it was cleared.
