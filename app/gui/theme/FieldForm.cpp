@@ -309,19 +309,19 @@ bool FieldForm::hasReference() const {
 }
 
 Result<ProtocolSettings> FieldForm::read() {
-    std::map<std::string, std::string> typed;
-    for (const auto& field : fields_) typed[field.parameter.name] = field.text().trimmed().toStdString();
+    std::map<std::string, std::string> settings;
+    for (const auto& field : fields_) settings[field.parameter.name] = field.text().trimmed().toStdString();
     askForAll();
-    auto applied = applySettings(declaration_, typed);
-    if (!applied) return applied;
+    auto chosen = applySettings(declaration_, settings);
+    if (!chosen) return chosen;
     // A default that was left as it is stays the script's word, to the last digit and blank: what a field shows of it
     // may read as another value, which the operator did not choose.
     for (const auto& field : fields_) {
-        auto& value = applied->parameters[field.parameter.name];
+        auto& value = chosen->parameters[field.parameter.name];
         if (field.text() == field.atFirst) value = field.parameter.value;
-        if (value == field.parameter.value) applied->given.erase(field.parameter.name);
+        if (value == field.parameter.value) chosen->given.erase(field.parameter.name);
     }
-    return applied;
+    return chosen;
 }
 
 const FieldForm::Field* FieldForm::find(const std::string& name) const {
