@@ -47,8 +47,6 @@ void addQuantity(Tables& all, const std::string& title, const std::string& id) {
     all.back() = whose(std::move(all.back()), "outlier", true);
 }
 
-}  // namespace
-
 ResultTraits stimulatorCalibration() {
     Tables all{rows(
         "What was found: gain and offset ± U (95 %), the rest in % of the largest command",
@@ -83,5 +81,9 @@ ResultTraits stimulatorCalibration() {
             .guardBanded = true,
             .tables = withBasis(std::move(all))};
 }
+
+}  // namespace
+
+Kinds calibrationKinds() { return {stimulatorCalibration()}; }
 
 }  // namespace tacto::describe

@@ -14,6 +14,7 @@ using Shape = ResultTable::Shape;
 using Else = ResultTable::Else;
 using Columns = std::vector<ResultColumn>;
 using Tables = std::vector<ResultTable>;
+using Kinds = std::vector<ResultTraits>;
 
 inline ResultColumn text(const char* title, const char* at) { return {title, at}; }
 inline ResultColumn number(const char* title, const char* at, const char* unit = "", const char* uncertainty = "") {
@@ -65,16 +66,12 @@ inline ResultTable noted(ResultTable table, const char* note) {
 /// With what every run with an oscilloscope rests on; reports have that on their first page.
 [[nodiscard]] Tables withBasis(Tables tables);
 
-[[nodiscard]] ResultTraits separability();
-[[nodiscard]] ResultTraits encodingComparison();
-[[nodiscard]] ResultTraits transitions();
-[[nodiscard]] ResultTraits variation();
-[[nodiscard]] ResultTraits loadSafety();
-[[nodiscard]] ResultTraits stimulatorCalibration();
-[[nodiscard]] ResultTraits sensorCalibration();
-[[nodiscard]] ResultTraits live();
-[[nodiscard]] ResultTraits massager();
-[[nodiscard]] ResultTraits pilotThresholds();
-[[nodiscard]] ResultTraits pilotIdentification();
+// Each in the file of its name: the kinds of results in the order in which they are listed.
+[[nodiscard]] Kinds trainKinds();
+[[nodiscard]] Kinds predictionKinds();
+[[nodiscard]] Kinds safetyKinds();
+[[nodiscard]] Kinds calibrationKinds();
+[[nodiscard]] Kinds sensorKinds();
+[[nodiscard]] Kinds recordingKinds();
 
 }  // namespace tacto::describe

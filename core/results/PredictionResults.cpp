@@ -3,6 +3,8 @@
 
 namespace tacto::describe {
 
+namespace {
+
 ResultTraits variation() {
     return {
         .kind = ResultKind::Variation,
@@ -80,5 +82,9 @@ ResultTraits variation() {
                   number("Interval (JND)", "interval_jnd")},
                  Else::InTheTerminal)}};
 }
+
+}  // namespace
+
+Kinds predictionKinds() { return {variation()}; }
 
 }  // namespace tacto::describe

@@ -51,8 +51,6 @@ Tables ofSession(const char* thresholds) {
               Else::InTheReport)};
 }
 
-}  // namespace
-
 ResultTraits live() {
     return recording(ResultKind::Live, "live",
                      {number("Trains delivered", "trains_delivered"), number("Trains refused", "trains_refused")});
@@ -104,5 +102,9 @@ ResultTraits pilotIdentification() {
             .ofStudy = true,
             .tables = std::move(tables)};
 }
+
+}  // namespace
+
+Kinds recordingKinds() { return {live(), massager(), pilotThresholds(), pilotIdentification()}; }
 
 }  // namespace tacto::describe

@@ -9,10 +9,13 @@ namespace tacto {
 const ResultTraits& resultTraits(std::string_view name) {
     using namespace describe;
     static const ResultTraits kOther;
-    static const std::vector<ResultTraits> kKinds{
-        separability(), encodingComparison(),    transitions(),        variation(),
-        loadSafety(),   stimulatorCalibration(), sensorCalibration(),  live(),
-        massager(),     pilotThresholds(),       pilotIdentification()};
+    static const Kinds kKinds = [] {
+        Kinds all;
+        for (const auto& family :
+             {trainKinds(), predictionKinds(), safetyKinds(), calibrationKinds(), sensorKinds(), recordingKinds()})
+            all.insert(all.end(), family.begin(), family.end());
+        return all;
+    }();
     const auto found = std::ranges::find(kKinds, name, &ResultTraits::name);
     return found == kKinds.end() ? kOther : *found;
 }

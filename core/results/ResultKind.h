@@ -1,7 +1,7 @@
 // ResultKind.h - what results are, as their `kind` says it, and what is declared of each kind. The one place that
 // compares names of kinds: what the app does by kind goes by ResultKind.
 //
-// A kind is declared in one of the files beside this one, and listed in ResultKind.cpp.
+// A kind is declared in one of the files beside this one, in a family of kinds that ResultKind.cpp lists.
 //
 // Thread-safety: constant.
 #pragma once
@@ -13,8 +13,9 @@
 
 namespace tacto {
 
+/// Kinds for which the program does something by itself.
 enum class ResultKind {
-    Other,  ///< a laboratory's own, or none
+    Other,  ///< a laboratory's own, one that is a table and a verdict and no more, or none
     Separability,
     EncodingComparison,
     Transitions,
@@ -30,7 +31,7 @@ enum class ResultKind {
 
 struct ResultTraits {
     ResultKind kind = ResultKind::Other;
-    std::string_view name = {};          ///< "separability"; empty for Other
+    std::string_view name = {};          ///< "separability"; empty where results have no declared kind
     std::string_view decisionRule = {};  ///< where the results state none; empty: as the script says in its reasons
     bool guardBanded = false;            ///< judged with the uncertainty counting against the device
     bool ofStudy = false;                ///< a session of a study: with a participant, on their record

@@ -15,8 +15,6 @@ Columns judged() {
             text("Reason", "reason")};
 }
 
-}  // namespace
-
 ResultTraits loadSafety() {
     return {
         .kind = ResultKind::LoadSafety,
@@ -86,5 +84,9 @@ ResultTraits loadSafety() {
                         Else::OnlyInTheReport),
                    "Where no confidence stands the limit is our own.")})};
 }
+
+}  // namespace
+
+Kinds safetyKinds() { return {loadSafety()}; }
 
 }  // namespace tacto::describe

@@ -3,6 +3,8 @@
 
 namespace tacto::describe {
 
+namespace {
+
 ResultTraits sensorCalibration() {
     return {
         .kind = ResultKind::SensorCalibration,
@@ -78,5 +80,9 @@ ResultTraits sensorCalibration() {
                  Else::InBoth),
             sentences("Warnings", "warnings"), sentences("Warnings of the force", "force.warnings")}};
 }
+
+}  // namespace
+
+Kinds sensorKinds() { return {sensorCalibration()}; }
 
 }  // namespace tacto::describe

@@ -3,6 +3,8 @@
 
 namespace tacto::describe {
 
+namespace {
+
 ResultTraits separability() {
     return {.kind = ResultKind::Separability,
             .name = "separability",
@@ -105,5 +107,9 @@ ResultTraits transitions() {
                   Else::InTheTerminal),
              sentences("Notes", "notes", Else::InBoth)})};
 }
+
+}  // namespace
+
+Kinds trainKinds() { return {separability(), encodingComparison(), transitions()}; }
 
 }  // namespace tacto::describe
