@@ -62,7 +62,7 @@
 //    "largest_amplitude": {"roughness": 0.4, "pressure": 0, "jnd": 8.3},   optional: where the worst step is
 //    "largest_interval": {..}}
 //
-//   {"type": "curves",                          curves over one pair of axes, from plot.predicted()
+//   {"type": "curves",                          curves over one pair of axes, from plot.curves() and predictions
 //    "x": {"label": "Trials", "unit": ""},
 //    "y": {"label": "Width", "unit": "%"},
 //    "curves": [{"label": "one participant",

@@ -128,6 +128,18 @@ Result<Json> confusion(ScriptSession&, const Arguments& arguments) {
                 {"accuracy", arguments.object("found").value("accuracy", Json())}};
 }
 
+Result<Json> curves(ScriptSession&, const Arguments& arguments) {
+    Json figure = arguments.object("figure");
+    for (const char* axis : {"x", "y"}) {
+        if (!figure.value(axis, Json()).is_object())
+            return arguments.wrong("figure", figure, fmt::format("an object with the axis {}", axis));
+    }
+    if (!figure.value("curves", Json()).is_array())
+        return arguments.wrong("figure", figure, "an object with a list of curves");
+    figure["type"] = "curves";
+    return figure;
+}
+
 Result<Json> waveforms(ScriptSession& session, const Arguments&) {
     Json captures = Json::array();
     for (const auto& exemplar : session.exemplars()) {
@@ -227,6 +239,15 @@ std::vector<HostFunction> plotFunctions() {
          .text = "Roughness, pressure and amplitude over time.",
          .returns = "A figure, for report.figure().",
          .call = host::plot::timeline},
+        {.name = "curves",
+         .parameters = {object("figure",
+                               "{ x: { label, unit }, y: { label, unit }, curves: [{ label, x, y, low, high, steps }], "
+                               "lines: [{ label, y }] }: lists of numbers, low and high for a band, lines to hold the "
+                               "curves against")},
+         .text = "Curves over one pair of axes, of up to 40 points each with its points.",
+         .returns = "A figure, for report.figure().",
+         .errors = "Throws where axes or curves are missing.",
+         .call = host::plot::curves},
         {.name = "calibration",
          .parameters = {object("found", "from analysis.calibration()")},
          .text = "Measured against commanded, with the fitted line.",
