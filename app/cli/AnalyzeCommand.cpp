@@ -6,6 +6,7 @@
 #include "app/cli/TextTable.h"
 #include "app/cli/Verdicts.h"
 #include "core/analysis/calibration/CalibrationJson.h"
+#include "core/analysis/drift/Drift.h"
 #include "core/analysis/identification/IdentificationFile.h"
 #include "core/analysis/identification/IdentificationJson.h"
 #include "core/analysis/identification/IdentificationText.h"
@@ -27,16 +28,18 @@ void declareAnalyze(QCommandLineParser& parser) {
     parser.addOption({"json", "Prints one JSON value."});
 }
 
-int separability(const std::string& file, bool asJson) {
-    const auto trials = readSeparabilityTrials(file);
-    if (!trials) return couldNotRun(trials.error());
-    const auto found = judgeSeparability(*trials);
-    if (!found) return couldNotRun(found.error());
+/// A table of trials, judged as `judge` does.
+template <class Judge>
+int trials(const std::string& kind, const std::string& file, bool asJson, Judge&& judge) {
+    const auto read = readSeparabilityTrials(file);
+    if (!read) return couldNotRun(read.error());
+    const auto found = judge(*read);
+    if (!found) return couldNotRun(Error{found.error().code, fmt::format("{}: {}", file, found.error().message)});
     const auto result = toJson(*found);
     if (asJson) {
         printJson(result);
     } else {
-        printTables("separability", result);
+        printTables(kind, result);
         printVerdict(nameOf(found->verdict), found->reasons);
     }
     return exitForVerdict(nameOf(found->verdict));
@@ -234,15 +237,20 @@ int runAnalyze(const QCommandLineParser& parser) {
     if (kind == "identification") {
         return identification(file, parser.value("basis").trimmed().toStdString(), parser.isSet("json"));
     }
-    if (kind == "separability") return separability(file, parser.isSet("json"));
+    if (kind == "drift")
+        return trials(kind, file, parser.isSet("json"), [](const auto& read) { return judgeDrift(read); });
+    if (kind == "separability")
+        return trials(kind, file, parser.isSet("json"), [](const auto& read) { return judgeSeparability(read); });
     return usage(fmt::format(
-        "analyze: \"{}\" cannot be analysed by this version; calibration, identification and separability can", kind));
+        "analyze: \"{}\" cannot be analysed by this version; calibration, drift, identification and separability can",
+        kind));
 }
 
 }  // namespace
 
-const Command kAnalyze{"analyze", "{calibration|identification|separability} FILE.csv [--basis BASIS] [--json]",
-                       "Commanded against measured values, or whether people or measurements tell trials apart",
+const Command kAnalyze{"analyze", "{calibration|drift|identification|separability} FILE.csv [--basis BASIS] [--json]",
+                       "Commanded against measured values, whether the amplitude drifts, or whether people or "
+                       "measurements tell trials apart",
                        declareAnalyze, runAnalyze};
 
 }  // namespace tacto::cli

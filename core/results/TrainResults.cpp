@@ -1,4 +1,4 @@
-// Results of trains as captured: separability, encoding comparison, transitions.
+// Results of trains as captured: separability, drift, encoding comparison, transitions.
 #include "core/results/Describe.h"
 
 namespace tacto::describe {
@@ -36,6 +36,28 @@ ResultTraits separability() {
                        as(As::AtLeast, "Interval (JND)", "interval_jnd", "interval_jnd_low"),
                        number("Mahalanobis distance", "mahalanobis")}),
                  confusion()})};
+}
+
+ResultTraits drift() {
+    const auto change = [](const char* title, const char* at) { return number(title, at, "%"); };
+    return {.name = "drift",
+            .decisionRule =
+                "Steady when the 95 % intervals of two changes lie within the tolerance: that of a straight line from "
+                "the first trial to the last, and the largest between two quarters of the trials; a fail when one of "
+                "them lies beyond it. The tolerance is a choice.",
+            .tables = withBasis(
+                {facts("Drift of the amplitude", "",
+                       {number("Trials", "trials"), tolerance("Accepted, ±", "tolerance_pct", "%"),
+                        change("First trial to last", "change_pct"),
+                        change("Between quarters, largest", "between_quarters_pct"),
+                        spread("Instrument's floor", "floor_pct", "%")}),
+                 noted(rows("Conditions", "conditions",
+                            {text("Condition", "name"), number("n", "n"),
+                             number("Amplitude, mean and s.d.", "amplitude_v", "V"),
+                             change("First trial to last", "change_pct"), number("Not measured", "not_measured")}),
+                       "Intervals are 95 %."),
+                 rows("Quarters of the trials, against the mean of the four", "quarters",
+                      {text("Trials", "trials"), number("n", "n"), change("Amplitude", "change_pct")})})};
 }
 
 ResultTraits encodingComparison() {
@@ -110,6 +132,6 @@ ResultTraits transitions() {
 
 }  // namespace
 
-Kinds trainKinds() { return {separability(), encodingComparison(), transitions()}; }
+Kinds trainKinds() { return {separability(), drift(), encodingComparison(), transitions()}; }
 
 }  // namespace tacto::describe

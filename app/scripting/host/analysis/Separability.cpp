@@ -4,6 +4,7 @@
 #include <string>
 
 #include "app/scripting/host/analysis/RunAnalysis.h"
+#include "core/analysis/drift/Drift.h"
 #include "core/analysis/separability/SeparabilityJson.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 
@@ -14,29 +15,34 @@ namespace {
 // No more than a moment of computing: a stop does not wait for it.
 constexpr std::size_t kMaxTrials = 20'000, kMaxConditions = 64;
 
-}  // namespace
-
-Result<Json> separabilityOf(const Arguments& arguments, const Json& rows, std::vector<std::string> conditions) {
+Result<std::vector<SeparabilityTrial>> trialsFrom(const Arguments& arguments, const Json& rows) {
     std::vector<SeparabilityTrial> trials;
-    Json features = Json::array();
+    std::set<std::string> names;
     for (const auto& row : rows) {
         auto trial = separabilityTrialFrom(row);
         if (!trial) return arguments.wrong("a trial", row, "an object with a condition, from record.trials(),");
-        features.push_back(toJson(*trial));
+        names.insert(trial->condition);
         trials.push_back(std::move(*trial));
     }
-    std::set<std::string> names;
-    for (const auto& trial : trials) names.insert(trial.condition);
     if (trials.size() > kMaxTrials || names.size() > kMaxConditions) {
         return arguments.wrong("the list of trials", fmt::format("{} of {} conditions", trials.size(), names.size()),
                                fmt::format("one of at most {} of {}", kMaxTrials, kMaxConditions));
     }
+    return trials;
+}
+
+}  // namespace
+
+Result<Json> separabilityOf(const Arguments& arguments, const Json& rows, std::vector<std::string> conditions) {
+    const auto trials = trialsFrom(arguments, rows);
+    if (!trials) return failure(trials);
     SeparabilityOptions options;
     options.conditions = std::move(conditions);
-    auto found = judgeSeparability(trials, options);
+    auto found = judgeSeparability(*trials, options);
     if (!found) return failure(found);
     Json out = toJson(*found);
-    out["trials"] = features;
+    out["trials"] = Json::array();
+    for (const auto& trial : *trials) out["trials"].push_back(toJson(trial));
     return out;
 }
 
@@ -44,6 +50,14 @@ namespace {
 
 Result<Json> separability(ScriptSession&, const Arguments& arguments) {
     return separabilityOf(arguments, arguments.list("trials"), arguments.list("options.conditions"));
+}
+
+Result<Json> drift(ScriptSession&, const Arguments& arguments) {
+    const auto trials = trialsFrom(arguments, arguments.list("trials"));
+    if (!trials) return failure(trials);
+    const auto found = judgeDrift(*trials, {.tolerance_pct = arguments.number("options.tolerance_pct")});
+    if (!found) return failure(found);
+    return toJson(*found);
 }
 
 }  // namespace
@@ -69,6 +83,17 @@ std::vector<HostFunction> separabilityAnalysis() {
              "{ verdict, reasons, conditions, pairs, confusion, accuracy, folds, trials }, for plot.* and verdict().",
          .errors = "Throws for fewer than two conditions, or a value that is not above zero.",
          .call = host::analysis::separability},
+        {.name = "drift",
+         .parameters = {list("trials", "as analysis.separability() takes them, in the order in which they were made"),
+                        number("options.tolerance_pct", "%", "the largest change that is accepted")
+                            .range(0.01, 100)
+                            .otherwise(DriftOptions{}.tolerance_pct)},
+         .text = "Judges whether the amplitude stayed where it was over the trials: along a straight line, and from "
+                 "one quarter of them to another.",
+         .returns = "{ verdict, reasons, trials, tolerance_pct, change_pct, between_quarters_pct, conditions, "
+                    "quarters, curves }, for plot.curves() (its curves) and verdict().",
+         .errors = "Throws for no trials, or an amplitude that is not above zero.",
+         .call = host::analysis::drift},
     };
 }
 
