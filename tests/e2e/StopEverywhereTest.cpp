@@ -62,11 +62,12 @@ std::map<std::string, int> placesThatOpenDialogs() {
 }
 
 /// Dialogs that share a place, by the name of their opening: each but the first of them.
-constexpr std::string_view kShareAPlace[] = {"Study: exportWithAbout", "Study: noteAdverseEvent", "Study: noteNextDay",
-                                             "Folder of a new study"};
+constexpr std::string_view kShareAPlace[] = {"Study: exportWithAbout", "Folder of a new study",
+                                             "Definitions and limits"};
 /// Places that no opening of their own tries, by their file and what is asked there.
 constexpr std::pair<const char*, const char*> kTriedByAnother[] = {
-    {"CloseQuestion", "whether a run is to end: the same box as for a script that is not saved"}};
+    {"CloseQuestion", "whether a run is to end: the same box as for a script that is not saved"},
+    {"StudyList", "whether to go back to an older ledger: the same frame as for a participant who leaves"}};
 
 struct Opening {
     std::string name;
@@ -379,10 +380,10 @@ protected:
                  pilot.findChild<gui::TabbedPage*>()->setCurrentIndex(0);
                  press(window, "Choose…");
              },
-             "FolderRow"},
+             "EntryFields"},
             {"Folder of a study", [this] { press(studies(), "Open a study…"); }, "StudyPage"},
-            {"Folder of a new study", [this] { press(newStudy(), "Choose…"); }, "FolderRow"},
-            {"Passphrase of a new study", [this] { press(newStudy(), "Create the study…"); }, "NewStudyPage"},
+            {"Folder of a new study", [this] { press(newStudy(), "Choose…"); }, "EntryFields"},
+            {"Passphrase of a new study", [this] { press(newStudy(), "Create the study…"); }, "StudyPage"},
             {"Passphrase of a study",
              [this] {
                  if (studies().findChild<gui::NewStudyPage*>()->isVisible()) press(studies(), "Back");
@@ -428,7 +429,7 @@ protected:
                  choose(1);
                  press(window, "Report");
              },
-             "ReportWindow"},
+             "ReportView"},
             {"Compare",
              [this] {
                  choose(2);
