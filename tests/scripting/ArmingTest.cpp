@@ -102,7 +102,7 @@ TEST_F(Arming, ThatFailsLeavesTheOutputDisarmedWhateverWasArmedBefore) {
     // So do the readings that disarm first, whether they read or are refused.
     for (const char* second :
          {"bench.arm({ load: \"ten\" });", "bench.arm(7);", "bench.measureRest({ duration_s: -1 });",
-          "bench.measureSlide(7);", "bench.measureWeight(-1);"}) {
+          "bench.sensorCalibration.slide(7);", "bench.loadSafety.trip(7);", "bench.measureWeight(-1);"}) {
         const auto outcome = run(
             fmt::format("bench.arm({{ load: 1000 }}); try {{ {} }} catch (e) {{ log(bench.live().state); }}", second),
             {{"confirm-arming", kInto1k}});
@@ -137,7 +137,12 @@ TEST_F(Arming, AnErrorSaysWhetherALimitForbadeIt) {
 }
 
 TEST_F(Arming, TheTripsAreConfirmedToo) {
-    const auto outcome = run("bench.tripBySilence(\"1 kohm\", 1);", {{"change-load", "yes"}});
+    const auto outcome =
+        run("const s = { reference: '1 kohm', trains: 2, steps: 3, dmm: false, silence: 1, reference_v: 0, "
+            "reference_u_pct: 0,"
+            " load_tolerance: 5, amplitude_tolerance: 2, resistor_tolerance: 1, area_tolerance: 5 };"
+            "bench.loadSafety.begin(s); bench.loadSafety.silence();",
+            {{"change-load", "yes"}});
     ASSERT_TRUE(outcome.error);
     EXPECT_THAT(outcome.error->message, HasSubstr("--set confirm-arming="));
     EXPECT_TRUE(nothingWasDelivered());
@@ -176,13 +181,15 @@ TEST_F(Arming, AnImpedanceCheckMeasuresAndEndsDisarmed) {
 
 TEST_F(Arming, OfACalibrationIsAskedForAsAnyOther) {
     const std::string settings =
-        "const s = { load: 1000, rate_hz: 1e6, settling_s: 0, amplitude_min_v: 10, amplitude_max_v: 40, "
-        "interval_min_s: 0.5, interval_max_s: 2, width_min_us: 100, width_max_us: 400, gap_min_us: 100, gap_max_us: "
-        "400 };"
-        "const step = { share: 0, direction: 'up', repeat: 1 };";
-    for (const char* call :
-         {"bench.readKnownLoad(1000, 5);", "calibration.readKnownLoad(s);", "calibration.warmUp(1000, 1);",
-          "calibration.beginLevels('amplitude', s);", "calibration.readLevel('width', step, s);"}) {
+        "const s = { mode: 'full', quantities: 'all', levels: 2, repeats: 2, store: false, valid_days: 1, scope_due: "
+        "'',"
+        " load: 1000, rate_hz: 2e6, settling_s: 0, warm_up_s: 0, amplitude_min_v: 10, amplitude_max_v: 40,"
+        " interval_min_s: 0.5, interval_max_s: 2, width_min_us: 100, width_max_us: 400, gap_min_us: 100,"
+        " gap_max_us: 300, tolerance_pct: 2, timing_tolerance_pct: 1, load_tolerance_pct: 1, reference_tolerance_pct: "
+        "5,"
+        " reference_v: 0, reference_u_pct: 0 }, steps = bench.stimulatorCalibration;";
+    for (const char* call : {"bench.readKnownLoad(1000, 5);", "steps.begin(s); steps.knownLoad(s);",
+                             "steps.begin(s); steps.levels('amplitude');", "steps.begin(s); steps.levels('width');"}) {
         const auto outcome = run(settings + call, {});
         ASSERT_TRUE(outcome.error) << call;
         EXPECT_EQ(outcome.error->code, ErrorCode::NotFound) << call << outcome.error->message;
