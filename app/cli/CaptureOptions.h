@@ -1,6 +1,4 @@
 // CaptureOptions.h - what the command line says about a capture file better than the file does, and reading it.
-//
-// Thread-safety: the main thread only.
 #pragma once
 
 #include <QCommandLineParser>

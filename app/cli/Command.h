@@ -1,7 +1,5 @@
 // Command.h - what every command of tactoscope-cli is made of: options read once, one JSON value on stdout,
 // everything else on stderr, and the exit codes of the contract.
-//
-// Thread-safety: the main thread only.
 #pragma once
 
 #include <QCommandLineParser>

@@ -1,7 +1,5 @@
 // ReportProgram.h - reports are drawn by a program of their own, tactoscope-report: it loads the libraries of windows
 // and fonts, and the commands that draw nothing start in half the time without them.
-//
-// Thread-safety: the main thread only.
 #pragma once
 
 #include <filesystem>

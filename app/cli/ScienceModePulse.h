@@ -1,6 +1,4 @@
 // ScienceModePulse.h - `sciencemode pulse`: one pulse into a bench load, with its read-back drawn and saved.
-//
-// Thread-safety: the main thread only.
 #pragma once
 
 #include <QCommandLineParser>

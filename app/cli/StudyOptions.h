@@ -2,8 +2,6 @@
 // event, the day after a session.
 //
 // Errors of all: InvalidArgument naming the option, its value and what is accepted.
-//
-// Thread-safety: the main thread only.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -1,7 +1,5 @@
 // StudyPassphrase.h - how a command gets the passphrase of a study: --passphrase-file, or typed where there is a
 // terminal. There is no option that takes it as a word: the command line is shown to everyone on the computer.
-//
-// Thread-safety: the main thread only.
 #pragma once
 
 #include <filesystem>

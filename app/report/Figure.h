@@ -72,8 +72,6 @@
 //    "lines": [{"label": "wanted", "y": 10}]}   optional, level
 //
 // Every type takes an optional "note": one sentence printed below the caption.
-//
-// Thread-safety: values; pure functions.
 #pragma once
 
 #include <QJsonObject>

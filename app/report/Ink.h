@@ -1,7 +1,5 @@
 // Ink.h - the colours of paper, by role. The window's light theme takes the roles that both have from here
 // (app/gui/theme/Colours.cpp), so that a verdict, a limit and a trace have one colour on screen and in a report.
-//
-// Thread-safety: constants.
 #pragma once
 
 #include <QColor>

@@ -1,7 +1,5 @@
 // MatrixBlock.h - rows against columns: limits or quantities against loads. Described once; window, terminal, HTML and
 // PDF set it.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <QStringList>

@@ -1,7 +1,5 @@
 // NumberText.h - how numbers stand in a report: as core/base/QuantityText.h writes them everywhere, with a narrow space
 // before the unit and a true minus; and how columns and cells of tables are written.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <QJsonValue>

@@ -9,8 +9,6 @@
 //                    "stated_by"}]
 //   "reference": as record.reference() and the sensor calibration's known-reference check
 // What is null or missing is unknown, and is said to be (hazard H9).
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <vector>

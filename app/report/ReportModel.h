@@ -1,7 +1,5 @@
 // ReportModel.h - what a report says, before it is known how it looks. The PDF and the HTML page are made from
 // the same model, and the model from a session file alone (SessionReport.h).
-//
-// Thread-safety: values.
 #pragma once
 
 #include <QJsonArray>

@@ -1,6 +1,4 @@
 // ResultCells.h - results as text: the cells of a column, in window, report and terminal alike.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <QStringList>

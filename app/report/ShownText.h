@@ -1,7 +1,5 @@
 // ShownText.h - how much of a text a report shows. A script may write any length, and laying out a hundred thousand
 // characters takes seconds. The session keeps the whole text (hazard H10).
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <QString>

@@ -1,7 +1,5 @@
 // StudyFlow.h - what an ethics committee asks of a study: approval and consents, how far each participant came, what
 // was done to the skin, what went wrong. Participants have the labels of the export, never codes.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include "app/report/ReportContent.h"

@@ -1,6 +1,4 @@
 // StudyOverSessions.h - one participant over their sessions: thresholds, range and answers, each against the first.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,4 @@
 // StudyText.h - texts and numbers of a study as its reports write them.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <QString>

@@ -1,7 +1,5 @@
 // TableContent.h - tables and matrices of a report, worded: numbers as text with their units, what needs attention
 // named.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include "app/report/ReportContent.h"

@@ -1,6 +1,4 @@
 // VerdictMark.h - a verdict's shape and colours in a report: those that the window shows in its light theme.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <QColor>

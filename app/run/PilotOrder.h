@@ -1,6 +1,4 @@
 // PilotOrder.h - what a pilot run is asked for beside its protocol: the study and who is there.
-//
-// Thread-safety: a value.
 #pragma once
 
 #include <filesystem>

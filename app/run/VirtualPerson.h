@@ -1,7 +1,5 @@
 // VirtualPerson.h - the virtual participant that a pilot run's settings describe: seed, answers to the checklist, and
 // what they feel.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <cstdint>

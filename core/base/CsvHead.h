@@ -4,8 +4,6 @@
 // semicolon, tab or blanks between fields; lines that begin with `%`. Lines that begin with `;` are
 // comments too where fields are separated by something else. A decimal comma is taken where fields
 // are separated by something else and hold numbers only so.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,5 @@
 // CsvStamp.h - dates and times of day as stamps of samples: ISO 8601 ("2026-11-29T10:00:00.000Z",
 // "20261129T100000+0100", a blank in place of the T, no zone) and a time of day alone ("10:00:00.5").
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,5 @@
 // DriveSegment.h - a stretch of time in which a source does one thing: what encoding writes, electrode
 // models answer, safety integrates and the twin plays.
-//
-// Thread-safety: values.
 #pragma once
 
 #include <array>

@@ -1,6 +1,4 @@
 // JustNoticeable.h - distances in just-noticeable differences (science.md section 10).
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <cmath>

@@ -1,7 +1,5 @@
 // Printable.h - text from a file or a device as a terminal may show it: what would move the cursor, change colours or
 // turn the reading direction is spelled out instead (hazard H10).
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <cstddef>

@@ -6,8 +6,6 @@
 // mA, kΩ); other numbers too small or too large to be written out have a power of ten, never an "e".
 //
 // UTF-8; a plain space before the unit; "-" for a minus; "–" for what is not known.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <string>

@@ -2,8 +2,6 @@
 //
 // An expected failure is a Result, never an exception; its message is one sentence that an operator
 // can read: the thing, its value, and what would be accepted.
-//
-// Thread-safety: values.
 #pragma once
 
 #include <fmt/format.h>

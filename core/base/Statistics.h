@@ -1,6 +1,4 @@
 // Statistics.h - the six numbers with which every repeated reading is reported.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <cstddef>

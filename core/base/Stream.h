@@ -1,8 +1,6 @@
 // Stream.h - sampled data of one kind at one rate, with the time stamps it came with.
 //
 // In base because acquisition makes streams, dsp reads them, and the two know nothing of each other.
-//
-// Thread-safety: values; pure functions.
 #pragma once
 
 #include <cmath>

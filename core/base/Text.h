@@ -1,6 +1,4 @@
 // Text.h - numbers to and from text, the same way in every language setting.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <algorithm>

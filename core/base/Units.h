@@ -3,8 +3,6 @@
 // The families compiled in are listed once, in core/base/CMakeLists.txt; a new one costs compile time
 // in every file. Durations are std::chrono, sample positions are plain indices of their stream.
 // `.value()` belongs in arithmetic kernels, wire protocols, file formats and plots.
-//
-// Thread-safety: values; pure functions.
 #pragma once
 
 #include <chrono>

@@ -1,6 +1,4 @@
 // Utf16.h - text in UTF-16, as spreadsheets save it, turned into the UTF-8 that everything here reads.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <array>

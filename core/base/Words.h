@@ -1,8 +1,6 @@
 // Words.h - the word that stands for each value of an enumeration, in files, messages and scripts.
 //
 //   constexpr Word<Hold> kHolds[] = {{"voltage", Hold::Voltage}, {"charge", Hold::Charge}};
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <optional>

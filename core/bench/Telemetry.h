@@ -1,7 +1,5 @@
 // Telemetry.h - what the bench is doing right now, for displays and scripts. Published by the control loop, read
 // without a lock: most of it once a step, the exposure table ten times a second and after each train.
-//
-// Thread-safety: values.
 #pragma once
 
 #include <array>

@@ -5,8 +5,6 @@
 // offset to U of the lowest command that was calibrated, where it counts most. Two calibrations differ when what lies
 // between them is more than both U together, as the root of the sum of their squares. A U that is not stated, or 0, is
 // unknown: it draws no bar and no difference is judged by it (hazard H9).
-//
-// Thread-safety: values and pure functions.
 #pragma once
 
 #include <span>

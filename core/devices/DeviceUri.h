@@ -3,8 +3,6 @@
 //   sim:                                                  every role that is still needed, simulated
 //   sim:stimulator?mode=current&gain=1.02&fault=open@12s  one simulated device and its flaws
 //   recording:../data/mat1_1                              a recording replayed as a fingertip
-//
-// Thread-safety: values; pure functions.
 #pragma once
 
 #include <initializer_list>

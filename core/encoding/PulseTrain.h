@@ -2,8 +2,6 @@
 //
 // A request only. Drivers never take it; they take the ApprovedTrain that SafetyGate makes of it.
 // Definitions: science.md sections 4 and 5.
-//
-// Thread-safety: values; pure functions.
 #pragma once
 
 #include <span>

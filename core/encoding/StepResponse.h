@@ -4,8 +4,6 @@
 // compared. A train carries a step when its amplitude, or the interval since the train before it, has left what was
 // there by more than a noticeable fraction (kCarried); the step has arrived with the train that is as near to the new
 // ones and is followed by one at the new interval.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <optional>

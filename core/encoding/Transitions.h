@@ -2,8 +2,6 @@
 //
 // Distances are in just-noticeable differences: |ln(x1/x2)| / ln(1 + w), w the Weber fraction (science.md section 10).
 // At most 2 per train is wanted.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,4 @@
 // ChannelOptions.h - columns, units and probe factors of ReadOptions on what a file holds: the same for every format.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include "core/formats/CaptureFormat.h"

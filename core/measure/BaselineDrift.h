@@ -5,8 +5,6 @@
 // of its block moves no median. What is followed bends by less than a fifth of its span from block to block: what
 // jumps, and be it once, is a state of the signal. The longest blocks that leave nothing but noise between them are
 // taken. It is found only where at least seven tenths of the samples are baseline; else the record is left as it is.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <cstddef>

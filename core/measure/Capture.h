@@ -1,6 +1,4 @@
 // Capture.h - a stretch of oscilloscope record. Everything that is measured is measured on this.
-//
-// Thread-safety: values.
 #pragma once
 
 #include <cstddef>

@@ -5,8 +5,6 @@
 //   # tactoscope {"channels":[{"gain_tolerance":0.005,"high":52,"low":-52,"lsb":0.025,...}],"simulated":true,...}
 //
 // A figure that was not stated is null.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <filesystem>

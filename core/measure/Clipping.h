@@ -14,8 +14,6 @@
 // of two codes is seen or not by where the level lies between them, so that the top must then keep the extreme in every
 // one of at least 50 samples. From 0.4 codes (s.d.) on every clipped record is so found, with less noise some; of clean
 // ones none from 0.3 codes on, with less noise about one in ten. Judged on the samples as recorded.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <optional>

@@ -5,8 +5,6 @@
 // carries the signal to a neighbouring code and back, or where many neighbouring codes occur. Two levels and nothing
 // between them (logic, a simulation) say nothing of a step, and neither do samples that lie on no grid (averages,
 // filtered records).
-//
-// Thread-safety: pure function.
 #pragma once
 
 #include <cstddef>

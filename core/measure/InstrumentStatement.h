@@ -4,8 +4,6 @@
 // (resources/instruments), the keys of a device's address, or a certificate of calibration; each overrides those
 // before it, figure by figure, and each figure keeps who stated it. What a capture states itself (the twin, a header
 // that this program wrote) stays where nothing else is stated.
-//
-// Thread-safety: values and pure functions.
 #pragma once
 
 #include <string>

@@ -14,8 +14,6 @@
 //
 // Values are bare doubles in the SI unit that their name ends in, because they stand in Statistics beside those of
 // core/measure/PulseMeasurement.h.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,4 @@
 // PhaseFinder.h - excursions from the baseline: where they lie, and which were clipped. Private to core/measure.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <cstddef>

@@ -3,8 +3,6 @@
 // An edge passes a level where the straight line between two samples does. Where noise carries it to and fro, the
 // passages up less the passages down are taken: on average that is where it would have passed without noise, while the
 // first passage is early.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <cstddef>

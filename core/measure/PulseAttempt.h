@@ -1,7 +1,5 @@
 // PulseAttempt.h - one way to look at a channel, the pulses that it shows, and how the signal lies about them. Private
 // to core/measure.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <algorithm>

@@ -4,8 +4,6 @@
 // Reliable is a state twelve times the noise away from the baseline (21.6 dB): then no sample of a million is taken for
 // a pulse and none of a pulse for silence. A record below that is averaged just so much that it is above, which takes
 // resolution in time; each side of a biphasic pulse is averaged by itself, since a slow recharge is shallow and long.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <cstddef>

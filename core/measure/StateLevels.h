@@ -4,8 +4,6 @@
 // baseline between them are biphasic pulses, told from ringing by the charge on either side: a biphasic pulse returns
 // at least a fifth of what it gave. Neighbouring codes of the converter are one state, and states are at least two and
 // a half of its steps apart. Noise, a ramp or a sine never rests, and so has no two states.
-//
-// Thread-safety: pure function.
 #pragma once
 
 #include <limits>

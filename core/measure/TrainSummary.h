@@ -1,6 +1,4 @@
 // TrainSummary.h - from pulses to trains, intervals, statistics and warnings. Private to core/measure.
-//
-// Thread-safety: pure function.
 #pragma once
 
 #include <cstddef>

@@ -16,8 +16,6 @@
 // is neither a frequency nor a duty cycle. A record with a clipped sample has neither peak to peak, RMS nor mean.
 //
 // Levels are in the channel's unit, a bare double because the unit is data.
-//
-// Thread-safety: pure function.
 #pragma once
 
 #include <cstddef>

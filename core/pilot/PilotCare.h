@@ -1,7 +1,5 @@
 // PilotCare.h - what protects the participant around the trials: the gates that only the running bench can ask, skin,
 // electrodes, ratings, side effects (pilot.md sections 3 and 4).
-//
-// Thread-safety: one caller, the session's thread.
 #pragma once
 
 #include <functional>

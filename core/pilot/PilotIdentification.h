@@ -1,7 +1,5 @@
 // PilotIdentification.h - the rest of a session: familiarisation, training, test blocks with drift checks and breaks,
 // and what it comes to (pilot.md section 4).
-//
-// Thread-safety: one caller, the session's thread.
 #pragma once
 
 #include <nlohmann/json.hpp>

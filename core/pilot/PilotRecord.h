@@ -6,8 +6,6 @@
 //
 // Promise (hazard H8): `trial-begin` is on disk before a presentation's first train is asked for, and `answer` before
 // the next trial begins. A row that cannot be written is an error before the train.
-//
-// Thread-safety: one caller, the session's thread.
 #pragma once
 
 #include <cstddef>

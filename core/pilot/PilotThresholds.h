@@ -1,8 +1,6 @@
 // PilotThresholds.h - the first three steps of a session: ascending limits, detection, the personal range (pilot.md
 // section 4); and, where the study has it, the comparison of strengths (section 8). Each is done once; called again
 // after a resume it returns what the rows say.
-//
-// Thread-safety: one caller, the session's thread.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -3,8 +3,6 @@
 //
 // It is not known to the program where a sensor is fastened. A board that lies beside the motor measures bursts in
 // which nothing moves, which is said as such; without a sensor nothing is measured.
-//
-// Thread-safety: one caller, the session's thread.
 #pragma once
 
 #include <memory>

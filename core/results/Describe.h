@@ -1,6 +1,4 @@
 // Describe.h - what the files that declare kinds of results share: columns and tables in few words.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <utility>

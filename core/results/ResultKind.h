@@ -2,8 +2,6 @@
 // compares names of kinds: what the app does by kind goes by ResultKind.
 //
 // A kind is declared in one of the files beside this one, in a family of kinds that ResultKind.cpp lists.
-//
-// Thread-safety: constant.
 #pragma once
 
 #include <string_view>

@@ -1,7 +1,5 @@
 // ResultTable.h - how results are shown: which tables a kind has, in which order, with which columns. Window, terminal
 // and report all go by it; what is not named here is not shown, and is in the session.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <nlohmann/json.hpp>

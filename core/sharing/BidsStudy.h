@@ -2,8 +2,6 @@
 //
 // A participant has no code and no date here; days count from the person's first session. What was not recorded is NaN,
 // an empty text or nothing, and is written as n/a.
-//
-// Thread-safety: values.
 #pragma once
 
 #include <cmath>

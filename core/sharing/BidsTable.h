@@ -1,6 +1,4 @@
 // BidsTable.h - one table of a BIDS dataset with its sidecar: tab-separated values, and what each column means.
-//
-// Thread-safety: values.
 #pragma once
 
 #include <initializer_list>

@@ -13,8 +13,6 @@
 //
 // An address that is listed, or given as a choice, opens exactly that device.
 // A device that is plugged in and may not be opened is listed with the sentence that helps.
-//
-// Thread-safety: as Driver.
 #pragma once
 
 #include <filesystem>

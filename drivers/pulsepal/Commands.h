@@ -6,8 +6,6 @@
 //
 // D5 52, continuous mode, is not here on purpose: outputs of this program end by themselves, and the order of its two
 // arguments differs between firmware versions, so that "off" for one is "on" for another.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <array>

@@ -2,8 +2,6 @@
 //
 // The device's inter-pulse interval runs from a pulse's end to the next onset, and its train duration ends all, so the
 // duration lies one cycle behind the last pulse: a pulse is never cut, and none begins after the last.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <vector>

@@ -2,8 +2,6 @@
 //
 // Nothing here trusts the board: a payload of the wrong length, a field out of its range, a scale that is not a number
 // or a unit that does not go with the kind of stream is refused with one sentence.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <optional>

@@ -2,8 +2,6 @@
 //
 // Uniform words from xoshiro256+; a normal draw is the sum of four 16-bit uniforms (variance 1, excess kurtosis -0.3,
 // bounded at 3.46): good enough for sensor noise, and a tenth of the cost of std::normal_distribution.
-//
-// Thread-safety: none; one owner.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,5 @@
 // CalibrateWorkspace.h - the stimulator's calibration: the guided run, or a check of what is stored; the fingertip
 // sensor's; how the stored one stands today, and what was stored before. The runs are ProtocolWorkspace's.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QWidget>

@@ -3,8 +3,6 @@
 // The file is small: it is read when another stimulator is opened, when a run has ended, and on read(). How a
 // calibration stands is judged by today's date (UTC) each time it is asked for, so that one which runs out overnight
 // does. The judgement is the store's own (CalibrationStore::valid).
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QObject>

@@ -1,7 +1,5 @@
 // CalibrationCard.h - does the calibration of a stimulator count today? In a word and a shape, then what it says, then
 // what to do.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QComboBox>

@@ -1,7 +1,5 @@
 // CalibrationHistory.h - every calibration of a stimulator: how it changed over time, and a list, the newest first:
 // which one counts, which were superseded.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QLabel>

@@ -1,8 +1,6 @@
 // CalibrationPlot.h - a calibration's readings over their commands: as measured, with the fitted line; or as errors,
 // in the tolerance band, with each level's mean and its uncertainty, and the level nearest to its tolerance named.
 // Upward and downward sweeps look different; readings that stand out are marked and kept.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <qcustomplot.h>

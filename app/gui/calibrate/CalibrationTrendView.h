@@ -1,7 +1,5 @@
 // CalibrationTrendView.h - how a stimulator changed from calibration to calibration: gain, offset and U over the days,
 // with error bars, the day on which the newest is due, and in words what moved by more than its uncertainty.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QComboBox>

@@ -1,7 +1,5 @@
 // CalibrationView.h - a calibration while it runs and at its end: one plot, the errors in their tolerance band (or the
 // readings against their commands), and a card for each quantity that says how much of its tolerance it uses.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QComboBox>

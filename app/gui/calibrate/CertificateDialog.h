@@ -3,8 +3,6 @@
 //
 // What is entered is checked while it is typed, by the store's own rules, and can be withdrawn but not changed. A bench
 // that is open keeps what it was opened with.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QDialog>

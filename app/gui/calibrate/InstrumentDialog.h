@@ -2,8 +2,6 @@
 //
 // What is chosen is put together as the address of the oscilloscope. An instrument whose certificate expired says so
 // and its figures are left out: unknown is not zero (hazard H9).
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QComboBox>

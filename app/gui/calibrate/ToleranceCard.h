@@ -1,7 +1,5 @@
 // ToleranceCard.h - one calibrated quantity as a card: its verdict, how much of its tolerance is used, and where. A
 // click chooses what the plot shows.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QAbstractButton>

@@ -1,7 +1,5 @@
 // WiringPage.h - how a stimulator, a load and an oscilloscope are connected: the drawing that the protocols' questions
 // show, to be looked at before anything is run.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QScrollArea>

@@ -2,8 +2,6 @@
 // begun on that day, and shown where it can be changed.
 //
 // Notes of another day no longer count: the person and the sample may have changed.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QDate>

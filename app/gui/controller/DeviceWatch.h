@@ -1,7 +1,5 @@
 // DeviceWatch.h - what is plugged in, looked at from a thread of its own, so that a slow port never holds up the
 // window.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QObject>

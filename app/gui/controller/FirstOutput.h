@@ -1,7 +1,5 @@
 // FirstOutput.h - the output that follows first once the bench is armed: the arm dialog names it, the oscilloscope
 // draws it.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <optional>

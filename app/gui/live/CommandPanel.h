@@ -1,6 +1,4 @@
 // CommandPanel.h - what the fingertip feels now, in words, and what became of its trains.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QLabel>

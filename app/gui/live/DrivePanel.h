@@ -4,8 +4,6 @@
 // panel follows it. Only a person's hand on a control asks anything of the bench. By hand begins with what was set by
 // hand on this bench, at first R = 0 and P = 0; it goes on with the fingertip's values only while those are delivered.
 // When the bench has turned driving off, the panel says what drove it, and starts nothing of it by itself.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QButtonGroup>

@@ -1,6 +1,4 @@
 // LiveWorkspace.h - what the finger feels and what the skin would get, now.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QComboBox>

@@ -1,8 +1,6 @@
 // ProfileEditor.h - the profile as a form with its mapping drawn: edit, check, apply, open, save.
 //
 // A wrong value is refused in the core's own sentence, beside its field, and is never applied; nothing is clamped.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QDialog>

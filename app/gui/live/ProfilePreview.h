@@ -1,7 +1,5 @@
 // ProfilePreview.h - an encoding profile as pictures: roughness to amplitude, pressure to interval, where touch stands
 // on both now, and one pulse.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <optional>

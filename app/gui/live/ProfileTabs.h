@@ -1,6 +1,4 @@
 // ProfileTabs.h - the fields of a profile on tabs, each with its range and, beside it, why it is refused.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QComboBox>

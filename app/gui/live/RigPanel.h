@@ -1,6 +1,4 @@
 // RigPanel.h - what the simulated finger touches, where the bench can do that by itself, and how fast its time runs.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QComboBox>

@@ -2,8 +2,6 @@
 // taken out (gravity), axes summed, 5 Hz to 1 kHz, power density in dB.
 //
 // Bounded: a ring of the columns of a minute; nothing is allocated after begin() but for a longer window.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,5 @@
 // Strip.h - one strip of the live plots: its axes, caption and watermark, the hatch where no samples come any more, and
 // a value axis that steps instead of breathing.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QStaticText>

@@ -4,8 +4,6 @@
 // Where a stream has stopped coming its strip is hatched from the last sample on; where samples are missing the trace
 // is broken. A fault is a line at its instant in every strip. A frozen picture is drawn from a copy: it can be looked
 // at for as long as one likes.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <deque>

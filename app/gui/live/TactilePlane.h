@@ -1,6 +1,4 @@
 // TactilePlane.h - roughness by pressure: where the finger is now, where it came from, and the four conditions.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <qcustomplot.h>

@@ -1,6 +1,4 @@
 // TaxelMap.h - the taxels as a small pressure map: a cell each, bluer is more, the value written in.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QWidget>

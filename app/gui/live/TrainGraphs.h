@@ -1,8 +1,6 @@
 // TrainGraphs.h - what is drawn of the trains: the command as a line, each train as delivered, what the source read
 // back and the oscilloscope measured of it, and those that were not delivered. While a fault holds the output off, the
 // ground is shaded and says so, and what was asked for is not drawn.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <deque>

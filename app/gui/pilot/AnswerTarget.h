@@ -1,7 +1,5 @@
 // AnswerTarget.h - one answer on the participant's screen: large, with its key and, in a circle, the button of a pad,
 // taken the moment a press goes down on it, by mouse or finger.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QAbstractButton>

@@ -3,8 +3,6 @@
 //
 // What may deliver follows the gates of a study (pilot.md, section 3): the simulated bench for a virtual participant
 // and in a rehearsal; a device for a person, in a rehearsal a massager alone.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QComboBox>

@@ -1,8 +1,6 @@
 // ImpedanceTrend.h - impedance over a session: a point a trial, with the band that it may move in and the blocks.
 //
 // One point a trial and no more, so that the number of trains cannot be read from it.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QLabel>

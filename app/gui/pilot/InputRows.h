@@ -5,8 +5,6 @@
 // others; where it states none it is offered, since any of its model may be the one.
 //
 // While they are shown the devices are looked for and opened, but never those of a session that runs.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QComboBox>

@@ -2,8 +2,6 @@
 //
 // Amber at the left, as every question that a run waits for. The buttons take a press of their own: the second half of
 // a double click answers nothing.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QFrame>

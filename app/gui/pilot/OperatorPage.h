@@ -1,8 +1,6 @@
 // OperatorPage.h - the operator's side of a session: phase and time left, impedance, notes, break and abort, and the
 // questions that are the operator's. It knows no condition, level, interval or answer, and so shows none; what a
 // session says besides is shown only where the operator is not blind or may know it.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QElapsedTimer>

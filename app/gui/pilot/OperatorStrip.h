@@ -1,7 +1,5 @@
 // OperatorStrip.h - the operator's page on a single screen: a strip at the lower edge of the participant's window,
 // behind F2. While it is open no presentation starts.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QFrame>

@@ -3,8 +3,6 @@
 //
 // At 1440 x 900 as the design's picture. Elsewhere the targets get their 20 mm first: the second line goes, then the
 // question gets smaller; STOP keeps its place.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QLabel>

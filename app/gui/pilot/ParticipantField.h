@@ -2,8 +2,6 @@
 // or the targets of a question, always at the same place.
 //
 // Targets of a question are at least kTarget_mm wide and high, unless the screen has no room for them.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QWidget>

@@ -1,6 +1,4 @@
 // ParticipantStop.h - the participant's own STOP: calls `stop` the moment a press goes down on it, by mouse or finger.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QAbstractButton>

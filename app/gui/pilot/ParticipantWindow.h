@@ -7,8 +7,6 @@
 // that is still held from before is none either. Buttons of a pad that is theirs go through the same door, whichever
 // window has the keys. Without the keys, or while the operator's strip lies over it, the
 // desk learns what is in the way, and no presentation starts.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QElapsedTimer>

@@ -1,6 +1,4 @@
 // PhaseBar.h - where a trial is: get ready, trains, answer, rest; the one under way filled, with the time left of it.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QWidget>

@@ -1,7 +1,5 @@
 // PilotWorkspace.h - the workspace of those who run pilot sessions: a rehearsal or a study, a session with its two
 // windows, its result.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QFrame>

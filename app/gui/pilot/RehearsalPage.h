@@ -1,7 +1,5 @@
 // RehearsalPage.h - what a rehearsal needs before it begins: where its study lies, who answers, what is run, and how
 // both people sit. An interrupted rehearsal is offered for continuation.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QLabel>

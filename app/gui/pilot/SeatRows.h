@@ -1,6 +1,4 @@
 // SeatRows.h - fields of the forms before a session: what it runs, and how its two people sit.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QComboBox>

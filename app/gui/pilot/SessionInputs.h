@@ -3,8 +3,6 @@
 //
 // No other device is open, so none answers. What switches the output off is told on the device's own thread: it waits
 // neither for the window's thread nor for what that paints. The signals follow, for what the windows show.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QObject>

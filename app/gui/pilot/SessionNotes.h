@@ -1,6 +1,4 @@
 // SessionNotes.h - the operator's notes during a pilot session, each with its time; Enter keeps one. Newest first.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QLineEdit>

@@ -1,6 +1,4 @@
 // SessionPath.h - the steps of a pilot session at the left, with how each stands, and the time that is left.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QLabel>

@@ -1,6 +1,4 @@
 // SessionSide.h - what stands beside a session: who takes part, what their screen shows, and the stops.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QFrame>

@@ -1,7 +1,5 @@
 // SessionStartPage.h - a session of a participant of a study before it begins: what was interrupted, what is run, how
 // both people sit, and the exclusion checklist. A virtual participant has none: it answers no to each.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QBoxLayout>

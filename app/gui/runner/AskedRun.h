@@ -1,6 +1,4 @@
 // AskedRun.h - a run that the operator asked for and has not confirmed: the first of the two steps that start output.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QElapsedTimer>

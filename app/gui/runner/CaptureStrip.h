@@ -1,6 +1,4 @@
 // CaptureStrip.h - the last captured waveform, small: voltage and current over time.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <filesystem>

@@ -1,6 +1,4 @@
 // CodeEdit.h - a script as text, with line numbers, one line marked, and the words that were searched.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QPlainTextEdit>

@@ -1,7 +1,5 @@
 // DisclosedPanel.h - what belongs to the limits x loads of a safety check: the waveform of the strongest output that
 // the run captured, or of a chosen cell, and beside or below it the outputs that a document asks to disclose.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QBoxLayout>

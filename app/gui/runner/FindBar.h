@@ -1,8 +1,6 @@
 // FindBar.h - finds words in a script: every match is marked, one is current, and the search goes round at the ends.
 //
 // Case does not count. Ctrl+F opens it with what is selected; F3 and Return go on, with Shift back.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QLabel>

@@ -1,8 +1,6 @@
 // LimitMatrixView.h - limits x loads: every limit once, the nearest to its limit first, and on each load how much of it
 // is used, uncertainty included. A cell is colour, shape and share; what was not evaluated is hatched. A chosen cell
 // drives the tracing.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QTableWidget>

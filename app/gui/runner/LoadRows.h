@@ -1,6 +1,4 @@
 // LoadRows.h - the loads of a safety check as rows that turn to verdicts while they are measured.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QTableWidget>

@@ -1,7 +1,5 @@
 // NotesPanel.h - what the report says beside what is measured: operator, sample, reviewer, ambient conditions. Every
 // such panel shows and changes the same notes, those of the day.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QGroupBox>

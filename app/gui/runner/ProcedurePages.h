@@ -1,6 +1,4 @@
 // ProcedurePages.h - a page for each step of a procedure: wiring, known reference, settings, run and result, report.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QBoxLayout>

@@ -1,7 +1,5 @@
 // ProcedurePath.h - the column at the left of a procedure: what it is, its steps and how each stands, and what runs it.
 // Where a column would take too much of the room (large text, a small window) it is a row on top.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QWidget>

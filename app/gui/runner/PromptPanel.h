@@ -1,7 +1,5 @@
 // PromptPanel.h - a protocol's question to the operator, in the workspace and not above it: everything else, STOP
 // first, stays within reach.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QFrame>

@@ -1,7 +1,5 @@
 // ProtocolHead.h - which protocol this is: its title and purpose, the way to its script, and a chooser where the
 // operator chooses among all of them. In a row it has one line, without the purpose.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QComboBox>

@@ -2,8 +2,6 @@
 // stand at the left with their state, each has a page, and one button starts.
 //
 // With a name it is that protocol's workspace; without one the operator chooses among all of them.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QBoxLayout>

@@ -1,8 +1,6 @@
 // ReportMaker.h - draws reports in a child process, so that the window never stalls and a crash there takes nothing
 // with it: `tactoscope-report SESSION --out FILE`, a program beside this one. It gets the passphrase of a
 // sealed study through a pipe, from locked memory.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QObject>

@@ -1,8 +1,6 @@
 // ReportPrinter.h - prints a report on one of the computer's printers. Its pages are drawn on a thread of their own:
 // each takes a tenth of a second, and STOP does not wait for it. Qt's print dialog is not used because it opens modal
 // ones.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QMenu>

@@ -1,6 +1,4 @@
 // ReportView.h - a report's pages, with zoom and print; the desktop's viewer is one button away.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QDialog>

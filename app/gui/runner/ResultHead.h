@@ -1,6 +1,4 @@
 // ResultHead.h - how a run ended: the verdict in a word, then why, then what it rests on.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QLabel>

@@ -1,7 +1,5 @@
 // ResultTables.h - the numbers that a protocol's verdict was given, as the tables of their kind
 // (core/results/ResultTable.h).
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QLabel>

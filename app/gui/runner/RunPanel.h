@@ -1,7 +1,5 @@
 // RunPanel.h - the button that runs a protocol, the progress of the run with its time left, and what prevents a run.
 // Pause and STOP stand in the safety bar alone.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QBoxLayout>

@@ -1,7 +1,5 @@
 // RunViews.h - what a run shows: its main plot while it goes on; at its end the verdict above the plot, the tables and
 // the log behind it, and what comes next below.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QButtonGroup>

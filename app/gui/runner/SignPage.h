@@ -2,8 +2,6 @@
 //
 // A signature is by hand, on paper or in the PDF; the program keeps names and draws the lines. It counts as done once
 // the report was printed or opened from here.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QHBoxLayout>

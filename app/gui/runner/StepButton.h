@@ -1,7 +1,5 @@
 // StepButton.h - one step of a procedure: the shape of its state, its name, and a word on how it stands. In a row it
 // has a number, and its name where there is room.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QAbstractButton>

@@ -2,8 +2,6 @@
 // shape, with a word on how it stands. A click goes to a step that was reached. Where there is little room they stand
 // in a row, numbered; in a narrow one only the step that is shown has its name, in the
 // narrowest none.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QBoxLayout>

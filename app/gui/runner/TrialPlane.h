@@ -1,7 +1,5 @@
 // TrialPlane.h - trials as points in the plane of their two features, while they come: amplitude and interval of
 // trains, or the vibration and the taxel feature of a fingertip that slides.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -1,6 +1,4 @@
 // WiringPanel.h - which devices a run opens, its seed, its clock, and where its files go.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QCheckBox>

@@ -1,7 +1,5 @@
 // WorstPage.h - the strongest command of the profile, judged against every limit before a run; the limits of one
 // set alone where it is chosen, and each to be read with its source.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QComboBox>

@@ -1,7 +1,5 @@
 // ScopeColumns.h - the oscilloscope's parts on the page: tools above, status beside them or below; screen, spectrum and
 // measurements below each other; the controls beside them, where there is room.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QWidget>

@@ -1,6 +1,4 @@
 // ScopeFiles.h - the oscilloscope's files and clipboard: the menu that opens, saves and copies.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QObject>

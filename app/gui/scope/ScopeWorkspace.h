@@ -4,8 +4,6 @@
 // keeps the picture and touches no output: only STOP does that.
 //
 // What the user chose (mode, trigger, record, scales, panels) is remembered from one start to the next.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QWidget>

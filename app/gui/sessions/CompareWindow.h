@@ -1,7 +1,5 @@
 // CompareWindow.h - two sessions over each other: trials in one plane, a stream of both with its difference, and what
 // differs in what was used and found, in sentences.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QComboBox>

@@ -3,8 +3,6 @@
 // Listed from an index of what was read before (core/session/SessionIndex.h). What is seen of the list, and what is
 // chosen, is then read from the sessions themselves, which have the last word. A session that cannot be read is listed
 // with the reason.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QComboBox>

@@ -1,7 +1,5 @@
 // SessionModel.h - the sessions as rows of a table: those that a search and a choice of verdict and age let through, in
 // the order of a column. Thousands of rows cost what is seen of them.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QAbstractTableModel>

@@ -1,7 +1,5 @@
 // SessionPreview.h - the main plot of a session: its trials in the plane, else the first figure of its report, else
 // what was felt and delivered over time, with the operator's marks.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QLabel>

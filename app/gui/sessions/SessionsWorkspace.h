@@ -2,8 +2,6 @@
 // verify.
 //
 // Reading and writing happen beside the window.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QBoxLayout>

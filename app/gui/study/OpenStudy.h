@@ -2,8 +2,6 @@
 // second, changed at once, and lent to a session while that runs.
 //
 // While it is open no other program changes it. The passphrase lies in locked memory and in no setting.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QObject>

@@ -1,7 +1,5 @@
 // PageTable.h - a table of records on a page: all rows in sight, no wider than the page has room for, laid out again
 // when the page or the size of text changes.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include "app/gui/theme/RecordColumns.h"

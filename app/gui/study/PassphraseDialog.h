@@ -1,7 +1,5 @@
 // PassphraseDialog.h - asks for a study's passphrase: once to open it, twice for a new one. It stays until its owner
 // closes it, so a wrong passphrase is typed again in place.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QDialog>

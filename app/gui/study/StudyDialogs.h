@@ -1,7 +1,5 @@
 // StudyDialogs.h - dialogs that change an open study, each to be opened by openDialog(). Where the study refuses, the
 // dialog stays and says why. `study` outlives it.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QDialog>

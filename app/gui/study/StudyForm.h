@@ -3,8 +3,6 @@
 //
 // Units, ranges, words and defaults are those of the core's table (studyFields() of core/study/StudySettings.h), which
 // alone judges.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QBoxLayout>

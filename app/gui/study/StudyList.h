@@ -1,7 +1,5 @@
 // StudyList.h - an open study on one page: its approval, its participants and sessions with their states in words, and
 // what can be done with each. Every change has a dialog of its own.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QLabel>

@@ -1,6 +1,4 @@
 // StudyPage.h - studies in the Pilot workspace: one is opened or made, then listed.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QLabel>

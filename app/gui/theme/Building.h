@@ -1,6 +1,4 @@
 // Building.h - what pages are built of: columns, rows, words and buttons, each in one line.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QBoxLayout>

@@ -2,8 +2,6 @@
 //
 // Data and the state of the output carry the colour; everything else is quiet. Text keeps a contrast of 4.5:1 on every
 // ground that it stands on, fills, edges and traces of 3:1. Red is for STOP and faults; blue is voltage and delivering.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QColor>

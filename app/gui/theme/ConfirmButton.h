@@ -6,8 +6,6 @@
 // button is in sight. It has no mnemonic, since a held Alt+letter repeats. Return presses it through StopKeys, which
 // takes a held key for one press.
 // A button whose meaning changes while it is shown (Pause, Resume) says so by setMeaning(), and is deaf after that.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QInputEvent>

@@ -3,8 +3,6 @@
 // A modal dialog takes every click and key from the windows behind it, and with them STOP. No dialog of this program is
 // modal: the window stays usable while one is open, so what a dialog asks about is taken when it opens, not when it
 // is answered. StopKeys takes the modality from a dialog that Qt opens by itself.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QDialog>

@@ -1,6 +1,4 @@
 // EntryFields.h - lines in which a file, a folder or a day is entered.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QLineEdit>

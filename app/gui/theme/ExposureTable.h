@@ -1,7 +1,5 @@
 // ExposureTable.h - exposure rows against their limits: quantity, value, limit, and a bar of how much of it is used;
 // hatched where a row was not evaluated. In a narrow place the bar stands under the quantity.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QString>

@@ -6,8 +6,6 @@
 //
 // Every field is text checked by the same rules as the command line; a refusal stands below its field. Where the
 // description says what 0 stands for, those words stand in an empty field, which reads as 0.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QFormLayout>

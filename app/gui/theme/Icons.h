@@ -1,8 +1,6 @@
 // Icons.h - the icons of resources/icons in the theme's colours: lines on a grid of 24 px, drawn at 16, 20, 24 or 32.
 //
 // An icon takes its colour when it is painted, so it follows a change of theme by itself.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QIcon>

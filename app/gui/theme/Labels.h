@@ -1,6 +1,4 @@
 // Labels.h - words that suit their room: a line that elides, what is in the way, and words over a progress bar.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QLabel>

@@ -2,8 +2,6 @@
 // over which it is taken, where it is judged, what it does, and its source; then what the set asks to be stated.
 //
 // All sets apply, not only the one shown.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QComboBox>

@@ -1,7 +1,5 @@
 // MarkLines.h - the operator's marks in plots over time: a dashed line at its moment through each of the axis rects,
 // the word at the top of the first.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <qcustomplot.h>

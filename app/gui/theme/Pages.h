@@ -1,6 +1,4 @@
 // Pages.h - pages that scroll, pages of which one is shown, and what stands below a page.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QBoxLayout>

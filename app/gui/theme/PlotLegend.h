@@ -1,6 +1,4 @@
 // PlotLegend.h - a plot's legend above its axes, where it covers no data: as wide as its entries, at the left.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <qcustomplot.h>

@@ -1,6 +1,4 @@
 // PlotPicture.h - every plot copies and saves. A file is replaced whole or not at all.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QDateTime>

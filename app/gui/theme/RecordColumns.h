@@ -1,6 +1,4 @@
 // RecordColumns.h - records as a table of the window, by a list of columns. No key of a record is ever shown.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QTableWidget>

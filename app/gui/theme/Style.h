@@ -1,7 +1,5 @@
 // Style.h - the program's style: Fusion, whose letters for Alt are underlined only while Alt is held, and whose
 // icons grow with the text and stand a little before it, and whose layouts lie on the grid.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QProxyStyle>

@@ -1,6 +1,4 @@
 // TabbedPage.h - pages behind tabs, each with its own tools in the row of the tabs, or below it where there is no room.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QShortcut>

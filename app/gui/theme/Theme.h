@@ -3,8 +3,6 @@
 // Widgets take colours from their palette; plots take them from here, and again when the theme changes
 // (QEvent::PaletteChange). Conditions have the styles of the reports (conditionStyle()), numbers their text
 // (quantityText()).
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QApplication>

@@ -1,6 +1,4 @@
 // ToolRow.h - rows of parts that suit the room they have.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QBoxLayout>

@@ -1,8 +1,6 @@
 // ArmDialog.h - the second step of arming, and of checking the impedance: what will be connected, what the limits will
 // be held against, the text that the operator confirms, and a button that is not the default one (hazards H6, H12). It
 // closes when a stop comes and after 30 s.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QCheckBox>

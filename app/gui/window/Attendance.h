@@ -4,8 +4,6 @@
 //
 // What of this the display does not tell is not known, and then it does not count: see DisplaySight and LockWatch, and
 // safety.md "Interlock".
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QElapsedTimer>

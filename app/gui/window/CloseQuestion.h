@@ -2,8 +2,6 @@
 //
 // The output is off before anything is asked (hazard H2): MainWindow::closeEvent() stops it and then comes here. A
 // signal never asks (SignalClose.h).
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QMainWindow>

@@ -1,6 +1,4 @@
 // DayDialog.h - asks who works today and on which sample; and the button in the menu bar that shows it and asks again.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QDialog>

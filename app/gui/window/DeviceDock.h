@@ -1,7 +1,5 @@
 // DeviceDock.h - what is present, what is open, and what can be done with it: identity, firmware, calibration, what a
 // device reports on itself, impedance check. A device that is open and was unplugged says so and stays open.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QElapsedTimer>

@@ -2,8 +2,6 @@
 //
 // Each workspace remembers which: live work shows the docks, everything else gives the room to its plot. A dock that
 // floats never lies on the safety bar.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QAction>

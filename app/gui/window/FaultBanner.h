@@ -1,7 +1,5 @@
 // FaultBanner.h - in the safety bar while the output is faulted: when it happened and what, what it means for the
 // output, and the next step. It takes the place of facts and limit bars, so nothing moves.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QFrame>

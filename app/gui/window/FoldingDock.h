@@ -1,7 +1,5 @@
 // FoldingDock.h - a dock with a header of its own: icon, title, and a button that folds it to the header. It can be
 // moved and floats as any other.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QDockWidget>

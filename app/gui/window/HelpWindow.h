@@ -1,6 +1,4 @@
 // HelpWindow.h - the guide, with the keys and the limits, and what has the focus.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QWidget>

@@ -2,8 +2,6 @@
 //
 // The bar fills towards the limit, amber from 80 %, red from the limit on. Hatched: not evaluated. No bar: a quantity
 // that is shown and has no limit. What was measured stands beside what was set, and is amber where it is not that.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QWidget>

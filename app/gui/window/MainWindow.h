@@ -1,8 +1,6 @@
 // MainWindow.h - the window: safety bar on top, workspaces at the left, the workspace, docks, the recording line.
 //
 // Thirty times a second it pulls telemetry and lets what is visible redraw. Nothing here blocks.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QMainWindow>

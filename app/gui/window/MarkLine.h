@@ -3,8 +3,6 @@
 //
 // It lies over the lower edge of the workspace, so that nothing moves, and is not a dialog: all keys that stop do so in
 // it, and Esc closes it too. Return marks; a line left empty marks without a word of its own.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QFrame>

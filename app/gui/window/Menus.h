@@ -1,6 +1,4 @@
 // Menus.h - the main window's menus: files, bench, view, help.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QActionGroup>

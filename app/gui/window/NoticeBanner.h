@@ -3,8 +3,6 @@
 //
 // It lies over the lower edge of the workspace, so that nothing moves, beside a procedure's path with its Run and above
 // what can be done with a result.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QFrame>

@@ -1,6 +1,4 @@
 // OutputDocks.h - the docks of the output: how far it is from its limits, and what drives it.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QPushButton>

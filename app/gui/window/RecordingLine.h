@@ -1,7 +1,5 @@
 // RecordingLine.h - the bottom line: what is being recorded, how much, how safe it is; the last message with its time,
 // click for all.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QElapsedTimer>

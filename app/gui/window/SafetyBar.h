@@ -2,8 +2,6 @@
 // how far the output is from its limits, and STOP.
 //
 // Where there is little room the state's word gets smaller first, then bars and facts go; STOP and the buttons stay.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QFrame>

@@ -1,8 +1,6 @@
 // SignalClose.h - Ctrl+C in the terminal of the window, termination and a terminal that closes: the output goes off at
 // once, even while the window is busy, and then the window closes without a question, so that the session is closed
 // (hazard H2).
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <chrono>

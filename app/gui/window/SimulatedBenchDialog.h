@@ -1,7 +1,5 @@
 // SimulatedBenchDialog.h - a simulated bench as the user sets it: source, load, flaws and a fault at a moment, for
 // training and demonstration.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QComboBox>

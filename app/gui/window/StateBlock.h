@@ -1,6 +1,4 @@
 // StateBlock.h - the interlock in word, shape and colour, to be read from two metres: the left end of the safety bar.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QFrame>

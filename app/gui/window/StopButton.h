@@ -4,8 +4,6 @@
 // looks at each press of the program before any widget does, and takes those that lie on it as its own: nothing else
 // sees them. Presses on a participant's window are not taken; it has a STOP of its own. Where the display does not say
 // how windows lie (Wayland), a press counts where Qt takes the windows to be.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QPushButton>

@@ -5,8 +5,6 @@
 // behind a modal dialog from the application as well, so StopKeys takes the modality from every window before it is
 // shown, also from those that Qt opens by itself. While something is dragged Qt puts a filter of its own before all
 // others and takes every key; StopKeys puts itself first again twenty times a second.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QObject>

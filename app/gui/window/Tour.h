@@ -3,8 +3,6 @@
 // A panel in the window, where it covers neither the safety bar nor the control that it talks about; and a frame around
 // that control. A step is over when what it asks for was done at the window's own controls; Next passes it over, Back
 // returns. Never modal: STOP, its keys and all else stay within reach. What is left can be resumed.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QElapsedTimer>

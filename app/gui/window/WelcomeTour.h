@@ -1,7 +1,5 @@
 // WelcomeTour.h - the tour that a first start begins with: from nothing to a measured pulse and a verdict, on the
 // simulated bench, in five minutes.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QObject>

@@ -1,6 +1,4 @@
 // WorkspaceRail.h - the workspaces at the left of the window, one button each with its key, Ctrl+1 to Ctrl+7.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QActionGroup>

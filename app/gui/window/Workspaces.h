@@ -1,7 +1,5 @@
 // Workspaces.h - the window's seven workspaces, one of them shown. Live is there from the start; each other is made
 // when it is first needed: all of them take as long as the rest of the window.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QStackedWidget>

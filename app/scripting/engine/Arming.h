@@ -1,6 +1,4 @@
 // Arming.h - what a script's arming takes: the operator's confirmation of exactly what would be armed (hazard H12).
-//
-// Thread-safety: the script's thread.
 #pragma once
 
 #include <string>

@@ -10,8 +10,6 @@
 // median distance between two repeats, over all pairs of a level and direction (0.8862 times their mean where more than
 // half of them are equal): unlike distances from the median of a few repeats, it does not shrink with their number.
 // What lies within the instrument's resolution does not stand out.
-//
-// Thread-safety: pure function.
 #pragma once
 
 #include <cstddef>

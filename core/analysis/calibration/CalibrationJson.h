@@ -1,7 +1,5 @@
 // CalibrationJson.h - calibrations and uncertainty budgets in the shapes of the command line's contract. Absent values
 // (NaN, infinite degrees of freedom) are null.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <filesystem>

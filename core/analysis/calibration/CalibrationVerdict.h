@@ -10,8 +10,6 @@
 // weights; the step of the converter that the one baseline hides is in all levels alike, and all of it in the offset. A
 // departure from the straight line is taken to bend as a cubic through 0 and both ends of the range, or to be another
 // straight line through 0, whichever weighs more (choice).
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include "core/analysis/calibration/Calibration.h"

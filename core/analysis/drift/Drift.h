@@ -3,8 +3,6 @@
 // Works on measured trials, never on commands. A trial that was not measured can make the verdict indeterminate, never
 // a pass (hazard H9). The channel's gain is the same in all trials and divides out; the instrument's other uncertainty
 // is the least scatter that is taken.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <nlohmann/json.hpp>

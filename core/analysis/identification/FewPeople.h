@@ -4,8 +4,6 @@
 // above chance, since dropping them would flatter the answer. Then the median and the range, then how many were above
 // chance with what that says of everybody. Answers are never pooled over people: three people give ten distinct
 // bootstrap samples, and bootstraps over clusters want some 24 (Flynn and Peters 2004).
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <cstddef>

@@ -3,8 +3,6 @@
 //
 // Only test trials count, and catch trials apart from the others. "none" and "not sure" are answers like any other and
 // are wrong. A trial without an answer is counted and enters nothing else. Definitions: science.md section 11.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <cstddef>

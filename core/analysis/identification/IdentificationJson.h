@@ -1,7 +1,5 @@
 // IdentificationJson.h - an identification session's figures in the shapes of the command line's contract (pilot.md
 // section 10): the same for `run pilot-identification`, `analyze identification` and reports. Absent values are null.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <nlohmann/json.hpp>

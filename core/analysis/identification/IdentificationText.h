@@ -1,6 +1,4 @@
 // IdentificationText.h - the sentences with which every result begins.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <cstddef>

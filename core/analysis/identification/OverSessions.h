@@ -1,7 +1,5 @@
 // OverSessions.h - one person over sessions: what changed against the first, whether there is a trend, and which of
 // several encodings suits them.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <cstddef>

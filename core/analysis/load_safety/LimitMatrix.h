@@ -1,8 +1,6 @@
 // LimitMatrix.h - limits x loads: every limit once, what was measured against it on each load, and how much of the
 // limit is left; and whether the output ended by itself on an open and on a short circuit. Made from the rows of a
 // load-safety check, so that it can say nothing that they do not.
-//
-// Thread-safety: plain data and pure functions.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -1,7 +1,5 @@
 // LoadFigures.h - the figures of the trains of one load, each with its uncertainty (LoadReading.h says what they are).
 // Private to core/analysis.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <span>

@@ -14,8 +14,6 @@
 // followed in a straight line to the phase's end, and a fifth of that way is in doubt (an exponential bends away from
 // its tangent by no more as long as it still rises by a hundredth). A peak also carries the largest step between
 // neighbours/√12: a spike may stand between two samples.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <cstddef>

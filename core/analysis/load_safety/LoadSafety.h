@@ -5,8 +5,6 @@
 // that applies passes; a load of the bench set or a trip that is missing is a row of its own and reads "not evaluated".
 // A figure passes when value + U keeps the limit, fails when value - U breaks it, and is indeterminate between; U is 95
 // %.
-//
-// Thread-safety: plain data and pure functions.
 #pragma once
 
 #include <array>

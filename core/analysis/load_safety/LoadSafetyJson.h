@@ -1,7 +1,5 @@
 // LoadSafetyJson.h - the load-safety check in the shapes of the command line's contract, and the records that a
 // protocol script carries between its steps. Absent values are null.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <nlohmann/json.hpp>

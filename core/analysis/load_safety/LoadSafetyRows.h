@@ -1,7 +1,5 @@
 // LoadSafetyRows.h - the rows of one load, and what is judged over all loads: trips, the open circuit, the worst case
 // over the permitted loads and the outputs to be disclosed. Private to core/analysis.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include "core/analysis/load_safety/LoadSafety.h"

@@ -1,7 +1,5 @@
 // LoadTrain.h - what one capture shows of one train into a load, and what the trains of a load have in common. Private
 // to core/analysis.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <optional>

@@ -2,8 +2,6 @@
 // disclosed beside the figures of DisclosedOutput: waveform, shape, widths, frequency, symmetry of the phases, how the
 // net charge comes to zero, burst duty, on and off time. What was measured into 500 Ω (else the first load measured)
 // stands beside what was commanded.
-//
-// Thread-safety: plain data and pure functions.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -8,8 +8,6 @@
 // said about an empty presentation it counts for the last level of the series and marks it.
 //
 // The same settings, seed and answers give the same presentations, so a record replays.
-//
-// Thread-safety: none; one owner.
 #pragma once
 
 #include <cstdint>

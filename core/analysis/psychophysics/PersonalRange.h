@@ -6,8 +6,6 @@
 // no usable range, which is a result like any other: leaving such participants out would flatter the answer.
 //
 // The same settings and answers give the same presentations.
-//
-// Thread-safety: none; one owner.
 #pragma once
 
 #include "core/analysis/psychophysics/LevelGrid.h"

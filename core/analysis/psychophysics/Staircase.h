@@ -7,8 +7,6 @@
 // A step is one device step, or 5 % of F (rounded down to the grid) where that is more.
 //
 // The same settings, seed and answers give the same trials.
-//
-// Thread-safety: none; one owner.
 #pragma once
 
 #include <optional>

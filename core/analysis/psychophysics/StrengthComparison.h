@@ -10,8 +10,6 @@
 // of ln w, its interval the posterior's 2.5 and 97.5 %.
 //
 // The same settings, seed and answers give the same trials.
-//
-// Thread-safety: none; one owner.
 #pragma once
 
 #include <cstdint>

@@ -6,8 +6,6 @@
 // At |ρ| = 1 the transform has no end, although five surfaces in perfect order prove little. There the end towards 0 is
 // that of the ρ half-way to the next that n values without ties can have, 1 - 6 / (n (n² - 1)) (a continuity
 // correction, chosen here); the other end is 1.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <cstddef>

@@ -6,8 +6,6 @@
 // new scale. A pair that cannot be told apart, in a feature that R stands on or in R itself, is refused: the settings
 // then stay as they were. With five or more surfaces of known Ra, Spearman's correlation of mean R against Ra says
 // whether R ranks as the profilometer does (RankCorrelation.h); it is reported, and not judged.
-//
-// Thread-safety: values; pure functions.
 #pragma once
 
 #include <array>

@@ -1,7 +1,5 @@
 // SensorCalibrationJson.h - the sensor calibration in the shapes of the command line's contract, and the readings that
 // a script carries from call to call. Absent values (NaN) are null; an end that is infinite is null too.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <nlohmann/json.hpp>

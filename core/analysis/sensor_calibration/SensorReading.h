@@ -1,8 +1,6 @@
 // SensorReading.h - what a fingertip measured while it rested, slid or carried a weight: samples in, features out.
 //
 // The same chain reads them as the live bench (core/dsp), so a scale that is measured here means the same there.
-//
-// Thread-safety: values; pure functions.
 #pragma once
 
 #include <limits>

@@ -9,8 +9,6 @@
 // more. d′ = 1 is the customary threshold of detection theory: an unbiased observer who must say which of two slides
 // was the rougher is right 76 % of the time, Φ(1/√2) (Green and Swets 1966; Macmillan and Creelman 2005). A reference
 // scale is a ratio of small differences below that: it would magnify noise into R.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <cstddef>

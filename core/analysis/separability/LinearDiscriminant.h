@@ -1,6 +1,4 @@
 // LinearDiscriminant.h - classes of points in the plane with one shared covariance. Private to core/analysis.
-//
-// Thread-safety: constant after construction.
 #pragma once
 
 #include <Eigen/Core>

@@ -2,8 +2,6 @@
 //
 // Works on measured trials, never on commands. A trial that was not measured can make the verdict indeterminate, never
 // a pass (hazard H9).
-//
-// Thread-safety: pure function.
 #pragma once
 
 #include <cstddef>

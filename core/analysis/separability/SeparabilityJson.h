@@ -1,7 +1,5 @@
 // SeparabilityJson.h - a judged separability in the shape of the command line's contract (cli.md), and its trials as
 // JSON and as the tables that `analyze` reads.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <filesystem>

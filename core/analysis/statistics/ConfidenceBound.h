@@ -2,8 +2,6 @@
 // estimate itself.
 //
 // Each bound is one-sided, 95 %: the true value lies above `low` in 95 of 100 cases, and below `high` in 95 of 100.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <cstddef>

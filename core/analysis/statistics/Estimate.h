@@ -1,6 +1,4 @@
 // Estimate.h - a value with its 95 % interval, and what counts say: k right of n, k of n people above chance.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <cstddef>

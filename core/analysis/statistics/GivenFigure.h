@@ -1,6 +1,4 @@
 // GivenFigure.h - numbers that a caller gives, checked by one table: what each is called and what is accepted of it.
-//
-// Thread-safety: pure function.
 #pragma once
 
 #include <initializer_list>

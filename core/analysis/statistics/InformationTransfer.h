@@ -1,6 +1,4 @@
 // InformationTransfer.h - how many bits the answers carry about the stimuli (science.md section 11).
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <span>

@@ -1,7 +1,5 @@
 // StatisticsJson.h - statistics in the shapes of the command line's contract: the same for `analyze`, for scripts and
 // for the session's rows. Absent values (NaN) are null.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <nlohmann/json.hpp>

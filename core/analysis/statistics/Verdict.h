@@ -2,8 +2,6 @@
 //
 // A verdict with a guard band (ISO 14253-1, science.md section 9) is a pass or a fail only where the uncertainty cannot
 // turn it round.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <cmath>

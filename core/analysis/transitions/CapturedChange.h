@@ -1,7 +1,5 @@
 // CapturedChange.h - changes judged on captured trains: how far each train steps from the one before, and how soon a
 // change is complete.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,5 @@
 // TransitionsJson.h - steps and movements as scripts carry them from the bench to their analysis, and what they
 // were judged to be. NaN is null.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -4,8 +4,6 @@
 // amounts drawn evenly from within their tolerances; each condition is then read once. Half-widths, defaults: gain
 // 2 % (the laboratory's tolerance, science.md section 9), load 5 % (load-safety's own), oscilloscope 0.5 % and 0.1 %
 // of the range (what the simulated one states), clocks 100 ppm and jitter 10 µs (choice).
-//
-// Thread-safety: values and pure functions.
 #pragma once
 
 #include <cstdint>

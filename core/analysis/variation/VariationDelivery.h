@@ -6,8 +6,6 @@
 //
 // A participant's |Z|, thresholds and the range between them are taken as known without error, and skin as linear: its
 // R_p does not fall with intensity, it does not drift, contact is not lost.
-//
-// Thread-safety: values and pure functions.
 #pragma once
 
 #include <optional>

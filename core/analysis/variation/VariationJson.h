@@ -22,8 +22,6 @@
 //
 // An interval's value is the median over participants, low and high are 5 and 95 % of them. The number of threads is
 // not in it: it has no influence.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <nlohmann/json.hpp>

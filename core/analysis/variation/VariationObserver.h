@@ -5,8 +5,6 @@
 // ones the first). An amplitude that is felt below the detection threshold is answered "none", or guessed. In a share
 // of trials, lapses, any of the names is given with equal probability. Criteria that drift, memory noise that grows
 // with the range of stimuli and learning are left out: real people do worse.
-//
-// Thread-safety: values and pure functions.
 #pragma once
 
 #include <cstddef>

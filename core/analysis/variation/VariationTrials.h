@@ -5,8 +5,6 @@
 // (each condition equally often). Over several participants the counts are pooled in one Wilson interval; that people
 // differ is taken into account by the design effect 1 + (m - 1)·rho with m trials per participant and
 // rho = Var(accuracy) / (mean·(1 - mean)), by which the trials count less.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <cstddef>

@@ -6,8 +6,6 @@
 //
 // Three thresholds are told apart, each a distribution of its own: perception (felt at all), attention (draws attention
 // to itself) and intolerance (not borne). A person's three are correlated and in this order.
-//
-// Thread-safety: values and pure functions.
 #pragma once
 
 #include <cstddef>

@@ -12,8 +12,6 @@
 //   interval   between the onsets of two bursts that follow each other, mean over the presentation
 // A burst moved the motor where its peak exceeds kAboveNoise times the noise. One of which samples are missing was not
 // measured: neither moved nor still. What was not measured is NaN, never zero.
-//
-// Thread-safety: pure functions on values.
 #pragma once
 
 #include <cstddef>

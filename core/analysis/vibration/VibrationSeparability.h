@@ -6,8 +6,6 @@
 // and 95 % of presentations are recognised, by the lower end of the interval. A presentation in which the motor did not
 // move is a failure; one that was not measured leaves the verdict open. Without an accelerometer nothing is measured,
 // and nothing is said about the motor.
-//
-// Thread-safety: pure functions on values.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -1,6 +1,4 @@
 // CsvAdvice.h - which options would read a table that was refused.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <functional>

@@ -4,8 +4,6 @@
 // The levels are drawn as samples, from each change to the next. An edge that does not come half-way between two
 // samples is a sample between the levels, so that a straight line crosses the middle just then: widths and intervals
 // are those of the stamps.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <span>

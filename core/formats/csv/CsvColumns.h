@@ -1,7 +1,5 @@
 // CsvColumns.h - what the names of columns say: "voltage_v", "CH1 (mV)", "time [us]", "C1 in V", "t/ms", "CH2V", and
 // lines of units below them; and what lines of keys say.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include "core/formats/csv/CsvLayout.h"

@@ -1,6 +1,4 @@
 // CsvDraft.h - a table's layout before the options are heard: what the dialects make and CsvLayout.h gives away.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include "core/formats/csv/CsvLayout.h"

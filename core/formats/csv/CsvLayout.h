@@ -23,8 +23,6 @@
 //               below a stated rate (`; Sample rate: 100 kHz`, ` CH0 (Unit: mV)`: DSView)
 // Sources: files of the instruments themselves (Rigol, Tektronix MDO), their manuals, and descriptions by people who
 // read them; each is named in tests/formats/CsvMakersTest.cpp.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <cstdint>

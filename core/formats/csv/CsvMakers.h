@@ -1,6 +1,4 @@
 // CsvMakers.h - the dialects of the makers: by what each is known, and how its tables are laid out.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <span>

@@ -1,6 +1,4 @@
 // Abilities.h - what a libsigrok device lets one set, as plain values. What is not in here is not offered.
-//
-// Thread-safety: values.
 #pragma once
 
 #include <cstddef>

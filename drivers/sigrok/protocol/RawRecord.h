@@ -1,6 +1,4 @@
 // RawRecord.h - samples as libsigrok gave them, and the Capture that is cut out of them.
-//
-// Thread-safety: values and pure functions.
 #pragma once
 
 #include <optional>

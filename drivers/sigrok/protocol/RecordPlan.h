@@ -12,8 +12,6 @@
 // converter keeps up. Lengths, from libsigrok's rigol-ds driver 0.5.2: DS1000D/E 1048576 samples, DS2000(A) and
 // MSO2000A 14000, DSO1000A 20480, DS1000Z and MSO1000Z 12000000, shared by the channels that are on. Its slowest
 // converter gives 500 MS/s on two channels (data sheets of DS1000E and DS1000Z), so no more is planned.
-//
-// Thread-safety: pure functions.
 #pragma once
 
 #include <optional>

@@ -12,8 +12,6 @@
 //   slope=rise|fall           the edge that instruments trigger on; fall for pulses that begin negative
 //   trigger=set|instrument    instrument: it triggers as its own panel says; for drivers that cannot set it
 //   record=memory|live        what is read of an instrument that offers both: see RecordPlan.h
-//
-// Thread-safety: values and pure functions.
 #pragma once
 
 #include <cstdint>

@@ -4,8 +4,6 @@
 // A protocol's captures (RunFeed::captures) are handed to measure(), which measures them in the background.
 // An untriggered record changes no number: the figures keep their age, and it is said that no trigger came since.
 // Up to two channels stand beside the reading's name, more of them below it: nothing is cut.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QElapsedTimer>

@@ -2,8 +2,6 @@
 // captures seen; a button that starts over, one that chooses, and in words what could not be measured and why.
 //
 // Statistics that have no room stand in the tool tip of the last value: the table never scrolls sideways.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QWidget>

@@ -3,8 +3,6 @@
 // logarithmic frequency, with its peaks named.
 //
 // Where more samples come than fit into one transform, the middle is taken, and the panel says which part that is.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QWidget>

@@ -3,8 +3,6 @@
 //
 // Times are seconds on the screen's axis: from the trigger, in roll mode the session's. Heights are divisions above the
 // middle.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QObject>

@@ -1,8 +1,6 @@
 // AcquisitionPanel.h - what the next capture is to be: on what it triggers, how long it is, how fine, in which ranges.
 //
 // In Auto the level follows the commanded amplitude and is shown, not set.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QWidget>

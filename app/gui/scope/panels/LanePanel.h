@@ -1,6 +1,4 @@
 // LanePanel.h - a row per lane: which one is worked with, whether it shows, its scale and offset; and the references.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QWidget>

@@ -3,8 +3,6 @@
 //
 // A capture outside stays said, in words and on the screen, until the counts are reset. A mask judges and does nothing
 // else: it never controls the output.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QPushButton>

@@ -2,8 +2,6 @@
 //
 // The value is in the unit given (V, A, s); any prefix may be typed. Four significant digits are shown; the value keeps
 // what it has. Steps follow the size of the number.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QDoubleSpinBox>

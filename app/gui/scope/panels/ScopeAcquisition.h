@@ -1,7 +1,5 @@
 // ScopeAcquisition.h - when the oscilloscope takes captures of the open bench, and with which trigger: the four modes,
 // run and hold. "Hold" keeps the picture and touches no output: only STOP does that.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QElapsedTimer>

@@ -1,7 +1,5 @@
 // ScopeControls.h - the column beside the oscilloscope's screen: lanes, view, mask, trigger and record; what is chosen
 // in it is remembered.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QScrollArea>

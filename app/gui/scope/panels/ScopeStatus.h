@@ -1,7 +1,5 @@
 // ScopeStatus.h - the line over the oscilloscope's screen: what went wrong, how far a file is read, what was saved, or
 // how the oscilloscope stands; the first of them that there is.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QElapsedTimer>

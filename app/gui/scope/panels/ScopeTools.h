@@ -1,6 +1,4 @@
 // ScopeTools.h - the row of tools above the oscilloscope's screen.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QPushButton>

@@ -1,7 +1,5 @@
 // ViewPanel.h - time base and position, how many captures stay on the screen or are averaged, what is calculated, the
 // spectrum.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QWidget>

@@ -8,8 +8,6 @@
 // x / perDivision + position. Nothing is antialiased, no pen is wider than a pixel, and nothing is drawn outside the
 // axes (an SVG would show it). Missing samples are left open and hatched; samples at the ends of the input's range are
 // marked.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QImage>

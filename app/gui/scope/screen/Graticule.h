@@ -1,6 +1,4 @@
 // Graticule.h - round numbers along any visible part of an axis, and the ground on which there is no record.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,4 @@
 // LaneLegend.h - the lanes of an oscilloscope by their colour: a line, the letter and what a division is.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QLabel>

@@ -4,8 +4,6 @@
 // the box tool) zooms into a box, a double click fits, handles are dragged, a click on a trace makes its lane active.
 // Keys: arrows nudge the focused cursor, or pan without one; + and - zoom, Home fits, Ctrl+Z goes back, 1 to 4 focus a
 // cursor.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QObject>

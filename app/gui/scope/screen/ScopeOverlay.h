@@ -4,8 +4,6 @@
 //
 // Draws on a layer of its own, so that moving a cursor does not draw the traces again. It knows nothing of captures:
 // the view fills in `state` and asks what lies under the mouse.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include "app/gui/scope/screen/OverlayState.h"

@@ -1,7 +1,5 @@
 // ScopePicture.h - what is on the oscilloscope's screen as a picture that says about itself what it shows: title, date,
 // devices, scales, readings, and that it is simulated.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QDateTime>

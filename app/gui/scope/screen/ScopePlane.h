@@ -1,7 +1,5 @@
 // ScopePlane.h - the plane of an oscilloscope's screen in pixels: where times and heights lie, and how lines, words and
 // pennants are drawn over the traces.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <qcustomplot.h>

@@ -1,7 +1,5 @@
 // ScopeScreen.h - draws a ScopeModel on ten by eight divisions: traces, the numbers of the axes, and what lies over
 // them (ScopeOverlay).
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <qcustomplot.h>

@@ -1,7 +1,5 @@
 // TimeFlags.h - the two time cursors of an oscilloscope with what they read, as flags that stand where they hide least
 // of the traces.
-//
-// Thread-safety: the GUI thread.
 #pragma once
 
 #include <QRectF>

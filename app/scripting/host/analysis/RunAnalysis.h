@@ -1,6 +1,4 @@
 // RunAnalysis.h - what is judged and predicted, for the object "analysis" and for the steps of protocols.
-//
-// Thread-safety: calls come from the script's thread.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -1,6 +1,4 @@
 // BenchCalls.h - what the steps of protocols take from the object "bench".
-//
-// Thread-safety: calls come from the script's thread.
 #pragma once
 
 #include <cstddef>

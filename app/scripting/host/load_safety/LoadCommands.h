@@ -1,7 +1,5 @@
 // LoadCommands.h - the parts of a check on loads: what a command would be and do on a load, giving it, and provoking
 // what must end the output by itself.
-//
-// Thread-safety: calls come from the script's thread.
 #pragma once
 
 #include <nlohmann/json.hpp>

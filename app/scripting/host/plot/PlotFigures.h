@@ -1,6 +1,4 @@
 // PlotFigures.h - figures that reports take by themselves.
-//
-// Thread-safety: calls come from the script's thread.
 #pragma once
 
 #include <nlohmann/json.hpp>

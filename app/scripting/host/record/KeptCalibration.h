@@ -1,6 +1,4 @@
 // KeptCalibration.h - keeping a calibration, for record.calibration() and the calibration of a stimulator.
-//
-// Thread-safety: calls come from the script's thread.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -1,6 +1,4 @@
 // LoadTracings.h - the figures of a load-safety check: what the strongest commands look like on loads.
-//
-// Thread-safety: calls come from the script's thread.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -1,6 +1,4 @@
 // ReportObject.h - the functions of the object "report"; ReportObject.cpp says what each takes and returns.
-//
-// Thread-safety: calls come from the script's thread.
 #pragma once
 
 #include "app/scripting/engine/Arguments.h"

@@ -1,7 +1,5 @@
 // FingertipCalibration.h - the parts of a fingertip's calibration: its readings, what the operator says of the
 // specimens, the scales, and the profile that is kept.
-//
-// Thread-safety: calls come from the script's thread.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -1,7 +1,5 @@
 // StimulatorLevels.h - the parts of a stimulator's calibration: its levels, how each is set and read, and whether a
 // stored calibration still holds.
-//
-// Thread-safety: calls come from the script's thread.
 #pragma once
 
 #include <nlohmann/json.hpp>

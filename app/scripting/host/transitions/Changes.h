@@ -1,6 +1,4 @@
 // Changes.h - steps of the finger and its movements through the R-P plane, as the oscilloscope sees them.
-//
-// Thread-safety: calls come from the script's thread.
 #pragma once
 
 #include "app/scripting/engine/ScriptSession.h"
