@@ -8,6 +8,7 @@
 #include "app/report/NumberText.h"
 #include "app/report/ShownText.h"
 #include "app/report/VerdictMark.h"
+#include "core/base/JsonText.h"
 
 namespace tacto {
 namespace {
@@ -129,8 +130,8 @@ MatrixBlock shortened(MatrixBlock matrix, const QString& caption) {
 }
 
 MatrixBlock matrixOf(const ReportMatrix& source, const QString& caption) {
-    return shortened(matrixOf(source.columns, nlohmann::json::parse(QJsonDocument(source.rows).toJson().toStdString())),
-                     caption);
+    const auto rows = parseJson(QJsonDocument(source.rows).toJson().toStdString(), "a matrix");
+    return shortened(matrixOf(source.columns, rows.value_or(nlohmann::json::array())), caption);
 }
 
 TableBlock closestOf(const MatrixBlock& limits, const QString& caption) {

@@ -94,7 +94,9 @@ std::set<std::string> emptyColumns(const nlohmann::json& results) {
         nlohmann::json records = rowsOf(table, results);
         if (table.shape == ResultTable::Shape::Facts && value.is_object()) records.push_back(value);
         for (const auto& column : table.columns) {
-            for (const auto& key : {column.at, column.beside}) {
+            const auto minus = column.at.find('-');  // "a-b"
+            for (const auto& key : {column.at.substr(0, minus),
+                                    minus == std::string::npos ? "" : column.at.substr(minus + 1), column.beside}) {
                 if (records.empty() || key.empty() || kWhereAsked.contains(key)) continue;
                 if (std::ranges::none_of(records, [&](const auto& record) { return has(record, key); }))
                     missing.insert(table.title + ": " + key);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/JsonText.h"
+#include "core/results/ResultTable.h"
 #include "core/session/SessionReader.h"
 #include "tests/scripting/DataHome.h"
 #include "tests/scripting/RunBench.h"
@@ -134,10 +135,11 @@ TEST(StimulatorCalibration, TheSessionHoldsEveryReadingAndTheReportItsFigures) {
     for (const auto& row : rows) {
         const auto& item = row.body;
         figures += item.value("figure", nlohmann::json::object()).value("type", "") == "calibration" ? 1 : 0;
-        budgets += item.value("caption", "").find("uncertainty budget") != std::string::npos ? 1 : 0;
+        const auto& amplitude = memberAt(item, "results.amplitude");
+        for (const char* end : {"budget", "budget_smallest"}) budgets += !memberAt(amplitude, end).is_null();
     }
     EXPECT_EQ(figures, 1) << "error and both directions in one";
-    EXPECT_EQ(budgets, 1) << "one table for the largest and the smallest command";
+    EXPECT_EQ(budgets, 2) << "of the largest and of the smallest command";
 }
 
 using CalibrationKept = test::DataHome;  // a store of its own for each test

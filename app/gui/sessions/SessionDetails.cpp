@@ -93,8 +93,8 @@ std::string shownUnitText(const std::string& unit) { return unit.empty() ? std::
 SessionDetails::SessionDetails(const ShippedLimits& limits, QWidget* parent) : QTabWidget(parent), limits_(limits) {
     setWhatsThis(tr("What the selected session holds. The left and right arrow keys change the page."));
     setDocumentMode(true);
-    setUsesScrollButtons(true);
     afterLookChange(*this, [this] { fitLook(); });
+    fitTabs();
     overview_ = new SessionOverview(this);
     connect(overview_, &SessionOverview::labelsSaved, this, &SessionDetails::labelsSaved);
     connect(overview_, &SessionOverview::labelsRefused, this, &SessionDetails::labelsRefused);
@@ -147,8 +147,12 @@ SessionDetails::SessionDetails(const ShippedLimits& limits, QWidget* parent) : Q
     say(tr("Choose a session at the left."));
 }
 
+/// All of them in sight where there is room, by what is in sight: see fitPanes() of the workspace.
+void SessionDetails::fitTabs() { tabBar()->setUsesScrollButtons(widthInSight(*this) < tabBar()->sizeHint().width()); }
+
 /// Theme and size of text.
 void SessionDetails::fitLook() {
+    fitTabs();
     for (auto* table : {trials_, streams_, captures_}) fitRecordTable(*table);
     plot_->setMinimumHeight(fontMetrics().height() * kPlotLines);
     fitStreams();
@@ -171,6 +175,7 @@ void SessionDetails::fitStreams() {
 
 void SessionDetails::resizeEvent(QResizeEvent* event) {
     QTabWidget::resizeEvent(event);
+    fitTabs();
     fitStreams();
 }
 

@@ -48,6 +48,7 @@ private:
     void removeAxes();
     void drawMarks();
     void colour();
+    void fitTabs();
     void fitLook();
     void fitStreams();
     std::shared_ptr<const ReadSession> session_;

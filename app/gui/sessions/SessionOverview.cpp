@@ -3,6 +3,7 @@
 #include <QEvent>
 #include <QGridLayout>
 #include <QSplitter>
+#include <QTimer>
 
 #include "app/gui/sessions/SessionPreview.h"
 #include "app/gui/sessions/SessionWords.h"
@@ -22,6 +23,9 @@ constexpr int kHeadIcon = 32;
 constexpr int kShownMoments = 500;
 constexpr int kMinMoments = 3;  // lines
 constexpr int kMinNote = 16;    // characters
+constexpr int kWhyLines = 2;
+constexpr int kLowPage = 560;      // on lower pages the reason is one line
+constexpr double kWrapped = 0.85;  // share of a line's width that is used where words wrap
 
 SessionEntry entryOf(const ReadSession& session) {
     ListedSession listed;
@@ -166,8 +170,10 @@ void SessionOverview::show(std::shared_ptr<const ReadSession> session) {
     content_->show();
     showFields();
     preview_->show(*session_);
+    layout()->activate();
     showHead();
     showHappened();
+    QTimer::singleShot(0, this, &SessionOverview::fitWhy);  // once the head has its width
 }
 
 void SessionOverview::showHead() {
@@ -178,12 +184,24 @@ void SessionOverview::showHead() {
     QStringList why;
     if (!session_->verdicts.empty())
         for (const auto& reason : session_->verdicts.back().reasons) why << sentence(qtext(reason));
-    why_->setText(why.isEmpty()
-                      ? tr("%1, %2%3.")
-                            .arg(beganText(entryOf(*session_).began), durationText(toSeconds(session_->length)),
-                                 session_->about.simulated ? tr(", simulated") : QString())
-                      : why.first());
+    whole_ = why.isEmpty() ? tr("%1, %2%3.")
+                                 .arg(beganText(entryOf(*session_).began), durationText(toSeconds(session_->length)),
+                                      session_->about.simulated ? tr(", simulated") : QString())
+                           : why.first();
+    fitWhy();
     why_->setToolTip(why.join('\n'));
+}
+
+/// The plot below keeps its room, however long the reason is; the tool tip has all of it.
+void SessionOverview::fitWhy() {
+    const bool low = height() < scaledPx(kLowPage);
+    const int room = low ? why_->width() - 4 : int(kWhyLines * kWrapped * why_->width());
+    why_->setText(why_->fontMetrics().elidedText(whole_, Qt::ElideRight, std::max(room, why_->fontMetrics().height())));
+}
+
+void SessionOverview::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    if (session_) QTimer::singleShot(0, this, &SessionOverview::fitWhy);  // once the head has its width
 }
 
 void SessionOverview::showFields() {

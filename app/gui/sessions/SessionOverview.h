@@ -36,7 +36,10 @@ protected:
     void changeEvent(QEvent* event) override;
     void hideEvent(QHideEvent* event) override;
 
+    void resizeEvent(QResizeEvent* event) override;
+
 private:
+    void fitWhy();
     [[nodiscard]] QWidget* buildHead();
     [[nodiscard]] QWidget* buildFields();
     [[nodiscard]] QWidget* buildHappened();
@@ -59,6 +62,7 @@ private:
     QLabel* icon_ = nullptr;
     QLabel* title_ = nullptr;
     QLabel* why_ = nullptr;
+    QString whole_;  ///< what why_ says, before it is elided
     QLineEdit* operator_ = nullptr;
     QLineEdit* sample_ = nullptr;
     QLineEdit* tags_ = nullptr;

@@ -215,6 +215,12 @@ int heightOf(const QString& text, const QFont& font, int width) {
     return text.isEmpty() ? 0 : QFontMetrics(font).boundingRect(room, kWrapped, text).height();
 }
 
+/// A line goes on below between its readings, three blanks apart, and not within one.
+QString keptTogether(QString line) {
+    static const QRegularExpression within("(?<! ) (?! )");
+    return line.contains(QStringLiteral("   ")) ? line.replace(within, QString(QChar(QChar::Nbsp))) : line;
+}
+
 QString boundText(double value) { return settingText(QString::number(value, 'g', kAxisDigits).toDouble(), {}); }
 
 }  // namespace
@@ -262,7 +268,7 @@ CaptionLines::CaptionLines(const PictureCaption& caption, int width) : title_(ca
     if (caption.empty()) return;
     QStringList rest;
     for (const auto& line : QStringList{caption.date} + caption.lines)
-        if (!line.isEmpty()) rest << line;
+        if (!line.isEmpty()) rest << keptTogether(line);
     rest_ = rest.join('\n');
     height_ = kCaptionAbove + heightOf(title_, titleFont(), width) + heightOf(rest_, textFont(TextSize::Small), width) +
               kCaptionBelow;
