@@ -216,7 +216,7 @@ int heightOf(const QString& text, const QFont& font, int width) {
 }
 
 /// A line goes on below between its readings, three blanks apart, and not within one.
-QString keptTogether(QString line) {
+QString readingsKeptWhole(QString line) {
     static const QRegularExpression within("(?<! ) (?! )");
     return line.contains(QStringLiteral("   ")) ? line.replace(within, QString(QChar(QChar::Nbsp))) : line;
 }
@@ -268,7 +268,7 @@ CaptionLines::CaptionLines(const PictureCaption& caption, int width) : title_(ca
     if (caption.empty()) return;
     QStringList rest;
     for (const auto& line : QStringList{caption.date} + caption.lines)
-        if (!line.isEmpty()) rest << keptTogether(line);
+        if (!line.isEmpty()) rest << readingsKeptWhole(line);
     rest_ = rest.join('\n');
     height_ = kCaptionAbove + heightOf(title_, titleFont(), width) + heightOf(rest_, textFont(TextSize::Small), width) +
               kCaptionBelow;
