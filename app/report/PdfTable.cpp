@@ -446,9 +446,9 @@ double matrixBeginning(const MatrixBlock& matrix) {
 
 void setMatrix(PdfPages& pages, const MatrixBlock& matrix) {
     MatrixSetter setter(pages, matrix);
-    // One that takes less than half a page is not split.
+    // As a table, one that takes less than a quarter of a page is not split.
     const double whole = setter.whole();
-    pages.require(whole < PdfPages::kHeight / 2 ? whole : setter.beginning());
+    pages.require(whole < PdfPages::kHeight / 4 ? whole : setter.beginning());
     setter.set();
 }
 

@@ -196,15 +196,16 @@ TableBlock factsOf(const ResultTable& source, const nlohmann::json& record, cons
     return table;
 }
 
-/// The tables of the results' kind, but for those that stand elsewhere in the report.
-void addResults(const nlohmann::json& results, Captions& captions, std::vector<ReportBlock>& blocks) {
-    using Shape = ResultTable::Shape;
+using Shape = ResultTable::Shape;
+
+/// The tables of the results' kind that are limits, or those that are not, but for what stands elsewhere in the report.
+void addResults(const nlohmann::json& results, bool limitsAlone, Captions& captions, std::vector<ReportBlock>& blocks) {
     const QString partial = memberAt(results, "partial") == true ? " (partial: the run ended early)" : "";
     const auto add = [&](TableBlock block) {
         if (!block.rows.empty() && !block.columns.empty()) blocks.emplace_back(std::move(block));
     };
     for (const auto& table : tablesOf(results)) {
-        if (!isInReport(table.shown)) continue;
+        if (!isInReport(table.shown) || (table.shape == Shape::Limits) != limitsAlone) continue;
         const auto title = QString::fromStdString(table.title) + partial;
         const auto& value = table.at.empty() ? results : memberAt(results, table.at);
         const auto before = blocks.size();
@@ -227,6 +228,9 @@ void addResults(const nlohmann::json& results, Captions& captions, std::vector<R
 void addItems(const ReportModel& model, Captions& captions, std::vector<ReportBlock>& blocks) {
     if (model.items.empty()) return;
     blocks.emplace_back(captions.heading(isCertificate(model) ? "How they were found" : "Results"));
+    // How near the limits are is what is asked first.
+    for (const auto& item : model.items)
+        if (const auto* found = std::get_if<ReportResults>(&item)) addResults(found->results, true, captions, blocks);
     for (const auto& item : model.items) {
         if (const auto* figure = std::get_if<ReportFigure>(&item)) {
             blocks.emplace_back(FigureBlock{captions.figure(figure->caption, isSimulated(model, figure->figure)),
@@ -241,7 +245,7 @@ void addItems(const ReportModel& model, Captions& captions, std::vector<ReportBl
         } else if (const auto* matrix = std::get_if<ReportMatrix>(&item)) {
             blocks.emplace_back(matrixOf(*matrix, captions.table(matrix->caption)));
         } else if (const auto* found = std::get_if<ReportResults>(&item)) {
-            addResults(found->results, captions, blocks);
+            addResults(found->results, false, captions, blocks);
         } else {
             blocks.emplace_back(ParagraphBlock{withSigns(std::get<ReportText>(item).text)});
         }

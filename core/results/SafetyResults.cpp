@@ -78,7 +78,6 @@ ResultTraits loadSafety() {
              noted(rows("Where each limit comes from, and our confidence in it", "matrix.lines",
                         {as(As::Heading, "Requirement", "title"),
                          {"Limit", "limit", As::Limit, "@unit", "compare"},
-                         as(As::LimitSet, "Set by", "set"),
                          text("Source", "source"),
                          text("Confidence", "confidence")},
                         Else::OnlyInTheReport),

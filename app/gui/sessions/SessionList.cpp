@@ -22,7 +22,10 @@ constexpr int kMinRows = 4;  // rows in sight, the titles' row included
 constexpr int kListIcon = 16;
 constexpr int kSeenAfter_ms = 150;
 constexpr int kMeasuredRows = 60;  // for the widths of columns
+constexpr int kRoomyChars = 88;    // from this width on all columns are shown
+constexpr int kWordyChars = 84;    // from this width on the search says where it searches
 constexpr int kGap = 8, kSide = 16;
+constexpr int kEdge = 2;  // lines of the sheet around a table that has no place yet
 constexpr int kChosenBar = 4;
 constexpr int kLead = 9;  // with the shape's own edges: where search and titles begin
 
@@ -64,7 +67,6 @@ SessionList::SessionList(QWidget* parent)
     seen_.setInterval(kSeenAfter_ms);
     connect(&seen_, &QTimer::timeout, this, &SessionList::confirmSeen);
     connect(table_->verticalScrollBar(), &QScrollBar::valueChanged, &seen_, qOverload<>(&QTimer::start));
-    connect(table_->verticalScrollBar(), &QScrollBar::rangeChanged, &seen_, qOverload<>(&QTimer::start));
     say();
 }
 
@@ -75,7 +77,6 @@ QWidget* SessionList::buildSearch() {
     search_->addAction(icon("search"), QLineEdit::LeadingPosition)->setToolTip(tr("Search"));
     search_->setClearButtonEnabled(true);
     search_->setAccessibleName(tr("Search"));
-    search_->setPlaceholderText(tr("Search names, notes, tags"));
     search_->setToolTip(
         tr("Shows only sessions that contain every word: procedure, note, operator, sample, tags, "
            "verdict, devices, date or file name (Ctrl+F)."));
@@ -94,7 +95,7 @@ QWidget* SessionList::buildSearch() {
     age_->addItem(tr("Today"), 0);
     age_->addItem(tr("7 days"), 6);
     age_->addItem(tr("30 days"), 29);
-    count_ = new ElidedLabel(holder);
+    count_ = new QLabel(holder);
     count_->setObjectName("sessionsCount");
     setTone(*count_, Tone::Quiet);
     setTextSize(*count_, TextSize::Small);
@@ -121,14 +122,13 @@ void SessionList::buildTable() {
     setTextSize(*table_->horizontalHeader(), TextSize::Small);
     table_->verticalHeader()->hide();
     table_->setWordWrap(false);
-    table_->setTabKeyNavigation(false);  // Tab leaves the table
+    table_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);  // the last column takes the rest and elides
+    table_->setTabKeyNavigation(false);                            // Tab leaves the table
     table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
     table_->setSelectionBehavior(QAbstractItemView::SelectRows);
     table_->setSelectionMode(QAbstractItemView::ExtendedSelection);
     table_->horizontalHeader()->setResizeContentsPrecision(kMeasuredRows);
-    table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
-    for (const int wordy : {SessionModel::kProcedure, SessionModel::kNote})  // elided where there is little room
-        table_->horizontalHeader()->setSectionResizeMode(wordy, QHeaderView::Stretch);
+    table_->horizontalHeader()->setStretchLastSection(true);
     table_->horizontalHeader()->setHighlightSections(false);
     table_->setSortingEnabled(true);
     table_->sortByColumn(SessionModel::kBegan, Qt::DescendingOrder);
@@ -146,6 +146,15 @@ void SessionList::buildTable() {
         grow();
         model_->recolour();
     });
+    // The widths may be others once the header has its text's size.
+    connect(
+        table_->horizontalScrollBar(), &QScrollBar::rangeChanged, this,
+        [this] {
+            const bool scrolls = table_->horizontalScrollBar()->maximum() > 0;
+            if (scrolls && !table_->isColumnHidden(SessionModel::kSample)) fitColumns();
+        },
+        Qt::QueuedConnection);
+    afterLookChange(*this, [this] { fitColumns(); });  // when the header has its text's size
 }
 
 void SessionList::rescan(const std::filesystem::path& recording) {
@@ -192,9 +201,29 @@ void SessionList::take(std::vector<SessionEntry> entries) {
     choose(chosen);
     arranging_ = false;
     wanted_.clear();
+    fitColumns();
     say();
     if (asked || chosenNow() != before) emit selectionChanged();
     seen_.start();
+}
+
+void SessionList::fitColumns() {
+    for (const int each : {SessionModel::kSample, SessionModel::kNote}) table_->setColumnHidden(each, false);
+    for (int each = 0; each < SessionModel::kNote; ++each) table_->resizeColumnToContents(each);
+    auto* header = table_->horizontalHeader();
+    const int note = std::max(header->minimumSectionSize(), header->sectionSizeHint(SessionModel::kNote));
+    header->resizeSection(SessionModel::kNote, note);  // Qt stretches it, but makes it no smaller than it was
+    const auto least = [&] { return header->length() - header->sectionSize(SessionModel::kNote) + note; };
+    // The table may have its own size later.
+    const int bar = table_->verticalScrollBar()->sizeHint().width();
+    const bool placed = table_->isVisible() && table_->width() == width();
+    const int room = !placed ? width() - bar - 2 * table_->frameWidth() - kEdge
+                             : table_->viewport()->width() - (table_->verticalScrollBar()->isVisible() ? 0 : bar);
+    table_->setColumnHidden(SessionModel::kSample, least() > room);
+    table_->setColumnHidden(SessionModel::kNote, least() > room);
+    // The last that is left gives way, as it does where it stretches: Qt stretches it, but makes it no smaller.
+    if (const int over = header->length() - room; over > 0 && table_->isColumnHidden(SessionModel::kNote))
+        table_->setColumnWidth(SessionModel::kProcedure, header->sectionSize(SessionModel::kProcedure) - over);
 }
 
 /// What a display of the chosen ones depends on. Not the labels: they are changed there.
@@ -289,6 +318,17 @@ void SessionList::say() {
         empty_->setText(tr("No session contains “%1”. The search covers procedure, note, operator, sample, tags, "
                            "verdict, devices, date and file name.")
                             .arg(search_->text().trimmed()));
+}
+
+void SessionList::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    const bool wordy = width() >= fontMetrics().averageCharWidth() * kWordyChars;
+    search_->setPlaceholderText(wordy ? tr("Search names, notes, tags") : tr("Search"));
+    count_->setVisible(wordy);
+    const bool roomy = width() >= fontMetrics().averageCharWidth() * kRoomyChars;
+    for (const int each : {SessionModel::kOperator, SessionModel::kLength}) table_->setColumnHidden(each, !roomy);
+    fitColumns();  // a hidden column has no contents to fit
+    seen_.start();
 }
 
 std::vector<std::filesystem::path> SessionList::chosenPaths() const {

@@ -36,10 +36,14 @@ public:
 signals:
     void selectionChanged();
 
+protected:
+    void resizeEvent(QResizeEvent* event) override;
+
 private:
     [[nodiscard]] QWidget* buildSearch();
     void buildTable();
     void take(std::vector<SessionEntry> entries);
+    void fitColumns();
     void filter();
     void choose(const std::vector<std::filesystem::path>& paths);
     void say();

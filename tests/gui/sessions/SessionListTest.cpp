@@ -68,19 +68,39 @@ protected:
     gui::SessionsWorkspace workspace{controller};
 };
 
-TEST_F(Sessions, EveryColumnCanBeReachedInANarrowWindowWithLargeText) {
-    sessions.write({.name = "a", .protocol = "stimulator-calibration", .verdict = "indeterminate"});
-    gui::applyTextSize(200);
-    begin({1000, 600});
+TEST_F(Sessions, AColumnThatComesIntoSightIsAsWideAsItsTitle) {
+    sessions.write({.name = "a"});
+    begin({700, 700});
     listed(1);
-    for (int column = 0; column < gui::SessionModel::kColumns; ++column) {
-        table().scrollTo(table().model()->index(0, column));
-        letLive(20);
-        const auto place = table().visualRect(table().model()->index(0, column));
-        EXPECT_TRUE(table().viewport()->rect().intersects(place)) << column;
-        const bool elides = column == gui::SessionModel::kProcedure || column == gui::SessionModel::kNote;
-        const int least = elides ? 1 : table().horizontalHeader()->sectionSizeHint(column);
-        EXPECT_GE(table().columnWidth(column), least) << column;
+    EXPECT_TRUE(table().isColumnHidden(gui::SessionModel::kLength));
+    workspace.resize(1800, 900);
+    ASSERT_IN_TIME(comesTrue([&] { return !table().isColumnHidden(gui::SessionModel::kLength); }));
+    for (int column = 0; column < gui::SessionModel::kNote; ++column)
+        EXPECT_GE(table().columnWidth(column), table().horizontalHeader()->sectionSizeHint(column)) << column;
+}
+
+TEST_F(Sessions, WhereALongNameLeavesNoRoomForTheNoteItsColumnGoes) {
+    (void)sessions.write({.name = "a", .protocol = "stimulator-calibration", .verdict = "indeterminate"});
+    gui::applyTextSize(200);
+    begin({1200, 640});
+    listed(1);
+    letLive(100);
+    for (const int width : {748, 1200}) {  // the least that it may have
+        workspace.resize(width, 640);
+        EXPECT_IN_TIME(comesTrue([&] { return table().horizontalScrollBar()->maximum() == 0; })) << width;
+    }
+    EXPECT_FALSE(table().isColumnHidden(gui::SessionModel::kNote)) << "it has room";
+}
+
+TEST_F(Sessions, NoWidthMakesAListWithAScrollBarScrollSideways) {
+    for (int i = 0; i < 16; ++i)
+        (void)sessions.write({.name = std::to_string(i), .protocol = "stimulator-calibration", .verdict = "pass"});
+    begin({1000, 440});
+    listed(16);
+    ASSERT_IN_TIME(comesTrue([&] { return table().verticalScrollBar()->isVisible(); }));
+    for (int width = 1000; width > 820; --width) {
+        workspace.resize(width, 440);
+        EXPECT_IN_TIME(comesTrue([&] { return table().horizontalScrollBar()->maximum() == 0; }, 1000)) << width;
     }
 }
 

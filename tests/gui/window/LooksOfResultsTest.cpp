@@ -153,6 +153,8 @@ TEST_F(ResultsInTheWindow, ThePlaneOfTrialsLooksRight) {
     visit(3);
     ASSERT_NO_FATAL_FAILURE(runsToItsEnd());
     looksRight("result-separability");
+    window.resize(1440, 900);  // room for both beside each other
+    letLive(100);
     const auto* plane = find<gui::TrialPlane>(window, "Trials");
     const auto* train = find<gui::CaptureStrip>(window, "Last capture");
     ASSERT_TRUE(plane != nullptr && train != nullptr);
