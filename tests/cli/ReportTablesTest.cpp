@@ -88,47 +88,50 @@ void expectOnePrefix(const std::string& html, const std::string& protocol) {
     }
 }
 
-class ReportTables : public testing::TestWithParam<std::pair<std::string, Words>> {};
+/// Fewer trials than usual, by the protocol's name.
+const std::map<std::string, Words> kSettings{{"separability", {"repeats=2"}},
+                                             {"transitions", {"repeats=1"}},
+                                             {"variation", {"participants=20", "trials=5"}},
+                                             {"encoding-comparison", {"repeats=2", "level_repeats=2"}},
+                                             {"live", {"duration=5"}},
+                                             {"massager", {"duration=5"}},
+                                             {"load-safety", {"steps=2", "area=1"}},
+                                             {"sensor-calibration", {"more=", "slides=3"}},
+                                             {"stimulator-calibration", {"levels=4", "repeats=2"}}};
+
+/// Those that need no participant.
+std::vector<std::string> shippedProtocols() {
+    std::vector<std::string> names;
+    for (const auto& file : std::filesystem::directory_iterator(sourceDir() / "resources" / "protocols")) {
+        if (const auto name = file.path().stem().string(); !name.starts_with("pilot-")) names.push_back(name);
+    }
+    return names;
+}
+
+class ReportTables : public testing::TestWithParam<std::string> {};
 
 TEST_P(ReportTables, HaveOnePrefixInAColumnAndNoDeviationAfterPlusMinus) {
     RecordProperty("hazard", "H8");
-    const auto& [protocol, settings] = GetParam();
+    const auto& protocol = GetParam();
     const Desk desk;
     Words words{"run", protocol, "--device", "sim:", "--seed", "7", "--report", "html", "--out", desk.at("out")};
-    for (const auto& setting : settings) {
-        words.emplace_back("--set");
-        words.push_back(setting);
+    if (const auto settings = kSettings.find(protocol); settings != kSettings.end()) {
+        for (const auto& setting : settings->second) {
+            words.emplace_back("--set");
+            words.push_back(setting);
+        }
     }
     const auto ran = desk.run(words);
     ASSERT_TRUE(ran.code == 0 || ran.code == 1 || ran.code == 5) << ran.err;
     expectOnePrefix(contentOf(desk.named("out", ".html").at(0)), protocol);
 }
 
-INSTANTIATE_TEST_SUITE_P(OfEveryShippedProtocol, ReportTables,
-                         testing::Values(std::pair{"separability", Words{"repeats=2"}},
-                                         std::pair{"transitions", Words{"repeats=1"}},
-                                         std::pair{"variation", Words{"participants=20", "trials=5"}},
-                                         std::pair{"encoding-comparison", Words{"repeats=2", "level_repeats=2"}},
-                                         std::pair{"live", Words{"duration=5"}},
-                                         std::pair{"massager", Words{"duration=5"}},
-                                         std::pair{"load-safety", Words{"steps=2", "area=1"}},
-                                         std::pair{"sensor-calibration", Words{"more=", "slides=3"}},
-                                         std::pair{"stimulator-calibration", Words{"levels=4", "repeats=2"}}),
+INSTANTIATE_TEST_SUITE_P(OfEveryShippedProtocol, ReportTables, testing::ValuesIn(shippedProtocols()),
                          [](const auto& tested) {
-                             auto name = tested.param.first;
+                             auto name = tested.param;
                              std::replace(name.begin(), name.end(), '-', '_');
                              return name;
                          });
-
-TEST(ReportTables, TheProtocolsAboveAreAllThatJudgeOrRecordByThemselves) {
-    const Desk desk;
-    std::set<std::string> names;
-    for (const auto& one : Json::parse(desk.run({"protocols", "--json"}).out)) names.insert(one["name"]);
-    EXPECT_EQ(names, (std::set<std::string>{"separability", "transitions", "variation", "encoding-comparison", "live",
-                                            "massager", "load-safety", "sensor-calibration", "stimulator-calibration",
-                                            "pilot-thresholds", "pilot-identification"}))
-        << "a new protocol's tables are looked at too";
-}
 
 class CertificateOfARun : public testing::Test {
 protected:

@@ -85,7 +85,7 @@ Result<std::vector<Point>> sortTrials(std::span<const SeparabilityTrial> trials,
         if (trial.condition.empty()) return fail(ErrorCode::InvalidArgument, "trial {} names no condition", i + 1);
         auto condition = std::ranges::find(drift.conditions, trial.condition, &Drift::Condition::name);
         if (condition == drift.conditions.end()) {
-            drift.conditions.emplace_back().name = trial.condition;
+            drift.conditions.push_back({.name = trial.condition});
             condition = drift.conditions.end() - 1;
         }
         if (std::isnan(trial.amplitude)) {

@@ -23,10 +23,10 @@ struct Drift {
         std::string name;
         std::size_t n = 0;  ///< measured trials
         std::size_t notMeasured = 0;
-        Statistics amplitude;
-        Estimate change_pct;         ///< from the first trial of the session to its last; NaN for fewer than three
-        std::vector<double> trial;   ///< numbers of the measured trials within the session, from 1
-        std::vector<double> change;  ///< of each, from the condition's mean, in %
+        Statistics amplitude = {};
+        Estimate change_pct = {};         ///< from the first trial of the session to its last; NaN for fewer than three
+        std::vector<double> trial = {};   ///< numbers of the measured trials within the session, from 1
+        std::vector<double> change = {};  ///< of each, from the condition's mean, in %
     };
     /// A quarter of the session's trials, in their order.
     struct Quarter {

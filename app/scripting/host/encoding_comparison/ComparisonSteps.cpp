@@ -32,7 +32,7 @@ struct Named {
 /// What a comparison has come to: the first of the encodings is the default that the others are compared with.
 struct Comparison {
     double low = 0, high = 0, load_ohm = 0, load_pct = 0, traverse_s = 0;
-    Json reference;
+    Json reference = {};
     Json encodings = Json::array();
 };
 

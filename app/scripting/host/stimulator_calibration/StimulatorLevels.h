@@ -23,7 +23,7 @@ struct LevelRange {
 /// What the levels of a run go by.
 struct LevelSettings {
     double load_ohm = 0, rate_hz = 0, settling_s = 0;
-    LevelRange amplitude_v, interval_s, width_us, gap_us;
+    LevelRange amplitude_v = {}, interval_s = {}, width_us = {}, gap_us = {};
     [[nodiscard]] LevelRange& of(const CalibratedQuantity& quantity);
 };
 /// Members of "settings": load, rate_hz, settling_s, amplitude_min_v, amplitude_max_v, ...

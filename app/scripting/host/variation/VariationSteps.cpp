@@ -16,8 +16,8 @@ namespace {
 
 /// The same participants with the amplitudes that the run chose, and with the others.
 struct Prediction {
-    VariationOptions options;
-    Json found, other;
+    VariationOptions options = {};
+    Json found = {}, other = {};
     Json readings = Json::array();
 };
 
