@@ -1,4 +1,6 @@
 // Every shipped script runs on the simulated bench, as a lab would start it.
+#include <filesystem>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/results/ResultKind.h"
@@ -27,11 +29,11 @@ std::vector<std::string> shippedNames() {
     return names;
 }
 
-TEST(ShippedProtocols, AreThoseThatShouldBe) {
-    EXPECT_EQ(shippedNames(),
-              (std::vector<std::string>{"encoding-comparison", "live", "load-safety", "massager",
-                                        "pilot-identification", "pilot-thresholds", "sensor-calibration",
-                                        "separability", "stimulator-calibration", "transitions", "variation"}));
+TEST(ShippedProtocols, AreThoseOfTheFolder) {
+    std::vector<std::string> files;
+    for (const auto& file : std::filesystem::directory_iterator(test::sourceDir() / "resources" / "protocols"))
+        files.push_back(file.path().stem().string());
+    EXPECT_THAT(shippedNames(), testing::UnorderedElementsAreArray(files));
 }
 
 /// Sessions of a study need one: tests/cli/PilotTest.cpp runs them.
