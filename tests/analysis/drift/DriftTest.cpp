@@ -15,7 +15,7 @@ using testing::HasSubstr;
 /// amplitude is multiplied by at a place of the session from 0 to 1.
 template <class Change>
 std::vector<SeparabilityTrial> session(std::mt19937& random, int repeats, double scatter, Change&& change) {
-    std::normal_distribution<double> noise(0, scatter);
+    std::normal_distribution<double> noise(0, 1);
     std::vector<SeparabilityTrial> trials;
     const int all = 4 * repeats;
     for (int i = 0; i < repeats; ++i) {
@@ -24,8 +24,8 @@ std::vector<SeparabilityTrial> session(std::mt19937& random, int repeats, double
         for (const int c : order) {
             const double place = double(trials.size()) / double(all - 1);
             const double level = c < 2 ? 10 : 40;
-            trials.push_back({test::kFourConditions[std::size_t(c)], level * change(place) * std::exp(noise(random)),
-                              c % 2 == 0 ? 2.0 : 0.5, 0, 0});
+            trials.push_back({test::kFourConditions[std::size_t(c)],
+                              level * change(place) * std::exp(scatter * noise(random)), c % 2 == 0 ? 2.0 : 0.5, 0, 0});
         }
     }
     return trials;
