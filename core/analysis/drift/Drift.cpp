@@ -148,7 +148,7 @@ void compareQuarters(const std::vector<Point>& points, double floor, Drift& drif
     for (std::size_t q = 0; q < kQuarters; ++q) drift.quarters[q].change_pct = percentOf(level[q] - mean);
     const auto [lowest, highest] = std::ranges::minmax_element(level);
     // Later minus earlier: a fall is below 0.
-    const auto [earlier, later] = std::minmax(lowest - level.begin(), highest - level.begin());
+    const auto [earlier, later] = std::minmax({lowest - level.begin(), highest - level.begin()});
     Eigen::VectorXd weights = Eigen::VectorXd::Zero(kQuarters - 1);
     if (later > 0) weights(later - 1) += 1;
     if (earlier > 0) weights(earlier - 1) -= 1;
