@@ -247,7 +247,7 @@ nlohmann::json toJson(const Drift& found) {
             {"quarters", std::move(quarters)},
             {"curves",
              {{"x", {{"label", "Trial"}, {"unit", ""}}},
-              {"y", {{"label", "Amplitude against the condition's mean"}, {"unit", "%"}}},
+              {"y", {{"label", "Amplitude, from its mean"}, {"unit", "%"}}},
               {"curves", std::move(curves)},
               {"lines", lines}}},
             {"verdict", nameOf(found.verdict)},
