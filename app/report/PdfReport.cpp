@@ -6,7 +6,7 @@
 namespace tacto {
 namespace {
 
-constexpr double kGap = 12;       // between blocks
+constexpr double kGap = 10;       // between blocks
 constexpr double kTextSize = 12;  // 9 pt
 constexpr double kFactColumn = 150;
 constexpr double kAboveLine = 7;          // room to write on a line
@@ -123,7 +123,7 @@ public:
 
     /// A ruled line for each role, long enough to write on.
     void operator()(const SignaturesBlock& block) {
-        constexpr double kLine = 34;
+        constexpr double kLine = 28;
         constexpr double kRoleColumn = 90;
         const auto columns = static_cast<double>(block.columns.size());
         const double width = (PdfPages::kWidth - kRoleColumn) / columns;

@@ -56,7 +56,7 @@ public:
     WaveformsSheet(const std::vector<const Trace*>& traces, bool simulated)
         : traces_(traces), columns_(std::min(kColumns, traces.size())) {
         const std::size_t bands = (traces.size() + columns_ - 1) / columns_;
-        sheet_ = std::make_unique<PlotSheet>(kSheetWidth, static_cast<int>(bands) * 216, simulated);
+        sheet_ = std::make_unique<PlotSheet>(kSheetWidth, static_cast<int>(bands) * 200, simulated);
         sheet_->plot().plotLayout()->setColumnSpacing(0);
         fitScales();
     }

@@ -49,8 +49,12 @@ Record recordAt(const GridPoint& point, unsigned seed) {
         r.slope_per_s = level * point.slope / end_s;
         r.hum = level * point.hum;
         r.hum_rad = 2 * std::numbers::pi * random.uniform();
+        if (point.rangeShare > 0) {
+            r.range = level / point.rangeShare;
+            r.lsb = 2 * r.range / 256;
+        }
     }
-    r.lsb = std::max(r.noise / 50, level * 1e-6);  // a resolution that hides nothing
+    if (r.lsb == 0) r.lsb = std::max(r.noise / 50, level * 1e-6);  // a resolution that hides nothing
     record.capture = recordOf(record.phases, r);
     if (point.shape == PulseShape::Logic) {
         record.capture.channels[0].unit = "";
@@ -103,6 +107,7 @@ void judge(const Record& record, bool biphasic, GridResult& result, Errors& erro
             found = &m.pulses[j];
             break;
         }
+        ++result.pulses;
         if (found == nullptr) {
             ++missed;
         } else if (!found->flags.measured()) {
@@ -130,6 +135,7 @@ void judge(const Record& record, bool biphasic, GridResult& result, Errors& erro
     result.beyondGap += beyond(errors.gap, beforeGap_n, u.gap_s * rate_hz);
     result.beyondImbalance += beyond(errors.imbalance, beforeGap_n, u.imbalance);
     result.silent += (missed > 0 || invented > 0 || halves > 0) && m.warnings.empty() ? 1 : 0;
+    if (m.measuredPulses > 0) result.stated = m.uncertainty;
 }
 
 }  // namespace
@@ -140,7 +146,7 @@ std::vector<SyntheticPhase> phasesOf(const GridPoint& point, double firstOnset_s
         SyntheticPhase p;
         p.onset_s = firstOnset_s + k * point.interval * kGridWidth_s;
         p.width_s = kGridWidth_s;
-        p.level = point.shape == PulseShape::Logic ? 1 : kLevel;
+        p.level = point.polarity * (point.shape == PulseShape::Logic ? 1 : kLevel);
         p.edge_s = point.shape == PulseShape::Logic ? 1e-9 : 2e-6;
         p.ringing = point.ringing;
         if (point.shape == PulseShape::Exponential) p.tau_s = kGridWidth_s / 10;
@@ -184,6 +190,8 @@ GridResult measureGridPoint(const GridPoint& point, int seeds) {
     GridResult result;
     Errors errors;
     const bool biphasic = point.shape != PulseShape::Monophasic && point.shape != PulseShape::Logic;
+    result.rate_hz = point.perPhase / kGridWidth_s;
+    result.records = seeds;
     for (int seed = 1; seed <= seeds; ++seed) {
         judge(recordAt(point, static_cast<unsigned>(seed)), biphasic, result, errors);
     }
@@ -200,11 +208,13 @@ std::string describe(const GridPoint& p) {
     static constexpr const char* kNames[] = {"monophasic", "symmetric", "recharge", "exponential", "logic"};
     auto text = fmt::format("{}, {:.0f}/phase", kNames[static_cast<int>(p.shape)], p.perPhase);
     if (p.shape != PulseShape::Logic) text += fmt::format(", {:.0f} dB", p.snr_db);
+    if (p.rangeShare > 0) text += fmt::format(", 8 bits {:.0f} % of range", 100 * p.rangeShare);
     if (p.ringing > 0) text += fmt::format(", ringing {:.0f} %", 100 * p.ringing);
     if (p.slope != 0) text += fmt::format(", slope {:.0f} %", 100 * p.slope);
     if (p.hum > 0) text += fmt::format(", hum {:.0f} %", 100 * p.hum);
     if (p.offset != 0) text += fmt::format(", offset {:.0f} %", 100 * p.offset);
     if (p.interval != GridPoint{}.interval) text += fmt::format(", duty 1/{:.0f}", p.interval);
+    if (p.polarity < 0) text += ", leading down";
     return text;
 }
 

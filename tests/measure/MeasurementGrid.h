@@ -22,12 +22,14 @@ struct GridPoint {
     PulseShape shape = PulseShape::Symmetric;
     double perPhase = 100;  ///< samples in the leading phase, 200 µs
     double snr_db = 60;     ///< 20·log10(leading plateau / noise s.d.)
+    double rangeShare = 0;  ///< 8-bit steps with the plateau at this share of the range; 0 = no steps
     double ringing = 0;     ///< first overshoot
     double slope = 0;       ///< drift over the record, in plateaus
     double hum = 0;         ///< 50 Hz, in plateaus
     double offset = 0;      ///< in plateaus
     double interval = 20;   ///< onset to onset in widths; a duty of its reciprocal
     int pulses = 6;
+    int polarity = 1;
 };
 
 /// Level 40, width 200 µs, gap 100 µs; the recharge is a tenth as high and ten times as long.
@@ -42,6 +44,10 @@ struct PhaseTruth {
 /// Errors of the measured pulses: amplitude and charge relative, times in samples, imbalance absolute.
 struct GridResult {
     Statistics amplitude, width, interval, gap, charge, imbalance;
+    MeasurementUncertainty stated;  ///< k = 1, of the last record that was measured
+    double rate_hz = 0;
+    int records = 0;
+    int pulses = 0;    ///< that were there
     int missed = 0;    ///< those that were neither measured nor flagged
     int flagged = 0;   ///< found, and said not to be measurable
     int invented = 0;  ///< measured where there was none

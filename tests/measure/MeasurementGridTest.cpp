@@ -1,5 +1,5 @@
-// The bounds that core/measure keeps, over the grid of MeasurementGrid.h. Each is half again to twice what was found
-// when it was set, so that a change for the worse fails here.
+// The bounds that core/measure keeps, over the grid of MeasurementGrid.h. Each is half again to twice what
+// measurement_table shows, so that a change for the worse fails here.
 #include <gtest/gtest.h>
 
 #include "tests/measure/MeasurementGrid.h"
@@ -128,6 +128,27 @@ TEST(MeasurementGrid, AShallowSlowRechargeIsFoundInNoiseTenTimesLessDeep) {
     }
 }
 
+TEST(MeasurementGrid, EightBitsCostHalfAStep) {
+    for (const auto shape : {PulseShape::Monophasic, PulseShape::Symmetric}) {
+        for (const double share : {0.9, 0.5, 0.2}) {
+            for (const double perPhase : {20.0, 100.0}) {
+                for (const double snr : {100.0, 50.0}) {
+                    const GridPoint point{.shape = shape, .perPhase = perPhase, .snr_db = snr, .rangeShare = share};
+                    const auto r = measureGridPoint(point, kSeeds);
+                    expectAllFound(point, r);
+                    const double step = 2 / share / 256;
+                    EXPECT_LT(std::abs(r.amplitude.mean), 0.51 * step) << describe(point);
+                    EXPECT_LT(std::abs(r.charge.mean), 0.51 * step) << describe(point);
+                    EXPECT_LT(std::abs(r.width.mean), 0.1) << describe(point);
+                    if (shape == PulseShape::Symmetric) {
+                        EXPECT_LT(r.imbalance.max, step) << describe(point);
+                    }
+                }
+            }
+        }
+    }
+}
+
 TEST(MeasurementGrid, RingingIsNeitherAPhaseNorAmplitude) {
     RecordProperty("hazard", "H9");
     for (const auto shape : {PulseShape::Monophasic, PulseShape::Symmetric, PulseShape::Recharge}) {
@@ -178,6 +199,26 @@ TEST(MeasurementGrid, AMovingBaselineThatCannotBeFollowedIsSaid) {
                 const auto r = measureGridPoint(point, kSeeds);
                 EXPECT_EQ(r.silent, 0) << describe(point);
                 EXPECT_EQ(r.warned, kSeeds) << describe(point);
+            }
+        }
+    }
+}
+
+TEST(MeasurementGrid, DutyAndPolarityDoNotMatter) {
+    for (const int polarity : {1, -1}) {
+        for (const double interval : {2.0, 4.0, 100.0, 10'000.0}) {
+            for (const auto shape : {PulseShape::Monophasic, PulseShape::Symmetric}) {
+                if (shape == PulseShape::Symmetric && interval < 4) continue;
+                const GridPoint point{.shape = shape,
+                                      .perPhase = interval > 1000 ? 20.0 : 50.0,
+                                      .snr_db = 40,
+                                      .interval = interval,
+                                      .pulses = interval > 1000 ? 2 : 6,
+                                      .polarity = polarity};
+                const auto r = measureGridPoint(point, interval > 1000 ? 2 : kSeeds);
+                expectAllFound(point, r);
+                EXPECT_LT(std::abs(r.amplitude.mean), 0.004) << describe(point);
+                EXPECT_LT(std::abs(r.interval.mean), 0.02) << describe(point);
             }
         }
     }

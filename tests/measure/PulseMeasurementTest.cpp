@@ -167,5 +167,55 @@ TEST(PulseMeasurement, MeasuresOneChannelOrAll) {
     EXPECT_EQ(one.channels[0].name, "current");
 }
 
+TEST(PulseMeasurement, ASlowRechargeOfEqualChargeBalances) {
+    const auto m =
+        measureChannel(recordOf({{1e-3, 200e-6, 40, 2e-6}, {1.3e-3, 2e-3, -4, 2e-6}}, {.noise = 0.05, .lsb = 0.05}), 0);
+    ASSERT_EQ(m.measuredPulses, 1U);
+    EXPECT_NEAR(m.pulses[0].leading.plateau, 40, 0.05);
+    EXPECT_NEAR(m.pulses[0].second->plateau, -4, 0.05);
+    EXPECT_NEAR(m.pulses[0].second->width_s, 2e-3, 2e-6);
+    EXPECT_LT(m.pulses[0].imbalance, 0.01);
+}
+
+TEST(PulseMeasurement, ASquareWavesAmplitudeIsTopMinusBase) {
+    std::vector<SyntheticPhase> phases;
+    for (int k = 0; k < 9; ++k) phases.push_back({0.5e-3 + k * 1e-3, 0.5e-3, 3, 2e-6});
+    const auto m = measureChannel(recordOf(phases, {.offset = -1, .noise = 0.01}), 0);
+    EXPECT_EQ(m.states.count, StateCount::Two);
+    EXPECT_EQ(m.measuredPulses, 9U);
+    EXPECT_NEAR(m.amplitude.mean, 3, 0.005);
+    EXPECT_NEAR(m.width_s.mean, 0.5e-3, 1e-7);
+    EXPECT_NEAR(m.interval_s.mean, 1e-3, 1e-8);
+    EXPECT_EQ(m.interval_s.n, 8U);
+}
+
+TEST(PulseMeasurement, MeasuresBothPhasesOfABiphasicPulse) {
+    const auto m = measureChannel(recordOf(biphasic(2e-3, 30, 150e-6, 80e-6), {.offset = 0.7}), 0);
+    EXPECT_EQ(m.states.count, StateCount::Three);
+    ASSERT_EQ(m.measuredPulses, 1U);
+    const auto& pulse = m.pulses[0];
+    ASSERT_TRUE(pulse.second);
+    EXPECT_NEAR(pulse.leading.plateau, 30, 1e-4);
+    EXPECT_NEAR(pulse.second->plateau, -30, 1e-4);
+    EXPECT_NEAR(pulse.gap_s, 80e-6, 1e-11);
+    EXPECT_NEAR(pulse.second->width_s, 150e-6, 1e-11);
+    EXPECT_NEAR(pulse.leading.charge, 30 * 150e-6, 1e-8);
+    EXPECT_NEAR(pulse.second->charge, -30 * 150e-6, 1e-8);
+    EXPECT_NEAR(pulse.imbalance, 0, 1e-5);
+    EXPECT_TRUE(m.warnings.empty()) << m.warnings[0];
+}
+
+TEST(PulseMeasurement, PulsesOfDifferentHeightsInOneRecordAreEachMeasured) {
+    auto phases = biphasic(1e-3, 10);
+    append(phases, biphasic(3e-3, 40));
+    append(phases, biphasic(5e-3, 20));
+    const auto m = measureChannel(recordOf(phases, {.noise = 0.1}), 0);
+    ASSERT_EQ(m.measuredPulses, 3U);
+    EXPECT_NEAR(m.pulses[0].leading.plateau, 10, 0.05);
+    EXPECT_NEAR(m.pulses[1].leading.plateau, 40, 0.05);
+    EXPECT_NEAR(m.pulses[2].leading.plateau, 20, 0.05);
+    EXPECT_NEAR(m.pulses[0].leading.width_s, 200e-6, 0.2e-6);
+}
+
 }  // namespace
 }  // namespace tacto::test

@@ -117,5 +117,22 @@ TEST(StateLevels, AGlitchOfTwoSamplesDoesNotHideTheStates) {
     EXPECT_NEAR(levels.high, 10, 0.1);
 }
 
+TEST(StateLevels, FindsABiphasicPulseThatFillsFourPercentOfTheRecord) {
+    const auto levels = statesOf(recordOf(biphasic(3e-3), {.noise = 0.2}));
+    ASSERT_EQ(levels.count, StateCount::Three) << levels.why;
+    EXPECT_NEAR(levels.baseline, 0, 0.01);
+    EXPECT_NEAR(levels.high, 40, 0.1);
+    EXPECT_NEAR(levels.low, -40, 0.1);
+    EXPECT_NEAR(levels.noise, 0.2, 0.02);
+}
+
+TEST(StateLevels, TakesASlowShallowRechargeForAThirdState) {
+    const auto levels =
+        statesOf(recordOf({{1e-3, 200e-6, 40, 2e-6}, {1.3e-3, 2e-3, -4, 2e-6}}, {.noise = 0.1, .lsb = 0.39}));
+    ASSERT_EQ(levels.count, StateCount::Three) << levels.why;
+    EXPECT_NEAR(levels.low, -4, 0.25);
+    EXPECT_NEAR(levels.baseline, 0, 0.05);
+}
+
 }  // namespace
 }  // namespace tacto::test
