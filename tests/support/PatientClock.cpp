@@ -70,10 +70,12 @@ struct Now {
     double rate = 1;
     bool isHeld = false;
 
-    /// How long to wait in the machine's time until `end` in this; looks again after that.
+    /// How long to wait in the machine's time before looking again whether `end` has come in this. This passes no
+    /// faster, and its rate is of a moment: who would wait as long as that has it could come much too late.
     [[nodiscard]] Nanoseconds until(Nanoseconds end) const {
-        const auto left = static_cast<Nanoseconds>(static_cast<double>(end - own) / rate);
-        return std::max(left, isHeld ? kLook : Nanoseconds{0});
+        const Nanoseconds left = end - own;
+        if (left <= 0) return 0;
+        return std::max(left, isHeld ? kLook : kLook / 20);
     }
 };
 Now now() {
@@ -170,7 +172,7 @@ extern "C" int ppoll(pollfd* files, nfds_t count, const std::timespec* timeout, 
     if (timeout == nullptr) return wait(files, count, nullptr, mask);
     const auto end = now().own + countOf(*timeout);
     for (;;) {
-        const auto left = textOf(std::max<Nanoseconds>(0, now().until(end)));
+        const auto left = textOf(now().until(end));
         const int found = wait(files, count, &left, mask);
         if (found != 0 || now().own >= end) return found;
     }
@@ -206,7 +208,7 @@ extern "C" int timerfd_settime(int timer, int flags, const itimerspec* time, iti
     if ((flags & TFD_TIMER_ABSTIME) == 0 || isOff) return set(timer, flags, time, before);
     const auto present = now();
     auto machines = *time;
-    machines.it_value = textOf(present.machine + std::max(present.until(countOf(time->it_value)), Nanoseconds{0}));
+    machines.it_value = textOf(present.machine + present.until(countOf(time->it_value)));
     return set(timer, flags, &machines, before);
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <utility>
 
 #include "tests/support/PassingStimulator.h"
@@ -13,9 +14,11 @@ namespace tacto::test {
 /// Reports itself as real hardware.
 class RealLookingStimulator final : public PassingStimulator {
 public:
-    explicit RealLookingStimulator(std::unique_ptr<Stimulator> twin)
+    /// With the twin's serial number, or one that no other test claims where the whole program drives it (OwnSerial).
+    explicit RealLookingStimulator(std::unique_ptr<Stimulator> twin, const std::string& serial = "")
         : PassingStimulator(std::move(twin)), identity_(inner().identity()) {
         identity_.simulated = false;
+        if (!serial.empty()) identity_.serial = serial;
     }
     const DeviceIdentity& identity() const noexcept override { return identity_; }
     Result<void> deliver(ApprovedTrain&& train) override {
