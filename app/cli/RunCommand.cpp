@@ -23,7 +23,7 @@
 #include "core/calibration/CertificateDetails.h"
 #include "core/devices/Registry.h"
 #include "core/dsp/RoughnessFlags.h"
-#include "core/results/ResultKind.h"
+#include "core/kinds/ResultKinds.h"
 #include "core/session/Origin.h"
 
 namespace tacto::cli {

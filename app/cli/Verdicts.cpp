@@ -9,7 +9,7 @@
 #include "app/report/MatrixBlock.h"
 #include "app/report/ResultCells.h"
 #include "core/base/JsonText.h"
-#include "core/results/ResultKind.h"
+#include "core/kinds/ResultKinds.h"
 
 namespace tacto::cli {
 

@@ -10,7 +10,7 @@
 #include "app/report/ShownText.h"
 #include "app/report/TableContent.h"
 #include "core/analysis/statistics/Verdict.h"
-#include "core/results/ResultKind.h"
+#include "core/kinds/ResultKinds.h"
 
 namespace tacto {
 

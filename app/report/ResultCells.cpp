@@ -10,7 +10,7 @@
 #include "core/base/JsonText.h"
 #include "core/base/QuantityText.h"
 #include "core/encoding/StimulatorCalibration.h"
-#include "core/results/ResultKind.h"
+#include "core/kinds/ResultKinds.h"
 #include "core/safety/LimitSet.h"
 
 namespace tacto {

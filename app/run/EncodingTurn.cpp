@@ -10,9 +10,9 @@
 #include "core/base/JsonText.h"
 #include "core/base/Random.h"
 #include "core/base/Text.h"
+#include "core/kinds/ResultKinds.h"
 #include "core/pilot/PilotRecord.h"
 #include "core/pilot/Prompt.h"
-#include "core/results/ResultKind.h"
 
 namespace tacto {
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/calibration/CertificateDetails.h"
-#include "core/results/ResultKind.h"
+#include "core/kinds/ResultKinds.h"
 #include "core/session/Origin.h"
 #include "core/session/SessionReader.h"
 #include "core/session/SessionVerify.h"

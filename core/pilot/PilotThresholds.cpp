@@ -5,14 +5,13 @@
 
 #include "core/base/JsonText.h"
 #include "core/pilot/PilotRecord.h"
+#include "core/pilot/PilotResults.h"
 
 namespace tacto {
 
 namespace {
 
 constexpr Seconds kFeltBeforeAsked{4};  // I_max, before "half an hour of this?"
-
-nlohmann::json shareJson(const IntervalShare& share) { return {{"trials", share.trials}, {"right", share.right}}; }
 
 /// Length of one train of the profile's kind, or of a massager's burst.
 Seconds trainLength(const Bench& bench, LevelUnit unit) {
@@ -281,22 +280,6 @@ Result<void> PilotThresholds::comparison() {
     return kept ? Result<void>() : failure(kept);
 }
 
-nlohmann::json PilotThresholds::comparisonJson() const {
-    if (!compared_) return nullptr;
-    const auto unit = stage_.settings().unit;
-    nlohmann::json history = nlohmann::json::array();
-    for (const auto& each : compared_->trials)
-        history.push_back({{levelKey("weaker", unit), each.pair.weaker},
-                           {levelKey("stronger", unit), each.pair.stronger},
-                           {"correct", each.correct}});
-    return {{"amplitude_weber", estimateOrNull(compared_->weber)},
-            {"at_edge", compared_->atEdge},
-            {"trials", compared_->trials.size()},
-            {"history", std::move(history)},
-            {"first", shareJson(compared_->intervals.first)},
-            {"second", shareJson(compared_->intervals.second)}};
-}
-
 nlohmann::json PilotThresholds::describe(const PersonalRangeResult& found) const {
     const double ohm = stage_.impedance();
     return tacto::toJson(RangeRow{.unit = stage_.settings().unit,
@@ -312,29 +295,13 @@ nlohmann::json PilotThresholds::describe(const PersonalRangeResult& found) const
 }
 
 nlohmann::json PilotThresholds::toJson() const {
-    const auto unit = stage_.settings().unit;
-    nlohmann::json series = nlohmann::json::array();
-    for (const auto& each : ascending_.series)
-        series.push_back({{levelKey("felt", unit), numberOrNull(each.felt)},
-                          {levelKey("too_strong", unit), numberOrNull(each.tooStrong)},
-                          {levelKey("highest", unit), numberOrNull(each.highest)},
-                          {"ended_by", nameOf(each.endedBy)},
-                          {"felt_empty", each.feltEmpty},
-                          {"marked", each.marked()}});
-    nlohmann::json history = nlohmann::json::array();
-    for (const auto& each : trials_) history.push_back({{nameOf(unit), each.level}, {"correct", each.correct}});
-    const nlohmann::json detection{
-        {"method", nameOf(method_)},          {levelKey("estimate", unit), estimateOrNull(estimate_)},
-        {"at_edge", estimateAtEdge_},         {"trials", trials_.size()},
-        {"history", std::move(history)},      {"first", shareJson(shares_.first)},
-        {"second", shareJson(shares_.second)}};
-    return {{levelKey("felt", unit), numberOrNull(ascending_.felt)},
-            {levelKey("too_strong", unit), numberOrNull(ascending_.tooStrong)},
-            {"said_too_strong", ascending_.saidTooStrong},
-            {"series", std::move(series)},
-            {"detection", measured_ ? detection : nlohmann::json(nullptr)},
-            {"range", rangeJson()},
-            {"comparison", comparisonJson()}};
+    return thresholdsJson(
+        {.limits = ascending_,
+         .detection = measured_ ? std::optional(DetectionFound{method_, estimate_, estimateAtEdge_, trials_, shares_})
+                                : std::nullopt,
+         .range = rangeRow_,
+         .compared = compared_},
+        stage_.settings().unit);
 }
 
 }  // namespace tacto

@@ -56,7 +56,6 @@ private:
     [[nodiscard]] nlohmann::json describe(const PersonalRangeResult& found) const;
     /// The common part of the trials with two intervals, of which `held` holds the train, or the stronger one.
     [[nodiscard]] Result<TrialInterval> askInterval(StageTrial trial, TrialInterval held, std::size_t number);
-    [[nodiscard]] nlohmann::json comparisonJson() const;
 
     PilotStage& stage_;
     std::optional<LevelGrid> grid_;

@@ -1,6 +1,7 @@
-// Describe.h - what the files that declare kinds of results share: columns and tables in few words.
+// Describe.h - columns and tables of results in few words.
 #pragma once
 
+#include <string>
 #include <utility>
 
 #include "core/results/ResultKind.h"
@@ -61,15 +62,11 @@ inline ResultTable noted(ResultTable table, const char* note) {
     return table;
 }
 
+/// The same of a record that is the member `place`.
+[[nodiscard]] Columns under(const std::string& place, Columns columns);
+[[nodiscard]] ResultTable under(const std::string& place, ResultTable table);
+
 /// With what every run with an oscilloscope rests on; reports have that on their first page.
 [[nodiscard]] Tables withBasis(Tables tables);
-
-// Each in the file of its name: the kinds of results in the order in which they are listed.
-[[nodiscard]] Kinds trainKinds();
-[[nodiscard]] Kinds predictionKinds();
-[[nodiscard]] Kinds safetyKinds();
-[[nodiscard]] Kinds calibrationKinds();
-[[nodiscard]] Kinds sensorKinds();
-[[nodiscard]] Kinds recordingKinds();
 
 }  // namespace tacto::describe

@@ -1,7 +1,4 @@
-// ResultKind.h - what results are, as their `kind` says it, and what is declared of each kind. The one place that
-// compares names of kinds: what the app does by kind goes by ResultKind.
-//
-// A kind is declared in one of the files beside this one, in a family of kinds that ResultKind.cpp lists.
+// ResultKind.h - what is declared of a kind of results, beside the analysis that gives it. core/kinds lists them all.
 #pragma once
 
 #include <string_view>
@@ -36,11 +33,5 @@ struct ResultTraits {
     std::string_view procedure = {};     ///< what people call it, where that is not its name: "safety check"
     std::vector<ResultTable> tables{};   ///< in the order in which they are read
 };
-
-/// The traits of the kind with that name; those of Other where there is none.
-[[nodiscard]] const ResultTraits& resultTraits(std::string_view name);
-
-/// What a report keeps of results: what the tables of their kind show, with the kind. Null where it has none.
-[[nodiscard]] nlohmann::json shownInReports(const nlohmann::json& results);
 
 }  // namespace tacto

@@ -80,6 +80,20 @@ json shownIn(const std::vector<ResultTable>& tables, const json& results) {
 
 namespace describe {
 
+Columns under(const std::string& place, Columns columns) {
+    for (auto& column : columns) column.at = column.at.empty() ? place : place + '.' + column.at;
+    return columns;
+}
+
+ResultTable under(const std::string& place, ResultTable table) {
+    if (table.at.empty()) {
+        table.columns = under(place, std::move(table.columns));
+    } else {
+        table.at = place + '.' + table.at;
+    }
+    return table;
+}
+
 Tables withBasis(Tables tables) {
     tables.push_back(
         facts("Known reference", "reference",

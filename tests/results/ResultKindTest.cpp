@@ -1,7 +1,7 @@
 // What is declared of each kind of result.
 #include <gtest/gtest.h>
 
-#include "core/results/ResultKind.h"
+#include "core/kinds/ResultKinds.h"
 
 namespace tacto {
 namespace {

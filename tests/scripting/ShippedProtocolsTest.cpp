@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/results/ResultKind.h"
+#include "core/kinds/ResultKinds.h"
 #include "core/session/SessionReader.h"
 #include "core/session/SessionVerify.h"
 #include "tests/scripting/RunBench.h"

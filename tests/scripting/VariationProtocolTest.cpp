@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <thread>
 
-#include "core/results/ResultKind.h"
+#include "core/kinds/ResultKinds.h"
 #include "core/session/SessionReader.h"
 #include "tests/scripting/RunBench.h"
 #include "tests/support/InTime.h"

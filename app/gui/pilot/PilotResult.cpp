@@ -11,7 +11,7 @@
 #include "core/analysis/identification/IdentificationJson.h"
 #include "core/analysis/identification/IdentificationText.h"
 #include "core/base/JsonText.h"
-#include "core/results/ResultKind.h"
+#include "core/kinds/ResultKinds.h"
 #include "core/study/Participant.h"
 
 namespace tacto::gui {

@@ -15,6 +15,7 @@
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "core/kinds/ResultKinds.h"
 
 namespace tacto::gui {
 

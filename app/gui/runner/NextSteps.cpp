@@ -6,7 +6,7 @@
 #include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Theme.h"
-#include "core/results/ResultKind.h"
+#include "core/kinds/ResultKinds.h"
 
 namespace tacto::gui {
 

@@ -14,7 +14,7 @@
 #include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/ToolRow.h"
-#include "core/results/ResultKind.h"
+#include "core/kinds/ResultKinds.h"
 #include "core/study/StudyFiles.h"
 
 namespace tacto::gui {

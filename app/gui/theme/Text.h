@@ -13,7 +13,7 @@
 #include "app/report/ShownText.h"
 #include "core/base/QuantityText.h"
 #include "core/base/Result.h"
-#include "core/results/ResultKind.h"
+#include "core/kinds/ResultKinds.h"
 #include "core/safety/Interlock.h"
 
 namespace tacto::gui {

@@ -6,6 +6,7 @@
 #include "app/scripting/engine/DeclaredText.h"
 #include "core/base/JsonText.h"
 #include "core/base/Words.h"
+#include "core/kinds/ResultKinds.h"
 
 namespace tacto {
 

@@ -13,8 +13,8 @@
 #include "app/scripting/engine/ScriptSession.h"
 #include "app/scripting/wire/MemoryGuard.h"
 #include "core/base/ProgramStart.h"
+#include "core/kinds/ResultKinds.h"
 #include "core/pilot/PilotSession.h"
-#include "core/results/ResultKind.h"
 #include "core/session/SessionWriter.h"
 
 namespace tacto {

@@ -7,93 +7,231 @@
 #include "core/base/Csv.h"
 #include "core/base/Statistics.h"
 #include "core/base/Text.h"
+#include "core/encoding/StimulatorCalibration.h"
+#include "core/results/ResultRecord.h"
 
 namespace tacto {
 
 using nlohmann::json;
 
-json toJson(const Calibration& found) {
-    json levels = json::array();
-    for (const auto& level : found.levels) {
-        levels.push_back({{"commanded", level.commanded},
-                          {"n", level.n},
-                          {"not_measured", level.notMeasured},
-                          {"mean", numberOrNull(level.mean)},
-                          {"mean_up", numberOrNull(level.meanUp)},
-                          {"mean_down", numberOrNull(level.meanDown)},
-                          {"s", numberOrNull(level.s)},
-                          {"residual", numberOrNull(level.residual)}});
-    }
-    json readings = json::array();
-    for (const auto& r : found.readings) {
-        readings.push_back({{"commanded", r.commanded},
-                            {"measured", numberOrNull(r.measured)},
-                            {"direction", nameOf(r.direction)},
-                            {"outlier", r.outlier}});
-    }
-    return {{"gain", found.gain},
-            {"offset", found.offset},
-            {"gain_standard_error", numberOrNull(found.gainStandardError)},
-            {"offset_standard_error", numberOrNull(found.offsetStandardError)},
-            {"weighted", found.weighted},
-            {"full_scale", found.fullScale},
-            {"residual_max_pct_fs", numberOrNull(found.residualMax_pct)},
-            {"repeatability_pct_fs", numberOrNull(found.repeatability_pct)},
-            {"hysteresis_pct_fs", numberOrNull(found.hysteresis_pct)},
-            {"n", found.readings.size() - found.notMeasured},
-            {"not_measured", found.notMeasured},
-            {"outliers", found.outliers},
-            {"complete", found.complete},
-            {"levels", levels},
-            {"readings", readings},
-            {"warnings", found.warnings}};
+namespace {
+
+using namespace describe;
+
+ResultRecord<CalibrationLevel> describeLevel() {
+    using L = CalibrationLevel;
+    ResultRecord<L> all;
+    all.shown(number("Commanded", "commanded", "@unit"), &L::commanded);
+    all.shown(number("n", "n"), &L::n);
+    all.kept("not_measured", &L::notMeasured);
+    all.kept("mean", &L::mean);
+    all.kept("mean_up", &L::meanUp);
+    all.kept("mean_down", &L::meanDown);
+    all.shown(spread("s", "s", "@unit"), &L::s);
+    all.kept("residual", &L::residual);
+    return all;
 }
 
-json toJson(const UncertaintyBudget& budget) {
-    json rows = json::array();
-    for (const auto& row : budget.rows) {
-        rows.push_back({{"name", row.name},
-                        {"distribution", nameOf(row.distribution)},
-                        {"value", numberOrNull(row.value)},
-                        {"divisor", row.divisor},
-                        {"sensitivity", row.sensitivity},
-                        {"contribution", numberOrNull(row.contribution())},
-                        {"degrees_of_freedom", numberOrNull(row.degreesOfFreedom)}});
-    }
-    return {{"rows", rows},
-            {"combined", numberOrNull(budget.combined)},
-            {"degrees_of_freedom", numberOrNull(budget.degreesOfFreedom)},
-            {"coverage_factor", numberOrNull(budget.coverageFactor)},
-            {"expanded_uncertainty", numberOrNull(budget.expanded)},
-            {"method", nameOf(budget.method)}};
+ResultRecord<CalibrationReading> describeReading() {
+    using R = CalibrationReading;
+    ResultRecord<R> all;
+    all.shown(number("Commanded", "commanded", "@unit"), &R::commanded);
+    all.shown(number("Measured", "measured", "@unit"), &R::measured);
+    all.shown(text("Direction", "direction"), &R::direction);
+    all.kept("outlier", &R::outlier);
+    return all;
 }
 
-json toJson(const JudgedCalibration& judged) {
-    json out = toJson(judged.calibration);
-    for (std::size_t k = 0; k < judged.levels.size(); ++k) {
-        const auto& level = judged.levels[k];
-        auto& row = out["levels"][k];
-        row["error"] = numberOrNull(level.error);
-        row["worst_error"] = numberOrNull(level.worstError);
-        row["expanded_uncertainty"] = numberOrNull(level.budget.expanded);
-        row["worst_expanded_uncertainty"] = numberOrNull(level.worstBudget.expanded);
-        row["worst_coverage_factor"] = numberOrNull(level.worstBudget.coverageFactor);
-        row["tolerance"] = level.tolerance;
-        row["verdict"] = nameOf(level.verdict);
-    }
-    const auto& top = judged.fullScale().budget;
-    out["expanded_uncertainty"] = numberOrNull(top.expanded);
-    out["gain_expanded_uncertainty"] = numberOrNull(judged.gain.expanded);
-    out["gain_coverage_factor"] = numberOrNull(judged.gain.coverageFactor);
-    out["offset_expanded_uncertainty"] = numberOrNull(judged.offset.expanded);
-    out["offset_coverage_factor"] = numberOrNull(judged.offset.coverageFactor);
-    out["budget"] = toJson(top);
-    out["budget_smallest"] = toJson(judged.smallest().budget);
-    out["tolerance_pct"] = judged.tolerance_pct;
-    out["verdict"] = nameOf(judged.verdict);
-    out["reasons"] = judged.reasons;
-    return out;
+ResultRecord<Calibration> describeCalibration() {
+    using C = Calibration;
+    ResultRecord<C> all;
+    all.kept("gain", &C::gain);
+    all.kept("offset", &C::offset);
+    all.kept("gain_standard_error", &C::gainStandardError);
+    all.kept("offset_standard_error", &C::offsetStandardError);
+    all.kept("weighted", &C::weighted);
+    all.kept("full_scale", &C::fullScale);
+    all.shown(spread("Repeatability", "repeatability_pct_fs", "% FS"), &C::repeatability_pct);
+    all.shown(spread("Hysteresis", "hysteresis_pct_fs", "% FS"), &C::hysteresis_pct);
+    all.shown(spread("Largest residual", "residual_max_pct_fs", "% FS"), &C::residualMax_pct);
+    all.shown(number("Readings", "n"), [](const C& found) { return found.readings.size() - found.notMeasured; });
+    all.shown(number("Standing out, marked and kept", "outliers"), &C::outliers);
+    all.kept("not_measured", &C::notMeasured);
+    all.kept("complete", &C::complete);
+    all.kept("levels", &C::levels, describeLevel());
+    all.kept("readings", &C::readings, describeReading());
+    all.kept("warnings", &C::warnings);
+    return all;
 }
+
+ResultRecord<Contribution> describeContribution() {
+    using C = Contribution;
+    ResultRecord<C> all;
+    all.shown(text("Contribution", "name"), &C::name);
+    all.shown(text("Distribution", "distribution"), &C::distribution);
+    all.kept("value", &C::value);
+    all.kept("divisor", &C::divisor);
+    all.kept("sensitivity", &C::sensitivity);
+    all.shown(number("u", "contribution", "@unit"), &C::contribution);
+    all.shown(as(As::Freedom, "Degrees of freedom", "degrees_of_freedom"), &C::degreesOfFreedom);
+    return all;
+}
+
+ResultRecord<UncertaintyBudget> describeBudget() {
+    using B = UncertaintyBudget;
+    ResultRecord<B> all;
+    all.kept("rows", &B::rows, describeContribution());
+    all.kept("degrees_of_freedom", &B::degreesOfFreedom);
+    all.shown(as(As::Quantity, "Quantity", "quantity"));  // that it is a part of
+    all.shown(number("Combined, u", "combined", "@unit"), &B::combined);
+    all.shown(number("Expanded, U (95 %)", "expanded_uncertainty", "@unit"), &B::expanded);
+    all.shown(number("k", "coverage_factor"), &B::coverageFactor);
+    all.shown(text("Method", "method"), &B::method);
+    return all;
+}
+
+/// A level with what was judged of it.
+struct LevelAsJudged {
+    CalibrationLevel level;
+    JudgedLevel judged;
+};
+
+ResultRecord<LevelAsJudged> describeJudgedLevel() {
+    using L = LevelAsJudged;
+    using J = JudgedLevel;
+    using B = UncertaintyBudget;
+    const auto worst = in(&L::judged, &J::worstBudget);
+    const auto level = describeLevel();
+    ResultRecord<L> all;
+    all.merge(&L::level, level);
+    all.shown(verdict(), in(&L::judged, &J::verdict));
+    all.shown(level.column("commanded", "Commanded"));
+    all.shown(level.column("n", "n"));
+    all.shown(number("Error, going up", "mean_up-commanded", "@unit"));
+    all.shown(number("Error, going down", "mean_down-commanded", "@unit"));
+    all.shown(level.column("s", "s"));
+    all.kept("error", in(&L::judged, &J::error));
+    all.kept("expanded_uncertainty", in(in(&L::judged, &J::budget), &B::expanded));
+    all.shown(number("Error judged", "worst_error", "@unit", "worst_expanded_uncertainty"),
+              in(&L::judged, &J::worstError));
+    all.kept("worst_expanded_uncertainty", in(worst, &B::expanded));
+    all.shown(number("k", "worst_coverage_factor"), in(worst, &B::coverageFactor));
+    all.shown(number("Tolerance, ±", "tolerance", "@unit"), in(&L::judged, &J::tolerance));
+    all.shown({"Used", "worst_error", As::Used, "@tolerance", "worst_expanded_uncertainty"});
+    return all;
+}
+
+std::vector<LevelAsJudged> judgedLevels(const JudgedCalibration& judged) {
+    std::vector<LevelAsJudged> all;
+    for (std::size_t k = 0; k < judged.levels.size(); ++k)
+        all.push_back({judged.calibration.levels[k], judged.levels[k]});
+    return all;
+}
+
+ResultRecord<JudgedCalibration> describeJudged() {
+    using J = JudgedCalibration;
+    using B = UncertaintyBudget;
+    const auto found = describeCalibration();
+    const auto top = [](const J& judged) -> const B& { return judged.fullScale().budget; };
+    ResultRecord<J> all;
+    all.merge(&J::calibration, found);
+    all.shown(verdict());
+    all.shown(as(As::Quantity, "Quantity", "quantity"));
+    all.shown(number("Gain", "gain", "", "gain_expanded_uncertainty"));
+    all.kept("gain_expanded_uncertainty", in(&J::gain, &B::expanded));
+    all.shown(number("k", "gain_coverage_factor"), in(&J::gain, &B::coverageFactor));
+    all.shown(number("Offset", "offset", "@unit", "offset_expanded_uncertainty"));
+    all.kept("offset_expanded_uncertainty", in(&J::offset, &B::expanded));
+    all.shown(number("k", "offset_coverage_factor"), in(&J::offset, &B::coverageFactor));
+    for (const auto& [key, title] :
+         {std::pair("residual_max_pct_fs", "Residual"), std::pair("repeatability_pct_fs", "Repeatability"),
+          std::pair("hysteresis_pct_fs", "Hysteresis")}) {
+        auto column = found.column(key, title);
+        column.unit = "%";
+        all.shown(std::move(column));
+    }
+    all.kept("levels", judgedLevels, describeJudgedLevel());
+    all.kept("expanded_uncertainty", [top](const J& judged) { return top(judged).expanded; });
+    all.kept("budget", top, describeBudget());
+    all.kept(
+        "budget_smallest", [](const J& judged) -> const B& { return judged.smallest().budget; }, describeBudget());
+    all.kept("tolerance_pct", &J::tolerance_pct);
+    all.judged();
+    return all;
+}
+
+const ResultRecord<JudgedCalibration>& judgedRecord() { return builtOnce<describeJudged>(); }
+
+/// "amplitude.budget|interval.budget|...": that member of each quantity.
+std::string ofEach(std::string_view member) {
+    std::string all;
+    for (const auto& one : kCalibratedQuantities) {
+        if (!all.empty()) all += '|';
+        all.append(one.id).append(member);
+    }
+    return all;
+}
+
+/// Levels, what the uncertainty is made of at both ends (what weighs at one need not at the other), marked readings.
+void addQuantity(Tables& all, const std::string& title, const std::string& id) {
+    const auto add = [&](const char* what, const char* at, Columns columns) -> ResultTable& {
+        return all.emplace_back(
+            rows((title + what).c_str(), (id + at).c_str(), std::move(columns), Else::InTheTerminal));
+    };
+    add(": levels", ".levels", describeJudgedLevel().columns()).note =
+        "The error that is judged is that of the worse direction, with its U (95 %).";
+    const auto contributions = describeContribution().columns();
+    add(": uncertainty at the largest command", ".budget.rows", contributions);
+    add(": uncertainty at the smallest command", ".budget_smallest.rows", contributions).shown = Else::OnlyInTheReport;
+    auto& marked = add(": readings that stand out, marked and kept", ".readings", describeReading().columns());
+    marked = whose(std::move(marked), "outlier", true);
+}
+
+/// The protocol has the quantities as members, a check of what is stored, and what it stored.
+Tables stimulatorTables() {
+    const auto found = describeCalibration();
+    const auto of = ofEach("");
+    Tables all{rows("What was found: gain and offset ± U (95 %), the rest in % of the largest command", of.c_str(),
+                    judgedRecord().columns()),
+               rows("Readings", of.c_str(),
+                    {as(As::Quantity, "Quantity", "quantity"), found.column("n", "Measured"),
+                     number("Not measured", "not_measured"), found.column("outliers", "Stand out, marked and kept")},
+                    Else::InTheTerminal),
+               rows("Uncertainty at the largest command", ofEach(".budget").c_str(), describeBudget().columns(),
+                    Else::InTheTerminal),
+               rows("Uncertainty at the smallest command", ofEach(".budget_smallest").c_str(),
+                    describeBudget().columns(), Else::InTheTerminal)};
+    for (const auto& one : kCalibratedQuantities) addQuantity(all, std::string(one.title), std::string(one.id));
+    all.push_back(rows("Check of the stored calibration", "check",
+                       {verdict(), as(As::Quantity, "Quantity", "quantity"), number("Commanded", "commanded", "@unit"),
+                        number("Expected", "expected", "@unit"), number("Measured", "measured", "@unit"),
+                        number("Off", "off", "@unit", "expanded_uncertainty"), text("Direction", "direction"),
+                        number("Allowed, ±", "allowed", "@unit")}));
+    all.push_back(facts("Stored", "stored",
+                        {text("Stimulator", "serial"), text("Valid until", "valid_until"),
+                         number("Readings", "readings"), as(As::YesNo, "Simulated", "simulated")}));
+    return all;
+}
+
+}  // namespace
+
+json toJson(const Calibration& found) { return builtOnce<describeCalibration>().write(found); }
+
+json toJson(const UncertaintyBudget& budget) { return builtOnce<describeBudget>().write(budget); }
+
+json toJson(const JudgedCalibration& judged) { return judgedRecord().write(judged); }
+
+ResultTraits stimulatorCalibrationKind() {
+    return {.kind = ResultKind::StimulatorCalibration,
+            .name = "stimulator-calibration",
+            .decisionRule =
+                "Each level passes when |error| + U is within the tolerance, fails when |error| − U is not, and is "
+                "indeterminate between; the worse sweep direction is judged. The verdict is the worst level's.",
+            .guardBanded = true,
+            .tables = withBasis(stimulatorTables())};
+}
+
+const ResultRecord<Calibration>& calibrationRecord() { return builtOnce<describeCalibration>(); }
 
 namespace {
 

@@ -10,6 +10,7 @@
 #include "core/analysis/calibration/Calibration.h"
 #include "core/analysis/calibration/CalibrationVerdict.h"
 #include "core/base/Result.h"
+#include "core/results/ResultRecord.h"
 
 namespace tacto {
 
@@ -34,5 +35,9 @@ namespace tacto {
 /// The same from text; `name` stands for the file in messages.
 [[nodiscard]] Result<std::vector<CalibrationReading>> parseCalibrationReadings(std::string_view text,
                                                                                std::string_view name);
+
+/// How a stimulator's calibration, or a check of one that is stored, is judged and shown.
+[[nodiscard]] ResultTraits stimulatorCalibrationKind();
+[[nodiscard]] const ResultRecord<Calibration>& calibrationRecord();
 
 }  // namespace tacto

@@ -8,6 +8,7 @@
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/analysis/statistics/UncertaintyBudget.h"
 #include "core/base/Statistics.h"
+#include "core/results/ResultRecord.h"
 
 namespace tacto {
 
@@ -219,39 +220,78 @@ Result<Drift> judgeDrift(std::span<const SeparabilityTrial> trials, const DriftO
     return drift;
 }
 
-nlohmann::json toJson(const Drift& found) {
-    using nlohmann::json;
-    json conditions = json::array(), quarters = json::array(), curves = json::array();
+namespace {
+
+using namespace describe;
+
+ResultColumn change(const char* title, const char* at) { return number(title, at, "%"); }
+
+ResultRecord<Drift::Condition> describeCondition() {
+    using C = Drift::Condition;
+    ResultRecord<C> all;
+    all.shown(text("Condition", "name"), &C::name);
+    all.shown(number("n", "n"), &C::n);
+    all.shown(number("Amplitude, mean and s.d.", "amplitude_v", "V"), &C::amplitude);
+    all.shown(change("First trial to last", "change_pct"), &C::change_pct);
+    all.shown(number("Not measured", "not_measured"), &C::notMeasured);
+    return all;
+}
+
+ResultRecord<Drift::Quarter> describeQuarter() {
+    using Q = Drift::Quarter;
+    ResultRecord<Q> all;
+    all.shown(text("Trials", "trials"),
+              [](const Q& quarter) { return fmt::format("{} to {}", quarter.from, quarter.to); });
+    all.shown(number("n", "n"), &Q::n);
+    all.shown(change("Amplitude", "change_pct"), &Q::change_pct);
+    return all;
+}
+
+/// The figure, for plot.curves().
+nlohmann::json curvesOf(const Drift& found) {
+    auto curves = nlohmann::json::array();
     for (const auto& each : found.conditions) {
-        conditions.push_back({{"name", each.name},
-                              {"n", each.n},
-                              {"not_measured", each.notMeasured},
-                              {"amplitude_v", toJson(each.amplitude)},
-                              {"change_pct", toJson(each.change_pct)}});
         if (each.n > 0) curves.push_back({{"label", each.name}, {"x", each.trial}, {"y", each.change}});
     }
-    for (const auto& each : found.quarters) {
-        quarters.push_back({{"trials", fmt::format("{} to {}", each.from, each.to)},
-                            {"n", each.n},
-                            {"change_pct", numberOrNull(each.change_pct)}});
-    }
-    const json lines = {{{"label", "accepted, most"}, {"y", found.tolerance_pct}},
-                        {{"label", "accepted, least"}, {"y", -found.tolerance_pct}}};
-    return {{"kind", "drift"},
-            {"trials", found.trials},
-            {"tolerance_pct", found.tolerance_pct},
-            {"floor_pct", numberOrNull(found.floor_pct)},
-            {"change_pct", toJson(found.change_pct)},
-            {"between_quarters_pct", toJson(found.betweenQuarters_pct)},
-            {"conditions", std::move(conditions)},
-            {"quarters", std::move(quarters)},
-            {"curves",
-             {{"x", {{"label", "Trial"}, {"unit", ""}}},
-              {"y", {{"label", "Amplitude, from its mean"}, {"unit", "%"}}},
-              {"curves", std::move(curves)},
-              {"lines", lines}}},
-            {"verdict", nameOf(found.verdict)},
-            {"reasons", found.reasons}};
+    const nlohmann::json lines = {{{"label", "accepted, most"}, {"y", found.tolerance_pct}},
+                                  {{"label", "accepted, least"}, {"y", -found.tolerance_pct}}};
+    return {{"x", {{"label", "Trial"}, {"unit", ""}}},
+            {"y", {{"label", "Amplitude, from its mean"}, {"unit", "%"}}},
+            {"curves", std::move(curves)},
+            {"lines", lines}};
+}
+
+ResultRecord<Drift> describeDrift() {
+    using D = Drift;
+    ResultRecord<D> all;
+    all.shown(number("Trials", "trials"), &D::trials);
+    all.shown(tolerance("Accepted, ±", "tolerance_pct", "%"), &D::tolerance_pct);
+    all.shown(change("First trial to last", "change_pct"), &D::change_pct);
+    all.shown(change("Between quarters, largest", "between_quarters_pct"), &D::betweenQuarters_pct);
+    all.shown(spread("Instrument's floor", "floor_pct", "%"), &D::floor_pct);
+    all.facts("Drift of the amplitude");
+    all.rows("Conditions", "conditions", &D::conditions, describeCondition()).note = "Intervals are 95 %.";
+    all.rows("Quarters of the trials, against the mean of the four", "quarters", &D::quarters, describeQuarter());
+    all.kept("curves", curvesOf);
+    all.judged();
+    return all;
+}
+
+}  // namespace
+
+nlohmann::json toJson(const Drift& found) {
+    auto out = builtOnce<describeDrift>().write(found);
+    out["kind"] = driftKind().name;
+    return out;
+}
+
+ResultTraits driftKind() {
+    return {.name = "drift",
+            .decisionRule =
+                "Steady when the 95 % intervals of two changes lie within the tolerance: that of a straight line from "
+                "the first trial to the last, and the largest between two quarters of the trials; a fail when one of "
+                "them lies beyond it. The tolerance is a choice.",
+            .tables = withBasis(builtOnce<describeDrift>().tables())};
 }
 
 }  // namespace tacto

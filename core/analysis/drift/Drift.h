@@ -10,6 +10,7 @@
 
 #include "core/analysis/separability/Separability.h"
 #include "core/base/JustNoticeable.h"
+#include "core/results/ResultKind.h"
 
 namespace tacto {
 
@@ -56,5 +57,7 @@ struct Drift {
 
 /// In the shape of the command line's contract (cli.md); `curves` is the figure, for plot.curves().
 [[nodiscard]] nlohmann::json toJson(const Drift& found);
+/// How it is judged and shown.
+[[nodiscard]] ResultTraits driftKind();
 
 }  // namespace tacto

@@ -2,6 +2,7 @@
 
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/base/RecordFields.h"
+#include "core/results/ResultRecord.h"
 
 namespace tacto {
 
@@ -9,22 +10,138 @@ using nlohmann::json;
 
 namespace {
 
-json featureJson(const std::optional<FeatureFigures>& feature) {
-    if (!feature) return nullptr;
-    json out = toJson(feature->figures);
-    out["values"] = feature->values;
-    out["confusion"] = feature->confusion;
-    out["d_prime"] = numberOrNull(feature->dPrime);
-    out["criterion"] = numberOrNull(feature->criterion);
-    return out;
-}
+using namespace describe;
 
 json medianAndRange(const Statistics& of) {
     return {{"median", numberOrNull(of.median)}, {"min", numberOrNull(of.min)}, {"max", numberOrNull(of.max)}};
 }
 
-json sequenceJson(const BlockFigures& after) {
-    return {{"n", after.n}, {"hits", after.hits}, {"accuracy", toJson(wilsonInterval(after.hits, after.n))}};
+ResultRecord<ConfusionFigures> describeFigures() {
+    using F = ConfusionFigures;
+    const auto bits = &F::itCorrected_bits;
+    ResultRecord<F> all;
+    all.shown(text("Of", "of"));  // all of it, or a feature of the conditions
+    all.shown(number("Right", "hits"), &F::hits);
+    all.shown(number("n", "n"), &F::n);
+    all.shown(as(As::Share, "Share", "accuracy"), &F::accuracy);
+    all.shown(as(As::Chance, "By chance, p", "p_chance"), &F::pChance);
+    all.kept("it_bits", &F::it_bits);
+    all.kept("it_bias_bits", [](const F& figures) { return figures.it_bits - figures.itCorrected_bits.value; });
+    all.shown(number("Corrected information", "it_corrected_bits", "bit"), in(bits, &Estimate::value));
+    all.shown(number("95 % from", "it_corrected_low_bits", "bit"), in(bits, &Estimate::low));
+    all.shown(number("to", "it_corrected_high_bits", "bit"), in(bits, &Estimate::high));
+    return all;
+}
+
+ResultRecord<FeatureFigures> describeFeature() {
+    using F = FeatureFigures;
+    ResultRecord<F> all;
+    all.merge(&F::figures, describeFigures());
+    all.kept("values", &F::values);
+    all.kept("confusion", &F::confusion);
+    all.kept("d_prime", &F::dPrime);
+    all.kept("criterion", &F::criterion);
+    return all;
+}
+
+ResultRecord<BlockFigures> describeBlock() {
+    using B = BlockFigures;
+    ResultRecord<B> all;
+    all.kept("block", &B::block);
+    all.kept("n", &B::n);
+    all.kept("hits", &B::hits);
+    return all;
+}
+
+ResultRecord<BlockFigures> describeSequence() {
+    using B = BlockFigures;
+    ResultRecord<B> all;
+    all.kept("n", &B::n);
+    all.kept("hits", &B::hits);
+    all.kept("accuracy", [](const B& after) { return wilsonInterval(after.hits, after.n); });
+    return all;
+}
+
+ResultRecord<AnswerShare> describeShare() {
+    using S = AnswerShare;
+    ResultRecord<S> all;
+    all.kept("response", &S::response);
+    all.kept("n", &S::n);
+    all.kept("share", &S::share);
+    return all;
+}
+
+ResultRecord<Identification> describeIdentification() {
+    using I = Identification;
+    ResultRecord<I> all;
+    all.merge(&I::all, describeFigures());
+    all.kept("labels", &I::labels);
+    all.kept("columns", &I::columns);
+    all.kept("confusion", &I::confusion);
+    all.table(confusion("Given, and answered"));
+    all.kept("texture", &I::texture, describeFeature());
+    all.kept("pressure", &I::pressure, describeFeature());
+    all.table(rows("Told apart", "|texture|pressure", describeFigures().columns()));
+    all.shown(number("Nothing was given", "catch.n"), in(&I::catches, &CatchFigures::n));
+    all.shown(number("It was named as something", "catch.false_alarms"), in(&I::catches, &CatchFigures::falseAlarms));
+    all.kept("catch.rate", in(&I::catches, &CatchFigures::rate));
+    all.shown(number("No answer, in all trials", "no_answer"), &I::noAnswer);
+    all.facts("Catch trials");
+    all.kept("blocks", &I::blocks, describeBlock());
+    all.kept("shares", &I::shares, describeShare());
+    all.kept("learning", &I::learning);
+    all.kept("sequence.after_same", &I::afterSame, describeSequence());
+    all.kept("sequence.after_other", &I::afterOther, describeSequence());
+    all.kept("median_rt_s", &I::medianResponseTime_s);
+    return all;
+}
+
+ResultRecord<EncodingResult> describeEncoding() {
+    using E = EncodingResult;
+    ResultRecord<E> all;
+    all.kept("encoding", &E::encoding);
+    all.kept("n", &E::n);
+    all.kept("hits", &E::hits);
+    all.kept("accuracy", [](const E& result) { return wilsonInterval(result.hits, result.n); });
+    all.kept("training_blocks", &E::trainingBlocks);
+    all.kept("median_rt_s", &E::medianResponse_s);
+    all.kept("naturalness", &E::naturalness);
+    return all;
+}
+
+ResultRecord<EncodingComparison> describeComparison() {
+    using C = EncodingComparison;
+    ResultRecord<EncodingPair> pair;
+    pair.kept("a", &EncodingPair::a);
+    pair.kept("b", &EncodingPair::b);
+    pair.kept("difference", &EncodingPair::difference);
+    ResultRecord<C> all;
+    all.kept("encodings", &C::encodings, describeEncoding());
+    all.kept("pairs", &C::pairs, pair);
+    all.kept("preferred", nullIfEmpty(&C::preferred));
+    return all;
+}
+
+ResultRecord<FewPeople> describePeople() {
+    using P = FewPeople;
+    ResultRecord<PersonResult> person;
+    person.merge(&PersonResult::figures, describeFigures());
+    person.kept("name", &PersonResult::name);
+    person.kept("usable", &PersonResult::usable);
+    ResultRecord<PersonLeftOut> leftOut;
+    leftOut.kept("name", &PersonLeftOut::name);
+    leftOut.kept("reason", &PersonLeftOut::reason);
+    ResultRecord<P> all;
+    all.kept("people", &P::people, person);
+    all.kept("left_out", &P::leftOut, leftOut);
+    all.kept("accuracy", [](const P& people) { return medianAndRange(people.accuracy); });
+    all.kept("it_corrected_bits", [](const P& people) { return medianAndRange(people.itCorrected_bits); });
+    all.kept("above_chance.k", &P::aboveChance);
+    all.kept("above_chance.n", [](const P& people) { return people.people.size(); });
+    all.kept("above_chance.share", &P::share);
+    all.kept("above_chance.prevalence", &P::prevalence);
+    all.kept("above_chance.prevalence_at_least", in(&P::prevalence, &Estimate::low));
+    return all;
 }
 
 /// What a result says about a trial.
@@ -54,45 +171,19 @@ RecordFields<IdentificationTrial> trialFields() {
 
 }  // namespace
 
-json toJson(const ConfusionFigures& figures) {
-    return {{"n", figures.n},
-            {"hits", figures.hits},
-            {"accuracy", toJson(figures.accuracy)},
-            {"p_chance", numberOrNull(figures.pChance)},
-            {"it_bits", numberOrNull(figures.it_bits)},
-            {"it_bias_bits", numberOrNull(figures.it_bits - figures.itCorrected_bits.value)},
-            {"it_corrected_bits", numberOrNull(figures.itCorrected_bits.value)},
-            {"it_corrected_low_bits", numberOrNull(figures.itCorrected_bits.low)},
-            {"it_corrected_high_bits", numberOrNull(figures.itCorrected_bits.high)}};
-}
+json toJson(const ConfusionFigures& figures) { return builtOnce<describeFigures>().write(figures); }
+
+json toJson(const Identification& found) { return builtOnce<describeIdentification>().write(found); }
+
+json toJson(const FewPeople& people) { return builtOnce<describePeople>().write(people); }
+
+json toJson(const EncodingComparison& compared) { return builtOnce<describeComparison>().write(compared); }
+
+const std::vector<ResultTable>& identificationTables() { return builtOnce<describeIdentification>().tables(); }
 
 Estimate correctedBitsFrom(const json& figures) {
     return {numberOr(figures, "it_corrected_bits"), numberOr(figures, "it_corrected_low_bits"),
             numberOr(figures, "it_corrected_high_bits")};
-}
-
-json toJson(const Identification& found) {
-    json blocks = json::array(), shares = json::array(), times = json::array();
-    for (const auto& block : found.blocks)
-        blocks.push_back({{"block", block.block}, {"n", block.n}, {"hits", block.hits}});
-    for (const auto& share : found.shares)
-        shares.push_back({{"response", share.response}, {"n", share.n}, {"share", toJson(share.share)}});
-    for (const double time : found.medianResponseTime_s) times.push_back(numberOrNull(time));
-    json out = toJson(found.all);
-    out["labels"] = found.labels;
-    out["columns"] = found.columns;
-    out["confusion"] = found.confusion;
-    out["texture"] = featureJson(found.texture);
-    out["pressure"] = featureJson(found.pressure);
-    out["catch"] = {
-        {"n", found.catches.n}, {"false_alarms", found.catches.falseAlarms}, {"rate", toJson(found.catches.rate)}};
-    out["no_answer"] = found.noAnswer;
-    out["blocks"] = std::move(blocks);
-    out["shares"] = std::move(shares);
-    out["learning"] = toJson(found.learning);
-    out["sequence"] = {{"after_same", sequenceJson(found.afterSame)}, {"after_other", sequenceJson(found.afterOther)}};
-    out["median_rt_s"] = std::move(times);
-    return out;
 }
 
 json toJson(const IdentificationTrial& trial) {
@@ -103,46 +194,6 @@ json toJson(const IdentificationTrial& trial) {
 IdentificationTrial identificationTrialFrom(const json& row) {
     static const auto fields = trialFields();
     return fields.read(row, {.lenient = true}).value_or(IdentificationTrial{});
-}
-
-json toJson(const FewPeople& people) {
-    json rows = json::array();
-    for (const auto& person : people.people) {
-        json row = toJson(person.figures);
-        row["name"] = person.name;
-        row["usable"] = person.usable;
-        rows.push_back(std::move(row));
-    }
-    json leftOut = json::array();
-    for (const auto& person : people.leftOut) leftOut.push_back({{"name", person.name}, {"reason", person.reason}});
-    return {{"people", std::move(rows)},
-            {"left_out", std::move(leftOut)},
-            {"accuracy", medianAndRange(people.accuracy)},
-            {"it_corrected_bits", medianAndRange(people.itCorrected_bits)},
-            {"above_chance",
-             {{"k", people.aboveChance},
-              {"n", people.people.size()},
-              {"share", toJson(people.share)},
-              {"prevalence", toJson(people.prevalence)},
-              {"prevalence_at_least", numberOrNull(people.prevalence.low)}}}};
-}
-
-json toJson(const EncodingComparison& compared) {
-    json encodings = json::array(), pairs = json::array();
-    for (const auto& result : compared.encodings) {
-        encodings.push_back({{"encoding", result.encoding},
-                             {"n", result.n},
-                             {"hits", result.hits},
-                             {"accuracy", toJson(wilsonInterval(result.hits, result.n))},
-                             {"training_blocks", result.trainingBlocks},
-                             {"median_rt_s", numberOrNull(result.medianResponse_s)},
-                             {"naturalness", numberOrNull(result.naturalness)}});
-    }
-    for (const auto& pair : compared.pairs)
-        pairs.push_back({{"a", pair.a}, {"b", pair.b}, {"difference", toJson(pair.difference)}});
-    return {{"encodings", std::move(encodings)},
-            {"pairs", std::move(pairs)},
-            {"preferred", compared.preferred.empty() ? json(nullptr) : json(compared.preferred)}};
 }
 
 }  // namespace tacto

@@ -7,6 +7,7 @@
 #include "core/analysis/identification/FewPeople.h"
 #include "core/analysis/identification/Identification.h"
 #include "core/analysis/identification/OverSessions.h"
+#include "core/results/ResultTable.h"
 
 namespace tacto {
 
@@ -15,6 +16,8 @@ namespace tacto {
 /// "blocks", "shares", "learning", "sequence", "median_rt_s"}. The caller adds what it alone knows: participant, parts,
 /// range, drift, predicted, ...
 [[nodiscard]] nlohmann::json toJson(const Identification& found);
+/// How they are shown.
+[[nodiscard]] const std::vector<ResultTable>& identificationTables();
 /// {"n", "hits", "accuracy", "p_chance", "it_bits", "it_bias_bits", "it_corrected_bits", "it_corrected_low_bits",
 /// "it_corrected_high_bits"}: as counted, what is taken off, what is left and its 95 % interval
 [[nodiscard]] nlohmann::json toJson(const ConfusionFigures& figures);

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "core/analysis/statistics/StatisticsJson.h"
+#include "core/results/ResultRecord.h"
 
 namespace tacto {
 
@@ -43,7 +44,7 @@ LimitCell worseOf(const LimitCell& a, const LimitCell& b) {
 }
 
 /// What its limit set says about it; the laboratory's own limits are in none.
-void describe(LimitLine& line, const std::vector<LimitSet>& sets) {
+void fillFromSets(LimitLine& line, const std::vector<LimitSet>& sets) {
     const auto set = std::find_if(sets.begin(), sets.end(), [&](const LimitSet& each) { return each.id == line.set; });
     if (set == sets.end()) return;
     for (const auto& row : set->rows) {
@@ -123,7 +124,7 @@ LimitMatrix limitMatrixOf(const LoadSafety& found, const std::vector<LimitSet>& 
     for (const auto& row : found.worstCase.rows) add(row, kExtrapolatedColumn);
     for (auto& line : matrix.lines) {
         line.cells.resize(matrix.loads.size());
-        describe(line, sets);
+        fillFromSets(line, sets);
         summarise(line);
     }
     const auto order = [](const LimitLine& line) {
@@ -136,35 +137,61 @@ LimitMatrix limitMatrixOf(const LoadSafety& found, const std::vector<LimitSet>& 
     return matrix;
 }
 
+namespace {
+
+using namespace describe;
+
+/// A cell, with the load of its column.
+struct PlacedCell {
+    std::string load;
+    LimitCell cell;
+};
+
+ResultRecord<PlacedCell> describeCell() {
+    using P = PlacedCell;
+    ResultRecord<P> all;
+    all.kept("load", &P::load);
+    all.kept("value", in(&P::cell, &LimitCell::value));
+    all.kept("expanded_uncertainty", in(&P::cell, &LimitCell::expanded));
+    all.kept("margin_pct", in(&P::cell, &LimitCell::margin_pct));
+    all.kept("note", nullIfEmpty(in(&P::cell, &LimitCell::note)));
+    all.kept("verdict", in(&P::cell, &LimitCell::verdict));
+    return all;
+}
+
+ResultRecord<LimitLine> describeLine() {
+    using L = LimitLine;
+    ResultRecord<L> all;
+    all.kept("item", &L::item);
+    all.shown(as(As::Heading, "Requirement", "title"), &L::title);
+    all.kept("unit", &L::unit);
+    all.kept("set", &L::set);
+    all.shown({"Limit", "limit", As::Limit, "@unit", "compare"}, &L::limit);
+    all.kept("compare", [](const L& line) { return line.strict ? "<" : "<="; });
+    all.shown(text("Source", "source"), &L::source);
+    all.shown(text("Confidence", "confidence"), nullIfEmpty(&L::confidence));
+    all.kept("margin_pct", &L::margin_pct);
+    all.kept("verdict", &L::verdict);
+    return all;
+}
+
+}  // namespace
+
 json toJson(const LimitMatrix& matrix) {
     json lines = json::array();
     for (const auto& line : matrix.lines) {
-        json cells = json::array();
+        auto row = builtOnce<describeLine>().write(line);
+        row["worst_load"] = std::isfinite(line.margin_pct) ? json(matrix.loads[line.worst]) : json();
+        row["cells"] = json::array();
         for (std::size_t i = 0; i < line.cells.size(); ++i) {
-            const auto& cell = line.cells[i];
-            cells.push_back(cell ? json{{"load", matrix.loads[i]},
-                                        {"value", numberOrNull(cell->value)},
-                                        {"expanded_uncertainty", numberOrNull(cell->expanded)},
-                                        {"margin_pct", numberOrNull(cell->margin_pct)},
-                                        {"note", cell->note.empty() ? json() : json(cell->note)},
-                                        {"verdict", nameOf(cell->verdict)}}
-                                 : json());
+            row["cells"].push_back(line.cells[i] ? builtOnce<describeCell>().write({matrix.loads[i], *line.cells[i]})
+                                                 : json());
         }
-        const bool known = std::isfinite(line.margin_pct);
-        lines.push_back({{"item", line.item},
-                         {"title", line.title},
-                         {"unit", line.unit},
-                         {"set", line.set},
-                         {"limit", numberOrNull(line.limit)},
-                         {"compare", line.strict ? "<" : "<="},
-                         {"source", line.source},
-                         {"confidence", line.confidence.empty() ? json() : json(line.confidence)},
-                         {"margin_pct", numberOrNull(line.margin_pct)},
-                         {"worst_load", known ? json(matrix.loads[line.worst]) : json()},
-                         {"verdict", nameOf(line.verdict)},
-                         {"cells", std::move(cells)}});
+        lines.push_back(std::move(row));
     }
     return {{"loads", matrix.loads}, {"lines", std::move(lines)}};
 }
+
+std::vector<ResultColumn> limitColumns() { return builtOnce<describeLine>().columns(); }
 
 }  // namespace tacto

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/analysis/load_safety/LoadSafety.h"
+#include "core/results/ResultTable.h"
 
 namespace tacto {
 
@@ -48,5 +49,7 @@ struct LimitMatrix {
 /// "margin_pct","worst_load","verdict",
 /// "cells": [null or {"load","value","expanded_uncertainty","margin_pct","note","verdict"}]}]}
 [[nodiscard]] nlohmann::json toJson(const LimitMatrix& matrix);
+/// What a table shows of its lines.
+[[nodiscard]] std::vector<ResultColumn> limitColumns();
 
 }  // namespace tacto

@@ -1,11 +1,12 @@
 #include "core/analysis/load_safety/LoadSafetyJson.h"
 
 #include <cmath>
-#include <set>
-#include <string_view>
 
+#include "core/analysis/load_safety/LimitMatrix.h"
+#include "core/analysis/load_safety/OutputDescription.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/base/RecordFields.h"
+#include "core/results/ResultRecord.h"
 
 namespace tacto {
 
@@ -136,79 +137,159 @@ RecordFields<AbsoluteError> buildAbsoluteFields() {
     return scripted(std::move(all));
 }
 
-json toJson(const LoadLine& line) {
-    json out = {{"name", line.name},
-                {"serial", line.serial.empty() ? json() : json(line.serial)},
-                {"nominal_ohm", numberOrNull(line.nominal_ohm)},
-                {"measured_ohm", numberOrNull(line.measured_ohm.value)},
-                {"measured_u_ohm", numberOrNull(line.measured_ohm.u)},
-                {"measured_expanded_ohm", numberOrNull(line.measured_ohm.expanded)},
-                {"imbalance", numberOrNull(line.strongest.imbalance.value)},
-                {"current_density_ma_cm2", numberOrNull(line.currentDensity_ma_cm2)},
-                {"power_density_w_cm2", numberOrNull(line.powerDensity_w_cm2)},
-                {"trains", line.strongest.trains},
-                {"commands_delivered", line.steps},
-                {"commands_refused", line.refused},
-                {"verdict", nameOf(line.verdict)}};
-    const std::set<std::string_view> withU{"peak_v", "peak_ma", "rms_5s_ma"};
-    const std::set<std::string_view> shown{"rms_train_ma", "rms_1s_ma", "charge_uc", "net_charge_uc", "energy_mj"};
-    for (const auto& [key, reading] : kMembers) {
-        if (!withU.contains(key) && !shown.contains(key)) continue;
-        const auto& most = line.strongest.*reading;
-        const std::string name = key;
-        out[name] = numberOrNull(most.value);
-        if (withU.contains(key)) out[name + "_u"] = numberOrNull(most.u);
-        out[name + "_expanded"] = numberOrNull(most.expanded);
+using namespace describe;
+
+/// What is shown of the strongest step on a load.
+struct ShownReading {
+    const char* title;
+    const char* key;
+    const char* unit;
+    Reading LoadReading::*reading;
+    bool keepsStandard = false;  ///< u beside U
+};
+constexpr ShownReading kShownReadings[] = {
+    {"Peak voltage", "peak_v", "V", &LoadReading::peak_v, true},
+    {"Peak current", "peak_ma", "mA", &LoadReading::peak_ma, true},
+    {"RMS current in the train", "rms_train_ma", "mA", &LoadReading::rms_train_ma},
+    {"RMS current over 1 s", "rms_1s_ma", "mA", &LoadReading::rms_1s_ma},
+    {"RMS current over 5 s", "rms_5s_ma", "mA", &LoadReading::rms_5s_ma, true},
+    {"Charge of a phase", "charge_uc", "uC", &LoadReading::charge_uc},
+    {"Net charge of a pulse", "net_charge_uc", "uC", &LoadReading::net_charge_uc},
+    {"Energy of a pulse", "energy_mj", "mJ", &LoadReading::energy_mj}};
+
+ResultRecord<LoadLine> describeLoad() {
+    using L = LoadLine;
+    ResultRecord<L> all;
+    all.shown(as(As::Load, "Load", "name"), &L::name);
+    all.kept("serial", nullIfEmpty(&L::serial));
+    all.shown(number("Nominal |Z|", "nominal_ohm", "ohm"), &L::nominal_ohm);
+    all.shown(number("|Z| at the end of the leading phase", "measured_ohm", "ohm", "measured_expanded_ohm"),
+              in(&L::measured_ohm, &Reading::value));
+    all.kept("measured_u_ohm", in(&L::measured_ohm, &Reading::u));
+    all.kept("measured_expanded_ohm", in(&L::measured_ohm, &Reading::expanded));
+    for (const auto& each : kShownReadings) {
+        const std::string key = each.key, expanded = key + "_expanded";
+        const auto strongest = in(&L::strongest, each.reading);
+        all.shown({each.title, key, As::Number, each.unit, expanded}, in(strongest, &Reading::value));
+        if (each.keepsStandard) all.kept(key + "_u", in(strongest, &Reading::u));
+        all.kept(expanded, in(strongest, &Reading::expanded));
     }
-    return out;
+    all.kept("imbalance", in(in(&L::strongest, &LoadReading::imbalance), &Reading::value));
+    all.shown(number("Current density", "current_density_ma_cm2", "mA/cm2"), &L::currentDensity_ma_cm2);
+    all.shown(number("Power density over 1 s", "power_density_w_cm2", "W/cm2"), &L::powerDensity_w_cm2);
+    all.shown(number("Trains captured", "trains"), in(&L::strongest, &LoadReading::trains));
+    all.shown(verdict(), &L::verdict);
+    all.kept("commands_delivered", &L::steps);
+    all.kept("commands_refused", &L::refused);
+    return all;
+}
+
+ResultRecord<SafetyRow> describeRow() {
+    using R = SafetyRow;
+    ResultRecord<R> all;
+    all.shown(verdict(), &R::verdict);
+    all.shown(as(As::Load, "Load", "load"), &R::load);
+    all.kept("item", &R::item);
+    all.shown(text("What", "title"), &R::title);
+    all.shown(number("Value", "value", "@unit", "expanded_uncertainty"), &R::value);
+    all.kept("expanded_uncertainty", &R::expanded);
+    all.shown(number("Limit", "limit", "@unit"), &R::limit);
+    all.kept("unit", &R::unit);
+    all.shown(as(As::LimitSet, "Set by", "set"), &R::set);
+    all.kept("source", &R::source);
+    all.shown(text("Reason", "reason"), &R::reason);
+    all.kept("basis", &R::basis);
+    all.kept("note", &R::note);
+    return all;
+}
+
+ResultRecord<DisclosedOutput> describeDisclosed() {
+    using D = DisclosedOutput;
+    ResultRecord<D> all;
+    all.shown(as(As::Heading, "Output", "output"), &D::output);
+    all.shown(as(As::Load, "Load", "load"), &D::load);
+    all.shown(number("Value", "value", "@unit", "expanded_uncertainty"), &D::value);
+    all.kept("expanded_uncertainty", &D::expanded);
+    all.shown(tolerance("±", "plus_minus_pct", "%"), &D::expanded_pct);
+    all.kept("unit", &D::unit);
+    all.shown(text("Reason", "reason"), &D::reason);
+    return all;
+}
+
+ResultRecord<LoadWorstCase> describeWorstCase() {
+    using W = LoadWorstCase;
+    ResultRecord<W> all;
+    all.kept("load_low_ohm", &W::low_ohm);
+    all.kept("load_high_ohm", &W::high_ohm);
+    all.kept("amplitude_factor", in(&W::amplitudeFactor, &Reading::value));
+    all.kept("amplitude_factor_expanded", in(&W::amplitudeFactor, &Reading::expanded));
+    all.kept("rows", &W::rows, describeRow());
+    all.kept("verdict", &W::verdict);
+    return all;
+}
+
+/// The steps of the protocol add the matrix of limits and what the output is.
+ResultRecord<LoadSafety> describeLoadSafety() {
+    using S = LoadSafety;
+    const auto load = describeLoad();
+    const auto row = describeRow();
+    ResultRecord<S> all;
+    all.table({.title = "Limits against loads, closest to a limit first",
+               .at = "matrix",
+               .shape = Shape::Limits,
+               .shown = Else::InTheWindow});
+    all.table(
+        rows("Loads", "loads",
+             {load.column("verdict", "Verdict"), load.column("name", "Load"), load.column("measured_ohm", "Measured"),
+              load.column("peak_v", "Peak voltage"), load.column("peak_ma", "Peak current"),
+              load.column("rms_5s_ma", "RMS over 5 s"), load.column("net_charge_uc", "Net charge"),
+              number("Given", "commands_delivered"), number("Refused", "commands_refused")},
+             Else::InTheReport));
+    all.kept("loads", &S::loads, load);
+    all.table(noted(across("Each load, and what was measured into it or computed from that, the strongest command that "
+                           "the limits allow",
+                           "loads", load.columns(), Else::OnlyInTheReport),
+                    "What is over 1 s and 5 s is from the trains captured, repeated: no record is that long."));
+    all.kept("rows", &S::rows, row);
+    all.table(failing(rows("Rows that did not pass", "rows", row.columns(), Else::InTheReport)));
+    all.kept("worst_case", &S::worstCase, describeWorstCase());
+    all.table(failing(rows("Over all permitted loads, computed", "worst_case.rows", row.columns(), Else::InTheReport)));
+    all.table(rows("Output, as the FDA guidance asks", "described", outputColumns(), Else::InTheTerminal));
+    all.rows("Outputs to disclose", "disclosed", &S::disclosed, describeDisclosed());
+    all.table(
+        whose(rows("Asked for and refused", "rows",
+                   {verdict(), row.column("load", "Load"), row.column("title", "Asked"), text("Would be", "source")},
+                   Else::OnlyInTheReport),
+              "set", "gate"));
+    all.table(whose(rows("What must end output by itself", "rows",
+                         {verdict(), as(As::Heading, "What", "title"), number("Ended after", "value", "s"),
+                          text("Remark", "note"), row.column("reason", "Reason")},
+                         Else::OnlyInTheReport),
+                    "set", "interlock"));
+    all.table(noted(rows("Where each limit comes from, and our confidence in it", "matrix.lines", limitColumns(),
+                         Else::OnlyInTheReport),
+                    "Where no confidence stands the limit is our own."));
+    all.judged();
+    return all;
 }
 
 }  // namespace
 
 json toJson(const LoadReading& reading) { return readingFields().write(reading); }
 
-json toJson(const SafetyRow& row) {
-    return {{"load", row.load},
-            {"item", row.item},
-            {"title", row.title},
-            {"value", numberOrNull(row.value)},
-            {"expanded_uncertainty", numberOrNull(row.expanded)},
-            {"limit", numberOrNull(row.limit)},
-            {"unit", row.unit},
-            {"set", row.set},
-            {"source", row.source},
-            {"verdict", nameOf(row.verdict)},
-            {"reason", row.reason},
-            {"basis", nameOf(row.basis)},
-            {"note", row.note}};
-}
+json toJson(const SafetyRow& row) { return builtOnce<describeRow>().write(row); }
 
-json toJson(const LoadSafety& found) {
-    json loads = json::array(), rows = json::array(), disclosed = json::array(), worst = json::array();
-    for (const auto& line : found.loads) loads.push_back(toJson(line));
-    for (const auto& row : found.rows) rows.push_back(toJson(row));
-    for (const auto& row : found.worstCase.rows) worst.push_back(toJson(row));
-    for (const auto& row : found.disclosed) {
-        disclosed.push_back({{"output", row.output},
-                             {"load", row.load},
-                             {"value", numberOrNull(row.value)},
-                             {"expanded_uncertainty", numberOrNull(row.expanded)},
-                             {"plus_minus_pct", numberOrNull(row.expanded_pct)},
-                             {"unit", row.unit},
-                             {"reason", row.reason}});
-    }
-    return {{"loads", loads},
-            {"worst_case",
-             {{"load_low_ohm", found.worstCase.low_ohm},
-              {"load_high_ohm", found.worstCase.high_ohm},
-              {"amplitude_factor", numberOrNull(found.worstCase.amplitudeFactor.value)},
-              {"amplitude_factor_expanded", numberOrNull(found.worstCase.amplitudeFactor.expanded)},
-              {"rows", worst},
-              {"verdict", nameOf(found.worstCase.verdict)}}},
-            {"rows", rows},
-            {"disclosed", disclosed},
-            {"verdict", nameOf(found.verdict)},
-            {"reasons", found.reasons}};
+json toJson(const LoadSafety& found) { return builtOnce<describeLoadSafety>().write(found); }
+
+ResultTraits loadSafetyKind() {
+    return {.kind = ResultKind::LoadSafety,
+            .name = "load-safety",
+            .decisionRule =
+                "Each value passes when value + U keeps its limit, fails when value − U does not, and is "
+                "indeterminate between. Values that were not measured are not evaluated and prevent a pass.",
+            .guardBanded = true,
+            .procedure = "safety check",
+            .tables = withBasis(builtOnce<describeLoadSafety>().tables())};
 }
 
 Result<LoadStep> loadStepFrom(const json& from) {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/analysis/load_safety/LoadSafety.h"
+#include "core/results/ResultKind.h"
 
 namespace tacto {
 
@@ -28,5 +29,8 @@ namespace tacto {
 [[nodiscard]] Result<SafetyRow> absoluteRowFrom(const nlohmann::json& json);
 /// {"name", "evaluated", "tripped", "after_s", "stop_s", "allowed_s", "reason"}
 [[nodiscard]] Result<TripTrial> tripTrialFrom(const nlohmann::json& json);
+
+/// How a check is judged and shown.
+[[nodiscard]] ResultTraits loadSafetyKind();
 
 }  // namespace tacto

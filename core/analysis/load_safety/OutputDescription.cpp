@@ -8,6 +8,7 @@
 #include "core/base/QuantityText.h"
 #include "core/base/Words.h"
 #include "core/encoding/PulseTrain.h"
+#include "core/results/ResultRecord.h"
 
 namespace tacto {
 
@@ -88,14 +89,23 @@ std::vector<DescribedOutput> describeOutput(const LoadSafetyInput& input) {
     return out;
 }
 
-nlohmann::json toJson(const std::vector<DescribedOutput>& outputs) {
-    nlohmann::json rows = nlohmann::json::array();
-    for (const auto& row : outputs) {
-        rows.push_back({{"output", row.output},
-                        {"commanded", row.commanded},
-                        {"measured", row.measured.empty() ? nlohmann::json() : nlohmann::json(row.measured)}});
-    }
-    return rows;
+namespace {
+
+using namespace describe;
+
+ResultRecord<DescribedOutput> describeDescribed() {
+    using D = DescribedOutput;
+    ResultRecord<D> all;
+    all.shown(as(As::Heading, "Output", "output"), &D::output);
+    all.shown(text("Commanded", "commanded"), &D::commanded);
+    all.shown(text("Measured", "measured"), nullIfEmpty(&D::measured));
+    return all;
 }
+
+}  // namespace
+
+nlohmann::json toJson(const DescribedOutput& output) { return builtOnce<describeDescribed>().write(output); }
+
+std::vector<ResultColumn> outputColumns() { return builtOnce<describeDescribed>().columns(); }
 
 }  // namespace tacto

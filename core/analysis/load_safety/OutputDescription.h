@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/analysis/load_safety/LoadSafety.h"
+#include "core/results/ResultTable.h"
 
 namespace tacto {
 
@@ -20,7 +21,8 @@ struct DescribedOutput {
 
 [[nodiscard]] std::vector<DescribedOutput> describeOutput(const LoadSafetyInput& input);
 
-/// [{"output","commanded","measured"}]; measured null where there is nothing to measure.
-[[nodiscard]] nlohmann::json toJson(const std::vector<DescribedOutput>& outputs);
+/// {"output","commanded","measured"}; measured null where there is nothing to measure.
+[[nodiscard]] nlohmann::json toJson(const DescribedOutput& output);
+[[nodiscard]] std::vector<ResultColumn> outputColumns();
 
 }  // namespace tacto

@@ -6,6 +6,7 @@
 
 #include "core/analysis/sensor_calibration/SensorCalibration.h"
 #include "core/analysis/sensor_calibration/SensorReading.h"
+#include "core/results/ResultKind.h"
 
 namespace tacto {
 
@@ -33,5 +34,8 @@ namespace tacto {
 [[nodiscard]] Result<SensorRest> sensorRestFrom(const nlohmann::json& json);
 [[nodiscard]] Result<SlideReading> slideReadingFrom(const nlohmann::json& json);
 [[nodiscard]] Result<WeightReading> weightReadingFrom(const nlohmann::json& json);
+
+/// How a fingertip's calibration is judged and shown.
+[[nodiscard]] ResultTraits sensorCalibrationKind();
 
 }  // namespace tacto

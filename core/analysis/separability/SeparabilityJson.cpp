@@ -8,6 +8,7 @@
 #include "core/base/RecordFields.h"
 #include "core/base/Statistics.h"
 #include "core/base/Text.h"
+#include "core/results/ResultRecord.h"
 
 namespace tacto {
 
@@ -44,44 +45,81 @@ Result<SeparabilityTrial> separabilityTrialFrom(const json& row) {
 
 json toJson(const SeparabilityTrial& trial) { return trialFields().write(trial); }
 
+namespace {
+
+using namespace describe;
+
+ResultRecord<ConditionSummary> describeCondition() {
+    using C = ConditionSummary;
+    ResultRecord<C> all;
+    all.shown(text("Condition", "name"), &C::name);
+    all.shown(number("n", "n"), &C::n);
+    all.shown(number("Amplitude, mean and s.d.", "amplitude_v", "V"), &C::amplitude);
+    all.shown(number("Interval, mean and s.d.", "interval_s", "s"), &C::interval_s);
+    all.shown(as(As::Share, "Variation of amplitude", "amplitude_variation", "amplitude_variation_high"),
+              &C::amplitudeVariation);
+    all.shown(as(As::Share, "Variation of interval", "interval_variation", "interval_variation_high"),
+              &C::intervalVariation);
+    all.keptBounds("amplitude_variation", &C::amplitudeVariationBounds);
+    all.keptBounds("interval_variation", &C::intervalVariationBounds);
+    all.shown(number("Not measured", "not_measured"), &C::notMeasured);
+    return all;
+}
+
+ResultRecord<PairSummary> describePair() {
+    using P = PairSummary;
+    ResultRecord<P> all;
+    all.shown(text("Condition", "a"), &P::a);
+    all.shown(text("Against", "b"), &P::b);
+    all.shown(as(As::AtLeast, "Amplitude (JND)", "amplitude_jnd", "amplitude_jnd_low"), &P::amplitudeJnd);
+    all.shown(as(As::AtLeast, "Interval (JND)", "interval_jnd", "interval_jnd_low"), &P::intervalJnd);
+    all.keptBounds("amplitude_jnd", &P::amplitudeJndBounds);
+    all.keptBounds("interval_jnd", &P::intervalJndBounds);
+    all.shown(number("Mahalanobis distance", "mahalanobis"), &P::mahalanobis);
+    return all;
+}
+
+ResultRecord<Separability> describeSeparability() {
+    using S = Separability;
+    ResultRecord<S> all;
+    all.shown(as(As::Share, "Recognised", "accuracy"), &S::accuracy);
+    all.shown(number("Folds of the cross-validation", "folds"), &S::folds);
+    all.shown(number("Instrument's floor, amplitude", "floor.amplitude_v", "V"), &S::amplitudeFloor);
+    all.shown(number("Instrument's floor, interval", "floor.interval_s", "s"), &S::intervalFloor_s);
+    all.facts("Recognition");
+    // The protocol adds them.
+    all.table(rows(
+        "Reference surfaces", "references",
+        {text("Material", "material"), number("Vibration h", "h"), number("Taxels v", "v"), number("Frames", "frames")},
+        Else::InTheTerminal));
+    all.rows("Conditions", "conditions", &S::conditions, describeCondition()).note =
+        "At most and at least: the one-sided 95 % confidence bound, by which each is judged.";
+    all.rows("Pairs", "pairs", &S::pairs, describePair());
+    all.table(confusion());
+    all.kept("confusion", &S::confusion);
+    all.judged();
+    return all;
+}
+
+const ResultRecord<Separability>& separabilityRecord() { return builtOnce<describeSeparability>(); }
+
+}  // namespace
+
 json toJson(const Separability& found) {
-    json conditions = json::array();
-    for (const auto& c : found.conditions) {
-        conditions.push_back({{"name", c.name},
-                              {"n", c.n},
-                              {"not_measured", c.notMeasured},
-                              {"amplitude_v", toJson(c.amplitude)},
-                              {"interval_s", toJson(c.interval_s)},
-                              {"amplitude_variation", numberOrNull(c.amplitudeVariation)},
-                              {"interval_variation", numberOrNull(c.intervalVariation)},
-                              {"amplitude_variation_low", numberOrNull(c.amplitudeVariationBounds.low)},
-                              {"amplitude_variation_high", numberOrNull(c.amplitudeVariationBounds.high)},
-                              {"interval_variation_low", numberOrNull(c.intervalVariationBounds.low)},
-                              {"interval_variation_high", numberOrNull(c.intervalVariationBounds.high)}});
-    }
-    json pairs = json::array();
-    for (const auto& p : found.pairs) {
-        pairs.push_back({{"a", p.a},
-                         {"b", p.b},
-                         {"mahalanobis", numberOrNull(p.mahalanobis)},
-                         {"amplitude_jnd", numberOrNull(p.amplitudeJnd)},
-                         {"interval_jnd", numberOrNull(p.intervalJnd)},
-                         {"amplitude_jnd_low", numberOrNull(p.amplitudeJndBounds.low)},
-                         {"amplitude_jnd_high", numberOrNull(p.amplitudeJndBounds.high)},
-                         {"interval_jnd_low", numberOrNull(p.intervalJndBounds.low)},
-                         {"interval_jnd_high", numberOrNull(p.intervalJndBounds.high)}});
-    }
-    return {
-        {"kind", "separability"},
-        {"conditions", conditions},
-        {"pairs", pairs},
-        {"confusion", found.confusion},
-        {"accuracy", toJson(found.accuracy)},
-        {"floor",
-         {{"amplitude_v", numberOrNull(found.amplitudeFloor)}, {"interval_s", numberOrNull(found.intervalFloor_s)}}},
-        {"folds", found.folds},
-        {"verdict", nameOf(found.verdict)},
-        {"reasons", found.reasons}};
+    auto out = separabilityRecord().write(found);
+    out["kind"] = separabilityKind().name;
+    return out;
+}
+
+ResultTraits separabilityKind() {
+    return {.kind = ResultKind::Separability,
+            .name = "separability",
+            .decisionRule =
+                "Separable when each pair of conditions is at least 5 just-noticeable differences apart in one "
+                "dimension and no coefficient of variation exceeds 5 %, each judged by its one-sided 95 % confidence "
+                "bound, and the accuracy's 95 % interval begins at 95 % or above. The 5 differences and the 5 % are "
+                "choices of this program.",
+            .tables = withBasis(separabilityRecord().tables())};
 }
 
 Result<std::vector<SeparabilityTrial>> readSeparabilityTrials(const std::filesystem::path& path) {

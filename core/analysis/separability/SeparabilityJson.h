@@ -9,6 +9,7 @@
 
 #include "core/analysis/separability/Separability.h"
 #include "core/base/Result.h"
+#include "core/results/ResultKind.h"
 
 namespace tacto {
 
@@ -21,6 +22,8 @@ namespace tacto {
 
 /// {"conditions","pairs","confusion","accuracy","verdict","reasons", ...}
 [[nodiscard]] nlohmann::json toJson(const Separability& found);
+/// How they are judged and shown.
+[[nodiscard]] ResultTraits separabilityKind();
 
 /// Trials from CSV columns `condition`, `amplitude`, `interval` (or `amplitude_v`, `interval_s`, as the csv export
 /// writes them), in any order among others; names are trimmed. An empty or nan value is a trial that was not measured.

@@ -2,47 +2,92 @@
 
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/base/RecordFields.h"
+#include "core/results/ResultRecord.h"
 
 namespace tacto {
 
 namespace {
 
-nlohmann::json toJson(const LatencyGroup& group) {
-    return {{"name", group.name},
-            {"n", group.latency_s.n},
-            {"not_measured", group.steps - group.latency_s.n},
-            {"latency_s", toJson(group.latency_s)},
-            {"designed_latency_s", toJson(group.designed_s)},
-            {"difference_s", toJson(group.difference_s)},
-            {"off_s", numberOrNull(std::max(std::abs(group.difference_s.min), std::abs(group.difference_s.max)))},
-            {"trains", toJson(group.trains)},
-            {"designed_trains", toJson(group.designedTrains)},
-            {"verdict", nameOf(group.verdict)}};
+using namespace describe;
+
+ResultRecord<LatencyGroup> describeLatencyGroup() {
+    using G = LatencyGroup;
+    ResultRecord<G> all;
+    all.shown(verdict(), &G::verdict);
+    all.shown(text("Step", "name"), &G::name);
+    all.shown(number("n", "n"), [](const G& group) { return group.latency_s.n; });
+    all.shown(number("Latency, mean and s.d.", "latency_s", "s"), &G::latency_s);
+    all.shown(number("Largest", "latency_s.max", "s"));
+    all.shown(number("Designed, mean and s.d.", "designed_latency_s", "s"), &G::designed_s);
+    all.kept("difference_s", &G::difference_s);
+    all.shown(spread("Off, most", "off_s", "s"), [](const G& group) {
+        return std::max(std::abs(group.difference_s.min), std::abs(group.difference_s.max));
+    });
+    all.kept("trains", &G::trains);
+    all.shown(number("Trains", "trains.max"));
+    all.kept("designed_trains", &G::designedTrains);
+    all.shown(number("Designed", "designed_trains.max"));
+    all.shown(number("Not measured", "not_measured"), [](const G& group) { return group.steps - group.latency_s.n; });
+    return all;
 }
 
-nlohmann::json toJson(const ChangeGroup& group) {
-    return {{"name", group.name},
-            {"n", group.changes},
-            {"trains_captured", group.captured},
-            {"amplitude_jnd", numberOrNull(group.amplitude.jnd)},
-            {"amplitude_u_jnd", numberOrNull(group.amplitude.uncertainty)},
-            {"interval_jnd", numberOrNull(group.interval.jnd)},
-            {"interval_u_jnd", numberOrNull(group.interval.uncertainty)},
-            {"completes", group.completes},
-            {"complete_s", toJson(statisticsOf(group.complete_s))},
-            {"fastest_complete_s", toJson(statisticsOf(group.fastest_s))},
-            {"trains", toJson(statisticsOf(group.trains))},
-            {"fewest_trains", toJson(statisticsOf(group.fewest))},
-            {"late", group.late},
-            {"out_of_reach", group.outOfReach},
-            {"verdict", nameOf(group.verdict)}};
+ResultRecord<ChangeGroup> describeChangeGroup() {
+    using G = ChangeGroup;
+    const auto statistics = [](std::vector<double> G::*member) {
+        return [member](const G& group) { return statisticsOf(group.*member); };
+    };
+    ResultRecord<G> all;
+    all.shown(verdict(), &G::verdict);
+    all.shown(text("Change", "name"), &G::name);
+    all.shown(number("n", "n"), &G::changes);
+    all.kept("trains_captured", &G::captured);
+    all.shown(jnd("Amplitude (JND)", "amplitude_jnd"), [](const G& group) { return group.amplitude.jnd; });
+    all.kept("amplitude_u_jnd", [](const G& group) { return group.amplitude.uncertainty; });
+    all.shown(jnd("Interval (JND)", "interval_jnd"), [](const G& group) { return group.interval.jnd; });
+    all.kept("interval_u_jnd", [](const G& group) { return group.interval.uncertainty; });
+    all.kept("completes", &G::completes);
+    all.kept("complete_s", statistics(&G::complete_s));
+    all.shown(number("Complete, median", "complete_s.median", "s"));
+    all.shown(number("Largest", "complete_s.max", "s"));
+    all.kept("fastest_complete_s", statistics(&G::fastest_s));
+    all.shown(number("Fastest possible", "fastest_complete_s.min", "s"));
+    all.kept("trains", statistics(&G::trains));
+    all.shown(number("Trains", "trains.max"));
+    all.kept("fewest_trains", statistics(&G::fewest));
+    all.shown(number("Fewest possible", "fewest_trains.max"));
+    all.shown(number("Late", "late"), &G::late);
+    all.kept("out_of_reach", &G::outOfReach);
+    return all;
 }
 
-template <class Group>
-nlohmann::json rowsOf(const std::vector<Group>& groups) {
-    nlohmann::json rows = nlohmann::json::array();
-    for (const auto& group : groups) rows.push_back(toJson(group));
-    return rows;
+ResultRecord<LatencyJudgement> describeLatency() {
+    using J = LatencyJudgement;
+    ResultRecord<J> all;
+    all.shown(number("Latency's tolerance, ±", "tolerance_s", "s"), &J::tolerance_s);
+    all.rows("Latency: from the step to the first train that carries it, against its design", "groups", &J::groups,
+             describeLatencyGroup())
+        .note =
+        "Design: the pending train is pulled forward to max(now, last onset + new interval), and carries the newest "
+        "amplitude. Steps fall on moments spread over the interval. Off: the largest difference between a step and its "
+        "design. Trains: how many a change takes until it is complete.";
+    all.judged();
+    return all;
+}
+
+ResultRecord<ChangeJudgement> describeChanges() {
+    using J = ChangeJudgement;
+    ResultRecord<J> all;
+    all.shown(jnd("Wanted for a train, at most (JND)", "wanted_jnd"), in(&J::limits, &ChangeLimits::perTrain_jnd));
+    all.shown(number("Complete within", "complete_limit_s", "s"), in(&J::limits, &ChangeLimits::complete_s));
+    all.kept("seconds_alone", in(&J::limits, &ChangeLimits::secondsAlone));
+    all.rows("Changes as captured: largest step per train, and time until complete", "groups", &J::groups,
+             describeChangeGroup())
+        .note =
+        "Complete: from the change to the train that reaches the new state. Fastest and fewest: the least that steps "
+        "of the size wanted allow.";
+    all.kept("notes", &J::notes);
+    all.judged();
+    return all;
 }
 
 constexpr Word<ChangeKind> kChangeKinds[] = {{"step", ChangeKind::Step}, {"movement", ChangeKind::Movement}};
@@ -134,21 +179,34 @@ Result<CapturedChange> capturedChangeFrom(const nlohmann::json& row) {
 
 nlohmann::json toJson(const CapturedChange& change) { return fieldsOf(change.kind).write(change); }
 
-nlohmann::json toJson(const LatencyJudgement& judgement) {
-    return {{"tolerance_s", judgement.tolerance_s},
-            {"groups", rowsOf(judgement.groups)},
-            {"verdict", nameOf(judgement.verdict)},
-            {"reasons", judgement.reasons}};
-}
+nlohmann::json toJson(const LatencyJudgement& judgement) { return builtOnce<describeLatency>().write(judgement); }
 
-nlohmann::json toJson(const ChangeJudgement& judgement) {
-    return {{"wanted_jnd", judgement.limits.perTrain_jnd},
-            {"complete_limit_s", judgement.limits.complete_s},
-            {"seconds_alone", judgement.limits.secondsAlone},
-            {"groups", rowsOf(judgement.groups)},
-            {"notes", judgement.notes},
-            {"verdict", nameOf(judgement.verdict)},
-            {"reasons", judgement.reasons}};
+nlohmann::json toJson(const ChangeJudgement& judgement) { return builtOnce<describeChanges>().write(judgement); }
+
+ResultTraits transitionsKind() {
+    const auto& changes = builtOnce<describeChanges>();
+    const auto& latency = builtOnce<describeLatency>();
+    auto limits = under("changes", changes.columns());
+    std::ranges::copy(under("latency", latency.columns()), std::back_inserter(limits));
+    // What the encoding makes of a change is the protocol's.
+    limits.push_back(jnd("Largest change, gradual (JND)", "transitions.gradual.largest_jnd"));
+    limits.push_back(jnd("Largest change, abrupt (JND)", "transitions.abrupt.largest_jnd"));
+    return {
+        .kind = ResultKind::Transitions,
+        .name = "transitions",
+        .decisionRule =
+            "No step from one captured train to the next may exceed the just-noticeable differences wanted, "
+            "uncertainty included; a change must be complete in the time wanted or, where steps of that size "
+            "cannot, in the fewest trains that they take (choice); no latency may differ from its design by more "
+            "than the tolerance.",
+        .tables = withBasis({facts("Changes", "", std::move(limits), Else::InTheTerminal),
+                             under("changes", changes.tables().front()), under("latency", latency.tables().front()),
+                             rows("Computed from the encoding: largest step from train to train", "transitions.largest",
+                                  {text("Movement", "movement"), text("Of", "of"), number("From", "from", "@unit"),
+                                   number("To", "to", "@unit"), jnd("Step (JND)", "jnd"), number("R", "roughness"),
+                                   number("P", "pressure"), as(As::YesNo, "As wanted", "wanted")},
+                                  Else::InTheTerminal),
+                             sentences("Notes", "notes", Else::InBoth)})};
 }
 
 }  // namespace tacto

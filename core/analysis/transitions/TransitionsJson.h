@@ -6,6 +6,7 @@
 
 #include "core/analysis/transitions/CapturedChange.h"
 #include "core/base/Result.h"
+#include "core/results/ResultKind.h"
 
 namespace tacto {
 
@@ -17,5 +18,7 @@ namespace tacto {
 
 [[nodiscard]] nlohmann::json toJson(const LatencyJudgement& judgement);
 [[nodiscard]] nlohmann::json toJson(const ChangeJudgement& judgement);
+/// How a protocol's results are judged and shown that has both, as `changes` and `latency`.
+[[nodiscard]] ResultTraits transitionsKind();
 
 }  // namespace tacto

@@ -2,6 +2,7 @@
 
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/base/Words.h"
+#include "core/results/ResultRecord.h"
 
 namespace tacto {
 
@@ -41,33 +42,6 @@ json trialsJson(const TrialsNeeded& trials, const TrialsWanted& wanted, double c
         {"assumptions",
          "Whole blocks of every condition; trials of a participant independent, with the accuracy predicted for "
          "that participant; Wilson's 95 % interval; pooled trials count less by the design effect 1 + (m - 1) rho."}};
-}
-
-json pilotsJson(const std::vector<PilotOutlook>& pilots) {
-    json out = json::array();
-    for (const auto& pilot : pilots) {
-        out.push_back({{"people", pilot.people},
-                       {"trials", pilot.trials},
-                       {"right_from", pilot.rightFrom},
-                       {"all_served", pilot.allServed},
-                       {"all_above_chance", pilot.allAboveChance},
-                       {"prevalence_all", pilot.prevalenceAll},
-                       {"prevalence_but_one", pilot.prevalenceButOne},
-                       {"width", toJson(pilot.width)}});
-    }
-    return out;
-}
-
-json premisesJson(const VariationOptions& options) {
-    json out = json::array();
-    for (const auto& premise : premisesOf(options)) {
-        out.push_back({{"quantity", premise.quantity},
-                       {"value", premise.value},
-                       {"spread", premise.spread.empty() ? json(nullptr) : json(premise.spread)},
-                       {"mark", nameOf(premise.mark)},
-                       {"source", premise.source}});
-    }
-    return out;
 }
 
 json modelJson(const VariationOptions& options) {
@@ -129,96 +103,220 @@ json peopleJson(const std::vector<ParticipantPrediction>& people) {
             {"interval_s", perCondition([](Stimulus s) { return s.interval.count(); })}};
 }
 
+using namespace describe;
+
+/// A prediction, and what it was made with.
+struct Predicted {
+    const Variation& found;
+    const VariationOptions& options;
+};
+
+ResultRecord<PilotOutlook> describePilot() {
+    using P = PilotOutlook;
+    ResultRecord<P> all;
+    all.shown(number("People", "people"), &P::people);
+    all.shown(number("Trials each", "trials"), &P::trials);
+    all.shown(number("Above chance from", "right_from"), &P::rightFrom);
+    all.shown(as(As::Share, "All are served", "all_served"), &P::allServed);
+    all.shown(as(As::Share, "And above chance", "all_above_chance"), &P::allAboveChance);
+    all.shown(as(As::Share, "If all: can do it, at least", "prevalence_all"), &P::prevalenceAll);
+    all.shown(as(As::Share, "If all but one: at least", "prevalence_but_one"), &P::prevalenceButOne);
+    all.shown(as(As::Share, "One person's interval is wide", "width"), &P::width);
+    return all;
+}
+
+ResultRecord<Premise> describePremise() {
+    using P = Premise;
+    ResultRecord<P> all;
+    all.shown(text("Quantity", "quantity"), &P::quantity);
+    all.shown(text("Value", "value"), &P::value);
+    all.shown(text("Spread", "spread"), nullIfEmpty(&P::spread));
+    all.shown(text("Mark", "mark"), &P::mark);
+    all.shown(text("Source", "source"), &P::source);
+    return all;
+}
+
+ResultRecord<PredictedCondition> describeCondition() {
+    using C = PredictedCondition;
+    ResultRecord<C> all;
+    all.shown(text("Condition", "name"), &C::name);
+    all.shown(number("Presented", "presented"), &C::presented);
+    all.shown(number("Refused", "refused"), &C::refused);
+    all.shown(number("Not felt", "not_felt"), &C::notFelt);
+    all.shown(number("Draws attention", "draws_attention"), &C::drawsAttention);
+    all.shown(number("Too strong", "too_strong"), &C::tooStrong);
+    all.kept("not_tolerated", &C::notTolerated);
+    all.shown(number("Counted", "counted"), &C::counted);
+    all.shown(number("Current", "current_ma", "mA"), &C::current_ma);
+    all.shown(number("Voltage", "voltage_v", "V"), &C::voltage_v);
+    all.kept("interval_s", &C::interval_s);
+    return all;
+}
+
+ResultRecord<PredictedPair> describePair() {
+    using P = PredictedPair;
+    ResultRecord<P> all;
+    all.shown(text("Condition", "a"), &P::a);
+    all.shown(text("Against", "b"), &P::b);
+    all.shown(number("Participants", "participants"), &P::participants);
+    all.shown(number("Together (JND)", "jnd"), &P::jnd);
+    all.shown(number("Amplitude (JND)", "amplitude_jnd"), &P::amplitude_jnd);
+    all.shown(number("Interval (JND)", "interval_jnd"), &P::interval_jnd);
+    return all;
+}
+
+ResultRecord<BenchVariation> describeBench() {
+    using Condition = BenchCondition;
+    using Pair = BenchPair;
+    ResultRecord<Condition> condition;
+    condition.shown(text("Condition", "name"), &Condition::name);
+    condition.shown(number("Amplitude", "amplitude_v", "V"), &Condition::amplitude_v);
+    condition.shown(number("Interval", "interval_s", "s"), &Condition::interval_s);
+    ResultRecord<Pair> pair;
+    pair.shown(text("Condition", "a"), &Pair::a);
+    pair.shown(text("Against", "b"), &Pair::b);
+    pair.shown(number("Amplitude (JND)", "amplitude_jnd"), &Pair::amplitude_jnd);
+    pair.shown(number("Interval (JND)", "interval_jnd"), &Pair::interval_jnd);
+    ResultRecord<BenchVariation> all;
+    all.kept("draws", &BenchVariation::draws);
+    all.rows("Benches within their tolerances, predicted, not measured", "conditions", &BenchVariation::conditions,
+             condition, Else::InTheTerminal);
+    all.rows("Benches: pairs in just-noticeable differences, predicted, not measured", "pairs", &BenchVariation::pairs,
+             pair, Else::InTheTerminal);
+    return all;
+}
+
+std::vector<std::string> labelsOf(const Predicted& of) {
+    std::vector<std::string> labels;
+    for (const auto& condition : of.found.conditions) labels.push_back(condition.name);
+    return labels;
+}
+
+/// The steps of the protocol add other ranges, readings and levels, what a pilot needs, and the benches.
+ResultRecord<Predicted> describeVariation() {
+    using P = Predicted;
+    using V = Variation;
+    const auto of = [](auto member) {
+        return [member](const P& all) -> decltype(auto) { return std::invoke(member, all.found); };
+    };
+    const auto median = [](Estimate V::*member) {
+        return [member](const P& all) { return medianOf(all.found.*member); };
+    };
+    ResultRecord<P> all;
+    all.kept("simulated", [](const P&) { return true; });
+    all.kept("measured", [](const P&) { return false; });
+    all.kept("range_v", [](const P& of) {
+        const auto& encoding = of.options.stimulation.encoding;
+        return std::array{encoding.amplitudeMin.value(), encoding.amplitudeMax.value()};
+    });
+    all.kept("served", of(&V::served));
+    all.kept("participants_refused", of(&V::refusedPeople));
+    all.kept("participants_not_feeling", of(&V::unfeltPeople));
+    all.kept("participants_without_range", of(&V::withoutRange));
+    all.kept("asked", of(&V::asked));
+    all.kept("partial", of(&V::partial));
+    all.kept("seed", of(&V::seed));
+    all.kept("labels", labelsOf);
+    all.kept("columns", [](const P& of) {
+        auto columns = labelsOf(of);
+        columns.emplace_back("none");
+        return columns;
+    });
+    all.kept("confusion", of(&V::confusion));
+    all.kept("presented_accuracy", median(&V::presentedAccuracy));
+    all.kept("it_bits", of(&V::pooledInformation));
+    all.kept("it_bias_bits", [](const P& of) { return of.found.pooledInformation - of.found.pooledCorrected; });
+    all.kept("it_corrected_bits", of(&V::pooledCorrected));
+    all.kept("clearly_separable", of(&V::clearlySeparable));
+    all.kept("refused", of(&V::refused));
+    all.kept("not_felt", of(&V::notFelt));
+    all.kept("withheld", [](const P& of) {
+        json reasons = json::array();
+        for (const auto& [reason, count] : of.found.withheld) reasons.push_back({{"reason", reason}, {"count", count}});
+        return reasons;
+    });
+    all.kept("accuracies", of(&V::accuracies));
+    all.kept("attention_ma", of(&V::attention_ma));
+    all.kept("intolerance_ma", of(&V::intolerance_ma));
+    all.kept("trials_needed", [](const P& of) {
+        if (!of.found.trials) return json();
+        return trialsJson(*of.found.trials, of.options.wanted, 1 / static_cast<double>(of.found.conditions.size()));
+    });
+    all.kept("model", [](const P& of) { return modelJson(of.options); });
+    all.kept("people", [](const P& of) { return peopleJson(of.found.people); });
+
+    all.shown(number("Virtual participants", "participants"), of(&V::participants));
+    all.shown(number("Served", "complete"), of(&V::complete));
+    all.shown(as(As::Share, "Clearly separable", "clearly_separable_share"), [](const P& of) {
+        return static_cast<double>(of.found.clearlySeparable) / static_cast<double>(of.found.participants);
+    });
+    all.shown(as(As::Share, "Recognised, median", "accuracy"), median(&V::accuracy));
+    all.shown(as(As::Share, "Recognised, all together", "pooled_accuracy"), of(&V::pooledAccuracy));
+    all.shown(number("Information, median", "information_bits", "bit"), median(&V::information));
+    all.shown(number("Felt from, median", "detection_ma", "mA"), of(&V::detection_ma));
+    all.shown(number("Uncomfortable from, median", "discomfort_ma", "mA"), of(&V::discomfort_ma));
+    all.shown(number("Impedance, median", "impedance_ohm", "ohm"), of(&V::impedance_ohm));
+    all.facts("Participants");
+    all.table(rows(
+        "Who is served, predicted, not measured", "ranges",
+        {text("Amplitudes", "amplitudes"), number("Served", "served"), number("Refused", "participants_refused"),
+         number("Do not feel all", "participants_not_feeling"), number("Without a range", "participants_without_range"),
+         number("Every pair 5 JND apart", "clearly_separable"),
+         as(As::Share, "Right answers of the served", "accuracy")}));
+    all.table(
+        rows("Served by what is too strong, predicted, not measured", "readings",
+             {text("Too strong from", "too_strong_from"), number("Median", "median_ma", "mA"),
+              number("Fixed range serves", "fixed_served"), number("It is refused to", "fixed_refused"),
+              number("Its lowest not felt by", "fixed_not_feeling"), number("Own range serves", "personal_served"),
+              as(As::Share, "Right answers of these", "accuracy")}));
+    all.rows("What few people can show, predicted, not measured", "pilots", of(&V::pilots), describePilot()).note =
+        "“If all” says what share of such people can do it, at least (95 %), when everyone in the pilot is above "
+        "chance "
+        "(p < 0.05, one-sided); “if all but one” when one is not (Bayesian prevalence, Ince et al. 2021, "
+        "doi:10.7554/eLife.62461). So few people say whether people can do it, not how well people do it on average.";
+    all.rows(
+           "Premises", "premises", [](const P& of) { return premisesOf(of.options); }, describePremise(),
+           Else::InTheTerminal)
+        .note =
+        "Source: the value is the source's. Choice: ours, to be replaced with the laboratory's own. Set: for this run. "
+        "Every spread (geometric standard deviation) is a choice.";
+    all.rows("Conditions, predicted, not measured", "conditions", of(&V::conditions), describeCondition(),
+             Else::InTheTerminal)
+        .note =
+        "A value is the median, and in brackets stand 5 and 95 %, of participants or of benches. A condition counts "
+        "for "
+        "a participant only if it is presented, felt and not too strong.";
+    all.table(rows("Conditions of the other amplitudes, predicted, not measured", "other_levels.conditions",
+                   {text("Condition", "name"), number("Presented", "presented"), number("Not felt", "not_felt"),
+                    number("Counted", "counted"), number("Draws attention", "draws_attention"),
+                    number("Too strong", "too_strong"), number("Not tolerated", "not_tolerated")},
+                   Else::InTheTerminal));
+    all.rows("Pairs in just-noticeable differences, predicted, not measured", "separability", of(&V::pairs),
+             describePair());
+    all.table(confusion());
+    all.table(
+        rows("Trials that the pilot needs, predicted, not measured", "trials_needed.aims",
+             {text("Aim", "aim"), number("One participant", "one_participant"), number("Pooled, each", "pooled_each"),
+              number("Pooled, all", "pooled_trials"), number("Design effect", "design_effect"),
+              number("Participants, at least", "participants_at_least")}));
+    all.table(sentences("Assumptions", "trials_needed.assumptions", Else::InTheTerminal));
+    for (const auto& table : builtOnce<describeBench>().tables()) all.table(under("bench", table));
+    return all;
+}
+
 }  // namespace
 
 json toJson(const Variation& found, const VariationOptions& options) {
-    json conditions = json::array(), labels = json::array(), pairs = json::array(), withheld = json::array();
-    for (const auto& c : found.conditions) {
-        labels.push_back(c.name);
-        conditions.push_back({{"name", c.name},
-                              {"presented", c.presented},
-                              {"refused", c.refused},
-                              {"not_felt", c.notFelt},
-                              {"counted", c.counted},
-                              {"draws_attention", c.drawsAttention},
-                              {"too_strong", c.tooStrong},
-                              {"not_tolerated", c.notTolerated},
-                              {"current_ma", toJson(c.current_ma)},
-                              {"voltage_v", toJson(c.voltage_v)},
-                              {"interval_s", toJson(c.interval_s)}});
-    }
-    for (const auto& p : found.pairs) {
-        pairs.push_back({{"a", p.a},
-                         {"b", p.b},
-                         {"participants", p.participants},
-                         {"jnd", toJson(p.jnd)},
-                         {"amplitude_jnd", toJson(p.amplitude_jnd)},
-                         {"interval_jnd", toJson(p.interval_jnd)}});
-    }
-    for (const auto& [reason, count] : found.withheld) withheld.push_back({{"reason", reason}, {"count", count}});
-    json columns = labels;
-    columns.push_back("none");
-    json trials;
-    if (found.trials) {
-        trials = trialsJson(*found.trials, options.wanted, 1 / static_cast<double>(found.conditions.size()));
-    }
-    const auto& encoding = options.stimulation.encoding;
-    return {{"simulated", true},
-            {"measured", false},
-            {"range_v", {encoding.amplitudeMin.value(), encoding.amplitudeMax.value()}},
-            {"served", found.served},
-            {"participants_refused", found.refusedPeople},
-            {"participants_not_feeling", found.unfeltPeople},
-            {"participants_without_range", found.withoutRange},
-            {"asked", found.asked},
-            {"participants", found.participants},
-            {"partial", found.partial},
-            {"seed", found.seed},
-            {"conditions", conditions},
-            {"separability", pairs},
-            {"labels", labels},
-            {"columns", columns},
-            {"confusion", found.confusion},
-            {"complete", found.complete},
-            {"accuracy", medianOf(found.accuracy)},
-            {"presented_accuracy", medianOf(found.presentedAccuracy)},
-            {"pooled_accuracy", numberOrNull(found.pooledAccuracy)},
-            {"information_bits", medianOf(found.information)},
-            {"it_bits", numberOrNull(found.pooledInformation)},
-            {"it_bias_bits", numberOrNull(found.pooledInformation - found.pooledCorrected)},
-            {"it_corrected_bits", numberOrNull(found.pooledCorrected)},
-            {"clearly_separable", found.clearlySeparable},
-            {"clearly_separable_share",
-             static_cast<double>(found.clearlySeparable) / static_cast<double>(found.participants)},
-            {"refused", found.refused},
-            {"not_felt", found.notFelt},
-            {"withheld", withheld},
-            {"accuracies", found.accuracies},
-            {"impedance_ohm", toJson(found.impedance_ohm)},
-            {"detection_ma", toJson(found.detection_ma)},
-            {"attention_ma", toJson(found.attention_ma)},
-            {"discomfort_ma", toJson(found.discomfort_ma)},
-            {"intolerance_ma", toJson(found.intolerance_ma)},
-            {"trials_needed", trials},
-            {"pilots", pilotsJson(found.pilots)},
-            {"premises", premisesJson(options)},
-            {"model", modelJson(options)},
-            {"people", peopleJson(found.people)}};
+    return builtOnce<describeVariation>().write({found, options});
 }
 
-json toJson(const BenchVariation& found) {
-    json conditions = json::array(), pairs = json::array();
-    for (const auto& c : found.conditions) {
-        conditions.push_back(
-            {{"name", c.name}, {"amplitude_v", toJson(c.amplitude_v)}, {"interval_s", toJson(c.interval_s)}});
-    }
-    for (const auto& p : found.pairs) {
-        pairs.push_back({{"a", p.a},
-                         {"b", p.b},
-                         {"amplitude_jnd", toJson(p.amplitude_jnd)},
-                         {"interval_jnd", toJson(p.interval_jnd)}});
-    }
-    return {{"draws", found.draws}, {"conditions", conditions}, {"pairs", pairs}};
+json toJson(const BenchVariation& found) { return builtOnce<describeBench>().write(found); }
+
+ResultTraits variationKind() {
+    return {.kind = ResultKind::Variation,
+            .name = "variation",
+            .decisionRule = "A prediction: nothing is measured, and nothing is judged.",
+            .tables = builtOnce<describeVariation>().tables()};
 }
 
 namespace {

@@ -31,6 +31,7 @@
 
 #include "core/analysis/variation/Variation.h"
 #include "core/analysis/variation/VariationBench.h"
+#include "core/results/ResultKind.h"
 
 namespace tacto {
 
@@ -60,5 +61,8 @@ struct Premise {
 
 /// In the order of the chain: thresholds, skin, discrimination, levels. `options` has been predicted with.
 [[nodiscard]] std::vector<Premise> premisesOf(const VariationOptions& options);
+
+/// How a prediction is shown.
+[[nodiscard]] ResultTraits variationKind();
 
 }  // namespace tacto

@@ -5,6 +5,7 @@
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/base/JsonText.h"
 #include "core/base/RecordFields.h"
+#include "core/results/ResultRecord.h"
 
 namespace tacto {
 
@@ -97,32 +98,58 @@ Result<VibrationSeparability> judgeVibration(std::span<const VibrationTrial> tri
     return out;
 }
 
-json toJson(const VibrationSeparability& found) {
-    json conditions = json::array(), pairs = json::array();
-    for (const auto& c : found.conditions) {
-        conditions.push_back({{"name", c.name},
-                              {"intensity", numberOrNull(c.intensity)},
-                              {"interval_s", numberOrNull(c.interval_s)},
-                              {"presentations", c.presentations},
-                              {"bursts", c.bursts},
-                              {"moved", c.moved},
-                              {"missed", c.missed},
-                              {"strength_m_s2", toJson(c.strength_m_s2)},
-                              {"latency_s", toJson(c.latency_s)},
-                              {"rise_s", toJson(c.rise_s)},
-                              {"measured_interval_s", toJson(c.measuredInterval_s)}});
-    }
-    for (const auto& p : found.pairs) {
-        pairs.push_back({{"a", p.a},
-                         {"b", p.b},
-                         {"strength_jnd", numberOrNull(p.amplitudeJnd)},
-                         {"strength_jnd_low", numberOrNull(p.amplitudeJndBounds.low)},
-                         {"interval_jnd", numberOrNull(p.intervalJnd)},
-                         {"interval_jnd_low", numberOrNull(p.intervalJndBounds.low)}});
-    }
-    return {{"measured", found.measured}, {"verdict", found.measured ? json(nameOf(found.verdict)) : json(nullptr)},
-            {"reasons", found.reasons},   {"conditions", std::move(conditions)},
-            {"pairs", std::move(pairs)},  {"accuracy", found.measured ? toJson(found.accuracy) : json(nullptr)}};
+namespace {
+
+using namespace describe;
+
+ResultRecord<VibrationCondition> describeCondition() {
+    using C = VibrationCondition;
+    ResultRecord<C> all;
+    all.shown(as(As::Condition, "Condition", "name"), &C::name);
+    all.shown(number("Strength", "intensity"), &C::intensity);
+    all.kept("interval_s", &C::interval_s);
+    all.kept("presentations", &C::presentations);
+    all.kept("bursts", &C::bursts);
+    all.shown(number("Acceleration, mean and s.d.", "strength_m_s2", "m/s2"), &C::strength_m_s2);
+    all.kept("latency_s", &C::latency_s);
+    all.kept("rise_s", &C::rise_s);
+    all.shown(number("Interval, mean and s.d.", "measured_interval_s", "s"), &C::measuredInterval_s);
+    all.shown(number("Moved", "moved"), &C::moved);
+    all.shown(number("Missed", "missed"), &C::missed);
+    return all;
+}
+
+ResultRecord<PairSummary> describePair() {
+    using P = PairSummary;
+    ResultRecord<P> all;
+    all.kept("a", &P::a);
+    all.kept("b", &P::b);
+    all.kept("strength_jnd", &P::amplitudeJnd);
+    all.kept("strength_jnd_low", in(&P::amplitudeJndBounds, &Bounds::low));
+    all.kept("interval_jnd", &P::intervalJnd);
+    all.kept("interval_jnd_low", in(&P::intervalJndBounds, &Bounds::low));
+    return all;
+}
+
+ResultRecord<VibrationSeparability> describeVibration() {
+    using V = VibrationSeparability;
+    ResultRecord<V> all;
+    all.rows("What the massager did", "conditions", &V::conditions, describeCondition());
+    all.kept("pairs", &V::pairs, describePair());
+    all.kept("accuracy", [](const V& found) { return found.measured ? std::optional(found.accuracy) : std::nullopt; });
+    all.shown(as(As::YesNo, "What it did was measured", "measured"), &V::measured);
+    all.shown(verdict(), [](const V& found) { return found.measured ? std::optional(found.verdict) : std::nullopt; });
+    all.kept("reasons", &V::reasons);
+    return all;
+}
+
+}  // namespace
+
+json toJson(const VibrationSeparability& found) { return builtOnce<describeVibration>().write(found); }
+
+std::vector<ResultTable> vibrationTables(const std::string& place) {
+    const auto& all = builtOnce<describeVibration>();
+    return {under(place, all.tables().front()), facts("Of the massager", place.c_str(), all.columns())};
 }
 
 json toJson(const BurstFigures& figures) { return burstFields().write(figures); }

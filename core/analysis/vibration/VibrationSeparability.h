@@ -15,6 +15,7 @@
 
 #include "core/analysis/separability/Separability.h"
 #include "core/analysis/vibration/BurstFigures.h"
+#include "core/results/ResultTable.h"
 
 namespace tacto {
 
@@ -53,6 +54,8 @@ struct VibrationSeparability {
 /// missed, strength_m_s2, latency_s, rise_s, measured_interval_s}], "pairs": [{a, b, strength_jnd, strength_jnd_low,
 /// interval_jnd, interval_jnd_low}], "accuracy"}; without a measurement the verdict is null.
 [[nodiscard]] nlohmann::json toJson(const VibrationSeparability& found);
+/// How it is shown where it is the member `place` of results.
+[[nodiscard]] std::vector<ResultTable> vibrationTables(const std::string& place);
 
 /// The figures of one presentation: {bursts, moved, missed, strength_m_s2, strength_u_m_s2, latency_s, rise_s,
 /// interval_s, interval_u_s, noise_m_s2}.

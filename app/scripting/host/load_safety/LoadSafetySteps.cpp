@@ -11,6 +11,7 @@
 #include "core/analysis/load_safety/LimitMatrix.h"
 #include "core/analysis/load_safety/LoadSafetyJson.h"
 #include "core/analysis/load_safety/OutputDescription.h"
+#include "core/results/ResultRecord.h"
 
 namespace tacto {
 
@@ -90,7 +91,7 @@ Result<Json> judged(ScriptSession& session, const LoadCheck& check) {
     Json out = toJson(found);
     out["kind"] = "load-safety";
     out["matrix"] = toJson(limitMatrixOf(found, input.limits));
-    out["described"] = toJson(describeOutput(input));
+    out["described"] = resultJson(describeOutput(input));
     return out;
 }
 
