@@ -301,6 +301,50 @@ TEST_F(BenchTest, AFingertipThatHangsInPartDrivesNothing) {
     }
 }
 
+/// From a moment on, the first channel of a stream says so much more than it measured.
+class KnockedFinger final : public TactileSensor {
+public:
+    KnockedFinger(std::unique_ptr<TactileSensor> inner, std::size_t stream, double more, double from_s)
+        : inner_(std::move(inner)), stream_(stream), more_(more), from_s_(from_s) {}
+    const DeviceIdentity& identity() const noexcept override { return inner_->identity(); }
+    std::span<const StreamInfo> streams() const noexcept override { return inner_->streams(); }
+    Result<void> read(std::span<SampleBlock> blocks) override {
+        auto& block = blocks[stream_];
+        std::size_t i = block.samples();
+        auto done = inner_->read(blocks);
+        for (; i < block.samples(); ++i) {
+            if (block.t_s[i] >= from_s_) block.values[i * streams()[stream_].channels] += more_;
+        }
+        return done;
+    }
+
+private:
+    const std::unique_ptr<TactileSensor> inner_;
+    const std::size_t stream_;
+    const double more_;
+    const double from_s_;
+};
+
+TEST_F(BenchTest, WhatNoFingertipGivesIsTheSameForTheBenchAsForItsFeatures) {
+    RecordProperty("hazard", "H7");
+    struct Knock {
+        std::size_t stream;
+        double more;
+        FingerStanding standing;
+    };
+    // 5000 m/s2, 10 MPa and 200 N (science.md section 1): an impact stays a reading.
+    for (const auto& [stream, more, standing] :
+         {Knock{0, 3000, FingerStanding::Fresh}, Knock{0, 6000, FingerStanding::Implausible},
+          Knock{1, 2e7, FingerStanding::Implausible}, Knock{2, 250, FingerStanding::Implausible}}) {
+        wrapSensor_ = [stream = stream, more = more](std::unique_ptr<TactileSensor> inner) {
+            return std::make_unique<KnockedFinger>(std::move(inner), stream, more, 1.0);
+        };
+        open({"sim:finger?material=P60&force=3N&stroke=60s"}, {Role::Sensor, Role::Stimulator});
+        ASSERT_TRUE(bench_->wait(Seconds(1.5)));
+        EXPECT_EQ(bench_->telemetry().finger, standing) << stream << ", " << more;
+    }
+}
+
 TEST_F(BenchTest, StaleCorruptOrMissingSensorDataDriveNothing) {
     RecordProperty("hazard", "H7");
     for (const auto* fault : {"stale@3s", "nan@3s", "unplug@3s", "stuck@3s"}) {

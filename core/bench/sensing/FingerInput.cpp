@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "core/dsp/SampleHistory.h"
 
 namespace tacto {
 
@@ -10,21 +11,6 @@ namespace {
 constexpr std::size_t kFramesPerStep = 256;  // a step after a stall of seconds still finds room
 // A frame stands for the middle of its window: half of 64 ms, one hop, and the next force sample behind.
 constexpr double kFrameLatency_s = 0.032 + 0.016 + 0.03;
-
-/// Beyond these no fingertip works: 200 g, 1 kN, 100 MPa. Counts have no scale.
-double largestPlausible(const StreamInfo& stream) noexcept {
-    switch (stream.unit) {
-        case StreamUnit::MetrePerSecondSquared:
-            return 2000;
-        case StreamUnit::Newton:
-            return 1000;
-        case StreamUnit::Pascal:
-            return 1e8;
-        case StreamUnit::Count:
-            break;
-    }
-    return std::numeric_limits<double>::infinity();
-}
 }  // namespace
 
 Result<std::unique_ptr<FingerInput>> FingerInput::create(SensorSession& session, const RoughnessSettings& settings) {
@@ -107,7 +93,7 @@ FingerStanding FingerInput::standing(double now_s) const noexcept {
 void FingerInput::watchRange(std::size_t stream) noexcept {
     const auto& block = blocks_[stream];
     const auto& info = chain_->streams()[stream];
-    const double largest = largestPlausible(info);
+    const double largest = mostPlausible(info.unit);
     for (std::size_t i = 0; i < block.values.size(); ++i) {
         const double value = chain_->inUse(stream, i % info.channels, block.values[i]);
         if (!(std::abs(value) <= largest)) implausible_s_ = block.t_s[i / info.channels];
