@@ -36,14 +36,11 @@ struct PresetFile {
     std::vector<InstrumentPreset> instruments;
 };
 
-const RecordFields<PresetFile>& fileFields() {
-    static const auto fields = [] {
-        RecordFields<PresetFile> all;
-        all.list("instruments", &PresetFile::instruments, presetFields().kind(), 0, 1000).required = true;
-        all.passOverUnknownKeys();
-        return all;
-    }();
-    return fields;
+RecordFields<PresetFile> fileFields() {
+    RecordFields<PresetFile> all;
+    all.list("instruments", &PresetFile::instruments, presetFields().kind(), 0, 1000).required = true;
+    all.passOverUnknownKeys();
+    return all;
 }
 
 std::string shownName(const InstrumentPreset& preset) { return fmt::format("{} {}", nameOf(preset.kind), preset.name); }
@@ -124,7 +121,7 @@ Result<InstrumentPresets> InstrumentPresets::open(std::filesystem::path file) {
     const auto name = presets.file_.string();
     const auto json = parseJson(*text, name);
     if (!json) return failure(json);
-    auto read = fileFields().read(*json, {.file = name});
+    auto read = builtOnce<fileFields>().read(*json, {.file = name});
     if (!read) return failure(read);
     for (const auto& one : read->instruments) {
         if (auto sound = check(one); !sound) return fail(ErrorCode::ParseError, "{}: {}", name, sound.error().message);
@@ -156,7 +153,7 @@ Result<void> InstrumentPresets::remove(InstrumentKind kind, std::string_view nam
 Result<void> InstrumentPresets::write(std::vector<InstrumentPreset> all) {
     std::error_code ignored;
     std::filesystem::create_directories(file_.parent_path(), ignored);
-    const auto text = dumpJson(fileFields().write({all}), 2) + "\n";
+    const auto text = dumpJson(builtOnce<fileFields>().write({all}), 2) + "\n";
     if (const auto written = writeWholeFile(file_, text); !written)
         return fail(ErrorCode::Io, "{} is not saved: {}", file_.string(), written.error().message);
     all_ = std::move(all);

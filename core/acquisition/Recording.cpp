@@ -122,8 +122,7 @@ public:
     explicit Description(fs::path file) : file_(std::move(file)) {}
 
     Result<Recording> read(const Json& root) const {
-        static const auto fields = buildRecordingFields();
-        auto read = fields.read(root, {.file = file_.string()}).map_error(asParseError);
+        auto read = builtOnce<buildRecordingFields>().read(root, {.file = file_.string()}).map_error(asParseError);
         if (!read) return failure(read);
         Recording& recording = *read;
         recording.path = file_;

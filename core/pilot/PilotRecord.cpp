@@ -138,17 +138,14 @@ namespace {
 
 using nlohmann::json;
 
-const RecordFields<PlanRow>& planFields() {
-    static const auto fields = [] {
-        using P = PlanRow;
-        RecordFields<P> all;
-        all.number("seed", &P::seed);
-        all.text("encoding", &P::encoding, {.mayBeEmpty = true});
-        all.number("blocks", &P::blocks);
-        all.texts({{"run_sha256", &P::runSha256}, {"answers", &P::answers}}, {.mayBeEmpty = true});
-        return all;
-    }();
-    return fields;
+RecordFields<PlanRow> planFields() {
+    using P = PlanRow;
+    RecordFields<P> all;
+    all.number("seed", &P::seed);
+    all.text("encoding", &P::encoding, {.mayBeEmpty = true});
+    all.number("blocks", &P::blocks);
+    all.texts({{"run_sha256", &P::runSha256}, {"answers", &P::answers}}, {.mayBeEmpty = true});
+    return all;
 }
 
 RecordFields<RangeRow> rangeFields(LevelUnit unit) {
@@ -201,9 +198,9 @@ Estimate estimateFrom(const json& value) {
     return {numberOr(value, "value"), numberOr(value, "low"), numberOr(value, "high")};
 }
 
-json toJson(const PlanRow& row) { return planFields().write(row); }
+json toJson(const PlanRow& row) { return builtOnce<planFields>().write(row); }
 
-PlanRow planRowFrom(const json& body) { return rowFrom(planFields(), body); }
+PlanRow planRowFrom(const json& body) { return rowFrom(builtOnce<planFields>(), body); }
 
 json toJson(const RangeRow& row) { return rangeFields(row.unit).write(row); }
 

@@ -15,42 +15,33 @@ constexpr const char* kMac = "mac";
 
 constexpr AcceptedText kLedgerText{.mayBeEmpty = true, .mostBytes = 2000};
 
-const RecordFields<Participant>& participantFields() {
-    static const auto fields = [] {
-        using P = Participant;
-        RecordFields<P> all;
-        all.word("group", &P::group, kParticipantGroups);
-        all.number("virtual", &P::virtualSeed);
-        all.texts({{"age", &P::age}, {"sex", &P::sex}, {"handedness", &P::handedness}}, kLedgerText);
-        return all;
-    }();
-    return fields;
+RecordFields<Participant> participantFields() {
+    using P = Participant;
+    RecordFields<P> all;
+    all.word("group", &P::group, kParticipantGroups);
+    all.number("virtual", &P::virtualSeed);
+    all.texts({{"age", &P::age}, {"sex", &P::sex}, {"handedness", &P::handedness}}, kLedgerText);
+    return all;
 }
 
-const RecordFields<Consent>& consentFields() {
-    static const auto fields = [] {
-        using C = Consent;
-        RecordFields<C> all;
-        all.text("version", &C::version, kLedgerText);
-        all.add("date", &C::date, dateKind());
-        all.text("by", &C::by, kLedgerText);
-        return all;
-    }();
-    return fields;
+RecordFields<Consent> consentFields() {
+    using C = Consent;
+    RecordFields<C> all;
+    all.text("version", &C::version, kLedgerText);
+    all.add("date", &C::date, dateKind());
+    all.text("by", &C::by, kLedgerText);
+    return all;
 }
 
-const RecordFields<AdverseEvent>& adverseEventFields() {
-    static const auto fields = [] {
-        using A = AdverseEvent;
-        RecordFields<A> all;
-        all.texts({{"what", &A::what}, {"action", &A::action}, {"outcome", &A::outcome}}, kLedgerText);
-        all.number("severity", &A::severity, {.low = 1, .high = 4});
-        all.flag("serious", &A::serious);
-        all.number("relation", &A::relation, {.low = 1, .high = 5});
-        all.flag("reported", &A::reported);
-        return all;
-    }();
-    return fields;
+RecordFields<AdverseEvent> adverseEventFields() {
+    using A = AdverseEvent;
+    RecordFields<A> all;
+    all.texts({{"what", &A::what}, {"action", &A::action}, {"outcome", &A::outcome}}, kLedgerText);
+    all.number("severity", &A::severity, {.low = 1, .high = 4});
+    all.flag("serious", &A::serious);
+    all.number("relation", &A::relation, {.low = 1, .high = 5});
+    all.flag("reported", &A::reported);
+    return all;
 }
 
 /// "cap_ma", "approval.expires": settings that are others `now`. What every amendment changes is not among them.
@@ -201,7 +192,8 @@ private:
         if (!content) return failure(content);
         participant.readable = content->has_value();
         if (*content) {
-            if (auto read = participantFields().read(**content, participant, RecordPlace{}); !read) return read;
+            if (auto read = builtOnce<participantFields>().read(**content, participant, RecordPlace{}); !read)
+                return read;
             participant.code = keys_->byId(id)->code;
         }
         participant.id = id;
@@ -215,7 +207,7 @@ private:
         const auto content = opened(row, participant.id);
         if (!content) return failure(content);
         if (!*content) return {};
-        auto read = consentFields().read(**content, RecordPlace{});
+        auto read = builtOnce<consentFields>().read(**content, RecordPlace{});
         if (!read) return failure(read);
         participant.consents.push_back(std::move(*read));
         return {};
@@ -286,7 +278,7 @@ private:
         if (keys_ == nullptr) return {};
         const auto content = openedInLedger(study_, keys_->study(), row.seq, row.name, row.body);
         if (!content) return failure(content);
-        auto event = adverseEventFields().read(*content, RecordPlace{});
+        auto event = builtOnce<adverseEventFields>().read(*content, RecordPlace{});
         if (!event) return failure(event);
         state.adverseEvents.emplace_back(textOr(row.body, "session"), std::move(*event));
         return {};
@@ -343,15 +335,17 @@ std::string macInLedger(const std::string& study, const Secret& key, std::int64_
                                                    name, before, dumpJson(body)));
 }
 
-nlohmann::json toJson(const Participant& participant) { return participantFields().write(participant); }
-nlohmann::json toJson(const Consent& consent) { return consentFields().write(consent); }
-nlohmann::json toJson(const AdverseEvent& event) { return adverseEventFields().write(event); }
+nlohmann::json toJson(const Participant& participant) { return builtOnce<participantFields>().write(participant); }
+nlohmann::json toJson(const Consent& consent) { return builtOnce<consentFields>().write(consent); }
+nlohmann::json toJson(const AdverseEvent& event) { return builtOnce<adverseEventFields>().write(event); }
 
 Result<void> checkForLedger(const Participant& participant) {
-    return participantFields().check(participant, RecordPlace{});
+    return builtOnce<participantFields>().check(participant, RecordPlace{});
 }
-Result<void> checkForLedger(const Consent& consent) { return consentFields().check(consent, RecordPlace{}); }
-Result<void> checkForLedger(const AdverseEvent& event) { return adverseEventFields().check(event, RecordPlace{}); }
+Result<void> checkForLedger(const Consent& consent) { return builtOnce<consentFields>().check(consent, RecordPlace{}); }
+Result<void> checkForLedger(const AdverseEvent& event) {
+    return builtOnce<adverseEventFields>().check(event, RecordPlace{});
+}
 
 namespace {
 Result<void> checkMac(const SessionReader& ledger, const std::string& study, const StudyKeys& keys,

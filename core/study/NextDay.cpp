@@ -16,43 +16,37 @@ std::string sideEffectKeys() {
     return keys;
 }
 
-const RecordFields<SideEffect>& sideEffectFields() {
-    static const auto fields = [] {
-        using S = SideEffect;
-        RecordFields<S> all;
-        all.text("item", &S::item, {.mayBeEmpty = false, .mostBytes = 40});
-        all.number("severity", &S::severity, {.low = 1, .high = 4});
-        all.number("relation", &S::relation, {.low = 1, .high = 5});
-        all.rule([](const S& effect) -> Result<void> {
-            const auto known = [&](const SideEffectName& each) { return each.key == effect.item; };
-            if (std::ranges::any_of(kSideEffects, known)) return {};
-            return invalid("\"item\" is \"{}\"; one of {} is expected", effect.item, sideEffectKeys());
-        });
-        return all;
-    }();
-    return fields;
+RecordFields<SideEffect> sideEffectFields() {
+    using S = SideEffect;
+    RecordFields<S> all;
+    all.text("item", &S::item, {.mayBeEmpty = false, .mostBytes = 40});
+    all.number("severity", &S::severity, {.low = 1, .high = 4});
+    all.number("relation", &S::relation, {.low = 1, .high = 5});
+    all.rule([](const S& effect) -> Result<void> {
+        const auto known = [&](const SideEffectName& each) { return each.key == effect.item; };
+        if (std::ranges::any_of(kSideEffects, known)) return {};
+        return invalid("\"item\" is \"{}\"; one of {} is expected", effect.item, sideEffectKeys());
+    });
+    return all;
 }
 
-const RecordFields<NextDay>& nextDayFields() {
-    static const auto fields = [] {
-        using N = NextDay;
-        RecordFields<N> all;
-        all.number("erythema", &N::erythema, {.low = 0, .high = 4});
-        all.number("oedema", &N::oedema, {.low = 0, .high = 4});
-        all.list("side_effects", &N::sideEffects, sideEffectFields().kind(), 0, std::size(kSideEffects));
-        all.rule([](const N& said) -> Result<void> {
-            if (const auto* second = secondIn(said.sideEffects, &SideEffect::item))
-                return invalid("{}", givenTwice("the side effect {}", second->item));
-            return {};
-        });
-        return all;
-    }();
-    return fields;
+RecordFields<NextDay> nextDayFields() {
+    using N = NextDay;
+    RecordFields<N> all;
+    all.number("erythema", &N::erythema, {.low = 0, .high = 4});
+    all.number("oedema", &N::oedema, {.low = 0, .high = 4});
+    all.list("side_effects", &N::sideEffects, builtOnce<sideEffectFields>().kind(), 0, std::size(kSideEffects));
+    all.rule([](const N& said) -> Result<void> {
+        if (const auto* second = secondIn(said.sideEffects, &SideEffect::item))
+            return invalid("{}", givenTwice("the side effect {}", second->item));
+        return {};
+    });
+    return all;
 }
 
 }  // namespace
 
-Result<void> checkNextDay(const NextDay& said) { return nextDayFields().check(said, RecordPlace{}); }
+Result<void> checkNextDay(const NextDay& said) { return builtOnce<nextDayFields>().check(said, RecordPlace{}); }
 
 Result<SideEffect> sideEffectFrom(std::string_view text) {
     const auto parts = split(text, ':');
@@ -64,16 +58,17 @@ Result<SideEffect> sideEffectFrom(std::string_view text) {
         return 0;
     };
     SideEffect effect{parts.empty() ? std::string() : std::string(parts[0]), score(1, 4), score(2, 5)};
-    if (effect.severity > 0 && effect.relation > 0 && sideEffectFields().check(effect, RecordPlace{})) return effect;
+    if (effect.severity > 0 && effect.relation > 0 && builtOnce<sideEffectFields>().check(effect, RecordPlace{}))
+        return effect;
     return invalid(
         "\"{}\" is not a side effect; ITEM:SEVERITY:RELATION as redness:2:4 is expected, a severity from 1 to 4, "
         "a relation from 1 to 5, and of the items {}",
         text, sideEffectKeys());
 }
 
-nlohmann::json toJson(const NextDay& said) { return nextDayFields().write(said); }
+nlohmann::json toJson(const NextDay& said) { return builtOnce<nextDayFields>().write(said); }
 
-Result<NextDay> nextDayFrom(const nlohmann::json& json) { return nextDayFields().read(json, RecordPlace{}); }
+Result<NextDay> nextDayFrom(const nlohmann::json& json) { return builtOnce<nextDayFields>().read(json, RecordPlace{}); }
 
 std::string scoreText(std::span<const char* const> words, int score, int from) {
     const auto at = static_cast<std::size_t>(score - from);

@@ -170,10 +170,7 @@ std::string_view nameOf(DetectionMethod method) noexcept { return wordFor<Detect
 
 std::string_view nameOf(DataOnRequest kept) noexcept { return wordFor<DataOnRequest>(kDataOnRequest, kept); }
 
-const RecordFields<StudySettings>& studyFields() {
-    static const auto fields = buildStudyFields();
-    return fields;
-}
+const RecordFields<StudySettings>& studyFields() { return builtOnce<buildStudyFields>(); }
 
 Result<void> setStudyField(StudySettings& settings, std::string_view key, std::string_view value) {
     constexpr std::string_view kOwnOptions[] = {"id",

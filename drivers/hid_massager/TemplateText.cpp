@@ -121,7 +121,7 @@ ValueKind<MassagerTemplate> stopKind() {
     return kind;
 }
 
-RecordFields<MassagerTemplate> buildTemplateFields() {
+RecordFields<MassagerTemplate> templateFields() {
     using T = MassagerTemplate;
     RecordFields<TemplateDevice> device;
     device.add("vendor", &TemplateDevice::vendor, hex16Kind()).required = true;
@@ -160,8 +160,7 @@ RecordFields<MassagerTemplate> buildTemplateFields() {
 }  // namespace
 
 Result<MassagerTemplate> parseMassagerTemplate(std::string_view text, std::string_view file) {
-    static const auto fields = buildTemplateFields();
-    auto made = parseRecord(fields, text, file, {.bytes = kMaxTemplate});
+    auto made = parseRecord(builtOnce<templateFields>(), text, file, {.bytes = kMaxTemplate});
     if (made) made->key = std::filesystem::path(file).stem().string();
     return made;
 }

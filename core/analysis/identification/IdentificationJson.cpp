@@ -186,14 +186,10 @@ Estimate correctedBitsFrom(const json& figures) {
             numberOr(figures, "it_corrected_high_bits")};
 }
 
-json toJson(const IdentificationTrial& trial) {
-    static const auto fields = answerFields();
-    return fields.write(trial);
-}
+json toJson(const IdentificationTrial& trial) { return builtOnce<answerFields>().write(trial); }
 
 IdentificationTrial identificationTrialFrom(const json& row) {
-    static const auto fields = trialFields();
-    return fields.read(row, {.lenient = true}).value_or(IdentificationTrial{});
+    return builtOnce<trialFields>().read(row, {.lenient = true}).value_or(IdentificationTrial{});
 }
 
 }  // namespace tacto

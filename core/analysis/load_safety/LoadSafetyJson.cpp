@@ -66,10 +66,7 @@ RecordFields<LoadReading> buildReadingFields() {
     return scripted(std::move(all));
 }
 
-const RecordFields<LoadReading>& readingFields() {
-    static const auto fields = buildReadingFields();
-    return fields;
-}
+const RecordFields<LoadReading>& readingFields() { return builtOnce<buildReadingFields>(); }
 
 /// What every kind of step begins with.
 template <class Step>
@@ -293,13 +290,11 @@ ResultTraits loadSafetyKind() {
 }
 
 Result<LoadStep> loadStepFrom(const json& from) {
-    static const auto fields = loadStepFields();
-    return fields.read(from, {.path = "step"}).map_error(asInvalidArgument);
+    return builtOnce<loadStepFields>().read(from, {.path = "step"}).map_error(asInvalidArgument);
 }
 
 Result<LoadRecord> loadRecordFrom(const json& from) {
-    static const auto fields = buildRecordFields();
-    auto out = fields.read(from, {.path = "load"}).map_error(asInvalidArgument);
+    auto out = builtOnce<buildRecordFields>().read(from, {.path = "load"}).map_error(asInvalidArgument);
     if (!out) return out;
     const auto load = parseLoad(out->name);
     if (!load) return failure(load);
@@ -310,8 +305,7 @@ Result<LoadRecord> loadRecordFrom(const json& from) {
 }
 
 Result<SafetyRow> absoluteRowFrom(const json& from) {
-    static const auto fields = buildAbsoluteFields();
-    auto error = fields.read(from, {.path = "absolute"}).map_error(asInvalidArgument);
+    auto error = builtOnce<buildAbsoluteFields>().read(from, {.path = "absolute"}).map_error(asInvalidArgument);
     if (!error) return failure(error);
     SafetyRow row;
     row.item = "absolute_reference";
@@ -329,8 +323,7 @@ Result<SafetyRow> absoluteRowFrom(const json& from) {
 }
 
 Result<TripTrial> tripTrialFrom(const json& from) {
-    static const auto fields = buildTripFields();
-    return fields.read(from, {.path = "trip"}).map_error(asInvalidArgument);
+    return builtOnce<buildTripFields>().read(from, {.path = "trip"}).map_error(asInvalidArgument);
 }
 
 }  // namespace tacto

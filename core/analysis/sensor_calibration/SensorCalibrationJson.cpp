@@ -35,21 +35,15 @@ std::size_t indexOf(SensorFeature feature) { return static_cast<std::size_t>(fea
 
 constexpr std::size_t kMaxTaxels = 100'000;
 
-const RecordFields<SensorRest>& restFields() {
-    static const auto fields = [] {
-        RecordFields<SensorRest> all;
-        all.list("taxel_baseline", in(&SensorRest::levels, &RestLevels::taxelBaseline), numberKind<double>({}), 0,
-                 kMaxTaxels)
-            .required = true;
-        all.number("taxel_floor", in(&SensorRest::levels, &RestLevels::taxelFloor), {.low = 0}).required = true;
-        all.number("mean_square", in(&SensorRest::levels, &RestLevels::slidingMeanSquare));
-        all.word("taxel_unit", &SensorRest::taxelUnit, kTaxelUnits);
-        all.word("unit", &SensorRest::restUnit, kRestUnits);
-        all.takeNullAsMissing();
-        all.passOverUnknownKeys();
-        return all;
-    }();
-    return fields;
+RecordFields<SensorRest> restFields() {
+    RecordFields<SensorRest> all;
+    all.list("taxel_baseline", in(&SensorRest::levels, &RestLevels::taxelBaseline), numberKind<double>({}), 0,
+             kMaxTaxels);
+    all.number("taxel_floor", in(&SensorRest::levels, &RestLevels::taxelFloor), {.low = 0});
+    all.number("mean_square", in(&SensorRest::levels, &RestLevels::slidingMeanSquare));
+    all.word("taxel_unit", &SensorRest::taxelUnit, kTaxelUnits);
+    all.word("unit", &SensorRest::restUnit, kRestUnits);
+    return all;
 }
 
 RecordFields<ForceInUse> forceFields() {
@@ -57,43 +51,32 @@ RecordFields<ForceInUse> forceFields() {
     all.number("mean", &ForceInUse::mean);
     all.word("unit", &ForceInUse::unit, kForceUnits);
     all.number("u", &ForceInUse::uncertainty, {.low = 0});
-    all.takeNullAsMissing();
     return all;
 }
 
-const RecordFields<WeightReading>& weightFields() {
-    static const auto fields = [] {
-        using W = WeightReading;
-        RecordFields<W> all;
-        all.number("mass_g", &W::mass_g, {.unit = "g"});
-        all.number("reference_n", &W::reference_n, {.unit = "N"}).required = true;
-        all.number("force", &W::force);
-        all.word("force_unit", &W::forceUnit, kForceUnits).leftOutIfEmpty = true;
-        all.list("taxels", &W::taxels, readingKind(), 0, kMaxTaxels);
-        all.word("taxel_unit", &W::taxelUnit, kTaxelUnits).leftOutIfEmpty = true;
-        all.record("force_in_use", &W::inUse, forceFields());
-        all.takeNullAsMissing();
-        all.passOverUnknownKeys();
-        return all;
-    }();
-    return fields;
+RecordFields<WeightReading> weightFields() {
+    using W = WeightReading;
+    RecordFields<W> all;
+    all.number("mass_g", &W::mass_g, {.unit = "g"});
+    all.number("reference_n", &W::reference_n, {.unit = "N"});
+    all.number("force", &W::force);
+    all.word("force_unit", &W::forceUnit, kForceUnits).leftOutIfEmpty = true;
+    all.list("taxels", &W::taxels, readingKind(), 0, kMaxTaxels);
+    all.word("taxel_unit", &W::taxelUnit, kTaxelUnits).leftOutIfEmpty = true;
+    all.record("force_in_use", &W::inUse, forceFields());
+    return all;
 }
 
-const RecordFields<SlideReading>& slideFields() {
-    static const auto fields = [] {
-        using S = SlideReading;
-        RecordFields<S> all;
-        all.number("h", &S::h);
-        all.number("h_abs", &S::hAbs);
-        all.number("v_static", &S::vStatic);
-        all.number("v_dynamic", &S::vDynamic);
-        all.number("force_n", &S::force_n);
-        all.number("sliding_frames", &S::slidingFrames).required = true;
-        all.takeNullAsMissing();
-        all.passOverUnknownKeys();
-        return all;
-    }();
-    return fields;
+RecordFields<SlideReading> slideFields() {
+    using S = SlideReading;
+    RecordFields<S> all;
+    all.number("h", &S::h);
+    all.number("h_abs", &S::hAbs);
+    all.number("v_static", &S::vStatic);
+    all.number("v_dynamic", &S::vDynamic);
+    all.number("force_n", &S::force_n);
+    all.number("sliding_frames", &S::slidingFrames);
+    return all;
 }
 
 }  // namespace
@@ -310,24 +293,12 @@ ResultTraits sensorCalibrationKind() {
             .tables = sensorTables()};
 }
 
-Json toJson(const SensorRest& rest) { return restFields().write(rest); }
+Json toJson(const SensorRest& rest) { return builtOnce<restFields>().write(rest); }
 
-Json toJson(const SlideReading& slide) { return slideFields().write(slide); }
+Json toJson(const SlideReading& slide) { return builtOnce<slideFields>().write(slide); }
 
 Json toJson(const ForceInUse& force) { return forceFields().write(force); }
 
-Json toJson(const WeightReading& reading) { return weightFields().write(reading); }
-
-Result<WeightReading> weightReadingFrom(const Json& json) {
-    return weightFields().read(json, {.path = "reading"}).map_error(asInvalidArgument);
-}
-
-Result<SensorRest> sensorRestFrom(const Json& json) {
-    return restFields().read(json, {.path = "rest"}).map_error(asInvalidArgument);
-}
-
-Result<SlideReading> slideReadingFrom(const Json& json) {
-    return slideFields().read(json, {.path = "slide"}).map_error(asInvalidArgument);
-}
+Json toJson(const WeightReading& reading) { return builtOnce<weightFields>().write(reading); }
 
 }  // namespace tacto

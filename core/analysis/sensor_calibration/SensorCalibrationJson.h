@@ -1,5 +1,5 @@
 // SensorCalibrationJson.h - the sensor calibration in the shapes of the command line's contract, and the readings that
-// a script carries from call to call. Absent values (NaN) are null; an end that is infinite is null too.
+// scripts are given. Absent values (NaN) are null; an end that is infinite is null too.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -30,10 +30,6 @@ namespace tacto {
 /// {"mass_g","reference_n","force","force_unit" (where there is a force sensor),"taxels","taxel_unit" (where there are
 /// taxels),"force_in_use": {"mean","unit","u"}|null}
 [[nodiscard]] nlohmann::json toJson(const WeightReading& reading);
-// Read what toJson() wrote. Errors: InvalidArgument naming what is missing or has another type.
-[[nodiscard]] Result<SensorRest> sensorRestFrom(const nlohmann::json& json);
-[[nodiscard]] Result<SlideReading> slideReadingFrom(const nlohmann::json& json);
-[[nodiscard]] Result<WeightReading> weightReadingFrom(const nlohmann::json& json);
 
 /// How a fingertip's calibration is judged and shown.
 [[nodiscard]] ResultTraits sensorCalibrationKind();

@@ -16,34 +16,31 @@ using nlohmann::json;
 
 namespace {
 
-const RecordFields<SeparabilityTrial>& trialFields() {
-    static const auto fields = [] {
-        using T = SeparabilityTrial;
-        RecordFields<T> all;
-        all.text("condition", &T::condition, {.mayBeEmpty = true}).required = true;
-        all.number("amplitude_v", &T::amplitude, {.unit = "V"});
-        all.number("interval_s", &T::interval_s, {.unit = "s"});
-        all.number("amplitude_u_v", &T::amplitudeUncertainty, {.unit = "V"});
-        all.number("interval_u_s", &T::intervalUncertainty_s, {.unit = "s"});
-        all.number("time_base_u", &T::timeBase);
-        all.number("amplitude_gain_u", &T::amplitudeGain);
-        all.takeNullAsMissing();
-        all.passOverUnknownKeys();
-        return all;
-    }();
-    return fields;
+RecordFields<SeparabilityTrial> trialFields() {
+    using T = SeparabilityTrial;
+    RecordFields<T> all;
+    all.text("condition", &T::condition, {.mayBeEmpty = true}).required = true;
+    all.number("amplitude_v", &T::amplitude, {.unit = "V"});
+    all.number("interval_s", &T::interval_s, {.unit = "s"});
+    all.number("amplitude_u_v", &T::amplitudeUncertainty, {.unit = "V"});
+    all.number("interval_u_s", &T::intervalUncertainty_s, {.unit = "s"});
+    all.number("time_base_u", &T::timeBase);
+    all.number("amplitude_gain_u", &T::amplitudeGain);
+    all.takeNullAsMissing();
+    all.passOverUnknownKeys();
+    return all;
 }
 
 }  // namespace
 
 Result<SeparabilityTrial> separabilityTrialFrom(const json& row) {
     SeparabilityTrial trial{{}, kNaN, kNaN, kNaN, kNaN, kNaN, kNaN};
-    if (auto read = trialFields().read(row, trial, {.path = "trial"}).map_error(asInvalidArgument); !read)
+    if (auto read = builtOnce<trialFields>().read(row, trial, {.path = "trial"}).map_error(asInvalidArgument); !read)
         return failure(read);
     return trial;
 }
 
-json toJson(const SeparabilityTrial& trial) { return trialFields().write(trial); }
+json toJson(const SeparabilityTrial& trial) { return builtOnce<trialFields>().write(trial); }
 
 namespace {
 

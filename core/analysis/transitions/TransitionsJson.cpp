@@ -93,16 +93,6 @@ ResultRecord<ChangeJudgement> describeChanges() {
 constexpr Word<ChangeKind> kChangeKinds[] = {{"step", ChangeKind::Step}, {"movement", ChangeKind::Movement}};
 constexpr std::size_t kMaxTrains = 100'000;
 
-/// The bench knows no name: the script adds it.
-ValueKind<std::string> nameKind() {
-    return codedKind<std::string>(
-        "a text",
-        [](const nlohmann::json& value) {
-            return value.is_string() ? std::optional(value.get<std::string>()) : std::nullopt;
-        },
-        [](const std::string& name) { return name.empty() ? nlohmann::json() : nlohmann::json(name); });
-}
-
 RecordFields<CapturedTrain> trainFields() {
     using T = CapturedTrain;
     RecordFields<T> all;
@@ -113,8 +103,6 @@ RecordFields<CapturedTrain> trainFields() {
     all.number("amplitude_u_v", &T::amplitudeUncertainty_v, {.unit = "V"});
     all.number("amplitude_jnd", &T::amplitude_jnd);
     all.number("interval_jnd", &T::interval_jnd);
-    all.takeNullAsMissing();
-    all.passOverUnknownKeys();
     return all;
 }
 
@@ -122,12 +110,9 @@ RecordFields<CapturedTrain> trainFields() {
 RecordFields<CapturedChange> changeFields() {
     using C = CapturedChange;
     RecordFields<C> all;
-    auto& name = all.add("name", &C::name, nameKind());
-    name.required = name.leftOutIfEmpty = true;
+    all.add("name", &C::name, textOrNullKind()).leftOutIfEmpty = true;  // the bench knows no name
     all.word("type", &C::kind, kChangeKinds);
     all.list("onsets", &C::trains, trainFields().kind(), 0, kMaxTrains);
-    all.takeNullAsMissing();
-    all.passOverUnknownKeys();
     return all;
 }
 
@@ -171,11 +156,6 @@ const RecordFields<CapturedChange>& fieldsOf(ChangeKind kind) {
 }
 
 }  // namespace
-
-Result<CapturedChange> capturedChangeFrom(const nlohmann::json& row) {
-    const auto kind = valueFor(kChangeKinds, textOr(row, "type")).value_or(ChangeKind::Step);
-    return fieldsOf(kind).read(row, {.path = "change"}).map_error(asInvalidArgument);
-}
 
 nlohmann::json toJson(const CapturedChange& change) { return fieldsOf(change.kind).write(change); }
 

@@ -16,23 +16,20 @@ namespace {
 constexpr const char* kNotMeasured =
     "Not measured: no accelerometer was read on the motor. What it did is not known, only what it was commanded to do.";
 
-const RecordFields<BurstFigures>& burstFields() {
-    static const auto fields = [] {
-        using F = BurstFigures;
-        RecordFields<F> all;
-        all.number("bursts", &F::bursts);
-        all.number("moved", &F::moved);
-        all.number("missed", &F::missed);
-        all.number("strength_m_s2", &F::strength_m_s2);
-        all.number("strength_u_m_s2", &F::strengthUncertainty_m_s2);
-        all.number("latency_s", &F::latency_s);
-        all.number("rise_s", &F::rise_s);
-        all.number("interval_s", &F::interval_s);
-        all.number("interval_u_s", &F::intervalUncertainty_s);
-        all.number("noise_m_s2", &F::noise_m_s2);
-        return all;
-    }();
-    return fields;
+RecordFields<BurstFigures> burstFields() {
+    using F = BurstFigures;
+    RecordFields<F> all;
+    all.number("bursts", &F::bursts);
+    all.number("moved", &F::moved);
+    all.number("missed", &F::missed);
+    all.number("strength_m_s2", &F::strength_m_s2);
+    all.number("strength_u_m_s2", &F::strengthUncertainty_m_s2);
+    all.number("latency_s", &F::latency_s);
+    all.number("rise_s", &F::rise_s);
+    all.number("interval_s", &F::interval_s);
+    all.number("interval_u_s", &F::intervalUncertainty_s);
+    all.number("noise_m_s2", &F::noise_m_s2);
+    return all;
 }
 
 bool wasRead(const VibrationTrial& trial) { return trial.measured.bursts > trial.measured.missed; }
@@ -152,11 +149,11 @@ std::vector<ResultTable> vibrationTables(const std::string& place) {
     return {under(place, all.tables().front()), facts("Of the massager", place.c_str(), all.columns())};
 }
 
-json toJson(const BurstFigures& figures) { return burstFields().write(figures); }
+json toJson(const BurstFigures& figures) { return builtOnce<burstFields>().write(figures); }
 
 BurstFigures burstFiguresFrom(const json& said) {
     BurstFigures out;
-    static_cast<void>(burstFields().read(said, out, {.lenient = true}));  // what cannot be read is not known
+    static_cast<void>(builtOnce<burstFields>().read(said, out, {.lenient = true}));  // what cannot be read is not known
     return out;
 }
 

@@ -164,34 +164,6 @@ TEST(SensorCalibration, RefusesReferencesThatAreNone) {
     }
 }
 
-TEST(SensorCalibration, ReadingsSurviveTheScriptsJson) {
-    auto slide = slideOf(0.1, 0.02);
-    slide.hAbs = NAN;
-    const auto back = slideReadingFrom(toJson(slide)).value();
-    EXPECT_TRUE(std::isnan(back.hAbs));
-    EXPECT_EQ(back.slidingFrames, 100U);
-    EXPECT_EQ(roughnessOf(back, {}), roughnessOf(slide, {}));
-    EXPECT_EQ(sensorRestFrom(toJson(restOf(3e-4))).value().levels.taxelBaseline, (std::vector{1.0, 2.0, 3.0}));
-    EXPECT_FALSE(sensorRestFrom(nlohmann::json::object()));
-}
-
-TEST(SensorCalibration, ASlideThatIsNotWhatTheBenchReturnedIsRefused) {
-    const auto good = toJson(slideOf(0.1, 0.02));
-    ASSERT_TRUE(slideReadingFrom(good));
-    const auto refused = [](const nlohmann::json& slide) {
-        const auto read = slideReadingFrom(slide);
-        EXPECT_EQ(read ? ErrorCode::Io : read.error().code, ErrorCode::InvalidArgument) << slide.dump().substr(0, 80);
-        return read ? std::string() : read.error().message;
-    };
-    EXPECT_THAT(refused(nlohmann::json::object()), HasSubstr("sliding_frames"));
-    EXPECT_THAT(refused(nullptr), HasSubstr("slide"));
-    for (const char* key : {"h", "h_abs", "v_static", "v_dynamic", "force_n", "sliding_frames"}) {
-        auto slide = good;
-        slide[key] = "x";
-        EXPECT_THAT(refused(slide), HasSubstr(key));
-    }
-}
-
 TEST(SensorCalibration, TheReferencesReadWhatTheyAreAssigned) {
     RecordProperty("hazard", "H7");
     // Half of the slides over a reference lie beyond it: R held within 0..1 slide by slide would lie inside.
