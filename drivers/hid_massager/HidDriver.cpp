@@ -61,6 +61,14 @@ struct Candidate {
     bool byPlace = false;                          // its serial number does not tell it from another candidate
 
     [[nodiscard]] const std::string& place() const { return hid ? hid->path : usb->path; }
+    template <class Info>
+    void describe(const Info& info) {
+        serial = info.serial;
+        label = info.label();
+        obstacle = info.obstacle();
+        vendor = info.vendor;
+        product = info.product;
+    }
 };
 
 /// A serial number that would break the URI is left out: the device is found by the rest.
@@ -169,11 +177,7 @@ private:
                 if (!parsed || !findHaptics(*parsed)) continue;
             }
             if (one.name.empty()) one.name = info.name.empty() ? "haptic device" : info.name;
-            one.serial = info.serial;
-            one.label = info.label();
-            one.obstacle = info.obstacle();
-            one.vendor = info.vendor;
-            one.product = info.product;
+            one.describe(info);
             one.hid = std::move(info);
             found.push_back(std::move(one));
         }
@@ -194,11 +198,7 @@ private:
             if (info.vendor != kTranceVendor || info.product != kTranceProduct) continue;
             Candidate one;
             one.name = "Trance Vibrator";
-            one.serial = info.serial;
-            one.label = info.label();
-            one.obstacle = info.obstacle();
-            one.vendor = info.vendor;
-            one.product = info.product;
+            one.describe(info);
             one.usb = info;
             found.push_back(std::move(one));
         }

@@ -74,30 +74,14 @@ Volts voltsOf(std::uint16_t code) noexcept {
 Volts VoltageCode::volts() const noexcept { return voltsOf(code_); }
 
 std::size_t sizeOf(Parameter parameter) noexcept {
-    switch (parameter) {
-        case Parameter::Biphasic:
-        case Parameter::LinkTrigger1:
-        case Parameter::LinkTrigger2:
-        case Parameter::CustomTrain:
-        case Parameter::CustomTarget:
-        case Parameter::CustomLoop:
-        case Parameter::TriggerMode:
-            return 1;
-        case Parameter::Phase1Voltage:
-        case Parameter::Phase2Voltage:
-        case Parameter::RestingVoltage:
-            return 2;
-        case Parameter::Phase1Duration:
-        case Parameter::InterPhaseInterval:
-        case Parameter::Phase2Duration:
-        case Parameter::InterPulseInterval:
-        case Parameter::BurstDuration:
-        case Parameter::InterBurstInterval:
-        case Parameter::TrainDuration:
-        case Parameter::TrainDelay:
-            return 4;
+    if (parameter >= Parameter::Phase1Duration && parameter <= Parameter::TrainDelay) return 4;
+    if (parameter == Parameter::Phase1Voltage || parameter == Parameter::Phase2Voltage ||
+        parameter == Parameter::RestingVoltage) {
+        return 2;
     }
-    return 0;
+    const bool known =
+        (parameter >= Parameter::Biphasic && parameter <= Parameter::CustomLoop) || parameter == Parameter::TriggerMode;
+    return known ? 1 : 0;
 }
 
 CommandBytes set(Switch what, Channel channel, bool on) noexcept {

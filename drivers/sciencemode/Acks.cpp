@@ -22,6 +22,12 @@ std::uint16_t wordAt(std::span<const std::uint8_t> bytes, std::size_t at) noexce
     return static_cast<std::uint16_t>(bytes[at] << 8 | bytes[at + 1]);
 }
 
+/// The result of a payload that is another than Ok.
+std::optional<ResultCode> refusedWith(std::span<const std::uint8_t> payload) noexcept {
+    if (payload.empty() || payload[0] == 0) return std::nullopt;
+    return static_cast<ResultCode>(payload[0]);
+}
+
 constexpr Word<ResultCode> kMeanings[] = {
     {"no error", ResultCode::Ok},
     {"the transfer was garbled", ResultCode::Transfer},
@@ -80,29 +86,18 @@ Result<void> readChannelConfigAck(std::span<const std::uint8_t> payload, Channel
 }
 
 Result<StimStatusAck> readStimStatusAck(std::span<const std::uint8_t> payload) {
-    StimStatusAck ack;
-    if (payload.size() == 1 && payload[0] != 0) {
-        ack.result = static_cast<ResultCode>(payload[0]);
-        return ack;
-    }
+    if (const auto code = refusedWith(payload)) return refusal(Command::StimStatus, *code);
     if (payload.size() != 3) return wrongLength(Command::StimStatus, payload.size(), "3");
     if (payload[1] > 3) {
         return fail(ErrorCode::Device, "the stimulator is in state {}; 0 to 3 were expected", payload[1]);
     }
-    ack.result = static_cast<ResultCode>(payload[0]);
-    ack.status = static_cast<Stimulation>(payload[1]);
-    ack.highVoltage = payload[2];
-    return ack;
+    return StimStatusAck{static_cast<Stimulation>(payload[1]), payload[2]};
 }
 
 Result<DeviceIdAck> readDeviceIdAck(std::span<const std::uint8_t> payload) {
-    DeviceIdAck ack;
-    if (payload.size() == 1 && payload[0] != 0) {
-        ack.result = static_cast<ResultCode>(payload[0]);
-        return ack;
-    }
+    if (const auto code = refusedWith(payload)) return refusal(Command::DeviceId, *code);
     if (payload.size() != 1 + kIdLength) return wrongLength(Command::DeviceId, payload.size(), "11");
-    ack.result = static_cast<ResultCode>(payload[0]);
+    DeviceIdAck ack;
     for (const auto byte : payload.subspan(1)) {
         if (byte == 0) break;
         if (byte < 0x20 || byte > 0x7E) {
@@ -118,18 +113,11 @@ Result<DeviceIdAck> readDeviceIdAck(std::span<const std::uint8_t> payload) {
 std::string Version::text() const { return fmt::format("{}.{}.{}", major, minor, patch); }
 
 Result<ExtendedVersionAck> readExtendedVersionAck(std::span<const std::uint8_t> payload) {
-    ExtendedVersionAck ack;
-    if (payload.size() == 1 && payload[0] != 0) {
-        ack.result = static_cast<ResultCode>(payload[0]);
-        return ack;
-    }
+    if (const auto code = refusedWith(payload)) return refusal(Command::ExtendedVersion, *code);
     if (payload.size() != kVersionLength && payload.size() != kVersionLength + kHashLength) {
         return wrongLength(Command::ExtendedVersion, payload.size(), "7 or 13");
     }
-    ack.result = static_cast<ResultCode>(payload[0]);
-    ack.firmware = {payload[1], payload[2], payload[3]};
-    ack.protocol = {payload[4], payload[5], payload[6]};
-    return ack;
+    return ExtendedVersionAck{{payload[1], payload[2], payload[3]}, {payload[4], payload[5], payload[6]}};
 }
 
 }  // namespace tacto::sciencemode

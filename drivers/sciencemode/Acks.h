@@ -49,7 +49,6 @@ struct ChannelConfigAck {
 
 enum class Stimulation : std::uint8_t { None = 0, LowLevel = 1, MidLevel = 2, MidLevelRunning = 3 };
 struct StimStatusAck {
-    ResultCode result = ResultCode::Ok;
     Stimulation status = Stimulation::None;
     std::uint8_t highVoltage = 0;
 };
@@ -59,7 +58,6 @@ struct StimStatusAck {
 inline constexpr std::string_view kEmulatedId = "EMU";
 
 struct DeviceIdAck {
-    ResultCode result = ResultCode::Ok;
     std::string id;  ///< 10 characters, trailing blanks removed
 };
 
@@ -69,7 +67,6 @@ struct Version {
     bool operator==(const Version&) const = default;
 };
 struct ExtendedVersionAck {
-    ResultCode result = ResultCode::Ok;
     Version firmware;
     Version protocol;
 };
@@ -78,6 +75,7 @@ struct ExtendedVersionAck {
 [[nodiscard]] Result<ResultCode> readPlainAck(Command command, std::span<const std::uint8_t> payload);
 /// A result alone, or a result, a place and a measurement without samples, are acks too (an error, or no measurement).
 [[nodiscard]] Result<void> readChannelConfigAck(std::span<const std::uint8_t> payload, ChannelConfigAck& into);
+// Of these, a result that is not Ok is a refusal().
 [[nodiscard]] Result<StimStatusAck> readStimStatusAck(std::span<const std::uint8_t> payload);
 [[nodiscard]] Result<DeviceIdAck> readDeviceIdAck(std::span<const std::uint8_t> payload);
 [[nodiscard]] Result<ExtendedVersionAck> readExtendedVersionAck(std::span<const std::uint8_t> payload);

@@ -12,7 +12,6 @@ Result<Identification> identify(Exchange& exchange, bool emulated) {
     if (!idPayload) return failure(idPayload);
     auto id = readDeviceIdAck(*idPayload);
     if (!id) return failure(id);
-    if (id->result != ResultCode::Ok) return refusal(Command::DeviceId, id->result);
     if (id->id.empty()) return fail(ErrorCode::Device, "the stimulator has no identity; 10 characters were expected");
     if (emulated && !id->id.starts_with(kEmulatedId)) {
         return fail(ErrorCode::Device,
@@ -25,7 +24,6 @@ Result<Identification> identify(Exchange& exchange, bool emulated) {
     if (!versionPayload) return failure(versionPayload);
     const auto version = readExtendedVersionAck(*versionPayload);
     if (!version) return failure(version);
-    if (version->result != ResultCode::Ok) return refusal(Command::ExtendedVersion, version->result);
     if (version->protocol.major < kOldestProtocol || version->protocol.major > kNewestProtocol) {
         return fail(ErrorCode::Device, "stimulator {} speaks ScienceMode {}; version {} or {} was expected", id->id,
                     version->protocol.text(), kOldestProtocol, kNewestProtocol);

@@ -64,7 +64,6 @@ Result<Sighting> ask(Result<std::unique_ptr<Transport>> opened, std::string plac
     if (!answer) return failure(answer);
     const auto status = readStimStatusAck(*answer);
     if (!status) return failure(status);
-    if (status->result != ResultCode::Ok) return refusal(Command::StimStatus, status->result);
     return Sighting{std::move(*found), std::move(place), *status, emulated};
 }
 

@@ -191,7 +191,6 @@ Result<StimulatorStatus> ScienceModeStimulator::askStatus() {
     if (!answer) return failure(answer);
     const auto ack = readStimStatusAck(*answer);
     if (!ack) return failure(ack);
-    if (ack->result != ResultCode::Ok) return refusal(Command::StimStatus, ack->result);
     const std::scoped_lock state(state_);
     auto status = snapshot(clock_.now());
     status.delivering = ack->status == Stimulation::MidLevelRunning;

@@ -8,15 +8,7 @@ namespace {
 
 StreamCounts sumOf(const SensorBoardReport& report) noexcept {
     StreamCounts sum;
-    for (const auto& stream : report.streams) {
-        sum.blocks += stream.blocks;
-        sum.samples += stream.samples;
-        sum.gaps += stream.gaps;
-        sum.lostBlocks += stream.lostBlocks;
-        sum.lostSamples += stream.lostSamples;
-        sum.late += stream.late;
-        sum.unsound += stream.unsound;
-    }
+    for (const auto& stream : report.streams) sum += stream;
     return sum;
 }
 
@@ -26,15 +18,7 @@ double asNumber(std::uint64_t count) noexcept { return static_cast<double>(count
 
 SensorBoardReport together(const SensorBoardReport& before, const SensorBoardReport& now) noexcept {
     SensorBoardReport sum = now;
-    for (std::size_t i = 0; i < sum.streams.size(); ++i) {
-        sum.streams[i].blocks += before.streams[i].blocks;
-        sum.streams[i].samples += before.streams[i].samples;
-        sum.streams[i].gaps += before.streams[i].gaps;
-        sum.streams[i].lostBlocks += before.streams[i].lostBlocks;
-        sum.streams[i].lostSamples += before.streams[i].lostSamples;
-        sum.streams[i].late += before.streams[i].late;
-        sum.streams[i].unsound += before.streams[i].unsound;
-    }
+    for (std::size_t i = 0; i < sum.streams.size(); ++i) sum.streams[i] += before.streams[i];
     sum.line.bytes += before.line.bytes;
     sum.line.frames += before.line.frames;
     sum.line.badCrc += before.line.badCrc;

@@ -1,5 +1,7 @@
 #include "drivers/sensor_board/Messages.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "drivers/sensor_board/Fields.h"
@@ -11,50 +13,23 @@ namespace {
 constexpr std::size_t kNameBytes = 24, kSerialBytes = 16, kFirmwareBytes = 16, kDateBytes = 10, kReferenceBytes = 24;
 constexpr std::uint32_t kMaxRate_mhz = 1'000'000'000;  // 1 MHz
 
-std::optional<StreamKind> kindOf(std::uint8_t wire) noexcept {
-    switch (wire) {
-        case 0:
-            return StreamKind::Acceleration;
-        case 1:
-            return StreamKind::Force;
-        case 2:
-            return StreamKind::Taxels;
-        default:
-            return std::nullopt;
-    }
+// Their places are their numbers on the wire.
+constexpr std::array kKinds{StreamKind::Acceleration, StreamKind::Force, StreamKind::Taxels};
+constexpr std::array kUnits{StreamUnit::Count, StreamUnit::MetrePerSecondSquared, StreamUnit::Newton,
+                            StreamUnit::Pascal};
+
+template <class Values>
+auto numbered(const Values& values, std::uint8_t wire) noexcept {
+    return wire < values.size() ? std::optional(values[wire]) : std::nullopt;
+}
+template <class Values, class Value>
+std::uint8_t wireOf(const Values& values, Value value) noexcept {
+    return static_cast<std::uint8_t>(std::ranges::find(values, value) - values.begin());
 }
 
-std::optional<StreamUnit> unitOf(std::uint8_t wire) noexcept {
-    switch (wire) {
-        case 0:
-            return StreamUnit::Count;
-        case 1:
-            return StreamUnit::MetrePerSecondSquared;
-        case 2:
-            return StreamUnit::Newton;
-        case 3:
-            return StreamUnit::Pascal;
-        default:
-            return std::nullopt;
-    }
-}
-
-std::uint8_t wireOf(StreamKind kind) noexcept {
-    return kind == StreamKind::Acceleration ? 0 : kind == StreamKind::Force ? 1 : 2;
-}
-
-std::uint8_t wireOf(StreamUnit unit) noexcept {
-    switch (unit) {
-        case StreamUnit::MetrePerSecondSquared:
-            return 1;
-        case StreamUnit::Newton:
-            return 2;
-        case StreamUnit::Pascal:
-            return 3;
-        case StreamUnit::Count:
-            break;
-    }
-    return 0;
+/// What comes behind the token.
+FieldReader fieldsOf(const Frame& frame) noexcept {
+    return FieldReader(frame.payload.empty() ? frame.payload : frame.payload.subspan(1));
 }
 
 StreamUnit properUnit(StreamKind kind) noexcept {
@@ -78,26 +53,17 @@ tl::unexpected<Error> wrong(fmt::format_string<Args...> text, Args&&... args) {
 }  // namespace
 
 std::string Refusal::text() const {
-    switch (reason) {
-        case 1:
-            return "it does not know this command";
-        case 2:
-            return "it has no such stream";
-        case 3:
-            return "it does not support this value";
-        case 4:
-            return "it does this only while stopped";
-        case 5:
-            return "its hardware failed";
-        default:
-            return fmt::format("for reason {}, which this version of the protocol does not have", reason);
-    }
+    constexpr std::array kReasons{"it does not know this command", "it has no such stream",
+                                  "it does not support this value", "it does this only while stopped",
+                                  "its hardware failed"};
+    if (reason >= 1 && reason <= kReasons.size()) return kReasons[reason - 1U];
+    return fmt::format("for reason {}, which this version of the protocol does not have", reason);
 }
 
 std::uint8_t tokenOf(const Frame& frame) noexcept { return frame.payload.empty() ? std::uint8_t{0} : frame.payload[0]; }
 
 Result<BoardIdentity> readIdentity(const Frame& frame) {
-    FieldReader in(frame.payload.empty() ? frame.payload : frame.payload.subspan(1));
+    auto in = fieldsOf(frame);
     BoardIdentity identity;
     identity.lowestVersion = in.u8();
     identity.highestVersion = in.u8();
@@ -115,7 +81,7 @@ Result<BoardIdentity> readIdentity(const Frame& frame) {
 }
 
 Result<StreamConfiguration> readConfiguration(const Frame& frame) {
-    FieldReader in(frame.payload.empty() ? frame.payload : frame.payload.subspan(1));
+    auto in = fieldsOf(frame);
     StreamConfiguration made;
     made.stream = in.u8();
     const auto flags = in.u8();
@@ -134,10 +100,10 @@ Result<StreamConfiguration> readConfiguration(const Frame& frame) {
                      11 + 8 * columns);
     }
     if ((flags & ~1U) != 0) return wrong("stream {} has flags {:#x}; 0 or 1 was expected", made.stream, flags);
-    const auto known = kindOf(kind);
+    const auto known = numbered(kKinds, kind);
     if (!known) return wrong("stream {} is of kind {}; 0, 1 or 2 was expected", made.stream, kind);
     made.kind = *known;
-    const auto knownUnit = unitOf(unit);
+    const auto knownUnit = numbered(kUnits, unit);
     if (!knownUnit || (*knownUnit != StreamUnit::Count && *knownUnit != properUnit(made.kind))) {
         return wrong("its {} stream is in {}; {} or count was expected", nameOf(made.kind),
                      knownUnit ? std::string(symbolOf(*knownUnit)) : fmt::format("unit {}", unit),
@@ -171,7 +137,7 @@ Result<StreamConfiguration> readConfiguration(const Frame& frame) {
 }
 
 Result<StreamCalibration> readCalibration(const Frame& frame) {
-    FieldReader in(frame.payload.empty() ? frame.payload : frame.payload.subspan(1));
+    auto in = fieldsOf(frame);
     StreamCalibration made;
     made.stream = in.u8();
     made.calibrated = (in.u8() & 1U) != 0;
@@ -194,7 +160,7 @@ Result<StreamCalibration> readCalibration(const Frame& frame) {
 }
 
 Result<BoardStatus> readStatus(const Frame& frame) {
-    FieldReader in(frame.payload.empty() ? frame.payload : frame.payload.subspan(1));
+    auto in = fieldsOf(frame);
     BoardStatus status;
     status.running = (in.u8() & 1U) != 0;
     status.faultyStreams = in.u8();
@@ -207,7 +173,7 @@ Result<BoardStatus> readStatus(const Frame& frame) {
 }
 
 Result<Refusal> readRefusal(const Frame& frame) {
-    FieldReader in(frame.payload.empty() ? frame.payload : frame.payload.subspan(1));
+    auto in = fieldsOf(frame);
     Refusal refusal;
     refusal.command = in.u8();
     refusal.reason = in.u8();
@@ -216,7 +182,7 @@ Result<Refusal> readRefusal(const Frame& frame) {
 }
 
 Result<std::uint64_t> readDone(const Frame& frame, Command command) {
-    FieldReader in(frame.payload.empty() ? frame.payload : frame.payload.subspan(1));
+    auto in = fieldsOf(frame);
     const auto done = in.u8();
     const auto time = in.u64();
     if (!in.whole()) return wrong("its DONE has {} bytes; 10 were expected", frame.payload.size());
@@ -243,8 +209,8 @@ std::optional<DataBlock> readBlock(const Frame& frame) noexcept {
 std::vector<std::uint8_t> configurationPayload(const StreamConfiguration& configuration) {
     std::vector<std::uint8_t> bytes{configuration.stream,
                                     static_cast<std::uint8_t>(configuration.enabled ? 1 : 0),
-                                    wireOf(configuration.kind),
-                                    wireOf(configuration.unit),
+                                    wireOf(kKinds, configuration.kind),
+                                    wireOf(kUnits, configuration.unit),
                                     static_cast<std::uint8_t>(configuration.format),
                                     static_cast<std::uint8_t>(configuration.columns.size())};
     putU32(bytes, configuration.rate_mhz);

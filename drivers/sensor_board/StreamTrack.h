@@ -22,6 +22,17 @@ struct StreamCounts {
     std::uint64_t lostSamples = 0;  ///< in lost blocks, and those that the board could not fetch
     std::uint64_t late = 0;         ///< blocks that came again or behind later ones: not used
     std::uint64_t unsound = 0;      ///< blocks that contradict the configuration or the block before: not used
+
+    StreamCounts& operator+=(const StreamCounts& more) noexcept {
+        blocks += more.blocks;
+        samples += more.samples;
+        gaps += more.gaps;
+        lostBlocks += more.lostBlocks;
+        lostSamples += more.lostSamples;
+        late += more.late;
+        unsound += more.unsound;
+        return *this;
+    }
 };
 
 class StreamTrack {

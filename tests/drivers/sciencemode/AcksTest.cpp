@@ -4,6 +4,7 @@
 #include <rapidcheck.h>
 
 #include "tests/drivers/sciencemode/Bytes.h"
+#include "tests/support/Refused.h"
 #include "tests/support/emulated/sciencemode/DeviceSide.h"
 
 namespace tacto::test {
@@ -73,19 +74,14 @@ TEST(ScienceModeAck, AnOldReadBackDoesNotSurviveInAReusedAck) {
 
 TEST(ScienceModeAck, StatusIdentityAndVersionComeBack) {
     RecordProperty("hazard", "H4");
-    const auto status =
-        readStimStatusAck(payloadOf(StimStatusAck{ResultCode::Ok, Stimulation::MidLevelRunning, 6}).view());
-    ASSERT_TRUE(status.has_value());
-    EXPECT_EQ(status->status, Stimulation::MidLevelRunning);
-    EXPECT_EQ(status->highVoltage, 6);
-    const auto id = readDeviceIdAck(payloadOf(DeviceIdAck{ResultCode::Ok, "P24-000123"}).view());
-    ASSERT_TRUE(id.has_value());
-    EXPECT_EQ(id->id, "P24-000123");
-    const auto version =
-        readExtendedVersionAck(payloadOf(ExtendedVersionAck{ResultCode::Ok, {1, 2, 3}, {4, 5, 6}}).view());
-    ASSERT_TRUE(version.has_value());
-    EXPECT_EQ(version->firmware.text(), "1.2.3");
-    EXPECT_EQ(version->protocol.text(), "4.5.6");
+    const auto status = accepted(readStimStatusAck(payloadOf(StimStatusAck{Stimulation::MidLevelRunning, 6}).view()));
+    EXPECT_EQ(status.status, Stimulation::MidLevelRunning);
+    EXPECT_EQ(status.highVoltage, 6);
+    const auto id = accepted(readDeviceIdAck(payloadOf(DeviceIdAck{"P24-000123"}).view()));
+    EXPECT_EQ(id.id, "P24-000123");
+    const auto version = accepted(readExtendedVersionAck(payloadOf(ExtendedVersionAck{{1, 2, 3}, {4, 5, 6}}).view()));
+    EXPECT_EQ(version.firmware.text(), "1.2.3");
+    EXPECT_EQ(version.protocol.text(), "4.5.6");
 }
 
 TEST(ScienceModeAck, WrongLengthsAndValuesAreRefused) {

@@ -69,7 +69,7 @@ Payload payloadOf(const ChannelConfigAck& ack) noexcept {
 
 Payload payloadOf(const StimStatusAck& ack) noexcept {
     Payload payload;
-    payload.push(static_cast<unsigned>(ack.result));
+    payload.push(static_cast<unsigned>(ResultCode::Ok));
     payload.push(static_cast<unsigned>(ack.status));
     payload.push(ack.highVoltage);
     return payload;
@@ -77,7 +77,7 @@ Payload payloadOf(const StimStatusAck& ack) noexcept {
 
 Payload payloadOf(const DeviceIdAck& ack) noexcept {
     Payload payload;
-    payload.push(static_cast<unsigned>(ack.result));
+    payload.push(static_cast<unsigned>(ResultCode::Ok));
     for (std::size_t i = 0; i < kIdBytes; ++i) {
         payload.push(i < ack.id.size() ? static_cast<unsigned char>(ack.id[i]) : ' ');
     }
@@ -86,7 +86,7 @@ Payload payloadOf(const DeviceIdAck& ack) noexcept {
 
 Payload payloadOf(const ExtendedVersionAck& ack) noexcept {
     Payload payload;
-    payload.push(static_cast<unsigned>(ack.result));
+    payload.push(static_cast<unsigned>(ResultCode::Ok));
     for (const auto& version : {ack.firmware, ack.protocol}) {
         payload.push(version.major);
         payload.push(version.minor);

@@ -128,7 +128,7 @@ void EmulatedStimulator::handle(const Packet& packet, Instant now) {
             repetition_.reset();
             return acknowledge(packet, ResultCode::Ok, due);
         case Command::DeviceId:
-            return acknowledge(packet, payloadOf(DeviceIdAck{ResultCode::Ok, settings_.id}), due);
+            return acknowledge(packet, payloadOf(DeviceIdAck{settings_.id}), due);
         case Command::Reset:
             output_.cut(now);
             repetition_.reset();
@@ -137,11 +137,10 @@ void EmulatedStimulator::handle(const Packet& packet, Instant now) {
         case Command::StimStatus: {
             const auto level =
                 static_cast<std::uint8_t>(lowLevel_ || repetition_ ? HighVoltage::V150 : HighVoltage::Off);
-            return acknowledge(packet, payloadOf(StimStatusAck{ResultCode::Ok, state(now), level}), due);
+            return acknowledge(packet, payloadOf(StimStatusAck{state(now), level}), due);
         }
         case Command::ExtendedVersion:
-            return acknowledge(
-                packet, payloadOf(ExtendedVersionAck{ResultCode::Ok, settings_.firmware, settings_.protocol}), due);
+            return acknowledge(packet, payloadOf(ExtendedVersionAck{settings_.firmware, settings_.protocol}), due);
         case Command::GeneralError:
         case Command::UnknownCommand:
             break;
