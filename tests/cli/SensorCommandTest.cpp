@@ -56,12 +56,12 @@ TEST_F(SensorCommand, StatusSaysWhoItIsWhatItIsSetToAndHowItsLineIs) {
     expectKeys(line, {"samples", "samples_lost", "crc_errors", "drift_ppm", "drift_uncertainty_ppm", "delay_most_s"},
                "line");
     EXPECT_IN_TIME(line["delay_most_s"].get<double>() < 0.1);
-    EXPECT_FALSE(board_.board().inspect([](auto& board, Instant) { return board.running(); })) << "it was told to stop";
+    EXPECT_FALSE(board_.inspect([](auto& board, Instant) { return board.running(); })) << "it was told to stop";
 }
 
 TEST_F(SensorCommand, WhatIsLostIsSaidInWordsToo) {
     RecordProperty("hazard", "H7");
-    board_.board().inspect([](auto& board, Instant) { board.spoil({.drop = 0.2, .flip = 0.2}); });
+    board_.inspect([](auto& board, Instant) { board.spoil({.drop = 0.2, .flip = 0.2}); });
     const auto ran = status({"--seconds", "1"});
     ASSERT_EXIT_IN_TIME(ran.code, 0) << ran.err;
     for (const auto* part : {"something was lost", "CRC errors", "not known yet", "EMU-0001", "(simulated)", "4000 Hz",
@@ -77,7 +77,7 @@ TEST_F(SensorCommand, RatesAreSetByTheUri) {
 }
 
 TEST_F(SensorCommand, ABoardThatTalksGarbageOrIsNotThereCouldNotRun) {
-    board_.board().inspect([](auto& board, Instant) { board.talkGarbage(true); });
+    board_.inspect([](auto& board, Instant) { board.talkGarbage(true); });
     expectRefused(status(), 3, {"it answers HELLO with garbage"});
     expectRefused(desk_.run({"sensor", "status", "sensor:?tty=/dev/pts/98765"}), 3, {"/dev/pts/98765"});
 }

@@ -113,10 +113,7 @@ void FakeHidDevice::refuseWatch(bool refused) { CHANGE(watchRefused_ = refused);
 void FakeHidDevice::setUrgentStop(Bytes report) { CHANGE(urgentStop_ = std::move(report)); }
 #undef CHANGE
 
-std::vector<FakeHidDevice::Write> FakeHidDevice::writes() const {
-    const std::scoped_lock lock(mutex_);
-    return writes_;
-}
+std::vector<FakeHidDevice::Write> FakeHidDevice::writes() const { return locked(writes_); }
 
 Bytes FakeHidDevice::last() const {
     const std::scoped_lock lock(mutex_);
@@ -143,50 +140,15 @@ void FakeHidDevice::silenceWatch(bool silent) {
     watchSilent_ = silent;
 }
 
-int FakeHidDevice::beats() const {
-    const std::scoped_lock lock(mutex_);
-    return beats_;
-}
-
-bool FakeHidDevice::watchRests() const {
-    const std::scoped_lock lock(mutex_);
-    return resting_;
-}
-
-Bytes FakeHidDevice::watchedStop() const {
-    const std::scoped_lock lock(mutex_);
-    return watchedStop_;
-}
-
-int FakeHidDevice::attempts() const {
-    const std::scoped_lock lock(mutex_);
-    return attempts_;
-}
-
-int FakeHidDevice::openings() const {
-    const std::scoped_lock lock(mutex_);
-    return openings_;
-}
-
-int FakeHidDevice::openNow() const {
-    const std::scoped_lock lock(mutex_);
-    return openNow_;
-}
-
-bool FakeHidDevice::plugged() const {
-    const std::scoped_lock lock(mutex_);
-    return plugged_;
-}
-
-hid::HidDeviceInfo FakeHidDevice::info() const {
-    const std::scoped_lock lock(mutex_);
-    return info_;
-}
-
-Bytes FakeHidDevice::descriptor() const {
-    const std::scoped_lock lock(mutex_);
-    return descriptor_;
-}
+int FakeHidDevice::beats() const { return locked(beats_); }
+bool FakeHidDevice::watchRests() const { return locked(resting_); }
+Bytes FakeHidDevice::watchedStop() const { return locked(watchedStop_); }
+int FakeHidDevice::attempts() const { return locked(attempts_); }
+int FakeHidDevice::openings() const { return locked(openings_); }
+int FakeHidDevice::openNow() const { return locked(openNow_); }
+bool FakeHidDevice::plugged() const { return locked(plugged_); }
+hid::HidDeviceInfo FakeHidDevice::info() const { return locked(info_); }
+Bytes FakeHidDevice::descriptor() const { return locked(descriptor_); }
 
 Result<std::unique_ptr<hid::HidPort>> FakeHidDevice::open() {
     const std::scoped_lock lock(mutex_);

@@ -72,6 +72,12 @@ public:
 private:
     friend class FakeHidPort;
     friend class FakeWatchdog;
+    template <class Value>
+    [[nodiscard]] Value locked(const Value& value) const {
+        const std::scoped_lock lock(mutex_);
+        return value;
+    }
+
     const Clock& clock_;
     mutable std::mutex mutex_;
     mutable std::condition_variable changed_;

@@ -4,22 +4,20 @@
 #include <array>
 #include <chrono>
 #include <csignal>
-#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <poll.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <thread>
-#include <unistd.h>
 
 #include "drivers/hid_massager/HidDriver.h"
 #include "drivers/hid_massager/TrancePort.h"
 #include "drivers/hid_massager/WatchdogProcess.h"
 #include "tests/drivers/hid_massager/FakeHid.h"
 #include "tests/support/InTime.h"
+#include "tests/support/OtherProgram.h"
+#include "tests/support/Refused.h"
 #include "tests/support/usb_emulation/EmulatedHidDevice.h"
 
 namespace tacto::test {
@@ -44,77 +42,13 @@ constexpr std::array<Death, 5> kDeaths{{{"Kill9", "", SIGKILL},
                                         {"Interrupt", "", SIGINT},
                                         {"ExitWithoutClosing", "exit", 0}}};
 
-/// The program that drives the massager.
-class Host {
-public:
-    explicit Host(std::string uri) {
-        std::array<int, 2> out{};
-        std::array<int, 2> in{};
-        if (pipe2(out.data(), O_CLOEXEC) != 0 || pipe2(in.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
-        posix_spawn_file_actions_t actions;
-        posix_spawn_file_actions_init(&actions);
-        posix_spawn_file_actions_adddup2(&actions, out[1], STDOUT_FILENO);
-        posix_spawn_file_actions_adddup2(&actions, in[0], STDIN_FILENO);
-        // A signal that this program ignores, as SIGINT under nohup, is ignored by what it starts.
-        sigset_t deadly;
-        sigemptyset(&deadly);
-        for (const auto& death : kDeaths) {
-            if (death.signal != 0 && death.signal != SIGKILL) sigaddset(&deadly, death.signal);
-        }
-        posix_spawnattr_t attributes;
-        posix_spawnattr_init(&attributes);
-        posix_spawnattr_setsigdefault(&attributes, &deadly);
-        posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
-        std::string program = TACTO_HOST_PROGRAM;
-        std::array<char*, 3> arguments{program.data(), uri.data(), nullptr};
-        const int spawned = posix_spawn(&process_, program.c_str(), &actions, &attributes, arguments.data(), environ);
-        posix_spawnattr_destroy(&attributes);
-        posix_spawn_file_actions_destroy(&actions);
-        close(out[1]);
-        close(in[0]);
-        said_ = out[0];
-        tell_ = in[1];
-        if (spawned != 0) throw std::runtime_error("the host does not start");
-    }
-    ~Host() {
-        if (process_ > 0) {
-            kill(process_, SIGKILL);
-            waitpid(process_, nullptr, 0);
-        }
-        close(said_);
-        close(tell_);
-    }
-    Host(const Host&) = delete;
-    Host& operator=(const Host&) = delete;
-
-    [[nodiscard]] bool vibrates() const {
-        char first = 0;
-        return read(said_, &first, 1) == 1;
-    }
-    void signal(int number) const { kill(process_, number); }
-    void tell(std::string_view word) const {
-        ASSERT_EQ(write(tell_, word.data(), word.size()), std::ssize(word));
-        ASSERT_EQ(write(tell_, "\n", 1), 1);
-    }
-    /// Waits for its end; how it ended, as waitpid() says.
-    int ended() {
-        int status = 0;
-        waitpid(std::exchange(process_, -1), &status, 0);
-        return status;
-    }
-
-private:
-    pid_t process_ = -1;
-    int said_ = -1, tell_ = -1;
-};
-
 class WatchdogDeath : public testing::TestWithParam<Death> {
 protected:
     void SetUp() override { RecordProperty("hazard", "H2"); }
-    static void die(Host& host) {
+    static void die(HostProcess& host) {
         const auto& how = GetParam();
         if (*how.word != '\0')
-            host.tell(how.word);
+            ASSERT_TRUE(host.tell(how.word));
         else
             host.signal(how.signal);
         const int status = host.ended();
@@ -137,8 +71,8 @@ UsbBytes padReport(std::uint8_t intensity) {
 
 TEST_P(WatchdogDeath, AHidrawMassagerGetsItsStop) {
     const EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kReportLength), {});
-    Host host("hid:054c:0ce6");
-    ASSERT_IN_TIME(host.vibrates()) << "the host ended without driving the massager";
+    HostProcess host({TACTO_HOST_PROGRAM, "hid:054c:0ce6"});
+    ASSERT_IN_TIME(host.speaks()) << "the host ended without driving the massager";
     ASSERT_EQ(pad.waitForReports(2).back(), padReport(255));
     die(host);
     const auto dead = Steady::now();
@@ -149,8 +83,8 @@ TEST_P(WatchdogDeath, AHidrawMassagerGetsItsStop) {
 
 TEST_P(WatchdogDeath, ATranceVibratorGetsItsStop) {
     EmulatedUsbDevice device(bed, vendorDevice(hid::kTranceVendor, hid::kTranceProduct, "T1"), {});
-    Host host("hid:0b49:064f");
-    ASSERT_IN_TIME(host.vibrates());
+    HostProcess host({TACTO_HOST_PROGRAM, "hid:0b49:064f"});
+    ASSERT_IN_TIME(host.speaks());
     const auto speeds = [&](std::size_t count) {
         std::vector<int> all;
         for (const auto& setup : device.waitForRequests(count)) all.push_back(setup.value);
@@ -171,15 +105,15 @@ TEST(WatchdogStandstill, AProgramThatStandsStillInABurstIsStoppedForAndStaysOff)
     RecordProperty("hazard", "H2");
     UsbTestbed bed;
     const EmulatedHidDevice pad(bed, 0x054C, 0x0CE6, "SN7", outputDescriptor(2, kReportLength), {});
-    Host host("hid:054c:0ce6");
-    ASSERT_IN_TIME(host.vibrates());
+    HostProcess host({TACTO_HOST_PROGRAM, "hid:054c:0ce6"});
+    ASSERT_IN_TIME(host.speaks());
     ASSERT_EQ(pad.waitForReports(2).back(), padReport(255));
     host.signal(SIGSTOP);
     const auto stopped = Steady::now();
     EXPECT_EQ(pad.waitForReports(3).back(), padReport(0));
     EXPECT_IN_TIME(Steady::now() - stopped <= kStopWithin);
     host.signal(SIGCONT);
-    host.tell("over");  // and it ends in order
+    ASSERT_TRUE(host.tell("over"));  // and it ends in order
     EXPECT_EQ(host.ended(), 0);
     for (std::size_t i = 2; i < pad.waitForReports(3).size(); ++i) EXPECT_EQ(pad.waitForReports(3)[i], padReport(0));
 }
@@ -266,18 +200,14 @@ TEST_F(WatchdogProcessTest, EndedInOrderSendsNothing) {
 }
 
 TEST_F(WatchdogProcessTest, ThatDoesNotStartOrOpenTheDeviceMeansThatTheMassagerIsNotDriven) {
-    const auto missing = hid::WatchdogProcess::start(hidraw(), "/nowhere/tactoscope-watchdog");
-    ASSERT_FALSE(missing);
-    EXPECT_EQ(missing.error().code, ErrorCode::NotFound);
-    EXPECT_THAT(missing.error().message, testing::AllOf(HasSubstr("not driven"), HasSubstr("/nowhere/")));
-    const auto other = hid::WatchdogProcess::start(hidraw(), "/bin/true");
-    ASSERT_FALSE(other);
-    EXPECT_THAT(other.error().message, testing::AllOf(HasSubstr("not driven"), HasSubstr("did not answer")));
+    EXPECT_THAT(hid::WatchdogProcess::start(hidraw(), "/nowhere/tactoscope-watchdog"),
+                refused(ErrorCode::NotFound, testing::AllOf(HasSubstr("not driven"), HasSubstr("/nowhere/"))));
+    EXPECT_THAT(hid::WatchdogProcess::start(hidraw(), "/bin/true"),
+                refusedSaying(testing::AllOf(HasSubstr("not driven"), HasSubstr("did not answer"))));
     auto way = hidraw();
     way.node = "/dev/hidraw9";
-    const auto closed = hid::WatchdogProcess::start(way);
-    ASSERT_FALSE(closed);
-    EXPECT_THAT(closed.error().message, testing::AllOf(HasSubstr("not driven"), HasSubstr("/dev/hidraw9")));
+    EXPECT_THAT(hid::WatchdogProcess::start(way),
+                refusedSaying(testing::AllOf(HasSubstr("not driven"), HasSubstr("/dev/hidraw9"))));
 }
 
 TEST(StopWay, GoesThroughAProgramsArgumentsUnchanged) {

@@ -1,37 +1,32 @@
-// BoardOnPty.h - the emulated sensor board behind a pseudo-terminal, for `sensor:?tty=` and for programs in another
-// process.
+// BoardOnPty.h - the emulated sensor board in real time: behind a pseudo-terminal, for `sensor:?tty=` and for programs
+// in another process.
 //
-// Thread-safety: all members any thread.
+// Thread-safety: as DeviceOnPty.
 #pragma once
 
-#include <string>
-
-#include "tests/drivers/sensor_board/BoardFeed.h"
+#include "tests/support/emulated/DeviceOnPty.h"
+#include "tests/support/emulated/sensor_board/EmulatedBoard.h"
 
 namespace tacto::test {
 
-class BoardOnPty {
+/// A board that streams is looked at once a millisecond, as full-speed USB does.
+inline constexpr Instant kBoardRest = std::chrono::milliseconds(1);
+
+using MakeSignal = std::function<std::unique_ptr<sensorboard::BoardSignal>(Instant)>;
+/// A board that has power now and waits for START. Without a signal it counts (CountingSignal), so that a sample that
+/// is missing shows.
+[[nodiscard]] inline auto poweredBoard(sensorboard::EmulatedBoardSettings settings, MakeSignal signal = {}) {
+    return [settings = std::move(settings), signal = std::move(signal)](Instant now) {
+        return std::make_unique<sensorboard::EmulatedBoard>(
+            signal ? signal(now) : std::make_unique<sensorboard::CountingSignal>(), settings, now);
+    };
+}
+
+class BoardOnPty : public DeviceOnPty<sensorboard::EmulatedBoard> {
 public:
     /// Throws where the system gives no pseudo-terminal.
-    explicit BoardOnPty(const Clock& clock, sensorboard::EmulatedBoardSettings settings = {},
-                        BoardFeed::MakeSignal signal = {});
-    ~BoardOnPty();
-    BoardOnPty(const BoardOnPty&) = delete;
-    BoardOnPty& operator=(const BoardOnPty&) = delete;
-
-    /// What to open, "/dev/pts/3".
-    [[nodiscard]] const std::string& path() const noexcept { return path_; }
-    [[nodiscard]] BoardFeed& board() noexcept { return *feed_; }
-
-private:
-    void listen();
-
-    int master_ = -1;
-    int slave_ = -1;  // held open, so that a client may come and go
-    int wake_ = -1;
-    std::string path_;
-    std::unique_ptr<BoardFeed> feed_;
-    std::thread listener_;
+    explicit BoardOnPty(const Clock& clock, sensorboard::EmulatedBoardSettings settings = {})
+        : DeviceOnPty(PseudoTerminal::open().value(), clock, poweredBoard(std::move(settings)), kBoardRest) {}
 };
 
 }  // namespace tacto::test

@@ -1,11 +1,11 @@
-// BoardOnUsb.h - the emulated sensor board plugged into the emulated bus: the driver meets it through the real libusb,
-// on the steady clock.
+// BoardOnUsb.h - the emulated sensor board plugged into the emulated bus.
 //
-// Thread-safety: all members any thread.
+// Thread-safety: as DeviceOnUsb.
 #pragma once
 
-#include "tests/drivers/sensor_board/BoardFeed.h"
-#include "tests/support/usb_emulation/EmulatedUsbDevice.h"
+#include "drivers/sensor_board/SensorBoardDriver.h"
+#include "tests/drivers/sensor_board/BoardOnPty.h"
+#include "tests/support/usb_emulation/DeviceOnUsb.h"
 
 namespace tacto::test {
 
@@ -13,25 +13,19 @@ namespace tacto::test {
 enum class BoardInterface { Serial, Vendor };
 
 /// The descriptors of a board, with the product string that boards are known by.
-[[nodiscard]] UsbDescription boardDescription(BoardInterface kind, const std::string& serial);
+[[nodiscard]] inline UsbDescription boardDescription(BoardInterface kind, const std::string& serial) {
+    auto made = kind == BoardInterface::Serial ? cdcAcmDevice(kSensorBoardVendor, kSensorBoardProduct, serial)
+                                               : vendorDevice(kSensorBoardVendor, kSensorBoardProduct, serial);
+    made.name = kSensorBoardName;
+    return made;
+}
 
-class BoardOnUsb {
+class BoardOnUsb : public DeviceOnUsb<sensorboard::EmulatedBoard> {
 public:
-    BoardOnUsb(UsbTestbed& bed, const Clock& clock, sensorboard::EmulatedBoardSettings settings = {},
-               BoardInterface kind = BoardInterface::Serial, int port = 1, BoardFeed::MakeSignal signal = {});
-    ~BoardOnUsb() { feed_.stop(); }
-    BoardOnUsb(const BoardOnUsb&) = delete;
-    BoardOnUsb& operator=(const BoardOnUsb&) = delete;
-
-    /// Out of the socket and without power.
-    void unplug();
-    void plug();
-    [[nodiscard]] EmulatedUsbDevice& usb() noexcept { return usb_; }
-    [[nodiscard]] BoardFeed& board() noexcept { return feed_; }
-
-private:
-    BoardFeed feed_;
-    EmulatedUsbDevice usb_;
+    BoardOnUsb(UsbTestbed& bed, const Clock& clock, const sensorboard::EmulatedBoardSettings& settings = {},
+               BoardInterface kind = BoardInterface::Serial, int port = 1, MakeSignal signal = {})
+        : DeviceOnUsb(bed, clock, boardDescription(kind, settings.serial), poweredBoard(settings, std::move(signal)),
+                      port, kBoardRest) {}
 };
 
 }  // namespace tacto::test

@@ -9,6 +9,7 @@
 #include "tests/support/Comes.h"
 #include "tests/support/FailsInTime.h"
 #include "tests/support/InTime.h"
+#include "tests/support/Refused.h"
 
 namespace tacto::test {
 namespace {
@@ -143,7 +144,7 @@ TEST_F(SensorBoardOnUsb, ABoardThatTalksGarbageIsRefusedInTimeAndNotWaitedFor) {
     ASSERT_IN_TIME(listed(1));
     ASSERT_IN_TIME(open("sensor:"));
     ASSERT_IN_TIME(readFor(100ms));
-    board.board().inspect([](auto& b, Instant) { b.talkGarbage(true); });
+    board.inspect([](auto& b, Instant) { b.talkGarbage(true); });
     auto begin = clock_.now();
     const auto noise = readFor(5s);
     ASSERT_FALSE(noise);
@@ -156,7 +157,7 @@ TEST_F(SensorBoardOnUsb, ABoardThatTalksGarbageIsRefusedInTimeAndNotWaitedFor) {
     EXPECT_IN_TIME(clock_.now() - begin < 3s);
     EXPECT_THAT(refused.error().message, HasSubstr("garbage"));
 
-    board.board().inspect([](auto& b, Instant) { b.talkGarbage(false); });
+    board.inspect([](auto& b, Instant) { b.talkGarbage(false); });
     const auto well = open("sensor:");
     EXPECT_IN_TIME(well);
 }
@@ -164,7 +165,7 @@ TEST_F(SensorBoardOnUsb, ABoardThatTalksGarbageIsRefusedInTimeAndNotWaitedFor) {
 TEST_F(SensorBoardOnUsb, ADeviceThatAnswersNothingIsRefusedInTime) {
     RecordProperty("hazard", "H10");
     BoardOnUsb board(bed_, clock_, settingsFor("TSB-0001"));
-    board.board().inspect([](auto& b, Instant) { b.fallSilent(); });
+    board.inspect([](auto& b, Instant) { b.fallSilent(); });
     ASSERT_IN_TIME(listed(1));
     const auto begin = clock_.now();
     const auto refused = open("sensor:");
@@ -181,10 +182,7 @@ TEST_F(SensorBoardOnUsb, OneThatMayNotBeOpenedIsListedWithWhatHelps) {
     const auto found = driver_->list();
     ASSERT_EQ(found.size(), 1U);
     EXPECT_THAT(found[0].obstacle, HasSubstr("install-rules"));
-    const auto refused = open("sensor:TSB-0001");
-    ASSERT_FALSE(refused);
-    EXPECT_EQ(refused.error().code, ErrorCode::Io);
-    EXPECT_THAT(refused.error().message, HasSubstr("install-rules"));
+    EXPECT_THAT(open("sensor:TSB-0001"), refused(ErrorCode::Io, "install-rules"));
 }
 
 }  // namespace

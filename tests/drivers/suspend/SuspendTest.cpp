@@ -1,20 +1,15 @@
 // H2 end to end: a process that delivers is stopped by SIGSTOP and goes on by SIGCONT. It is a race between its
 // threads, so it is tried many times. No train may reach the device afterwards until the operator arms again.
-#include <array>
 #include <charconv>
 #include <csignal>
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <optional>
-#include <poll.h>
-#include <spawn.h>
+#include <random>
 #include <string>
-#include <sys/wait.h>
 #include <thread>
-#include <unistd.h>
 
 #include "core/base/Random.h"
 #include "tests/support/InTime.h"
+#include "tests/support/OtherProgram.h"
 #include "tests/support/Trials.h"
 #include "tests/support/emulated/sciencemode/EmulatedPty.h"
 
@@ -30,47 +25,13 @@ std::int64_t monotonic_ns() {
 }
 
 /// The process that delivers.
-class Host {
+class Host : public HostProcess {
 public:
-    explicit Host(const std::string& which) {
-        std::array<int, 2> in{}, out{};
-        if (pipe2(in.data(), O_CLOEXEC) != 0 || pipe2(out.data(), O_CLOEXEC) != 0) return;
-        posix_spawn_file_actions_t actions;
-        posix_spawn_file_actions_init(&actions);
-        posix_spawn_file_actions_adddup2(&actions, in[0], STDIN_FILENO);
-        posix_spawn_file_actions_adddup2(&actions, out[1], STDOUT_FILENO);
-        std::string program = TACTO_SUSPEND_HOST;
-        std::string argument = which;
-        std::array<char*, 3> arguments{program.data(), argument.data(), nullptr};
-        if (posix_spawn(&pid_, program.c_str(), &actions, nullptr, arguments.data(), environ) != 0) pid_ = -1;
-        posix_spawn_file_actions_destroy(&actions);
-        close(in[0]);
-        close(out[1]);
-        in_ = in[1];
-        out_ = out[0];
-    }
-    ~Host() {
-        if (pid_ > 0) {
-            kill(pid_, SIGKILL);
-            waitpid(pid_, nullptr, 0);
-        }
-        close(in_);
-        close(out_);
-    }
-    Host(const Host&) = delete;
-    Host& operator=(const Host&) = delete;
+    explicit Host(const std::string& which) : HostProcess({TACTO_SUSPEND_HOST, which}) {}
 
-    void signal(int number) const { kill(pid_, number); }
-    /// Returns when the kernel has stopped every thread of it.
-    [[nodiscard]] bool stopAndWait() const {
-        kill(pid_, SIGSTOP);
-        int status = 0;
-        return waitpid(pid_, &status, WUNTRACED) == pid_ && WIFSTOPPED(status);
-    }
     /// The answer to a command; the trains that come before it are kept. Empty after 20 s.
     [[nodiscard]] std::string ask(const std::string& command) {
-        const auto line = command + "\n";
-        if (write(in_, line.data(), line.size()) < 0) return {};
+        if (!tell(command)) return {};
         for (;;) {
             const auto said = readLine();
             if (!said) return {};
@@ -84,24 +45,6 @@ public:
     [[nodiscard]] const std::vector<std::int64_t>& trains() const { return trains_; }
 
 private:
-    [[nodiscard]] std::optional<std::string> readLine() {
-        for (;;) {
-            if (const auto end = pending_.find('\n'); end != std::string::npos) {
-                auto line = pending_.substr(0, end);
-                pending_.erase(0, end + 1);
-                return line;
-            }
-            pollfd readable{out_, POLLIN, 0};
-            if (poll(&readable, 1, 20'000) <= 0) return std::nullopt;
-            std::array<char, 4096> chunk{};
-            const auto got = read(out_, chunk.data(), chunk.size());
-            if (got <= 0) return std::nullopt;
-            pending_.append(chunk.data(), static_cast<std::size_t>(got));
-        }
-    }
-    pid_t pid_ = -1;
-    int in_ = -1, out_ = -1;
-    std::string pending_;
     std::vector<std::int64_t> trains_;
 };
 
