@@ -8,6 +8,7 @@
 #include "core/measure/InstrumentStatement.h"
 #include "drivers/simulated/SimulatedDriver.h"
 #include "tests/drivers/SimBench.h"
+#include "tests/support/Refused.h"
 
 namespace tacto::test {
 namespace {
@@ -64,20 +65,17 @@ TEST(SimulatedFlaws, AnOscilloscopeMayStateNothing) {
 
 TEST(StatementKeys, AreTakenOutOfAnAddressAndCheckedByName) {
     auto uri = DeviceUri::parse("sigrok:demo?voltage=A0&gain_pct=2&probe_pct=0&shunt_pct=0.1&timebase_ppm=50").value();
-    const auto stated = takeStatement(uri).value();
-    ASSERT_TRUE(stated);
-    EXPECT_DOUBLE_EQ(stated->voltage.gain.value, 0.02);
-    EXPECT_DOUBLE_EQ(stated->current.gain.value, 0.02);
-    EXPECT_DOUBLE_EQ(stated->voltage.probe.value, 0) << "0 is a statement";
-    EXPECT_DOUBLE_EQ(stated->current.probe.value, 0.001);
-    EXPECT_DOUBLE_EQ(stated->timeBase.value, 50e-6);
-    EXPECT_FALSE(stated->stamp_s.known());
+    const auto stated = accepted(takeStatement(uri).value());
+    EXPECT_DOUBLE_EQ(stated.voltage.gain.value, 0.02);
+    EXPECT_DOUBLE_EQ(stated.current.gain.value, 0.02);
+    EXPECT_DOUBLE_EQ(stated.voltage.probe.value, 0) << "0 is a statement";
+    EXPECT_DOUBLE_EQ(stated.current.probe.value, 0.001);
+    EXPECT_DOUBLE_EQ(stated.timeBase.value, 50e-6);
+    EXPECT_FALSE(stated.stamp_s.known());
     EXPECT_EQ(uri.text(), "sigrok:demo?voltage=A0");
     for (const char* wrong : {"gain_pct=nan", "gain_pct=-1", "gain_pct=60", "gain_pct=", "timebase_ppm=x"}) {
         auto refused = DeviceUri::parse(std::string("sigrok:demo?") + wrong).value();
-        const auto found = takeStatement(refused);
-        ASSERT_FALSE(found) << wrong;
-        EXPECT_NE(found.error().message.find("accepted"), std::string::npos) << found.error().message;
+        EXPECT_THAT(takeStatement(refused), refusedSaying("accepted")) << wrong;
     }
     auto twice = DeviceUri::parse("sigrok:demo?gain_pct=1&gain_pct=2").value();
     EXPECT_EQ(takeStatement(twice).error().message,
@@ -94,15 +92,12 @@ TEST(StatementKeys, BelongToAnOscilloscope) {
         const std::vector<DeviceUri> uris{DeviceUri::parse(text).value()};
         return registry.open(uris, {}, OpenContext{clock});
     };
-    const auto refused = open("sim:stimulator?gain_pct=1");
-    ASSERT_FALSE(refused);
-    EXPECT_NE(refused.error().message.find("is not an oscilloscope"), std::string::npos) << refused.error().message;
-    const auto scope = open("sim:oscilloscope?accuracy=unknown&gain_pct=1");
-    ASSERT_TRUE(scope) << scope.error().message;
-    EXPECT_DOUBLE_EQ(scope->scopeStatement.voltage.gain.value, 0.01);
-    EXPECT_EQ(scope->scopeStatement.voltage.gain.by, "the device's address");
-    ASSERT_EQ(scope->identities().size(), 1U);
-    EXPECT_EQ(scope->identities()[0].uri, "sim:oscilloscope?accuracy=unknown&gain_pct=1") << "what repeats the run";
+    EXPECT_THAT(open("sim:stimulator?gain_pct=1"), refusedSaying("is not an oscilloscope"));
+    const auto scope = accepted(open("sim:oscilloscope?accuracy=unknown&gain_pct=1"));
+    EXPECT_DOUBLE_EQ(scope.scopeStatement.voltage.gain.value, 0.01);
+    EXPECT_EQ(scope.scopeStatement.voltage.gain.by, "the device's address");
+    ASSERT_EQ(scope.identities().size(), 1U);
+    EXPECT_EQ(scope.identities()[0].uri, "sim:oscilloscope?accuracy=unknown&gain_pct=1") << "what repeats the run";
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "drivers/simulated/SimulatedDriver.h"
 #include "tests/drivers/conformance/StimulatorConformance.h"
+#include "tests/support/Refused.h"
 
 namespace tacto::test {
 
@@ -34,28 +35,23 @@ ApprovedTrain SimBench::approved(const PulseTrain& train) {
     request.train = train;
     request.interval = std::max(Seconds(2), train.duration());
     request.onset = clock.now();
-    auto approval = gate_->approve(request);
-    if (!approval) throw std::runtime_error(approval.error().message);
-    return std::move(*approval);
+    return accepted(gate_->approve(request));
 }
 
 void SimBench::deliver(const PulseTrain& train, Seconds after) {
-    const auto delivered = devices.stimulator->deliver(approved(train));
-    ASSERT_TRUE(delivered.has_value()) << delivered.error().message;
+    accepted(devices.stimulator->deliver(approved(train)));
     wait(after);
 }
 
 void SimBench::arm(const ScopeSettings& settings) {
-    const auto configured = devices.oscilloscope->configure(settings);
-    ASSERT_TRUE(configured.has_value()) << configured.error().message;
+    accepted(devices.oscilloscope->configure(settings));
     ASSERT_TRUE(devices.oscilloscope->arm().has_value());
 }
 
 Capture SimBench::capture() {
-    auto found = devices.oscilloscope->poll();
-    if (!found) throw std::runtime_error(found.error().message);
-    if (!*found) throw std::runtime_error("no capture");
-    return std::move(**found);
+    auto found = accepted(devices.oscilloscope->poll());
+    if (!found) throw std::runtime_error("no capture");
+    return std::move(*found);
 }
 
 sim::SimulatedCircuit& SimBench::circuit() {

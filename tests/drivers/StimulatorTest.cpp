@@ -6,6 +6,7 @@
 #include "tests/drivers/SimBench.h"
 #include "tests/drivers/conformance/StimulatorConformance.h"
 #include "tests/support/Figures.h"
+#include "tests/support/Refused.h"
 
 namespace tacto::test {
 namespace {
@@ -78,12 +79,11 @@ TEST(SimulatedStimulator, WidthAtHalfAndChargeSurviveASlowEdge) {
     SimBench bench;
     bench.open("sim:stimulator?rise=20us");
     bench.deliver(voltagePulse(20));
-    const auto pulse = bench.circuit().lastPulse(bench.clock.now());
-    ASSERT_TRUE(pulse.has_value());
-    EXPECT_NEAR(pulse->netCharge_C, 0, 1e-12);
+    const auto pulse = accepted(bench.circuit().lastPulse(bench.clock.now()));
+    EXPECT_NEAR(pulse.netCharge_C, 0, 1e-12);
     // The ramp up belongs to the leading phase, the ramp down to the gap: half an edge less than 20 V · 200 µs / 1 kΩ.
-    EXPECT_NEAR(pulse->leadingCharge_C, 20e-3 * 190e-6, 1e-10);
-    EXPECT_NEAR(pulse->energy_J, 2 * 0.4 * (200e-6 - 20e-6 / 3), 1e-7);
+    EXPECT_NEAR(pulse.leadingCharge_C, 20e-3 * 190e-6, 1e-10);
+    EXPECT_NEAR(pulse.energy_J, 2 * 0.4 * (200e-6 - 20e-6 / 3), 1e-7);
 }
 
 TEST(SimulatedStimulator, ComplianceCapsACurrentSource) {
@@ -141,9 +141,7 @@ TEST(SimulatedStimulator, RefusesATrainWhileOneIsInProgress) {
     auto train = voltagePulse(5);
     train.pulses = 20;
     bench.deliver(train, Seconds(0.05));
-    const auto refused = bench.devices.stimulator->deliver(bench.approved(voltagePulse(5)));
-    ASSERT_FALSE(refused.has_value());
-    EXPECT_EQ(refused.error().code, ErrorCode::Device);
+    EXPECT_THAT(bench.devices.stimulator->deliver(bench.approved(voltagePulse(5))), refused(ErrorCode::Device));
 }
 
 TEST(SimulatedStimulator, ResidualVoltageCarriesFromPulseToPulse) {
@@ -326,9 +324,7 @@ TEST(StimulatorFaults, ALateTrainIsSuppressedByForceOffAfterTheTimeout) {
     for (const bool off : {false, true}) {
         SimBench bench;
         bench.open("sim:stimulator?fault=late");
-        const auto late = bench.devices.stimulator->deliver(bench.approved(voltagePulse(5)));
-        ASSERT_FALSE(late.has_value());
-        EXPECT_EQ(late.error().code, ErrorCode::Timeout);
+        EXPECT_THAT(bench.devices.stimulator->deliver(bench.approved(voltagePulse(5))), refused(ErrorCode::Timeout));
         if (off) bench.devices.stimulator->forceOff();
         bench.wait(Seconds(0.2));
         EXPECT_EQ(bench.circuit().trainsBegun(bench.clock.now()), off ? 0U : 1U);

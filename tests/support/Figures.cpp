@@ -7,6 +7,7 @@
 
 #include "core/base/Csv.h"
 #include "core/base/JsonText.h"
+#include "tests/support/Refused.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
@@ -16,11 +17,9 @@ const nlohmann::json& figuresOf(std::string_view name) {
     const auto known = read.find(name);
     if (known != read.end()) return known->second;
     const auto path = sourceDir() / "tests/reference" / (std::string(name) + ".json");
-    const auto text = readTextFile(path);
-    if (!text) throw std::runtime_error(text.error().message);
-    const auto figures = parseJson(*text, path.string());
-    if (!figures) throw std::runtime_error(figures.error().message);
-    return read.emplace(name, *figures).first->second;
+    const auto text = accepted(readTextFile(path));
+    const auto figures = accepted(parseJson(text, path.string()));
+    return read.emplace(name, figures).first->second;
 }
 
 }  // namespace tacto::test

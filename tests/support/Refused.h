@@ -19,7 +19,7 @@ auto accepted(Given given) {
     if constexpr (requires { given.error().message; }) {
         if (!given) throw std::runtime_error(given.error().message);
     }
-    return std::move(given).value();
+    if constexpr (!std::is_void_v<typename Given::value_type>) return std::move(given).value();
 }
 
 /// A result that failed with a sentence that holds `says`, or that a matcher `says` matches.

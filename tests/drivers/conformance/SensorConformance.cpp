@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tests/support/InTime.h"
+#include "tests/support/Refused.h"
 
 namespace tacto::test {
 
@@ -17,8 +18,7 @@ void SensorConformance::SetUp() {
 void SensorConformance::collect(Seconds duration, Seconds step) {
     for (Seconds passed(0); passed < duration && !device().finished(); passed += step) {
         rig_->wait(step);
-        const auto read = device().read(blocks_);
-        ASSERT_TRUE(read.has_value()) << read.error().message;
+        accepted(device().read(blocks_));
     }
 }
 

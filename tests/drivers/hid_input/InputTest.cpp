@@ -5,6 +5,7 @@
 #include "drivers/hid_input/HidInput.h"
 #include "tests/drivers/hid_input/PadDescriptors.h"
 #include "tests/support/InTime.h"
+#include "tests/support/Refused.h"
 
 namespace tacto::test {
 namespace {
@@ -84,9 +85,7 @@ TEST_F(HidInputTest, WhatCannotBeUsedSaysWhyAndIsNotOpened) {
     EXPECT_THAT(list[1].obstacle, HasSubstr("0 other inputs and no button"));
     EXPECT_THAT(list[2].obstacle, HasSubstr("./dev install-rules --device 046d:0003"));
     for (const auto& one : list) {
-        const auto opened = devices->open(one, heard.listener());
-        ASSERT_FALSE(opened);
-        EXPECT_EQ(opened.error().message, one.obstacle);
+        EXPECT_THAT(devices->open(one, heard.listener()), refusedSaying(testing::Eq(one.obstacle)));
     }
 }
 
@@ -107,8 +106,7 @@ TEST_F(HidInputTest, TwinsCannotBeToldApartAndNeitherIsOpened) {
 TEST_F(HidInputTest, APressIsHeardOnceHoweverOftenTheDeviceReportsIt) {
     RecordProperty("hazard", "H2");
     auto& pad = plug(0xC216, "", padDescriptor());
-    const auto opened = devices->open(devices->list().at(0), heard.listener());
-    ASSERT_TRUE(opened) << opened.error().message;
+    const auto opened = accepted(devices->open(devices->list().at(0), heard.listener()));
     for (int i = 0; i < 50; ++i) pad.send(padReport({5}));
     pad.send(padReport({}));
     ASSERT_IN_TIME(heard.wait(2));
@@ -185,10 +183,9 @@ TEST_F(HidInputTest, AReportThatIsTooShortChangesNothingAndOneThatIsTooLongCount
 
 TEST_F(HidInputTest, ClosingTakesNoLongerThanItSaysAndNothingIsHeardAfterwards) {
     auto& pad = plug(0xC216, "", padDescriptor());
-    auto opened = devices->open(devices->list().at(0), heard.listener());
-    ASSERT_TRUE(opened);
+    auto opened = accepted(devices->open(devices->list().at(0), heard.listener()));
     const auto before = std::chrono::steady_clock::now();
-    opened->reset();
+    opened.reset();
     EXPECT_IN_TIME(std::chrono::steady_clock::now() - before <= std::chrono::milliseconds(50));
     pad.send(padReport({1}));
     EXPECT_TRUE(heard.all().empty());

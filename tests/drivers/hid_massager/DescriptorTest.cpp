@@ -5,6 +5,7 @@
 
 #include "drivers/hid_massager/Haptics.h"
 #include "tests/drivers/hid_massager/FakeHid.h"
+#include "tests/support/Refused.h"
 
 namespace tacto::test {
 namespace {
@@ -133,9 +134,8 @@ TEST(HidDescriptor, AnyPrefixAndAnyChangedByteIsReadOrRefusedAndFieldsStayInside
         if (!result) continue;
         ++read;
         for (const auto& field : result->fields) {
-            const auto length = result->lengthOf(field.kind, field.report);
-            ASSERT_TRUE(length);
-            ASSERT_LE(field.bit + field.bits, 8 * *length) << "seed " << kSeed;
+            const auto length = accepted(result->lengthOf(field.kind, field.report));
+            ASSERT_LE(field.bit + field.bits, 8 * length) << "seed " << kSeed;
         }
     }
     EXPECT_GT(read, 500);
@@ -178,10 +178,8 @@ TEST(Haptics, AWaveformOfKnownDurationIsRepeatedAsOftenAsTheBurstLastsAndEndsByI
     EXPECT_EQ(hid::startBytes(reports, 1, Seconds(0.051)).value(), (Bytes{1, 0xFF, 0xFF, 3, 1}));
     EXPECT_EQ(hid::startBytes(reports, 0.5, Seconds(1)).value(), (Bytes{1, 0x00, 0x80, 3, 19}));
     EXPECT_EQ(reports.stop, (Bytes{1, 0, 0, 2, 0}));
-    const auto tooLong = hid::startBytes(reports, 1, Seconds(12.9));
-    ASSERT_FALSE(tooLong);
-    EXPECT_EQ(tooLong.error().code, ErrorCode::InvalidArgument);
-    EXPECT_THAT(tooLong.error().message, testing::AllOf(HasSubstr("12.9 s"), HasSubstr("12.8 s")));
+    EXPECT_THAT(hid::startBytes(reports, 1, Seconds(12.9)),
+                refused(ErrorCode::InvalidArgument, testing::AllOf(HasSubstr("12.9 s"), HasSubstr("12.8 s"))));
     for (const double wrong : {0.0, -1.0, std::nan(""), 1e300}) {
         EXPECT_FALSE(hid::startBytes(reports, 1, Seconds(wrong))) << wrong;
     }
@@ -201,35 +199,26 @@ TEST(Haptics, ACutoffTimeEndsTheWaveformThatLasts) {
 }
 
 TEST(Haptics, ADeviceThatOnlyClicksOrSendsTooLittleIsRefused) {
-    const auto controls = hid::findHaptics(parsed(hapticDescriptor()));
-    ASSERT_TRUE(controls);
-    const auto clicks = hid::hapticReports(*controls, Bytes{2, 0x03, 0x10, 0x03, 0x10, 0, 0, 0, 0});
-    ASSERT_FALSE(clicks);
-    EXPECT_EQ(clicks.error().code, ErrorCode::Unsupported);
-    EXPECT_THAT(clicks.error().message, testing::AllOf(HasSubstr("1003"), HasSubstr("1004")));
+    const auto controls = accepted(hid::findHaptics(parsed(hapticDescriptor())));
+    EXPECT_THAT(hid::hapticReports(controls, Bytes{2, 0x03, 0x10, 0x03, 0x10, 0, 0, 0, 0}),
+                refused(ErrorCode::Unsupported, testing::AllOf(HasSubstr("1003"), HasSubstr("1004"))));
     // Stop, none, a pen's ink and a play of more than a second are not bursts, whatever their durations.
     for (const std::uint8_t waveform : Bytes{0x01, 0x02, 0x0B}) {
-        EXPECT_FALSE(hid::hapticReports(*controls, Bytes{2, waveform, 0x10, 0x02, 0x10, 50, 0, 50, 0}))
-            << int{waveform};
+        EXPECT_FALSE(hid::hapticReports(controls, Bytes{2, waveform, 0x10, 0x02, 0x10, 50, 0, 50, 0})) << int{waveform};
     }
-    EXPECT_FALSE(hid::hapticReports(*controls, Bytes{2, 0x03, 0x10, 0x03, 0x10, 0xE9, 3, 0, 0}));
-    const auto cut = hid::hapticReports(*controls, Bytes{2, 0x04, 0x10});
-    ASSERT_FALSE(cut);
-    EXPECT_THAT(cut.error().message, testing::AllOf(HasSubstr("3 bytes"), HasSubstr("9 were expected")));
+    EXPECT_FALSE(hid::hapticReports(controls, Bytes{2, 0x03, 0x10, 0x03, 0x10, 0xE9, 3, 0, 0}));
+    EXPECT_THAT(hid::hapticReports(controls, Bytes{2, 0x04, 0x10}),
+                refusedSaying(testing::AllOf(HasSubstr("3 bytes"), HasSubstr("9 were expected"))));
 }
 
 TEST(Haptics, ADescriptorWithoutAControllerSaysWhatIsMissing) {
-    const auto none = hid::findHaptics(parsed(outputDescriptor(5, 32)));
-    ASSERT_FALSE(none);
-    EXPECT_THAT(none.error().message, HasSubstr("0E:01"));
+    EXPECT_THAT(hid::findHaptics(parsed(outputDescriptor(5, 32))), refusedSaying("0E:01"));
     auto headless = hapticDescriptor();
     // Its manual trigger under another usage.
     for (std::size_t i = 0; i + 1 < headless.size(); ++i) {
         if (headless[i] == 0x09 && headless[i + 1] == 0x21) headless[i + 1] = 0x22;
     }
-    const auto half = hid::findHaptics(parsed(headless));
-    ASSERT_FALSE(half);
-    EXPECT_THAT(half.error().message, HasSubstr("0E:21"));
+    EXPECT_THAT(hid::findHaptics(parsed(headless)), refusedSaying("0E:21"));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "drivers/hid_massager/HidDriver.h"
 #include "tests/drivers/hid_massager/FakeHid.h"
 #include "tests/support/InTime.h"
+#include "tests/support/Refused.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
@@ -28,15 +29,9 @@ protected:
     }
     Result<void> open(const std::string& uri) {
         devices = {};
-        return driver()->open(DeviceUri::parse(uri).value(), {}, OpenContext{clock}, devices);
-    }
-    std::string refusal(const std::string& uri, ErrorCode code) {
-        const auto opened = open(uri);
-        EXPECT_FALSE(opened) << uri;
-        if (opened) return {};
-        EXPECT_EQ(opened.error().code, code) << opened.error().message;
-        EXPECT_EQ(devices.massager, nullptr);
-        return opened.error().message;
+        auto opened = driver()->open(DeviceUri::parse(uri).value(), {}, OpenContext{clock}, devices);
+        EXPECT_EQ(opened.has_value(), devices.massager != nullptr);
+        return opened;
     }
 
     const SteadyClock clock;
@@ -88,17 +83,17 @@ TEST_F(HidDriverTest, OneThatMayNotBeOpenedIsListedWithTheSentenceThatHelps) {
     ASSERT_EQ(list.size(), 1u);
     EXPECT_EQ(list[0].name, "DualSense");
     EXPECT_THAT(list[0].obstacle, AllOf(HasSubstr("./dev install-rules"), HasSubstr("hidraw0")));
-    EXPECT_THAT(refusal("hid:", ErrorCode::Io), HasSubstr("./dev install-rules"));
+    EXPECT_THAT(open("hid:"), refused(ErrorCode::Io, "./dev install-rules"));
 }
 
 TEST_F(HidDriverTest, OfTwoTheSerialNumberChooses) {
     RecordProperty("hazard", "H4");
     plug(0x054C, 0x0CE6, "A1", outputDescriptor(2, 48));
     const auto second = plug(0x054C, 0x0CE6, "A2", outputDescriptor(2, 48));
-    EXPECT_THAT(refusal("hid:054c:0ce6", ErrorCode::InvalidArgument), AllOf(HasSubstr("A1"), HasSubstr("A2")));
+    EXPECT_THAT(open("hid:054c:0ce6"), refused(ErrorCode::InvalidArgument, AllOf(HasSubstr("A1"), HasSubstr("A2"))));
     ASSERT_IN_TIME(open("hid:054c:0ce6?serial=A2"));
     EXPECT_EQ(second->openNow(), 1);
-    EXPECT_THAT(refusal("hid:054c:0ce6?serial=A3", ErrorCode::NotFound), HasSubstr("A3"));
+    EXPECT_THAT(open("hid:054c:0ce6?serial=A3"), refused(ErrorCode::NotFound, "A3"));
 }
 
 TEST_F(HidDriverTest, EachOfTwoIsListedWithAnAddressThatOpensItAndNoOther) {
@@ -124,18 +119,17 @@ TEST_F(HidDriverTest, EachOfTwoIsListedWithAnAddressThatOpensItAndNoOther) {
         }
     }
     // What is offered to choose from are those addresses.
-    const auto choice = refusal("hid:", ErrorCode::InvalidArgument);
-    for (const auto& uri : uris) EXPECT_THAT(choice, HasSubstr(uri));
-    EXPECT_THAT(refusal("hid:054c:05c4", ErrorCode::InvalidArgument), HasSubstr(uris[2] + " or " + uris[3]));
-    EXPECT_THAT(refusal("hid:054c:05c4?at=/dev/hidraw9", ErrorCode::NotFound), HasSubstr("hidraw9"));
+    for (const auto& uri : uris) EXPECT_THAT(open("hid:"), refused(ErrorCode::InvalidArgument, uri));
+    EXPECT_THAT(open("hid:054c:05c4"), refused(ErrorCode::InvalidArgument, uris[2] + " or " + uris[3]));
+    EXPECT_THAT(open("hid:054c:05c4?at=/dev/hidraw9"), refused(ErrorCode::NotFound, "hidraw9"));
 }
 
 TEST_F(HidDriverTest, ADeviceThatItsTemplateDoesNotFitIsRefused) {
     RecordProperty("hazard", "H4");
     const auto pad = plug(0x054C, 0x0CE6, "A1", outputDescriptor(2, 60));
-    EXPECT_THAT(refusal("hid:", ErrorCode::Unsupported), AllOf(HasSubstr("60 bytes"), HasSubstr("48 or 63")));
+    EXPECT_THAT(open("hid:"), refused(ErrorCode::Unsupported, AllOf(HasSubstr("60 bytes"), HasSubstr("48 or 63"))));
     pad->setDescriptor({0x26});
-    EXPECT_THAT(refusal("hid:", ErrorCode::ParseError), HasSubstr("cut off"));
+    EXPECT_THAT(open("hid:"), refused(ErrorCode::ParseError, "cut off"));
     EXPECT_EQ(pad->openings(), 0);
 }
 
@@ -159,8 +153,8 @@ TEST_F(HidDriverTest, AnotherDeviceInItsPlaceIsNotTakenForIt) {
 TEST_F(HidDriverTest, ATemplateOfOnesOwnServesADeviceThatNoOtherDescribes) {
     const auto pad = plug(0x1111, 0x2222, "X", outputDescriptor(5, 32), 0);
     EXPECT_TRUE(driver()->list().empty());
-    EXPECT_THAT(refusal("hid:1111:2222?template=wheel", ErrorCode::NotFound),
-                AllOf(HasSubstr("wheel"), HasSubstr("dualsense")));
+    EXPECT_THAT(open("hid:1111:2222?template=wheel"),
+                refused(ErrorCode::NotFound, AllOf(HasSubstr("wheel"), HasSubstr("dualsense"))));
     ASSERT_IN_TIME(open("hid:1111:2222?template=dualshock4"));
     EXPECT_EQ(pad->openNow(), 1);
     const auto file = (sourceDir() / "resources" / "massagers" / "dualshock4.json").string();
@@ -168,15 +162,15 @@ TEST_F(HidDriverTest, ATemplateOfOnesOwnServesADeviceThatNoOtherDescribes) {
 }
 
 TEST_F(HidDriverTest, WhatIsNoUriOfOursIsRefusedByName) {
-    EXPECT_THAT(refusal("hid:dualsense", ErrorCode::InvalidArgument),
-                AllOf(HasSubstr("dualsense"), HasSubstr("054c:0ce6")));
-    EXPECT_THAT(refusal("hid:054c:0ce6:9", ErrorCode::InvalidArgument), HasSubstr("four hexadecimal"));
-    EXPECT_THAT(refusal("hid:?motor=left", ErrorCode::InvalidArgument), AllOf(HasSubstr("motor"), HasSubstr("serial")));
+    EXPECT_THAT(open("hid:dualsense"),
+                refused(ErrorCode::InvalidArgument, AllOf(HasSubstr("dualsense"), HasSubstr("054c:0ce6"))));
+    EXPECT_THAT(open("hid:054c:0ce6:9"), refused(ErrorCode::InvalidArgument, "four hexadecimal"));
+    EXPECT_THAT(open("hid:?motor=left"),
+                refused(ErrorCode::InvalidArgument, AllOf(HasSubstr("motor"), HasSubstr("serial"))));
     plug(0x054C, 0x0CE6, "A1", outputDescriptor(2, 48));
     ASSERT_IN_TIME(open("hid:"));
-    const auto second = driver()->open(DeviceUri::parse("hid:").value(), {}, OpenContext{clock}, devices);
-    ASSERT_FALSE(second);
-    EXPECT_THAT(second.error().message, HasSubstr("open already"));
+    EXPECT_THAT(driver()->open(DeviceUri::parse("hid:").value(), {}, OpenContext{clock}, devices),
+                refusedSaying("open already"));
 }
 
 }  // namespace

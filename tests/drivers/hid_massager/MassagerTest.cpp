@@ -10,6 +10,7 @@
 #include "tests/support/Allocations.h"
 #include "tests/support/FailsInTime.h"
 #include "tests/support/InTime.h"
+#include "tests/support/Refused.h"
 
 namespace tacto::test {
 namespace {
@@ -63,18 +64,16 @@ TEST_F(HidMassagerTest, ItsStepIsThatOfTheFieldThatTakesTheFewestValues) {
 TEST_F(HidMassagerTest, ADeviceThatTakesNoStopIsNotOpened) {
     RecordProperty("hazard", "H2");
     device.refuse(true);
-    const auto opened = HidMassager::open([this] { return device.open(); }, identity, padReports(), clock);
-    ASSERT_FALSE(opened);
-    EXPECT_EQ(opened.error().code, ErrorCode::Device);
+    EXPECT_THAT(HidMassager::open([this] { return device.open(); }, identity, padReports(), clock),
+                refused(ErrorCode::Device));
     EXPECT_EQ(device.openNow(), 0);
 }
 
 TEST_F(HidMassagerTest, WithoutAWatchdogNothingIsWrittenButTheStop) {
     RecordProperty("hazard", "H2");
     device.refuseWatch(true);
-    const auto opened = HidMassager::open([this] { return device.open(); }, identity, padReports(), clock);
-    ASSERT_FALSE(opened);
-    EXPECT_THAT(opened.error().message, testing::AllOf(HasSubstr("Pad"), HasSubstr("not driven")));
+    EXPECT_THAT(HidMassager::open([this] { return device.open(); }, identity, padReports(), clock),
+                refusedSaying(testing::AllOf(HasSubstr("Pad"), HasSubstr("not driven"))));
     ASSERT_FALSE(device.writes().empty());
     for (const auto& write : device.writes()) EXPECT_EQ(write.bytes, kOff);
     device.refuseWatch(false);
@@ -82,10 +81,7 @@ TEST_F(HidMassagerTest, WithoutAWatchdogNothingIsWrittenButTheStop) {
     EXPECT_EQ(device.watchedStop(), kOff);
     device.refuseWatch(true);  // it ended
     const auto before = device.writes().size();
-    const auto refused = vibrate();
-    ASSERT_FALSE(refused);
-    EXPECT_EQ(refused.error().code, ErrorCode::Device);
-    EXPECT_THAT(refused.error().message, HasSubstr("is not driven: its watchdog has ended"));
+    EXPECT_THAT(vibrate(), refused(ErrorCode::Device, "is not driven: its watchdog has ended"));
     ASSERT_IN_TIME(device.waitForWrites(before + 1));
     EXPECT_EQ(device.last(), kOff);
     device.refuseWatch(false);
@@ -113,10 +109,7 @@ TEST_F(HidMassagerTest, AWatchdogThatEndsOrFallsSilentInABurstEndsTheBurstAndItI
         const Instant since = clock.now();
         EXPECT_IN_TIME(device.waitForLast(kOff));
         EXPECT_IN_TIME(toSeconds(clock.now() - since) <= 0.5);
-        const auto refused = vibrate();
-        ASSERT_FALSE(refused);
-        EXPECT_EQ(refused.error().code, code);
-        EXPECT_THAT(refused.error().message, HasSubstr(why));
+        EXPECT_THAT(vibrate(), refused(code, why));
     };
     ASSERT_IN_TIME(vibrate(Seconds(1)));
     device.refuseWatch(true);
@@ -219,14 +212,8 @@ TEST_F(HidMassagerTest, ASlowDeviceIsATimeoutAndItsBurstIsStopped) {
     RecordProperty("hazard", "H2");
     open();
     device.hold(true);
-    const auto slow = vibrate();
-    ASSERT_FALSE(slow);
-    ASSERT_EQ(slow.error().code, ErrorCode::Timeout);
-    EXPECT_THAT(slow.error().message, HasSubstr("50 ms"));
-    const auto again = vibrate();
-    ASSERT_FALSE(again);
-    ASSERT_EQ(again.error().code, ErrorCode::Timeout);
-    EXPECT_THAT(again.error().message, HasSubstr("before"));
+    EXPECT_THAT(vibrate(), refused(ErrorCode::Timeout, "50 ms"));
+    EXPECT_THAT(vibrate(), refused(ErrorCode::Timeout, "before"));
     device.hold(false);
     ASSERT_IN_TIME(device.waitForWrites(3));
     EXPECT_EQ(device.writes()[1].bytes, kOn);  // the one that was held
@@ -303,9 +290,7 @@ TEST_F(HidMassagerTest, UnpluggedInABurstIsAFaultAndThePluggedInDeviceServesAgai
     const auto gone = vibrate();
     ASSERT_FALSE(gone);
     EXPECT_CODE_IN_TIME(gone.error().code, ErrorCode::Device);
-    const auto still = vibrate();
-    ASSERT_FALSE(still);
-    EXPECT_THAT(still.error().message, HasSubstr("could not be opened again"));
+    EXPECT_THAT(vibrate(), refusedSaying("could not be opened again"));
     device.plug();
     EXPECT_IN_TIME(vibrate());
     const auto writes = device.writes();
@@ -375,9 +360,9 @@ TEST(HidMassagerVirtual, ServedByItsOwnerItKeepsTimeExactly) {
     VirtualClock clock;
     SafetyGate gate(clock);
     FakeHidDevice device(clock, {}, {});
-    auto opened = HidMassager::open([&] { return device.open(); }, {}, padReports(Seconds(0), Seconds(0.01)), clock);
-    ASSERT_TRUE(opened);
-    auto& massager = **opened;
+    auto opened =
+        accepted(HidMassager::open([&] { return device.open(); }, {}, padReports(Seconds(0), Seconds(0.01)), clock));
+    auto& massager = *opened;
     clock.advanceTo(std::chrono::milliseconds(100));
     auto burst = gate.approve(VibrationBurst{1, Seconds(0.1)});
     ASSERT_TRUE(massager.vibrate(std::move(*burst)));

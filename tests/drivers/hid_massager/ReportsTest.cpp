@@ -6,6 +6,7 @@
 
 #include "core/base/Statistics.h"
 #include "tests/drivers/hid_massager/FakeHid.h"
+#include "tests/support/Refused.h"
 
 namespace tacto::test {
 namespace {
@@ -29,10 +30,7 @@ TEST(VibrationReports, WhatIsNoIntensityIsRefusedNotClamped) {
     RecordProperty("hazard", "H1");
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     for (const double wrong : {-0.001, 1.001, -1.0, kNaN, kInfinity, -kInfinity}) {
-        const auto bytes = startBytes(padReports(), wrong);
-        ASSERT_FALSE(bytes) << wrong;
-        EXPECT_EQ(bytes.error().code, ErrorCode::InvalidArgument);
-        EXPECT_THAT(bytes.error().message, HasSubstr("0 to 1"));
+        EXPECT_THAT(startBytes(padReports(), wrong), refused(ErrorCode::InvalidArgument, "0 to 1")) << wrong;
     }
 }
 

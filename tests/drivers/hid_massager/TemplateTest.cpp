@@ -4,6 +4,7 @@
 
 #include "drivers/hid_massager/MassagerTemplate.h"
 #include "tests/drivers/hid_massager/FakeHid.h"
+#include "tests/support/Refused.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
@@ -30,13 +31,12 @@ TEST(MassagerTemplate, DualSenseGetsReport2WithRightAndLeft) {
     ASSERT_NE(pad.deviceOf(0x054C, 0x0CE6), nullptr);
     ASSERT_NE(pad.deviceOf(0x054C, 0x0DF2), nullptr);
     for (const std::size_t length : {48u, 63u}) {
-        const auto reports = pad.reportsFor(hid::parseHidDescriptor(outputDescriptor(2, length)).value());
-        ASSERT_TRUE(reports) << reports.error().message;
-        EXPECT_EQ(hid::startBytes(*reports, 1).value(), padded({0x02, 0x03, 0x00, 0xFF, 0xFF}, length));
-        EXPECT_EQ(hid::startBytes(*reports, 0.25).value(), padded({0x02, 0x03, 0x00, 0x40, 0x40}, length));
-        EXPECT_EQ(reports->stop, padded({0x02, 0x03}, length));
-        EXPECT_EQ(reports->fields[0].role, hid::VibrationRole::Weak);
-        EXPECT_EQ(reports->fields[1].role, hid::VibrationRole::Strong);
+        const auto reports = accepted(pad.reportsFor(hid::parseHidDescriptor(outputDescriptor(2, length)).value()));
+        EXPECT_EQ(hid::startBytes(reports, 1).value(), padded({0x02, 0x03, 0x00, 0xFF, 0xFF}, length));
+        EXPECT_EQ(hid::startBytes(reports, 0.25).value(), padded({0x02, 0x03, 0x00, 0x40, 0x40}, length));
+        EXPECT_EQ(reports.stop, padded({0x02, 0x03}, length));
+        EXPECT_EQ(reports.fields[0].role, hid::VibrationRole::Weak);
+        EXPECT_EQ(reports.fields[1].role, hid::VibrationRole::Strong);
     }
 }
 
@@ -45,27 +45,23 @@ TEST(MassagerTemplate, DualShock4GetsReport5) {
     const auto pad = shipped("dualshock4");
     ASSERT_NE(pad.deviceOf(0x054C, 0x05C4), nullptr);
     ASSERT_NE(pad.deviceOf(0x054C, 0x09CC), nullptr);
-    const auto reports = pad.reportsFor(hid::parseHidDescriptor(outputDescriptor(5, 32)).value());
-    ASSERT_TRUE(reports) << reports.error().message;
-    EXPECT_EQ(hid::startBytes(*reports, 1).value(), padded({0x05, 0x01, 0x00, 0x00, 0xFF, 0xFF}, 32));
-    EXPECT_EQ(reports->stop, padded({0x05, 0x01}, 32));
+    const auto reports = accepted(pad.reportsFor(hid::parseHidDescriptor(outputDescriptor(5, 32)).value()));
+    EXPECT_EQ(hid::startBytes(reports, 1).value(), padded({0x05, 0x01, 0x00, 0x00, 0xFF, 0xFF}, 32));
+    EXPECT_EQ(reports.stop, padded({0x05, 0x01}, 32));
 }
 
 TEST(MassagerTemplate, EveryShippedFileIsReadAndNoTwoDescribeOneDevice) {
-    const auto all = hid::loadMassagerTemplates(sourceDir() / "resources" / "massagers");
-    ASSERT_TRUE(all) << all.error().message;
-    EXPECT_GE(all->size(), 2u);
+    const auto all = accepted(hid::loadMassagerTemplates(sourceDir() / "resources" / "massagers"));
+    EXPECT_GE(all.size(), 2u);
 }
 
 TEST(MassagerTemplate, ADeviceWhoseDescriptorSaysOtherwiseIsRefused) {
     RecordProperty("hazard", "H4");
     const auto pad = shipped("dualsense");
-    const auto longer = pad.reportsFor(hid::parseHidDescriptor(outputDescriptor(2, 64)).value());
-    ASSERT_FALSE(longer);
-    EXPECT_THAT(longer.error().message, AllOf(HasSubstr("64 bytes"), HasSubstr("48 or 63")));
-    const auto other = pad.reportsFor(hid::parseHidDescriptor(outputDescriptor(0x31, 48)).value());
-    ASSERT_FALSE(other);
-    EXPECT_THAT(other.error().message, HasSubstr("no output report 2"));
+    EXPECT_THAT(pad.reportsFor(hid::parseHidDescriptor(outputDescriptor(2, 64)).value()),
+                refusedSaying(AllOf(HasSubstr("64 bytes"), HasSubstr("48 or 63"))));
+    EXPECT_THAT(pad.reportsFor(hid::parseHidDescriptor(outputDescriptor(0x31, 48)).value()),
+                refusedSaying("no output report 2"));
 }
 
 /// A template that is accepted, with one piece of its text replaced.
@@ -83,18 +79,16 @@ std::string with(std::string_view from = "", std::string_view to = "") {
 }
 
 TEST(MassagerTemplate, EveryKeyOfTheSchemaHasItsEffect) {
-    const auto pad = parseMassagerTemplate(with(), "some/pad.json");
-    ASSERT_TRUE(pad) << pad.error().message;
-    EXPECT_EQ(pad->key, "pad");
-    EXPECT_NE(pad->deviceOf(0x1234, 0xABCD), nullptr);
-    EXPECT_EQ(pad->usage, 0x00010005u);
-    EXPECT_EQ(pad->keepAlive, Seconds(0.5));
-    EXPECT_EQ(pad->shortestWrite, Seconds(0.01));
-    const auto reports = pad->reports(8);
-    ASSERT_TRUE(reports);
-    EXPECT_EQ(hid::startBytes(*reports, 1).value(), (Bytes{5, 1, 10, 0, 0x03, 0xE8, 0, 0}));
-    EXPECT_EQ(reports->stop, (Bytes{5, 0xFF, 0, 0, 0, 0, 0, 0}));
-    EXPECT_FALSE(pad->reports(9));
+    const auto pad = accepted(parseMassagerTemplate(with(), "some/pad.json"));
+    EXPECT_EQ(pad.key, "pad");
+    EXPECT_NE(pad.deviceOf(0x1234, 0xABCD), nullptr);
+    EXPECT_EQ(pad.usage, 0x00010005u);
+    EXPECT_EQ(pad.keepAlive, Seconds(0.5));
+    EXPECT_EQ(pad.shortestWrite, Seconds(0.01));
+    const auto reports = accepted(pad.reports(8));
+    EXPECT_EQ(hid::startBytes(reports, 1).value(), (Bytes{5, 1, 10, 0, 0x03, 0xE8, 0, 0}));
+    EXPECT_EQ(reports.stop, (Bytes{5, 0xFF, 0, 0, 0, 0, 0, 0}));
+    EXPECT_FALSE(pad.reports(9));
 }
 
 TEST(MassagerTemplate, WhatIsWrongIsRefusedWithItsPlaceAndWhatIsAccepted) {
@@ -137,16 +131,12 @@ TEST(MassagerTemplate, WhatIsWrongIsRefusedWithItsPlaceAndWhatIsAccepted) {
 }
 
 TEST(MassagerTemplate, AFileThatIsNotThereAndTwoForOneDeviceAreNamed) {
-    const auto missing = hid::loadMassagerTemplate("/no/such/pad.json");
-    ASSERT_FALSE(missing);
-    EXPECT_EQ(missing.error().code, ErrorCode::NotFound);
-    EXPECT_THAT(missing.error().message, HasSubstr("/no/such/pad.json"));
+    EXPECT_THAT(hid::loadMassagerTemplate("/no/such/pad.json"), refused(ErrorCode::NotFound, "/no/such/pad.json"));
     const ScratchDir folder;
     folder.write("a.json", with());
     folder.write("b.json", with());
-    const auto twice = hid::loadMassagerTemplates(folder.path());
-    ASSERT_FALSE(twice);
-    EXPECT_THAT(twice.error().message, AllOf(HasSubstr("b.json"), HasSubstr("1234:abcd"), HasSubstr("a too")));
+    EXPECT_THAT(hid::loadMassagerTemplates(folder.path()),
+                refusedSaying(AllOf(HasSubstr("b.json"), HasSubstr("1234:abcd"), HasSubstr("a too"))));
 }
 
 }  // namespace

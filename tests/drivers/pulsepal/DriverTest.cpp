@@ -4,6 +4,7 @@
 
 #include "drivers/pulsepal/PulsePalDriver.h"
 #include "tests/drivers/pulsepal/PulsePalLine.h"
+#include "tests/support/Refused.h"
 
 namespace tacto::test {
 namespace {
@@ -22,13 +23,6 @@ protected:
         devices = {};
         return makePulsePalDriver(ports)->open(DeviceUri::parse(uri).value(), {}, OpenContext{clock}, devices);
     }
-    std::string refusal(const std::string& uri, ErrorCode code) {
-        const auto opened = open(uri);
-        EXPECT_FALSE(opened) << uri;
-        if (opened) return {};
-        EXPECT_EQ(opened.error().code, code) << opened.error().message;
-        return opened.error().message;
-    }
 
     VirtualClock clock;
     const std::shared_ptr<PulsePalPorts> ports = std::make_shared<PulsePalPorts>();
@@ -44,8 +38,7 @@ TEST_F(PulsePalDriverTest, ListsAndOpensByUri) {
     EXPECT_EQ(list[1].uri, "pulsepal:1-2");
     EXPECT_EQ(list[0].role, Role::Stimulator);
     for (const auto& identity : list) {
-        const auto opened = open(identity.uri + "?channel=2");
-        ASSERT_TRUE(opened) << opened.error().message;
+        accepted(open(identity.uri + "?channel=2"));
         EXPECT_EQ(devices.stimulator->identity().uri, identity.uri + "?channel=2");
         // The socket is not a serial number: a calibration would count for whatever is plugged in there (H4).
         EXPECT_EQ(devices.stimulator->identity().serial, identity.serial);
@@ -62,7 +55,7 @@ TEST_F(PulsePalDriverTest, TwoWithTheSameSerialNumberAreToldApartByTheirSockets)
     EXPECT_EQ(list[0].uri, "pulsepal:1-1");
     EXPECT_EQ(list[1].uri, "pulsepal:1-2");
     for (const auto* both : {"pulsepal:", "pulsepal:A1"}) {
-        EXPECT_THAT(refusal(both, ErrorCode::InvalidArgument), HasSubstr("pulsepal:1-1 or pulsepal:1-2"));
+        EXPECT_THAT(open(both), refused(ErrorCode::InvalidArgument, "pulsepal:1-1 or pulsepal:1-2"));
     }
     ASSERT_TRUE(open("pulsepal:1-2"));
     second->unplug();
@@ -70,22 +63,21 @@ TEST_F(PulsePalDriverTest, TwoWithTheSameSerialNumberAreToldApartByTheirSockets)
 }
 
 TEST_F(PulsePalDriverTest, WhatCannotBeOpenedIsRefusedByName) {
-    EXPECT_THAT(refusal("pulsepal:", ErrorCode::NotFound), HasSubstr("2341:003e"));
+    EXPECT_THAT(open("pulsepal:"), refused(ErrorCode::NotFound, "2341:003e"));
     plug("A1");
     plug("A2", "A2 is there, but this user may not open it: run \"./dev install-rules\" once.");
-    EXPECT_THAT(refusal("pulsepal:", ErrorCode::InvalidArgument), AllOf(HasSubstr("A1"), HasSubstr("A2")));
-    EXPECT_THAT(refusal("pulsepal:A2", ErrorCode::Io), HasSubstr("./dev install-rules"));
+    EXPECT_THAT(open("pulsepal:"), refused(ErrorCode::InvalidArgument, AllOf(HasSubstr("A1"), HasSubstr("A2"))));
+    EXPECT_THAT(open("pulsepal:A2"), refused(ErrorCode::Io, "./dev install-rules"));
     EXPECT_THAT(makePulsePalDriver(ports)->list().at(1).obstacle, HasSubstr("./dev install-rules"));
-    EXPECT_THAT(refusal("pulsepal:A3", ErrorCode::NotFound), HasSubstr("A3"));
-    EXPECT_THAT(refusal("pulsepal:A1?channel=5", ErrorCode::InvalidArgument), HasSubstr("1 to 4"));
-    EXPECT_THAT(refusal("pulsepal:A1?channel=1.5", ErrorCode::InvalidArgument), HasSubstr("1 to 4"));
-    EXPECT_THAT(refusal("pulsepal:A1?output=1", ErrorCode::InvalidArgument),
-                AllOf(HasSubstr("output"), HasSubstr("channel")));
+    EXPECT_THAT(open("pulsepal:A3"), refused(ErrorCode::NotFound, "A3"));
+    EXPECT_THAT(open("pulsepal:A1?channel=5"), refused(ErrorCode::InvalidArgument, "1 to 4"));
+    EXPECT_THAT(open("pulsepal:A1?channel=1.5"), refused(ErrorCode::InvalidArgument, "1 to 4"));
+    EXPECT_THAT(open("pulsepal:A1?output=1"),
+                refused(ErrorCode::InvalidArgument, AllOf(HasSubstr("output"), HasSubstr("channel"))));
     ASSERT_TRUE(open("pulsepal:A1"));
-    const auto second =
-        makePulsePalDriver(ports)->open(DeviceUri::parse("pulsepal:A1").value(), {}, OpenContext{clock}, devices);
-    ASSERT_FALSE(second);
-    EXPECT_THAT(second.error().message, HasSubstr("open already"));
+    EXPECT_THAT(
+        makePulsePalDriver(ports)->open(DeviceUri::parse("pulsepal:A1").value(), {}, OpenContext{clock}, devices),
+        refusedSaying("open already"));
 }
 
 TEST_F(PulsePalDriverTest, ThePluggedInDeviceOfTheSameSerialNumberIsFoundInAnotherSocket) {

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "tests/drivers/conformance/StimulatorConformance.h"
+#include "tests/support/Refused.h"
 
 namespace tacto::test {
 
@@ -47,9 +48,7 @@ std::size_t PulsePalLine::transmit(std::span<std::uint8_t> into, Instant now) {
 std::optional<Instant> PulsePalLine::nextTransmit(Instant now) { return now + Instant(std::chrono::microseconds(50)); }
 
 PulsePalBench::PulsePalBench(int channel) : line(std::make_shared<PulsePalLine>(clock, &clock)) {
-    auto opened = pulsepal::PulsePalStimulator::open(line->connector(), "pulsepal:S", "S", channel, clock);
-    if (!opened) throw std::runtime_error(opened.error().message);
-    stimulator = std::move(*opened);
+    stimulator = accepted(pulsepal::PulsePalStimulator::open(line->connector(), "pulsepal:S", "S", channel, clock));
     gate_ = benchGate(clock, stimulator->traits());
 }
 
@@ -58,15 +57,12 @@ ApprovedTrain PulsePalBench::approved(const PulseTrain& train) {
     request.train = train;
     request.interval = std::max(Seconds(2), train.duration());
     request.onset = clock.now();
-    auto approval = gate_->approve(request);
-    if (!approval) throw std::runtime_error(approval.error().message);
-    return std::move(*approval);
+    return accepted(gate_->approve(request));
 }
 
 StimulatorStatus PulsePalBench::status() {
-    const auto read = stimulator->status();
-    if (!read) throw std::runtime_error(read.error().message);
-    return *read;
+    const auto read = accepted(stimulator->status());
+    return read;
 }
 
 PulseTrain pulseTrain(double volts, int pulses, double rate_hz) {

@@ -6,6 +6,7 @@
 #include "tests/drivers/conformance/StimulatorConformance.h"
 #include "tests/drivers/pulsepal/PulsePalLine.h"
 #include "tests/support/Allocations.h"
+#include "tests/support/Refused.h"
 
 namespace tacto::test {
 namespace {
@@ -92,9 +93,7 @@ TEST_F(PulsePal, ASecondTrainWaitsForTheEndOfTheFirst) {
     RecordProperty("hazard", "H2");
     ASSERT_TRUE(bench.deliver(pulseTrain(2, 10)));
     bench.wait(Seconds(0.02));
-    const auto second = bench.deliver(pulseTrain(2));
-    ASSERT_FALSE(second);
-    EXPECT_THAT(second.error().message, HasSubstr("in progress"));
+    EXPECT_THAT(bench.deliver(pulseTrain(2)), refusedSaying("in progress"));
     EXPECT_EQ(commands(kTrigger), 1u);
     bench.wait(Seconds(0.1));
     EXPECT_TRUE(bench.deliver(pulseTrain(2)));
@@ -120,13 +119,12 @@ TEST(PulsePalFirmware, OneAbortIsNotEnoughForAKeptTrigger) {
     for (const bool twice : {false, true}) {
         VirtualClock clock;
         const auto line = std::make_shared<PulsePalLine>(clock, &clock);
-        auto opened = PulsePalStimulator::open(line->connector(), "pulsepal:S", "S", 1, clock);
-        ASSERT_TRUE(opened);
-        const auto gate = benchGate(clock, (*opened)->traits());
+        auto opened = accepted(PulsePalStimulator::open(line->connector(), "pulsepal:S", "S", 1, clock));
+        const auto gate = benchGate(clock, opened->traits());
         TrainRequest request;
         request.train = pulseTrain(2, 50);
         request.onset = clock.now();
-        ASSERT_TRUE((*opened)->deliver(std::move(*gate->approve(request))));
+        ASSERT_TRUE(opened->deliver(std::move(*gate->approve(request))));
         clock.advanceTo(clock.now() + Instant(std::chrono::milliseconds(20)));
         line->inspect([&](auto& device, Instant now) {
             device.receive(pulsepal::trigger(1).view(), now);
@@ -205,11 +203,10 @@ TEST_F(PulsePal, ForceOffAllocatesNothing) {
     };
     auto sink = std::make_unique<Sink>();
     const auto& seen = *sink;
-    auto opened = PulsePalStimulator::open([&]() -> Result<std::unique_ptr<Transport>> { return std::move(sink); },
-                                           "pulsepal:S", "S", 1, bench.clock);
-    ASSERT_TRUE(opened) << opened.error().message;
+    auto opened = accepted(PulsePalStimulator::open(
+        [&]() -> Result<std::unique_ptr<Transport>> { return std::move(sink); }, "pulsepal:S", "S", 1, bench.clock));
     const auto before = allocationsOfThisThread();
-    (*opened)->forceOff();
+    opened->forceOff();
     EXPECT_EQ(allocationsOfThisThread(), before);
     EXPECT_EQ(seen.urgent, 4);
 }
@@ -217,9 +214,7 @@ TEST_F(PulsePal, ForceOffAllocatesNothing) {
 TEST_F(PulsePal, AWriteThatBrokeOffIsNotFollowedByATrigger) {
     RecordProperty("hazard", "H2");
     bench.line->breakOff(3);
-    const auto broken = bench.deliver(pulseTrain(2));
-    ASSERT_FALSE(broken);
-    EXPECT_EQ(broken.error().code, ErrorCode::Timeout);
+    EXPECT_THAT(bench.deliver(pulseTrain(2)), refused(ErrorCode::Timeout));
     EXPECT_EQ(commands(kTrigger), 0u);
     EXPECT_FALSE(bench.deliver(pulseTrain(2)));  // lost until its status was asked
     ASSERT_TRUE(bench.stimulator->status());
@@ -234,9 +229,7 @@ TEST_F(PulsePal, AFrozenDeviceIsToldWithWhatHelps) {
     bench.line->inspect([](auto& device, Instant now) { device.receive(Bytes{0xD5, 0x4A, 0x02}, now); });
     bench.wait(Seconds(0.6));
     EXPECT_FALSE(bench.deliver(pulseTrain(2)));
-    const auto read = bench.stimulator->status();
-    ASSERT_FALSE(read);
-    EXPECT_THAT(read.error().message, HasSubstr("joystick"));
+    EXPECT_THAT(bench.stimulator->status(), refusedSaying("joystick"));
     EXPECT_EQ(commands(kTrigger), 0u);
     bench.line->inspect([](auto& device, Instant now) { device.clickJoystick(now); });
     ASSERT_TRUE(bench.stimulator->status());
@@ -247,9 +240,8 @@ TEST(PulsePalFirmware, WithoutTheRestOfACommandItFreezesWithItsOutputsAsTheyAre)
     RecordProperty("hazard", "H2");
     pulsepal::EmulatedPulsePal device;
     device.setReady(true);
-    const auto program = pulsepal::programTrain(pulseTrain(5, 100), *pulsepal::Channel::of(1));
-    ASSERT_TRUE(program);
-    for (const auto& command : program->commands) device.receive(command.view(), Instant(0));
+    const auto program = accepted(pulsepal::programTrain(pulseTrain(5, 100), *pulsepal::Channel::of(1)));
+    for (const auto& command : program.commands) device.receive(command.view(), Instant(0));
     device.receive(pulsepal::trigger(1).view(), std::chrono::milliseconds(10));
     // In the middle of a leading phase:
     device.receive(Bytes{0xD5, 0x4A, 0x02}, std::chrono::microseconds(20'100));
@@ -266,9 +258,7 @@ TEST(PulsePalFirmware, WithoutTheRestOfACommandItFreezesWithItsOutputsAsTheyAre)
 TEST(PulsePalFirmware, WithoutDtrNothingIsHeardAndTheOpenerIsToldSo) {
     VirtualClock clock;
     const auto deaf = std::make_shared<PulsePalLine>(clock, &clock, false);
-    const auto opened = PulsePalStimulator::open(deaf->connector(), "pulsepal:S", "S", 1, clock);
-    ASSERT_FALSE(opened);
-    EXPECT_EQ(opened.error().code, ErrorCode::Timeout);
+    EXPECT_THAT(PulsePalStimulator::open(deaf->connector(), "pulsepal:S", "S", 1, clock), refused(ErrorCode::Timeout));
     EXPECT_LE(clock.now(), Instant(std::chrono::milliseconds(800)));
 }
 
@@ -276,9 +266,8 @@ TEST(PulsePalOpen, AnotherModelAndAnotherChannelAreRefused) {
     RecordProperty("hazard", "H4");
     VirtualClock clock;
     const auto older = std::make_shared<PulsePalLine>(clock, &clock, true, 9);
-    const auto opened = PulsePalStimulator::open(older->connector(), "pulsepal:S", "S", 1, clock);
-    ASSERT_FALSE(opened);
-    EXPECT_EQ(opened.error().code, ErrorCode::Unsupported);
+    EXPECT_THAT(PulsePalStimulator::open(older->connector(), "pulsepal:S", "S", 1, clock),
+                refused(ErrorCode::Unsupported));
     for (const int wrong : {0, 5}) {
         EXPECT_FALSE(PulsePalStimulator::open(older->connector(), "pulsepal:S", "S", wrong, clock));
     }
@@ -287,10 +276,8 @@ TEST(PulsePalOpen, AnotherModelAndAnotherChannelAreRefused) {
 TEST_F(PulsePal, AnAckThatIsNoneKeepsTheTriggerBack) {
     RecordProperty("hazard", "H4");
     bench.line->garble(0x00);
-    const auto refused = bench.deliver(pulseTrain(2));
-    ASSERT_FALSE(refused);
-    EXPECT_EQ(refused.error().code, ErrorCode::Device);
-    EXPECT_THAT(refused.error().message, AllOf(HasSubstr("00"), HasSubstr("01 was expected")));
+    EXPECT_THAT(bench.deliver(pulseTrain(2)),
+                refused(ErrorCode::Device, AllOf(HasSubstr("00"), HasSubstr("01 was expected"))));
     EXPECT_EQ(commands(kTrigger), 0u);
     EXPECT_FALSE(bench.stimulator->status());
     bench.line->garble(std::nullopt);
@@ -304,9 +291,7 @@ TEST_F(PulsePal, UnpluggedInMidTrainIsFoundByItsStatusAndThePluggedInOneServesAg
     bench.wait(Seconds(0.01));
     bench.line->unplug();
     bench.wait(Seconds(0.05));
-    const auto gone = bench.stimulator->status();
-    ASSERT_FALSE(gone);
-    EXPECT_EQ(gone.error().code, ErrorCode::Device);
+    EXPECT_THAT(bench.stimulator->status(), refused(ErrorCode::Device));
     EXPECT_FALSE(bench.deliver(pulseTrain(2)));
     EXPECT_FALSE(bench.stimulator->keepAlive());
     bench.line->plug();
@@ -344,12 +329,8 @@ TEST_F(PulsePal, ATrainOffTheGridIsRefusedByTheGateAndByTheDriver) {
     const auto loose = benchGate(bench.clock, finer);
     request.train = pulseTrain(2);
     request.train.phaseWidth = Micros(225);
-    auto approval = loose->approve(request);
-    ASSERT_TRUE(approval) << approval.error().message;
-    const auto refused = bench.stimulator->deliver(std::move(*approval));
-    ASSERT_FALSE(refused);
-    EXPECT_EQ(refused.error().code, ErrorCode::Device);
-    EXPECT_THAT(refused.error().message, HasSubstr("225"));
+    auto approval = accepted(loose->approve(request));
+    EXPECT_THAT(bench.stimulator->deliver(std::move(approval)), refused(ErrorCode::Device, "225"));
     EXPECT_EQ(commands(kTrigger), 0u);
 }
 
@@ -377,9 +358,7 @@ TEST_F(PulsePal, IsRefusedForAPerson) {
     setup.person->discomfortLimit = Milliamps(10);
     setup.person->rampStep = Milliamps(1);
     SafetyGate gate(bench.clock);
-    const auto refused = gate.configure(setup);
-    ASSERT_FALSE(refused);
-    EXPECT_THAT(refused.error().message, HasSubstr("voltage source is refused for a person"));
+    EXPECT_THAT(gate.configure(setup), refusedSaying("voltage source is refused for a person"));
     // The same setup with a current source is accepted: it was the source that was refused.
     setup.source.drive = Drive::Current;
     EXPECT_TRUE(gate.configure(setup));

@@ -7,6 +7,7 @@
 #include "tests/drivers/usb/UsbFixture.h"
 #include "tests/support/FailsInTime.h"
 #include "tests/support/InTime.h"
+#include "tests/support/Refused.h"
 
 namespace tacto::test {
 namespace {
@@ -90,9 +91,8 @@ TEST_F(PulsePalUsb, OpensDeliversAndClosesSilent) {
 TEST_F(PulsePalUsb, WithoutDtrItIsNotHeard) {
     const EmulatedUsbDevice usb(bed, cdcAcmDevice(kPulsePalVendor, kPulsePalProduct, "PP1"), behaviour());
     ASSERT_IN_TIME(waitForDevices(1));
-    const auto opened = pulsepal::PulsePalStimulator::open(connector(false), "pulsepal:PP1", "PP1", 1, clock);
-    ASSERT_FALSE(opened);
-    EXPECT_EQ(opened.error().code, ErrorCode::Timeout);
+    EXPECT_THAT(pulsepal::PulsePalStimulator::open(connector(false), "pulsepal:PP1", "PP1", 1, clock),
+                refused(ErrorCode::Timeout));
 }
 
 TEST_F(PulsePalUsb, UnpluggedIsAFaultAndComesBackByIdentity) {

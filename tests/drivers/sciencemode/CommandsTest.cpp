@@ -5,6 +5,7 @@
 
 #include "core/base/Statistics.h"
 #include "tests/drivers/sciencemode/Bytes.h"
+#include "tests/support/Refused.h"
 #include "tests/support/emulated/sciencemode/DeviceSide.h"
 
 namespace tacto::test {
@@ -29,9 +30,8 @@ TEST(ScienceModePoint, EveryTimeAndCurrentComesBack) {
         const int stride = us % 256 < 2 || us % 16 == 15 ? 1 : 29;
         for (int half = -260; half <= 260; half += stride) {
             const Point point{Micros(us), Milliamps(half / 2.0)};
-            const auto bytes = encodePoint(point);
-            ASSERT_TRUE(bytes.has_value()) << bytes.error().message;
-            ASSERT_EQ(decodePoint(*bytes), point);
+            const auto bytes = accepted(encodePoint(point));
+            ASSERT_EQ(decodePoint(bytes), point);
         }
     }
 }
@@ -60,9 +60,7 @@ TEST(ScienceModePoint, RefusesWhatWouldWrap) {
         EXPECT_FALSE(encodePoint({Micros(200), Milliamps(mA)}).has_value()) << mA << " mA";
     }
     for (const double us : {4096.0, 9.0, 0.0, -200.0, 200.5, 1e12, kNaN, kInfinite}) {
-        const auto refused = encodePoint({Micros(us), Milliamps(5)});
-        ASSERT_FALSE(refused.has_value()) << us << " µs";
-        EXPECT_EQ(refused.error().code, ErrorCode::InvalidArgument);
+        EXPECT_THAT(encodePoint({Micros(us), Milliamps(5)}), refused(ErrorCode::InvalidArgument)) << us << " µs";
     }
 }
 
@@ -90,17 +88,15 @@ TEST(ScienceModeRequest, ChannelConfigPutsEachParameterInItsPlace) {
                 Points points;
                 for (std::size_t count = 1; count <= kMaxPoints; ++count) {
                     ASSERT_TRUE(points.add({Micros(10.0 * static_cast<double>(count)), Milliamps(0.5)}));
-                    const auto payload = payloadOf(ChannelConfig{channel, connector, execute, points});
-                    ASSERT_TRUE(payload.has_value());
-                    ASSERT_EQ(payload->size, 1 + 4 * count);
-                    const auto head = static_cast<int>(payload->bytes[0]);
+                    const auto payload = accepted(payloadOf(ChannelConfig{channel, connector, execute, points}));
+                    ASSERT_EQ(payload.size, 1 + 4 * count);
+                    const auto head = static_cast<int>(payload.bytes[0]);
                     EXPECT_EQ(head, static_cast<int>(count - 1) + 16 * connector + 32 * channel + (execute ? 128 : 0));
-                    const auto read = readChannelConfig(payload->view());
-                    ASSERT_TRUE(read.has_value());
-                    EXPECT_EQ(read->channel, channel);
-                    EXPECT_EQ(read->connector, connector);
-                    EXPECT_EQ(read->execute, execute);
-                    EXPECT_TRUE(std::ranges::equal(read->points.span(), points.span()));
+                    const auto read = accepted(readChannelConfig(payload.view()));
+                    EXPECT_EQ(read.channel, channel);
+                    EXPECT_EQ(read.connector, connector);
+                    EXPECT_EQ(read.execute, execute);
+                    EXPECT_TRUE(std::ranges::equal(read.points.span(), points.span()));
                 }
                 EXPECT_FALSE(points.add({Micros(10), Milliamps(0)})) << "a 17th point";
             }

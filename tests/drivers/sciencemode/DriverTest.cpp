@@ -10,6 +10,7 @@
 #include "tests/support/FailsInTime.h"
 #include "tests/support/InTime.h"
 #include "tests/support/OtherProgram.h"
+#include "tests/support/Refused.h"
 #include "tests/support/emulated/sciencemode/EmulatedPty.h"
 
 namespace tacto::test {
@@ -110,10 +111,7 @@ TEST_F(ScienceModeUri, EachOfTwoIsListedWithAnAddressThatOpensItAndNoOther) {
         EXPECT_EQ(serial(), fmt::format("P24-00000{}", i + 1));
         EXPECT_THAT(ports_->opened, testing::Each(fmt::format("1-{}", i + 1))) << "another one was spoken to";
     }
-    const auto both = open("sciencemode:B");
-    ASSERT_FALSE(both.has_value());
-    EXPECT_EQ(both.error().code, ErrorCode::InvalidArgument);
-    EXPECT_THAT(both.error().message, HasSubstr("sciencemode:1-3 or sciencemode:1-4"));
+    EXPECT_THAT(open("sciencemode:B"), refused(ErrorCode::InvalidArgument, "sciencemode:1-3 or sciencemode:1-4"));
 }
 
 TEST_F(ScienceModeUri, OfSeveralThatAnswerOneMustBeNamed) {
@@ -124,9 +122,8 @@ TEST_F(ScienceModeUri, OfSeveralThatAnswerOneMustBeNamed) {
     ASSERT_IN_TIME(!opened) << "one of the two did not answer";
     ASSERT_CODE_IN_TIME(opened.error().code, ErrorCode::InvalidArgument);
     EXPECT_THAT(opened.error().message, HasSubstr("could be sciencemode:A1 or sciencemode:A2: name one"));
-    const auto looked = lookAt(DeviceUri::parse("sciencemode:").value(), ports_.get(), clock_);
-    ASSERT_FALSE(looked);
-    EXPECT_EQ(looked.error().message, opened.error().message);
+    EXPECT_THAT(lookAt(DeviceUri::parse("sciencemode:").value(), ports_.get(), clock_),
+                refusedSaying(testing::Eq(opened.error().message)));
     ASSERT_IN_TIME(open("sciencemode:A2"));
     EXPECT_EQ(serial(), "P24-000002");
 }
@@ -151,9 +148,7 @@ TEST_F(ScienceModeUri, ALookSaysWhoIsWhereAndLeavesWhatRunsAlone) {
         EXPECT_EQ(seen->status.status, Stimulation::MidLevelRunning);
     }
     EXPECT_EQ(stops(), before);
-    const auto denied = lookAt(*DeviceUri::parse("sciencemode:A1"), ports_.get(), clock_);
-    ASSERT_FALSE(denied.has_value());
-    EXPECT_THAT(denied.error().message, HasSubstr("may not be opened"));
+    EXPECT_THAT(lookAt(*DeviceUri::parse("sciencemode:A1"), ports_.get(), clock_), refusedSaying("may not be opened"));
     EXPECT_EQ(lookAt(*DeviceUri::parse("sciencemode:"), nullptr, clock_).error().code, ErrorCode::NotFound);
     EXPECT_EQ(lookAt(*DeviceUri::parse("sim:"), ports_.get(), clock_).error().code, ErrorCode::InvalidArgument);
 }
@@ -161,10 +156,7 @@ TEST_F(ScienceModeUri, ALookSaysWhoIsWhereAndLeavesWhatRunsAlone) {
 TEST_F(ScienceModeUri, SaysWhyNothingCouldBeOpened) {
     EXPECT_THAT(open("sciencemode:").error().message, HasSubstr("none is plugged in"));
     ports_->add({"A1", "1-1", "may not be opened by you: run ./dev install-rules"}, named("P24-000001"));
-    const auto refused = open("sciencemode:");
-    ASSERT_FALSE(refused.has_value());
-    EXPECT_EQ(refused.error().code, ErrorCode::Io);
-    EXPECT_THAT(refused.error().message, HasSubstr("install-rules"));
+    EXPECT_THAT(open("sciencemode:"), refused(ErrorCode::Io, "install-rules"));
     const auto listed = driver_->list();
     ASSERT_EQ(listed.size(), 1U);
     EXPECT_THAT(listed[0].obstacle, HasSubstr("install-rules"));
@@ -196,9 +188,7 @@ TEST_F(ScienceModeUri, RefusesWhatItDoesNotKnow) {
     for (const auto* wrong :
          {"channel=4", "channel=-1", "channel=1.5", "channel=nan", "channel=x", "connector=blue", "level=mid",
           "level=low", "measure=all", "voltage=40", "emulated=1", "tty=", "speed=3", "channel=1&channel=2"}) {
-        const auto refused = open(std::string("sciencemode:?") + wrong);
-        ASSERT_FALSE(refused.has_value()) << wrong;
-        EXPECT_EQ(refused.error().code, ErrorCode::InvalidArgument);
+        EXPECT_THAT(open(std::string("sciencemode:?") + wrong), refused(ErrorCode::InvalidArgument)) << wrong;
     }
     EXPECT_TRUE(ports_->opened.empty());
     ASSERT_IN_TIME(open("sciencemode:"));
@@ -224,11 +214,7 @@ TEST_F(ScienceModeUri, AReplugIntoAnotherSocketIsFoundByItsSerialNumber) {
 
 class ScienceModePty : public ScienceModeUri {
 protected:
-    void SetUp() override {
-        auto pty = EmulatedPty::open({}, clock_);
-        ASSERT_TRUE(pty.has_value()) << pty.error().message;
-        pty_ = std::move(*pty);
-    }
+    void SetUp() override { pty_ = accepted(EmulatedPty::open({}, clock_)); }
     std::unique_ptr<EmulatedPty> pty_;
 };
 
@@ -263,9 +249,8 @@ TEST_F(ScienceModePty, WhatItSaysOfItselfMakesNothingSimulated) {
 TEST_F(ScienceModeUri, ADeviceThatIsNoEmulatorIsNotOpenedAsOne) {
     RecordProperty("hazard", "H4");
     ports_->add({"A1", "1-1", ""}, named("P24-000001"));
-    const auto refused = open("sciencemode:?emulated=yes");
-    ASSERT_FALSE(refused);
-    EXPECT_THAT(refused.error().message, HasSubstr("P24-000001 answers where the address says emulated=yes"));
+    EXPECT_THAT(open("sciencemode:?emulated=yes"),
+                refusedSaying("P24-000001 answers where the address says emulated=yes"));
     ASSERT_IN_TIME(open("sciencemode:"));
     EXPECT_FALSE(devices_.stimulator->identity().simulated);
 }
@@ -304,11 +289,9 @@ TEST_F(ScienceModePty, ATerminalThatAnotherProgramHasLockedIsRefusedAndThatProgr
     RecordProperty("hazard", "H2");
     {
         const OtherProgram other(pty_->path(), true);
-        const auto refused = open("sciencemode:?tty=" + pty_->path());
-        ASSERT_FALSE(refused.has_value());
-        EXPECT_EQ(refused.error().code, ErrorCode::Io);
-        EXPECT_THAT(refused.error().message,
-                    testing::AllOf(HasSubstr(pty_->path()), HasSubstr(other.text()), HasSubstr("close that program")));
+        EXPECT_THAT(open("sciencemode:?tty=" + pty_->path()),
+                    refused(ErrorCode::Io, testing::AllOf(HasSubstr(pty_->path()), HasSubstr(other.text()),
+                                                          HasSubstr("close that program"))));
     }
     ASSERT_IN_TIME(open("sciencemode:?tty=" + pty_->path()));
     // Nor do two parts of this program share it.
@@ -316,12 +299,11 @@ TEST_F(ScienceModePty, ATerminalThatAnotherProgramHasLockedIsRefusedAndThatProgr
 }
 
 TEST_F(ScienceModePty, AReadWaitsNoLongerThanItIsAllowed) {
-    auto transport = TtyTransport::open(pty_->path());
-    ASSERT_TRUE(transport.has_value());
+    auto transport = accepted(TtyTransport::open(pty_->path()));
     std::array<std::uint8_t, 16> into{};
     for (const double s : {0.0, 0.03, -1.0, std::nan("")}) {
         const Instant begin = clock_.now();
-        EXPECT_EQ((*transport)->read(into, Seconds(s)).error().code, ErrorCode::Timeout);
+        EXPECT_EQ(transport->read(into, Seconds(s)).error().code, ErrorCode::Timeout);
         EXPECT_GE(clock_.now() - begin, s > 0 ? milliseconds(30) : milliseconds(0));
         EXPECT_IN_TIME(clock_.now() - begin < milliseconds(1000));
     }
@@ -329,19 +311,18 @@ TEST_F(ScienceModePty, AReadWaitsNoLongerThanItIsAllowed) {
 
 TEST_F(ScienceModePty, UrgentMessagesAndFramesNeverMix) {
     RecordProperty("hazard", "H2");
-    auto transport = TtyTransport::open(pty_->path());
-    ASSERT_TRUE(transport.has_value());
+    auto transport = accepted(TtyTransport::open(pty_->path()));
     // Pauses between, or their acks alone would fill the line.
     std::vector<std::jthread> stoppers;
     for (int i = 0; i < 3; ++i) {
         stoppers.emplace_back([&](const std::stop_token& stop) {
             while (!stop.stop_requested()) {
-                (*transport)->writeUrgent(stopFrames().lowLevel.view());
+                transport->writeUrgent(stopFrames().lowLevel.view());
                 std::this_thread::sleep_for(std::chrono::microseconds(300));
             }
         });
     }
-    Exchange exchange(**transport, clock_);
+    Exchange exchange(*transport, clock_);
     for (int i = 0; i < 300; ++i) {
         const auto answer = exchange.ask(Command::StimStatus, {}, Seconds(10));
         ASSERT_IN_TIME(answer);

@@ -7,6 +7,7 @@
 #include "drivers/sciencemode/Commands.h"
 #include "tests/drivers/sciencemode/Bytes.h"
 #include "tests/support/Figures.h"
+#include "tests/support/Refused.h"
 
 namespace tacto::test {
 namespace {
@@ -61,9 +62,8 @@ TEST(ScienceModeFrame, GoldenFramesByteForByte) {
               bytesOf("F0 81 55 81 58 81 89 81 95 04 00 00 0F"));
     EXPECT_EQ(frameOf(Command::LowLevelInit, 1, payloadOf(LowLevelInit{HighVoltage::V60, Measurement::None}).view()),
               bytesOf("F0 81 55 81 58 81 E9 81 53 04 00 06 0F"));
-    const auto config = payloadOf(ChannelConfig{0, 0, true, goldenPoints()});
-    ASSERT_TRUE(config.has_value());
-    EXPECT_EQ(frameOf(Command::ChannelConfig, 2, config->view()),
+    const auto config = accepted(payloadOf(ChannelConfig{0, 0, true, goldenPoints()}));
+    EXPECT_EQ(frameOf(Command::ChannelConfig, 2, config.view()),
               bytesOf("F0 81 55 81 4C 81 60 81 02 08 02 82 0C 84 D8 00 06 44 B0 00 0C 84 88 00 0F"));
     EXPECT_EQ(frameOf(Command::MidLevelStop, 6), bytesOf("F0 81 55 81 59 81 DB 81 AF 18 22 0F"));
     EXPECT_EQ(frameOf(Command::MidLevelStop, 60), bytesOf("F0 81 55 81 58 81 BF 81 94 81 A5 22 0F"));

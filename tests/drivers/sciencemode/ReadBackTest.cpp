@@ -5,6 +5,7 @@
 #include "core/electrode/Load.h"
 #include "drivers/sciencemode/ReadBack.h"
 #include "tests/support/Figures.h"
+#include "tests/support/Refused.h"
 #include "tests/support/emulated/sciencemode/EmulatedOutput.h"
 
 namespace tacto::test {
@@ -147,9 +148,7 @@ TEST(ScienceModePlan, RefusesVolts) {
     RecordProperty("hazard", "H4");
     PulseTrain train;
     train.amplitude = Volts(5);
-    const auto refused = planPulse(train);
-    ASSERT_FALSE(refused.has_value());
-    EXPECT_EQ(refused.error().code, ErrorCode::Device);
+    EXPECT_THAT(planPulse(train), refused(ErrorCode::Device));
 }
 
 TEST(ScienceModePlan, RefusesRatherThanRounds) {
@@ -192,13 +191,12 @@ TEST(ScienceModePlan, ChargeOfEveryPlannedPulseIsBalanced) {
             train.polarity = polarity;
             train.phaseWidth = Micros(1111);
             train.rate = Hertz(20);
-            const auto plan = planPulse(train);
-            ASSERT_TRUE(plan.has_value()) << plan.error().message;
+            const auto plan = accepted(planPulse(train));
             double charge = 0;
-            for (const auto& point : plan->points.span()) charge += point.current.value() * point.time.count();
+            for (const auto& point : plan.points.span()) charge += point.current.value() * point.time.count();
             EXPECT_EQ(charge, 0);
-            EXPECT_EQ(plan->points.items[0].current.value(), polarity == Polarity::Positive ? 20 : -20);
-            EXPECT_NEAR(plan->points.duration().count(), train.pulseDuration().count() * 1e6, 1e-6);
+            EXPECT_EQ(plan.points.items[0].current.value(), polarity == Polarity::Positive ? 20 : -20);
+            EXPECT_NEAR(plan.points.duration().count(), train.pulseDuration().count() * 1e6, 1e-6);
         }
     }
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "tests/support/Refused.h"
+
 namespace tacto::test {
 
 PulseTrain biphasic(double milliamps, int pulses, double rate_hz) {
@@ -41,9 +43,7 @@ ApprovedTrain approve(SafetyGate& gate, const Clock& clock, const PulseTrain& tr
     request.train = train;
     request.interval = interval;
     request.onset = clock.now();
-    auto approval = gate.approve(request);
-    if (!approval) throw std::runtime_error(approval.error().message);
-    return std::move(*approval);
+    return accepted(gate.approve(request));
 }
 
 bool cameLate(const Error& error) {
@@ -52,9 +52,8 @@ bool cameLate(const Error& error) {
 
 ScienceModeBench::ScienceModeBench(sciencemode::EmulatedSettings device, sciencemode::StimulatorSettings settings)
     : line(std::make_shared<EmulatedLine>(clock, &clock, std::move(device))) {
-    auto opened = sciencemode::ScienceModeStimulator::open(line->connector(), "sciencemode:", {}, settings, clock);
-    if (!opened) throw std::runtime_error(opened.error().message);
-    stimulator = std::move(*opened);
+    stimulator =
+        accepted(sciencemode::ScienceModeStimulator::open(line->connector(), "sciencemode:", {}, settings, clock));
     gate_ = wideGate(clock, stimulator->traits());
 }
 
@@ -86,9 +85,8 @@ Result<void> ScienceModeBench::deliver(const PulseTrain& train) {
 }
 
 StimulatorStatus ScienceModeBench::status() {
-    const auto read = stimulator->status();
-    if (!read) throw std::runtime_error(read.error().message);
-    return *read;
+    const auto read = accepted(stimulator->status());
+    return read;
 }
 
 }  // namespace tacto::test

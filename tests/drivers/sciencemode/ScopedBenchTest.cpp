@@ -9,6 +9,7 @@
 #include "core/bench/Bench.h"
 #include "tests/drivers/sciencemode/EmulatedLine.h"
 #include "tests/support/Limits.h"
+#include "tests/support/Refused.h"
 
 namespace tacto::test {
 namespace {
@@ -103,20 +104,16 @@ protected:
         line_ = std::make_shared<EmulatedLine>(*clock_, clock_.get());
         sciencemode::StimulatorSettings settings;
         settings.emulated = true;
-        auto opened = sciencemode::ScienceModeStimulator::open(line_->connector(), "sciencemode:?emulated=yes", {},
-                                                               settings, *clock_);
-        ASSERT_TRUE(opened) << opened.error().message;
+        auto opened = accepted(sciencemode::ScienceModeStimulator::open(line_->connector(), "sciencemode:?emulated=yes",
+                                                                        {}, settings, *clock_));
         BenchConfig config;
-        config.devices.stimulator = std::move(*opened);
+        config.devices.stimulator = std::move(opened);
         config.devices.oscilloscope = std::make_unique<ScopeOnLine>(*clock_, *line_, gain, stampTolerance_s);
         config.clock = clock_;
         config.profile = profile_;
         config.limits = limitSets();
-        auto bench = Bench::create(std::move(config));
-        ASSERT_TRUE(bench) << bench.error().message;
-        bench_ = std::move(*bench);
-        const auto armed = bench_->arm(ArmRequest{"1 kohm", true, true});
-        ASSERT_TRUE(armed) << armed.error().message;
+        bench_ = accepted(Bench::create(std::move(config)));
+        accepted(bench_->arm(ArmRequest{"1 kohm", true, true}));
     }
     [[nodiscard]] double between(double low, double high) { return std::uniform_real_distribution(low, high)(draw_); }
     [[nodiscard]] std::string reason() const { return bench_->telemetry().reason.c_str(); }
@@ -143,9 +140,8 @@ TEST_F(ScopedScienceMode, ACheckPulseAtAnyTimeBesideATrainIsNotTakenForIt) {
         ASSERT_TRUE(bench_->drive(DriveSource::Manual, between(0, 1), 0.9));
         const auto waited = bench_->wait(Seconds(between(0.3, 1.5)));
         ASSERT_TRUE(waited) << trial << ": " << reason();
-        const auto captures = bench_->takeCaptures();
-        ASSERT_TRUE(captures);
-        for (const auto& capture : *captures) {
+        const auto captures = accepted(bench_->takeCaptures());
+        for (const auto& capture : captures) {
             if (std::isnan(capture.programmed)) {
                 ++neither;
                 continue;

@@ -4,6 +4,7 @@
 
 #include "drivers/sciencemode/ScienceModeStimulator.h"
 #include "tests/drivers/sciencemode/ScienceModeBench.h"
+#include "tests/support/Refused.h"
 
 namespace tacto::test {
 namespace {
@@ -68,9 +69,7 @@ TEST(ScienceModeOpen, RefusesADeviceThatIsNotWhatItShouldBe) {
         settings.id = id;
         settings.protocol.major = static_cast<std::uint8_t>(major);
         const auto line = std::make_shared<EmulatedLine>(clock, &clock, settings);
-        const auto refused = opens(line, clock, wanted);
-        ASSERT_FALSE(refused.has_value()) << id << major;
-        EXPECT_EQ(refused.error().code, code) << refused.error().message;
+        EXPECT_THAT(opens(line, clock, wanted), refused(code)) << id << major;
         EXPECT_LE(line->written().size(), 2U) << "it was asked who it is, and left alone";
     }
 }
@@ -166,9 +165,8 @@ TEST(ScienceModeDeliver, RefusesWithoutAByteOnTheWire) {
     auto wide = biphasic(5, 1, 20);
     wide.phaseWidth = Micros(5000);
     for (const auto& train : {odd, strong, uneven, wide}) {
-        const auto refused = bench.stimulator->deliver(approve(*gate, bench.clock, train, Seconds(2)));
-        ASSERT_FALSE(refused.has_value());
-        EXPECT_EQ(refused.error().code, ErrorCode::Device) << refused.error().message;
+        EXPECT_THAT(bench.stimulator->deliver(approve(*gate, bench.clock, train, Seconds(2))),
+                    refused(ErrorCode::Device));
     }
     EXPECT_EQ(bench.line->written().size(), before);
     EXPECT_EQ(bench.line->pulses(), 0U);
@@ -179,9 +177,7 @@ TEST(ScienceModeDeliver, RefusesATrainWhileOneIsInProgress) {
     ScienceModeBench bench;
     ASSERT_TRUE(bench.stimulator->deliver(bench.approved(5, 20)).has_value());
     bench.wait(Seconds(0.05));
-    const auto refused = bench.stimulator->deliver(bench.approved(5));
-    ASSERT_FALSE(refused.has_value());
-    EXPECT_EQ(refused.error().code, ErrorCode::Device);
+    EXPECT_THAT(bench.stimulator->deliver(bench.approved(5)), refused(ErrorCode::Device));
     bench.wait(Seconds(0.2));
     EXPECT_EQ(bench.line->pulses(), 20U);
 }
@@ -335,10 +331,7 @@ TEST(ScienceModeStatus, AShortIsTold) {
 TEST(ScienceModeStatus, ACurrentThatIsNotReachedIsAFaultWithItsReason) {
     RecordProperty("hazard", "H3");
     ScienceModeBench bench(onLoad(Load::resistor(Ohms(100'000))));
-    const auto refused = bench.stimulator->deliver(bench.approved(5));
-    ASSERT_FALSE(refused.has_value());
-    EXPECT_EQ(refused.error().code, ErrorCode::Device);
-    EXPECT_THAT(refused.error().message, HasSubstr("did not reach its current"));
+    EXPECT_THAT(bench.stimulator->deliver(bench.approved(5)), refused(ErrorCode::Device, "did not reach its current"));
 }
 
 // --- a device that misbehaves ---------------------------------------------------------------------------------------
@@ -354,10 +347,7 @@ TEST(ScienceModeFaults, AFirstPulseWithoutASoundAckFailsTheDelivery) {
                                             {AckFault::WrongChannel, ErrorCode::Device, "channel 1"}}) {
         ScienceModeBench bench;
         misbehave(bench, fault);
-        const auto failed = bench.stimulator->deliver(bench.approved(5, 10));
-        ASSERT_FALSE(failed.has_value()) << text;
-        EXPECT_EQ(failed.error().code, code) << failed.error().message;
-        EXPECT_THAT(failed.error().message, HasSubstr(text));
+        EXPECT_THAT(bench.stimulator->deliver(bench.approved(5, 10)), refused(code, text)) << text;
         bench.stimulator->forceOff();  // as the session does
         bench.wait(Seconds(0.2));
         EXPECT_EQ(bench.line->pulses(), 1U) << "no more pulses follow";
@@ -386,9 +376,7 @@ TEST(ScienceModeFaults, AMissingAckInMidTrainStopsItThereAndIsTold) {
     EXPECT_EQ(bench.line->pulses(), before + 1);
     EXPECT_EQ(bench.line->inspect([](auto& device, Instant now) { return device.state(now); }), Stimulation::None)
         << "it was stopped";
-    const auto told = bench.stimulator->status();
-    ASSERT_FALSE(told.has_value());
-    EXPECT_EQ(told.error().code, ErrorCode::Timeout);
+    EXPECT_THAT(bench.stimulator->status(), refused(ErrorCode::Timeout));
     EXPECT_FALSE(bench.status().delivering);
 }
 
@@ -405,9 +393,8 @@ TEST(ScienceModeFaults, UnpluggedInMidTrainFaultsAndComesBackByIdentity) {
     bench.line->plug();
     EXPECT_EQ(bench.stimulator->deliver(bench.approved(5)).error().code, ErrorCode::Device)
         << "only asking how it is takes it up again";
-    const auto status = bench.stimulator->status();
-    ASSERT_TRUE(status.has_value()) << status.error().message;
-    EXPECT_FALSE(status->delivering);
+    const auto status = accepted(bench.stimulator->status());
+    EXPECT_FALSE(status.delivering);
     EXPECT_TRUE(bench.deliver(biphasic(5)).has_value());
 }
 
@@ -419,9 +406,7 @@ TEST(ScienceModeFaults, AnotherDeviceInTheSameSocketIsNotTaken) {
     EmulatedSettings other;
     other.id = "EMU0000099";
     bench.line->plugAnother(other);
-    const auto status = bench.stimulator->status();
-    ASSERT_FALSE(status.has_value());
-    EXPECT_THAT(status.error().message, HasSubstr("EMU0000099"));
+    EXPECT_THAT(bench.stimulator->status(), refusedSaying("EMU0000099"));
     EXPECT_FALSE(bench.stimulator->deliver(bench.approved(5)).has_value());
     EXPECT_EQ(bench.line->pulses(), 0U);
 }

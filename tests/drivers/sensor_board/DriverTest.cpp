@@ -4,6 +4,7 @@
 
 #include "drivers/sensor_board/SensorBoardDriver.h"
 #include "tests/drivers/sensor_board/SensorBoardBench.h"
+#include "tests/support/Refused.h"
 
 namespace tacto::test {
 namespace {
@@ -110,18 +111,13 @@ TEST_F(SensorBoardDriverTest, PassesOverABoardThatMayNotBeOpened) {
     ASSERT_TRUE(open("sensor:").has_value());
     EXPECT_EQ(devices_.sensor->identity().serial, "TSB-1");
     devices_.sensor.reset();
-    const auto refused = open("sensor:TSB-9");
-    ASSERT_FALSE(refused.has_value());
-    EXPECT_EQ(refused.error().code, ErrorCode::Io);
-    EXPECT_THAT(refused.error().message, HasSubstr("install-rules"));
+    EXPECT_THAT(open("sensor:TSB-9"), refused(ErrorCode::Io, "install-rules"));
 }
 
 TEST_F(SensorBoardDriverTest, WhatIsNotThereIsNotFound) {
-    const auto refused = open("sensor:TSB-3");
-    ASSERT_FALSE(refused.has_value());
-    EXPECT_EQ(refused.error().code, ErrorCode::NotFound);
-    EXPECT_THAT(refused.error().message,
-                HasSubstr("no such sensor board is plugged in (USB 1209:0001 \"Tactoscope sensor board\")"));
+    EXPECT_THAT(
+        open("sensor:TSB-3"),
+        refused(ErrorCode::NotFound, "no such sensor board is plugged in (USB 1209:0001 \"Tactoscope sensor board\")"));
     EXPECT_EQ(ports_->opened, 0);
 }
 
@@ -142,19 +138,14 @@ TEST_F(SensorBoardDriverTest, RefusesParametersThatItDoesNotTake) {
                                         {"sensor:?tty=", "a terminal's path, as /dev/ttyACM0"},
                                         {"sensor:?speed=1", "it takes rate, slowrate, emulated, tty"},
                                         {"sensor:?rate=2000&rate=1000", "rate is given twice"}}) {
-        const auto refused = open(uri);
-        ASSERT_FALSE(refused.has_value()) << uri;
-        EXPECT_EQ(refused.error().code, ErrorCode::InvalidArgument);
-        EXPECT_THAT(refused.error().message, HasSubstr(expected));
+        EXPECT_THAT(open(uri), refused(ErrorCode::InvalidArgument, expected)) << uri;
     }
     EXPECT_EQ(ports_->opened, 0);
 }
 
 TEST_F(SensorBoardDriverTest, ABenchHasOneSensor) {
     ASSERT_TRUE(open("sensor:").has_value());
-    const auto refused = open("sensor:TSB-2");
-    ASSERT_FALSE(refused.has_value());
-    EXPECT_THAT(refused.error().message, HasSubstr("a sensor is open already"));
+    EXPECT_THAT(open("sensor:TSB-2"), refusedSaying("a sensor is open already"));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "core/acquisition/StreamHealth.h"
 #include "tests/drivers/sensor_board/SensorBoardBench.h"
+#include "tests/support/Refused.h"
 
 namespace tacto::test {
 namespace {
@@ -44,8 +45,7 @@ TEST(SensorBoardFaults, LostSpoiltSwappedAndRepeatedBlocksAreCountedExactly) {
     EmulatedBoardSettings settings;
     settings.flaws = {0.02, 0.02, 0.02, 0.02};
     SensorBoardBench bench(settings);
-    bench.open();
-    ASSERT_TRUE(bench.run(Seconds(20)).has_value());
+    bench.openFor(Seconds(20));
     with(bench, [](EmulatedBoard& board, Instant) { board.spoil({}); });
     ASSERT_TRUE(bench.run(Seconds(0.2)).has_value());  // until a block follows the last one lost
     expectExactCounts(bench);
@@ -72,8 +72,7 @@ TEST(SensorBoardFaults, LostSpoiltSwappedAndRepeatedBlocksAreCountedExactly) {
 TEST(SensorBoardFaults, OneLostBlockIsOneGap) {
     RecordProperty("hazard", "H7");
     SensorBoardBench bench;
-    bench.open();
-    ASSERT_TRUE(bench.run(Seconds(0.5)).has_value());
+    bench.openFor(Seconds(0.5));
     with(bench, [](EmulatedBoard& board, Instant) { board.dropNext(0); });
     ASSERT_TRUE(bench.run(Seconds(0.5)).has_value());
     const auto counts = bench.board->report().streams[0];
@@ -86,8 +85,7 @@ TEST(SensorBoardFaults, OneLostBlockIsOneGap) {
 TEST(SensorBoardFaults, SamplesThatTheBoardCouldNotFetchAreAGapToo) {
     RecordProperty("hazard", "H7");
     SensorBoardBench bench;
-    bench.open();
-    ASSERT_TRUE(bench.run(Seconds(0.5)).has_value());
+    bench.openFor(Seconds(0.5));
     with(bench, [](EmulatedBoard& board, Instant) { board.overrun(0, 37); });
     ASSERT_TRUE(bench.run(Seconds(1.5)).has_value());
     const auto report = bench.board->report();
@@ -102,8 +100,7 @@ TEST(SensorBoardFaults, AHostThatDoesNotReadLosesBlocksAndIsTold) {
     EmulatedBoardSettings settings;
     settings.bufferBytes = 8192;
     SensorBoardBench bench(settings);
-    bench.open();
-    ASSERT_TRUE(bench.run(Seconds(0.5)).has_value());
+    bench.openFor(Seconds(0.5));
     ASSERT_TRUE(bench.run(Seconds(10), Seconds(10)).has_value());
     ASSERT_TRUE(bench.run(Seconds(2)).has_value());
     expectExactCounts(bench);
@@ -116,13 +113,10 @@ TEST(SensorBoardFaults, AHostThatDoesNotReadLosesBlocksAndIsTold) {
 TEST(SensorBoardFaults, UnpluggedInMidStreamAndOpenedAnewWhenItIsBack) {
     RecordProperty("hazard", "H2");
     SensorBoardBench bench;
-    bench.open();
-    ASSERT_TRUE(bench.run(Seconds(0.5)).has_value());
+    bench.openFor(Seconds(0.5));
     bench.line->unplug();
-    const auto gone = bench.run(Seconds(0.01));
-    ASSERT_FALSE(gone.has_value());
-    EXPECT_EQ(gone.error().code, ErrorCode::Device);
-    EXPECT_THAT(gone.error().message, HasSubstr("emulated sensor board: the emulated sensor board is unplugged"));
+    EXPECT_THAT(bench.run(Seconds(0.01)),
+                refused(ErrorCode::Device, "emulated sensor board: the emulated sensor board is unplugged"));
     bench.line->plug();
     EXPECT_FALSE(bench.board->read(bench.blocks).has_value()) << "an old device stays useless";
     bench.open();
@@ -132,15 +126,11 @@ TEST(SensorBoardFaults, UnpluggedInMidStreamAndOpenedAnewWhenItIsBack) {
 TEST(SensorBoardFaults, GarbageInMidStreamIsRefusedWithinASecond) {
     RecordProperty("hazard", "H7");
     SensorBoardBench bench;
-    bench.open();
-    ASSERT_TRUE(bench.run(Seconds(0.5)).has_value());
+    bench.openFor(Seconds(0.5));
     with(bench, [](EmulatedBoard& board, Instant) { board.talkGarbage(true); });
     const auto samples = bench.blocks[0].samples();
     const auto begin = bench.clock.now();
-    const auto refused = bench.run(Seconds(60));
-    ASSERT_FALSE(refused.has_value());
-    EXPECT_EQ(refused.error().code, ErrorCode::Device);
-    EXPECT_THAT(refused.error().message, HasSubstr("it sends garbage:"));
+    EXPECT_THAT(bench.run(Seconds(60)), refused(ErrorCode::Device, "it sends garbage:"));
     EXPECT_LT(bench.clock.now() - begin, std::chrono::seconds(1));
     EXPECT_LE(bench.blocks[0].samples() - samples, 64U) << "only what was on its way";
 }
@@ -148,8 +138,7 @@ TEST(SensorBoardFaults, GarbageInMidStreamIsRefusedWithinASecond) {
 TEST(SensorBoardFaults, AMomentOfGarbageIsOnlyAGap) {
     RecordProperty("hazard", "H7");
     SensorBoardBench bench;
-    bench.open();
-    ASSERT_TRUE(bench.run(Seconds(0.5)).has_value());
+    bench.openFor(Seconds(0.5));
     with(bench, [](EmulatedBoard& board, Instant) { board.talkGarbage(true); });
     ASSERT_TRUE(bench.run(Seconds(0.1)).has_value());
     with(bench, [](EmulatedBoard& board, Instant) { board.talkGarbage(false); });
@@ -185,10 +174,8 @@ TEST(SensorBoardFaults, ADeviceThatAnswersGarbageIsNotOpened) {
     RecordProperty("hazard", "H10");
     VirtualClock clock;
     auto noise = std::make_unique<NoiseTransport>(clock);
-    const auto refused = SensorBoard::open(std::move(noise), {}, clock);
-    ASSERT_FALSE(refused.has_value());
-    EXPECT_EQ(refused.error().code, ErrorCode::Device);
-    EXPECT_THAT(refused.error().message, HasSubstr("it answers HELLO with garbage:"));
+    EXPECT_THAT(SensorBoard::open(std::move(noise), {}, clock),
+                refused(ErrorCode::Device, "it answers HELLO with garbage:"));
     EXPECT_LT(clock.now(), std::chrono::seconds(2));
 }
 
@@ -214,20 +201,18 @@ private:
 TEST(SensorBoardFaults, AMinuteOfNoiseWithoutEndStaysBounded) {
     RecordProperty("hazard", "H10");
     SensorBoardBench bench;
-    auto transport = bench.line->connect();
-    ASSERT_TRUE(transport.has_value());
-    auto owned = std::make_unique<TurningTransport>(std::move(*transport), bench.clock);
+    auto transport = accepted(bench.line->connect());
+    auto owned = std::make_unique<TurningTransport>(std::move(transport), bench.clock);
     auto& turning = *owned;
-    auto board = SensorBoard::open(std::move(owned), {}, bench.clock);
-    ASSERT_TRUE(board.has_value()) << board.error().message;
+    auto board = accepted(SensorBoard::open(std::move(owned), {}, bench.clock));
     std::vector<SampleBlock> blocks(3);
-    ASSERT_TRUE((*board)->read(blocks).has_value());
+    ASSERT_TRUE(board->read(blocks).has_value());
     turning.turned = true;
     const auto begin = bench.clock.now();
     bool refused = false;
     for (const auto end = begin + std::chrono::minutes(1); bench.clock.now() < end;) {
         const auto before = turning.noise();
-        const auto read = (*board)->read(blocks);
+        const auto read = board->read(blocks);
         ASSERT_LE(turning.noise() - before, SensorBoard::kMaxRead + 4096) << "of one read()";
         if (!read) {
             EXPECT_THAT(read.error().message, HasSubstr("garbage"));
@@ -245,23 +230,17 @@ TEST(SensorBoardFaults, AMinuteOfNoiseWithoutEndStaysBounded) {
 TEST(SensorBoardFaults, ABoardThatBeganAgainIsRefused) {
     RecordProperty("hazard", "H7");
     SensorBoardBench bench;
-    bench.open();
-    ASSERT_TRUE(bench.run(Seconds(2)).has_value());
+    bench.openFor(Seconds(2));
     with(bench, [](EmulatedBoard& board, Instant now) { board.restart(now); });
-    const auto refused = bench.run(Seconds(1));
-    ASSERT_FALSE(refused.has_value());
-    EXPECT_THAT(refused.error().message, HasSubstr("it began again: 8 blocks"));
+    EXPECT_THAT(bench.run(Seconds(1)), refusedSaying("it began again: 8 blocks"));
 }
 
 TEST(SensorBoardFaults, AClockThatJumpsAheadIsRefused) {
     RecordProperty("hazard", "H7");
     SensorBoardBench bench;
-    bench.open();
-    ASSERT_TRUE(bench.run(Seconds(2)).has_value());
+    bench.openFor(Seconds(2));
     with(bench, [](EmulatedBoard& board, Instant) { board.jumpClock(Seconds(2)); });
-    const auto refused = bench.run(Seconds(1));
-    ASSERT_FALSE(refused.has_value());
-    EXPECT_THAT(refused.error().message, HasSubstr("its clock jumped ahead by 2 s"));
+    EXPECT_THAT(bench.run(Seconds(1)), refusedSaying("its clock jumped ahead by 2 s"));
 }
 
 TEST(SensorBoardFaults, AClockThatRunsThreePercentFastIsRefused) {
@@ -270,9 +249,7 @@ TEST(SensorBoardFaults, AClockThatRunsThreePercentFastIsRefused) {
     settings.drift_ppm = 30'000;
     SensorBoardBench bench(settings);
     bench.open();
-    const auto refused = bench.run(Seconds(30));
-    ASSERT_FALSE(refused.has_value());
-    EXPECT_THAT(refused.error().message, HasSubstr("its clock runs +3.00 % wrong; ± 1 % at most was expected"));
+    EXPECT_THAT(bench.run(Seconds(30)), refusedSaying("its clock runs +3.00 % wrong; ± 1 % at most was expected"));
 }
 
 TEST(SensorBoardFaults, AnotherVersionOfTheProtocolIsRefused) {
@@ -281,12 +258,9 @@ TEST(SensorBoardFaults, AnotherVersionOfTheProtocolIsRefused) {
     settings.lowestVersion = 2;
     settings.highestVersion = 3;
     SensorBoardBench bench(settings);
-    const auto refused = bench.tryOpen();
-    ASSERT_FALSE(refused.has_value());
-    EXPECT_EQ(refused.error().code, ErrorCode::Unsupported);
-    EXPECT_EQ(
-        refused.error().message,
-        "sensor board \"sensor:\": it speaks versions 2 to 3 of the sensor board protocol; version 1 was expected");
+    EXPECT_THAT(bench.tryOpen(),
+                refused(ErrorCode::Unsupported, testing::Eq("sensor board \"sensor:\": it speaks versions 2 to 3 of "
+                                                            "the sensor board protocol; version 1 was expected")));
 }
 
 TEST(SensorBoardFaults, ADoneOfAnotherCommandIsNotTakenForThisOne) {
@@ -294,10 +268,7 @@ TEST(SensorBoardFaults, ADoneOfAnotherCommandIsNotTakenForThisOne) {
     EmulatedBoardSettings settings;
     settings.done = static_cast<std::uint8_t>(Command::Start);  // said of STOP, which is asked first
     SensorBoardBench bench(settings);
-    const auto refused = bench.tryOpen();
-    ASSERT_FALSE(refused.has_value());
-    EXPECT_EQ(refused.error().code, ErrorCode::Device);
-    EXPECT_THAT(refused.error().message, HasSubstr("it says that it has done command"));
+    EXPECT_THAT(bench.tryOpen(), refused(ErrorCode::Device, "it says that it has done command"));
 }
 
 TEST(SensorBoardFaults, WrongUnitsAreRefused) {
@@ -305,29 +276,23 @@ TEST(SensorBoardFaults, WrongUnitsAreRefused) {
     EmulatedBoardSettings settings;
     settings.unit = TSB_UNIT_PASCAL;
     SensorBoardBench bench(settings);
-    const auto refused = bench.tryOpen();
-    ASSERT_FALSE(refused.has_value());
-    EXPECT_EQ(refused.error().message,
-              "sensor board \"sensor:\": its acceleration stream is in Pa; m/s2 or count was expected");
+    EXPECT_THAT(bench.tryOpen(),
+                refusedSaying(testing::Eq(
+                    "sensor board \"sensor:\": its acceleration stream is in Pa; m/s2 or count was expected")));
 }
 
 TEST(SensorBoardFaults, AnotherBoardThanTheOneNamedIsRefused) {
     RecordProperty("hazard", "H4");
     SensorBoardBench bench;
-    const auto refused = bench.tryOpen({"sensor:TSB-7", "TSB-7"});
-    ASSERT_FALSE(refused.has_value());
-    EXPECT_EQ(refused.error().code, ErrorCode::NotFound);
-    EXPECT_THAT(refused.error().message, HasSubstr("its serial number is \"EMU-0001\"; \"TSB-7\" was expected"));
+    EXPECT_THAT(bench.tryOpen({"sensor:TSB-7", "TSB-7"}),
+                refused(ErrorCode::NotFound, "its serial number is \"EMU-0001\"; \"TSB-7\" was expected"));
 }
 
 TEST(SensorBoardFaults, ABoardThatSaysNothingIsNotWaitedForLong) {
     SensorBoardBench bench;
     with(bench, [](EmulatedBoard& board, Instant) { board.fallSilent(); });
     const auto begin = bench.clock.now();
-    const auto refused = bench.tryOpen();
-    ASSERT_FALSE(refused.has_value());
-    EXPECT_EQ(refused.error().code, ErrorCode::Timeout);
-    EXPECT_THAT(refused.error().message, HasSubstr("it does not answer HELLO within 0.3 s"));
+    EXPECT_THAT(bench.tryOpen(), refused(ErrorCode::Timeout, "it does not answer HELLO within 0.3 s"));
     EXPECT_NEAR(toSeconds(bench.clock.now() - begin), 0.9, 0.01) << "three attempts";
 }
 

@@ -7,6 +7,7 @@
 #include "drivers/sensor_board/SensorBoard.h"
 #include "tests/support/FailsInTime.h"
 #include "tests/support/InTime.h"
+#include "tests/support/Refused.h"
 #include "tests/support/emulated/sensor_board/EmulatedBoardLine.h"
 
 namespace tacto::test {
@@ -19,9 +20,8 @@ protected:
     void SetUp() override {
         line_ = std::make_shared<EmulatedBoardLine>(clock_, nullptr, EmulatedBoardSettings{},
                                                     std::make_unique<CountingSignal>());
-        auto transport = line_->connect();
-        ASSERT_TRUE(transport.has_value());
-        auto opened = SensorBoard::open(std::move(*transport), {}, clock_);
+        auto transport = accepted(line_->connect());
+        auto opened = SensorBoard::open(std::move(transport), {}, clock_);
         ASSERT_IN_TIME(opened);
         board_ = std::move(*opened);
     }

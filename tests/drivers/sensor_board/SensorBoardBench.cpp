@@ -3,6 +3,8 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "tests/support/Refused.h"
+
 namespace tacto::test {
 
 using namespace sensorboard;
@@ -20,10 +22,13 @@ Result<std::unique_ptr<SensorBoard>> SensorBoardBench::tryOpen(const SensorBoard
 }
 
 void SensorBoardBench::open(const SensorBoardSettings& settings) {
-    auto opened = tryOpen(settings);
-    ASSERT_TRUE(opened.has_value()) << opened.error().message;
-    board = std::move(*opened);
+    board = accepted(tryOpen(settings));
     blocks.assign(board->streams().size(), {});
+}
+
+void SensorBoardBench::openFor(Seconds duration) {
+    open();
+    accepted(run(duration));
 }
 
 Result<void> SensorBoardBench::run(Seconds duration, Seconds step) {

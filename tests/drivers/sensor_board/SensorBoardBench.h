@@ -20,6 +20,8 @@ public:
 
     /// Opens the board; failing that, the test's failure says why.
     void open(const SensorBoardSettings& settings = {});
+    /// And lets it run well for so long.
+    void openFor(Seconds duration);
     [[nodiscard]] Result<std::unique_ptr<SensorBoard>> tryOpen(const SensorBoardSettings& settings = {});
     /// Lets time pass and reads every `step`, adding to `blocks`. The first error ends it.
     Result<void> run(Seconds duration, Seconds step = Seconds(0.002));

@@ -7,6 +7,7 @@
 #include "core/acquisition/StreamHealth.h"
 #include "core/bench/sensing/FingerInput.h"
 #include "tests/drivers/sensor_board/SensorBoardBench.h"
+#include "tests/support/Refused.h"
 
 namespace tacto::test {
 namespace {
@@ -46,9 +47,8 @@ TEST(SensorBoard, IsSimulatedWhereTheAddressSaysSoAndItAgrees) {
     another.serial = "TSB-0001";
     SensorBoardBench real;
     real.line = std::make_shared<EmulatedBoardLine>(real.clock, &real.clock, another);
-    const auto refused = real.tryOpen({.uri = "sensor:?emulated=yes", .emulated = true});
-    ASSERT_FALSE(refused);
-    EXPECT_THAT(refused.error().message, testing::HasSubstr("\"TSB-0001\", and the address says emulated=yes"));
+    EXPECT_THAT(real.tryOpen({.uri = "sensor:?emulated=yes", .emulated = true}),
+                refusedSaying("\"TSB-0001\", and the address says emulated=yes"));
 }
 
 TEST(SensorBoard, GivesEverySampleOnceWithItsValueAndTime) {
@@ -56,8 +56,7 @@ TEST(SensorBoard, GivesEverySampleOnceWithItsValueAndTime) {
     EmulatedBoardSettings settings;
     settings.wideForce = true;
     SensorBoardBench bench(settings);
-    bench.open();
-    ASSERT_TRUE(bench.run(Seconds(10)).has_value());
+    bench.openFor(Seconds(10));
     const auto& acceleration = bench.blocks[0];
     ASSERT_GT(acceleration.samples(), 39'000U);
     for (std::size_t i = 0; i < acceleration.samples(); ++i) {
@@ -172,12 +171,10 @@ TEST(SensorBoard, ARateThatItDoesNotHaveIsRefusedByIt) {
     SensorBoardBench bench;
     SensorBoardSettings settings;
     settings.accelerationRate_hz = 3333;
-    const auto refused = bench.tryOpen(settings);
-    ASSERT_FALSE(refused.has_value());
-    EXPECT_EQ(refused.error().code, ErrorCode::Device);
-    EXPECT_THAT(refused.error().message,
-                testing::HasSubstr("its acceleration stream cannot have 3333 Hz: it refuses SET_CONFIGURATION: it does "
-                                   "not support this value"));
+    EXPECT_THAT(bench.tryOpen(settings),
+                refused(ErrorCode::Device,
+                        "its acceleration stream cannot have 3333 Hz: it refuses SET_CONFIGURATION: it does "
+                        "not support this value"));
 }
 
 TEST(SensorBoard, StopsTheBoardWhenItGoes) {
@@ -191,12 +188,10 @@ TEST(SensorBoard, StopsTheBoardWhenItGoes) {
 
 TEST(SensorBoard, OpensABoardThatAProgramLeftRunning) {
     SensorBoardBench bench;
-    bench.open();
-    ASSERT_TRUE(bench.run(Seconds(0.5)).has_value());
+    bench.openFor(Seconds(0.5));
     auto killed = std::move(bench.board);  // it never says stop
     bench.clock.advanceTo(bench.clock.now() + std::chrono::seconds(1));
-    bench.open();
-    ASSERT_TRUE(bench.run(Seconds(0.5)).has_value());
+    bench.openFor(Seconds(0.5));
     EXPECT_EQ(bench.board->report().streams[0].lostBlocks, 0U);
     EXPECT_GT(bench.blocks[0].samples(), 1900U);
 }
@@ -207,28 +202,26 @@ TEST(SensorBoard, FeedsTheControlLoopAndASilentBoardIsStaleWithinATenthOfASecond
     SensorBoardBench bench;
     bench.line = std::make_shared<EmulatedBoardLine>(bench.clock, &bench.clock, settings);  // the simulated finger
     bench.open();
-    auto session = SensorSession::create(*bench.board);
-    ASSERT_TRUE(session.has_value()) << session.error().message;
-    auto input = FingerInput::create(**session, RoughnessSettings{});
-    ASSERT_TRUE(input.has_value()) << input.error().message;
+    auto session = accepted(SensorSession::create(*bench.board));
+    auto input = accepted(FingerInput::create(*session, RoughnessSettings{}));
     const auto step = [&] {
         bench.clock.advanceTo(bench.clock.now() + std::chrono::milliseconds(2));
-        (void)(*session)->serve(bench.clock.now());
-        (*input)->update();
-        return (*input)->standing(toSeconds(bench.clock.now())) == FingerStanding::Fresh;
+        (void)session->serve(bench.clock.now());
+        input->update();
+        return input->standing(toSeconds(bench.clock.now())) == FingerStanding::Fresh;
     };
     int fresh = 0;
     for (int i = 0; i < 2000; ++i) fresh += step() ? 1 : 0;
     EXPECT_GT(fresh, 1800);
     EXPECT_TRUE(step());
-    EXPECT_EQ((*input)->gaps(), 0U);
+    EXPECT_EQ(input->gaps(), 0U);
     bench.line->inspect([](EmulatedBoard& board, Instant) {
         board.fallSilent();
         return 0;
     });
     for (int i = 0; i < 60; ++i) (void)step();
-    EXPECT_FALSE((*input)->standing(toSeconds(bench.clock.now())) == FingerStanding::Fresh);
-    EXPECT_FALSE((*session)->failed()) << "silence is judged by its age";
+    EXPECT_FALSE(input->standing(toSeconds(bench.clock.now())) == FingerStanding::Fresh);
+    EXPECT_FALSE(session->failed()) << "silence is judged by its age";
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "tests/drivers/sensor_board/BoardOnPty.h"
 #include "tests/support/FailsInTime.h"
 #include "tests/support/InTime.h"
+#include "tests/support/Refused.h"
 
 namespace tacto::test {
 namespace {
@@ -80,9 +81,7 @@ TEST_F(SensorBoardOnTerminal, TheOtherEndGoingIsAnErrorOfRead) {
 }
 
 TEST_F(SensorBoardOnTerminal, WhereNothingIsNothingIsFound) {
-    const auto refused = open("?tty=/dev/pts/98765");
-    ASSERT_FALSE(refused);
-    EXPECT_EQ(refused.error().code, ErrorCode::NotFound);
+    EXPECT_THAT(open("?tty=/dev/pts/98765"), refused(ErrorCode::NotFound));
     EXPECT_TRUE(driver_->list().empty());
 }
 

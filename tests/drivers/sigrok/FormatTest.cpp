@@ -9,6 +9,7 @@
 #include "core/formats/TextBlocks.h"
 #include "drivers/sigrok/session_file/SigrokFormat.h"
 #include "tests/drivers/sigrok/ZipWriter.h"
+#include "tests/support/Refused.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
@@ -28,10 +29,8 @@ protected:
     }
     /// Expects a refusal that names the file and `what`.
     void expectRefused(const std::string& name, const std::string& what) const {
-        const auto reading = read(name);
-        ASSERT_FALSE(reading.has_value()) << name;
-        EXPECT_EQ(reading.error().code, ErrorCode::ParseError) << reading.error().message;
-        EXPECT_THAT(reading.error().message, testing::AllOf(HasSubstr(name), HasSubstr(what)));
+        EXPECT_THAT(read(name), refused(ErrorCode::ParseError, testing::AllOf(HasSubstr(name), HasSubstr(what))))
+            << name;
     }
 
     const fs::path folder_ = fs::temp_directory_path() / fmt::format("tacto-sr-{}", ::getpid());
@@ -64,13 +63,12 @@ std::string floats(std::size_t count, float value = 1.5F) {
 TEST_F(SrFile, TheRealOscilloscopesCaptureAgreesWithItsCsv) {
     const fs::path data = test::sourceDir() / "../shared/data/scope/mdo4104c";
     if (!fs::exists(data / "RTC.sr")) GTEST_SKIP() << "no shared data here";
-    const auto sr = format_.read(data / "RTC.sr", {}, {});
-    ASSERT_TRUE(sr.has_value()) << sr.error().message;
-    EXPECT_DOUBLE_EQ(sr->capture.rate_hz, 50e6);
-    ASSERT_EQ(sr->capture.channels.size(), 2U);
-    EXPECT_EQ(sr->capture.channels[0].name, "SDA");
-    EXPECT_EQ(sr->capture.channels[1].name, "SCL");
-    ASSERT_EQ(sr->capture.samples(), 100'000U);
+    const auto sr = accepted(format_.read(data / "RTC.sr", {}, {}));
+    EXPECT_DOUBLE_EQ(sr.capture.rate_hz, 50e6);
+    ASSERT_EQ(sr.capture.channels.size(), 2U);
+    EXPECT_EQ(sr.capture.channels[0].name, "SDA");
+    EXPECT_EQ(sr.capture.channels[1].name, "SCL");
+    ASSERT_EQ(sr.capture.samples(), 100'000U);
     // Its own table: TIME,CH1,CH2 after the header.
     std::ifstream csv(data / "RTC.csv");
     std::string line;
@@ -85,7 +83,7 @@ TEST_F(SrFile, TheRealOscilloscopesCaptureAgreesWithItsCsv) {
         (void)std::strtod(at, &end);
         for (std::size_t c = 0; c < 2; ++c) {
             const double value = std::strtod(end + 1, &end);
-            worst = std::max(worst, std::abs(value - static_cast<double>(sr->capture.channels[c].samples[row])));
+            worst = std::max(worst, std::abs(value - static_cast<double>(sr.capture.channels[c].samples[row])));
         }
     }
     EXPECT_EQ(row, 100'000U);
@@ -95,15 +93,14 @@ TEST_F(SrFile, TheRealOscilloscopesCaptureAgreesWithItsCsv) {
 TEST_F(SrFile, WhatIsWrittenReturnsBitByBit) {
     const auto capture = twoChannels(100'000, 999'983);
     ASSERT_TRUE(format_.write(at("two.sr"), capture).has_value());
-    const auto reading = read("two.sr");
-    ASSERT_TRUE(reading.has_value()) << reading.error().message;
-    EXPECT_TRUE(reading->warnings.empty());
-    EXPECT_DOUBLE_EQ(reading->capture.rate_hz, 999'983);
-    ASSERT_EQ(reading->capture.channels.size(), 2U);
+    const auto reading = accepted(read("two.sr"));
+    EXPECT_TRUE(reading.warnings.empty());
+    EXPECT_DOUBLE_EQ(reading.capture.rate_hz, 999'983);
+    ASSERT_EQ(reading.capture.channels.size(), 2U);
     for (std::size_t c = 0; c < 2; ++c) {
-        EXPECT_EQ(reading->capture.channels[c].name, capture.channels[c].name);
-        EXPECT_EQ(reading->capture.channels[c].unit, capture.channels[c].unit);
-        EXPECT_EQ(reading->capture.channels[c].samples, capture.channels[c].samples);
+        EXPECT_EQ(reading.capture.channels[c].name, capture.channels[c].name);
+        EXPECT_EQ(reading.capture.channels[c].unit, capture.channels[c].unit);
+        EXPECT_EQ(reading.capture.channels[c].samples, capture.channels[c].samples);
     }
     EXPECT_FALSE(fs::exists(at("two.sr.part")));
 }
@@ -121,13 +118,12 @@ TEST_F(SrFile, LogicAndAnalogChannelsReturnTogether) {
     volts.unit = "V";
     for (int i = 0; i < 5000; ++i) volts.samples.push_back(0.25F * static_cast<float>(i % 40));
     ASSERT_TRUE(format_.write(at("mixed.sr"), capture).has_value());
-    const auto reading = read("mixed.sr");
-    ASSERT_TRUE(reading.has_value()) << reading.error().message;
-    ASSERT_EQ(reading->capture.channels.size(), 11U);
+    const auto reading = accepted(read("mixed.sr"));
+    ASSERT_EQ(reading.capture.channels.size(), 11U);
     for (std::size_t c = 0; c < 11; ++c) {
-        EXPECT_EQ(reading->capture.channels[c].name, capture.channels[c].name);
-        EXPECT_EQ(reading->capture.channels[c].unit, capture.channels[c].unit);
-        EXPECT_EQ(reading->capture.channels[c].samples, capture.channels[c].samples) << c;
+        EXPECT_EQ(reading.capture.channels[c].name, capture.channels[c].name);
+        EXPECT_EQ(reading.capture.channels[c].unit, capture.channels[c].unit);
+        EXPECT_EQ(reading.capture.channels[c].samples, capture.channels[c].samples) << c;
     }
 }
 
@@ -158,11 +154,10 @@ TEST_F(SrFile, OptionsNameUnitsProbesColumnsAndRate) {
     options.columns = {"current"};
     options.units["current"] = "mA";
     options.rate = Hertz(5e5);
-    const auto reading = read("o.sr", options);
-    ASSERT_TRUE(reading.has_value()) << reading.error().message;
-    ASSERT_EQ(reading->capture.channels.size(), 1U);
-    EXPECT_EQ(reading->capture.channels[0].unit, "A");
-    EXPECT_DOUBLE_EQ(reading->capture.rate_hz, 5e5);
+    const auto reading = accepted(read("o.sr", options));
+    ASSERT_EQ(reading.capture.channels.size(), 1U);
+    EXPECT_EQ(reading.capture.channels[0].unit, "A");
+    EXPECT_DOUBLE_EQ(reading.capture.rate_hz, 5e5);
     options.columns = {"nothing"};
     EXPECT_EQ(read("o.sr", options).error().code, ErrorCode::InvalidArgument);
 }
@@ -181,9 +176,7 @@ TEST_F(SrFile, ProgressRisesAndAStopEndsIt) {
     watch.progress = [&](double fraction) {
         if (fraction > 0.3) stop.request_stop();
     };
-    const auto stopped = read("p.sr", {}, watch);
-    ASSERT_FALSE(stopped.has_value());
-    EXPECT_EQ(stopped.error().code, ErrorCode::Stopped);
+    EXPECT_THAT(read("p.sr", {}, watch), refused(ErrorCode::Stopped));
     EXPECT_TRUE(read("p.sr").has_value()) << "and again";
 }
 
@@ -256,14 +249,12 @@ TEST_F(SrFile, ASamplingRateThatIsNoneIsRefusedUnlessTheUserGivesOne) {
     expectRefused("rate.sr", "states no sampling rate");
     for (const auto& [rate, hertz] : {std::pair("1 MHz", 1e6), {"44100", 44100.0}, {"20 kHz", 20e3}, {"1 GHz", 1e9}}) {
         put(rate);
-        const auto reading = read("rate.sr");
-        ASSERT_TRUE(reading.has_value()) << reading.error().message;
-        EXPECT_DOUBLE_EQ(reading->capture.rate_hz, hertz);
+        const auto reading = accepted(read("rate.sr"));
+        EXPECT_DOUBLE_EQ(reading.capture.rate_hz, hertz);
     }
     put("-1 MHz");
-    const auto given = read("rate.sr", {.rate = Hertz(2000)});
-    ASSERT_TRUE(given.has_value()) << given.error().message;
-    EXPECT_DOUBLE_EQ(given->capture.rate_hz, 2000);
+    const auto given = accepted(read("rate.sr", {.rate = Hertz(2000)}));
+    EXPECT_DOUBLE_EQ(given.capture.rate_hz, 2000);
 }
 
 TEST_F(SrFile, CutShortAnywhereIsRefusedAndNeverCrashes) {
@@ -272,9 +263,7 @@ TEST_F(SrFile, CutShortAnywhereIsRefusedAndNeverCrashes) {
     const std::string bytes{std::istreambuf_iterator<char>(file), {}};
     for (std::size_t length = 0; length < bytes.size(); length += 1 + bytes.size() / 97) {
         std::ofstream(at("cut.sr"), std::ios::binary) << bytes.substr(0, length);
-        const auto reading = read("cut.sr");
-        ASSERT_FALSE(reading.has_value()) << length;
-        EXPECT_EQ(reading.error().code, ErrorCode::ParseError);
+        EXPECT_THAT(read("cut.sr"), refused(ErrorCode::ParseError)) << length;
     }
 }
 
@@ -304,11 +293,10 @@ TEST_F(SrFile, ChannelsOfUnequalLengthAreTakenToTheShorterWithAWord) {
                   {"analog-1-1-1", floats(100)},
                   {"analog-1-1-2", floats(50)},
                   {"analog-1-2-1", floats(120, 2)}});
-    const auto reading = read("short.sr");
-    ASSERT_TRUE(reading.has_value()) << reading.error().message;
-    EXPECT_EQ(reading->capture.samples(), 120U);
-    ASSERT_EQ(reading->warnings.size(), 1U);
-    EXPECT_THAT(reading->warnings[0], testing::AllOf(HasSubstr("A1"), HasSubstr("120"), HasSubstr("150")));
+    const auto reading = accepted(read("short.sr"));
+    EXPECT_EQ(reading.capture.samples(), 120U);
+    ASSERT_EQ(reading.warnings.size(), 1U);
+    EXPECT_THAT(reading.warnings[0], testing::AllOf(HasSubstr("A1"), HasSubstr("120"), HasSubstr("150")));
 }
 
 TEST_F(SrFile, WhatItCannotHoldIsRefusedAndTheOldFileStays) {

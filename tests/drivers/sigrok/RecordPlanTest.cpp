@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "drivers/sigrok/protocol/RecordPlan.h"
+#include "tests/support/Refused.h"
 
 namespace tacto::test {
 namespace {
@@ -67,41 +68,37 @@ TEST(RecordPlan, KnowsTheMemoryOfTheSeriesLibsigrokDrives) {
 TEST(RecordPlan, TakesTheShortestScreenWhoseRateIsAMultiple) {
     const auto abilities = ds2072a();
     // 2 ms at 1 MHz: 200 us/div would sample at 2.5 MHz, which is not a multiple.
-    const auto plan = planRecord(planSettings(1e6, 2000), abilities, wiring(abilities));
-    ASSERT_TRUE(plan.has_value()) << plan.error().message;
-    EXPECT_DOUBLE_EQ(plan->timebase.value(), 500e-6);
-    EXPECT_EQ(plan->record, 7000U);
+    const auto plan = accepted(planRecord(planSettings(1e6, 2000), abilities, wiring(abilities)));
+    EXPECT_DOUBLE_EQ(plan.timebase.value(), 500e-6);
+    EXPECT_EQ(plan.record, 7000U);
     // 250 us at 2.5 MHz: 20 us/div is 280 us at 25 MHz.
     EXPECT_DOUBLE_EQ(planRecord(planSettings(2.5e6, 625), abilities, wiring(abilities))->timebase.value(), 20e-6);
 }
 
 TEST(RecordPlan, TheRangeIsTheNextOneUpAndTheShuntTurnsMilliampsIntoVolts) {
     const auto abilities = ds2072a();
-    const auto plan = planRecord(planSettings(1e6, 2000), abilities, wiring(abilities));
-    ASSERT_TRUE(plan.has_value());
-    EXPECT_EQ(plan->voltageScale, (Fraction{5, 1}));       // 13 V: 4 divisions of 5 V
-    EXPECT_EQ(plan->currentScale, (Fraction{500, 1000}));  // 18 mA * 100 ohm = 1.8 V
-    EXPECT_EQ(plan->triggerSource, "CH1");
-    EXPECT_DOUBLE_EQ(plan->triggerLevel_V, 5);
+    const auto plan = accepted(planRecord(planSettings(1e6, 2000), abilities, wiring(abilities)));
+    EXPECT_EQ(plan.voltageScale, (Fraction{5, 1}));       // 13 V: 4 divisions of 5 V
+    EXPECT_EQ(plan.currentScale, (Fraction{500, 1000}));  // 18 mA * 100 ohm = 1.8 V
+    EXPECT_EQ(plan.triggerSource, "CH1");
+    EXPECT_DOUBLE_EQ(plan.triggerLevel_V, 5);
     auto byCurrent = planSettings(1e6, 2000);
     byCurrent.triggerOnCurrent = true;
     byCurrent.triggerLevel = 0.005;
     const auto second =
-        planRecord(byCurrent, abilities, wiring(abilities, "voltage=CH1&current=CH2&shunt=100&slope=fall"));
-    ASSERT_TRUE(second.has_value()) << second.error().message;
-    EXPECT_EQ(second->triggerSource, "CH2");
-    EXPECT_DOUBLE_EQ(second->triggerLevel_V, -0.5);
+        accepted(planRecord(byCurrent, abilities, wiring(abilities, "voltage=CH1&current=CH2&shunt=100&slope=fall")));
+    EXPECT_EQ(second.triggerSource, "CH2");
+    EXPECT_DOUBLE_EQ(second.triggerLevel_V, -0.5);
 }
 
 TEST(RecordPlan, TheTriggerPositionMakesUpForLibsigroksScale) {
     const auto abilities = ds2072a();
-    const auto plan = planRecord(planSettings(1e6, 2000), abilities, wiring(abilities));
-    ASSERT_TRUE(plan.has_value());
+    const auto plan = accepted(planRecord(planSettings(1e6, 2000), abilities, wiring(abilities)));
     // What libsigrok will send: -(position - 0.5) * timebase * number of time bases. Wanted: a tenth before the
     // trigger.
-    const double sent = -(plan->triggerPosition - 0.5) * 500e-6 * static_cast<double>(abilities.timebases.size());
+    const double sent = -(plan.triggerPosition - 0.5) * 500e-6 * static_cast<double>(abilities.timebases.size());
     EXPECT_NEAR(sent, 0.4 * 14 * 500e-6, 1e-9);
-    EXPECT_NEAR(plan->triggerAt_s, 0.1 * 7e-3, 1e-9);
+    EXPECT_NEAR(plan.triggerAt_s, 0.1 * 7e-3, 1e-9);
 }
 
 TEST(RecordPlan, RefusesByNameWhatTheInstrumentCannotDo) {
@@ -143,10 +140,8 @@ TEST(RecordPlan, WiringNamesTheChannelsThereAre) {
                 HasSubstr("cannot be set through this driver"));
     dumb = abilities;
     dumb.triggerLevel = false;
-    const auto refusal = wire(ScopeUri::parse(DeviceUri::parse("sigrok:x").value()).value(), dumb);
-    ASSERT_FALSE(refusal.has_value());
-    EXPECT_EQ(refusal.error().code, ErrorCode::Unsupported);
-    EXPECT_THAT(refusal.error().message, HasSubstr("trigger=instrument"));
+    EXPECT_THAT(wire(ScopeUri::parse(DeviceUri::parse("sigrok:x").value()).value(), dumb),
+                test::refused(ErrorCode::Unsupported, "trigger=instrument"));
     EXPECT_TRUE(
         wire(ScopeUri::parse(DeviceUri::parse("sigrok:x?trigger=instrument").value()).value(), dumb).has_value());
 }

@@ -9,6 +9,7 @@
 
 #include "drivers/sigrok/transport/TcpRelay.h"
 #include "tests/support/InTime.h"
+#include "tests/support/Refused.h"
 
 namespace tacto::test {
 namespace {
@@ -73,11 +74,10 @@ protected:
 };
 
 TEST_F(RelayTest, PassesBothWaysAndConnectsAnewForTheNextConversation) {
-    auto relay = TcpRelay::start("127.0.0.1", std::to_string(port_));
-    ASSERT_TRUE(relay.has_value()) << relay.error().message;
+    auto relay = accepted(TcpRelay::start("127.0.0.1", std::to_string(port_)));
     for (int i = 0; i < 3; ++i) {
         Socket client(::socket(AF_INET, SOCK_STREAM, 0));
-        connect(client, (*relay)->port());
+        connect(client, relay->port());
         const Socket instrument(::accept(listener_, nullptr, nullptr));
         ASSERT_GE(instrument, 0);
         ASSERT_EQ(::send(client, "*IDN?\r\n", 7, 0), 7);
@@ -95,16 +95,15 @@ TEST_F(RelayTest, PassesBothWaysAndConnectsAnewForTheNextConversation) {
         sender.join();
         client.close();  // libsigrok ends conversations, not the instrument
         EXPECT_EQ(receive(instrument, 1), "");
-        EXPECT_FALSE((*relay)->fault().has_value());
-        EXPECT_LT((*relay)->silence().count(), 60);
+        EXPECT_FALSE(relay->fault().has_value());
+        EXPECT_LT(relay->silence().count(), 60);
     }
 }
 
 TEST_F(RelayTest, AnInstrumentThatHangsUpEndsTheReadAndIsNamed) {
-    auto relay = TcpRelay::start("127.0.0.1", std::to_string(port_));
-    ASSERT_TRUE(relay.has_value());
+    auto relay = accepted(TcpRelay::start("127.0.0.1", std::to_string(port_)));
     const Socket client(::socket(AF_INET, SOCK_STREAM, 0));
-    connect(client, (*relay)->port());
+    connect(client, relay->port());
     {
         const Socket instrument(::accept(listener_, nullptr, nullptr));
         ASSERT_EQ(::send(client, "x", 1, 0), 1);
@@ -112,32 +111,29 @@ TEST_F(RelayTest, AnInstrumentThatHangsUpEndsTheReadAndIsNamed) {
     }
     char byte = 0;
     EXPECT_LE(::recv(client, &byte, 1, 0), 0);
-    const auto fault = (*relay)->fault();
-    ASSERT_TRUE(fault.has_value());
-    EXPECT_EQ(fault->code, ErrorCode::Device);
-    EXPECT_THAT(fault->message, testing::HasSubstr("hung up"));
+    const auto fault = accepted(relay->fault());
+    EXPECT_EQ(fault.code, ErrorCode::Device);
+    EXPECT_THAT(fault.message, testing::HasSubstr("hung up"));
 }
 
 TEST_F(RelayTest, CuttingEndsAReadThatWaits) {
-    auto relay = TcpRelay::start("127.0.0.1", std::to_string(port_));
-    ASSERT_TRUE(relay.has_value());
+    auto relay = accepted(TcpRelay::start("127.0.0.1", std::to_string(port_)));
     const Socket client(::socket(AF_INET, SOCK_STREAM, 0));
-    connect(client, (*relay)->port());
+    connect(client, relay->port());
     const Socket instrument(::accept(listener_, nullptr, nullptr));
     std::thread reader([&] {
         char byte = 0;
         EXPECT_LE(::recv(client, &byte, 1, 0), 0);
     });
-    (*relay)->cut();
+    relay->cut();
     reader.join();
 }
 
 TEST_F(RelayTest, AConnectionOfAnotherProcessIsClosedAndNothingOfItReachesTheInstrument) {
     RecordProperty("hazard", "H10");
-    auto relay = TcpRelay::start("127.0.0.1", std::to_string(port_));
-    ASSERT_TRUE(relay.has_value());
+    auto relay = accepted(TcpRelay::start("127.0.0.1", std::to_string(port_)));
     const Socket instrument(::accept(listener_, nullptr, nullptr));
-    auto address = loopback((*relay)->port());
+    auto address = loopback(relay->port());
     const pid_t other = fork();
     if (other == 0) {  // system calls only: this process has threads
         const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
@@ -152,16 +148,13 @@ TEST_F(RelayTest, AConnectionOfAnotherProcessIsClosedAndNothingOfItReachesTheIns
     EXPECT_EQ(WEXITSTATUS(status), 0) << "it was not hung up on";
     // The relay's own client is served after it, and what it says is the first that arrives.
     const Socket client(::socket(AF_INET, SOCK_STREAM, 0));
-    connect(client, (*relay)->port());
+    connect(client, relay->port());
     ASSERT_EQ(::send(client, "*IDN?\r\n", 7, 0), 7);
     EXPECT_EQ(receive(instrument, 7), "*IDN?\r\n");
 }
 
 TEST(Relay, RefusedAndUnknownHostsAreNotFound) {
-    const auto refused = TcpRelay::start("127.0.0.1", "1");
-    ASSERT_FALSE(refused.has_value());
-    EXPECT_EQ(refused.error().code, ErrorCode::NotFound);
-    EXPECT_THAT(refused.error().message, testing::HasSubstr("127.0.0.1:1"));
+    EXPECT_THAT(TcpRelay::start("127.0.0.1", "1"), refused(ErrorCode::NotFound, "127.0.0.1:1"));
     EXPECT_EQ(TcpRelay::start("127.0.0.1", "no-such-service").error().code, ErrorCode::NotFound);
 }
 

@@ -6,6 +6,7 @@
 
 #include "drivers/sigrok/driver/SigrokDriver.h"
 #include "tests/support/InTime.h"
+#include "tests/support/Refused.h"
 
 namespace tacto::test {
 
@@ -17,9 +18,8 @@ ScopeOnLan::ScopeOnLan(const std::string& parameters, const std::string& stimula
     : parameters_(parameters), driver_(makeSigrokDriver({})) {
     bench_.open(stimulator);
     auto input = std::make_shared<CircuitInput>(bench_.circuit(), bench_.clock, Ohms(kShuntOhm));
-    auto server = EmulatedScopeServer::start(std::make_unique<EmulatedRigol>(std::move(input), bench_.clock, 1, model));
-    if (!server) throw std::runtime_error(server.error().message);
-    server_ = std::move(*server);
+    server_ =
+        accepted(EmulatedScopeServer::start(std::make_unique<EmulatedRigol>(std::move(input), bench_.clock, 1, model)));
     if (const auto opened = open(); !opened) throw std::runtime_error(opened.error().message);
 }
 

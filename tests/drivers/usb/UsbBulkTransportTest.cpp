@@ -5,6 +5,7 @@
 #include "drivers/usb/UsbBulkTransport.h"
 #include "tests/drivers/usb/UsbFixture.h"
 #include "tests/support/InTime.h"
+#include "tests/support/Refused.h"
 
 namespace tacto::test {
 namespace {
@@ -69,17 +70,15 @@ TEST_F(UsbBulk, DataTerminalReadyIsLeftAloneWhereItIsNotAskedFor) {
 }
 
 TEST_F(UsbBulk, ADeviceWithoutLineCodingIsUsedOneThatRefusesReadyIsNot) {
-    std::atomic<std::uint8_t> refused = 0x20;
+    std::atomic<std::uint8_t> broken = 0x20;
     const EmulatedUsbDevice device(bed, cdcAcmDevice(0x0483, 0x5740, "S"),
                                    {.onRequest = [&](const UsbSetup& setup, auto) -> std::optional<UsbBytes> {
-                                       if (setup.request == refused) return std::nullopt;
+                                       if (setup.request == broken) return std::nullopt;
                                        return UsbBytes{};
                                    }});
     EXPECT_IN_TIME(open(device));
-    refused = 0x22;
-    const auto opened = UsbBulkTransport::open(context, context->devices().front(), {});
-    ASSERT_FALSE(opened);
-    EXPECT_EQ(opened.error().code, ErrorCode::Device);
+    broken = 0x22;
+    EXPECT_THAT(UsbBulkTransport::open(context, context->devices().front(), {}), refused(ErrorCode::Device));
 }
 
 TEST_F(UsbBulk, TheKernelsDriverStepsAsideAndComesBack) {
@@ -104,10 +103,8 @@ TEST_F(UsbBulk, ADeviceThatAnotherProgramUsesIsRefused) {
     EmulatedUsbDevice device(bed, cdcAcmDevice(0x0483, 0x5740, "S"), {});
     ASSERT_IN_TIME(waitForDevices(1));
     device.claimElsewhere(1);
-    const auto opened = UsbBulkTransport::open(context, context->devices().front(), {});
-    ASSERT_FALSE(opened);
-    EXPECT_EQ(opened.error().code, ErrorCode::Io);
-    EXPECT_THAT(opened.error().message, HasSubstr("close that program first"));
+    EXPECT_THAT(UsbBulkTransport::open(context, context->devices().front(), {}),
+                refused(ErrorCode::Io, "close that program first"));
     EXPECT_FALSE(UsbBulkTransport::open(context, context->devices().front(), {}))
         << "the first try took its claim away";
 }
@@ -118,11 +115,9 @@ TEST_F(UsbBulk, ADeviceIsNotTakenFromAProgramThatUsesItsTerminalAndThatProgramIs
     ASSERT_IN_TIME(waitForDevices(1));
     {
         const OtherProgram other(device.addTerminal("ttyACM0"));
-        const auto opened = UsbBulkTransport::open(context, context->devices().front(), {});
-        ASSERT_FALSE(opened);
-        EXPECT_EQ(opened.error().code, ErrorCode::Io);
-        EXPECT_THAT(opened.error().message, testing::AllOf(HasSubstr("/dev/ttyACM0"), HasSubstr(other.text()),
-                                                           HasSubstr("close that program")));
+        EXPECT_THAT(UsbBulkTransport::open(context, context->devices().front(), {}),
+                    refused(ErrorCode::Io, testing::AllOf(HasSubstr("/dev/ttyACM0"), HasSubstr(other.text()),
+                                                          HasSubstr("close that program"))));
         EXPECT_TRUE(device.kernelDriverBound());
         EXPECT_TRUE(device.requests().empty()) << "it was not spoken to either";
     }
@@ -134,9 +129,8 @@ TEST_F(UsbBulk, AProgramThatHasClaimedTheDeviceIsNamed) {
     ASSERT_IN_TIME(waitForDevices(1));
     device.claimElsewhere(0);
     const OtherProgram other(device.nodeFile());
-    const auto opened = UsbBulkTransport::open(context, context->devices().front(), {});
-    ASSERT_FALSE(opened);
-    EXPECT_THAT(opened.error().message, testing::AllOf(HasSubstr("/dev/bus/usb/001/002"), HasSubstr(other.text())));
+    EXPECT_THAT(UsbBulkTransport::open(context, context->devices().front(), {}),
+                refusedSaying(testing::AllOf(HasSubstr("/dev/bus/usb/001/002"), HasSubstr(other.text()))));
 }
 
 TEST_F(UsbBulk, TheKernelsDriverThatAKilledProgramTookAwayIsBackAfterTheNextClosing) {
@@ -182,10 +176,8 @@ TEST_F(UsbBulk, AWriteThatIsTakenInPartIsAFault) {
     const auto transport = open(device, {.function = UsbFunction::Vendor});
     ASSERT_IN_TIME(transport);
     device.takeOnly(kOut, 3);
-    const auto written = transport->write(bytesOf("hello"), kLong);
-    ASSERT_FALSE(written);
-    EXPECT_EQ(written.error().code, ErrorCode::Device);
-    EXPECT_THAT(written.error().message, HasSubstr("took 3 bytes of a write; 5 were expected"));
+    EXPECT_THAT(transport->write(bytesOf("hello"), kLong),
+                refused(ErrorCode::Device, "took 3 bytes of a write; 5 were expected"));
 }
 
 TEST_F(UsbBulk, AStalledWriteIsAFaultAndTheNextOneWorks) {
@@ -193,10 +185,7 @@ TEST_F(UsbBulk, AStalledWriteIsAFaultAndTheNextOneWorks) {
     const auto transport = open(device, {.function = UsbFunction::Vendor});
     ASSERT_IN_TIME(transport);
     device.stall(kOut);
-    const auto written = transport->write(bytesOf("hello"), kLong);
-    ASSERT_FALSE(written);
-    EXPECT_EQ(written.error().code, ErrorCode::Device);
-    EXPECT_THAT(written.error().message, HasSubstr("stall"));
+    EXPECT_THAT(transport->write(bytesOf("hello"), kLong), refused(ErrorCode::Device, "stall"));
     ASSERT_IN_TIME(transport->write(bytesOf("again"), kLong));
     EXPECT_EQ(readAll(*transport, 5), bytesOf("again"));
 }
@@ -207,9 +196,7 @@ TEST_F(UsbBulk, AStalledReadIsToldOnceAndReadingGoesOn) {
     ASSERT_IN_TIME(transport);
     device.stall(kIn);
     std::array<std::uint8_t, 8> into{};
-    const auto read = transport->read(into, kLong);
-    ASSERT_FALSE(read);
-    EXPECT_EQ(read.error().code, ErrorCode::Device);
+    EXPECT_THAT(transport->read(into, kLong), refused(ErrorCode::Device));
     EXPECT_EQ(device.cleared(), 1);
     ASSERT_IN_TIME(transport->write(bytesOf("after"), kLong));
     EXPECT_EQ(readAll(*transport, 5), bytesOf("after"));
@@ -223,10 +210,7 @@ TEST_F(UsbBulk, APacketLargerThanTheDeviceSaidIsAFaultAndReadingGoesOn) {
     device.sendPacket(kIn, UsbBytes(100, 1));
     UsbBytes into(256);
     ASSERT_EQ(transport->read(into, kLong).value(), 64u);  // what fitted is not hidden
-    const auto read = transport->read(into, kLong);
-    ASSERT_FALSE(read);
-    EXPECT_EQ(read.error().code, ErrorCode::Device);
-    EXPECT_THAT(read.error().message, HasSubstr("more than was asked for"));
+    EXPECT_THAT(transport->read(into, kLong), refused(ErrorCode::Device, "more than was asked for"));
     device.send(kIn, bytesOf("fine"));
     EXPECT_EQ(readAll(*transport, 4), bytesOf("fine"));
 }
@@ -237,19 +221,17 @@ TEST_F(UsbBulk, RefusesWhatItCannotCarry) {
     ASSERT_IN_TIME(transport);
     const auto nan = Seconds(std::numeric_limits<double>::quiet_NaN());
     std::array<std::uint8_t, 1> one{};
-    const auto refused = [](const auto& result) {
-        return !result && result.error().code == ErrorCode::InvalidArgument;
-    };
-    EXPECT_TRUE(refused(transport->write({}, kLong)));
-    EXPECT_TRUE(refused(transport->write(UsbBytes(65537), kLong)));
-    EXPECT_TRUE(refused(transport->write(one, nan)));
-    EXPECT_TRUE(refused(transport->write(one, Seconds(-1))));
-    EXPECT_TRUE(refused(transport->read({}, kLong)));
-    EXPECT_TRUE(refused(transport->read(one, nan)));
-    EXPECT_TRUE(refused(transport->read(one, Seconds(3601))));
+    const auto invalid = refused(ErrorCode::InvalidArgument);
+    EXPECT_THAT(transport->write({}, kLong), invalid);
+    EXPECT_THAT(transport->write(UsbBytes(65537), kLong), invalid);
+    EXPECT_THAT(transport->write(one, nan), invalid);
+    EXPECT_THAT(transport->write(one, Seconds(-1)), invalid);
+    EXPECT_THAT(transport->read({}, kLong), invalid);
+    EXPECT_THAT(transport->read(one, nan), invalid);
+    EXPECT_THAT(transport->read(one, Seconds(3601)), invalid);
     const auto info = context->devices().front();
-    EXPECT_TRUE(refused(UsbBulkTransport::open(context, info, {.inTransfers = 0})));
-    EXPECT_TRUE(refused(UsbBulkTransport::open(context, info, {.ringBytes = 0})));
+    EXPECT_THAT(UsbBulkTransport::open(context, info, {.inTransfers = 0}), invalid);
+    EXPECT_THAT(UsbBulkTransport::open(context, info, {.ringBytes = 0}), invalid);
     EXPECT_EQ(device.waitForReceived(0).size(), 0u);
 }
 

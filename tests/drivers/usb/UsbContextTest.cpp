@@ -3,6 +3,7 @@
 #include "drivers/usb/UsbContext.h"
 #include "tests/drivers/usb/UsbFixture.h"
 #include "tests/support/InTime.h"
+#include "tests/support/Refused.h"
 
 namespace tacto::test {
 namespace {
@@ -45,14 +46,8 @@ TEST_F(UsbContext_, ADeviceThatIsNotPermittedIsListedWithTheSentenceThatFixesIt)
         EXPECT_FALSE(list.front().permitted);
         EXPECT_EQ(list.front().serial, "P24-17");
         EXPECT_THAT(list.front().obstacle(), HasSubstr("./dev install-rules"));
-        const auto found = context->find({0x0483, 0x5740});
-        ASSERT_FALSE(found);
-        EXPECT_EQ(found.error().code, ErrorCode::Io);
-        EXPECT_EQ(found.error().message, list.front().obstacle());
-        const auto opened = UsbBulkTransport::open(context, list.front(), {});
-        ASSERT_FALSE(opened);
-        EXPECT_EQ(opened.error().code, ErrorCode::Io);
-        EXPECT_THAT(opened.error().message, HasSubstr("./dev install-rules"));
+        EXPECT_THAT(context->find({0x0483, 0x5740}), refused(ErrorCode::Io, testing::Eq(list.front().obstacle())));
+        EXPECT_THAT(UsbBulkTransport::open(context, list.front(), {}), refused(ErrorCode::Io, "./dev install-rules"));
     }
     // Permission comes without plugging: the same device, looked up again, can be opened.
     device.permit(true);
@@ -92,11 +87,8 @@ TEST_F(UsbContext_, ANameThatFitsTwoDevicesIsRefusedWithTheirSerialNumbers) {
     const EmulatedUsbDevice first(bed, vendorDevice(0x1209, 1, "B1"), {}, 1);
     const EmulatedUsbDevice second(bed, vendorDevice(0x1209, 1, "B2"), {}, 2);
     ASSERT_IN_TIME(waitForDevices(2));
-    const auto found = context->find({0x1209, 1});
-    ASSERT_FALSE(found);
-    EXPECT_EQ(found.error().code, ErrorCode::InvalidArgument);
-    EXPECT_THAT(found.error().message, HasSubstr("B1"));
-    EXPECT_THAT(found.error().message, HasSubstr("B2"));
+    EXPECT_THAT(context->find({0x1209, 1}),
+                refused(ErrorCode::InvalidArgument, testing::AllOf(HasSubstr("B1"), HasSubstr("B2"))));
 }
 
 TEST_F(UsbContext_, ADeviceThatWasReplacedSinceTheListWasMadeIsNotOpened) {
@@ -107,9 +99,7 @@ TEST_F(UsbContext_, ADeviceThatWasReplacedSinceTheListWasMadeIsNotOpened) {
     ASSERT_IN_TIME(waitForDevices(0));
     device.plug();
     ASSERT_IN_TIME(waitForDevices(1));
-    const auto opened = UsbBulkTransport::open(context, old, {.function = UsbFunction::Vendor});
-    ASSERT_FALSE(opened);
-    EXPECT_EQ(opened.error().code, ErrorCode::NotFound);
+    EXPECT_THAT(UsbBulkTransport::open(context, old, {.function = UsbFunction::Vendor}), refused(ErrorCode::NotFound));
 }
 
 TEST_F(UsbContext_, WhatADeviceCallsItselfIsMadePrintable) {

@@ -5,6 +5,7 @@
 #include "tests/drivers/usb/UsbFixture.h"
 #include "tests/support/FailsInTime.h"
 #include "tests/support/InTime.h"
+#include "tests/support/Refused.h"
 
 namespace tacto::test {
 namespace {
@@ -85,9 +86,8 @@ TEST_F(UsbControlTest, ARefusalATimeOutAndAnUnplugAreToldApart) {
 TEST_F(UsbControlTest, ARequestForInputIsRefused) {
     const EmulatedUsbDevice device(bed, vibrator(), {});
     ASSERT_IN_TIME(waitForDevices(1));
-    const auto opened = UsbControl::open(context, context->devices().front(), {.type = 0xC3, .request = 1});
-    ASSERT_FALSE(opened);
-    EXPECT_EQ(opened.error().code, ErrorCode::InvalidArgument);
+    EXPECT_THAT(UsbControl::open(context, context->devices().front(), {.type = 0xC3, .request = 1}),
+                refused(ErrorCode::InvalidArgument));
 }
 
 }  // namespace
