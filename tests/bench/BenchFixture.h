@@ -13,6 +13,7 @@
 #include "drivers/simulated/SimulatedDriver.h"
 #include "tests/support/Limits.h"
 #include "tests/support/RealLookingStimulator.h"
+#include "tests/support/Refused.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
@@ -34,14 +35,13 @@ protected:
         std::vector<DeviceUri> parsed;
         for (const auto& uri : uris) parsed.push_back(DeviceUri::parse(uri).value());
         parsed.push_back(DeviceUri::parse("sim:").value());
-        auto devices = registry.open(parsed, needed, OpenContext{*clock_, seed_, load});
-        ASSERT_TRUE(devices) << devices.error().message;
-        if (looksReal_ && devices->stimulator)
-            devices->stimulator = std::make_unique<RealLookingStimulator>(std::move(devices->stimulator));
-        if (wrap_) devices->stimulator = wrap_(std::move(devices->stimulator));
-        if (wrapSensor_) devices->sensor = wrapSensor_(std::move(devices->sensor));
+        auto devices = accepted(registry.open(parsed, needed, OpenContext{*clock_, seed_, load}));
+        if (looksReal_ && devices.stimulator)
+            devices.stimulator = std::make_unique<RealLookingStimulator>(std::move(devices.stimulator));
+        if (wrap_) devices.stimulator = wrap_(std::move(devices.stimulator));
+        if (wrapSensor_) devices.sensor = wrapSensor_(std::move(devices.sensor));
         BenchConfig config;
-        config.devices = std::move(*devices);
+        config.devices = std::move(devices);
         config.clock = clock_;
         config.profile = profile_;
         config.limits = limitSets();
@@ -54,9 +54,7 @@ protected:
         config.person = person_;
         config.mode = person_ ? OutputMode::Person : OutputMode::BenchLoad;
         config.virtualParticipant = person_.has_value() && !looksReal_;  // the devices are simulated
-        auto bench = Bench::create(std::move(config));
-        ASSERT_TRUE(bench) << bench.error().message;
-        bench_ = std::move(*bench);
+        bench_ = accepted(Bench::create(std::move(config)));
     }
 
     [[nodiscard]] Result<void> arm(const std::string& load = "1 kohm") {

@@ -4,9 +4,14 @@
 #include "core/measure/PulseMeasurement.h"
 #include "core/session/SessionReader.h"
 #include "tests/bench/BenchFixture.h"
+#include "tests/support/Refused.h"
 
 namespace tacto {
 namespace {
+
+using test::accepted;
+using test::refused;
+using test::refusedSaying;
 
 class CalibratedBenchTest : public test::BenchFixture {
 protected:
@@ -71,9 +76,8 @@ TEST_F(CalibratedBenchTest, PhaseGapAndIntervalComeOutAsTheProfileSays) {
     bench_->disarm();
     ASSERT_TRUE(bench_->useCalibration(false));
     ASSERT_TRUE(armAndDrive(1, 1));
-    const auto captures = bench_->capture(3, ScopeSettings{});
-    ASSERT_TRUE(captures) << captures.error().message;
-    EXPECT_NEAR(measureTrains(*captures, "voltage")->gap_s.mean, 93.602e-6 * 1.004, 0.3e-6);
+    const auto captures = accepted(bench_->capture(3, ScopeSettings{}));
+    EXPECT_NEAR(measureTrains(captures, "voltage")->gap_s.mean, 93.602e-6 * 1.004, 0.3e-6);
 }
 
 /// With calibrations drawn at random, what comes out is at most half a step short, and never more than the limit.
@@ -120,9 +124,7 @@ TEST_F(CalibratedBenchTest, AWrongCalibrationCannotPassALimit) {
     calibration_ = weak_;
     open({}, {Role::Stimulator, Role::Oscilloscope}, false, "140 ohm");
     ASSERT_TRUE(armAndDrive(1, 1, "140 ohm"));
-    const auto waited = bench_->wait(Seconds(3));
-    ASSERT_FALSE(waited);
-    EXPECT_NE(waited.error().message.find("RMS current over 5 s"), std::string::npos) << waited.error().message;
+    EXPECT_THAT(bench_->wait(Seconds(3)), refusedSaying("RMS current over 5 s"));
 }
 
 TEST_F(CalibratedBenchTest, OneThatNoLongerHoldsIsNotAppliedAndStillJudgedBy) {
@@ -132,9 +134,7 @@ TEST_F(CalibratedBenchTest, OneThatNoLongerHoldsIsNotAppliedAndStillJudgedBy) {
     calibrationHolds_ = false;
     open({}, {Role::Stimulator, Role::Oscilloscope}, false, "150 ohm");
     ASSERT_TRUE(armAndDrive(1, 1, "150 ohm"));
-    const auto waited = bench_->wait(Seconds(3));
-    ASSERT_FALSE(waited);
-    EXPECT_NE(waited.error().message.find("RMS current over 5 s"), std::string::npos) << waited.error().message;
+    EXPECT_THAT(bench_->wait(Seconds(3)), refusedSaying("RMS current over 5 s"));
     EXPECT_FALSE(bench_->calibration());
 
     // The command is what is programmed: 40 V on 1 kohm go out as they are.
@@ -148,28 +148,23 @@ TEST_F(CalibratedBenchTest, LeavesItAsideOnlyWhileDisarmedAndRecordsIt) {
     test::ScratchDir folder;
     VirtualClock recording;
     SessionAbout about;
-    auto writer = SessionWriter::create(folder.path() / "a.tacto", about, recording);
-    ASSERT_TRUE(writer) << writer.error().message;
-    session_ = writer->get();
+    auto writer = accepted(SessionWriter::create(folder.path() / "a.tacto", about, recording));
+    session_ = writer.get();
     calibration_ = weak_;
     open({"sim:stimulator?gain=0.95"});
     ASSERT_TRUE(arm());
-    const auto armed = bench_->useCalibration(false);
-    ASSERT_FALSE(armed);
-    EXPECT_EQ(armed.error().code, ErrorCode::NotArmed);
+    EXPECT_THAT(bench_->useCalibration(false), refused(ErrorCode::NotArmed));
     bench_->disarm();
     ASSERT_TRUE(bench_->useCalibration(false));
     EXPECT_FALSE(bench_->calibration());
     ASSERT_TRUE(armAndDrive(1, 1));
     EXPECT_NEAR(deliveredAtFull(), 38, 0.4);
     bench_.reset();
-    ASSERT_TRUE((*writer)->close());
-    const auto reader = SessionReader::open(folder.path() / "a.tacto");
-    ASSERT_TRUE(reader) << reader.error().message;
+    ASSERT_TRUE(writer->close());
+    const auto reader = accepted(SessionReader::open(folder.path() / "a.tacto"));
     std::vector<std::string> said;
-    const auto events = reader->events();
-    ASSERT_TRUE(events) << events.error().message;
-    for (const auto& event : *events) {
+    const auto events = accepted(reader.events());
+    for (const auto& event : events) {
         if (event.name == "calibration") said.push_back(event.body.dump());
     }
     ASSERT_EQ(said.size(), 2U);
@@ -198,15 +193,10 @@ TEST_F(CalibratedBenchTest, OneThatEndsWhileTheBenchIsOpenPermitsNoArming) {
                           .impedanceHigh = Ohms(10'000)};
     pretended = 2026y / 11 / 30;
     open({"sim:stimulator?mode=current"}, {Role::Stimulator});
-    const auto onTheLastDay = arm();
-    ASSERT_TRUE(onTheLastDay) << onTheLastDay.error().message;
+    accepted(arm());
     bench_->disarm();
     pretended = 2026y / 12 / 1;
-    const auto after = arm();
-    ASSERT_FALSE(after);
-    EXPECT_EQ(after.error().code, ErrorCode::NotArmed);
-    EXPECT_NE(after.error().message.find("ended on 2026-11-30 and today is 2026-12-01"), std::string::npos)
-        << after.error().message;
+    EXPECT_THAT(arm(), refused(ErrorCode::NotArmed, "ended on 2026-11-30 and today is 2026-12-01"));
     EXPECT_EQ(state(), InterlockState::Disarmed);
 
     // A bench load needs no date.
@@ -221,10 +211,7 @@ TEST_F(CalibratedBenchTest, WhatIsReadBackIsComparedWithTheCommandAndNotWithWhat
     calibration_ = StimulatorCalibration{{0.85, 0, 10, 40}};
     open({"sim:stimulator?gain=1.05"});
     ASSERT_TRUE(armAndDrive(1, 1));
-    const auto waited = bench_->wait(Seconds(3));
-    ASSERT_FALSE(waited);
-    EXPECT_NE(waited.error().message.find("the stimulator reads back 49."), std::string::npos)
-        << waited.error().message;
+    EXPECT_THAT(bench_->wait(Seconds(3)), refusedSaying("the stimulator reads back 49."));
     EXPECT_EQ(state(), InterlockState::Faulted);
     EXPECT_EQ(bench_->telemetry().trainsDelivered, 1U);
 }
@@ -234,10 +221,7 @@ TEST_F(CalibratedBenchTest, ACalibrationThatWouldTellMoreThanAFifthBesideTheComm
     calibration_ = StimulatorCalibration{{0.81, 0, 10, 40}};  // 49.4 V for 40
     open({});
     ASSERT_TRUE(armAndDrive(1, 1));
-    const auto waited = bench_->wait(Seconds(3));
-    ASSERT_FALSE(waited);
-    EXPECT_NE(waited.error().message.find("program 49.38 for the amplitude 40"), std::string::npos)
-        << waited.error().message;
+    EXPECT_THAT(bench_->wait(Seconds(3)), refusedSaying("program 49.38 for the amplitude 40"));
     EXPECT_EQ(bench_->telemetry().trainsDelivered, 0U);
 }
 
@@ -253,9 +237,7 @@ TEST_F(CalibratedBenchTest, ACaptureThatShowsAnotherAmplitudeThanTheCommandFault
         if (!capture) {
             EXPECT_EQ(capture.error().code, ErrorCode::Device) << capture.error().message;
         }
-        const auto waited = bench_->wait(Seconds(0.1));
-        ASSERT_FALSE(waited) << gain;
-        EXPECT_EQ(waited.error().code, ErrorCode::Device) << waited.error().message;
+        EXPECT_THAT(bench_->wait(Seconds(0.1)), refused(ErrorCode::Device)) << gain;
         EXPECT_EQ(state(), InterlockState::Faulted) << gain;
         const std::string reason(bench_->telemetry().reason.view());
         EXPECT_NE(reason.find(fmt::format("the oscilloscope shows {}", off)), std::string::npos) << reason;
@@ -266,9 +248,7 @@ TEST_F(CalibratedBenchTest, AnImpossibleCalibrationArmsNothing) {
     RecordProperty("hazard", "H9");
     calibration_ = StimulatorCalibration{{0.1, 0, 10, 40}};
     open({});
-    const auto armed = arm();
-    ASSERT_FALSE(armed);
-    EXPECT_NE(armed.error().message.find("out of order"), std::string::npos) << armed.error().message;
+    EXPECT_THAT(arm(), refusedSaying("out of order"));
     EXPECT_EQ(state(), InterlockState::Disarmed);
 }
 

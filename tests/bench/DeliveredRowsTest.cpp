@@ -5,6 +5,7 @@
 #include "core/session/SessionReader.h"
 #include "core/session/SessionWriter.h"
 #include "tests/bench/BenchFixture.h"
+#include "tests/support/Refused.h"
 
 namespace tacto::test {
 namespace {
@@ -43,11 +44,9 @@ TEST_F(DeliveredRows, HoldTheWholeTrain) {
     profile.encoding.train.interPhaseGap = Micros(50);
     profile.encoding.train.polarity = Polarity::Negative;
     ASSERT_TRUE(bench_->setProfile(profile));
-    const auto armed = arm();
-    ASSERT_TRUE(armed) << armed.error().message;
+    accepted(arm());
     ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
-    const auto waited = bench_->wait(Seconds(3));
-    ASSERT_TRUE(waited) << waited.error().message;
+    accepted(bench_->wait(Seconds(3)));
     const auto reader = read();
     const auto rows = reader.commands().value();
     const auto trains = named(rows, "delivered");
@@ -75,8 +74,7 @@ TEST_F(DeliveredRows, EveryChangeOfEncodingAndAreaIsAnEvent) {
     auto profile = bench_->profile();
     profile.electrodeArea = SquareCentimetres(3);
     ASSERT_TRUE(bench_->setProfile(profile));
-    const auto armed = arm("2 kohm");
-    ASSERT_TRUE(armed) << armed.error().message;
+    accepted(arm("2 kohm"));
     bench_->disarm();
     profile.encoding.amplitudeMax = Volts(30);
     profile.ceilings = {{Quantity::PeakCurrent, 20}};

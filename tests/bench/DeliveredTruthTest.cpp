@@ -9,6 +9,7 @@
 #include "core/session/SessionReader.h"
 #include "drivers/simulated/SimulatedStimulator.h"
 #include "tests/bench/BenchFixture.h"
+#include "tests/support/Refused.h"
 #include "tests/support/Trials.h"
 #include "tests/support/WrappedTwin.h"
 
@@ -469,16 +470,15 @@ TEST_F(DeliveredTruth, WhatWasMeasuredBesideTheCommandIsAMarkOfTheSession) {
     const auto file = dir.path() / "session.tacto";
     {
         const VirtualClock ownClock;
-        auto writer = SessionWriter::create(file, SessionAbout{}, ownClock);
-        ASSERT_TRUE(writer) << writer.error().message;
-        session_ = writer->get();
+        auto writer = accepted(SessionWriter::create(file, SessionAbout{}, ownClock));
+        session_ = writer.get();
         open({"sim:stimulator?gain=1.15"});
         ASSERT_TRUE(arm());
         ASSERT_TRUE(bench_->requestCaptures(8, ScopeSettings{}));
         ASSERT_TRUE(bench_->drive(DriveSource::Manual, 0.2, 1));
         ASSERT_TRUE(bench_->wait(Seconds(3)));
         bench_.reset();
-        ASSERT_TRUE((*writer)->close());
+        ASSERT_TRUE(writer->close());
     }
     const auto marks = sessionMarks(*SessionReader::open(file));
     ASSERT_TRUE(marks);

@@ -3,9 +3,14 @@
 #include "core/measure/PulseMeasurement.h"
 #include "tests/bench/BenchFixture.h"
 #include "tests/bench/LoopRig.h"
+#include "tests/support/Refused.h"
 
 namespace tacto {
 namespace {
+
+using test::accepted;
+using test::refused;
+using test::refusedSaying;
 
 struct Delivered {
     double charge_uC = 0;  // per phase
@@ -67,10 +72,7 @@ TEST_F(HoldTest, NothingIsHeldBeyondALimit) {
     RecordProperty("hazard", "H1");
     hold(Hold::Charge, "voltage");
     ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));  // 40 V, and the paper allows no more
-    const auto waited = bench_->wait(Seconds(9));
-    ASSERT_FALSE(waited);
-    EXPECT_EQ(waited.error().code, ErrorCode::LimitExceeded);
-    EXPECT_NE(waited.error().message.find("at most 40 V"), std::string::npos) << waited.error().message;
+    EXPECT_THAT(bench_->wait(Seconds(9)), refused(ErrorCode::LimitExceeded, "at most 40 V"));
 }
 
 TEST_F(HoldTest, ALoadThatLeavesItsRangeEndsDelivery) {
@@ -88,8 +90,7 @@ protected:
     void deliver(Hold what, const std::string& load) {
         profile_.encoding.hold = what;
         open({"sim:stimulator?readback=no&" + load});
-        const auto armed = arm();
-        ASSERT_TRUE(armed) << armed.error().message;
+        accepted(arm());
         ASSERT_TRUE(bench_->drive(DriveSource::Manual, 0.5, 1));
     }
     /// Captures once a second; the error that ended it, or nothing after `times`.
@@ -138,18 +139,14 @@ TEST_F(SeenLoadTest, IsLookedAtBySmallPulseBeforeAnythingIsArmed) {
           Case{"sim:stimulator?readback=no&flaws=none&gain=1.3", "1.3 V; 1 V was commanded", kFaulted},
           Case{"sim:stimulator?readback=no&flaws=none&gain=0.7", " V; 1 V was commanded", kFaulted}}) {
         open({uri});
-        const auto armed = arm();
-        ASSERT_FALSE(armed) << uri;
-        EXPECT_NE(armed.error().message.find(why), std::string::npos) << armed.error().message;
+        EXPECT_THAT(arm(), refusedSaying(why)) << uri;
         EXPECT_EQ(state(), after) << uri;
         ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
         bench_->idle(Seconds(3));
         EXPECT_EQ(bench_->telemetry().trainsDelivered, 0U) << uri;
     }
     open({"sim:stimulator?readback=no", "sim:oscilloscope?fault=unplug@0s"});
-    const auto blind = arm();
-    ASSERT_FALSE(blind) << "nothing is armed on an oscilloscope that sees nothing";
-    EXPECT_EQ(blind.error().code, ErrorCode::NotArmed) << blind.error().message;
+    EXPECT_THAT(arm(), refused(ErrorCode::NotArmed)) << "nothing is armed on an oscilloscope that sees nothing";
     open({"sim:stimulator?readback=no"}, {Role::Stimulator});
     ASSERT_TRUE(arm()) << "without an oscilloscope the operator's word for the load stands";
     EXPECT_TRUE(std::isnan(bench_->telemetry().impedance_ohm)) << "and declared is not measured";
@@ -163,9 +160,8 @@ TEST_F(SeenLoadTest, ConfirmsOnlyWhatWasCommandedIntoALoad) {
     const Capture& shown = captures->front();
     PulseTrain commanded;
     commanded.amplitude = Volts(shown.programmed);
-    const auto load = loadConfirmedBy(shown, commanded);
-    ASSERT_TRUE(load) << load.error().message;
-    EXPECT_NEAR(load->value(), 1000, 30);
+    const auto load = accepted(loadConfirmedBy(shown, commanded));
+    EXPECT_NEAR(load.value(), 1000, 30);
     for (const double factor : {0.79, 1.27}) {
         commanded.amplitude = Volts(factor * shown.programmed);
         EXPECT_FALSE(loadConfirmedBy(shown, commanded)) << factor;

@@ -7,11 +7,13 @@
 #include "tests/bench/FakeMassager.h"
 #include "tests/bench/FakeStimulator.h"
 #include "tests/support/InTime.h"
+#include "tests/support/Refused.h"
 
 namespace tacto {
 namespace {
 
 using test::FakeMassager;
+using test::refusedSaying;
 
 class MassagerTest : public testing::Test {
 protected:
@@ -97,9 +99,7 @@ TEST_F(MassagerTest, AnUnplugIsAFaultThatAResetLeaves) {
     ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
     ASSERT_TRUE(bench_->wait(Seconds(1)));
     device_->unplugged = true;
-    const auto waited = bench_->wait(Seconds(2));
-    ASSERT_FALSE(waited);
-    EXPECT_NE(waited.error().message.find("unplugged"), std::string::npos) << waited.error().message;
+    EXPECT_THAT(bench_->wait(Seconds(2)), refusedSaying("unplugged"));
     EXPECT_EQ(bench_->telemetry().state, InterlockState::Faulted);
     const auto sent = device_->sent().size();
     device_->unplugged = false;

@@ -7,10 +7,13 @@
 #include "core/session/SessionReader.h"
 #include "tests/bench/FakeStimulator.h"
 #include "tests/bench/PersonFixture.h"
+#include "tests/support/Refused.h"
 
 namespace tacto {
 namespace {
 
+using test::accepted;
+using test::refusedSaying;
 using testing::HasSubstr;
 
 constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
@@ -95,15 +98,11 @@ TEST_F(PersonBenchTest, OneThatIsOutOfOrderStatesNothingAndIsNotArmed) {
 
 TEST_F(PersonBenchTest, TheWordOfADeviceIsNoCalibration) {
     RecordProperty("hazard", "H9");
-    auto simulated = openStating(true, true);
-    ASSERT_TRUE(simulated) << simulated.error().message;
-    EXPECT_TRUE(armed(**simulated));
-    auto real = openStating(false, false);
-    ASSERT_TRUE(real) << real.error().message;
-    EXPECT_FALSE((*real)->calibration());
-    const auto refused = armed(**real);
-    ASSERT_FALSE(refused);
-    EXPECT_THAT(refused.error().message, HasSubstr("is not calibrated"));
+    auto simulated = accepted(openStating(true, true));
+    EXPECT_TRUE(armed(*simulated));
+    auto real = accepted(openStating(false, false));
+    EXPECT_FALSE(real->calibration());
+    EXPECT_THAT(armed(*real), refusedSaying("is not calibrated"));
     EXPECT_EQ(device_->fake.delivered, 0);
 }
 
@@ -115,15 +114,13 @@ TEST_F(PersonBenchTest, ABenchLoadTakesNoStatement) {
 
 TEST_F(PersonBenchTest, AVirtualParticipantIsOnSimulationsAndAPersonOnDevices) {
     RecordProperty("hazard", "H9");
-    const auto virtualOnReal = openStating(false, true);
-    ASSERT_FALSE(virtualOnReal);
-    EXPECT_EQ(virtualOnReal.error().message,
-              "a virtual participant cannot use the real device a stating unit; use a simulated one");
-    const auto personOnSimulated = openStating(true, false);
-    ASSERT_FALSE(personOnSimulated);
-    EXPECT_EQ(personOnSimulated.error().message,
-              "a person on a stating unit, which delivers nothing; a device is accepted, a simulated one in a "
-              "rehearsal");
+    EXPECT_THAT(openStating(false, true),
+                refusedSaying(testing::Eq(
+                    "a virtual participant cannot use the real device a stating unit; use a simulated one")));
+    EXPECT_THAT(openStating(true, false),
+                refusedSaying(testing::Eq(
+                    "a person on a stating unit, which delivers nothing; a device is accepted, a simulated one in a "
+                    "rehearsal")));
     EXPECT_TRUE(openStating(true, false, true)) << "a rehearsal";
     EXPECT_FALSE(openStating(false, true, true)) << "a rehearsal makes no device of a simulation";
     EXPECT_TRUE(openStating(true, true));
@@ -225,24 +222,22 @@ TEST_F(PersonBenchTest, TheCapOfTheStudyHolds) {
     EXPECT_EQ(refused.end, PresentationEnd::Refused);
     EXPECT_THAT(refused.reason, HasSubstr("the study's cap is 2 mA"));
     EXPECT_TRUE(bench_->levelCeiling().value() == StimulusLevel(Milliamps(2)));
-    const auto limit = bench_->levelLimit(kShortest);
-    ASSERT_TRUE(limit) << limit.error().message;
-    EXPECT_TRUE(limit->level == Milliamps(2));
-    EXPECT_EQ(limit->limitedBy, "the study's cap");
+    const auto limit = accepted(bench_->levelLimit(kShortest));
+    EXPECT_TRUE(limit.level == Milliamps(2));
+    EXPECT_EQ(limit.limitedBy, "the study's cap");
 }
 
 TEST_F(PersonBenchTest, TheLargestLevelIsTheOneTheGateStopsAt) {
     RecordProperty("hazard", "H6");
     skin_ = "300 ohm + (8 kohm || 20 nF)";  // 40 V at some 6 mA
     openArmed();
-    const auto limit = bench_->levelLimit(kShortest);
-    ASSERT_TRUE(limit) << limit.error().message;
-    EXPECT_THAT(limit->limitedBy, HasSubstr("commanded voltage (paper)"));
-    EXPECT_GT(limit->level.value(), 4);
-    EXPECT_LT(limit->level.value(), 8);
-    rampTo(limit->level.value());
-    EXPECT_EQ(presentTest(limit->level.value(), 0.5, 4).end, PresentationEnd::Complete);
-    const auto beyond = presentTest(limit->level.value() + 0.5);
+    const auto limit = accepted(bench_->levelLimit(kShortest));
+    EXPECT_THAT(limit.limitedBy, HasSubstr("commanded voltage (paper)"));
+    EXPECT_GT(limit.level.value(), 4);
+    EXPECT_LT(limit.level.value(), 8);
+    rampTo(limit.level.value());
+    EXPECT_EQ(presentTest(limit.level.value(), 0.5, 4).end, PresentationEnd::Complete);
+    const auto beyond = presentTest(limit.level.value() + 0.5);
     EXPECT_EQ(beyond.end, PresentationEnd::Refused);
     EXPECT_THAT(beyond.reason, HasSubstr("commanded voltage"));
     ASSERT_TRUE(bench_->reportDiscomfort(Milliamps(3)));
@@ -271,20 +266,17 @@ TEST_F(PersonBenchTest, WhatTheParticipantSaysIsInTheSession) {
     const test::ScratchDir folder;
     VirtualClock recording;
     SessionAbout about;
-    auto writer = SessionWriter::create(folder.path() / "a.tacto", about, recording);
-    ASSERT_TRUE(writer) << writer.error().message;
-    session_ = writer->get();
+    auto writer = accepted(SessionWriter::create(folder.path() / "a.tacto", about, recording));
+    session_ = writer.get();
     openArmed();
     rampTo(1);
     ASSERT_TRUE(bench_->reportDiscomfort(Milliamps(1)));
     bench_.reset();
-    ASSERT_TRUE((*writer)->close());
-    const auto reader = SessionReader::open(folder.path() / "a.tacto");
-    ASSERT_TRUE(reader) << reader.error().message;
-    const auto events = reader->events();
-    ASSERT_TRUE(events) << events.error().message;
+    ASSERT_TRUE(writer->close());
+    const auto reader = accepted(SessionReader::open(folder.path() / "a.tacto"));
+    const auto events = accepted(reader.events());
     std::vector<std::string> said;
-    for (const auto& event : *events) {
+    for (const auto& event : events) {
         if (event.name.starts_with("level-")) said.push_back(event.name + event.body.dump());
     }
     EXPECT_THAT(said, testing::ElementsAre(R"(level-accepted{"ceiling_ma":1.5,"level_ma":0.5})",
@@ -294,10 +286,9 @@ TEST_F(PersonBenchTest, WhatTheParticipantSaysIsInTheSession) {
 
 TEST_F(PersonBenchTest, TheImpedanceCheckEndsDisarmed) {
     openPerson();
-    const auto seen = bench_->checkImpedance({.operatorConfirmed = true});
-    ASSERT_TRUE(seen) << seen.error().message;
-    ASSERT_TRUE(*seen);
-    EXPECT_NEAR((*seen)->value(), 3100, 100);
+    const auto seen = accepted(bench_->checkImpedance({.operatorConfirmed = true}));
+    ASSERT_TRUE(seen);
+    EXPECT_NEAR(seen->value(), 3100, 100);
     EXPECT_EQ(state(), InterlockState::Disarmed);
 }
 

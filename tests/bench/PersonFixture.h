@@ -4,6 +4,7 @@
 #pragma once
 
 #include "tests/bench/BenchFixture.h"
+#include "tests/support/Refused.h"
 
 namespace tacto::test {
 
@@ -28,8 +29,7 @@ protected:
     }
     void openArmed(const std::string& more = "", bool realTime = false) {
         openPerson(more, realTime);
-        const auto armed = arm(skin_);
-        ASSERT_TRUE(armed) << armed.error().message;
+        accepted(arm(skin_));
     }
     [[nodiscard]] Presented presentTest(double mA, double interval_s = 0.5, double window_s = 1) {
         auto presented = bench_->present(testPresentation(Milliamps(mA), Seconds(interval_s), Seconds(window_s)));
@@ -39,11 +39,9 @@ protected:
     /// From 0.5 mA upwards, each level presented and accepted.
     void rampTo(double mA) {
         for (double level = 0.5; level <= mA; level += 0.5) {
-            const auto presented = bench_->present(ascendingPresentation(Milliamps(level), kShortest));
-            ASSERT_TRUE(presented) << presented.error().message;
-            ASSERT_EQ(presented->end, PresentationEnd::Complete) << level << ": " << presented->reason;
-            const auto accepted = bench_->accept(Milliamps(level));
-            ASSERT_TRUE(accepted) << accepted.error().message;
+            const auto presented = accepted(bench_->present(ascendingPresentation(Milliamps(level), kShortest)));
+            ASSERT_EQ(presented.end, PresentationEnd::Complete) << level << ": " << presented.reason;
+            accepted(bench_->accept(Milliamps(level)));
         }
     }
 

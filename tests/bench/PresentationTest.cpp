@@ -4,11 +4,14 @@
 
 #include "tests/bench/FakeStimulator.h"
 #include "tests/bench/PersonFixture.h"
+#include "tests/support/Refused.h"
 
 namespace tacto {
 namespace {
 
 using namespace std::chrono_literals;
+using test::accepted;
+using test::refusedSaying;
 using testing::HasSubstr;
 
 constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
@@ -101,14 +104,13 @@ TEST_F(PresentationTest, EveryTrainIsApprovedDeliveredAndReadBack) {
     rampTo(4.5);
     auto wanted = testPresentation(Milliamps(4.5), Seconds(0.5));
     wanted.notBefore = clock_->now() + 1500ms;
-    const auto presented = bench_->present(wanted);
-    ASSERT_TRUE(presented) << presented.error().message;
-    EXPECT_EQ(presented->end, PresentationEnd::Complete) << presented->reason;
-    EXPECT_FALSE(presented->isVoid());
-    EXPECT_EQ(presented->began, wanted.notBefore);
-    ASSERT_EQ(presented->trains.size(), 9U);
-    for (std::size_t k = 0; k < presented->trains.size(); ++k) {
-        const auto& train = presented->trains[k];
+    const auto presented = accepted(bench_->present(wanted));
+    EXPECT_EQ(presented.end, PresentationEnd::Complete) << presented.reason;
+    EXPECT_FALSE(presented.isVoid());
+    EXPECT_EQ(presented.began, wanted.notBefore);
+    ASSERT_EQ(presented.trains.size(), 9U);
+    for (std::size_t k = 0; k < presented.trains.size(); ++k) {
+        const auto& train = presented.trains[k];
         EXPECT_EQ(train.onset, wanted.notBefore + static_cast<int>(k) * Instant(500ms))
             << "on the virtual clock to the nanosecond";
         EXPECT_EQ(train.approved, StimulusLevel(Milliamps(4.5)));
@@ -118,8 +120,8 @@ TEST_F(PresentationTest, EveryTrainIsApprovedDeliveredAndReadBack) {
         ASSERT_TRUE(train.impedance);
         EXPECT_NEAR(train.impedance->value(), 3100, 100);
     }
-    EXPECT_GE(presented->ended - presented->began, 4200ms);
-    EXPECT_LE(presented->ended - presented->began, 4200ms + 2 * ControlLoop::kPeriod);
+    EXPECT_GE(presented.ended - presented.began, 4200ms);
+    EXPECT_LE(presented.ended - presented.began, 4200ms + 2 * ControlLoop::kPeriod);
 }
 
 TEST_F(PresentationTest, EachOfTwoTrainsIsApprovedDeliveredAndJudgedAtItsOwnLevel) {
@@ -127,13 +129,12 @@ TEST_F(PresentationTest, EachOfTwoTrainsIsApprovedDeliveredAndJudgedAtItsOwnLeve
     openArmed();
     rampTo(4.5);
     for (const auto& [first, second] : {std::pair(2.0, 4.5), {4.5, 2.0}, {4.0, 4.5}}) {
-        const auto presented =
-            bench_->present(comparisonPresentation(Milliamps(first), Milliamps(second), Seconds(0.001), Seconds(0.5)));
-        ASSERT_TRUE(presented) << presented.error().message;
-        ASSERT_EQ(presented->end, PresentationEnd::Complete) << presented->reason;
-        ASSERT_EQ(presented->trains.size(), 2U);
-        EXPECT_EQ(presented->trains[1].onset - presented->trains[0].onset, 1400ms);
-        for (const auto& [train, mA] : {std::pair(presented->trains[0], first), {presented->trains[1], second}}) {
+        const auto presented = accepted(
+            bench_->present(comparisonPresentation(Milliamps(first), Milliamps(second), Seconds(0.001), Seconds(0.5))));
+        ASSERT_EQ(presented.end, PresentationEnd::Complete) << presented.reason;
+        ASSERT_EQ(presented.trains.size(), 2U);
+        EXPECT_EQ(presented.trains[1].onset - presented.trains[0].onset, 1400ms);
+        for (const auto& [train, mA] : {std::pair(presented.trains[0], first), {presented.trains[1], second}}) {
             EXPECT_EQ(train.approved, StimulusLevel(Milliamps(mA)));
             ASSERT_TRUE(train.readBack);
             EXPECT_NEAR(train.readBack->value(), mA, 0.05 * mA) << "a train of one level is not the other's";
@@ -150,17 +151,14 @@ TEST_F(PresentationTest, ATrainThatMayNotBeIsRefusedAlsoBesideOneThatMay) {
             comparisonPresentation(Milliamps(first), Milliamps(second), Seconds(0.001), Seconds(0.5)));
     };
     for (const bool strongFirst : {true, false}) {
-        const auto refused = strongFirst ? compared(4, 1) : compared(1, 4);
-        ASSERT_TRUE(refused) << refused.error().message;
-        EXPECT_EQ(refused->end, PresentationEnd::Refused);
-        EXPECT_THAT(refused->reason, HasSubstr("the ramp rule"));
-        EXPECT_EQ(refused->trains.size(), strongFirst ? 0U : 1U);
+        const auto refused = accepted(strongFirst ? compared(4, 1) : compared(1, 4));
+        EXPECT_EQ(refused.end, PresentationEnd::Refused);
+        EXPECT_THAT(refused.reason, HasSubstr("the ramp rule"));
+        EXPECT_EQ(refused.trains.size(), strongFirst ? 0U : 1U);
         EXPECT_FALSE(bench_->accept(Milliamps(4))) << "what was refused was not felt";
     }
     const auto delivered = bench_->telemetry().trainsDelivered;
-    const auto offTheGrid = compared(0.7, 1);
-    ASSERT_FALSE(offTheGrid);
-    EXPECT_THAT(offTheGrid.error().message, HasSubstr("a level of 0.7 mA; multiples of the device's step"));
+    EXPECT_THAT(compared(0.7, 1), refusedSaying("a level of 0.7 mA; multiples of the device's step"));
     EXPECT_EQ(bench_->telemetry().trainsDelivered, delivered);
 }
 
@@ -194,10 +192,9 @@ TEST_F(PresentationTest, AnOldReadingIsRenewedBeforeTheFirstTrain) {
     openArmed("&fault=open@20s");
     bench_->idle(Seconds(25));
     auto wanted = testPresentation(Milliamps(0), Seconds(0.5));
-    const auto presented = bench_->present(wanted);
-    ASSERT_TRUE(presented) << presented.error().message;
-    EXPECT_EQ(presented->end, PresentationEnd::Faulted) << "an empty one finds the open electrode too";
-    EXPECT_TRUE(presented->trains.empty());
+    const auto presented = accepted(bench_->present(wanted));
+    EXPECT_EQ(presented.end, PresentationEnd::Faulted) << "an empty one finds the open electrode too";
+    EXPECT_TRUE(presented.trains.empty());
 }
 
 TEST_F(PresentationTest, WhatTheDeviceCannotSetIsRefusedAndNeverRounded) {
@@ -212,9 +209,8 @@ TEST_F(PresentationTest, WhatTheDeviceCannotSetIsRefusedAndNeverRounded) {
         {Milliamps(kNotANumber), "level nan mA"},
         {VibrationIntensity{0.5}, "a current is accepted"}};
     for (const auto& [level, words] : wrong) {
-        const auto refused = bench_->present(testPresentation(level, Seconds(0.5), Seconds(1)));
-        ASSERT_FALSE(refused) << textOf(level);
-        EXPECT_THAT(refused.error().message, HasSubstr(words));
+        EXPECT_THAT(bench_->present(testPresentation(level, Seconds(0.5), Seconds(1))), refusedSaying(words))
+            << textOf(level);
     }
     EXPECT_EQ(bench_->telemetry().trainsDelivered, delivered);
     auto far = testPresentation(Milliamps(0.5), Seconds(0.5));
@@ -249,14 +245,13 @@ TEST_F(PresentationTest, APulledOrShortedElectrodeEndsItBeforeTheNextTrain) {
         openArmed(fmt::format("&fault={}@3s", fault));
         auto wanted = testPresentation(Milliamps(1), Seconds(0.5));
         wanted.notBefore = Instant(1700ms);
-        const auto presented = bench_->present(wanted);
-        ASSERT_TRUE(presented) << presented.error().message;
-        EXPECT_EQ(presented->end, PresentationEnd::Faulted) << fault;
-        EXPECT_TRUE(presented->isVoid());
-        EXPECT_FALSE(presented->reason.empty());
-        EXPECT_LE(presented->trains.size(), 4U) << fault << ": at 1.7, 2.2, 2.7 and, found at it, 3.2 s";
-        EXPECT_GE(presented->trains.size(), 3U);
-        EXPECT_LT(presented->ended, Instant(3700ms)) << "before the next train";
+        const auto presented = accepted(bench_->present(wanted));
+        EXPECT_EQ(presented.end, PresentationEnd::Faulted) << fault;
+        EXPECT_TRUE(presented.isVoid());
+        EXPECT_FALSE(presented.reason.empty());
+        EXPECT_LE(presented.trains.size(), 4U) << fault << ": at 1.7, 2.2, 2.7 and, found at it, 3.2 s";
+        EXPECT_GE(presented.trains.size(), 3U);
+        EXPECT_LT(presented.ended, Instant(3700ms)) << "before the next train";
         EXPECT_EQ(state(), InterlockState::Faulted);
         EXPECT_TRUE(bench_->faultPersists(cause)) << fault;
         const auto delivered = bench_->telemetry().trainsDelivered;
@@ -355,11 +350,10 @@ TEST_F(FakedPresentationTest, EndsWhenItsOwnerNoLongerLooksAfterIt) {
     RecordProperty("hazard", "H2");
     open();
     watched_ = false;
-    const auto presented = present();
-    ASSERT_TRUE(presented) << presented.error().message;
-    EXPECT_EQ(presented->end, PresentationEnd::Stopped);
-    EXPECT_THAT(presented->reason, HasSubstr("did not look after it for 2 s"));
-    EXPECT_LE(presented->ended - presented->began, 2100ms);
+    const auto presented = accepted(present());
+    EXPECT_EQ(presented.end, PresentationEnd::Stopped);
+    EXPECT_THAT(presented.reason, HasSubstr("did not look after it for 2 s"));
+    EXPECT_LE(presented.ended - presented.began, 2100ms);
     EXPECT_EQ(bench_->telemetry().state, InterlockState::Disarmed);
 }
 
@@ -368,10 +362,9 @@ TEST_F(FakedPresentationTest, ATrainThatWouldComeLateIsNotSent) {
     open();
     const int before = device_->delivered;
     device_->onDeliver = [this] { device_->stillOnUntil = clock_->now() + 570ms; };
-    const auto presented = present();
-    ASSERT_TRUE(presented) << presented.error().message;
-    EXPECT_EQ(presented->end, PresentationEnd::Late) << presented->reason;
-    EXPECT_THAT(presented->reason, AllOf(HasSubstr("train 2 is"), HasSubstr("ms late")));
+    const auto presented = accepted(present());
+    EXPECT_EQ(presented.end, PresentationEnd::Late) << presented.reason;
+    EXPECT_THAT(presented.reason, AllOf(HasSubstr("train 2 is"), HasSubstr("ms late")));
     EXPECT_EQ(device_->delivered, before + 1);
     EXPECT_EQ(bench_->telemetry().state, InterlockState::Delivering);
 }

@@ -7,12 +7,15 @@
 #include "tests/bench/FakeStimulator.h"
 #include "tests/support/FailsInTime.h"
 #include "tests/support/InTime.h"
+#include "tests/support/Refused.h"
 
 namespace tacto {
 namespace {
 
 using namespace std::chrono_literals;
 using std::chrono::steady_clock;
+using test::accepted;
+using test::refusedSaying;
 
 class PresentationTimeTest : public testing::Test {
 protected:
@@ -114,39 +117,35 @@ TEST_F(PresentationTimeTest, AMassagerVibratesAtTheSameOnsets) {
     open(false, true);
     auto wanted = testPresentation(VibrationIntensity{0.4}, Seconds(0.5));
     wanted.notBefore = clock_->now() + 1s;
-    const auto presented = bench_->present(wanted);
-    ASSERT_TRUE(presented) << presented.error().message;
-    EXPECT_EQ(presented->end, PresentationEnd::Complete) << presented->reason;
-    ASSERT_EQ(presented->trains.size(), 9U);
+    const auto presented = accepted(bench_->present(wanted));
+    EXPECT_EQ(presented.end, PresentationEnd::Complete) << presented.reason;
+    ASSERT_EQ(presented.trains.size(), 9U);
     const auto sent = massager_->sent();
     ASSERT_EQ(sent.size(), 9U);
     for (std::size_t k = 0; k < sent.size(); ++k) {
         EXPECT_EQ(sent[k].at, wanted.notBefore + static_cast<int>(k) * Instant(500ms));
         EXPECT_DOUBLE_EQ(sent[k].burst.intensity, 0.4);
-        EXPECT_EQ(presented->trains[k].approved, StimulusLevel(VibrationIntensity{0.4}));
-        EXPECT_FALSE(presented->trains[k].readBack) << "nothing of a burst is read back";
-        EXPECT_FALSE(presented->trains[k].impedance);
+        EXPECT_EQ(presented.trains[k].approved, StimulusLevel(VibrationIntensity{0.4}));
+        EXPECT_FALSE(presented.trains[k].readBack) << "nothing of a burst is read back";
+        EXPECT_FALSE(presented.trains[k].impedance);
     }
-    const auto empty = bench_->present(testPresentation(VibrationIntensity{0}, Seconds(0.5)));
-    ASSERT_TRUE(empty) << empty.error().message;
-    EXPECT_EQ(empty->end, PresentationEnd::Complete);
+    const auto empty = accepted(bench_->present(testPresentation(VibrationIntensity{0}, Seconds(0.5))));
+    EXPECT_EQ(empty.end, PresentationEnd::Complete);
     EXPECT_EQ(massager_->sent().size(), 9U);
-    EXPECT_EQ(empty->ended - empty->began, presented->ended - presented->began);
+    EXPECT_EQ(empty.ended - empty.began, presented.ended - presented.began);
 }
 
 TEST_F(PresentationTimeTest, AMassagerTakesNoCurrentAndEndsWithItsFault) {
     RecordProperty("hazard", "H4");
     open(false, true);
-    const auto current = bench_->present(testPresentation(Milliamps(1), Seconds(0.5)));
-    ASSERT_FALSE(current);
-    EXPECT_EQ(current.error().message, "a presentation at 1 mA on fake massager; an intensity is accepted");
+    EXPECT_THAT(bench_->present(testPresentation(Milliamps(1), Seconds(0.5))),
+                refusedSaying(testing::Eq("a presentation at 1 mA on fake massager; an intensity is accepted")));
     EXPECT_FALSE(bench_->present(testPresentation(VibrationIntensity{1.1}, Seconds(0.5))));
     EXPECT_EQ(bench_->accept(Milliamps(1)).error().code, ErrorCode::NotArmed);
     massager_->unplugged = true;
-    const auto unplugged = bench_->present(testPresentation(VibrationIntensity{1}, Seconds(0.5)));
-    ASSERT_TRUE(unplugged) << unplugged.error().message;
-    EXPECT_EQ(unplugged->end, PresentationEnd::Faulted);
-    EXPECT_TRUE(unplugged->trains.empty());
+    const auto unplugged = accepted(bench_->present(testPresentation(VibrationIntensity{1}, Seconds(0.5))));
+    EXPECT_EQ(unplugged.end, PresentationEnd::Faulted);
+    EXPECT_TRUE(unplugged.trains.empty());
     EXPECT_TRUE(massager_->sent().empty());
 }
 
@@ -154,9 +153,8 @@ TEST_F(PresentationTimeTest, AStopOfAMassagerIsAStop) {
     RecordProperty("hazard", "H2");
     open(false, true);
     massager_->onVibrate = [this] { bench_->stop("test"); };
-    const auto presented = bench_->present(testPresentation(VibrationIntensity{1}, Seconds(0.5)));
-    ASSERT_TRUE(presented) << presented.error().message;
-    EXPECT_EQ(presented->end, PresentationEnd::Stopped);
+    const auto presented = accepted(bench_->present(testPresentation(VibrationIntensity{1}, Seconds(0.5))));
+    EXPECT_EQ(presented.end, PresentationEnd::Stopped);
     EXPECT_EQ(massager_->sent().size(), 1U);
     EXPECT_GT(massager_->offs, 0);
 }

@@ -4,18 +4,21 @@
 #include "core/base/Csv.h"
 #include "core/bench/Profile.h"
 #include "core/bench/arming/CommandPreview.h"
+#include "tests/support/Refused.h"
 #include "tests/support/Support.h"
 
 namespace tacto {
 namespace {
 
+using test::accepted;
+using test::refusedSaying;
+
 TEST(Profile, TheShippedFileIsTheProgramsDefault) {
-    const auto shipped = loadProfile(test::sourceDir() / "resources" / "encodings" / "default.json");
-    ASSERT_TRUE(shipped) << shipped.error().message;
+    const auto shipped = accepted(loadProfile(test::sourceDir() / "resources" / "encodings" / "default.json"));
     Profile expected;
     expected.encoding.amplitudeRatioPerTrain = 1.2;
     expected.encoding.intervalRatioPerTrain = 1.34;
-    EXPECT_EQ(toJson(*shipped).dump(1), toJson(expected).dump(1));
+    EXPECT_EQ(toJson(shipped).dump(1), toJson(expected).dump(1));
 }
 
 TEST(Profile, AFileThatNamesNoLimitOnAStepHasNone) {
@@ -28,9 +31,8 @@ TEST(Profile, ReadsBackWhatItWrites) {
     profile.electrodeArea = SquareCentimetres(3);
     profile.ceilings.push_back({Quantity::PeakCurrent, 20});
     profile.encoding.amplitudeMax = Volts(30);
-    const auto again = parseProfile(toJson(profile).dump(), "test");
-    ASSERT_TRUE(again) << again.error().message;
-    EXPECT_EQ(toJson(*again), toJson(profile));
+    const auto again = accepted(parseProfile(toJson(profile).dump(), "test"));
+    EXPECT_EQ(toJson(again), toJson(profile));
 }
 
 TEST(Profile, RefusesWhatItDoesNotKnowByName) {
@@ -91,10 +93,10 @@ TEST(ProfileReach, ACurrentSourceIsJudgedByItsComplianceAndAtTheHighestLoad) {
 
 TEST(Profile, WithAKeyThatStandsTwiceIsRefusedAndKeepsNoCeilingOfEither) {
     RecordProperty("hazard", "H1");
-    const auto parsed = parseProfile(
-        R"({"safety": {"ceilings": {"peak_current": 20}, "electrode_area_cm2": 3, "ceilings": {}}})", "lab.json");
-    ASSERT_FALSE(parsed);
-    EXPECT_EQ(parsed.error().message, "lab.json: the key \"ceilings\" of one object is given twice; once is expected");
+    EXPECT_THAT(
+        parseProfile(R"({"safety": {"ceilings": {"peak_current": 20}, "electrode_area_cm2": 3, "ceilings": {}}})",
+                     "lab.json"),
+        refusedSaying(testing::Eq("lab.json: the key \"ceilings\" of one object is given twice; once is expected")));
 }
 
 TEST(Profile, ThatNestsWithoutEndIsRefusedUnderEveryKey) {

@@ -3,6 +3,7 @@
 #include <new>
 
 #include "core/bench/sensing/ScopeSession.h"
+#include "tests/support/Refused.h"
 
 namespace tacto::test {
 namespace {
@@ -31,9 +32,7 @@ TEST(ScopeSession, ARecordThatDoesNotFitIntoMemoryIsAnErrorAndNoEnd) {
     EXPECT_TRUE(session.failed());
     EXPECT_FALSE(session.active());
     EXPECT_GT(scope.disarmed, 1);
-    const auto taken = session.take();
-    ASSERT_FALSE(taken);
-    EXPECT_EQ(taken.error().message, "no memory left");
+    EXPECT_THAT(session.take(), refusedSaying(testing::Eq("no memory left")));
 }
 
 }  // namespace

@@ -6,11 +6,13 @@
 #include "core/bench/Bench.h"
 #include "tests/bench/FakeMassager.h"
 #include "tests/bench/FakeStimulator.h"
+#include "tests/support/Refused.h"
 
 namespace tacto {
 namespace {
 
 using namespace std::chrono_literals;
+using test::refused;
 
 enum class Order { LoopFirst, DeviceFirst };
 
@@ -284,10 +286,8 @@ TEST(SleepingComputer, EndsARunWithItsReason) {
     ASSERT_TRUE(bench->drive(DriveSource::Manual, 1, 1));
     ASSERT_TRUE(bench->wait(Seconds(1)));
     clock->sleepFor(3600s);
-    const auto waited = bench->wait(Seconds(1));
-    ASSERT_FALSE(waited);
-    EXPECT_EQ(waited.error().code, ErrorCode::Stopped);
-    EXPECT_EQ(waited.error().message, "stopped: the computer slept for 3600 s. Output is off.");
+    EXPECT_THAT(bench->wait(Seconds(1)),
+                refused(ErrorCode::Stopped, testing::Eq("stopped: the computer slept for 3600 s. Output is off.")));
     EXPECT_FALSE(bench->arm(ArmRequest{"1 kohm", true, true})) << "a script cannot arm again by itself";
     ASSERT_TRUE(bench->begin(bench->stops().mark()));
     EXPECT_TRUE(bench->arm(ArmRequest{"1 kohm", true, true}));

@@ -2,11 +2,13 @@
 
 #include "core/bench/delivery/StimulatorSession.h"
 #include "tests/bench/FakeStimulator.h"
+#include "tests/support/Refused.h"
 
 namespace tacto {
 namespace {
 
 using namespace std::chrono_literals;
+using test::accepted;
 using test::FakeStimulator;
 
 class StimulatorSessionTest : public testing::Test {
@@ -18,9 +20,8 @@ protected:
     void post(Instant onset = 0s) {
         PulseTrain train;
         train.amplitude = Volts(10);
-        auto approved = gate_.approve({train, Seconds(1), onset});
-        ASSERT_TRUE(approved) << approved.error().message;
-        session_.post(std::move(*approved), onset, false);
+        auto approved = accepted(gate_.approve({train, Seconds(1), onset}));
+        session_.post(std::move(approved), onset, false);
     }
     void passTo(Instant moment) {
         // Steps as the bench does, with the loop alive.

@@ -7,11 +7,13 @@
 #include "tests/bench/FakeStimulator.h"
 #include "tests/support/FailsInTime.h"
 #include "tests/support/InTime.h"
+#include "tests/support/Refused.h"
 
 namespace tacto {
 namespace {
 
 using namespace std::chrono_literals;
+using test::refused;
 
 class StopTest : public testing::Test {
 protected:
@@ -166,9 +168,7 @@ TEST_F(StopTest, IsNeverForgottenByAnOrderFromBeforeIt) {
     open(false);
     const auto asked = bench_->stops().mark();
     bench_->stop("test");
-    const auto begun = bench_->begin(asked);
-    ASSERT_FALSE(begun);
-    EXPECT_EQ(begun.error().code, ErrorCode::Stopped);
+    EXPECT_THAT(bench_->begin(asked), refused(ErrorCode::Stopped));
     EXPECT_FALSE(bench_->begin(StopMark())) << "nor by one whose mark was forgotten";
     EXPECT_FALSE(bench_->begin(StopCounter().mark())) << "nor by one of another counter";
     EXPECT_FALSE(arm());

@@ -9,6 +9,7 @@
 #include "core/safety/UnitRecord.h"
 #include "tests/bench/FakeStimulator.h"
 #include "tests/support/Limits.h"
+#include "tests/support/Refused.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
@@ -55,9 +56,7 @@ protected:
         config.limits = limitSets();
         config.units = {folder_.path(), claims_.path()};
         config.systemTime = &time_;
-        auto made = Bench::create(std::move(config));
-        ASSERT_TRUE(made) << made.error().message;
-        bench_ = std::move(*made);
+        bench_ = accepted(Bench::create(std::move(config)));
     }
     [[nodiscard]] Result<void> arm(const char* load = "1 kohm") {
         const auto shown = armingText(bench_->devices().stimulator->identity(), &unit_->traits(), bench_->profile(),
@@ -86,14 +85,11 @@ TEST_F(UnitBench, OpensFaultedUntilTheFaultThatWasLeftIsReset) {
 
     open();  // The program was started again
     EXPECT_EQ(bench_->telemetry().state, InterlockState::Faulted);
-    const auto refused = arm();
-    ASSERT_FALSE(refused);
-    EXPECT_THAT(refused.error().message, HasSubstr("left by an earlier run: the electrode is open"));
+    EXPECT_THAT(arm(), refusedSaying("left by an earlier run: the electrode is open"));
     unit_->statusFails = true;
     EXPECT_FALSE(bench_->resetFault()) << "the unit is looked at again";
     unit_->statusFails = false;
-    const auto reset = bench_->resetFault();
-    ASSERT_TRUE(reset) << reset.error().message;
+    accepted(bench_->resetFault());
     EXPECT_TRUE(arm());
 
     open();
@@ -109,8 +105,7 @@ TEST_F(UnitBench, ArmingWaitsUntilAUnitWhosePastIsNotKnownHasRested) {
     const Instant opened = clock_->now();
     ASSERT_TRUE(bench_->wait(Seconds(0.01)));
     EXPECT_THAT(std::string(bench_->telemetry().reason.view()), HasSubstr("is not known"));
-    const auto armed = arm();
-    ASSERT_TRUE(armed) << armed.error().message;
+    accepted(arm());
     EXPECT_GE(clock_->now() - opened, UnitRecord::kRest);
     EXPECT_LT(clock_->now() - opened, UnitRecord::kRest + std::chrono::seconds(1));
     open();
@@ -150,9 +145,7 @@ TEST_F(UnitBench, ASecondBenchOnTheSameUnitIsRefused) {
     config.clock = clock_;
     config.units = {folder_.path(), claims_.path()};
     config.systemTime = &time_;
-    const auto second = Bench::create(std::move(config));
-    ASSERT_FALSE(second);
-    EXPECT_THAT(second.error().message, HasSubstr("fake F7 is driven by"));
+    EXPECT_THAT(Bench::create(std::move(config)), refusedSaying("fake F7 is driven by"));
 }
 
 }  // namespace tacto::test

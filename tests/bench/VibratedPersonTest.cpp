@@ -5,10 +5,13 @@
 #include "tests/bench/BenchFixture.h"
 #include "tests/bench/FakeMassager.h"
 #include "tests/bench/FakeStimulator.h"
+#include "tests/support/Refused.h"
 
 namespace tacto {
 namespace {
 
+using test::accepted;
+using test::refusedSaying;
 using testing::HasSubstr;
 
 class VibratedPersonTest : public testing::Test {
@@ -29,8 +32,7 @@ protected:
                                     .vibration = PersonVibration{.discomfortLimit = 1, .rampStep = 0.05}};
         config.virtualParticipant = true;
         bench_ = Bench::create(std::move(config)).value();
-        const auto armed = arm();
-        ASSERT_TRUE(armed) << armed.error().message;
+        accepted(arm());
     }
     ~VibratedPersonTest() override { bench_.reset(); }
     [[nodiscard]] Result<void> arm() { return bench_->arm(ArmRequest{"1 kohm", true, true}); }
@@ -44,8 +46,7 @@ protected:
     void rampTo(int steps) {
         for (int k = 1; k <= steps; ++k) {
             ASSERT_EQ(endOf(0.05 * k), PresentationEnd::Complete) << k;
-            const auto accepted = bench_->accept(VibrationIntensity{0.05 * k});
-            ASSERT_TRUE(accepted) << accepted.error().message;
+            accepted(bench_->accept(VibrationIntensity{0.05 * k}));
         }
     }
 
@@ -101,9 +102,8 @@ TEST_F(VibratedPersonTest, OnlyWhatWasPresentedLastCanBeAccepted) {
     RecordProperty("hazard", "H6");
     EXPECT_EQ(bench_->accept(VibrationIntensity{0.05}).error().code, ErrorCode::InvalidArgument);
     EXPECT_EQ(endOf(0.05), PresentationEnd::Complete);
-    const auto other = bench_->accept(VibrationIntensity{0.1});
-    ASSERT_FALSE(other);
-    EXPECT_EQ(other.error().message, "intensity 0.1 accepted; intensity 0.05 is what can be accepted");
+    EXPECT_THAT(bench_->accept(VibrationIntensity{0.1}),
+                refusedSaying(testing::Eq("intensity 0.1 accepted; intensity 0.05 is what can be accepted")));
     EXPECT_EQ(endOf(0), PresentationEnd::Complete) << "an empty one";
     EXPECT_FALSE(bench_->accept(VibrationIntensity{0}));
     EXPECT_FALSE(bench_->accept(VibrationIntensity{0.05}));

@@ -22,9 +22,9 @@ namespace {
 constexpr Seconds kHeartbeat{0.05};
 
 /// The host: beats until it is killed, stopped or orphaned.
-class HostProcess {
+class BeatingHost {
 public:
-    HostProcess() {
+    BeatingHost() {
         int ends[2];
         if (pipe(ends) != 0) throw std::runtime_error("no pipe");
         child_ = fork();
@@ -40,9 +40,9 @@ public:
         close(ends[1]);
         pipe_ = ends[0];
     }
-    HostProcess(const HostProcess&) = delete;
-    HostProcess& operator=(const HostProcess&) = delete;
-    ~HostProcess() {
+    BeatingHost(const BeatingHost&) = delete;
+    BeatingHost& operator=(const BeatingHost&) = delete;
+    ~BeatingHost() {
         kill(child_, SIGKILL);
         waitpid(child_, nullptr, 0);
         close(pipe_);
@@ -115,7 +115,7 @@ protected:
     SteadyClock clock_;
     DeviceSet devices_;
     sim::SimulatedCircuit* circuit_ = nullptr;
-    HostProcess host_;
+    BeatingHost host_;
 };
 
 TEST_F(DeadMan, OutputEndsWithin2SecondsOfAKill) {
