@@ -8,6 +8,7 @@
 #include "core/study/Study.h"
 #include "tests/pilot/StageFixture.h"
 #include "tests/study/StudySupport.h"
+#include "tests/support/Refused.h"
 
 namespace tacto::test {
 namespace {
@@ -37,8 +38,7 @@ TEST_F(PilotHoldTest, AfterTooStrongNothingIsPresentedBeforeTheOperatorHasAnswer
         EXPECT_EQ(prompt.to, PromptTo::Operator);
         someone_.answers[kHoldPrompt] = ++asked % 2 == 1 ? "" : "KL";  // no name at first
     };
-    const auto done = thresholds.ascendingLimits();
-    ASSERT_TRUE(done) << done.error().message;
+    accepted(thresholds.ascendingLimits());
     const auto rowsInOrder = course();
     int strong = 0;
     for (std::size_t i = 0; i < rowsInOrder.size(); ++i) {
@@ -77,8 +77,7 @@ TEST_F(PilotHoldTest, PainFromTheCeilingOnHoldsTheNextPresentationAndNoneBelowIt
             EXPECT_THAT(prompt.text, testing::HasSubstr("pain 9 of 10, and the study's ceiling is 7"));
         }
     };
-    const auto rated = care.ratings({{"rough-high", 0.5, Seconds(2)}, {"smooth-low", 0.5, Seconds(2)}});
-    ASSERT_TRUE(rated) << rated.error().message;
+    accepted(care.ratings({{"rough-high", 0.5, Seconds(2)}, {"smooth-low", 0.5, Seconds(2)}}));
     EXPECT_EQ(course(), (std::vector<std::string>{row::kTrialBegin, row::kTrialBegin, row::kHold}));
 }
 

@@ -227,8 +227,7 @@ TEST_F(PilotOutputTest, AStopInAPauseIsARowAndThePauseGoesOn) {
                 bench_->resume();
         });
     };
-    const auto answer = stage_->trial(trial());
-    ASSERT_TRUE(answer) << answer.error().message;
+    accepted(stage_->trial(trial()));
     EXPECT_TRUE(pressed);
     EXPECT_EQ(record_->count(row::kParticipantStop), 1U);
     EXPECT_EQ(record_->count(row::kPause), 1U);
@@ -395,8 +394,7 @@ TEST_F(SeatedElectrodesTest, TwoChecksThatDisagreeAreMadeAnewOnceTheyAreSeatedAg
     RecordProperty("hazard", "H3");
     fitAfter({{1, 1300}});  // between the two
     PilotCare care(*stage_);
-    const auto passed = care.checklist();
-    ASSERT_TRUE(passed) << passed.error().message;
+    accepted(care.checklist());
     EXPECT_THAT(bodies(row::kImpedance), SizeIs(4));
     EXPECT_THAT(held("part 1 impedance"), ElementsAre(false, true)) << "each seating is a row";
     EXPECT_EQ(stage_->ended(), PilotEnd::Unfinished);
@@ -420,8 +418,7 @@ TEST_F(SeatedElectrodesTest, ThoseThatMeasureOtherwiseBeforeABlockAreSeatedAgain
     ASSERT_NO_FATAL_FAILURE(acceptOne());
     fit(1400);
     fitAfter({{3, 1100}});
-    const auto passed = care.beforeBlock(2);
-    ASSERT_TRUE(passed) << passed.error().message;
+    accepted(care.beforeBlock(2));
     EXPECT_THAT(held("block 2 impedance"), ElementsAre(false, true));
     ASSERT_TRUE(stage_->trial(trial("test 1", 1)));
     EXPECT_THAT(answered(), IsSupersetOf({std::string("ramp 0 0.5"), std::string("ramp 0 1")}));

@@ -151,9 +151,8 @@ TEST_F(PilotStageTest, AnAnswerToAnotherIntervalIsNotTaken) {
 TEST_F(PilotStageTest, AParticipantsStopVoidsTheTrialWhichIsRepeatedAfterTheirGoOn) {
     RecordProperty("hazard", "H2");
     someone_.stops = 1;
-    const auto answer = stage_->trial(trial());
-    ASSERT_TRUE(answer) << answer.error().message;
-    EXPECT_EQ(answer->attempt, 2U);
+    const auto answer = accepted(stage_->trial(trial()));
+    EXPECT_EQ(answer.attempt, 2U);
     EXPECT_THAT(someone_.asked, ElementsAre("strength", "go-on", "strength"));
     EXPECT_THAT(kinds(), ElementsAre("trial-begin", "participant-stop", "continue", "trial-begin", "answer"));
 }
@@ -179,8 +178,7 @@ TEST_F(PilotStageTest, AContactThatBouncesSwitchesOffAndIsNoneOfTheirStops) {
         EXPECT_NE(state(), InterlockState::Armed) << "it is off until they go on";
         someone_.bounces = off < 5;
     };
-    const auto answer = stage_->trial(trial());
-    ASSERT_TRUE(answer) << answer.error().message;
+    accepted(stage_->trial(trial()));
     EXPECT_EQ(off, 5);
     EXPECT_EQ(record_->count(row::kParticipantStop), 0U);
     EXPECT_EQ(record_->count(row::kPause), 5U);
@@ -211,8 +209,7 @@ TEST_F(PilotStageTest, ASecondPressWhileNothingIsOnCountsAndTheyAreAskedAgain) {
     RecordProperty("hazard", "H2");
     someone_.stops = 1;
     someone_.stopsAtGoOn = 1;
-    const auto answer = stage_->trial(trial());
-    ASSERT_TRUE(answer) << answer.error().message;
+    accepted(stage_->trial(trial()));
     EXPECT_THAT(someone_.asked, ElementsAre("strength", "go-on", "go-on", "strength"));
     EXPECT_THAT(kinds(), ElementsAre("trial-begin", "participant-stop", "participant-stop", "continue", "trial-begin",
                                      "answer"));
@@ -277,8 +274,7 @@ TEST_F(PilotStageFaultTest, AStimulatorThatAnswersTooLateIsOneToo) {
     RecordProperty("hazard", "H2");
     reachOne("late@20.2s..24s");
     passUntil(19);
-    const auto answer = stage_->trial(rising(1.5));
-    ASSERT_TRUE(answer) << answer.error().message;
+    accepted(stage_->trial(rising(1.5)));
     EXPECT_EQ(record_->count(row::kFault), 1U);
     EXPECT_EQ(measured_, 1);
 }
@@ -300,8 +296,7 @@ TEST_F(PilotStageFaultTest, AnElectrodeThatIsOpenWhenArmingIsSeatedAgainAndIsNoF
     reachOne("open@20s..25s");
     stage_->rest();
     passUntil(21);
-    const auto answer = stage_->trial(rising(1.5));
-    ASSERT_TRUE(answer) << answer.error().message;
+    accepted(stage_->trial(rising(1.5)));
     EXPECT_EQ(record_->count(row::kFault), 0U);
     EXPECT_GE(measured_, 1);
     EXPECT_THAT(answered(), ElementsAre("ascending 0.5", "ascending 1", "ramp 0 0.5", "ramp 0 1", "ascending 1.5"));
@@ -368,8 +363,7 @@ TEST_F(PilotStageTest, AResumedSessionReachesItsLevelsAgainStepByStep) {
     RecordProperty("hazard", "H6");
     for (const double level : {0.5, 1.0, 1.5}) {
         const auto name = fmt::format("ascending {}", level);
-        const auto answer = stage_->trial(trial(name, level));
-        ASSERT_TRUE(answer) << answer.error().message;
+        accepted(stage_->trial(trial(name, level)));
         ASSERT_TRUE(stage_->judged(level, false, name, false));
     }
     const auto earlier = rows();
@@ -380,8 +374,7 @@ TEST_F(PilotStageTest, AResumedSessionReachesItsLevelsAgainStepByStep) {
         ASSERT_TRUE(stage_->judged(level, false, name, answer.replayed));
     }
     EXPECT_EQ(bench_->telemetry().trainsDelivered, 0U);
-    const auto answer = stage_->trial(trial("test 1", 2));
-    ASSERT_TRUE(answer) << answer.error().message;
+    accepted(stage_->trial(trial("test 1", 2)));
     EXPECT_THAT(answered(), ElementsAre("ramp 0 0.5", "ramp 0 1", "ramp 0 1.5", "test 1"));
 }
 

@@ -4,6 +4,7 @@
 #include "core/safety/FixedText.h"
 #include "core/safety/LimitSet.h"
 #include "tests/safety/GateFixtures.h"
+#include "tests/support/Refused.h"
 
 namespace tacto::test {
 
@@ -78,11 +79,10 @@ TEST(LimitSet, ShippedSetsHoldTheFiguresOfSafetyMd) {
 }
 
 TEST(LimitSet, ReadsAnotherLabsSet) {
-    const auto set = parseLimitSet(kGood, "lab.json");
-    ASSERT_TRUE(set) << set.error().message;
-    ASSERT_EQ(set->rows.size(), 1U);
-    EXPECT_EQ(set->rows[0].quantity, Quantity::PeakCurrent);
-    EXPECT_EQ(set->rows[0].confidence, Confidence::High);
+    const auto set = accepted(parseLimitSet(kGood, "lab.json"));
+    ASSERT_EQ(set.rows.size(), 1U);
+    EXPECT_EQ(set.rows[0].quantity, Quantity::PeakCurrent);
+    EXPECT_EQ(set.rows[0].confidence, Confidence::High);
 }
 
 TEST(LimitSet, RefusesWhatItCannotMeanWithOneSentence) {

@@ -14,6 +14,7 @@
 #include "tests/safety/GateFixtures.h"
 #include "tests/safety/IndependentBody.h"
 #include "tests/support/Figures.h"
+#include "tests/support/Refused.h"
 #include "tests/support/Trials.h"
 
 namespace tacto::test {
@@ -646,9 +647,8 @@ TEST(ExposureTable, TheFirstRowThatForbidsIsTheOneThatTheGateNames) {
     VirtualClock clock;
     SafetyGate gate(clock);
     ASSERT_TRUE(gate.configure(setup));
-    const auto refused = gate.approve(TrainRequest{volts(40), Seconds(0.5), Instant(0)});
-    ASSERT_FALSE(refused);
-    EXPECT_TRUE(refused.error().message.starts_with(titleOf(first->quantity))) << refused.error().message;
+    EXPECT_THAT(gate.approve(TrainRequest{volts(40), Seconds(0.5), Instant(0)}),
+                refusedSaying(testing::StartsWith(titleOf(first->quantity))));
 }
 
 TEST(ExposureTable, TheImpedanceIsThatOfAPulseOfAnyHeight) {

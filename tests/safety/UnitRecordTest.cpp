@@ -8,6 +8,7 @@
 
 #include "tests/safety/UnitRecordFixture.h"
 #include "tests/support/Allocations.h"
+#include "tests/support/Refused.h"
 
 namespace tacto::test {
 
@@ -42,17 +43,14 @@ TEST_F(UnitRecordFile, ABenchThatIsOpenedAgainStartsFromWhatWasDelivered) {
     EXPECT_EQ(approvedAtOnce(*first), 4);
     first.reset();
     auto second = run();
-    const auto refused = second->ask();
-    ASSERT_FALSE(refused);
-    EXPECT_THAT(refused.error().message, HasSubstr("with the 4 trains before it"));
+    EXPECT_THAT(second->ask(), refusedSaying("with the 4 trains before it"));
     second->pass(5.2);
     EXPECT_EQ(approvedAtOnce(*second), 4);
     // Another unit has had nothing.
     VirtualClock clock;
-    auto other = UnitRecord::open(folders(), "sciencemode 1235", clock, time_);
-    ASSERT_TRUE(other) << other.error().message;
+    auto other = accepted(UnitRecord::open(folders(), "sciencemode 1235", clock, time_));
     ExposureMeter meter;
-    (void)(*other)->replay(meter);
+    (void)other->replay(meter);
     EXPECT_EQ(meter.size(), 0U);
 }
 
@@ -108,9 +106,7 @@ TEST_F(UnitRecordFile, AProgramThatIsKilledAfterAnApprovalHasBookedIt) {
     SafetyGate gate(clock);
     gate.continueFrom(**record);
     ASSERT_TRUE(gate.configure(strongSetup()));
-    const auto refused = gate.approve({volts(40), Seconds(10), clock.now()});
-    ASSERT_FALSE(refused);
-    EXPECT_THAT(refused.error().message, HasSubstr("with the 4 trains before it"));
+    EXPECT_THAT(gate.approve({volts(40), Seconds(10), clock.now()}), refusedSaying("with the 4 trains before it"));
 }
 
 TEST_F(UnitRecordFile, AUnitWhosePastIsNotKnownRests) {
@@ -119,10 +115,7 @@ TEST_F(UnitRecordFile, AUnitWhosePastIsNotKnownRests) {
         auto unsure = run();
         ASSERT_TRUE(unsure->record);
         EXPECT_THAT(std::string(unsure->record->whyQuiet()), HasSubstr(why));
-        const auto refused = unsure->ask();
-        ASSERT_FALSE(refused);
-        EXPECT_EQ(refused.error().code, ErrorCode::LimitExceeded);
-        EXPECT_THAT(refused.error().message, HasSubstr("is not known"));
+        EXPECT_THAT(unsure->ask(), refused(ErrorCode::LimitExceeded, "is not known"));
         EXPECT_FALSE(unsure->gate.approveCheck(unsure->clock.now())) << "not even a check";
         unsure->pass(atLeast_s);
         EXPECT_FALSE(unsure->ask());
@@ -168,9 +161,7 @@ TEST_F(UnitRecordFile, IsNoLinkToAnotherFile) {
         else
             std::filesystem::create_symlink(evidence, record);
         VirtualClock clock;
-        const auto opened = UnitRecord::open(folders(), kUnit, clock, time_);
-        ASSERT_FALSE(opened) << hard;
-        EXPECT_EQ(opened.error().code, ErrorCode::Io);
+        EXPECT_THAT(UnitRecord::open(folders(), kUnit, clock, time_), refused(ErrorCode::Io)) << hard;
         EXPECT_EQ(std::filesystem::file_size(evidence), 9U) << "it was written over";
     }
 }
@@ -229,10 +220,9 @@ TEST_F(UnitRecordFile, HoldsAsManyTrainsAsTheMeterAndTheNewest) {
     }
     busy.reset();
     VirtualClock clock;
-    auto record = UnitRecord::open(folders(), kUnit, clock, time_);
-    ASSERT_TRUE(record) << record.error().message;
+    auto record = accepted(UnitRecord::open(folders(), kUnit, clock, time_));
     ExposureMeter meter;
-    (void)(*record)->replay(meter);
+    (void)record->replay(meter);
     EXPECT_EQ(meter.size(), UnitRecord::kTrains);
     const auto sums = meter.couldShare(Seconds(5), clock.now());
     EXPECT_DOUBLE_EQ(sums.overRange.currentSquared_A2s, static_cast<double>(UnitRecord::kTrains));
@@ -296,11 +286,9 @@ TEST_F(UnitClaim, OneUnitIsDrivenByOneProgram) {
     RecordProperty("hazard", "H1");
     auto first = run();
     VirtualClock clock;
-    const auto second = UnitRecord::open(folders(), kUnit, clock, time_);
-    ASSERT_FALSE(second);
-    EXPECT_EQ(second.error().code, ErrorCode::Device);
-    EXPECT_THAT(second.error().message, HasSubstr(fmt::format("(process {})", ::getpid())));
-    EXPECT_THAT(second.error().message, HasSubstr(kUnit));
+    EXPECT_THAT(UnitRecord::open(folders(), kUnit, clock, time_),
+                refused(ErrorCode::Device,
+                        testing::AllOf(HasSubstr(fmt::format("(process {})", ::getpid())), HasSubstr(kUnit))));
     first.reset();
     EXPECT_TRUE(UnitRecord::open(folders(), kUnit, clock, time_));
 }
@@ -312,10 +300,9 @@ TEST_F(UnitClaim, OnlyTheLastRecordOfAUnitOnThisComputerKnowsItsPast) {
     const auto drive = [&](const std::filesystem::path& records, std::size_t expected, const char* why) {
         const VirtualClock clock;
         SafetyGate gate(clock);
-        const auto record = UnitRecord::open({records, claims_.path()}, kUnit, clock, time_);
-        ASSERT_TRUE(record) << record.error().message;
-        EXPECT_THAT(std::string((*record)->whyQuiet()), HasSubstr(why));
-        gate.continueFrom(**record);
+        const auto record = accepted(UnitRecord::open({records, claims_.path()}, kUnit, clock, time_));
+        EXPECT_THAT(std::string(record->whyQuiet()), HasSubstr(why));
+        gate.continueFrom(*record);
         ASSERT_TRUE(gate.configure(strongSetup()));
         std::size_t approved = 0;
         while (approved < 100 && gate.approve({volts(40), Seconds(10), clock.now()})) ++approved;
@@ -404,10 +391,8 @@ TEST_F(UnitClaim, TwoAccountsNeverDriveOneUnitAtOnce) {
     const ScratchDir other;
     const auto first = run();
     const VirtualClock clock;
-    const auto second = UnitRecord::open({other.path(), claims_.path()}, kUnit, clock, time_);
-    ASSERT_FALSE(second);
-    EXPECT_EQ(second.error().code, ErrorCode::Device);
-    EXPECT_THAT(second.error().message, HasSubstr(fmt::format("(process {})", ::getpid())));
+    EXPECT_THAT(UnitRecord::open({other.path(), claims_.path()}, kUnit, clock, time_),
+                refused(ErrorCode::Device, fmt::format("(process {})", ::getpid())));
 }
 
 TEST_F(UnitClaim, AFaultIsFoundFromEveryAccount) {
