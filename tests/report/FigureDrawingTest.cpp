@@ -8,6 +8,7 @@
 
 #include "app/report/FigureDrawing.h"
 #include "tests/report/Samples.h"
+#include "tests/support/Refused.h"
 
 namespace tacto::test {
 namespace {
@@ -212,9 +213,8 @@ TEST(FigureDrawing, ShowsTheSweepDirectionsOnAScaleOfTheirOwn) {
 TEST(FigureDrawing, TitlesOfAxesBeginWithACapital) {
     std::size_t titled = 0;
     for (const auto& type : kTypes) {
-        const auto figure = parseFigure(sampleOf(type));
-        ASSERT_TRUE(figure) << figure.error().message;
-        const auto sheet = drawFigure(*figure, false);
+        const auto figure = accepted(parseFigure(sampleOf(type)));
+        const auto sheet = drawFigure(figure, false);
         for (const auto* axes : sheet->plot().axisRects()) {
             for (const auto* axis : axes->axes()) {
                 const auto title = axis->label();

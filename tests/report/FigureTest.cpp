@@ -3,6 +3,7 @@
 
 #include "app/report/Figure.h"
 #include "tests/report/Samples.h"
+#include "tests/support/Refused.h"
 
 namespace tacto::test {
 namespace {
@@ -90,10 +91,9 @@ TEST(Figure, FetchesCapturesNamedById) {
 
 TEST(Figure, PassesOnWhyACaptureIsMissing) {
     auto figure = parseFigure({{"type", "waveforms"}, {"captures", QJsonArray{QJsonObject{{"capture", 17}}}}}).value();
-    const auto resolved =
-        resolveCaptures(figure, [](qint64) -> Result<Capture> { return fail(ErrorCode::NotFound, "no capture 17"); });
-    ASSERT_FALSE(resolved);
-    EXPECT_EQ(resolved.error().code, ErrorCode::NotFound);
+    EXPECT_THAT(
+        resolveCaptures(figure, [](qint64) -> Result<Capture> { return fail(ErrorCode::NotFound, "no capture 17"); }),
+        refused(ErrorCode::NotFound));
 }
 
 }  // namespace

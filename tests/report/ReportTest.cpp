@@ -8,6 +8,7 @@
 #include "app/report/ReportBasis.h"
 #include "app/report/TableContent.h"
 #include "tests/report/Samples.h"
+#include "tests/support/Refused.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
@@ -231,9 +232,8 @@ TEST_F(Report, ShowsTheBeginningOfALongTextAndSaysHowMuchTheSessionHolds) {
     QJsonObject confusion = confusionJson();
     confusion["labels"] = QJsonArray{text, "b", "c", "d"};
     confusion.remove("columns");
-    const auto figure = parseFigure(confusion);
-    ASSERT_TRUE(figure) << figure.error().message;
-    model.items.emplace_back(ReportFigure{text, *figure});
+    const auto figure = accepted(parseFigure(confusion));
+    model.items.emplace_back(ReportFigure{text, figure});
     write(model, "long.pdf");
     const auto html = QString::fromUtf8(contentOfFile(write(model, "long.html")));
     EXPECT_TRUE(html.contains("… (896000 more characters in the session)"));
@@ -483,27 +483,20 @@ TEST_F(Report, AVerdictStandsOnItsColourAlsoInPrint) {
 
 TEST_F(Report, RefusesToWriteWithoutItsFont) {
     const auto path = scratch_.path() / "r.pdf";
-    const auto written = writeReport(separabilityModel(false, 3), asQString(path),
-                                     [](const QString& family) { return family != "DejaVu Sans"; });
-    ASSERT_FALSE(written);
-    EXPECT_EQ(written.error().code, ErrorCode::Unsupported);
-    EXPECT_NE(written.error().message.find("fonts-dejavu-core"), std::string::npos);
+    EXPECT_THAT(writeReport(separabilityModel(false, 3), asQString(path),
+                            [](const QString& family) { return family != "DejaVu Sans"; }),
+                refused(ErrorCode::Unsupported, "fonts-dejavu-core"));
     EXPECT_FALSE(fs::exists(path));
 }
 
 TEST_F(Report, RefusesAnEndingItDoesNotKnow) {
-    const auto written = writeReport(separabilityModel(false, 3), asQString(scratch_.path() / "r.docx"));
-    ASSERT_FALSE(written);
-    EXPECT_EQ(written.error().code, ErrorCode::InvalidArgument);
-    EXPECT_NE(written.error().message.find(".pdf, .html or .htm"), std::string::npos);
+    EXPECT_THAT(writeReport(separabilityModel(false, 3), asQString(scratch_.path() / "r.docx")),
+                refused(ErrorCode::InvalidArgument, ".pdf, .html or .htm"));
 }
 
 TEST_F(Report, SaysThatAFileCannotBeWritten) {
     const auto path = scratch_.path() / "nowhere" / "r.pdf";
-    const auto written = writeReport(separabilityModel(false, 3), asQString(path));
-    ASSERT_FALSE(written);
-    EXPECT_EQ(written.error().code, ErrorCode::Io);
-    EXPECT_NE(written.error().message.find(path.string()), std::string::npos);
+    EXPECT_THAT(writeReport(separabilityModel(false, 3), asQString(path)), refused(ErrorCode::Io, path.string()));
 }
 
 TEST_F(Report, LeavesAnExistingReportWholeWhenItFails) {

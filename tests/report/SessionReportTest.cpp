@@ -7,6 +7,7 @@
 #include "core/session/SessionLabels.h"
 #include "core/session/SessionWriter.h"
 #include "tests/report/Samples.h"
+#include "tests/support/Refused.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
@@ -30,9 +31,7 @@ protected:
         about.limitSets = {{"paper", std::string(64, 'c')}};
         about.simulated = true;
         about.wallStart = "2026-11-20T14:03:05Z";
-        auto writer = SessionWriter::create(path_, about, clock_);
-        ASSERT_TRUE(writer) << writer.error().message;
-        writer_ = std::move(*writer);
+        writer_ = accepted(SessionWriter::create(path_, about, clock_));
     }
 
     ReportModel closedAndRead() {
@@ -261,20 +260,14 @@ TEST_F(SessionReport, IsMadeFromTheSessionAlone) {
     ASSERT_TRUE(writer_->verdict(Instant{0}, "separability", "pass", {"All pairs apart."}, {}));
     ASSERT_TRUE(writer_->close());
     const auto html = scratch_.path() / "run.html";
-    const auto written =
-        writeSessionReport(QString::fromStdString(path_.string()), QString::fromStdString(html.string()));
-    ASSERT_TRUE(written) << written.error().message;
+    accepted(writeSessionReport(QString::fromStdString(path_.string()), QString::fromStdString(html.string())));
     EXPECT_TRUE(contentOfFile(html).contains("All pairs apart."));
     EXPECT_TRUE(contentOfFile(html).contains(QByteArray::fromStdString(writer_->chainHead())));
 }
 
 TEST_F(SessionReport, RefusesWhatIsNotASession) {
-    const auto missing = readSessionReport(scratch_.path() / "none.tacto");
-    ASSERT_FALSE(missing);
-    EXPECT_EQ(missing.error().code, ErrorCode::NotFound);
-    const auto text = readSessionReport(scratch_.write("notes.tacto", "not a session"));
-    ASSERT_FALSE(text);
-    EXPECT_EQ(text.error().code, ErrorCode::Unsupported);
+    EXPECT_THAT(readSessionReport(scratch_.path() / "none.tacto"), refused(ErrorCode::NotFound));
+    EXPECT_THAT(readSessionReport(scratch_.write("notes.tacto", "not a session")), refused(ErrorCode::Unsupported));
 }
 
 }  // namespace
