@@ -13,7 +13,7 @@
 #include "drivers/simulated/SimulatedDriver.h"
 #include "drivers/simulated/SimulatedStimulator.h"
 #include "tests/drivers/SimBench.h"
-#include "tests/drivers/conformance/StimulatorConformance.h"
+#include "tests/support/BenchGate.h"
 #include "tests/support/InTime.h"
 
 namespace tacto::test {
@@ -77,15 +77,10 @@ protected:
     /// Starts the train, 50 pulses a second. The gate is asked right before, as its approvals are short.
     void begin() {
         const auto gate = benchGate(clock_, devices_.stimulator->traits());
-        TrainRequest request;
-        request.train = voltagePulse(5);
-        request.train.pulses = 1000;
-        request.train.rate = Hertz(50);
-        request.interval = Seconds(22);
-        request.onset = clock_.now();
-        auto approval = gate->approve(request);
-        ASSERT_IN_TIME(approval);
-        const auto begun = devices_.stimulator->deliver(std::move(*approval));
+        auto train = voltagePulse(5);
+        train.pulses = 1000;
+        train.rate = Hertz(50);
+        const auto begun = devices_.stimulator->deliver(approve(*gate, clock_, train, Seconds(22)));
         ASSERT_IN_TIME(begun);
     }
 

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "drivers/simulated/SimulatedDriver.h"
-#include "tests/drivers/conformance/StimulatorConformance.h"
+#include "tests/support/BenchGate.h"
 #include "tests/support/Refused.h"
 
 namespace tacto::test {
@@ -31,11 +31,7 @@ void SimBench::open(std::string_view uri, const std::set<Role>& wanted) {
 
 ApprovedTrain SimBench::approved(const PulseTrain& train) {
     if (!gate_) gate_ = benchGate(clock, devices.stimulator->traits());
-    TrainRequest request;
-    request.train = train;
-    request.interval = std::max(Seconds(2), train.duration());
-    request.onset = clock.now();
-    return accepted(gate_->approve(request));
+    return approve(*gate_, clock, train);
 }
 
 void SimBench::deliver(const PulseTrain& train, Seconds after) {

@@ -93,7 +93,6 @@ TEST(SimulatedStimulator, ComplianceCapsACurrentSource) {
     ScopeSettings settings = fastRecord();
     settings.voltageRange = Volts(100);
     bench.arm(settings);
-    const auto gate = benchGate(bench.clock, bench.devices.stimulator->traits());
     bench.deliver(currentPulse(20));
     const auto capture = bench.capture();
     EXPECT_NEAR(peakOf(capture.channels[0]), 60, 0.2);

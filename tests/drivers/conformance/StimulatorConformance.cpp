@@ -2,33 +2,14 @@
 
 #include <atomic>
 #include <chrono>
-#include <stdexcept>
 #include <thread>
 
 #include "core/devices/DeviceUri.h"
+#include "tests/support/BenchGate.h"
 #include "tests/support/InTime.h"
 #include "tests/support/Refused.h"
 
 namespace tacto::test {
-
-std::unique_ptr<SafetyGate> benchGate(const Clock& clock, const SourceTraits& source) {
-    LimitRow row;
-    row.quantity = Quantity::PeakVoltage;
-    row.max = 500;
-    row.source = "test";
-    LimitSet limits;
-    limits.id = "test";
-    limits.title = "test";
-    limits.rows.push_back(row);
-    GateSetup setup;
-    setup.source = source;
-    setup.load = LoadRange::declared(Load::resistor(Ohms(1000)));
-    setup.limits.push_back(limits);
-    auto gate = std::make_unique<SafetyGate>(clock);
-    if (const auto configured = gate->configure(setup); !configured)
-        throw std::runtime_error(configured.error().message);
-    return gate;
-}
 
 Amplitude smallAmplitude(const SourceTraits& source) {
     if (source.drive == Drive::Current) return Milliamps(5);
@@ -42,18 +23,13 @@ void StimulatorConformance::SetUp() {
 }
 
 ApprovedTrain StimulatorConformance::approved(int pulses) {
-    TrainRequest request;
-    request.train.amplitude = smallAmplitude(device().traits());
-    request.train.pulses = pulses;
-    request.interval = Seconds(2);
-    request.onset = rig_->clock().now();
-    return accepted(gate_->approve(request));
+    PulseTrain train;
+    train.amplitude = smallAmplitude(device().traits());
+    train.pulses = pulses;
+    return approve(*gate_, rig_->clock(), train);
 }
 
-StimulatorStatus StimulatorConformance::status() {
-    const auto read = accepted(device().status());
-    return read;
-}
+StimulatorStatus StimulatorConformance::status() { return accepted(device().status()); }
 
 void StimulatorConformance::expectOutput(bool on) {
     if (const auto seen = rig_->outputOn()) {

@@ -50,8 +50,6 @@ protected:
     std::unique_ptr<SafetyGate> gate_;
 };
 
-/// A gate for `source` on a 1 kohm bench load that allows up to 500 V and nothing else is asked of it.
-[[nodiscard]] std::unique_ptr<SafetyGate> benchGate(const Clock& clock, const SourceTraits& source);
 /// The amplitude that the tests use: 5 V or 5 mA.
 [[nodiscard]] Amplitude smallAmplitude(const SourceTraits& source);
 

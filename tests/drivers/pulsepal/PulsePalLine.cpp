@@ -1,9 +1,8 @@
 #include "tests/drivers/pulsepal/PulsePalLine.h"
 
 #include <algorithm>
-#include <stdexcept>
 
-#include "tests/drivers/conformance/StimulatorConformance.h"
+#include "tests/support/BenchGate.h"
 #include "tests/support/Refused.h"
 
 namespace tacto::test {
@@ -52,18 +51,9 @@ PulsePalBench::PulsePalBench(int channel) : line(std::make_shared<PulsePalLine>(
     gate_ = benchGate(clock, stimulator->traits());
 }
 
-ApprovedTrain PulsePalBench::approved(const PulseTrain& train) {
-    TrainRequest request;
-    request.train = train;
-    request.interval = std::max(Seconds(2), train.duration());
-    request.onset = clock.now();
-    return accepted(gate_->approve(request));
-}
+ApprovedTrain PulsePalBench::approved(const PulseTrain& train) { return approve(*gate_, clock, train); }
 
-StimulatorStatus PulsePalBench::status() {
-    const auto read = accepted(stimulator->status());
-    return read;
-}
+StimulatorStatus PulsePalBench::status() { return accepted(stimulator->status()); }
 
 PulseTrain pulseTrain(double volts, int pulses, double rate_hz) {
     PulseTrain train;

@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/drivers/conformance/StimulatorConformance.h"
 #include "tests/drivers/pulsepal/PulsePalLine.h"
 #include "tests/support/Allocations.h"
+#include "tests/support/BenchGate.h"
 #include "tests/support/Refused.h"
 
 namespace tacto::test {
@@ -121,10 +121,7 @@ TEST(PulsePalFirmware, OneAbortIsNotEnoughForAKeptTrigger) {
         const auto line = std::make_shared<PulsePalLine>(clock, &clock);
         auto opened = accepted(PulsePalStimulator::open(line->connector(), "pulsepal:S", "S", 1, clock));
         const auto gate = benchGate(clock, opened->traits());
-        TrainRequest request;
-        request.train = pulseTrain(2, 50);
-        request.onset = clock.now();
-        ASSERT_TRUE(opened->deliver(std::move(*gate->approve(request))));
+        ASSERT_TRUE(opened->deliver(approve(*gate, clock, pulseTrain(2, 50))));
         clock.advanceTo(clock.now() + Instant(std::chrono::milliseconds(20)));
         line->inspect([&](auto& device, Instant now) {
             device.receive(pulsepal::trigger(1).view(), now);

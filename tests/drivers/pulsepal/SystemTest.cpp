@@ -5,6 +5,7 @@
 #include "drivers/pulsepal/PulsePalDriver.h"
 #include "tests/drivers/pulsepal/PulsePalLine.h"
 #include "tests/drivers/usb/UsbFixture.h"
+#include "tests/support/BenchGate.h"
 #include "tests/support/FailsInTime.h"
 #include "tests/support/InTime.h"
 #include "tests/support/Refused.h"
@@ -54,23 +55,10 @@ TEST_F(PulsePalUsb, OpensDeliversAndClosesSilent) {
     ASSERT_IN_TIME(waitForDevices(1));
     auto opened = pulsepal::PulsePalStimulator::open(connector(true), "pulsepal:PP1", "PP1", 1, clock);
     ASSERT_IN_TIME(opened);
-    SafetyGate gate(clock);
-    LimitRow row;
-    row.quantity = Quantity::PeakVoltage;
-    row.max = 500;
-    row.source = "test";
-    GateSetup setup;
-    setup.source = (*opened)->traits();
-    setup.load = LoadRange::declared(Load::resistor(Ohms(1000)));
-    setup.limits.push_back({});
-    setup.limits.back().id = setup.limits.back().title = "test";
-    setup.limits.back().rows.push_back(row);
-    ASSERT_TRUE(gate.configure(setup));
-    TrainRequest request;
-    request.train = pulseTrain(5, 100);
-    request.onset = clock.now();
+    const auto gate = benchGate(clock, (*opened)->traits());
+    auto approval = approve(*gate, clock, pulseTrain(5, 100));
     const auto before = std::chrono::steady_clock::now();
-    const auto delivered = (*opened)->deliver(std::move(*gate.approve(request)));
+    const auto delivered = (*opened)->deliver(std::move(approval));
     const Seconds took = std::chrono::steady_clock::now() - before;
     ASSERT_IN_TIME(delivered);
     RecordProperty("deliver_us", static_cast<int>(took.count() * 1e6));

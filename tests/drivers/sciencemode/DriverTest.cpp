@@ -60,7 +60,7 @@ protected:
     }
     [[nodiscard]] std::string serial() const { return devices_.stimulator->identity().serial; }
     void deliver(double milliamps = 5) {
-        const auto gate = wideGate(clock_, devices_.stimulator->traits());
+        const auto gate = benchGate(clock_, devices_.stimulator->traits());
         const auto delivered = devices_.stimulator->deliver(approve(*gate, clock_, biphasic(milliamps), Seconds(2)));
         ASSERT_IN_TIME(delivered);
     }
@@ -272,7 +272,7 @@ TEST_F(ScienceModePty, AHungUpTerminalIsADeviceThatIsGone) {
     RecordProperty("hazard", "H2");
     ASSERT_IN_TIME(open("sciencemode:?tty=" + pty_->path()));
     pty_.reset();
-    const auto gate = wideGate(clock_, devices_.stimulator->traits());
+    const auto gate = benchGate(clock_, devices_.stimulator->traits());
     const auto gone = devices_.stimulator->deliver(approve(*gate, clock_, biphasic(5), Seconds(2)));
     ASSERT_FALSE(gone.has_value());
     EXPECT_CODE_IN_TIME(gone.error().code, ErrorCode::Device);

@@ -15,7 +15,7 @@ using namespace tacto;
 
 /// Returns when the train has failed.
 Error sendTrain(sciencemode::ScienceModeStimulator& stimulator, const Clock& clock) {
-    const auto gate = test::wideGate(clock, stimulator.traits());
+    const auto gate = test::benchGate(clock, stimulator.traits());
     const auto begun = stimulator.deliver(test::approve(*gate, clock, test::biphasic(5, 400, 20), Seconds(24)));
     if (!begun) return begun.error();
     std::puts("delivering");

@@ -1,7 +1,6 @@
 #include "tests/drivers/sciencemode/ScienceModeBench.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "tests/support/Refused.h"
 
@@ -19,33 +18,6 @@ void startRepeating(sciencemode::EmulatedStimulator& device, Instant now) {
     device.startRepeating(sciencemode::planPulse(biphasic(5))->points, Seconds(0.05), now);
 }
 
-std::unique_ptr<SafetyGate> wideGate(const Clock& clock, const SourceTraits& traits) {
-    LimitRow row;
-    row.quantity = Quantity::PeakVoltage;
-    row.max = 1000;
-    row.source = "test";
-    LimitSet limits;
-    limits.id = limits.title = "test";
-    limits.rows.push_back(row);
-    GateSetup setup;
-    setup.source = traits;
-    setup.load = LoadRange::declared(Load::resistor(Ohms(1000)));
-    setup.limits.push_back(limits);
-    auto gate = std::make_unique<SafetyGate>(clock);
-    if (const auto configured = gate->configure(setup); !configured) {
-        throw std::runtime_error(configured.error().message);
-    }
-    return gate;
-}
-
-ApprovedTrain approve(SafetyGate& gate, const Clock& clock, const PulseTrain& train, Seconds interval) {
-    TrainRequest request;
-    request.train = train;
-    request.interval = interval;
-    request.onset = clock.now();
-    return accepted(gate.approve(request));
-}
-
 bool cameLate(const Error& error) {
     return error.code == ErrorCode::Timeout || error.message.find("approval expired") != std::string::npos;
 }
@@ -54,7 +26,7 @@ ScienceModeBench::ScienceModeBench(sciencemode::EmulatedSettings device, science
     : line(std::make_shared<EmulatedLine>(clock, &clock, std::move(device))) {
     stimulator =
         accepted(sciencemode::ScienceModeStimulator::open(line->connector(), "sciencemode:", {}, settings, clock));
-    gate_ = wideGate(clock, stimulator->traits());
+    gate_ = benchGate(clock, stimulator->traits());
 }
 
 ScienceModeBench::~ScienceModeBench() = default;
@@ -84,9 +56,6 @@ Result<void> ScienceModeBench::deliver(const PulseTrain& train) {
     return delivered;
 }
 
-StimulatorStatus ScienceModeBench::status() {
-    const auto read = accepted(stimulator->status());
-    return read;
-}
+StimulatorStatus ScienceModeBench::status() { return accepted(stimulator->status()); }
 
 }  // namespace tacto::test

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "tests/drivers/sciencemode/EmulatedLine.h"
+#include "tests/support/BenchGate.h"
 
 namespace tacto::test {
 
@@ -35,9 +36,6 @@ private:
 [[nodiscard]] PulseTrain biphasic(double milliamps, int pulses = 1, double rate_hz = 100);
 /// What another program may have left behind: a pulse every 50 ms in mid level. For inspect().
 void startRepeating(sciencemode::EmulatedStimulator& device, Instant now);
-/// A gate for any train of `traits`' source on any load.
-[[nodiscard]] std::unique_ptr<SafetyGate> wideGate(const Clock& clock, const SourceTraits& traits);
-[[nodiscard]] ApprovedTrain approve(SafetyGate& gate, const Clock& clock, const PulseTrain& train, Seconds interval);
 /// Whether a train failed because a thread was late: a pulse, an answer, or a delivery after its approval expired.
 [[nodiscard]] bool cameLate(const Error& error);
 

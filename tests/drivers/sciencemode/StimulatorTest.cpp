@@ -156,7 +156,7 @@ TEST(ScienceModeDeliver, RefusesWithoutAByteOnTheWire) {
     finer.currentLimit = Milliamps(500);
     finer.widthStep = Micros(0);
     finer.widthMax = Micros(9000);
-    const auto gate = wideGate(bench.clock, finer);
+    const auto gate = benchGate(bench.clock, finer);
     const auto before = bench.line->written().size();
     auto odd = biphasic(5.3);
     auto strong = biphasic(131);

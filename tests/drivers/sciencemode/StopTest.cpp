@@ -181,7 +181,7 @@ protected:
         auto opened = ScienceModeStimulator::open(line_->connector(), "sciencemode:", {}, {}, clock_);
         ASSERT_IN_TIME(opened);
         stimulator_ = std::move(*opened);
-        gate_ = wideGate(clock_, stimulator_->traits());
+        gate_ = benchGate(clock_, stimulator_->traits());
     }
     ApprovedTrain approved(int pulses, double rate_hz) {
         return approve(*gate_, clock_, biphasic(5, pulses, rate_hz), Seconds(2));
