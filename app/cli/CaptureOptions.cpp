@@ -7,7 +7,7 @@
 #include "app/cli/Command.h"
 #include "app/run/CaptureFormatsList.h"
 #include "app/run/Shipped.h"
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 
 namespace tacto::cli {
 

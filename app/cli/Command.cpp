@@ -9,7 +9,7 @@
 #include <exception>
 
 #include "core/base/JsonText.h"
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/base/WholeFile.h"
 
 namespace tacto::cli {

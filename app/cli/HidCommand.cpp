@@ -4,7 +4,7 @@
 
 #include "app/cli/Command.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 #include "drivers/hid_massager/MassagerTemplate.h"
 
 namespace tacto::cli {

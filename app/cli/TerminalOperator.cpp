@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 #include "app/cli/Say.h"
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/safety/Interlock.h"
 
 namespace tacto::cli {

@@ -9,8 +9,8 @@
 #include "core/analysis/identification/IdentificationText.h"
 #include "core/analysis/identification/OverSessions.h"
 #include "core/analysis/psychophysics/VirtualObserver.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/base/Statistics.h"
-#include "core/base/Text.h"
 #include "core/pilot/PilotRecord.h"
 
 namespace tacto {

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 
 namespace tacto {
 

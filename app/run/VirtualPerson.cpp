@@ -5,7 +5,7 @@
 #include <fmt/ranges.h>
 
 #include "core/base/JsonText.h"
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 
 namespace tacto {
 

@@ -11,7 +11,7 @@
 #include "core/base/Csv.h"
 #include "core/base/CsvHead.h"
 #include "core/base/JsonText.h"
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/base/Utf16.h"
 
 namespace tacto {

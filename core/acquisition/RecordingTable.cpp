@@ -8,7 +8,7 @@
 #include "core/acquisition/StreamHealth.h"
 #include "core/base/Csv.h"
 #include "core/base/CsvHead.h"
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/base/Utf16.h"
 
 namespace tacto {

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "core/base/CsvHead.h"
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 
 namespace tacto {
 

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <string>
 
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 
 namespace tacto {
 

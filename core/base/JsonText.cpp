@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 
 template class nlohmann::basic_json<>;  // Json.h
 

@@ -13,7 +13,7 @@
 #include <unistd.h>
 #include <utility>
 
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 
 namespace tacto {
 

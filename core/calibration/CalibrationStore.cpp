@@ -4,8 +4,8 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "core/base/LocaleFreeText.h"
 #include "core/base/RecordFields.h"
-#include "core/base/Text.h"
 
 namespace tacto {
 

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <fmt/ranges.h>
 
+#include "core/base/LocaleFreeText.h"
 #include "core/base/Printable.h"
 #include "core/base/RecordFields.h"
-#include "core/base/Text.h"
 #include "core/base/Words.h"
 
 namespace tacto {

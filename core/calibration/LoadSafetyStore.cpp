@@ -4,8 +4,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "core/base/LocaleFreeText.h"
 #include "core/base/RecordFields.h"
-#include "core/base/Text.h"
 #include "core/base/Words.h"
 
 namespace tacto {

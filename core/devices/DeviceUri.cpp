@@ -5,8 +5,8 @@
 #include <cmath>
 #include <fmt/ranges.h>
 
+#include "core/base/LocaleFreeText.h"
 #include "core/base/QuantityText.h"
-#include "core/base/Text.h"
 
 namespace tacto {
 

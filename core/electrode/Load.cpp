@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <optional>
 
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/electrode/LoadResponse.h"
 
 namespace tacto {

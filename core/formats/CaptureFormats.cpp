@@ -4,7 +4,7 @@
 #include <fmt/ranges.h>
 #include <system_error>
 
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/base/Utf16.h"
 #include "core/formats/IsfFormat.h"
 #include "core/formats/TextBlocks.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <fmt/ranges.h>
 
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 
 namespace tacto {
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/formats/ChannelOptions.h"
 #include "core/formats/TextBlocks.h"
 

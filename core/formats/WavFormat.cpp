@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/base/WholeFile.h"
 #include "core/formats/ChannelOptions.h"
 #include "core/formats/TextBlocks.h"

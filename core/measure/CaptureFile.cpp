@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <iterator>
 
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/base/WholeFile.h"
 #include "core/measure/CaptureDescription.h"
 

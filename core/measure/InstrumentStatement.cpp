@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/base/LocaleFreeText.h"
 #include "core/base/RecordFields.h"
-#include "core/base/Text.h"
 
 namespace tacto {
 

@@ -6,8 +6,8 @@
 
 #include "core/analysis/psychophysics/VirtualObserver.h"
 #include "core/base/JsonText.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/base/Random.h"
-#include "core/base/Text.h"
 #include "core/study/NextDay.h"
 
 namespace tacto {

@@ -7,7 +7,7 @@
 
 #include "core/analysis/psychophysics/TrialPlan.h"
 #include "core/base/JsonText.h"
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/pilot/PilotRecord.h"
 
 namespace tacto {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <string_view>
 
+#include "core/base/LocaleFreeText.h"
 #include "core/base/Printable.h"
-#include "core/base/Text.h"
 #include "core/pilot/PilotRecord.h"
 #include "core/pilot/PilotStage.h"
 

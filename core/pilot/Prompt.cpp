@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "core/analysis/identification/IdentificationText.h"
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/base/Words.h"
 
 namespace tacto {

@@ -7,8 +7,8 @@
 
 #include "core/base/Clock.h"
 #include "core/base/JsonText.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/base/Printable.h"
-#include "core/base/Text.h"
 #include "core/base/WholeFile.h"
 #include "core/session/Schema.h"
 #include "core/session/SessionReader.h"

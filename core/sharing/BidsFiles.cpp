@@ -5,8 +5,8 @@
 #include <numeric>
 
 #include "core/base/JsonText.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/base/Random.h"
-#include "core/base/Text.h"
 #include "core/base/WholeFile.h"
 #include "core/sharing/BidsTable.h"
 #include "core/study/NextDay.h"

@@ -7,7 +7,7 @@
 
 #include "core/base/Csv.h"
 #include "core/base/JsonText.h"
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/base/WholeFile.h"
 #include "core/session/SessionReader.h"
 #include "core/study/Gates.h"

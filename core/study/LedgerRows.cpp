@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/base/JsonText.h"
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/seal/SealedText.h"
 #include "core/study/StudyKeys.h"
 

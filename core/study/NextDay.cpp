@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <fmt/format.h>
 
+#include "core/base/LocaleFreeText.h"
 #include "core/base/RecordFields.h"
-#include "core/base/Text.h"
 
 namespace tacto {
 

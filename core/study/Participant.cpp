@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/JsonText.h"
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/seal/SealedText.h"
 
 namespace tacto {

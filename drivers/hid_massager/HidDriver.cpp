@@ -4,7 +4,7 @@
 #include <fmt/ranges.h>
 #include <tuple>
 
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/devices/DeviceUri.h"
 #include "drivers/hid_massager/Haptics.h"
 #include "drivers/hid_massager/HidMassager.h"

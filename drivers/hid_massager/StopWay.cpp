@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <string_view>
 
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 
 namespace tacto::hid {
 

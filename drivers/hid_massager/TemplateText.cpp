@@ -2,8 +2,8 @@
 #include <algorithm>
 
 #include "core/base/Csv.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/base/RecordFields.h"
-#include "core/base/Text.h"
 #include "drivers/hid_massager/MassagerTemplate.h"
 
 namespace tacto::hid {

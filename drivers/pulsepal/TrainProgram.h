@@ -8,7 +8,7 @@
 
 #include "core/encoding/PulseTrain.h"
 #include "core/safety/SourceTraits.h"
-#include "drivers/pulsepal/Commands.h"
+#include "drivers/pulsepal/PulsePalCommands.h"
 
 namespace tacto::pulsepal {
 

@@ -9,7 +9,7 @@
 
 #include <string>
 
-#include "drivers/sciencemode/Commands.h"
+#include "drivers/sciencemode/ScienceModeCommands.h"
 
 namespace tacto::sciencemode {
 

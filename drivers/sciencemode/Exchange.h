@@ -9,7 +9,7 @@
 
 #include "core/base/Clock.h"
 #include "core/devices/TransportPorts.h"
-#include "drivers/sciencemode/Commands.h"
+#include "drivers/sciencemode/ScienceModeCommands.h"
 
 namespace tacto::sciencemode {
 

@@ -6,7 +6,7 @@
 
 #include "core/encoding/PulseTrain.h"
 #include "core/safety/SourceTraits.h"
-#include "drivers/sciencemode/Commands.h"
+#include "drivers/sciencemode/ScienceModeCommands.h"
 
 namespace tacto::sciencemode {
 

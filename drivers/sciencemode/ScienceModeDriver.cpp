@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/devices/DeviceUri.h"
 #include "drivers/sciencemode/ScienceModeStimulator.h"
 #include "drivers/sciencemode/TtyTransport.h"

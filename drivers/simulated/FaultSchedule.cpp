@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/base/Words.h"
 
 namespace tacto::sim {

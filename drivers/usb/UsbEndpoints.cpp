@@ -5,7 +5,7 @@
 #include <libusb.h>
 #include <span>
 
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 
 namespace tacto {
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <string>
 
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 
 namespace tacto {
 namespace {

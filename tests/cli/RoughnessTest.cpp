@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "core/base/LocaleFreeText.h"
 #include "core/base/Result.h"
-#include "core/base/Text.h"
 #include "tests/cli/Shape.h"
 
 namespace tacto::test {

@@ -7,7 +7,7 @@
 #include <random>
 #include <set>
 
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/formats/csv/CsvFormat.h"
 #include "tests/support/Refused.h"
 

@@ -93,7 +93,7 @@ TEST(Sources, TheUsersDataLieWhereOneFunctionSays) {
 }
 
 // Qt sets the locale of the C library, and std::locale("") has it too: letters are not folded in Turkish, and numbers
-// have a decimal comma in German. core/base/Text.h and fmt follow none.
+// have a decimal comma in German. core/base/LocaleFreeText.h and fmt follow none.
 const std::set<std::string_view> kFollowsTheLocale{
     "tolower",  "toupper",  "towlower",  "towupper", "isalnum",    "isalpha",  "isblank",  "iscntrl",    "isdigit",
     "isgraph",  "islower",  "isprint",   "ispunct",  "isspace",    "isupper",  "isxdigit", "iswalpha",   "iswspace",

@@ -7,7 +7,7 @@ Twelve of each kind, each with the place where it stands:
     comment    a whole comment of app, core, drivers and tests
     message    what the program says: in tr(), translate(), fail() and refused() of app, core and drivers, and in the
                shipped protocols
-    heading    a title of a document, or of a table or figure in a report
+    heading    a title of a document, or of a table or figure of a result or report
     change     an entry of CHANGELOG.md
     commit     the subject of one of the newest 100 commits
 
@@ -79,6 +79,7 @@ def messages():
 
 
 TITLE = re.compile(r'\breport\.(?:table|figure)\(\s*' + LITERALS)
+OF_RESULTS = re.compile(r'\b(?:rows|facts)\(\s*' + LITERALS)
 
 
 def headings():
@@ -86,10 +87,11 @@ def headings():
         text = path.read_text()
         for found in re.finditer(r"^#+ (.*)$", text, re.M):
             yield found[1], place(path, text, found.start())
-    for path in files(["resources/protocols"], {".js"}):
-        text = path.read_text()
-        for found in TITLE.finditer(text):
-            yield joined(found[1]), place(path, text, found.start())
+    for folders, endings, title in (["resources/protocols"], {".js"}, TITLE), (["core"], {".h", ".cpp"}, OF_RESULTS):
+        for path in files(folders, endings):
+            text = path.read_text()
+            for found in title.finditer(text):
+                yield joined(found[1]), place(path, text, found.start())
 
 
 def changes():

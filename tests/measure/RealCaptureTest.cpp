@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/measure/PulseMeasurement.h"
 #include "tests/support/Figures.h"
 #include "tests/support/Support.h"

@@ -8,8 +8,8 @@
 
 #include "core/base/Csv.h"
 #include "core/base/JsonText.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/base/Random.h"
-#include "core/base/Text.h"
 #include "core/sharing/BidsFiles.h"
 #include "tests/support/OtherProgram.h"
 #include "tests/support/Refused.h"

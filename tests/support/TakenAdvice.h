@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/formats/CaptureFormat.h"
 
 namespace tacto::test {

@@ -12,7 +12,7 @@
 #include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 namespace tacto::gui {
 
 namespace {

@@ -7,7 +7,7 @@
 #include "app/gui/theme/EntryFields.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 
 namespace tacto::gui {
 

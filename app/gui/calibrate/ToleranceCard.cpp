@@ -4,7 +4,7 @@
 
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/Theme.h"
-#include "app/gui/theme/Verdict.h"
+#include "app/gui/theme/VerdictBlock.h"
 #include "app/report/NumberText.h"
 #include "app/report/TableContent.h"
 

@@ -9,7 +9,7 @@
 
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/bench/Profile.h"
 
 namespace tacto::gui {

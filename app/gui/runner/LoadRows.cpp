@@ -4,7 +4,7 @@
 
 #include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/Theme.h"
-#include "app/gui/theme/Verdict.h"
+#include "app/gui/theme/VerdictBlock.h"
 #include "app/report/TableContent.h"
 #include "core/base/JsonText.h"
 #include "core/electrode/Load.h"

@@ -7,7 +7,7 @@
 
 #include "app/gui/controller/BenchController.h"
 #include "app/gui/theme/Pages.h"
-#include "app/gui/theme/Verdict.h"
+#include "app/gui/theme/VerdictBlock.h"
 
 namespace tacto::gui {
 

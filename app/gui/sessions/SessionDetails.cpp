@@ -14,7 +14,7 @@
 #include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
-#include "app/gui/theme/Verdict.h"
+#include "app/gui/theme/VerdictBlock.h"
 #include "app/report/NumberText.h"
 #include "app/report/ShownText.h"
 #include "core/base/JsonText.h"

@@ -6,7 +6,7 @@
 
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
-#include "app/gui/theme/Verdict.h"
+#include "app/gui/theme/VerdictBlock.h"
 #include "app/report/NumberText.h"
 #include "core/base/JsonText.h"
 #include "core/base/QuantityText.h"

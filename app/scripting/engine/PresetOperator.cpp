@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "app/scripting/engine/Operator.h"
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/base/ValueKind.h"
 
 namespace tacto {

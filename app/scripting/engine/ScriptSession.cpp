@@ -6,7 +6,7 @@
 
 #include "app/scripting/engine/Arguments.h"
 #include "core/analysis/statistics/StatisticsJson.h"
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/encoding/Rounding.h"
 #include "core/measure/CaptureDescription.h"
 #include "core/measure/CaptureFile.h"

@@ -5,8 +5,8 @@
 
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/base/Csv.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/base/Statistics.h"
-#include "core/base/Text.h"
 #include "core/encoding/StimulatorCalibration.h"
 #include "core/results/ResultRecord.h"
 

@@ -10,8 +10,8 @@
 #include "core/analysis/statistics/Estimate.h"
 #include "core/analysis/statistics/InformationTransfer.h"
 #include "core/analysis/statistics/UncertaintyBudget.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/base/Statistics.h"
-#include "core/base/Text.h"
 
 namespace tacto {
 

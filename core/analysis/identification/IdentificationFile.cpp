@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/base/Csv.h"
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 
 namespace tacto {
 

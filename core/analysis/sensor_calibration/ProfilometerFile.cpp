@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 
 namespace tacto {
 

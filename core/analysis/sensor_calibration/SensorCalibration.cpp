@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/analysis/statistics/UncertaintyBudget.h"
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/base/Words.h"
 
 namespace tacto {

@@ -5,9 +5,9 @@
 
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/base/Csv.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/base/RecordFields.h"
 #include "core/base/Statistics.h"
-#include "core/base/Text.h"
 #include "core/results/ResultRecord.h"
 
 namespace tacto {

@@ -6,7 +6,7 @@
 
 #include "core/base/CsvHead.h"
 #include "core/base/CsvStamp.h"
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 
 namespace tacto {
 

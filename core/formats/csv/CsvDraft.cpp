@@ -6,7 +6,7 @@
 #include <ranges>
 
 #include "core/base/CsvStamp.h"
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/formats/csv/CsvColumns.h"
 
 namespace tacto {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/formats/csv/CsvColumns.h"
 
 namespace tacto {

@@ -1,7 +1,7 @@
 // The tables of Hantek's oscilloscopes: keys in comments, no names.
 #include <algorithm>
 
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/formats/csv/CsvColumns.h"
 #include "core/formats/csv/CsvMakers.h"
 

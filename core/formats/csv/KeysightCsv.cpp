@@ -1,5 +1,5 @@
 // The tables of Keysight's (Agilent's) oscilloscopes: InfiniiVision and Infiniium.
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/formats/csv/CsvColumns.h"
 #include "core/formats/csv/CsvMakers.h"
 

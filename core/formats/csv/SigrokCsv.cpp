@@ -1,6 +1,6 @@
 // What sigrok-cli and PulseView write as CSV: keys in comments, names or units in a line that may be missing, times in
 // whole steps of the power of 1000 at or above the rate.
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/formats/csv/CsvColumns.h"
 #include "core/formats/csv/CsvMakers.h"
 

@@ -8,7 +8,7 @@
 #include "core/analysis/identification/IdentificationJson.h"
 #include "core/analysis/vibration/VibrationSeparability.h"
 #include "core/base/JsonText.h"
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/encoding/EncodingProfile.h"
 #include "core/pilot/PilotRecord.h"
 #include "core/session/SessionReader.h"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <zip.h>
 
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/formats/TextBlocks.h"
 
 namespace tacto::sigrok_driver {

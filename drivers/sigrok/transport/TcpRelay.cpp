@@ -15,8 +15,8 @@
 #include <unistd.h>
 #include <utility>
 
+#include "core/base/LocaleFreeText.h"
 #include "core/base/Loopback.h"
-#include "core/base/Text.h"
 
 namespace tacto::sigrok_driver {
 

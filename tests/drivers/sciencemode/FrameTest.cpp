@@ -4,7 +4,7 @@
 #include <random>
 #include <rapidcheck.h>
 
-#include "drivers/sciencemode/Commands.h"
+#include "drivers/sciencemode/ScienceModeCommands.h"
 #include "tests/drivers/sciencemode/Bytes.h"
 #include "tests/support/Figures.h"
 #include "tests/support/Refused.h"

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "app/gui/runner/LoadRows.h"
-#include "app/gui/theme/Verdict.h"
+#include "app/gui/theme/VerdictBlock.h"
 
 namespace tacto {
 namespace {

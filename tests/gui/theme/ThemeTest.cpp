@@ -20,7 +20,7 @@
 #include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/ToolRow.h"
-#include "app/gui/theme/Verdict.h"
+#include "app/gui/theme/VerdictBlock.h"
 #include "app/report/VerdictMark.h"
 #include "tests/gui/Looks.h"
 #include "tests/gui/Person.h"

@@ -10,8 +10,8 @@
 #include <string_view>
 
 #include "core/base/JsonText.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/base/QuantityText.h"
-#include "core/base/Text.h"
 #include "core/encoding/StimulatorCalibration.h"
 
 namespace tacto::host::report {

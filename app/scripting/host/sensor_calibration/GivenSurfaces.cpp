@@ -6,7 +6,7 @@
 #include "app/scripting/host/sensor_calibration/FingertipCalibration.h"
 #include "core/analysis/sensor_calibration/ProfilometerFile.h"
 #include "core/analysis/statistics/StatisticsJson.h"
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 
 namespace tacto::host::sensor_calibration {
 

@@ -17,7 +17,7 @@
 #include <span>
 #include <vector>
 
-#include "drivers/pulsepal/Commands.h"
+#include "drivers/pulsepal/PulsePalCommands.h"
 
 namespace tacto::pulsepal {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 
 namespace tacto::sigrok_driver {
 

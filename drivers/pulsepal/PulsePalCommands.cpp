@@ -1,4 +1,4 @@
-#include "drivers/pulsepal/Commands.h"
+#include "drivers/pulsepal/PulsePalCommands.h"
 
 #include <algorithm>
 #include <cmath>

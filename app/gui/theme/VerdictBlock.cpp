@@ -1,4 +1,4 @@
-#include "app/gui/theme/Verdict.h"
+#include "app/gui/theme/VerdictBlock.h"
 
 #include <QPainter>
 

@@ -1,4 +1,4 @@
-// Verdict.h - a verdict in word, shape and colour: filled, to be read across a room, or as a word in a list.
+// VerdictBlock.h - a verdict in word, shape and colour: filled, to be read across a room, or as a word in a list.
 //
 // FAIL is white on ink with a cross, never red: red is for STOP and faults.
 #pragma once

@@ -1,4 +1,4 @@
-// Commands.h - what the host says to a ScienceMode4 device: typed requests, to payloads.
+// ScienceModeCommands.h - what the host says to a ScienceMode4 device: typed requests, to payloads.
 //
 // A builder refuses what the wire cannot carry (a wrapped field would be a wrong pulse): it never rounds and never
 // clamps.

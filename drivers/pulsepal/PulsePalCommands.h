@@ -1,4 +1,4 @@
-// Commands.h - commands to Pulse Pal 2, as bytes, and its answers. Every command is a type of its own kind of
+// PulsePalCommands.h - commands to Pulse Pal 2, as bytes, and its answers. Every command is a type of its own kind of
 // value, so that a duration cannot stand in a voltage's slot, and each parameter's number is written down once.
 //
 // Source: firmware PulsePal_2_0_1.ino (sanworks/PulsePal), by pulsepal2.md. Little-endian, no checksum;

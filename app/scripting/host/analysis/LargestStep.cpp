@@ -1,10 +1,9 @@
 // Computed transitions: the largest step from train to train.
-#include "core/encoding/Transitions.h"
-
 #include <cmath>
 
 #include "app/scripting/host/analysis/RunAnalysis.h"
 #include "core/analysis/statistics/StatisticsJson.h"
+#include "core/encoding/Transitions.h"
 
 namespace tacto::host::analysis {
 

@@ -1,9 +1,10 @@
 // Keeping a calibration for the stimulator that is connected.
+#include "app/scripting/host/record/KeptCalibration.h"
+
 #include <chrono>
 #include <cmath>
 
 #include "app/scripting/engine/Arguments.h"
-#include "app/scripting/host/record/KeptCalibration.h"
 #include "core/base/JsonText.h"
 #include "core/base/Statistics.h"
 #include "core/devices/DeviceUri.h"

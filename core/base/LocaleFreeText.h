@@ -1,4 +1,4 @@
-// Text.h - numbers to and from text, the same way in every language setting.
+// LocaleFreeText.h - numbers to and from text, the same way in every language setting.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "drivers/sciencemode/Commands.h"
+#include "drivers/sciencemode/ScienceModeCommands.h"
 
 #include <cmath>
 

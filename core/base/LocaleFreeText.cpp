@@ -1,4 +1,4 @@
-#include "core/base/Text.h"
+#include "core/base/LocaleFreeText.h"
 
 #include <algorithm>
 #include <charconv>
