@@ -90,11 +90,11 @@ RecordFields<DescribedRecording> buildRecordingFields() {
     return all;
 }
 
-/// No count is too large for a fingertip by itself. One that stands alone, a thousand times as far from the median as
-/// 98 % of its channel reach, is none: it becomes infinite, which no reading is.
+/// No count is too large for a fingertip as such. But a single one, a thousand times as far from the median as 98 % of
+/// its channel reach, is no reading: it becomes infinite, which no reading is.
 void markFarCounts(SampleBlock& samples, std::size_t channels) {
-    constexpr std::size_t kMinSamples = 100;  // the fewest samples of which 98 % say something
-    constexpr std::size_t kAlone = 3;         // in a row
+    constexpr std::size_t kMinSamples = 100;  // with fewer samples, 98 % of them say little
+    constexpr std::size_t kAlone = 3;         // how many in a row
     constexpr double kFar = 1000;
     for (std::size_t c = 0; c < channels && samples.samples() >= kMinSamples; ++c) {
         const auto at = [&](std::size_t i) -> double& { return samples.values[i * channels + c]; };

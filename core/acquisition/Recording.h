@@ -1,8 +1,8 @@
 // Recording.h - sensor data from elsewhere, opened as they are: recording.json beside CSV files.
 //
-// Units are converted on reading (g to m/s2, kPa to Pa); time stamps become seconds and keep their zero.
-// Whatever is wrong is refused with one sentence that names file, line and what was expected; what is merely
-// irregular (gaps, repeats, clock steps, cells that are empty or say nan) is read and reported in each stream's health.
+// Units are converted on reading (g to m/s2, kPa to Pa); time stamps become seconds and keep their zero. Anything wrong
+// is refused with one sentence that names file, line and what was expected; anything merely irregular (gaps, repeats,
+// clock steps, cells that are empty or say nan) is read and reported in each stream's health.
 //
 // Keys that are not known are taken as notes and passed over.
 //
@@ -22,8 +22,8 @@ namespace tacto {
 
 struct RecordedStream {
     StreamInfo info;  ///< rate_hz is measured; name is the file's
-    /// As recorded: stamps may step back, values may be NaN. Counts that stand alone, far from all others, are
-    /// infinite.
+    /// The samples as recorded: stamps may step back, values may be NaN. Counts that stand alone, far from all others,
+    /// are infinite.
     SampleBlock samples;
     HealthReport health;
     std::filesystem::path file;
@@ -48,13 +48,13 @@ struct Recording {
     [[nodiscard]] const RecordedStream* find(StreamKind kind) const noexcept;
     /// Earliest and latest stamp over all streams.
     [[nodiscard]] TimeInterval extent() const noexcept;
-    /// For RoughnessChain and analyseRoughness(), in the order of `streams`.
+    /// The streams as RoughnessChain and analyseRoughness() take them, in the order of `streams`.
     [[nodiscard]] std::vector<StreamInfo> infos() const;
     [[nodiscard]] std::vector<SampleBlock> blocks() const;
 };
 
 /// The description beside `table` that names it as a stream's file: FILE.json for FILE.csv, or recording.json. Empty:
-/// there is none that can be read.
+/// no readable one exists.
 [[nodiscard]] std::filesystem::path descriptionBeside(const std::filesystem::path& table);
 
 /// A recording.json to fill in, for a folder that has none.

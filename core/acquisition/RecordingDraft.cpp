@@ -52,7 +52,7 @@ std::optional<StreamKind> kindByName(std::string_view name) {
 
 /// A column as its header describes it.
 struct DraftColumn {
-    Json called;  ///< its name, or its number from 1
+    Json called;  ///< the channel's name, or its number from 1
     std::string name;
     std::string unit;
     std::optional<StreamKind> kind{};
@@ -169,7 +169,7 @@ private:
         return values;
     }
 
-    /// By its unit, by its name, or where there are no names by rising evenly beside other columns.
+    /// Finds the time by its unit, by its name, or, without names, as a column that rises evenly beside others.
     void findTime() {
         for (auto& column : columns_) {
             if (time_ == nullptr && recordedTimeUnit(column.unit)) time_ = &column;
@@ -202,7 +202,7 @@ private:
         }
     }
 
-    /// What lines before the table, or remarks, say: "Sample rate: 4 kHz", "record_frequency,1000".
+    /// Reads the rate in lines before the table, or in remarks: "Sample rate: 4 kHz", "record_frequency,1000".
     void findRate() {
         std::vector<std::string> lines = head_.remarks;
         for (const auto& line : head_.header) lines.push_back(fmt::format("{}", fmt::join(line.fields, " ")));

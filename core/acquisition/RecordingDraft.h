@@ -12,9 +12,9 @@
 namespace tacto {
 
 struct RecordingDraft {
-    std::string json;                ///< null for what the table does not show
-    std::vector<std::string> open;   ///< each of them: what is to be filled in; empty: it opens as it stands
-    std::vector<std::string> taken;  ///< what was concluded or left out, and is to be looked at
+    std::string json;                ///< null for a value that the table does not show
+    std::vector<std::string> open;   ///< what is still to be filled in, one sentence each; empty: it opens as it stands
+    std::vector<std::string> taken;  ///< conclusions and omissions that should be looked at
 };
 
 /// Errors: as readTextFile(); ParseError for a file without a row of numbers.

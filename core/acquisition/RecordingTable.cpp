@@ -44,7 +44,7 @@ bool allEmpty(const std::vector<std::string_view>& fields, std::size_t from = 0)
                        [](std::string_view field) { return field.empty(); });
 }
 
-/// Whether what stands on both sides of a comma may be one number: "-0,04".
+/// Whether the texts on both sides of a comma may be one number: "-0,04".
 bool mayBeOneNumber(std::string_view first, std::string_view second) {
     constexpr std::string_view kDigits = "0123456789";
     if (first.starts_with('-') || first.starts_with('+')) first.remove_prefix(1);
@@ -52,7 +52,7 @@ bool mayBeOneNumber(std::string_view first, std::string_view second) {
            second.find_first_not_of(kDigits) == std::string_view::npos;
 }
 
-/// Where the rows of a table begin, and which of their cells are asked for.
+/// Finds where the rows of a table begin, and which of their cells are asked for.
 class TableReader {
 public:
     TableReader(std::string_view text, std::string_view name, const TableLayout& layout)
@@ -70,7 +70,7 @@ public:
         findDecimal();
         reader = CsvReader(text_, skip_, separator_);
         while (reader.next()) {
-            // Where a line is a cell, or tabs alone, a blank one takes its time as any row.
+            // Where a line is a single cell, or only tabs separate, a blank line takes its time like any row.
             if (!layout_.timeColumn && (width_ == 1 || separator_ == '\t') && rows_ > 0) {
                 const std::vector<std::string_view> nothing(width_);
                 for (std::size_t i = 0; i < reader.blanksBefore(); ++i) (void)take(nothing, reader.line());
@@ -104,7 +104,7 @@ private:
         return named ? locateByName() : locateByNumber();
     }
 
-    /// The first line that names every column that is called by name; messages speak of the one that names most.
+    /// Finds the first line that names every column called by name; messages speak of the line that names most.
     Result<void> locateByName() {
         std::size_t most = 0;
         std::size_t line = head_.header.empty() ? head_.firstRow->number : head_.header.back().number;
@@ -179,7 +179,7 @@ private:
         // Many lines in front of the table may be cut otherwise.
         if (const auto line = text_.find('\n', text_.size() / 2); line != std::string_view::npos)
             separator_ = readCsvHead(text_.substr(line + 1, kLookedAt), 0).separator;
-        if (separator_ == ',' && last == 0) {  // where a second column is asked for, the comma separates
+        if (separator_ == ',' && last == 0) {  // a second column is asked for, so that the comma separates
             if (auto settled = settleCommas(); !settled) return settled;
         }
         CsvReader reader(text_, layout_.skipRows, separator_);
@@ -226,7 +226,7 @@ private:
         });
     }
 
-    /// Without a header, and with one comma in each row, nothing tells a decimal comma from a separator.
+    /// Without a header, and with one comma in each row, a decimal comma looks like a separator.
     Result<void> settleCommas() {
         if (layout_.decimal) {
             if (*layout_.decimal == ',') separator_ = ';';
@@ -276,7 +276,7 @@ private:
                     if (const auto unit = recordedUnit(kind.value, spelled)) factor = unit->factor;
                 }
             }
-            if (!factor) return {};  // no line of units: a row, or what will be refused as one
+            if (!factor) return {};  // this is not a line of units, but a row, or will be refused as one
             if (*factor != (isTime(i) ? layout_.timeDivisor : layout_.valueFactor)) {
                 return refuse(reader.line(), "{} is in {} by the line below the header; recording.json says otherwise",
                               wordsFor(wanted_[i]), excerpt(field));
@@ -371,7 +371,7 @@ private:
             const std::size_t from = i;
             while (i < empty_.size() && empty_[i]) ++i;
             if (i == empty_.size()) break;
-            // Before the first value nothing says when the sample before was; after a value one step was due.
+            // Before the first value nothing says when the sample before was taken; after a value, one step ago.
             const double begun = from == 0 ? out_.t_s[0] - (rate_hz > 0 ? 1 / rate_hz : 0) : out_.t_s[from - 1];
             const double due = std::round((out_.t_s[i] - begun) * rate_hz) - 1;
             for (std::size_t j = from; j < i && (alone || static_cast<double>(i - from) <= due); ++j) keep(j);
@@ -387,7 +387,7 @@ private:
     const TableLayout& layout_;
     CsvHead head_;
     std::vector<ColumnChoice> wanted_;  // the time first, where there is one
-    std::vector<std::size_t> indices_;  // their indices in a row
+    std::vector<std::size_t> indices_;  // the indices of its cells in a row
     std::size_t width_ = 0;
     std::size_t skip_ = 0;  // lines before the rows
     bool headed_ = false;
@@ -395,7 +395,7 @@ private:
     char point_ = '.';
     std::size_t rows_ = 0;
     SampleBlock out_;
-    std::vector<bool> empty_;  // which of its samples are without a value
+    std::vector<bool> empty_;  // which of its samples have no value
 };
 
 }  // namespace

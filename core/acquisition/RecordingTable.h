@@ -22,11 +22,11 @@
 
 namespace tacto {
 
-/// By its name in the header, or by its number from 1.
+/// A column by its name in the header, or by its number from 1.
 using ColumnChoice = std::variant<std::string, std::size_t>;
 
 struct TableLayout {
-    std::optional<ColumnChoice> timeColumn{};  ///< nothing: row after row at `rate_hz`, the first at 0 s
+    std::optional<ColumnChoice> timeColumn{};  ///< nothing: each row follows the last one at `rate_hz`, from 0 s on
     double timeDivisor = 1;                    ///< file's time / divisor = seconds
     std::vector<ColumnChoice> columns{};
     double valueFactor = 1;         ///< file's value * factor = SI

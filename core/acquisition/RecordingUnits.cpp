@@ -31,8 +31,8 @@ constexpr std::array kRecordedUnits{RecordedUnit{Acceleration, MetrePerSecondSqu
 constexpr std::array kRecordedTimes{RecordedTimeUnit{1, "s"}, RecordedTimeUnit{1e3, "ms"}, RecordedTimeUnit{1e6, "us"},
                                     RecordedTimeUnit{1e9, "ns"}};
 
-/// What stands for the same however it is typed: powers and minus signs as digits and '-', no signs of multiplication,
-/// 'u' for both micro signs.
+/// Turns different spellings into one: powers and minus signs as digits and '-', no signs of multiplication, 'u' for
+/// both micro signs.
 std::string plainlyTyped(std::string_view text) {
     constexpr std::pair<std::string_view, std::string_view> kTyped[] = {{"²", "2"}, {"⁻", "-"}, {"−", "-"}, {"µ", "u"},
                                                                         {"μ", "u"}, {"·", ""},  {"⋅", ""},  {"^", ""},

@@ -16,12 +16,12 @@ struct RecordedUnit {
     StreamKind kind;
     StreamUnit unit;      ///< after conversion
     double factor;        ///< the file's number times this is in `unit`
-    const char* spelled;  ///< as recording.json has it
+    const char* spelled;  ///< the spelling in recording.json
 };
 
-/// The unit of a stream of that kind, however it is written; nothing for another one. Capitals count: mN is not MN.
+/// The unit of a stream of that kind, in any spelling; nothing for another unit. Capitals count: mN is not MN.
 [[nodiscard]] std::optional<RecordedUnit> recordedUnit(StreamKind kind, std::string_view text);
-/// As recordedUnit() takes them.
+/// The units that recordedUnit() takes.
 [[nodiscard]] std::vector<std::string_view> unitsOf(StreamKind kind);
 
 struct RecordedTimeUnit {
@@ -31,10 +31,10 @@ struct RecordedTimeUnit {
 [[nodiscard]] std::optional<RecordedTimeUnit> recordedTimeUnit(std::string_view text);
 inline constexpr const char* kRecordedTimeUnits = "s, ms, us or ns";
 
-/// What a header calls a column: "Fz (mN)", "acc_x [m/s²]", "t in ms", "t/ms", "force_N".
+/// The parts of a header's name for a column: "Fz (mN)", "acc_x [m/s²]", "t in ms", "t/ms", "force_N".
 struct HeaderName {
-    std::string_view name;  ///< without the unit
-    std::string_view unit;  ///< as written; empty where the header states none that is known
+    std::string_view name;  ///< the name without the unit
+    std::string_view unit;  ///< as written; empty where the header states no known one
 };
 [[nodiscard]] HeaderName headerName(std::string_view text);
 

@@ -76,7 +76,7 @@ void StreamHealth::feed(const SampleBlock& block, std::size_t channels) noexcept
 }
 
 namespace {
-// Steps forward above this many median steps are gaps for certain, whatever the jitter.
+// Steps forward above this many median steps are certainly gaps, whatever the jitter.
 constexpr double kCertainGap = 2.5;
 
 double medianStepForward(std::span<const double> stamps) {
@@ -164,7 +164,7 @@ void Standstill::compare(const double* values) noexcept {
     }
 }
 
-/// What a value that stood still repeated is not taken for its noise.
+/// Repeats of a value that stood still do not count as its noise.
 void Standstill::count(Repeats& one, std::size_t period, bool same) const noexcept {
     if (same) {
         if (one.run++ == 0) one.since_s = last_s_;

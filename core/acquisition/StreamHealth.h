@@ -20,7 +20,7 @@
 
 namespace tacto {
 
-/// What was found so far. Counts only grow.
+/// The findings so far. Counts only grow.
 struct HealthReport {
     std::size_t samples = 0;
     std::size_t gaps = 0;            ///< places where samples are missing
@@ -47,10 +47,10 @@ public:
     explicit StreamHealth(double nominalRate_hz) noexcept : grid_(nominalRate_hz) {}
 
     StampClass feed(double t_s) noexcept;
-    /// All samples of `block`, values judged too; `channels` as in the stream's StreamInfo.
+    /// Takes all samples of `block`, and judges their values, too; `channels` as in the stream's StreamInfo.
     void feed(const SampleBlock& block, std::size_t channels) noexcept;
 
-    /// How long ago the newest sample was taken; infinite before the first.
+    /// The age of the newest sample; infinite before the first.
     [[nodiscard]] double age_s(double now_s) const noexcept { return now_s - grid_.last(); }
     /// True when the newest sample is older than 100 ms: no new trains (hazard H7).
     [[nodiscard]] bool stale(double now_s) const noexcept { return !(age_s(now_s) <= kStale_s); }
@@ -62,7 +62,7 @@ private:
     SampleGrid grid_;
     HealthReport report_;
     double stretchFirst_ = 0;       // stamp of the current gap-free stretch
-    std::size_t stretchSteps_ = 0;  // its regular steps
+    std::size_t stretchSteps_ = 0;  // how many of its steps are regular
     std::size_t longestSteps_ = 0;
 };
 
@@ -92,7 +92,7 @@ public:
     /// `eachChannel`: repeatsSince() is about each channel by itself, else about all of them at once.
     explicit Standstill(std::size_t channels, bool eachChannel = false);
 
-    /// All samples of `block`, in order.
+    /// Takes all samples of `block`, in order.
     void feed(const SampleBlock& block) noexcept;
     /// The stamp since which nothing has changed in any channel; nothing while it may be chance.
     [[nodiscard]] std::optional<double> since() const noexcept;
@@ -100,11 +100,11 @@ public:
     [[nodiscard]] std::optional<double> repeatsSince() const noexcept;
 
 private:
-    /// One channel, or all at once, beside itself some samples before.
+    /// Compares one channel, or all at once, with itself some samples before.
     struct Repeats {
-        double since_s = 0;                       // of the last that was another, while it goes on
+        double since_s = 0;                       // since when the last different value has stood still
         std::uint64_t run = 0;                    // goes on
-        std::uint64_t matched = 0, repeated = 0;  // before it: all, and those that its noise may have made
+        std::uint64_t matched = 0, repeated = 0;  // before that: all values, and those that its noise may have repeated
     };
     void compare(const double* values) noexcept;
     void count(Repeats& one, std::size_t period, bool same) const noexcept;
@@ -118,7 +118,7 @@ private:
     std::uint64_t seen_ = 0;             // samples before this one
     std::vector<Repeats> all_;           // by period - 1
     std::vector<Repeats> each_;          // by period - 1, then by channel; empty unless eachChannel_
-    double newest_s_ = 0, last_s_ = 0;   // of this sample and the one before
+    double newest_s_ = 0, last_s_ = 0;   // times of this sample and of the one before
 };
 
 }  // namespace tacto

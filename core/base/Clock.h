@@ -21,7 +21,7 @@ public:
     virtual ~Clock() = default;
     /// Time since this clock was made, as long as the computer was awake. Never goes back.
     [[nodiscard]] virtual Instant now() const noexcept = 0;
-    /// For how long the computer has slept (suspended) since this clock was made: what now() does not count.
+    /// How long the computer has slept (suspended) since this clock was made: now() does not count that.
     [[nodiscard]] virtual Instant asleep() const noexcept { return Instant(0); }
     /// now() and asleep() together: what a heartbeat is timed by, so that a computer that slept counts as silence.
     [[nodiscard]] Instant elapsed() const noexcept { return now() + asleep(); }
@@ -67,7 +67,7 @@ private:
 class SystemTime {
 public:
     virtual ~SystemTime() = default;
-    /// Since the computer was started, the time for which it slept included. Never goes back. Does not block.
+    /// The time since the computer was started, including the time for which it slept. Never goes back. Does not block.
     [[nodiscard]] virtual Instant sinceBoot() const noexcept = 0;
     /// Names this start of the computer; empty where the system does not tell.
     [[nodiscard]] virtual std::string boot() const = 0;

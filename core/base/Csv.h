@@ -30,7 +30,7 @@ namespace tacto {
 [[nodiscard]] Result<std::string> readTextFile(const std::filesystem::path& path,
                                                std::uintmax_t maxBytes = std::numeric_limits<std::uintmax_t>::max());
 
-/// Nothing in it, or nothing but a remark behind `#`.
+/// Whether the line is empty, or holds only a remark behind `#`.
 [[nodiscard]] bool isBlankOrComment(std::string_view line);
 /// Cuts a line into `fields`, trimmed, a quoted one without its outer quotes. A quoted field may hold separators; it
 /// may not span lines, which no table of readings does.

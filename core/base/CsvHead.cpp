@@ -41,7 +41,7 @@ char separatorOf(const std::vector<std::string_view>& lines) {
     return 2 * semicolons > seen ? ';' : ',';
 }
 
-/// The same of the lines that a `;` may not make a comment.
+/// The separator of lines in which `;` may not begin a comment.
 char separatorWithout(const std::vector<std::string_view>& lines) {
     std::vector<std::string_view> others;
     std::ranges::copy_if(lines, std::back_inserter(others), [](auto line) { return !line.starts_with(';'); });
@@ -65,7 +65,7 @@ bool isRowOfNumbers(const std::vector<std::string>& fields, char point) {
 }
 
 /// Whether `line`, which holds text beside numbers, is a row like `row`: numbers and stamps stand in the same columns,
-/// the first among them.
+/// the first included.
 bool isRowLike(const CsvLine& line, const CsvLine& row, char point) {
     if (line.fields.size() != row.fields.size()) return false;
     const auto isRead = [&](const std::string& field) {
@@ -203,7 +203,7 @@ CsvHead readCsvHead(std::string_view text, std::size_t skipRows) {
     for (std::size_t i = row.value_or(lines.size()); i < lines.size() && head.body.size() < kBody; ++i) {
         head.body.push_back(lineAt(i));
     }
-    if (head.body.size() > 2 && head.body.size() < kBody) head.body.pop_back();  // it may be cut off
+    if (head.body.size() > 2 && head.body.size() < kBody) head.body.pop_back();  // the last line may be cut off
     for (const auto& line : head.body) {
         const auto& key = line.fields.front();
         if (!key.empty() && !fieldNumber(key, head.point) && !fieldStamp(key, head.point)) head.beside.push_back(line);
@@ -278,7 +278,7 @@ bool areApartByTabs(std::span<const std::string_view> lines) {
             wordsHaveTabs = wordsHaveTabs || trimmed(line).find('\t') != std::string_view::npos;
             continue;
         }
-        // Blanks beside a tab: the tab is one of them.
+        // With blanks beside a tab, the tab counts as one of them.
         if (line.find(" \t") != std::string_view::npos || line.find("\t ") != std::string_view::npos) return false;
         cutLine(line, '\t', fields);
         const auto its = fields.size();

@@ -28,7 +28,7 @@ struct CsvHead {
     std::vector<CsvLine> header;       ///< the lines before the first row of numbers; all that were seen where none is
     std::optional<CsvLine> firstRow;   ///< the first line whose fields are numbers, stamps or empty
     std::vector<CsvLine> body;         ///< some lines from the first row on
-    std::vector<CsvLine> beside;       ///< those of them that begin with a key (csv/CsvMakers.h)
+    std::vector<CsvLine> beside;       ///< the lines of them that begin with a key (csv/CsvMakers.h)
     char separator = ',';              ///< ' ': any number of blanks and tabs
     char point = '.';
 };
@@ -48,7 +48,7 @@ struct CsvHead {
 // Columns that are apart by blanks: numpy.savetxt, Octave, gnuplot, LeCroy's ASCII. Any number of blanks
 // and tabs is one separator (' ' in CsvHead), also before the first column and behind the last: no field is empty.
 
-/// Whether most of the lines are two numbers or more with blanks between them, and nothing else.
+/// Whether most of the lines hold nothing but two or more numbers with blanks between them.
 [[nodiscard]] bool areApartByBlanks(std::span<const std::string_view> lines);
 
 /// Whether single tabs divide such lines, where a field may be empty. Rows agree in their tabs, with a number

@@ -10,7 +10,7 @@
 namespace tacto {
 
 struct CsvStamp {
-    std::int64_t seconds = 0;  ///< since 1970 in UTC (without a zone: as written), of a time of day since midnight
+    std::int64_t seconds = 0;  ///< since 1970 in UTC (without a zone, as written), or since midnight for a time of day
     double fraction = 0;       ///< 0 to 1
     /// Seconds since `origin`, the whole seconds of another stamp.
     [[nodiscard]] double since(std::int64_t origin) const noexcept {

@@ -21,7 +21,7 @@ public:
     Builder(const JsonLimits& limits, bool finite) : depth_(limits.depth), values_(limits.values), finite_(finite) {}
 
     [[nodiscard]] const std::string& problem() const noexcept { return problem_; }
-    /// Whether the problem is one of the text's form, at the byte wrongAt() (from 1).
+    /// Whether the problem lies in the text's form, at the byte wrongAt() (from 1).
     [[nodiscard]] bool isSyntax() const noexcept { return isSyntax_; }
     [[nodiscard]] std::size_t wrongAt() const noexcept { return wrongAt_; }
     [[nodiscard]] json take() { return std::move(root_); }
@@ -85,8 +85,8 @@ private:
     }
 
     const int depth_;
-    std::size_t values_;  // that may still come
-    const bool finite_;   // nothing else is a number
+    std::size_t values_;  // how many values may still come
+    const bool finite_;   // only finite numbers are accepted
     json root_;
     std::vector<json*> within_;  // the innermost last; a child moves only when its parent has none open
     std::string key_;

@@ -30,15 +30,15 @@ struct JsonLimits {
     std::size_t values = std::numeric_limits<std::size_t>::max();
 };
 
-/// `source` begins every message: the file, and the line in it where that is known.
-/// Errors: ParseError for a text that is too long, nests too deep, is not JSON or not UTF-8, goes on after its end, has
-/// a null byte, a key twice in one object, or a number beyond the range of double.
+/// `source` begins every message: the file, and the line in it where that is known. Errors: ParseError for a text that
+/// is too long, nests too deep, is not JSON or not UTF-8, continues after its end, has a null byte, a key twice in one
+/// object, or a number beyond the range of double.
 [[nodiscard]] Result<nlohmann::json> parseJson(std::string_view text, std::string_view source,
                                                const JsonLimits& limits = {});
 
-/// The same for values in binary, as another process of the program sends them (CBOR, RFC 8949): NaN and infinities are
+/// Reads values in binary form, as another process of the program sends them (CBOR, RFC 8949): NaN and infinities are
 /// values there. Errors: ParseError for bytes that are too many, nest too deep, hold more than `limits.values` values,
-/// are not CBOR, of which each item states its length, or go on after its end, and for a key twice in one object.
+/// are not CBOR whose items state their lengths, or continue after its end, and for a key twice in one object.
 [[nodiscard]] Result<nlohmann::json> parseCbor(std::string_view bytes, std::string_view source,
                                                const JsonLimits& limits);
 void appendCbor(const nlohmann::json& value, std::string& to);
@@ -51,10 +51,10 @@ void appendCbor(const nlohmann::json& value, std::string& to);
     return {ErrorCode::InvalidArgument, std::move(error.message)};
 }
 
-/// `where` begins the message: "lab.json: limits[2]". Errors: ParseError for what is not an object.
+/// `where` begins the message: "lab.json: limits[2]". Errors: ParseError for anything but an object.
 [[nodiscard]] Result<void> expectObject(const nlohmann::json& value, std::string_view where);
-/// Whether `value` is an object that has no other keys than `known`.
-/// Errors: ParseError naming the first key that is not known, and those that are.
+/// Whether `value` is an object that has no keys other than `known`. Errors: ParseError naming the first unknown key,
+/// and the known ones.
 [[nodiscard]] Result<void> onlyKeys(const nlohmann::json& value, std::span<const std::string_view> known,
                                     std::string_view where);
 [[nodiscard]] inline Result<void> onlyKeys(const nlohmann::json& value, std::initializer_list<std::string_view> known,
@@ -79,9 +79,9 @@ inline constexpr JsonLimits kRowLimits{.bytes = 256'000'000, .depth = 64};
 [[nodiscard]] std::uint64_t countOr(const nlohmann::json& object, const char* key);
 [[nodiscard]] bool flagOr(const nlohmann::json& object, const char* key);
 [[nodiscard]] std::vector<std::string> textsOr(const nlohmann::json& object, const char* key);
-/// null for NaN and infinity.
+/// The value as JSON; null for NaN and infinity.
 [[nodiscard]] nlohmann::json numberOrNull(double value);
-/// null where there is none.
+/// The member of that name; null where there is none.
 [[nodiscard]] nlohmann::json valueOr(const nlohmann::json& object, const char* key);
 
 }  // namespace tacto

@@ -16,8 +16,8 @@
 
 namespace tacto {
 
-/// Takes the number that `text` begins with off it ("1e-3", "-4"): of "2.5 kHz" " kHz" is left. Nothing, and `text` as
-/// it was, where none begins and where a double cannot hold it. Accepts "nan" and "inf".
+/// Takes the number that `text` begins with off it ("1e-3", "-4"): "2.5 kHz" leaves " kHz". Nothing, and `text` as it
+/// was, where there is none and where a double cannot hold it. Accepts "nan" and "inf".
 [[nodiscard]] std::optional<double> takeNumber(std::string_view& text);
 
 /// The whole of `text`, blanks trimmed, as a number ("1e-3", "-4"). Nothing for an empty text, trailing
@@ -31,8 +31,8 @@ namespace tacto {
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 [[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);
 
-// Letters A to Z in small and in capitals, in every language setting alike. The functions of the C library
-// follow the locale, which Qt sets: in Turkish the letter I has no small form of one byte.
+// Small letters and capitals from A to Z, the same in every language setting. The functions of the C library follow the
+// locale, which Qt sets: in Turkish the letter I has no small form of one byte.
 
 [[nodiscard]] constexpr char lowered(char letter) noexcept {
     return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
@@ -53,14 +53,14 @@ namespace tacto {
     return result;
 }
 
-/// Whether both are the same but for small letters and capitals.
+/// Whether both are the same apart from small letters and capitals.
 [[nodiscard]] constexpr bool sameLetters(std::string_view a, std::string_view b) noexcept {
     return std::ranges::equal(a, b, [](char x, char y) { return lowered(x) == lowered(y); });
 }
 
-// What is written in hexadecimal digits: digests, and the names of files that are drawn.
+// Texts in hexadecimal digits: digests, and the names of drawn files.
 
-/// Whether a text is exactly so many of 0 to 9 and a to f.
+/// Whether a text consists of exactly so many characters from 0 to 9 and a to f.
 [[nodiscard]] constexpr bool isHex(std::string_view text, std::size_t digits) noexcept {
     return text.size() == digits && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
@@ -81,10 +81,9 @@ template <std::integral T>
     return value;
 }
 
-// What may be given once: a key, an option, a name. How a second one is found, and the sentence that
-// refuses it.
+// Names that may be given once: a key, an option. Finds a second one, and words the sentence that refuses it.
 
-/// The first of `values` whose projection is equal to that of one before it. Null when all differ.
+/// The first of `values` whose projection equals an earlier one. Null when all differ.
 template <class Values, class Projection = std::identity>
 [[nodiscard]] constexpr auto secondIn(const Values& values, Projection projection = {}) -> decltype(&*values.begin()) {
     for (auto at = std::begin(values); at != std::end(values); ++at) {

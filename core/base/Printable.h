@@ -14,10 +14,10 @@ enum class Newlines { Escape, Keep };
 /// turn the reading direction or cannot be seen as "\u202e". Everything else stays as it is.
 [[nodiscard]] std::string printable(std::string_view text, Newlines newlines = Newlines::Escape);
 
-/// Whether every byte is part of a character in its shortest form, and none of a surrogate.
+/// Whether every byte is part of a character in its shortest form, and no part of a surrogate.
 [[nodiscard]] bool isUtf8(std::string_view text) noexcept;
 
-/// What printable() spells out: C0, DEL and C1.
+/// Whether printable() spells it out: C0, DEL and C1.
 [[nodiscard]] bool isControl(char32_t code) noexcept;
 /// The others that it spells out: they turn the reading direction, separate lines or have no width.
 [[nodiscard]] bool isHidden(char32_t code) noexcept;

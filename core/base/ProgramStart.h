@@ -21,15 +21,15 @@ namespace tacto {
 //
 // A limit on the size of files is an error of what writes, as a full disk is, and does not end the program.
 
-/// Opens /dev/null for those of the three that are closed, and ignores SIGXFSZ. Ends the program when /dev/null cannot
-/// be opened.
+/// Opens /dev/null for each of the three streams that is closed, and ignores SIGXFSZ. Ends the program when /dev/null
+/// cannot be opened.
 void holdStandardStreams() noexcept;
 
-/// Whether a line can be written to `stream` at once: writing into a pipe that is full holds the thread that writes,
-/// and with it a stop.
+/// Whether a line can be written to `stream` at once: writing into a full pipe would hold the thread, and with it a
+/// stop.
 [[nodiscard]] bool takesMore(int stream) noexcept;
 
-// Where the programs that belong to this one are: in the same folder.
+// The programs that belong to this one lie in the same folder.
 
 /// The folder of the program that runs; empty where the system does not tell.
 [[nodiscard]] inline std::filesystem::path programFolder() {
@@ -40,7 +40,7 @@ void holdStandardStreams() noexcept;
 /// "tactoscope-watchdog" beside it.
 [[nodiscard]] inline std::filesystem::path programBeside(std::string_view name) { return programFolder() / name; }
 
-// Where the program keeps what belongs to its user: calibrations, keys, sessions, protocols.
+// Where the program keeps its user's data: calibrations, keys, sessions, protocols.
 
 /// $XDG_DATA_HOME/tactoscope, or ~/.local/share/tactoscope where that is not set or not absolute, which the XDG base
 /// directory specification tells programs to ignore: it would be another folder for each folder that the program is

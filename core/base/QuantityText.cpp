@@ -23,7 +23,7 @@ void replaceAll(std::string& text, std::string_view what, std::string_view by) {
         text.replace(at, what.size(), by);
 }
 
-/// With `decimals` places, also below 0: 457 with -1 is "460". Never "-0".
+/// The value with `decimals` places, which may be negative: 457 with -1 is "460". Never "-0".
 std::string fixedText(double value, int decimals) {
     if (decimals < 0) {
         const double step = std::pow(10.0, -decimals);
@@ -136,7 +136,7 @@ std::string measuredText(double value, double expanded, std::string_view unit) {
     const double leading = expanded * factor / std::pow(10.0, first);
     const int last = first - (farBelow && leading >= 2.95 ? 0 : 1);  // place of the last digit
     const int largest = value == 0 ? first : std::max(decimalExponent(value * factor, 4), first);
-    // The last digit is at or behind the point: "0.46 ± 0.12 V" and not "460 ± 120 mV", whose zeros say nothing.
+    // The last digit stands at or behind the point: "0.46 ± 0.12 V" and not "460 ± 120 mV", where zeros say nothing.
     const auto prefix = parts.base.empty() ? UnitPrefix{} : prefixFor(parts.base, std::max(largest, last + 2));
     const int power = parts.base.empty() && !isWrittenOut(largest) ? largest : prefix.exponent;
     const double scale = factor * std::pow(10.0, -power);

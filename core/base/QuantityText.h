@@ -1,11 +1,11 @@
-// QuantityText.h - how a number with a unit is written, in the terminal, in reports and in sentences alike.
+// QuantityText.h - how a number with a unit is written, the same in the terminal, in reports and in sentences.
 //
 // GUM 7.2.6: an expanded uncertainty U has two significant digits, and its value is rounded to the same place. A value
 // far below its U (one that rounds to 0 at U's first digit) stands as "0.0 ± 0.6 %": of such a U one digit is kept,
 // two where the first is 1 or 2 and dropping one would round by a quarter. Units that take prefixes are scaled (µs,
 // mA, kΩ); other numbers too small or too large to be written out have a power of ten, never an "e".
 //
-// UTF-8; a plain space before the unit; "-" for a minus; "–" for what is not known.
+// UTF-8; a plain space before the unit; "-" for a minus; "–" for an unknown value.
 #pragma once
 
 #include <string>
@@ -26,12 +26,12 @@ namespace tacto {
 /// finite or below 0 is unknown, and is said to be: "40.12 V (U unknown)".
 [[nodiscard]] std::string measuredText(double value, double expanded, std::string_view unit);
 
-/// With as many decimals as asked for: "0.98", never "-0.00". "–" for what is not finite.
+/// The value with as many decimals as asked for: "0.98", never "-0.00". "–" for a value that is not finite.
 [[nodiscard]] std::string decimalText(double value, int decimals);
 
-/// What the texts with units are made of, for columns that share a prefix.
+/// The parts of texts with units, for columns that share a prefix.
 struct UnitParts {
-    double factor = 1;  ///< from the unit given to its base
+    double factor = 1;  ///< factor from the given unit to its base
     std::string base;   ///< "A" of "mA"; empty for a unit that takes no prefix
 };
 /// `written`: as writtenUnit() gives it.
@@ -42,7 +42,7 @@ struct UnitPrefix {
 };
 /// The prefix for numbers of 10^exponent and up, p to G.
 [[nodiscard]] UnitPrefix prefixOf(int exponent) noexcept;
-/// The same for numbers in the unit `base`: forces are read in N down to 0.01 N, on axes and in words alike.
+/// The prefix for numbers in the unit `base`: forces are read in N down to 0.01 N, on axes and in words alike.
 [[nodiscard]] UnitPrefix prefixFor(std::string_view base, int exponent) noexcept;
 /// The decimal exponent of `value` rounded to `digits` significant digits: 999.96 with four is 3. 0 for 0.
 [[nodiscard]] int decimalExponent(double value, int digits);

@@ -38,7 +38,7 @@ namespace tacto {
 
 class RecordTable {
 public:
-    /// How a member is reached that is a std::optional.
+    /// Reaches a member that is a std::optional.
     struct OptionalAccess {
         const void* (*get)(const void*);  ///< null: none
         void* (*emplace)(void*);
@@ -46,8 +46,8 @@ public:
     };
     using Rule = std::function<Result<void>(const void* record)>;
 
-    /// A field whose member stands `offset` bytes into the record. What is returned may be changed until the next field
-    /// is added. `optional`: for a member that is one; must live forever.
+    /// A field whose member stands `offset` bytes into the record. The returned field may be changed until the next one
+    /// is added. `optional`: for a member that is a std::optional; must live forever.
     FieldInfo& add(std::string_view key, std::size_t offset, AnyKind kind, const OptionalAccess* optional = nullptr);
     void note(std::string_view key, const AcceptedText& accepted);
     void rule(Rule holds) { rules_.push_back(std::move(holds)); }
@@ -55,7 +55,7 @@ public:
     void takeNullAsMissing() { nullIsMissing_ = true; }
     void passOverUnknownKeys() { passOver_ = true; }
 
-    /// As of RecordFields.
+    /// As in RecordFields.
     [[nodiscard]] Result<void> read(const nlohmann::json& object, void* into, const RecordPlace& place) const;
     [[nodiscard]] nlohmann::json write(const void* record) const;
     [[nodiscard]] Result<void> check(const void* record, const RecordPlace& place) const;
@@ -69,7 +69,7 @@ private:
         const OptionalAccess* optional;
 
         [[nodiscard]] void* in(void* record) const noexcept { return static_cast<std::byte*>(record) + offset; }
-        /// What is not a std::optional keeps what it holds.
+        /// A member that is not a std::optional keeps its value.
         void clear(void* record) const;
         /// Null where the member is a std::optional that holds nothing.
         [[nodiscard]] const void* held(const void* record) const;
@@ -112,7 +112,7 @@ class RecordFields {
     };
     template <class Member>
     using Held = std::remove_cvref_t<std::invoke_result_t<Member, Record&>>;
-    /// What a member holds; where it is a std::optional, what that holds.
+    /// The value in a member; for a std::optional, the value in that.
     template <class Member>
     using ValueOf = typename Bare<Held<Member>>::Type;
 
@@ -161,7 +161,7 @@ public:
 
     /// A text for people who read the file. It is kept by no member.
     void note(std::string_view key, const AcceptedText& accepted = {}) { table_.note(key, accepted); }
-    /// What must hold between fields; checked after each field by itself. `holds(record)` gives a Result<void>.
+    /// A rule between fields; checked after each field by itself. `holds(record)` gives a Result<void>.
     template <class Rule>
     void rule(Rule holds) {
         table_.rule([holds = std::move(holds)](const void* record) -> Result<void> {
@@ -239,7 +239,7 @@ template <class Record>
     return fields.read(*document, {.file = std::string(source)}).map_error(asParseError);
 }
 
-/// What `build` returns, a table for one, made at the first call and kept.
+/// The result of `build`, a table for example, made at the first call and kept.
 template <auto build>
 [[nodiscard]] const auto& builtOnce() {
     static const auto built = build();

@@ -11,10 +11,10 @@
 
 namespace tacto {
 
-/// Why something failed, as far as callers act on it differently.
+/// The kinds of failure that callers treat differently.
 enum class ErrorCode {
     InvalidArgument,  ///< a value that no caller may pass: not finite, negative, unknown name
-    ParseError,       ///< a file or reply whose content is not what its format demands
+    ParseError,       ///< a file or reply with a content that its format does not allow
     NotFound,         ///< a file, device or name that is not there
     Io,               ///< the operating system refused
     LimitExceeded,    ///< a safety limit would be broken; nothing was delivered
@@ -39,7 +39,7 @@ template <class... Args>
     return tl::unexpected<Error>(Error{code, fmt::format(text, std::forward<Args>(args)...)});
 }
 
-/// The same for a value that no caller may pass: `return invalid("{} pulses; 1 or more are expected", pulses);`
+/// The error for a value that no caller may pass: `return invalid("{} pulses; 1 or more are expected", pulses);`
 template <class... Args>
 [[nodiscard]] tl::unexpected<Error> invalid(fmt::format_string<Args...> text, Args&&... args) {
     return fail(ErrorCode::InvalidArgument, text, std::forward<Args>(args)...);

@@ -98,7 +98,7 @@ class Latest {
     static_assert(std::is_trivially_copyable_v<T>, "a copy may be torn and thrown away");
 
 public:
-    /// One writer at a time.
+    /// There is one writer at a time.
     void write(const T& value) noexcept {
         const auto* const bytes = reinterpret_cast<const std::byte*>(&value);
         auto* const written = reinterpret_cast<std::byte*>(written_.data());

@@ -16,7 +16,7 @@ double meanOfRanks(std::vector<double>& readings, std::size_t lower, std::size_t
     return lower == upper ? *at : 0.5 * (*std::max_element(readings.begin(), at) + *at);
 }
 
-/// What lies within a window, in the readings' order, and how many lie below it.
+/// The readings within a window, in their order, and the number below it.
 struct Within {
     std::size_t below = 0;
     std::vector<double> readings;
@@ -25,7 +25,7 @@ struct Within {
         std::array<double, 1024> chunk;
         for (std::size_t first = 0; first < all.size(); first += chunk.size()) {
             std::size_t kept = 0;
-            // No branch: whether the next reading is kept cannot be foretold.
+            // This has no branch: whether the next reading is kept cannot be foretold.
             for (const double x : all.subspan(first, std::min(chunk.size(), all.size() - first))) {
                 const std::size_t isBelow = x < least ? 1 : 0;
                 const std::size_t isAbove = x > most ? 1 : 0;
@@ -38,7 +38,7 @@ struct Within {
     }
 };
 
-/// Where there are many readings, a thousand say nearly where the median lies; then only the few thereabouts are put in
+/// Where there are many readings, a thousand say nearly where the median lies; then only the few near it are put in
 /// order. Where it lies elsewhere (readings that repeat in step with the thousand), all are.
 double medianOf(std::span<const double> readings) {
     constexpr std::size_t kAsked = 1024;

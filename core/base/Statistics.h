@@ -7,7 +7,7 @@
 
 namespace tacto {
 
-/// What does not exist, was not measured or is not stated.
+/// A value that does not exist, was not measured or is not stated.
 inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Statistics of n readings, in the readings' unit. What does not exist is NaN: everything when n = 0, the standard

@@ -34,7 +34,7 @@ struct StreamInfo {
     StreamUnit unit;
     std::size_t channels;  ///< 1..3 axes, 1 for force, taxel count
     double rate_hz;        ///< nominal where live, measured where recorded (science.md section 1)
-    std::string name;      ///< for people: "fingertip accelerometer"
+    std::string name;      ///< what people read: "fingertip accelerometer"
 };
 
 /// Consecutive samples of one stream. A caller that reads in a loop reuses its buffers, so that a steady state
@@ -50,17 +50,17 @@ struct SampleBlock {
     }
 };
 
-/// Both ends belong to it.
+/// A time interval that includes both ends.
 struct TimeInterval {
     double begin_s = 0;
     double end_s = 0;
     [[nodiscard]] bool contains(double t_s) const noexcept { return t_s >= begin_s && t_s <= end_s; }
 };
 
-/// What the maker of the data states about it, on the same time base as its stamps.
+/// The maker's statements on the data, on the same time base as its stamps.
 struct DeclaredIntervals {
-    std::optional<TimeInterval> baseline;              ///< at rest, nothing touched
-    std::optional<std::vector<TimeInterval>> contact;  ///< in time order; absent = not stated
+    std::optional<TimeInterval> baseline;              ///< the time at rest, when nothing is touched
+    std::optional<std::vector<TimeInterval>> contact;  ///< times of contact, in order; absent = not stated
 };
 
 // Tells a regular time stamp from a gap, a repeat or a clock that was set back.
@@ -70,8 +70,8 @@ struct DeclaredIntervals {
 // stamps slowly, so a nominal rate that is off by 2 % does not drift into false gaps.
 
 enum class StampClass {
-    First,     ///< nothing to compare with
-    Regular,   ///< within half a step of the grid
+    First,     ///< the first sample: nothing to compare with
+    Regular,   ///< within half a step of its place on the grid
     Gap,       ///< half a step or more late: samples are missing before this one
     Early,     ///< half a step or more early, yet later than the one before
     Repeat,    ///< the same stamp again
@@ -84,8 +84,8 @@ public:
     /// `rate_hz` must be finite and positive.
     explicit SampleGrid(double rate_hz) noexcept : step_(1.0 / rate_hz) {}
 
-    /// Judges the next stamp and moves the grid. After anything but Regular the grid starts again at that
-    /// stamp; a Backward, Repeat or Invalid stamp leaves the grid as it was.
+    /// Judges the next stamp and moves the grid. After anything but Regular the grid starts again at that stamp; a
+    /// Backward, Repeat or Invalid stamp leaves the grid unchanged.
     [[nodiscard]] StampClass next(double t_s) noexcept {
         const double late = t_s - expected_;
         if (t_s > last_ && std::abs(late) < 0.5 * step_) {

@@ -11,14 +11,14 @@ namespace tacto {
 
 enum class Utf16Order { Little, Big };
 
-/// By the byte-order mark that `bytes` begin with; nothing where there is none.
+/// The order by the byte-order mark at the beginning of `bytes`; nothing where there is no mark.
 [[nodiscard]] std::optional<Utf16Order> utf16OrderOf(std::string_view bytes) noexcept;
 
 /// Bytes of UTF-8 that two bytes of UTF-16 become at most.
 constexpr std::size_t kUtf8PerUtf16 = 3;
 
 /// Appends `bytes` as UTF-8 and returns how many of them were used: a last odd byte, and the first half of a pair whose
-/// second half is to come, stay. Half a pair alone becomes U+FFFD.
+/// second half is still to come, stay. Half a pair alone becomes U+FFFD.
 [[nodiscard]] std::size_t appendAsUtf8(std::string_view bytes, Utf16Order order, std::string& text);
 
 /// `bytes` themselves, or as UTF-8 where they begin with the mark of UTF-16; without the mark then.

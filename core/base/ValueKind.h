@@ -46,25 +46,25 @@ struct AcceptedText {
     [[nodiscard]] std::string text() const;
 };
 
-/// What is known about a field whatever its type: what a form needs.
+/// What is known about a field of any type: what a form needs.
 struct FieldInfo {
     std::string key{};
     std::string accepted{};                    ///< "a number from 0.01 to 500 V", for messages
-    std::optional<AcceptedNumbers> numbers{};  ///< where the field is a number
-    std::vector<std::string_view> words{};     ///< where it is one of these
-    std::vector<FieldInfo> members{};          ///< where it is a record
+    std::optional<AcceptedNumbers> numbers{};  ///< the accepted numbers, where the field is a number
+    std::vector<std::string_view> words{};     ///< the words it may be, where it is one of these
+    std::vector<FieldInfo> members{};          ///< the fields, where it is a record
     bool required = false;                     ///< the key must be there
-    bool mayBeNull = false;                    ///< null stands for none; true for a std::optional
+    bool mayBeNull = false;                    ///< null stands for "none"; true for a std::optional
     bool leftOutIfEmpty = false;               ///< left out when empty, instead of written as null
 
-    /// The member of that key. Null when there is none.
+    /// The member with that key. Null if there is none.
     [[nodiscard]] const FieldInfo* find(std::string_view memberKey) const noexcept;
 };
 
-/// Where a record stands, for messages.
+/// Where a record stands; for messages.
 struct RecordPlace {
     std::string file{};    ///< begins every message; may be empty
-    std::string path{};    ///< in the file: "limits[2]", "roughness.references"
+    std::string path{};    ///< where it stands in the file: "limits[2]", "roughness.references"
     bool lenient = false;  ///< passes over what cannot be read: rows of a damaged file are read too
 
     [[nodiscard]] std::string text() const;
@@ -77,16 +77,16 @@ struct RecordPlace {
 };
 
 /// How the values of a type stand in JSON, for code that does not know the type: `into` and `held` are addresses of
-/// one. Compiled once; a template of it took a third of the compiling and of the code of the layers that store records.
+/// one. Compiled once: a template took a third of the compiling and of the code of the layers that store records.
 struct AnyKind {
-    FieldInfo info{};  ///< all but the key
+    FieldInfo info{};  ///< what is known of the field, except its key
     std::function<Result<void>(const nlohmann::json&, void* into, const RecordPlace&, std::string_view key)> readInto{};
     std::function<nlohmann::json(const void* held)> writeFrom{};
     /// Empty: any value.
     std::function<Result<void>(const void* held, const RecordPlace&, std::string_view key)> checkOf{};
 };
 
-/// The same for a type that is known.
+/// The kind of a type that is known.
 template <class T>
 struct ValueKind : AnyKind {
     ValueKind() = default;
@@ -160,7 +160,7 @@ template <class T>
         return static_cast<double>(value);
 }
 
-/// Whether T holds this whole number: a script hands on every number as a double, a file may have more digits than one.
+/// Whether T can hold this whole number: a script hands on every number as a double, a file may have more digits.
 template <class T>
 [[nodiscard]] bool holdsWhole(const nlohmann::json& value) {
     if (value.is_number_unsigned()) return std::in_range<T>(value.get<std::uint64_t>());
@@ -168,16 +168,16 @@ template <class T>
     return value.get<double>() < std::ldexp(1.0, std::numeric_limits<T>::digits);
 }
 
-/// How a number of some type is reached.
+/// Reaches a number of some type.
 struct NumberAccess {
     double (*get)(const void*);
     /// False where the type cannot hold this whole number: `value`, which is `number` as a double.
     bool (*set)(void*, const nlohmann::json& value, double number);
-    nlohmann::json (*write)(const void*);  ///< to the last digit; null: what get() gives
+    nlohmann::json (*write)(const void*);  ///< exact to the last digit; null: what get() gives
 };
 [[nodiscard]] AnyKind numberKindOf(const AcceptedNumbers& accepted, const NumberAccess& access);
 
-/// What is not finite is written as null.
+/// A value that is not finite is written as null.
 template <class T>
 [[nodiscard]] ValueKind<T> numberKind(AcceptedNumbers accepted) {
     NumberAccess access{[](const void* held) { return plainNumber(*static_cast<const T*>(held)); },
@@ -203,9 +203,9 @@ template <class T>
 /// "a, b or c".
 [[nodiscard]] std::string listedWords(const std::vector<std::string_view>& words);
 
-/// How a value that is one of several words is reached.
+/// Reaches a value that is one of several words.
 struct WordAccess {
-    std::function<std::size_t(const void*)> find;  ///< which word; beyond the last: none
+    std::function<std::size_t(const void*)> find;  ///< which word it is; a number beyond the last: none
     std::function<void(void*, std::size_t)> set;
 };
 [[nodiscard]] AnyKind wordKindOf(const std::vector<std::string_view>& words, WordAccess access);
@@ -224,7 +224,7 @@ template <class T>
     return ValueKind<T>(wordKindOf(texts, {find, set}));
 }
 
-/// How a list of some type is reached.
+/// Reaches a list of some type.
 struct ListAccess {
     std::size_t (*size)(const void*);
     const void* (*at)(const void*, std::size_t);

@@ -27,7 +27,7 @@ std::string draftsOf(int owner) { return fmt::format(".tactoscope-{}-", owner); 
 
 fs::path folderOf(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
-/// What a link names in the end, there or not; `path` itself where it is none. It does not go round: stat() took it.
+/// The file that a link names in the end, existing or not; `path` itself if it is no link. Links end: stat() took it.
 fs::path behindLinks(fs::path path) {
     std::error_code error;
     while (fs::is_symlink(fs::symlink_status(path, error))) {
@@ -52,7 +52,7 @@ struct Draft {
 
 /// An empty file beside `path`, with its permissions where it is there.
 Result<fs::path> draftFor(const fs::path& path, const struct stat* before) {
-    constexpr int kTries = 100;  // what a killed process of the same number left
+    constexpr int kTries = 100;  // a killed process with the same number may have left a draft
     for (int i = 0; i < kTries; ++i) {
         auto draft = draftBeside(path);
         const int file = ::open(draft.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);

@@ -1,7 +1,7 @@
-// WholeFile.h - replaces a file by a whole new one or leaves it as it was, also on a disk that fills up (hazard H8).
+// WholeFile.h - replaces a file by a whole new one or leaves it unchanged, even on a disk that fills up (hazard H8).
 //
-// What is written goes into a draft in the same folder, whose name is short whatever the file is called: a name may
-// have as many bytes as the file system allows.
+// The content goes into a draft in the same folder, with a short name whatever the file is called: a name may have as
+// many bytes as the file system allows.
 //
 // Thread-safety: any thread; two that write one file at once both leave a whole one. A FileOut has one owner.
 #pragma once
@@ -47,7 +47,7 @@ private:
 [[nodiscard]] Result<void> replaceWholeFile(
     const std::filesystem::path& path, const std::function<Result<void>(const std::filesystem::path& draft)>& write);
 
-/// The same with a content that is at hand.
+/// Writes a content that is at hand.
 [[nodiscard]] Result<void> writeWholeFile(const std::filesystem::path& path, std::string_view content);
 
 /// The sentence about a file that was asked for: "out.csv could not be written: No space left on device". Errors that
@@ -59,7 +59,7 @@ private:
 
 enum class LockedBy {
     Any,
-    Another  ///< than this process
+    Another  ///< a process other than this one
 };
 
 /// The process. `kind`: "FLOCK" (flock(2)) or "POSIX" (fcntl(2)). Nothing where none holds one, and where that cannot
@@ -67,14 +67,14 @@ enum class LockedBy {
 [[nodiscard]] std::optional<std::int64_t> lockHolder(const std::filesystem::path& file, std::string_view kind,
                                                      LockedBy by = LockedBy::Any);
 
-// What makes a file that was written under another name survive power loss before it takes its place.
+// Makes a file that was written under another name survive power loss before it takes its place.
 
 /// Waits until the content of a file would survive power loss. Errors: Io.
 [[nodiscard]] Result<void> syncFile(const std::filesystem::path& file);
-/// The same of the names in its folder. A folder that cannot be synced (some network file systems) is no reason to
+/// Makes the names in its folder durable. A folder that cannot be synced (some network file systems) is no reason to
 /// refuse a session.
 void syncFolderOf(const std::filesystem::path& file) noexcept;
-/// Removes an SQLite file and those of its journals that exist.
+/// Removes an SQLite file and its journals.
 void removeDraft(const std::filesystem::path& draft);
 
 }  // namespace tacto

@@ -30,7 +30,7 @@ template <class Value>
     return otherwise;
 }
 
-/// Nothing for a text that is not among the words.
+/// Nothing for a text that is not one of the words.
 template <class Value, std::size_t count>
 [[nodiscard]] constexpr std::optional<Value> valueFor(const Word<Value> (&words)[count],
                                                       std::string_view text) noexcept {
@@ -52,7 +52,7 @@ inline constexpr Word<Confidence> kConfidences[] = {{"high", Confidence::High},
     return wordFor(kConfidences, confidence);
 }
 
-// What a device is to the bench, and the word for it in addresses, files and results.
+// The role of a device on the bench, and the word for it in addresses, files and results.
 
 enum class Role { Sensor, Stimulator, Oscilloscope, Massager };
 inline constexpr Word<Role> kRoles[] = {{"sensor", Role::Sensor},

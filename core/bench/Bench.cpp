@@ -82,7 +82,7 @@ Result<void> Bench::arm(const ArmRequest& request) {
     if (const auto well = s.health(); !well) return well;
     if (const auto holds = s.calibration.checkDate(); !holds) return holds;
     const auto command = s.terms.commandFor(request, *load, s.order.asked());
-    // Without the operator's word for the load arming is refused, and no pulse is sent.
+    // Unless the operator has confirmed the load, arming is refused, and no pulse is sent.
     std::optional<CheckCapture> look;
     if (command.confirmByCapture && command.evidence.declaredLoadConfirmed) {
         look.emplace(*s.scope, s.time, *s.loop, command);
@@ -129,7 +129,7 @@ Result<void> Bench::arm(const ArmRequest& request) {
 }
 
 Result<std::optional<Ohms>> Bench::checkImpedance(const ArmRequest& request) {
-    static_cast<void>(drive(DriveSource::Off));  // never fails for Off
+    static_cast<void>(drive(DriveSource::Off));  // driving with Off never fails
     const auto armed = arm(request);
     const double ohms = telemetry().impedance_ohm;
     disarm();
@@ -295,7 +295,7 @@ void Bench::idle(Seconds duration) noexcept {
     const Instant until = s.time.now() + toInstant(duration);
     constexpr Instant kPollInterval = std::chrono::milliseconds(100);
     while (s.time.now() < until) {
-        attend();  // who lets time pass is there
+        attend();  // whoever lets time pass is there
         s.time.pass(until, kPollInterval);
     }
 }

@@ -46,30 +46,30 @@ struct BenchConfig {
     /// being, who is refused on a simulated one outside a rehearsal.
     bool virtualParticipant = false;
     bool rehearsal = false;
-    SessionWriter* session = nullptr;  ///< not owned; null records nothing
-    BenchTap* tap = nullptr;           ///< not owned; null shows nothing
-    /// The last of the stimulator that is known. The gate judges by it in any case; a stimulator that is out of order
-    /// by it is not armed.
+    SessionWriter* session = nullptr;  ///< not owned; where null, nothing is recorded
+    BenchTap* tap = nullptr;           ///< not owned; where null, nothing is shown
+    /// The last known calibration of the stimulator. The gate judges by it in any case; a stimulator that is out of
+    /// order by it is not armed.
     KnownLines calibration;
-    bool calibrationHolds = true;  ///< it is applied to every train; else commands go out as they are, and to no person
-    std::string calibrationText;   ///< for the session: which one, or why there is none; empty records nothing
+    bool calibrationHolds = true;  ///< applied to every train; without it commands go out as they are, and to no person
+    std::string calibrationText;   ///< what the session says of the calibration, or of having none; empty: nothing
     /// The last day on which it holds: later nothing is armed for a person, however long the bench has been open.
     std::optional<std::chrono::sys_days> calibratedUntil;
     std::chrono::sys_days (*today)() = nullptr;  ///< UTC; null asks the system
-    /// Whose stops end the orders of this bench; null: its own. `asked` is when the operator asked for the bench, and
-    /// its first order; without `stops` that is now.
+    /// The counter of the stops that end the orders of this bench; null: its own. `asked` is when the operator asked
+    /// for the bench, and its first order; without `stops` that is now.
     std::shared_ptr<StopCounter> stops;
     StopMark asked = {};
     /// Whether the operator can reach the stop now (the window runs); empty: always. While it says no, nothing counts
     /// as looking after the output: see Bench::attend(). Called from any thread; does not block.
     std::function<bool()> watched;
-    /// Where the exposure and the faults of units are kept (UnitRecord.h): a stimulator goes on from there, and is held
-    /// against other processes. Empty keeps none; a simulated stimulator never has one.
+    /// Where the exposure and the faults of units are kept (UnitRecord.h): a stimulator continues from there, and other
+    /// processes cannot use it meanwhile. Where empty, nothing is kept; a simulated stimulator never has one.
     UnitFolders units;
-    const SystemTime* systemTime = nullptr;  ///< of the record; null: the system's own. Outlives the bench
+    const SystemTime* systemTime = nullptr;  ///< the record's clock; null: the system's own. Outlives the bench
 };
 
-/// What the operator states when arming.
+/// The operator's statements when arming.
 struct ArmRequest {
     std::string load = "1 kohm";         ///< declared load, as parseLoad() reads it (bench loads)
     bool declaredLoadConfirmed = false;  ///< the operator's word, where the device cannot read back
@@ -95,19 +95,19 @@ public:
     /// The order for which everything is done from now on; the operator gave it at `asked`, a mark of stops().
     /// Errors: Stopped when a stop has come since. Then the bench keeps its order from before.
     [[nodiscard]] Result<void> begin(StopMark asked);
-    /// What stop() raises.
+    /// The counter that stop() raises.
     [[nodiscard]] StopCounter& stops() noexcept;
 
     /// Disarmed → Checking (one small pulse) → Armed. Where the stimulator does not read back and an oscilloscope is
     /// open, that has to show the pulse, within 20 %, and a load in the declared range; it replaces a request for
     /// captures. Errors: NotArmed with what is missing; LimitExceeded; Device; Stopped.
     [[nodiscard]] Result<void> arm(const ArmRequest& request);
-    /// The same check of the load, after which the bench is always disarmed. Nothing but the check pulse
-    /// is delivered. The value is |Z|, or nothing where the stimulator does not read back. Errors: as arm().
+    /// Checks the load in the same way, and always disarms the bench afterwards. Nothing but the check pulse is
+    /// delivered. The value is |Z|, or nothing where the stimulator does not read back. Errors: as arm().
     [[nodiscard]] Result<std::optional<Ohms>> checkImpedance(const ArmRequest& request);
-    /// What the operator confirms before this load is armed. See core/bench/arming/CommandPreview.h.
+    /// The text that the operator confirms before this load is armed. See core/bench/arming/CommandPreview.h.
     [[nodiscard]] std::string armingText(const Load& load) const;
-    /// Whether what would be armed is a device and no simulation: then arm() takes no request without its text.
+    /// Whether arming would arm a device and not a simulation: then arm() takes no request without its text.
     [[nodiscard]] bool outputIsReal() const noexcept;
     /// Ends output and goes to Disarmed (a fault stays). Never fails.
     void disarm() noexcept;
@@ -125,12 +125,12 @@ public:
 
     /// Whether `cause` is among those of the present fault.
     [[nodiscard]] bool faultPersists(FaultCause cause) const noexcept;
-    /// As Interlock::faultCode(). Any thread.
+    /// The same as Interlock::faultCode(). Any thread.
     [[nodiscard]] ErrorCode faultCode() const noexcept;
 
-    /// Lets `duration` pass in which the control loop does not run, as in a hang, on purpose: what the dead-man check
-    /// of a bench load needs. The device threads go on, and end the output when they notice; the loop then finds a
-    /// fault. Errors: Unsupported outside bench loads; InvalidArgument unless above 0 and at most 10 s; Stopped.
+    /// Lets `duration` pass without the control loop, as in a hang, on purpose: the dead-man check of a bench load
+    /// needs that. The device threads continue, and end the output when they notice; the loop then finds a fault.
+    /// Errors: Unsupported outside bench loads; InvalidArgument unless above 0 and at most 10 s; Stopped.
     [[nodiscard]] Result<void> withholdHeartbeat(Seconds duration);
     /// How long the loop had been silent when the stimulator was switched off for it; nothing if that never happened.
     [[nodiscard]] std::optional<Seconds> silencedAfter() const noexcept;
@@ -143,7 +143,7 @@ public:
     void attend(Seconds within = kAttended) noexcept;
     static constexpr Seconds kAttended{2};
 
-    /// What drives the encoder from the next train on. `roughness` and `pressure` (0..1) serve Manual only.
+    /// Sets what drives the encoder from the next train on. `roughness` and `pressure` (0..1) serve Manual only.
     /// Errors: InvalidArgument outside 0..1 or NaN; Unsupported for Sensor without a sensor; Stopped, unless Off.
     [[nodiscard]] Result<void> drive(DriveSource source, double roughness = 0, double pressure = 0);
     /// One presentation, in the kind of train that the profile describes: waits for its end. Every train
@@ -173,9 +173,9 @@ public:
     /// The highest level that a presentation may have now: the ramp, what was too strong, the cap. Errors: NotArmed
     /// outside person mode, and before it was armed.
     [[nodiscard]] Result<StimulusLevel> levelCeiling();
-    /// The highest level of the device's grid that the limits, the cap and what was too strong permit at `interval` on
-    /// the impedance that was measured last, whatever was accepted; and what stands against the next one.
-    /// Errors: NotArmed outside person mode, and where no impedance is known.
+    /// The highest level of the device's grid that the limits, the cap and the discomfort limit permit at `interval` on
+    /// the last measured impedance, whatever was accepted; and what stands against the next one. Errors: NotArmed
+    /// outside person mode, and where no impedance is known.
     [[nodiscard]] Result<PermittedLevel> levelLimit(Seconds interval) const;
 
     /// Replaces the profile at the next step of the loop. While armed only its `roughness` section may change.
@@ -189,14 +189,14 @@ public:
     [[nodiscard]] Result<void> useCalibration(bool use);
     [[nodiscard]] const Profile& profile() const noexcept;
     [[nodiscard]] const std::vector<LimitSet>& limits() const noexcept;
-    /// What the gate receives when this load is armed: for previews.
+    /// The setup that the gate receives when this load is armed: for previews.
     [[nodiscard]] GateSetup setupFor(const Load& load) const;
 
     /// Lets `duration` pass on the bench's clock. Errors: Stopped; Device after a fault, Timeout where lateness caused
     /// it; Device when the sensor that drives failed; LimitExceeded when a manually driven train was refused (driven by
     /// a sensor it is skipped and counted).
     [[nodiscard]] Result<void> wait(Seconds duration);
-    /// Lets time pass as wait() does, but also after a stop or a fault: a display goes on when output does not. Never
+    /// Lets time pass as wait() does, but also after a stop or a fault: a display continues when output does not. Never
     /// fails. For a bench whose virtual clock has no other mover.
     void idle(Seconds duration) noexcept;
     /// Arms the oscilloscope and returns the captures of the next `trains` trains. Errors: Unsupported without an
@@ -211,11 +211,11 @@ public:
                                                std::optional<Seconds> untriggeredAfter = {});
     /// Whether requestCaptures() may be asked for untriggered records.
     [[nodiscard]] bool canCaptureUntriggered() const noexcept;
-    /// What a request has brought so far, or why the oscilloscope failed. Empties it.
+    /// The captures of a request so far, or why the oscilloscope failed. Empties it.
     [[nodiscard]] Result<std::vector<Capture>> takeCaptures();
     void cancelCaptures() noexcept;
     /// Also pushes the sensor's samples into `tap`, not owned, until null is passed; for a caller that wants them
-    /// itself and takes them between waits. On return nothing pushes into the one before.
+    /// itself and takes them between waits. On return nothing is pushed into the earlier tap.
     void listen(BenchTap* tap);
     /// True when a replayed sensor has no more samples.
     [[nodiscard]] bool sensorFinished() const noexcept;
@@ -225,7 +225,7 @@ public:
     [[nodiscard]] Telemetry telemetry() const;
     /// Faults since the bench was made. Any thread.
     [[nodiscard]] std::uint64_t faults() const noexcept;
-    /// What the device of that role reports on itself; nothing where there is none, or it reports nothing. Any thread.
+    /// The device's own report in that role; nothing where there is no device, or it reports nothing. Any thread.
     [[nodiscard]] std::optional<DeviceReport> deviceReport(Role role) const noexcept;
     [[nodiscard]] DeviceSet& devices() noexcept;
     [[nodiscard]] OutputMode mode() const noexcept;

@@ -1,5 +1,5 @@
 // BenchNotes.h - what a bench itself writes into the session, past the recorder, whose only caller is the control loop:
-// by the file alone it must be known what each train was made of and judged by.
+// the file alone must tell how each train was made and judged.
 //
 // Without a session it is a null object: nothing is written, and nothing fails.
 //
@@ -22,12 +22,12 @@ inline constexpr const char* kLevelTooStrong = "level-too-strong";
 
 class BenchNotes {
 public:
-    /// Both outlive the notes; `session` may be null.
+    /// `session` and `clock` outlive the notes; `session` may be null.
     BenchNotes(SessionWriter* session, const Clock& clock) noexcept : session_(session), clock_(clock) {}
 
     /// The lines that are applied; `text`: which calibration that is, or why there is none. Empty notes nothing.
     void calibration(const KnownLines& applied, const std::string& text) const;
-    /// What of the profile is different. Errors: as SessionWriter::event().
+    /// Notes the differences of the profile. Errors: as SessionWriter::event().
     [[nodiscard]] Result<void> profile(const Profile& before, const Profile& next) const;
     /// Load range, area, limits and calibration that every train of this arming is judged by. Errors: the same.
     [[nodiscard]] Result<void> arming(const ArmRequest& request, const GateSetup& setup, const Profile& profile) const;

@@ -12,8 +12,8 @@ namespace tacto {
 
 namespace {
 
-/// Where the time of a record leaves more than one command: the only one whose size all of its pulses have, within
-/// 20 %, which faults nothing.
+/// Where the time of a record allows more than one command: the only one whose size all of its pulses have, within 20
+/// %, which faults nothing.
 std::optional<ProgrammedTrain> commandOfItsSize(const Capture& capture, const SourceTraits& source,
                                                 std::span<const ProgrammedTrain> programmed) {
     constexpr double kOff = 0.2;
@@ -113,7 +113,7 @@ Result<void> Bench::State::open() {
     return {};
 }
 
-/// The stimulator goes on from what it delivered before, and no other process drives it meanwhile.
+/// The stimulator continues from what it delivered before, and no other process drives it meanwhile.
 Result<void> Bench::State::takeUpRecord() {
     const auto& stimulating = config.devices.stimulator;
     if (!stimulating || stimulating->identity().simulated || config.units.records.empty()) return {};
@@ -196,10 +196,10 @@ Result<void> Bench::State::rest() {
     return rested ? Result<void>{} : failure(rested);
 }
 
-/// What a device's session reported while the device was gone (a keep-alive that failed) belongs to the fault that is
-/// being left; judged after the reset it would be the next one.
+/// A report from the time when the device was gone (a keep-alive that failed) belongs to the fault that is being left;
+/// judged after the reset it would be the next one.
 Result<void> Bench::State::letReportsBeJudged() {
-    constexpr std::uint64_t kSteps = 2;  // one may be under way
+    constexpr std::uint64_t kSteps = 2;  // one step may be under way
     constexpr Instant kStepsTimeout = std::chrono::milliseconds(500);
     constexpr Instant kPollInterval = std::chrono::milliseconds(1);
     const auto begin = loop->telemetry().steps;

@@ -31,8 +31,8 @@ struct Bench::State {
 
     /// Disarmed first: see ControlLoop::mayPost().
     void off(const char* why) noexcept;
-    /// Whether what the bench does may go on. Errors: Stopped; Device after a fault or when the sensor that drives
-    /// failed; Io when the session cannot be written.
+    /// Whether the bench may continue. Errors: Stopped; Device after a fault or when the sensor that drives failed; Io
+    /// when the session cannot be written.
     [[nodiscard]] Result<void> health() const;
     void attend(Seconds within) noexcept {
         if (!config.watched || config.watched()) loop->attend(config.clock->now() + toInstant(within));
@@ -63,7 +63,7 @@ struct Bench::State {
 
     BenchConfig config;
     BenchCalibration calibration{config};
-    std::unique_ptr<UnitRecord> record;  // of the stimulator, where one is kept; outlives those that write into it
+    std::unique_ptr<UnitRecord> record;  // the stimulator's record, where one is kept; outlives those that write to it
     BenchNotes notes;
     SafetyGate gate;
     Interlock interlock;
@@ -77,9 +77,9 @@ struct Bench::State {
 
     StandingOrder order;
     std::atomic<DriveSource> driving{DriveSource::Off};
-    std::uint64_t refusalsSeen = 0;  // by the caller of drive(), wait() and capture()
+    std::uint64_t refusalsSeen = 0;  // refusals that the caller of drive(), wait() and capture() has seen
 
-    BenchTime time{*config.clock, output, order};  // Its threads end first
+    BenchTime time{*config.clock, output, order};  // The threads in it end first
     BenchLevels levels{config, output, calibration, terms, notes, gate, time, loop};
 
 private:

@@ -32,7 +32,7 @@ void BenchTime::startThreads() {
     loopThread_ = std::make_unique<DeviceThread>(clock_, [this, due = clock_.now()](Instant now) mutable {
         if (withheld_.load(std::memory_order_acquire)) return now + ControlLoop::kPeriod;
         loop_->step(now);
-        // Behind by more than a step (a stall): go on from now rather than catch up in a burst.
+        // More than a step behind (a stall): continue from now rather than catch up in a burst.
         due = std::max(due + ControlLoop::kPeriod, now);
         return due;
     });

@@ -50,7 +50,7 @@ private:
 
 class BenchTime {
 public:
-    /// All outlive this.
+    /// All arguments outlive this.
     BenchTime(Clock& clock, BenchOutput& output, StandingOrder& order) noexcept
         : clock_(clock), virtual_(dynamic_cast<VirtualClock*>(&clock)), output_(output), order_(order) {}
 
@@ -65,15 +65,15 @@ public:
                std::function<Result<void>()> watch);
     /// On return the loop takes no further step.
     void endLoop() noexcept { loopThread_.reset(); }
-    /// On return nothing is served any more. The loop is ended first.
+    /// After this returns nothing is served any longer. The loop is ended first.
     void endDevices() noexcept;
 
     /// Lets time pass until `done` or `until`; the value says whether it was done. On the virtual clock a pause holds
     /// it up. Errors: those of `watch`.
     [[nodiscard]] Result<bool> advance(Instant until, const std::function<bool()>& done);
-    /// Lets a turn pass, or on the steady clock up to `longest`; at most to `until`, whatever the order's state.
+    /// Lets a turn pass, or on the steady clock up to `longest`; at most to `until`, in any state of the order.
     void pass(Instant until, Instant longest) noexcept;
-    /// Until then, or a stop, the loop takes no step, as in a hang; the devices go on.
+    /// Until then, or until a stop, the loop takes no step, as in a hang; the devices continue.
     void withholdLoop(Instant until);
     /// Serves the output or the sensor once, out of turn; on the steady clock its thread does, within a millisecond.
     void prompt(Role role) noexcept;
@@ -87,7 +87,7 @@ private:
     void startThreads();
 
     Clock& clock_;
-    VirtualClock* const virtual_;  // null on the steady clock
+    VirtualClock* const virtual_;  // null when the clock is the steady one
     BenchOutput& output_;
     StandingOrder& order_;
     ControlLoop* loop_ = nullptr;

@@ -77,7 +77,7 @@ void ControlLoop::wakeFromSleep(Instant now, Instant slept) noexcept {
     endOrder(now, "sleep", why.data());
 }
 
-/// Output goes on only while its owner waits for it and what it does is recorded.
+/// Output continues only while its owner waits for it and it is recorded.
 void ControlLoop::watchOwner(Instant now) noexcept {
     if (!mayPutOut(parts_.interlock.state())) return;
     if ((drive_.source != DriveSource::Off || presentation_.active()) && !order_.attended(now))
@@ -248,7 +248,7 @@ void ControlLoop::judgeBurst(const TrainReport& report) noexcept {
     rests_.burst(report.onset, report.end);
 }
 
-/// Not of a fingertip that drives: what it feels begins and ends with the bursts.
+/// A fingertip that drives is not watched: what it feels begins and ends with the bursts.
 void ControlLoop::watchMassager(Instant now) noexcept {
     const auto* finger = finger_.input();
     if (parts_.massager == nullptr || finger == nullptr) return;
@@ -317,7 +317,7 @@ void ControlLoop::sendDue(Instant now) noexcept {
     if (!sent) refused(now, sent.error().message);
 }
 
-/// One check pulse; the train follows when it was judged.
+/// Sends one check pulse; the train follows when it was judged.
 void ControlLoop::renewReading(Instant now) noexcept {
     if (const auto sent = dispatch_.sendCheck(now, shown_); !sent)
         trip(FaultCause::LimitBroken, sent.error().message, now);
@@ -329,7 +329,7 @@ void ControlLoop::goOnPresenting(Instant now) noexcept {
     const auto due = presentation_.next(
         {now, parts_.interlock.state(), reason.view(), order_.stopped(), paused, dispatch_.idle(), reading_.until()});
     if (due == PresentationRun::Due::Check) return renewReading(now);
-    // Also before an empty one: what the bench shows does not tell them apart.
+    // Done before an empty presentation, too: what the bench shows must not tell them apart.
     if (!presentation_.begun() || !dispatch_.beginDelivery()) return;  // the next turn finds out why
     if (due != PresentationRun::Due::Train) return;
     if (const auto sent = dispatch_.sendPresented(presentation_, *planner_, now, shown_); !sent)
@@ -339,7 +339,7 @@ void ControlLoop::goOnPresenting(Instant now) noexcept {
 void ControlLoop::refused(Instant now, std::string_view why) noexcept {
     ++shown_.trainsRefused;
     shown_.lastRefusal = why;
-    latest_.write(shown_);  // before a caller who saw the count asks for the reason
+    latest_.write(shown_);  // written before a caller who saw the count asks for the reason
     refusals_.store(shown_.trainsRefused, std::memory_order_release);
     journal_.refused(now, why);
 }
@@ -357,7 +357,7 @@ void ControlLoop::trip(FaultCause cause, std::string_view reason, Instant now, E
     noteState(now);
 }
 
-/// Once for each time that what comes out leaves what the source states.
+/// Noted once each time the output leaves what the source states.
 void ControlLoop::noteMeasured(Instant now) noexcept {
     const bool before = shown_.measured.beyond;
     shown_.measured = judge_.measured();

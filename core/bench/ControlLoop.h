@@ -44,10 +44,10 @@ public:
         OutputMode mode;
         StimulatorSession* stimulator;  ///< may be null
         SessionRecorder* recorder;      ///< may be null
-        int frameStream;                ///< of the recorder, for roughness frames
+        int frameStream;                ///< the recorder's stream for roughness frames
         std::vector<int> sensorStreams;
         BenchTap* tap = nullptr;                        ///< may be null: no view is open
-        MassagerSession* massager = nullptr;            ///< in place of a stimulator, else null
+        MassagerSession* massager = nullptr;            ///< null unless a massager takes the place of the stimulator
         const ReportingDevice* sensorReport = nullptr;  ///< the sensor, if it reports on itself
         /// A stop after the order to arm holds back every check pulse and train of it. Null: only the interlock does.
         StopCounter* stops = nullptr;
@@ -56,25 +56,25 @@ public:
 
     /// Begins the check; the interlock is in Checking. armed() reports the end.
     void arm(ArmCommand command);
-    /// What the oscilloscope showed of the check pulse: |Z|, or why it does not confirm it. Arming with
+    /// Hands in the oscilloscope's view of the check pulse: |Z|, or why it does not confirm it. Arming with
     /// `confirmByCapture` waits for it. From another thread.
     void confirmCheck(const Result<Ohms>& seen) { inbox_.confirm(seen); }
-    /// Nothing while the check goes on, then success or why not. Taken once.
+    /// Nothing while the check is going on, then success or why it failed. Taken once.
     [[nodiscard]] std::optional<Result<void>> armed() { return arming_.result(); }
     void drive(const DriveCommand& command) { inbox_.drive(command); }
-    /// What has passed validate() is presented at once, if the bench is armed and drives nothing. presented() tells the
-    /// end: nothing while it goes on. Taken once.
+    /// Presents at once what has passed validate(), if the bench is armed and drives nothing. presented() tells the
+    /// end: nothing before it. Taken once.
     void present(Presentation presentation);
     [[nodiscard]] std::optional<Presented> presented() { return presentation_.result(); }
     /// As PresentationRun::beganAt().
     [[nodiscard]] std::optional<Instant> presentationBegan() { return presentation_.beganAt(); }
-    /// Where the participant's word on levels is handed in.
+    /// Takes the participant's word on levels.
     [[nodiscard]] LevelRequests& levels() noexcept { return levels_; }
     void pauseOutput(bool paused) noexcept {
         dispatch_.pause(paused);
         if (paused) pausedSince_.store(true, std::memory_order_release);
     }
-    /// The flags of the one before stay, but for those of calibration where R was not shown and drove nothing.
+    /// The earlier flags stay, except those of calibration where R was not shown and drove nothing.
     void replaceFinger(std::unique_ptr<FingerInput> finger, RBefore before) {
         inbox_.finger({std::move(finger), before});
     }
@@ -82,15 +82,15 @@ public:
     /// Also pushes the finger's samples (not frames, not trains) into `tap`, not owned; null ends it, and on return
     /// nothing pushes into the one before. From another thread.
     void listen(BenchTap* tap) { taps_.listen(tap); }
-    /// What a capture showed of the load while trains are delivered. Judged where the stimulator cannot read it back:
-    /// a load outside its range, and an open one, end delivery. From another thread.
+    /// Hands in a capture's view of the load while trains are delivered. Judged where the stimulator cannot read it
+    /// back: a load outside its range, and an open one, end delivery. From another thread.
     void noteLoad(const SeenLoad& seen) { inbox_.load(seen); }
     /// How large a train came out, from a capture. Any thread; judged at the next step.
     void noteAmplitude(const SeenAmplitude& seen) { inbox_.amplitude(seen); }
 
-    /// One turn at `now`. Does not allocate in a steady state. A turn that comes more than 100 ms after the one before
-    /// (the process was stopped, the machine stood still) finds a fault and switches off before anything else; one
-    /// after the computer slept for more than a second disarms, and counts as a stop.
+    /// Makes one turn at `now`. Does not allocate in a steady state. A turn that comes more than 100 ms after the one
+    /// before (the process was stopped, the machine stood still) finds a fault and switches off before anything else; a
+    /// turn after the computer slept for more than a second disarms, and counts as a stop.
     void step(Instant now) noexcept;
     /// Records a change of the interlock that came from outside, for a bench that will not step again.
     void noteState(Instant now) noexcept;
@@ -98,13 +98,13 @@ public:
     [[nodiscard]] Telemetry telemetry() const noexcept;
     /// Trains refused so far. Any thread.
     [[nodiscard]] std::uint64_t refusals() const noexcept { return refusals_.load(std::memory_order_acquire); }
-    /// Who ordered the output (a script, a window) is looking after it until then. Output that is driven for longer
-    /// ends as by a stop: its owner may hang while the loop runs on (hazard H2). Any thread; does not block.
+    /// The owner of the output (a script, a window) looks after it until then. Output that is driven for longer ends as
+    /// by a stop: its owner may hang while the loop runs on (hazard H2). Any thread; does not block.
     void attend(Instant until) noexcept { order_.attend(until); }
-    /// Why the loop itself ended the order: a sleep, an owner or a recording that stood still. Empty where it did not.
-    /// Any thread.
+    /// Why the loop itself ended the order: a sleep, or an owner or a recording that stood still. Empty where it did
+    /// not. Any thread.
     [[nodiscard]] FixedText<159> endedBecause() const noexcept { return order_.endedBecause(); }
-    /// What comes from now on is another order, which the loop has not ended and which has delivered nothing yet.
+    /// From now on another order holds, which the loop has not ended and which has delivered nothing yet.
     void beginOrder() noexcept;
     /// The largest exposure since then, row by row, over every train. Any thread.
     [[nodiscard]] WorstExposure worstExposure() const noexcept { return exposure_.worst(); }
@@ -163,7 +163,7 @@ private:
     ReadingWatch reading_;
     MassagerWatch rests_;
     TrainDispatch dispatch_;
-    Instant asleepSeen_{0};  // of the clock, when it was looked at last after a silence
+    Instant asleepSeen_{0};  // what the clock said at the last look after a silence
     DriveCommand drive_;
     InterlockState seenState_ = InterlockState::Disconnected;
     bool staleSeen_ = false;

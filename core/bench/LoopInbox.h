@@ -18,10 +18,10 @@
 
 namespace tacto {
 
-/// What R was for before another profile takes over.
+/// The meaning that R had before another profile takes over.
 enum class RBefore {
-    Shown,     ///< that it was not calibrated is a mark of the session
-    Measuring  ///< for the references and scales of the new profile alone
+    Shown,     ///< allowed: the session is marked as not calibrated
+    Measuring  ///< allowed only for measuring the references and scales of the new profile
 };
 
 struct NextFinger {
@@ -40,7 +40,7 @@ public:
         std::optional<Result<Ohms>> confirmed;
         std::optional<SeenLoad> load;
         std::optional<SeenAmplitude> amplitude;
-        std::optional<SeenAmplitude> unasked;  ///< of no one command
+        std::optional<SeenAmplitude> unasked;  ///< seen, though no command asked for it
     };
 
     void arm(ArmCommand command);
@@ -54,8 +54,8 @@ public:
     /// If several arrive in one step, the one furthest off counts; of those of no one command the largest.
     void amplitude(const SeenAmplitude& seen);
 
-    /// All that came since the last time. Nothing when there is nothing, and while another thread hands something in:
-    /// then it is there in the next step.
+    /// All that came since the last call. Nothing when there is nothing, or while another thread hands something in:
+    /// that is there in the next step.
     [[nodiscard]] std::optional<Settings> take() noexcept;
     /// The finger alone, for when no step runs any more; waits for a thread that hands something in.
     [[nodiscard]] std::optional<NextFinger> takeFinger() noexcept;
@@ -69,14 +69,14 @@ private:
     std::atomic<bool> full_{false};
 };
 
-// What a participant says about levels, on its way from the bench's caller to the gate, which has the
-// control loop for its only caller, and back.
+// Carries a participant's word on levels from the bench's caller to the gate, which has the control loop for its only
+// caller, and back.
 
 struct LevelRequest {
     enum class What { Accept, Discomfort, BeginAscending, EndAscending, Ceiling };
     What what = What::Ceiling;
-    PulseTrain train;                    ///< of the study's kind: the level to accept, else any; none of a massager
-    StimulusLevel level = Milliamps(0);  ///< that was accepted or uncomfortable; an intensity is a massager's
+    PulseTrain train;                    ///< the study's kind of train: the level to accept, or any; none of a massager
+    StimulusLevel level = Milliamps(0);  ///< the level that was accepted or uncomfortable; an intensity is a massager's
 };
 
 class LevelRequests {

@@ -10,7 +10,7 @@ namespace tacto {
 
 namespace {
 
-/// In words, of literals: the loop does not allocate.
+/// The shape in words, all of them literals: the loop does not allocate.
 std::string_view shapeText(const PulseTrain& train) noexcept {
     const bool positive = train.polarity == Polarity::Positive;
     switch (train.shape) {

@@ -28,7 +28,7 @@ public:
     LoopJournal(SessionRecorder* recorder, int frameStream, std::vector<int> sensorStreams)
         : recorder_(recorder), frameStream_(frameStream), sensorStreams_(std::move(sensorStreams)) {}
 
-    /// For how long the disk has stood still; 0 without a recorder.
+    /// How long the disk has stood still; 0 without a recorder.
     [[nodiscard]] std::chrono::nanoseconds standsStillFor() const noexcept;
 
     /// The samples and frames of the finger's last update.
@@ -45,9 +45,9 @@ public:
     /// `kind`, a literal: what ended the operator's order.
     void orderEnded(Instant at, const char* kind, std::string_view why) noexcept;
 
-    /// What was planned from R and P, before it is handed over.
+    /// Notes what was planned from R and P, before it is handed over.
     void planned(const PlannedTrain& train, double roughness, double pressure) noexcept;
-    void planned(const PlannedLevel& train) noexcept;  ///< of a presentation
+    void planned(const PlannedLevel& train) noexcept;  ///< a train that a presentation has planned
     void planned(const PlannedBurst& burst, double roughness, double pressure) noexcept;
     /// One row for each train: what was programmed, by which approval, and what was read back. `name`: a literal.
     void train(const TrainReport& report, const char* name) noexcept;

@@ -33,7 +33,7 @@ struct Profile {
     Ceilings ceilings;
 };
 
-/// Every section and key, with what it accepts.
+/// Every section and key, with the values that it accepts.
 [[nodiscard]] const RecordFields<Profile>& profileFields();
 /// Errors: ParseError naming an unknown key or a wrong type; InvalidArgument naming the field, its value and what is
 /// accepted. `source` begins the message of text that is not JSON.

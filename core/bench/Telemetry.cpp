@@ -8,7 +8,7 @@ namespace tacto {
 Telemetry blinded(const Telemetry& telemetry) {
     Telemetry seen;
     seen.at = telemetry.at;
-    // It delivers while a train is written, and is armed in between and in an empty presentation.
+    // The output is on while a train is written, and armed in between and in an empty presentation.
     seen.state = telemetry.state == InterlockState::Delivering ? InterlockState::Armed : telemetry.state;
     if (seen.state != InterlockState::Armed) seen.reason = std::string_view(withoutNumbers(telemetry.reason.view()));
     seen.fault = telemetry.fault;
@@ -17,7 +17,7 @@ Telemetry blinded(const Telemetry& telemetry) {
     for (const auto& row : telemetry.exposure()) {
         if (!forbids(row)) continue;
         ExposureRow broken = row;
-        broken.value = broken.limit;  // not how far
+        broken.value = broken.limit;  // it is not known how far beyond
         seen.exposureRows[seen.exposureCount++] = broken;
     }
     return seen;

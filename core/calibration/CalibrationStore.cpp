@@ -52,7 +52,7 @@ Result<void> CalibrationStore::add(const StoredCalibration& calibration) {
         return invalid("calibration of {}: no {}; all four quantities were expected", calibration.serial, time.words);
     }
     const auto added = lines_.append([&]() -> Result<nlohmann::json> {
-        if (auto done = read(); !done) return failure(done);  // another process may have added one since
+        if (auto done = read(); !done) return failure(done);  // another process may have added a line since
         return nlohmann::json{{"calibration", toJson(calibration)}};
     });
     if (added) all_.push_back(calibration);
@@ -126,7 +126,7 @@ Result<void> checkLine(const StoredLine& line, const std::string& serial, std::s
     return {};
 }
 
-/// The keys of a line, whose members are those of the line that `line` leads to.
+/// The keys of a line, with the members of the line that `line` leads to.
 template <class Record, class Line>
 void addLine(RecordFields<Record>& fields, Line line) {
     fields.number("gain", in(line, &StoredLine::gain)).required = true;
@@ -156,13 +156,13 @@ RecordFields<StoredCalibration> buildCalibrationFields() {
     all.text("serial", &C::serial, kAnyText).required = true;
     all.text("device", &C::device, kAnyText).required = true;
     all.text("unit", &C::unit, kAnyText).required = true;
-    addLine(all, &C::amplitude);  // at the top: files were written so before times were kept
+    addLine(all, &C::amplitude);  // stands at the top: files were written so before times were kept
     for (const auto& time : kStoredTimes) all.record(time.id, time.line, line).leftOutIfEmpty = true;
     all.add("made", &C::made, dateKind()).required = true;
     all.add("valid_until", &C::validUntil, dateKind()).required = true;
     all.flag("simulated", &C::simulated).required = true;
     all.text("session", &C::session, kAnyText).required = true;
-    // Lines of older versions have neither: they are read, and not applied.
+    // Lines of older versions have neither: they are read, but not applied.
     all.text("session_head", &C::sessionHead, kAnyText);
     all.number("readings", &C::readings);
     all.list("instruments", &C::instruments, instrument.kind(), 0, 10'000).required = true;

@@ -33,7 +33,7 @@ using CalibrationDate = std::chrono::year_month_day;
 /// "2026-11-21". Nothing for another form or a day that does not exist.
 [[nodiscard]] std::optional<CalibrationDate> parseDate(std::string_view text);
 [[nodiscard]] std::string dateText(CalibrationDate date);
-/// As the field of a record: its text.
+/// The kind of a date as the field of a record: its text.
 [[nodiscard]] ValueKind<CalibrationDate> dateKind();
 [[nodiscard]] constexpr int daysBetween(CalibrationDate from, CalibrationDate to) {
     return static_cast<int>((std::chrono::sys_days(to) - std::chrono::sys_days(from)).count());
@@ -50,7 +50,7 @@ struct CalibrationInstrument {
     std::string statedBy{};                 ///< "the instrument" or "the operator"; empty where it was not stated
 };
 
-/// What one quantity comes out as, and how surely that is known.
+/// The calibrated values of one quantity, and how surely they are known.
 struct StoredLine : CalibrationLine {
     double uncertainty_pct = 0;  ///< U (95 %) of what is delivered, largest over the levels, in % of the command
     /// The largest distance of a level's mean from the line, in the quantity's unit. Older files do not state it.
@@ -68,7 +68,7 @@ struct StoredCalibration {
     bool simulated = false;        ///< whether the device, or what measured it, was simulated
     std::string session;           ///< file name of the session that holds the readings
     std::string sessionHead;       ///< head of its hash chain when this was kept: 64 hexadecimal digits
-    std::size_t readings = 0;      ///< in that session, that the lines were computed from
+    std::size_t readings = 0;      ///< how many readings of that session the lines were computed from
     std::vector<CalibrationInstrument> instruments;
 };
 
@@ -78,9 +78,9 @@ inline constexpr auto kStoredTimes = kTimeLines<StoredCalibration>;
 [[nodiscard]] StimulatorCalibration linesOf(const StoredCalibration& stored);
 
 inline constexpr std::chrono::days kLongestValidity{366};
-/// Whether the program itself computed it from readings that a session holds. Errors: InvalidArgument for one without
-/// session, readings or an instrument whose accuracy is stated, or one that claims to hold longer than
-/// kLongestValidity.
+/// Checks that the program itself computed it from readings that a session holds. Errors: InvalidArgument for a
+/// calibration without session, readings or an instrument whose accuracy is stated, or one that claims to hold longer
+/// than kLongestValidity.
 [[nodiscard]] Result<void> checkProvenance(const StoredCalibration& calibration);
 
 class CalibrationStore {
@@ -93,13 +93,13 @@ public:
     /// when the file was damaged meanwhile.
     [[nodiscard]] Result<void> add(const StoredCalibration& calibration);
 
-    /// The newest of that serial and unit, whatever its date.
+    /// The newest with that serial and unit, whatever its date.
     [[nodiscard]] const StoredCalibration* latest(std::string_view serial, std::string_view unit) const;
-    /// The newest whose provenance is known, whatever its date: what the limits are judged by. One of a simulated bench
-    /// serves a simulated device only.
+    /// The newest with a known provenance, whatever its date: the limits are judged by it. A simulated bench's
+    /// calibration serves a simulated device only.
     [[nodiscard]] const StoredCalibration* proven(std::string_view serial, std::string_view unit, bool simulated) const;
-    /// The one that counts on `day`. Errors: NotFound saying why there is none: never calibrated, expired (and when),
-    /// without its times or its provenance, or made on a simulated bench for a real device.
+    /// The calibration that counts on `day`. Errors: NotFound saying why there is none: never calibrated, expired (and
+    /// when), without its times or its provenance, or made on a simulated bench for a real device.
     [[nodiscard]] Result<StoredCalibration> valid(std::string_view serial, std::string_view unit, CalibrationDate day,
                                                   bool simulated) const;
 

@@ -14,7 +14,7 @@
 
 namespace tacto {
 
-/// By the id of a calibrated quantity. Null where there is none.
+/// The line with the id of a calibrated quantity. Null where there is none.
 [[nodiscard]] const StoredLine* lineOf(const StoredCalibration& stored, std::string_view quantity);
 
 struct TrendPoint {
@@ -25,9 +25,9 @@ struct TrendPoint {
     double gainU = 0;            ///< U of the gain; NaN: unknown
     double offsetU = 0;          ///< U of the offset, in its unit; NaN: unknown
 };
-/// The oldest first. `of` is of one stimulator, in the order in which it was stored; those of another unit, of a bench
-/// that is simulated where `simulated` is not (or the other way round), and those without that quantity are passed
-/// over.
+/// The oldest first. `of` holds calibrations of one stimulator, in the order in which they were stored; those in
+/// another unit, of a simulated bench where `simulated` is not set (or the other way round), and those without that
+/// quantity are passed over.
 [[nodiscard]] std::vector<TrendPoint> trendOf(std::span<const StoredCalibration> of, std::string_view unit,
                                               bool simulated, std::string_view quantity);
 
@@ -36,9 +36,9 @@ struct TrendJump {
     What what = What::Gain;
     CalibrationDate from{}, to{};
     double change = 0;     ///< later less earlier; relative for the gain, else in the quantity's unit
-    double explained = 0;  ///< by both U together, in the same unit
+    double explained = 0;  ///< how much both U together explain, in the same unit
 };
-/// Between neighbours that differ by more than their U explains, the oldest first.
+/// The jumps between neighbours that differ by more than their U explains, the oldest first.
 [[nodiscard]] std::vector<TrendJump> jumpsIn(std::span<const TrendPoint> points);
 
 }  // namespace tacto

@@ -2,8 +2,8 @@
 // customer, the item's history, who authorises it (ISO/IEC 17025:2017, 7.8.2.1). As they were entered; nothing is
 // judged by them. What is empty is an open line on the certificate.
 //
-// They stand in JSON files of texts: what is the laboratory's own is kept once, in certificateDetailsFile(), and what
-// belongs to an order in a file of that run, which may say the rest otherwise.
+// They stand in JSON files of texts: the laboratory's own details are kept once, in certificateDetailsFile(), and an
+// order's details in a file of that run, which may override the rest.
 //
 // Thread-safety: pure functions, but for reading files.
 #pragma once
@@ -19,7 +19,7 @@
 
 namespace tacto {
 
-/// Each one line of at most kDetailLimit characters (Unicode code points).
+/// Each detail is one line of at most kDetailLimit characters (Unicode code points).
 struct CertificateDetails {
     std::string laboratory, address, place, authorisedBy, function;
     std::string number, customer, contact, make, model, serial, condition, received, issued;
@@ -30,12 +30,12 @@ inline constexpr std::size_t kDetailLimit = 200;
 
 struct CertificateDetail {
     std::string_view key;    ///< in files
-    std::string_view title;  ///< on the certificate
+    std::string_view title;  ///< its title on the certificate
     std::string CertificateDetails::*member;
     bool ofLaboratory = false;  ///< said once for every order
     bool isDate = false;        ///< "2026-11-21"
 };
-/// In the order in which a certificate says them.
+/// The details in the order of a certificate.
 inline constexpr std::array<CertificateDetail, 14> kCertificateDetails{
     {{"laboratory", "Laboratory", &CertificateDetails::laboratory, true},
      {"address", "Address", &CertificateDetails::address, true},
@@ -61,7 +61,7 @@ inline constexpr std::array<CertificateDetail, 14> kCertificateDetails{
 /// after `today`, the day of calibration, or a certificate issued before.
 [[nodiscard]] Result<CertificateDetails> certificateDetails(const std::filesystem::path& file, CalibrationDate today);
 
-/// Those that are not empty, by their keys.
+/// The details that are not empty, by their keys.
 [[nodiscard]] nlohmann::json toJson(const CertificateDetails& details);
 
 }  // namespace tacto

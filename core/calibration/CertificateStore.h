@@ -31,7 +31,7 @@ namespace tacto {
 
 struct Certificate {
     std::string instrument;  ///< maker and model; not empty
-    std::string serial;      ///< the instrument's; not empty, so that two alike are told apart
+    std::string serial;      ///< the instrument's; never empty, so that two of a kind are told apart
     std::string number;      ///< the certificate's; not empty
     std::string by;          ///< the laboratory; not empty
     CalibrationDate date{};
@@ -75,8 +75,8 @@ inline constexpr std::array<CertificateFigure, 4> kCertificateFigures{
 /// dates that do not exist or a due date before the date, a U that is missing, not above 0 or above `most`.
 [[nodiscard]] Result<void> check(const Certificate& certificate);
 
-/// What it states, each as the half-width whose 95 % are the certificate's U: a = U/0.95, which is never less than what
-/// it states (a rectangle of the same standard uncertainty would be). Each figure says by which certificate.
+/// Its statements, each as the half-width whose 95 % are the certificate's U: a = U/0.95, which is never less than what
+/// it states (a rectangle of the same standard uncertainty would be). Each figure names its certificate.
 [[nodiscard]] InstrumentStatement statementOf(const Certificate& certificate);
 /// "certificate 4711 (DKD Lab, 2026-01-05, due 2027-01-05)".
 [[nodiscard]] std::string certificateText(const Certificate& certificate);
@@ -110,10 +110,10 @@ public:
     /// that is not entered, or withdrawn; InvalidArgument naming the serials it stands for; as add().
     [[nodiscard]] Result<void> withdraw(std::string_view number, std::string_view serial, CalibrationDate today);
 
-    /// How all()[`index`] stands on `day`.
+    /// The standing of all()[`index`] on `day`.
     [[nodiscard]] CertificateState state(std::size_t index, CalibrationDate day) const;
-    /// The newest of that serial that is not withdrawn and not dated after `day`; where there is none, the first that
-    /// begins after it. Index into all().
+    /// The newest of that serial that is not withdrawn and not dated after `day`; without one, the first that begins
+    /// after it. Index into all().
     [[nodiscard]] std::optional<std::size_t> newest(std::string_view serial, CalibrationDate day) const;
 
     [[nodiscard]] const std::vector<EnteredCertificate>& all() const noexcept { return all_; }

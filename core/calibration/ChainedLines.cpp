@@ -89,7 +89,7 @@ Result<void> ChainedLines::noteEnd() const {
 Result<void> ChainedLines::read(const std::function<Result<void>(const nlohmann::json& line)>& take) {
     end_ = {};
     cut_ = false;
-    const auto noted = notedEnd();  // before the lines, which are written before it: another process may append
+    const auto noted = notedEnd();  // read before the lines, which are written before it: another process may append
     if (!noted) return failure(noted);
     hasNote_ = noted->has_value();
     const auto content = readTextFile(file_);
@@ -150,7 +150,7 @@ Result<void> ChainedLines::append(const std::function<Result<nlohmann::json>()>&
     }
     auto body = line();
     if (!body) return failure(body);
-    // Before the first line that says that there is one: a crash between the two would leave it missing.
+    // Written before the first line that says that there is a note: a crash between them would leave it missing.
     if (!hasNote_) {
         if (const auto first = noteEnd(); !first) return first;
         hasNote_ = true;

@@ -41,14 +41,14 @@ public:
     [[nodiscard]] bool lastLineCut() const noexcept { return cut_; }
 
 private:
-    /// Where the lines end.
+    /// The place where the lines end.
     struct End {
         std::size_t bytes = 0;
         std::string head;  ///< SHA-256 of the last line; empty before the first
         bool operator==(const End&) const = default;
     };
     [[nodiscard]] std::filesystem::path noteFile() const;
-    /// Nothing where there is no note. Errors: Io; ParseError.
+    /// Nothing where no note exists. Errors: Io; ParseError.
     [[nodiscard]] Result<std::optional<End>> notedEnd() const;
     [[nodiscard]] Result<void> noteEnd() const;
     [[nodiscard]] Result<void> readLines(std::string_view text, const std::optional<End>& noted,

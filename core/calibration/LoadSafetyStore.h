@@ -2,7 +2,7 @@
 //
 // A check has a line when it begins and another when it ends, with the program's own verdict. The last line of each
 // serial number counts, whatever it says: a check that failed, was not decided, was stopped or never ended takes the
-// place of a pass before it. A check on a simulated bench counts for no stimulator.
+// place of an earlier pass. A check on a simulated bench counts for no stimulator.
 //
 // The lines are chained (ChainedLines.h). A file that was changed cannot be read, and then no check counts (hazard H9).
 //
@@ -35,7 +35,7 @@ struct LimitSetHash {
     bool operator==(const LimitSetHash&) const = default;
 };
 
-/// How far the trains of a check, or of a session, go.
+/// How strong the trains of a check, or of a session, may get.
 struct TrainReach {
     double amplitude_v = 0;  ///< the largest command
     double interval_s = 0;   ///< the shortest interval
@@ -71,7 +71,7 @@ struct LoadSafetyCheck {
     bool operator==(const LoadSafetyCheck&) const = default;
 };
 
-/// For how long a pass counts (pilot.md section 3).
+/// How long a pass counts (pilot.md section 3).
 inline constexpr std::chrono::days kLoadSafetyHolds{30};
 
 /// What a session asks of the check of its stimulator.
@@ -80,7 +80,7 @@ struct LoadSafetyNeed {
     CalibrationDate day{};
     std::string scriptSha256;  ///< digest of the protocol as it is today
     SquareCentimetres area{0};
-    TrainReach reach;            ///< with its loads
+    TrainReach reach;            ///< which trains it covers, and which loads
     CheckTolerances tolerances;  ///< the widest that count
     std::vector<LimitSetHash> limits;
 };
@@ -94,7 +94,7 @@ public:
     /// without the session's chain head; Io; ParseError when the file was damaged meanwhile.
     [[nodiscard]] Result<void> add(const LoadSafetyCheck& check);
 
-    /// The newest line of that serial from real devices; null where there is none.
+    /// The newest line of that serial from real devices; null without one.
     [[nodiscard]] const LoadSafetyCheck* latest(std::string_view serial) const;
     /// The check that counts. Errors: NotFound with one sentence that says why there is none and what is accepted.
     [[nodiscard]] Result<LoadSafetyCheck> passed(const LoadSafetyNeed& need) const;

@@ -1,5 +1,4 @@
-// ButtonDevice.h - game pads and foot switches: devices with buttons, of which each serves one person of a pilot
-// session.
+// ButtonDevice.h - game pads and foot switches: devices with buttons, each serving one person of a pilot session.
 //
 // Thread-safety: ButtonDevices from any thread; a listener is called on the device's own thread and must not block.
 #pragma once
@@ -16,10 +15,10 @@
 namespace tacto {
 
 struct ButtonDeviceInfo {
-    std::string address;               ///< while it is plugged in: "/dev/hidraw3"
-    std::string identity;              ///< the same after it was plugged in again: "046d:c216", "046d:c216 17"
+    std::string address;               ///< the address while it is plugged in: "/dev/hidraw3"
+    std::string identity;              ///< the identity after it was plugged in again: "046d:c216", "046d:c216 17"
     std::string name;                  ///< as the device says
-    std::vector<std::string> buttons;  ///< their numbers: "1", "2"; "2-1" on a second pad in one device
+    std::vector<std::string> buttons;  ///< the numbers of the buttons: "1", "2"; "2-1" on a second pad in one device
     std::string obstacle;              ///< why it cannot be used, and what helps, a sentence; empty where it can
     bool hasSerial = false;            ///< the identity is this device's alone; else all of its model share it
 
@@ -49,7 +48,7 @@ public:
 class ButtonDevices {
 public:
     virtual ~ButtonDevices() = default;
-    /// All devices that are plugged in, also those that cannot be used.
+    /// All devices that are plugged in, including those that cannot be used.
     [[nodiscard]] virtual std::vector<ButtonDeviceInfo> list() const = 0;
     /// Errors: NotFound where it is not plugged in any more; Io (not permitted), Unsupported and ParseError with the
     /// sentence of its obstacle.

@@ -50,7 +50,7 @@ public:
     [[nodiscard]] virtual StatedOrigin statedOrigin() const noexcept = 0;
 };
 
-// How a driver refuses what it was handed after its approval expired.
+// The error for what a driver was handed after its approval had expired.
 
 /// `who` is the device within a sentence, `what` the train or burst: "the stimulator", "a train". Errors: Timeout where
 /// `expires` is before `now`.
@@ -66,14 +66,14 @@ public:
 
 /// The texts live forever: literals.
 struct ReportRow {
-    const char* key = "";   ///< in sessions and JSON, with its unit: "drift_ppm"
-    const char* name = "";  ///< for people: "clock drift"
+    const char* key = "";   ///< the key in sessions and JSON, with its unit: "drift_ppm"
+    const char* name = "";  ///< the name that people read: "clock drift"
     double value = 0;       ///< NaN: not known
-    const char* unit = "";  ///< for people; empty for a count
+    const char* unit = "";  ///< the unit that people read; empty for a count
 };
 
 struct DeviceReport {
-    static constexpr std::size_t kMaxRows = 12;  ///< as many as an event of a session takes
+    static constexpr std::size_t kMaxRows = 12;  ///< as many as fit into an event of a session
 
     /// More than kMaxRows are left out.
     constexpr void add(const ReportRow& row) noexcept {

@@ -133,7 +133,7 @@ namespace {
 
 struct Key {
     std::string_view name;
-    double scale;  ///< to what a statement holds
+    double scale;  ///< factor to the unit that a statement holds
     double most;   ///< as written
     std::string_view accepted;
 };

@@ -32,11 +32,11 @@ struct DeviceUri {
                                                Args&&... args) const {
         return fail(code, "device \"{}\": {}", text(), fmt::format(format, std::forward<Args>(args)...));
     }
-    /// The same of an error that does not name the device.
+    /// Refuses with an error that does not name the device.
     [[nodiscard]] tl::unexpected<Error> refuse(const Error& error) const {
         return refuse(error.code, "{}", error.message);
     }
-    /// For one that means several devices: lists what it could be.
+    /// Refuses an address that means several devices: lists what it could be.
     [[nodiscard]] tl::unexpected<Error> refuseChoice(const std::vector<std::string>& addresses) const;
 };
 
@@ -51,8 +51,8 @@ struct DeviceUri {
 
 // Reads a device URI's parameters, each exactly once, each checked against its range.
 //
-// The first thing wrong is kept and given by finish(), so that a driver reads all of its parameters in a row; what was
-// not asked for by then is unknown and refused with the list of what was.
+// The first fault is kept and given by finish(), so that a driver reads all of its parameters in a row; a parameter
+// that nobody has asked for by then is unknown, and is refused with the list of known ones.
 
 class UriParameters {
 public:
@@ -70,7 +70,7 @@ public:
     [[nodiscard]] int integer(std::string_view key, int otherwise, int low, int high) {
         return integer(key, low, high).value_or(otherwise);
     }
-    /// Any text, for the caller to judge.
+    /// Takes any text, for the caller to judge.
     [[nodiscard]] std::optional<std::string> text(std::string_view key);
     [[nodiscard]] std::string choice(std::string_view key, std::string_view otherwise,
                                      std::initializer_list<std::string_view> accepted);

@@ -39,7 +39,7 @@ public:
     [[nodiscard]] virtual std::vector<DeviceIdentity> list() const = 0;
     /// True when devices of this scheme can live on the virtual clock (simulated, or read from files).
     [[nodiscard]] virtual bool runsOnVirtualClock() const noexcept = 0;
-    /// Opens what `uri` names into `into`. A uri that names no single device (as "sim:") fills those of `wanted`
+    /// Opens the devices of `uri` into `into`. A uri without a single device (such as "sim:") fills those of `wanted`
     /// that are still empty. Errors: InvalidArgument naming the parameter and what it takes; NotFound; Device.
     [[nodiscard]] virtual Result<void> open(const DeviceUri& uri, const std::set<Role>& wanted,
                                             const OpenContext& context, DeviceSet& into) = 0;

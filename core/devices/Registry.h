@@ -17,7 +17,7 @@ class Registry {
 public:
     explicit Registry(std::vector<std::unique_ptr<Driver>> drivers);
     [[nodiscard]] std::vector<DeviceIdentity> list() const;
-    /// Whether every one of `uris` can run on the virtual clock. Errors: as open().
+    /// Whether all of `uris` can run on the virtual clock. Errors: as open().
     [[nodiscard]] Result<bool> allVirtual(std::span<const DeviceUri> uris) const;
     /// The statement keys of DeviceUri.h are taken from the address of the oscilloscope.
     /// A stop ends the opening as soon as the driver that is at work returns; what was opened is switched off and

@@ -34,10 +34,9 @@ class Stimulator : public Device {
 public:
     [[nodiscard]] virtual const SourceTraits& traits() const noexcept = 0;
 
-    /// Starts one train now; it ends by itself. Returns when the device has accepted it, without waiting for its
-    /// end. Consumes the approval whatever happens.
-    /// Errors: Device (gone, garbage, refused), Timeout (no answer in 50 ms, or the approval has expired). On error the
-    /// caller calls forceOff().
+    /// Starts one train now; it ends by itself. Returns when the device has accepted it, without waiting for its end.
+    /// Consumes the approval in any case. Errors: Device (gone, garbage, refused), Timeout (no answer in 50 ms, or the
+    /// approval has expired). On error the caller calls forceOff().
     [[nodiscard]] virtual Result<void> deliver(ApprovedTrain&& train) = 0;
 
     /// Errors: Device, Timeout.
@@ -65,8 +64,8 @@ public:
 
 class Massager : public Device {
 public:
-    /// Starts one vibration burst now; it ends by itself. Consumes the approval whatever happens.
-    /// Errors: Device, Timeout (no answer in time, or the approval has expired). On error the caller calls forceOff().
+    /// Starts one vibration burst now; it ends by itself. Consumes the approval in any case. Errors: Device, Timeout
+    /// (no answer in time, or the approval has expired). On error the caller calls forceOff().
     [[nodiscard]] virtual Result<void> vibrate(ApprovedBurst&& burst) = 0;
     /// The smallest difference of two intensities that the device can tell, to 1; 0: it takes any. Constant while open.
     [[nodiscard]] virtual double step() const noexcept = 0;

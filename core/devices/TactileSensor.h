@@ -43,8 +43,8 @@ public:
 // A device that can be opened again, by its identity, after it was unplugged or failed: what an
 // explicit reset asks of it.
 //
-// A stimulator does not need it: it looks for its device when its status is asked for. Nor has a device whose calls
-// fail only as long as the cause lasts.
+// A stimulator does not need it: it looks for its device when its status is asked for. Neither does a device whose
+// calls fail only as long as the cause lasts.
 
 class Reconnecting {
 public:

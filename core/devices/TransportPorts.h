@@ -48,7 +48,7 @@ public:
 /// A place where such a device may be; only its answer shows whether it is one.
 struct TransportPort {
     std::string serial;    ///< USB serial number; may be empty
-    std::string place;     ///< which socket, for messages and where there is no serial number
+    std::string place;     ///< the socket, for messages and where there is no serial number
     std::string obstacle;  ///< why it cannot be opened and what helps; empty where it can
 };
 
@@ -56,7 +56,7 @@ struct TransportPort {
 /// or one that another port has too or that a URI cannot hold.
 [[nodiscard]] std::string addressOf(const TransportPort& port, std::span<const TransportPort> all);
 
-/// Those of `all` that a URI's path names, by serial number or by place.
+/// The ports of `all` that a URI's path names, by serial number or by place.
 [[nodiscard]] std::vector<TransportPort> portsNamed(std::string_view path, std::span<const TransportPort> all);
 
 /// "pulsepal:A1", "pulsepal:1-2": the addresses of `ports` among `all`.

@@ -139,7 +139,7 @@ std::size_t AccelerationTrack::oldestNeeded() const noexcept {
 }
 
 bool AccelerationTrack::full() const noexcept {
-    // At least one window per two samples: 100 Hz.
+    // There is at least one window per two samples: 100 Hz.
     return waiting_ + kChunk / 2 > windows_.size() || end_ - oldestNeeded() + kChunk > stamps_.size();
 }
 

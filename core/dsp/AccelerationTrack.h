@@ -43,7 +43,7 @@ public:
     /// Stamp of the newest sample in use; -infinity before the first.
     [[nodiscard]] double newest_s() const noexcept { return newest_; }
 
-    /// Samples from `from` on, as yet not normalised, whose stamps are at most `until_s`.
+    /// Samples from `from` on with stamps of at most `until_s`, not yet normalised.
     struct Stretch {
         std::span<const double> stamps;
         std::array<double*, AxesBandpass::kMaxAxes> axes;
@@ -110,7 +110,7 @@ private:
     std::size_t normalised_ = 0;  // samples before this number are normalised
     std::size_t nextWindow_ = 0;  // number of its first sample
     double anchor_ = 0;           // stamp from which window times count
-    std::size_t hops_ = 0;        // since the anchor
+    std::size_t hops_ = 0;        // hops since the anchor
     double first_ = 0;
     double newest_ = 0;
     bool running_ = false;  // the next regular sample continues the stretch

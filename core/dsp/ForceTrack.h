@@ -1,8 +1,8 @@
 // ForceTrack.h - normal force between its samples, and contact as its own samples judge it.
 //
 // Contact starts at F ≥ 0.1 N and ends below 0.05 N; there is none while the newest sample is older than 100 ms.
-// Between samples F is interpolated linearly and at the ends held, but a silence of more than 1 s is not bridged:
-// F is held there, so that a live chain need not wait longer to give the same numbers as a file.
+// Between samples F is interpolated linearly and at the ends held, but a silence of more than 1 s is not bridged: F is
+// held there, so that a live chain need not wait longer to give the same numbers as a file.
 //
 // Thread-safety: none; one owner. Never allocates after construction.
 #pragma once
@@ -49,10 +49,10 @@ public:
         bool contact;
         bool fresh;  ///< the newest sample before is at most 100 ms old
     };
-    /// At `t_s`, which never decreases from call to call.
+    /// The reading at `t_s`, which never decreases from call to call.
     [[nodiscard]] Reading at(double t_s) noexcept;
 
-    /// Nothing before `t_s` will be asked again.
+    /// No time before `t_s` will be asked for again.
     void release(double t_s) noexcept;
 
     /// Silences of more than 100 ms, the one up to `end_s` included.

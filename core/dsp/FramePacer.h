@@ -65,7 +65,7 @@ private:
     std::array<double, kRoom> times_{};
     std::size_t front_ = 0;
     std::size_t count_ = 0;
-    std::size_t frames_ = 0;  // since the anchor
+    std::size_t frames_ = 0;  // frames since the anchor
     double anchor_ = 0;
     double first_ = std::numeric_limits<double>::infinity();
     double newest_ = -std::numeric_limits<double>::infinity();

@@ -31,7 +31,7 @@ class PowerSpectrum {
 public:
     /// `length` ≥ 2 samples, 1 or more axes.
     PowerSpectrum(std::size_t length, std::size_t axes, double rate_hz);
-    /// With as many samples as the window has.
+    /// Computes it from as many samples as the window has.
     PowerSpectrum(std::vector<double> window, std::size_t axes, double rate_hz);
     ~PowerSpectrum();
     PowerSpectrum(const PowerSpectrum&) = delete;
@@ -91,7 +91,7 @@ inline constexpr std::array kSpectralWindows{SpectralWindow::Hann, SpectralWindo
 [[nodiscard]] std::size_t mainLobe(SpectralWindow window) noexcept;
 
 struct SpectralPeak {
-    double bin = 0;    ///< by parabola through the logarithms of three bins
+    double bin = 0;    ///< the bin, by a parabola through the logarithms of three bins
     double level = 0;  ///< level of the highest bin
 };
 /// The highest local maxima of `level` (an amplitude per bin, 0 and up), `most` at most, highest first: each the

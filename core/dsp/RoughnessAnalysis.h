@@ -38,7 +38,7 @@ struct RoughnessResult {
                                                        const DeclaredIntervals& declared = {},
                                                        std::string_view serial = {});
 
-/// Mean of a feature over the frames of contact that have it, or over those of them that slide; NaN without one.
+/// Mean of a feature over the frames of contact that have it, or over the sliding ones among them; NaN without one.
 [[nodiscard]] double meanFeature(std::span<const RoughnessFrame> frames, double RoughnessFrame::*feature,
                                  bool slidingOnly);
 

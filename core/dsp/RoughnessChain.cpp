@@ -19,7 +19,7 @@ namespace tacto {
 namespace {
 
 constexpr double kSlice_s = 0.05;  // how far one stream may run ahead inside feed()
-constexpr double kSkew_s = 0.25;   // how far it may between calls, with margin
+constexpr double kSkew_s = 0.25;   // how far it may run ahead between calls, with margin
 
 }  // namespace
 
@@ -108,7 +108,7 @@ void RoughnessChain::State::clear() {
     finished = false;
 }
 
-/// Why there is no contact, and which stream has nothing for the frames.
+/// Raises why there is no contact, and which stream has nothing for the frames.
 void RoughnessChain::State::raiseAbsence(RoughnessFlags& flags) const noexcept {
     using enum RoughnessFlag;
     constexpr double kEarly_s = 2;  // a stream may begin later than another
@@ -118,7 +118,7 @@ void RoughnessChain::State::raiseAbsence(RoughnessFlags& flags) const noexcept {
     if (told && taxels && std::isfinite(taxels->newest_s()) && framesWithTaxels == 0)
         flags.count(TaxelsElsewhere, framesSeen);
     if (hasForce && force->firstContact_s() == kInfinity_s) {
-        // Nothing touched yet, or a sign that is the wrong way round, which does not have to wait.
+        // Nothing is touched yet, or the sign is the wrong way round, which does not have to wait.
         flags.raise(ForceBelowContact, finished || force->least() <= -ForceTrack::kContactStart_n);
         flags.leastForce = force->least();
         flags.mostForce = force->most();
@@ -145,7 +145,7 @@ double RoughnessChain::State::firstContact_s() const noexcept {
 double RoughnessChain::State::forceKnown_s() const noexcept {
     if (!force || finished) return kInfinity_s;
     const double start = streamBegin_s();
-    // Before its first sample, and in a long silence, force is not waited for forever.
+    // Before its first sample, and in a long silence, nobody waits for force forever.
     const double spoken = std::max(force->newest_s(), start);
     if (horizon_s() > spoken + ForceTrack::kLongestBridge_s + kSkew_s) return kInfinity_s;
     return force->newest_s();
@@ -179,7 +179,7 @@ void RoughnessChain::State::take(std::size_t stream, const SampleBlock& block, s
 }
 
 void RoughnessChain::State::takeSlice(std::span<const SampleBlock> blocks) {
-    // In step with the slowest, so that a whole file waits for nothing that a live bench would not wait for.
+    // Keeps in step with the slowest, so that a whole file waits for nothing that a live bench would not wait for.
     double until = kInfinity_s;
     for (std::size_t s = 0; s < streams.size(); ++s) {
         if (taken[s] < blocks[s].samples()) until = std::min(until, blocks[s].t_s[taken[s]]);
@@ -207,7 +207,7 @@ void RoughnessChain::State::feed(std::span<const SampleBlock> blocks, std::vecto
     while (left()) {
         takeSlice(blocks);
         advance(frames, false);
-        // Only streams further apart than feed() permits come here: the oldest frames go out as they are.
+        // This is reached only by streams further apart than feed() permits: the oldest frames go out as they are.
         while (acceleration ? acceleration->full() : pacer->crowded()) advance(frames, true);
     }
 }

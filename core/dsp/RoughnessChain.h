@@ -18,7 +18,7 @@
 // behind, flags included, sees the units in use. Scales of another fingertip (by serial number) or for readings in
 // another unit are left aside and flagged, and R is then uncalibrated too.
 //
-// What is not finite, repeated or stepped back in time is not used; a gap or a NaN in acceleration starts the
+// Values that are not finite, repeated or stepped back in time are not used; a gap or a NaN in acceleration starts the
 // filter and the windows again behind it. All of it is counted and shows among the flags.
 //
 // Thread-safety: none; one owner. feed() does not allocate, given room in `frames`.
@@ -83,10 +83,10 @@ public:
     /// Uses these instead of measuring, reset() included; for a declared baseline that lies behind the frames that need
     /// it.
     void presetRest(const RestLevels& rest);
-    /// The levels in use, once they are known.
+    /// No more samples will come: appends the frames that are still waiting.
     [[nodiscard]] const RestLevels* rest() const noexcept;
 
-    /// As given to create(), in the units in use.
+    /// The streams given to create(), in the units in use.
     [[nodiscard]] std::span<const StreamInfo> streams() const noexcept;
     /// A reading of one channel in the unit in use.
     [[nodiscard]] double inUse(std::size_t stream, std::size_t channel, double reading) const noexcept;

@@ -9,10 +9,10 @@ namespace tacto {
 
 namespace {
 
-/// In the order of RoughnessFlag.
+/// Flags and their words, in the order of RoughnessFlag.
 struct FlagWords {
     const char* name;
-    const char* sentence;  ///< without its count and full stop where it has a count
+    const char* sentence;  ///< the sentence; without count and full stop where it has a count
 };
 constexpr std::array<FlagWords, kRoughnessFlags> kFlags{
     {{"band truncated", "The signal's rate is too low for the whole band of R: the band is truncated."},

@@ -27,8 +27,8 @@ enum class RoughnessFlag : std::uint8_t {
     FingertipNotNamed,
     ScalesLeftAside,
     NoFrameInContact,
-    ForceBelowContact,  ///< with the range of the force
-    // From here on with a count:
+    ForceBelowContact,  ///< the range of force where it stays below contact
+    // The flags from here on have a count:
     ForceElsewhere,
     TaxelsElsewhere,
     ForceStale,
@@ -47,8 +47,8 @@ inline constexpr std::size_t kRoughnessFlags = 26;
 [[nodiscard]] std::string_view nameOf(RoughnessFlag flag) noexcept;  // "sliding assumed"
 
 struct RoughnessFlags {
-    std::array<std::uint32_t, kRoughnessFlags> times{};  ///< by RoughnessFlag; 0: not given
-    double leastForce = 0, mostForce = 0;                ///< where it stays below contact
+    std::array<std::uint32_t, kRoughnessFlags> times{};  ///< how often each flag was given, by RoughnessFlag
+    double leastForce = 0, mostForce = 0;                ///< the range of force where it stays below contact
     StreamUnit forceUnit = StreamUnit::Newton;           ///< their unit
 
     void raise(RoughnessFlag flag, bool given) noexcept { times[std::size_t(flag)] = given ? 1 : 0; }
@@ -58,12 +58,12 @@ struct RoughnessFlags {
     [[nodiscard]] bool has(RoughnessFlag flag) const noexcept { return times[std::size_t(flag)] > 0; }
     /// The larger count of each.
     void include(const RoughnessFlags& other) noexcept;
-    /// Those that say something about the profile, and not about the samples.
+    /// Drops the flags that say something about the profile, and not about the samples.
     void dropCalibration() noexcept;
-    /// Those that say why there is no contact, or nothing of a stream, so far.
+    /// Drops the flags that, so far, say why there is no contact, or that a stream has nothing.
     void dropAbsence() noexcept;
-    /// As science.md names them: "sliding assumed"; with their count "gaps in acceleration: 2", with their range
-    /// "force below contact: -1.2 to -0.8 N".
+    /// The words of science.md: "sliding assumed"; with their count "gaps in acceleration: 2", with their range "force
+    /// below contact: -1.2 to -0.8 N".
     [[nodiscard]] std::vector<std::string> texts() const;
 };
 

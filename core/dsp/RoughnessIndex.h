@@ -28,8 +28,8 @@ public:
     /// Σ w g / Σ w over the features present; NaN with none.
     [[nodiscard]] static double combine(const RoughnessSettings& settings, double spectral, double taxel) noexcept;
 
-    /// The same of a whole slide, from the means of its features, and not held within 0..1: a slide over a reference is
-    /// as often beyond it as not, and a mean of held values would lie inside. Who shows R of a slide, or the mean of
+    /// R of a whole slide, from the means of its features, and not held within 0..1: a slide over a reference is as
+    /// often beyond it as not, and a mean of held values would lie inside. Whoever shows R of a slide, or the mean of
     /// several, holds that within 0..1.
     [[nodiscard]] static double ofSlide(const RoughnessSettings& settings, double spectral, double taxel) noexcept;
 
@@ -39,7 +39,7 @@ private:
     bool started_ = false;
     double held_ = 0;         // the value when sliding last stopped
     double current_ = 0;      // what next() last gave
-    double lastSliding_ = 0;  // when that was
+    double lastSliding_ = 0;  // the time of the last slide
 };
 
 // Does the finger slide? Its vibration against the same at rest (science.md section 2.4).

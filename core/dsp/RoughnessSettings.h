@@ -21,8 +21,8 @@ enum class TaxelFeature { Static, Dynamic };        ///< "static", "dynamic"
 struct ReferenceScale {
     double smooth = 0;
     double rough = 0;
-    /// Where x lies between smooth (0) and rough (1) on a logarithmic scale, beyond them too; NaN for x that is absent
-    /// (NaN) or not positive.
+    /// The place of x between smooth (0) and rough (1) on a logarithmic scale, and beyond them; NaN for x that is
+    /// absent (NaN) or not positive.
     [[nodiscard]] double position(double x) const noexcept;
     /// g(x): the position, held within 0..1.
     [[nodiscard]] double g(double x) const noexcept;

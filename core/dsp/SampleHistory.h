@@ -49,8 +49,8 @@ private:
     std::size_t end_ = 0;
 };
 
-// Readings that no fingertip gives: beyond them a value is a fault of its record, however it came there,
-// and is left out as NaN is. Impacts stay: they are far below.
+// Readings that no fingertip gives: a value beyond them is a fault of its record, however it came there, and is left
+// out like NaN. Impacts stay: they are far below.
 
 /// The largest magnitude that is taken for a reading (science.md section 1).
 [[nodiscard]] constexpr double mostPlausible(StreamUnit unit) noexcept {

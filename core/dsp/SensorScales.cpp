@@ -11,7 +11,7 @@ namespace tacto {
 
 namespace {
 
-// As a file has them: the force with its unit, the taxels column by column.
+// The scales as a file has them: the force with its unit, the taxels column by column.
 struct ForceScale {
     StreamUnit unit = StreamUnit::Newton;
     SensorLine line;
@@ -145,7 +145,7 @@ StreamScaling::StreamScaling(std::span<const StreamInfo> streams, const std::opt
     if (!scales) return;
     const auto match = matchOf(scales_, serial);
     const bool fits = std::ranges::all_of(streams_, [this](const auto& info) { return fitsTaxels(info, scales_); });
-    another_ = match == FingertipMatch::Another || !fits;  // another number of taxels is another fingertip
+    another_ = match == FingertipMatch::Another || !fits;  // a different number of taxels means another fingertip
     notNamed_ = match == FingertipMatch::NotNamed && !another_;
     if (another_) return;
     for (auto& info : streams_) {

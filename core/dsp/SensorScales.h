@@ -34,10 +34,10 @@ struct SensorLine {
     bool operator==(const SensorLine&) const = default;
 };
 
-/// How far R of one slide can be off for what the references and the slide themselves repeat to: science.md section 12.
+/// How far R of one slide can be off, by the repeatability of the references and of the slide: science.md section 12.
 struct RoughnessUncertainty {
     double slideSd = 0;            ///< standard deviation of R from slide to slide, ≥ 0
-    std::size_t smoothSlides = 0;  ///< over each reference, ≥ 1
+    std::size_t smoothSlides = 0;  ///< slides over each reference, ≥ 1
     std::size_t roughSlides = 0;
     double coverage = 2;  ///< k for 95 %, from the degrees of freedom of slideSd
 
@@ -48,15 +48,15 @@ struct RoughnessUncertainty {
 };
 
 struct SensorScales {
-    std::string fingertip;                      ///< its serial number; empty: it has none
-    std::optional<SensorLine> force;            ///< to N; nothing: as the stream says
+    std::string fingertip;                      ///< the fingertip's serial number; empty: it has none
+    std::optional<SensorLine> force;            ///< converts to N; nothing: as the stream says
     StreamUnit forceUnit = StreamUnit::Newton;  ///< unit of the readings it was measured in: N or count
-    std::vector<SensorLine> taxels;             ///< to Pa, one each; empty: as the stream says
+    std::vector<SensorLine> taxels;             ///< convert to Pa, one each; empty: as the stream says
     StreamUnit taxelUnit = StreamUnit::Pascal;  ///< Pa or count
     bool operator==(const SensorScales&) const = default;
 };
 
-/// Whether the scales are those of the fingertip that gives the samples.
+/// Whether the scales belong to the fingertip that gives the samples.
 enum class FingertipMatch {
     Same,
     NotNamed,  ///< the source or the calibration has no serial number: nothing says that it is another one
@@ -91,10 +91,10 @@ public:
     StreamScaling(std::span<const StreamInfo> streams, const std::optional<SensorScales>& scales,
                   std::string_view serial);
 
-    /// In the units in use.
+    /// The streams, in the units in use.
     [[nodiscard]] const std::vector<StreamInfo>& streams() const noexcept { return streams_; }
     [[nodiscard]] double inUse(std::size_t stream, std::size_t channel, double reading) const noexcept;
-    /// All taxels of one sample in the unit in use; `readings` itself where nothing is scaled. Until the next call.
+    /// All taxels of one sample, in the unit in use; `readings` itself where nothing is scaled. Until the next call.
     [[nodiscard]] const double* scaled(std::size_t stream, const double* readings) noexcept;
 
     /// False where scales were left aside: what was measured under them is of no use here.

@@ -107,7 +107,7 @@ void TaxelTrack::decide(double known_s) noexcept {
     if (declared_ && known_s <= declared_->end_s) return;
     if (declared_ && inDeclared_.count > 0) return adopt(inDeclared_, declared_->end_s);
     if (!(known_s >= first_ + kShortestRest_s)) return;
-    if (known_s < firstContact_) return;  // the rest goes on
+    if (known_s < firstContact_) return;  // the rest continues
     if (firstContact_ - first_ >= kShortestRest_s && beforeContact_.count > 0)
         return adopt(beforeContact_, firstContact_);
     assumed_ = true;
@@ -170,7 +170,7 @@ TaxelTrack::Reading TaxelTrack::at(double t_s, bool dynamic) noexcept {
     while (cursor_ + 1 < samples_.end() && samples_.t(cursor_ + 1) <= t_s) ++cursor_;
     std::size_t nearest = cursor_;
     if (nearest + 1 < samples_.end()) {
-        // Between two at the same distance the earlier counts, however their stamps were rounded.
+        // Between two at the same distance the earlier one counts, however their stamps were rounded.
         const double later = std::abs(samples_.t(nearest + 1) - t_s);
         if (later + kStampRounding_s < std::abs(samples_.t(nearest) - t_s)) ++nearest;
     }

@@ -1,7 +1,7 @@
 // TaxelTrack.h - the taxels' baseline, the spatial feature v, and the pressure they carry.
 //
-// Baseline: the declared interval, else the rest before the first contact if that lasted 250 ms, else the first
-// 250 ms. A sample with a value that is not finite is counted and not used.
+// Baseline: the declared interval, else the rest before the first contact if that lasted 250 ms, else the first 250 ms.
+// A sample with a value that is not finite is counted and not used.
 //
 // Thread-safety: none; one owner. Never allocates after construction.
 #pragma once
@@ -43,7 +43,7 @@ public:
         double v;     ///< NaN when absent
         double mean;  ///< mean of the taxels as they are; NaN without a sample near enough
     };
-    /// At `t_s`, which never decreases from call to call. Needs newest_s() ≥ t_s, or silence since.
+    /// The reading at `t_s`, which never decreases from call to call. Needs newest_s() ≥ t_s, or silence since.
     [[nodiscard]] Reading at(double t_s, bool dynamic) noexcept;
 
     [[nodiscard]] bool baselineKnown() const noexcept { return known_; }

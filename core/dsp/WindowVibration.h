@@ -16,7 +16,7 @@ namespace tacto {
 
 class WindowVibration {
 public:
-    /// For windows of `track`, which outlives this and has `axes` axes at `rate_hz`.
+    /// Takes windows of `track`, which outlives this and has `axes` axes at `rate_hz`.
     WindowVibration(const AccelerationTrack& track, std::size_t axes, double rate_hz,
                     const RoughnessSettings& settings);
 

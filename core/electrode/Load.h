@@ -91,7 +91,7 @@ struct Load {
 [[nodiscard]] Result<Load> parseLoad(std::string_view text);
 
 struct NamedLoad {
-    std::string_view name;  ///< as parseLoad() reads it
+    std::string_view name;  ///< the text that parseLoad() reads
     Load load;
 };
 /// The bench set of science.md section 6: six resistors from 100 ohm to 100 kohm, open, short, and the RC load.
@@ -99,8 +99,8 @@ struct NamedLoad {
 /// 200 ohm + 10 kohm ∥ 50 nF.
 [[nodiscard]] Load benchRcLoad() noexcept;
 
-/// The same load with its impedance times `factor` at every frequency (resistances times it, capacitance divided by
-/// it, time constants kept). Open and short stay what they are. `factor` > 0.
+/// The load with its impedance times `factor` at every frequency (resistances times it, capacitance divided by it, time
+/// constants kept). Open and short stay what they are. `factor` > 0.
 [[nodiscard]] Load scaled(const Load& load, double factor) noexcept;
 
 /// The load `t_s` after it was fitted. With `pulse`, an intensity-dependent R_p takes that pulse's value.

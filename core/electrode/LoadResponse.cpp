@@ -93,7 +93,7 @@ Regime underVoltage(const Circuit& z, double level, double slope, double vc0) no
     }
     const double k = z.parallelOhm / (z.seriesOhm + z.parallelOhm);
     r.tau = k * z.seriesOhm * z.capacitance_F;
-    const double settled = k * (level - slope * r.tau);  // where vc would be at t = 0 without the transient
+    const double settled = k * (level - slope * r.tau);  // the vc that t = 0 would have without the transient
     r.vc = {settled, k * slope, vc0 - settled};
     r.i = times(1 / z.seriesOhm, difference(r.v, r.vc));
     return r;
@@ -186,7 +186,7 @@ public:
     }
 
 private:
-    /// When |f| first exceeds `limit` (and on which side), or −1.
+    /// The time when |f| first exceeds `limit` (and on which side), or −1.
     static double firstExceeding(const ExpCurve& f, double tau, double T, double limit, double& sign) noexcept {
         if (!std::isfinite(limit)) return -1;
         double first = -1;

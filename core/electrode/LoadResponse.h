@@ -49,10 +49,10 @@ struct SegmentResponse {
     std::size_t count = 0;
     double endCapacitorVoltage = 0;
 
-    /// A view into this object: not of a temporary, which `for (… : respond(…).pieces())` would outlive.
+    /// The voltage at `t_s` from the segment's start; outside the segment, the value at its nearer end.
     [[nodiscard]] std::span<const ResponsePiece> pieces() const& noexcept { return {items.data(), count}; }
     std::span<const ResponsePiece> pieces() const&& = delete;
-    /// At `t_s` from the segment's start; held at the ends outside it.
+    /// The voltage at `t_s` from the segment's start; outside the segment, the value at its nearer end.
     [[nodiscard]] double voltage(double t_s) const noexcept;
     [[nodiscard]] double current(double t_s) const noexcept;
     [[nodiscard]] bool limited() const noexcept;
@@ -68,7 +68,7 @@ struct SegmentResponse {
 //
 // Sums the exact responses of LoadResponse.h over the segments of a pulse. SI units in plain doubles.
 
-/// Where in the pulse a segment belongs; a ramp belongs to the phase it leads to or from.
+/// The part of the pulse that a segment belongs to; a ramp belongs to the phase it leads to or from.
 enum class PulsePart { LeadingPhase, Gap, SecondPhase, Rest };
 
 /// What a pulse does to a load: exposure as science.md section 7 names it.
@@ -117,7 +117,7 @@ private:
     PulseTotals totals_;
 };
 
-/// One pulse and the rest after it, from rest: the shorthand for previews and limits.
+/// The totals of one pulse and the rest after it, from rest: the shorthand for previews and limits.
 [[nodiscard]] PulseTotals pulseTotals(const Circuit& circuit, const PulseSegments& pulse, const DriveSegment& rest,
                                       const SourceLimits& limits = {}) noexcept;
 

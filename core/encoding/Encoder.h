@@ -57,7 +57,7 @@ private:
 [[nodiscard]] Result<PulseTrain> currentTrain(const EncodingProfile& profile, Volts amplitude,
                                               std::optional<Ohms> impedance);
 
-/// One of the two above. `source` is Voltage or Current. Errors: as currentTrain(); InvalidArgument for HighImpedance.
+/// Makes one of the above two. `source` is Voltage or Current. Errors: currentTrain()'s; InvalidArgument for others.
 [[nodiscard]] Result<PulseTrain> trainFor(Drive source, const EncodingProfile& profile, Volts amplitude,
                                           std::optional<Ohms> impedance);
 

@@ -36,8 +36,8 @@ enum class Assignment {
 };
 [[nodiscard]] std::string_view nameOf(Assignment assignment) noexcept;  // "texture_to_amplitude", "swapped"
 
-/// What stays as it was encoded when the load's |Z| changes during delivery, within the gate's limits. The commands are
-/// of the |Z| that was measured when the output was armed.
+/// What keeps its encoded value when the load's |Z| changes during delivery, within the gate's limits. The commands
+/// belong to the |Z| that was measured when the output was armed.
 enum class Hold {
     Voltage,  ///< the amplitude A
     Charge,   ///< per phase: A follows |Z|
@@ -72,7 +72,7 @@ struct EncodingProfile {
 
     /// smooth-low, smooth-high, rough-low, rough-high with R and P at `low` and `high`.
     [[nodiscard]] static std::vector<Condition> fourConditions(double low, double high);
-    /// Null when there is none of that name.
+    /// Null if none has that name.
     [[nodiscard]] const Condition* condition(std::string_view name) const noexcept;
     /// The step to the next train has a limit.
     [[nodiscard]] bool movesInSteps() const noexcept {

@@ -135,7 +135,7 @@ Result<void> synthesize(const PulseTrain& train, Hertz sampleRate, std::span<dou
     const double windowEnd = start.count() + static_cast<double>(out.size()) / fs;
     const double period = 1 / train.rate.value();
     const double pulseLength = train.pulseDuration().count();
-    // Only the pulses that reach into the window.
+    // Counts only the pulses that reach into the window.
     const double first = std::max(0.0, std::floor((start.count() - pulseLength) / period));
     const double last = std::min(static_cast<double>(train.pulses - 1), std::floor(windowEnd / period));
     const PulseSegments pulse = segmentsOf(train, GapState::HoldsZero);

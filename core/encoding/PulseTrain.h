@@ -51,9 +51,9 @@ struct PulseTrain {
 
     /// n / intra-train rate: the window of the in-train RMS, and the time a train occupies.
     [[nodiscard]] Seconds duration() const noexcept;
-    /// From the leading edge to the end of the last phase of one pulse.
+    /// The time from the leading edge to the end of the last phase of one pulse.
     [[nodiscard]] Seconds pulseDuration() const noexcept;
-    /// From the first leading edge to the end of the last phase of the last pulse.
+    /// The time from the first leading edge to the end of the last phase of the last pulse.
     [[nodiscard]] Seconds outputDuration() const noexcept;
     bool operator==(const PulseTrain&) const = default;
 };
@@ -78,7 +78,7 @@ template <class Change>
 
 /// What the source does after a pulse, for `duration`: 0 V held, or high impedance.
 [[nodiscard]] DriveSegment restOf(GapState gap, Seconds duration) noexcept;
-/// From the end of one pulse's last phase to the next pulse of the same train: 1/rate less the pulse.
+/// The time from the end of one pulse's last phase to the next pulse of the same train: 1/rate less the pulse.
 [[nodiscard]] Seconds restBetweenPulses(const PulseTrain& train) noexcept;
 
 // A pulse train as samples, charge-exact at any rate.

@@ -6,7 +6,7 @@
 namespace tacto {
 namespace {
 
-/// By how much of itself `wanted` shrank; 0 where only the last bits differ.
+/// The share by which `wanted` shrank; 0 where only the last bits differ.
 double shrunk(double wanted, double rounded) noexcept {
     if (!(wanted > 0)) return 0;
     const double relative = (wanted - rounded) / wanted;

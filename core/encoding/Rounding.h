@@ -25,7 +25,7 @@ inline constexpr double kLargestRounding = 0.10;
 
 struct RoundedTrain {
     PulseTrain train;
-    /// By how much of itself each value shrank: 0 = untouched, 0.1 at most, below 0 where it grew.
+    /// The share by which each value shrank: 0 = untouched, 0.1 at most, below 0 where it grew.
     double amplitude = 0;
     double phaseWidth = 0;
     double gap = 0;

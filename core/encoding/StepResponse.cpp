@@ -12,7 +12,7 @@ namespace tacto {
 StepResponse respond(const StepEnds& ends, std::span<const StepTrain> trains, double carried) noexcept {
     constexpr Seconds kAtOnce{0.05};  // what a control loop and a stimulator take
     StepResponse found;
-    // What was not measured, NaN, is neither near nor far.
+    // A value that was not measured, NaN, is neither near nor far.
     const auto near = [carried](double distance) { return distance <= carried; };
     const auto far = [carried](double distance) { return distance > carried; };
     const auto intervalBefore = [&](std::size_t k) {
@@ -42,7 +42,7 @@ ResponseRange rangeOf(const StepEnds& ends, std::span<const StepTrain> designed)
     constexpr double kOff = 0.2;
     const StepResponse early = respond(ends, designed, (1 - kOff) * kCarried);
     const StepResponse late = respond(ends, designed, (1 + kOff) * kCarried);
-    // What leaves sooner under a small threshold arrives later under it.
+    // A train that leaves sooner under a small threshold arrives later under it.
     return {{early.latency, late.trains, late.complete}, {late.latency, early.trains, early.complete}};
 }
 

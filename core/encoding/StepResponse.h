@@ -32,9 +32,9 @@ struct StepEnds {
 };
 
 struct StepResponse {
-    std::optional<Seconds> latency;   ///< to the onset of the first train that carries the step; none did: empty
-    std::optional<int> trains;        ///< after the step until it has arrived, 1 being at once; it did not: empty
-    std::optional<Seconds> complete;  ///< to the onset of the train with which it has arrived
+    std::optional<Seconds> latency;   ///< time to the onset of the first train that carries the step; empty: none did
+    std::optional<int> trains;        ///< trains after the step until it has arrived, 1 being at once; empty: never
+    std::optional<Seconds> complete;  ///< time to the onset of the train with which it has arrived
 };
 
 /// `trains` in time order; `carried` in just-noticeable differences, above 0.
@@ -66,7 +66,7 @@ struct ResponseRange {
 // either state would signal a pressure that neither has.
 
 struct StepPace {
-    int trains = 1;      ///< the fewest after the step until it has arrived, as StepResponse::trains counts them
+    int trains = 1;      ///< fewest trains after the step until it has arrived, as StepResponse::trains
     Seconds complete{};  ///< from the step to that train's onset, at least
 };
 

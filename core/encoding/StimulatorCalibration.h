@@ -49,22 +49,22 @@ struct Spread {
     bool operator==(const Spread&) const = default;
 };
 
-/// Where none is stated: science.md section 12.
+/// Stands in where no spread is stated: science.md section 12.
 inline constexpr Spread kUnknownSpread{0.05, 0};
 
 struct CalibrationLine {
     double gain = 1;
-    double offset = 0;  ///< in the quantity's unit, as the two below
+    double offset = 0;  ///< in the quantity's unit, like the two below
     double lowest = 0;  ///< the calibrated range, as programmed: 0 < lowest < highest
     double highest = 0;
-    /// How far what is delivered lies from the line: its uncertainty U (95 %) and the largest residual. Nothing:
+    /// How far the delivered value may lie from the line: its uncertainty U (95 %) and the largest residual. Nothing:
     /// unknown.
     std::optional<Spread> spread{};
 
-    /// Both for values of 0 and more; NaN stays NaN.
+    /// For values of 0 and more; NaN stays NaN.
     [[nodiscard]] double delivered(double programmed) const noexcept;
     [[nodiscard]] double programmedFor(double delivered) const noexcept;
-    /// The most and the least of what the line may stand for: outside the range the line, too, may go on. Without its
+    /// The most and the least that the line may stand for: outside the range the line, too, may continue. Without its
     /// spread.
     [[nodiscard]] double atMost(double programmed) const noexcept;
     [[nodiscard]] double atLeast(double programmed) const noexcept;
@@ -85,12 +85,12 @@ inline constexpr double kLargestMiscalibration = 0.2;
 // The quantities that a stimulator is calibrated in: what files, scripts and people call them.
 
 struct CalibratedQuantity {
-    std::string_view id;       ///< in files, scripts and results
-    std::string_view reading;  ///< its member of a reading, and of what was commanded: V or mA by the source, else s
+    std::string_view id;       ///< its name in files, scripts and results
+    std::string_view reading;  ///< its member in a reading and in the command: V or mA by the source, else s
     std::string_view title;
-    std::string_view words;    ///< within a sentence
+    std::string_view words;    ///< its name within a sentence
     std::string_view setting;  ///< the unit in which a run's parameters state its range, as their names end
-    double perUnit = 1;        ///< from the unit of a reading to that of a parameter
+    double perUnit = 1;        ///< factor from the unit of a reading to that of a parameter
     [[nodiscard]] constexpr bool isAmplitude() const noexcept { return id == "amplitude"; }
 };
 
@@ -127,7 +127,7 @@ template <class Calibration>
 inline constexpr std::array<TimeLine<Calibration>, 3> kTimeLines{{{kCalibratedInterval, &Calibration::interval},
                                                                   {kCalibratedWidth, &Calibration::phaseWidth},
                                                                   {kCalibratedGap, &Calibration::gap}}};
-using KnownLines = std::optional<StimulatorCalibration>;  ///< nothing: everything is as it is programmed
+using KnownLines = std::optional<StimulatorCalibration>;  ///< nothing: everything comes out as it is programmed
 
 /// Errors: as for one line, of the first that has one.
 [[nodiscard]] Result<void> validateNumbers(const StimulatorCalibration& calibration);

@@ -61,8 +61,8 @@ public:
 
     /// What is wanted from `now` on. Moves the pending train, or starts the series.
     void want(const Command& wanted, Instant now) noexcept;
-    /// No train until the next want(). The last train is remembered: the next one steps up from it within the limits,
-    /// and down at once, so that nothing begins stronger or more often than it is wanted (hazard H6).
+    /// Wants no train until the next want(). The last train is remembered: the next one steps up from it within the
+    /// limits, and down at once, so that nothing begins stronger or more often than it is wanted (hazard H6).
     void wantNothing() noexcept;
 
     /// When the next train is due; nothing while none is wanted.
@@ -95,7 +95,7 @@ private:
     };
     std::optional<Train> last_;   // delivered; its interval is the one that was felt
     std::optional<Train> begun_;  // by begin()
-    bool startsAgain_ = false;    // nothing was wanted since the last train
+    bool startsAgain_ = false;    // nothing has been wanted since the last train
 };
 
 }  // namespace tacto

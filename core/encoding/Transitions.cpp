@@ -53,7 +53,7 @@ private:
     Instant now_{0};
     Instant started_{0};
     Command last_;
-    PlaneExtent way_;  // since the last train
+    PlaneExtent way_;  // how far the finger moved since the last train
 };
 
 /// Until a jump has worn off: many of the longest intervals, since slew limits stretch it.

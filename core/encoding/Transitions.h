@@ -14,16 +14,16 @@ namespace tacto {
 /// Just-noticeable differences from a train to the next, at most: what is wanted.
 inline constexpr double kWantedPerTrain = 2;
 
-/// Both above 0.
+/// The distance of two amplitudes that are both above 0.
 [[nodiscard]] double amplitudeDistance(Volts a, Volts b) noexcept;
 [[nodiscard]] double intervalDistance(Seconds a, Seconds b) noexcept;
 
 struct TransitionSweep {
     int lines = 11;       ///< lines along R and along P, evenly spaced, ends included; ≥ 2
-    Seconds traverse{5};  ///< from one end of the plane to the other, and the same back; > 0
+    Seconds traverse{5};  ///< time from one end of the plane to the other, and the same back; > 0
 };
 
-/// Where a finger was between two trains, both ends of its way included.
+/// The stretch that a finger covered between two trains, with both its ends.
 struct PlaneExtent {
     double lowR = 0, highR = 0;
     double lowP = 0, highP = 0;
@@ -33,8 +33,8 @@ struct PlaneExtent {
 struct TransitionStep {
     double R = 0;  ///< at the later train
     double P = 0;
-    PlaneExtent way;  ///< since the earlier
-    Command from;     ///< as delivered: the interval is the one that passed
+    PlaneExtent way;  ///< how far it moved since the earlier train
+    Command from;     ///< as delivered, with the interval that passed
     Command to;
     double amplitude = 0;  ///< just-noticeable differences
     double interval = 0;

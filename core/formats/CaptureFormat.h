@@ -37,10 +37,10 @@ struct ReadOptions {
     /// Channel -> the instrument's input range in V or A, for files that do not state it: a sample at or beyond an end
     /// is clipped.
     std::map<std::string, std::pair<double, double>> ranges{};
-    std::optional<Hertz> rate{};  ///< for files without times; replaces a rate that the file states
+    std::optional<Hertz> rate{};  ///< the rate for files without times; replaces one that the file states
 };
 
-/// How a long reading is watched and ended.
+/// Watches a long reading, and can end it.
 struct ReadWatch {
     std::function<void(double fraction)> progress{};  ///< 0 to 1, rising; may be empty
     std::stop_token stop{};
@@ -53,8 +53,8 @@ struct ReadWatch {
 struct CaptureReading {
     Capture capture;                    ///< samples in V and A; trigger_s is NaN where the file does not say
     std::vector<std::string> warnings;  ///< sentences: what was tolerated or guessed, with line numbers
-    std::string formatId;               ///< which format it was: set by CaptureFormats::read()
-    std::string formatName;             ///< its name, for people
+    std::string formatId;               ///< the format that it was: set by CaptureFormats::read()
+    std::string formatName;             ///< the format's name, for people
 };
 
 /// What SCPI instruments write for a sample that has no value: 9.9E37 (infinity) or 9.91E37 (not a number), of either
@@ -78,12 +78,12 @@ public:
 
     /// Short and stable, for --format and JSON: "csv-rigol".
     [[nodiscard]] virtual std::string_view id() const noexcept = 0;
-    /// For people: "Rigol CSV".
+    /// The name for people: "Rigol CSV".
     [[nodiscard]] virtual std::string_view name() const noexcept = 0;
     /// The suffixes of its files, lower case with the dot: {".csv", ".txt"}. The first is the usual one.
     [[nodiscard]] virtual std::vector<std::string_view> suffixes() const = 0;
 
-    /// Whether a file of this name that begins with `head` is one of these. Never reads the file.
+    /// Whether a file of this name that begins with `head` has this format. Never reads the file.
     [[nodiscard]] virtual bool recognises(const std::filesystem::path& path, std::string_view head) const = 0;
 
     /// Errors: NotFound, Io; ParseError naming file, place (line or byte) and what was expected; InvalidArgument for an

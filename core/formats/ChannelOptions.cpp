@@ -46,8 +46,8 @@ std::string namesOf(const std::vector<ChannelPlan>& channels) {
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// By name first: a channel may be called "1" and be the second column. Those of that name, else the one of that
-/// number.
+/// A name is tried first, as a channel may be called "1" and be the second column: all channels of that name, else the
+/// one of that number.
 std::vector<std::size_t> indicesOf(const std::vector<ChannelPlan>& channels, std::string_view wanted) {
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < channels.size(); ++i) {
@@ -62,7 +62,7 @@ std::vector<std::size_t> indicesOf(const std::vector<ChannelPlan>& channels, std
     return found;
 }
 
-/// The one channel that `option` names. Errors: InvalidArgument where there is none, or two.
+/// The one channel that `option` names. Errors: InvalidArgument if there is none, or two.
 Result<std::size_t> indexOf(const std::vector<ChannelPlan>& channels, std::string_view option, std::string_view wanted,
                             std::string_view file) {
     const auto found = indicesOf(channels, wanted);

@@ -12,13 +12,13 @@ struct SpelledUnit {
 };
 /// Capitals ignored: no oscilloscope writes megavolts. Nothing for an unknown one.
 [[nodiscard]] std::optional<SpelledUnit> spelledUnit(std::string_view text);
-/// The same for what a channel measures: no unit of time is one.
+/// The unit of what a channel measures; units of time are none.
 [[nodiscard]] std::optional<SpelledUnit> channelUnit(std::string_view text);
 
 /// One channel as it stands in the file, and then as it will be read.
 struct ChannelPlan {
     std::string name;
-    std::size_t number = 0;   ///< by which options name it: of the column or the channel, from 1
+    std::size_t number = 0;   ///< the number by which options name the column or channel, from 1
     std::string unit;         ///< "V", "A" or ""
     double factor = 1;        ///< the file's numbers times this are in `unit`
     std::string unknownUnit;  ///< what the file says and is not understood; empty once an option says better
@@ -33,16 +33,16 @@ struct ChannelPlan {
 [[nodiscard]] Result<std::vector<ChannelPlan>> planChannels(std::vector<ChannelPlan> channels,
                                                             const ReadOptions& options, std::string_view file);
 
-/// The same on channels that were read already, numbered from 1. `plans` say what their numbers were multiplied by;
-/// they are as many as the channels and in their order. Range, resolution and tolerances follow.
-/// Errors: as planChannels(); InvalidArgument for a time column or rows to skip, which only tables have.
+/// Applies them to channels that were read already, numbered from 1. `plans` say what their numbers were multiplied by;
+/// they are as many as the channels and in their order. Range, resolution and tolerances follow. Errors: as
+/// planChannels(); InvalidArgument for a time column or rows to skip, which only tables have.
 [[nodiscard]] Result<void> applyChannelOptions(Capture& capture, std::vector<ChannelPlan> plans,
                                                const ReadOptions& options, std::string_view file);
 
 /// The rate that --sample-rate asks for. Errors: InvalidArgument unless it is finite and above 0.
 [[nodiscard]] Result<double> rateFrom(const ReadOptions& options);
 
-/// In lower case, trimmed: how names are compared.
+/// The text in lower case, trimmed: how names are compared.
 [[nodiscard]] std::string folded(std::string_view text);
 
 }  // namespace tacto

@@ -72,7 +72,7 @@ Result<void> readBlock(ByteFile& file, std::string_view head, const IsfPreamble&
         const auto done = static_cast<double>(samples.size()) / static_cast<double>(wanted);
         if (auto going = keepReading(watch, done, file.name()); !going) return going;
     }
-    // Two bytes without low bits hold an 8-bit converter's codes, whose highest is 0x7F00.
+    // Two bytes without low bits hold the codes of an 8-bit converter, up to 0x7F00.
     const double step = pre.bytes == 2 && !lowBits ? 256 : 1;
     const double codes = pre.bytes == 2 ? 65536 : 256;
     const double lowest = pre.isSigned ? -codes / 2 : 0;
@@ -196,7 +196,7 @@ constexpr Key kYScale{"ymult", "ymu"};
 constexpr Key kYOffset{"yoff", "yof"};
 constexpr Key kYZero{"yzero", "yze"};
 
-/// Where the samples begin: behind the last `CURV…` that is followed by a blank, and where that word begins.
+/// The samples begin behind the last `CURV…` that a blank follows; this also tells where that word begins.
 struct Curve {
     std::size_t word;
     std::size_t behind;

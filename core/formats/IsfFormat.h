@@ -25,7 +25,7 @@ public:
     std::string_view name() const noexcept override { return "Tektronix ISF"; }
     std::vector<std::string_view> suffixes() const override { return {".isf"}; }
     bool recognises(const std::filesystem::path& path, std::string_view head) const override;
-    /// The input range is that of the codes: a sample at either end of them is clipped.
+    /// The input range is the range of the codes: a sample at either end of them is clipped.
     Result<CaptureReading> read(const std::filesystem::path& path, const ReadOptions& options,
                                 const ReadWatch& watch) const override;
 };
@@ -44,13 +44,13 @@ struct IsfPreamble {
     double scale = 1;    ///< value of one code
     double offset = 0;   ///< code that means zero
     double zero = 0;
-    std::string unit;   ///< as written: "V"
+    std::string unit;   ///< the unit as written: "V"
     std::string title;  ///< "Ch1, DC coupling, …"
 
     [[nodiscard]] double valueOf(double code) const noexcept { return (code - offset) * scale + zero; }
 };
 
-/// Whether `head` begins like one.
+/// Whether `head` looks like the beginning of such a file.
 [[nodiscard]] bool isIsf(std::string_view head);
 
 /// Errors: ParseError naming file, key, its value and what was expected.

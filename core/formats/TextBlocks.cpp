@@ -60,7 +60,7 @@ Result<std::string_view> TextBlocks::next() {
     std::memmove(begin, begin + used_, held_ - used_);
     held_ -= used_;
     used_ = 0;
-    constexpr std::size_t kRoom = 2 * kUtf8PerUtf16;  // for a pair of UTF-16
+    constexpr std::size_t kRoom = 2 * kUtf8PerUtf16;  // room for a pair of UTF-16 units
     while (!ended_ && kBlockBytes - held_ >= kRoom) {
         const bool first = taken_ == 0;
         const auto got = fill(begin + held_, kBlockBytes - held_);

@@ -62,7 +62,7 @@ public:
     /// Errors: Io; ParseError for a line longer than a block.
     [[nodiscard]] Result<std::string_view> next();
 
-    /// From the beginning once more. Errors: Io.
+    /// Starts from the beginning again. Errors: Io.
     [[nodiscard]] Result<void> rewind();
 
     [[nodiscard]] const std::string& name() const noexcept { return name_; }
@@ -86,7 +86,7 @@ private:
     std::uint64_t taken_ = 0;
     bool ended_ = false;
     std::optional<Utf16Order> order_;  // byte order of a text in UTF-16
-    std::string raw_;                  // its bytes that were read and not yet turned into UTF-8
+    std::string raw_;                  // bytes that were read and not yet turned into UTF-8
 };
 
 }  // namespace tacto

@@ -53,7 +53,7 @@ struct Layout {
     std::string info;             ///< the INFO list, its first 64 kB; empty where there is none
     std::string sizes;            ///< the ds64 chunk of RF64 and BW64 (EBU Tech 3306), its first 64 kB
     std::uint64_t samplesAt = 0;  ///< where the samples begin, in bytes
-    std::uint64_t end = 0;        ///< where they end; where that is not announced, the end of the file
+    std::uint64_t end = 0;        ///< where they end; if that is not announced, the end of the file
     std::uint64_t announced = 0;  ///< bytes of samples, as the file states them
     bool more = false;            ///< a second data chunk or a second file stands behind
 
@@ -164,7 +164,7 @@ struct Samples {
     std::uint64_t bits = 0;
     bool isFloat = false;
 
-    /// One of them: floats as they are, PCM as a fraction of the full scale (of 8 bits it has no sign).
+    /// One sample: floats as they are, PCM as a fraction of the full scale (8-bit PCM has no sign).
     [[nodiscard]] float at(const char* bytes) const noexcept {
         const auto raw = numberAt({bytes, static_cast<std::size_t>(bits / 8)}, 0, static_cast<std::size_t>(bits / 8));
         if (isFloat && bits == 32) return std::bit_cast<float>(static_cast<std::uint32_t>(raw));
@@ -249,7 +249,7 @@ Result<void> writeSamples(const std::filesystem::path& path, const Capture& capt
         whole = ::sf_writef_float(sound.get(), frames.data(), wanted) == wanted;
     }
     int reason = whole ? 0 : errno;
-    // It writes the head once more; what it could not write before, it says again.
+    // Closing writes the head once more, and reports now what it could not write before.
     if (::sf_close(sound.release()) != SF_ERR_NO_ERROR || !whole) {
         if (reason == 0) reason = errno;
         return fail(ErrorCode::Io, "{}",

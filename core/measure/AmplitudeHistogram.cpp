@@ -60,7 +60,7 @@ void AmplitudeHistogram::fill(std::span<const float> samples) {
             x = x < least ? least : x;
             x = x > most ? most : x;
             values[k] = x;
-            // Before it becomes an integer: a range next to nothing or next to everything has no float per unit.
+            // Scaled before it becomes an integer: a range next to nothing or next to everything has no float per unit.
             const float position = (x - least) * perUnit;
             bins[k] = static_cast<std::int32_t>(position < kLastBin ? position : kLastBin);
         }

@@ -46,7 +46,7 @@ private:
     double low_ = 0;
     double width_ = 0;
     std::size_t halfWindow_ = 2;
-    std::size_t noiseReach_ = 2;  ///< beyond this many bins from a mode lies no noise of it
+    std::size_t noiseReach_ = 2;  ///< no noise of a mode lies more than this many bins from it
 };
 
 }  // namespace tacto

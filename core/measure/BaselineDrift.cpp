@@ -32,7 +32,7 @@ double quantile(std::vector<double>& values, double share) {
     return *at;
 }
 
-/// From the quantile kTail to 1 - kTail.
+/// The values from the quantile kTail to 1 - kTail.
 double withoutTails(std::vector<double>& values) {
     const double high = quantile(values, 1 - kTail);  // what is less stands before it now
     const auto low = values.begin() + placeOf(kTail, values);
@@ -93,7 +93,7 @@ double restAbout(std::span<const float> samples, const BaselineDrift& drift) {
 double BaselineDrift::at(std::size_t sample) const noexcept {
     const double position = (static_cast<double>(sample) + 0.5) / static_cast<double>(block) - 0.5;
     const double last = static_cast<double>(medians.size()) - 1;
-    // Before the first middle and after the last one the line goes on.
+    // Before the first middle and after the last one, the line continues.
     const auto from = static_cast<std::size_t>(std::clamp(position, 0.0, std::max(0.0, last - 1)));
     if (from + 1 >= medians.size()) return medians[from];
     return medians[from] + (position - static_cast<double>(from)) * (medians[from + 1] - medians[from]);
@@ -139,7 +139,7 @@ SampleView withoutDrift(const SampleView& view, const BaselineDrift& drift) {
     result.own.resize(view.samples.size());
     auto medians = drift.medians;
     const double origin = quantile(medians, 0.5);
-    // From block to block, since the line is straight from the middle of one to the middle of the next.
+    // Goes from block to block, since the line is straight from the middle of one to the middle of the next.
     const std::size_t n = view.samples.size();
     for (std::size_t first = 0; first < n;) {
         const std::size_t middle = drift.block / 2;

@@ -47,7 +47,7 @@ struct Capture {
     }
 };
 
-/// The channel of exactly that name; null where there is none. findChannel() is for names that people type.
+/// The channel of exactly that name; null without one. findChannel() is for names that people type.
 [[nodiscard]] inline const CaptureChannel* channelOf(const Capture& capture, std::string_view name) noexcept {
     for (const auto& channel : capture.channels) {
         if (channel.name == name) return &channel;

@@ -28,7 +28,7 @@ public:
     /// 1: nothing is averaged. Another number restarts the mean.
     void setCaptures(std::size_t captures);
     [[nodiscard]] std::size_t captures() const noexcept { return wanted_; }
-    /// How many the present mean is of, at most captures().
+    /// How many captures the present mean covers, at most captures().
     [[nodiscard]] std::size_t count() const noexcept { return count_; }
     void clear();
 

@@ -23,19 +23,19 @@ namespace tacto {
 /// "stated_by"}]}
 [[nodiscard]] nlohmann::json describeCapture(const Capture& capture);
 
-/// Takes over what `description` says, channels without samples. What it lacks stays not stated. No exception whatever
-/// the JSON. Nothing where it has no list of channels.
+/// Takes over what `description` says, channels without samples. Missing parts stay not stated. No JSON makes it throw.
+/// Nothing without a list of channels.
 [[nodiscard]] std::optional<Capture> captureDescribed(const nlohmann::json& description);
 
-/// The comment line, with its line end; empty for a capture of which nothing is stated: "not simulated" would then be a
-/// claim without a source.
+/// The comment line, with its line end; empty for a capture with nothing stated: "not simulated" would then be a claim
+/// without a source.
 [[nodiscard]] std::string captureHeader(const Capture& capture);
 
-/// What the header in `text`, a file's beginning, says; nothing where there is none that can be read.
+/// The header in `text`, a file's beginning; nothing where none can be read.
 [[nodiscard]] std::optional<Capture> headerIn(std::string_view text);
 
-/// Gives `capture`, as it was read from a file, what `header` says about it: trigger, origin and, where its channels
-/// are those of the header, their ranges, steps and tolerances.
+/// Gives `capture`, as it was read from a file, what `header` says about it: trigger, origin and, where both have the
+/// same channels, their ranges, steps and tolerances.
 void takeHeader(Capture& capture, const Capture& header);
 
 // Whether a capture file was measured or simulated: by its own header, and by origin.json beside it,

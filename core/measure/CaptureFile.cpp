@@ -27,7 +27,7 @@ void appendTime(fmt::memory_buffer& text, double t, int decimals) {
     double scale = 1;
     for (int i = 0; i < decimals; ++i) scale *= 10;
     const double scaled = std::round(std::abs(t) * scale);
-    if (!(scaled < 9e15)) {  // beyond this a double no longer holds every integer
+    if (!(scaled < 9e15)) {  // from here on a double no longer holds every integer
         fmt::format_to(std::back_inserter(text), "{:.{}f}", t, decimals);
         return;
     }

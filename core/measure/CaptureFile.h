@@ -1,5 +1,5 @@
-// CaptureFile.h - this project's own captures on disk: plain CSV, `time_s,voltage_v,current_a`. Reading them, and those
-// of others, is in core/formats/.
+// CaptureFile.h - this project's own captures on disk: plain CSV, `time_s,voltage_v,current_a`. Reading them, and other
+// makers' files, is in core/formats/.
 //
 // The first column is time, every other one a channel; a suffix says the unit (`_v _a`), none means a logic level or a
 // bare number. The input range, resolution and trigger moment are not in the file.

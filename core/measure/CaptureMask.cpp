@@ -115,7 +115,7 @@ MaskCheck CaptureMask::check(const Capture& capture) const {
             result.worst =
                 MaskViolation{mask.name, fromItsTrigger(capture) + static_cast<double>(i) / capture.rate_hz, x, limit};
         }
-        // The mask's own end is the reference's: the capture may be as much shorter as its samples lie elsewhere.
+        // The mask ends where the reference ends: a capture may be shorter by as much as its samples are shifted.
         if (judged == 0) {
             doubt("no sample of '" + mask.name + "' lies in the mask's time");
         } else if (offset > 1 || offset + static_cast<double>(channel->samples.size()) * step < last) {

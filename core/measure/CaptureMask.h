@@ -25,7 +25,7 @@ namespace tacto {
 
 /// Half-widths.
 struct MaskBand {
-    std::map<std::string, double> level;  ///< by unit ("V", "A"), above 0; channels of other units are not judged
+    std::map<std::string, double> level;  ///< by unit ("V", "A"), above 0; a channel with another unit is not judged
     double time_s = 0;                    ///< 0 and up
 };
 
@@ -36,14 +36,14 @@ struct MaskViolation {
     std::string channel;
     double time_s = 0;  ///< from the trigger
     double value = 0;   ///< in the channel's unit
-    double limit = 0;   ///< that it is beyond
+    double limit = 0;   ///< the limit that it is beyond
 };
 
 struct MaskCheck {
     MaskVerdict verdict = MaskVerdict::NotJudged;
     std::size_t outside = 0;             ///< samples
     std::optional<MaskViolation> worst;  ///< the worst of a capture that is outside
-    std::string why;                     ///< not judged: a clause
+    std::string why;                     ///< a clause that says why it is not judged
 };
 
 class CaptureMask {

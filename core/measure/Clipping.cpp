@@ -16,8 +16,8 @@ constexpr double kKeeps = 0.95;                  // share of the samples between
 constexpr std::size_t kJudgedTriples = 100'000;  // triples of neighbours
 constexpr std::size_t kMinTriples = 50;          // the fewest triples that are enough
 constexpr double kEdge = 0.05;                   // share of the record's span: a larger step is an edge and no noise
-constexpr double kJitters = 0.01;                // share of the triples: noise of at least three codes
-constexpr double kNoisyCodes = 2;                // a noise of which no code keeps a third of the samples
+constexpr double kJitters = 0.01;                // share of the triples that means noise of at least three codes
+constexpr double kNoisyCodes = 2;                // with such noise no code keeps a third of the samples
 constexpr double kNoisy = 0.3;                   // share of the triples
 constexpr double kKeepsInNoise = 0.3;            // share of the samples, where the noise was added to a clipped top
 constexpr double kMoves = 0.2;                   // share of the steps: noise at all
@@ -48,7 +48,7 @@ void markAtRange(PhaseSpans& phases, const CaptureChannel& channel, const ClipLi
     }
 }
 
-/// How much the signal moves where it rests.
+/// How much the signal moves while it rests.
 enum class Rest { Still, Moves, Jitters, Noisy };
 
 /// Judged on three neighbours at a time, away from the phases. Noise turns back from one sample to the next; what

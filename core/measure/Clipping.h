@@ -6,7 +6,7 @@
 // signal's own. Where a top then keeps the record's extreme from sample to sample although the signal is noisy where it
 // rests, the noise was cut off: such a phase is flat-topped, is measured, and flagged for the reader.
 //
-// Where the noise is of several codes, a third of them at the extreme is enough: an amplifier clipped and noise came
+// Where the noise spans several codes, a third of them at the extreme is enough: an amplifier clipped and noise came
 // after it.
 //
 // A top is flat when it keeps the extreme in 95 % of at least 10 samples that are at least half of the phase, and the
@@ -25,9 +25,9 @@
 
 namespace tacto {
 
-// At which samples a channel stands at the end of its input range.
+// Finds the samples at which a channel stands at the end of its input range.
 
-/// At or beyond which a sample is clipped: half a step inside the range, for samples are rounded.
+/// A sample at or beyond these is clipped: they lie half a step inside the range, as samples are rounded.
 struct ClipLimits {
     double low;
     double high;
@@ -37,7 +37,7 @@ struct ClipLimits {
 /// Nothing where the channel states no range.
 [[nodiscard]] std::optional<ClipLimits> clipLimits(const CaptureChannel& channel) noexcept;
 
-/// Sets `clipped` and `flatTop` of `phases`, which were found in `view`, whose samples are those of `blocks`.
+/// Sets `clipped` and `flatTop` of `phases`, which were found in `view`; `blocks` has the same samples.
 void markClipped(PhaseSpans& phases, const SampleView& view, const SampleBlocks& blocks);
 
 }  // namespace tacto

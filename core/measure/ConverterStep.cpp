@@ -17,20 +17,20 @@ constexpr double kOffGrid = 0.2;           // share of a step
 constexpr double kNeighbours = 6;          // steps: a wider gap says nothing, for the step is not known well enough
 constexpr std::size_t kManyCodes = 32;     // steps beside each other
 constexpr std::size_t kReturnsWithin = 4;  // samples: some instruments write each twice
-constexpr double kMinReturns = 4;          // to a code from its neighbour
+constexpr double kMinReturns = 4;          // returns to a code from its neighbour
 constexpr std::size_t kHeld = 3;           // samples: a stair and no edge
 constexpr std::size_t kFewCodes = 4;       // steps beside each other, climbed one by one
 constexpr double kStairs = 0.8;            // share of the stairs
 constexpr double kReturns = 0.005;         // share of the samples
-constexpr std::size_t kFewValues = 64;     // that can be told one by one
+constexpr std::size_t kFewValues = 64;     // values that can be told one by one
 constexpr std::size_t kMinOnGrid = 2;      // values on the grid, besides the two that are one step apart
 constexpr double kOffWholeGrid = 0.02;     // share of a step: two values by chance in six hundred
 constexpr double kMinSpan = 16;            // steps: what an ideal record's few levels need not have
 
 struct Seen {
     std::vector<float> values;    ///< all different, ascending
-    std::vector<double> returns;  ///< from a value to the one before: the larger of both changes
-    std::vector<double> stairs;   ///< from a value that was held to another that is
+    std::vector<double> returns;  ///< how often a value returns to the one before: the larger of both changes
+    std::vector<double> stairs;   ///< steps from a value that was held to another that was held
     std::size_t samples = 0;
 };
 
@@ -71,7 +71,7 @@ Seen lookAt(std::span<const float> samples) {
     return seen;
 }
 
-/// Whether few values all lie on one grid of about `step`, which each distance tells more sharply.
+/// Whether few values all lie on one grid of about `step`, which every distance defines more sharply.
 bool fillOneGrid(const std::vector<float>& values, double step) {
     if (values.size() > kFewValues || values.size() < 2 + kMinOnGrid) return false;
     const auto first = std::adjacent_find(values.begin(), values.end(), [&](float a, float b) {
@@ -122,7 +122,7 @@ double converterStep(std::span<const float> samples) {
     const bool flickers = returns >= kMinReturns && returns >= kReturns * static_cast<double>(seen.samples);
     const bool climbs =
         ones >= kFewCodes && stairs >= kMinReturns && stairs >= kStairs * static_cast<double>(seen.stairs.size());
-    // Without either, most of what occurs must lie on the grid.
+    // Without either, most of the values must lie on the grid.
     const bool fills = ones >= kManyCodes && 2 * near >= gaps.size();
     const bool fewOnGrid = stairs >= 1 && 2 * stairs >= static_cast<double>(seen.stairs.size());
     return flickers || climbs || fills || (fewOnGrid && fillOneGrid(seen.values, step)) ? step : 0;
@@ -136,8 +136,8 @@ constexpr double kLeapInSpan = 0.005;  // share of the record: smaller leaps do 
 constexpr float kAgree = 0.1F;         // share of the leap; half of the least
 constexpr std::size_t kOneIn = 100;
 
-/// Whether any sample from `first` to before `end` lies more than `least` beyond both of its neighbours. No branch, so
-/// that a compiler turns it into vectors.
+/// Whether any sample from `first` to before `end` lies more than `least` beyond both of its neighbours. Without a
+/// branch, so that a compiler turns it into vectors.
 bool anyLeaps(const float* x, std::size_t first, std::size_t end, float least) noexcept {
     std::int32_t any = 0;
     for (std::size_t i = first; i < end; ++i) {

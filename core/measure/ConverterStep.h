@@ -15,8 +15,8 @@
 
 namespace tacto {
 
-/// In the samples' unit; 0 = none is seen. Looks at some 16 000 samples. Decimal text may have rounded each to a tenth
-/// of the step.
+/// The converter's step in the samples' unit; 0 = none is seen. Looks at some 16 000 samples. Decimal text may have
+/// rounded each to a tenth of it.
 [[nodiscard]] double converterStep(std::span<const float> samples);
 
 // Single samples that leap from the line their neighbours follow: spikes and dropouts of one sample,
@@ -26,7 +26,7 @@ namespace tacto {
 // neighbours, and these and at least one sample further agree with each other: on an edge and in a ringing they do
 // not. More than one sample in a hundred is the signal itself.
 
-/// Where samples leap, ascending; empty where they are too many. `noise`: standard deviation from neighbour to
+/// The samples that leap, ascending; empty where they are too many. `noise`: standard deviation from neighbour to
 /// neighbour; `lsb` 0 = unknown.
 [[nodiscard]] std::vector<std::size_t> leapingSamples(const SampleBlocks& blocks, double noise, double lsb);
 

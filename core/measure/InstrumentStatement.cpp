@@ -18,7 +18,7 @@ ChannelStatement over(const ChannelStatement& under, const ChannelStatement& abo
     ChannelStatement out{over(under.gain, above.gain), over(under.offset, above.offset),
                          over(under.linearity, above.linearity), over(under.probe, above.probe),
                          over(under.resolution, above.resolution)};
-    // Who states a gain means all of it, unless a share of full scale is stated in the same breath.
+    // A stated gain covers everything, unless a share of full scale is stated along with it.
     if (above.gain.known() && !above.linearity.known()) out.linearity = {};
     return out;
 }
@@ -58,7 +58,7 @@ void applyTo(CaptureChannel& channel, const ChannelStatement& stated) {
     if (stated.gain.known()) channel.linearityTolerance = 0;
     take("gain", stated.gain, channel.gainTolerance, 1);
     take("offset", stated.offset, channel.offsetTolerance, 1);
-    // Nothing can be a share of an unknown range: the gain is then not known either.
+    // Nothing can be a share of an unknown range: then the gain is not known either.
     const double range = channel.high - channel.low;
     if (stated.linearity.known() && !(range > 0)) {
         channel.gainTolerance = kNaN;

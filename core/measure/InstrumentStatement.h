@@ -24,7 +24,7 @@ struct Stated {
     [[nodiscard]] bool known() const noexcept;
 };
 
-/// Half-widths. A certificate's U (k = 2) stands as the half-width whose 95 % it is, U/0.95.
+/// Half-widths. A certificate's U (k = 2) counts as a half-width with 95 % inside, U/0.95.
 struct ChannelStatement {
     Stated gain;        ///< relative
     Stated offset;      ///< in the channel's unit
@@ -71,7 +71,7 @@ struct SheetFigure {
     std::string source{};   ///< title of the document, with its page; not empty where `value` is known
     std::string address{};  ///< where the figure was read
     Confidence confidence = Confidence::Low;
-    std::string condition{};  ///< under which the sheet states it
+    std::string condition{};  ///< the condition under which the sheet states it
 };
 
 struct InstrumentProfile {

@@ -164,7 +164,7 @@ void summariseLoad(bool gainShared, const CaptureChannel& voltage, const Capture
     result.loadUncertainty_ohm = std::hypot(volts, amperes) * std::abs(result.load_ohm.mean);
 }
 
-/// A voltage without a range whose tops look cut off makes the load too small; nothing else would say so.
+/// A voltage without a range, with tops that look cut off, makes the load too small; nothing else would say so.
 void warnOfFlatVoltage(const Capture& capture, std::size_t voltage, const MeasureOptions& options,
                        LoadMeasurement& result) {
     if (result.measuredPulses == 0 || clipLimits(capture.channels[voltage])) return;

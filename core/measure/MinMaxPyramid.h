@@ -25,7 +25,7 @@ struct Envelope {
     float high = -std::numeric_limits<float>::infinity();
     bool gap = false;  ///< a sample in it is missing
 
-    /// No sample at all, or none that is a number.
+    /// Whether there is no sample, or none that is a number.
     [[nodiscard]] bool empty() const noexcept { return low > high; }
     bool operator==(const Envelope&) const = default;
 };

@@ -25,7 +25,7 @@ constexpr std::size_t kHides = 3;  // missing samples in a row: a phase of fewer
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// From the baseline; `distance`: of the state.
+/// The threshold, counted from the baseline; `distance`: the state's.
 double thresholdOf(double distance, double noise) {
     return std::min(0.5 * distance, std::max(kThreshold * distance, kThresholdInNoise * noise));
 }
@@ -80,7 +80,7 @@ struct Thresholds {
 /// So many samples are looked at in one go: a comparison or an addition need not wait for the one before it.
 constexpr std::size_t kRow = 4;
 
-/// Whether a row of samples is all there and above `release`.
+/// Whether a row of samples is complete and above `release`.
 bool holds(const float* row, float sign, float release) {
     std::int32_t odd = 0;
     for (std::size_t k = 0; k < kRow; ++k) odd |= sign * row[k] >= release ? 0 : 1;
@@ -124,8 +124,8 @@ void follow(const SampleView& view, std::size_t begin, const Thresholds& thresho
     phase.incomplete = phase.incomplete || (begin > 0 && std::isnan(samples[begin - 1]));
 }
 
-/// Where a phase may lie in samples that are missing between two others; `from`: the end of the one before, as far as
-/// it is seen. Either may be null.
+/// Marks where a phase may lie in samples that are missing between two others; `from`: the end of the one before, as
+/// far as it is seen. Either may be null.
 void markHidden(std::span<const float> samples, PhaseSpan* before, std::size_t from, PhaseSpan* after) {
     const std::size_t end = after == nullptr ? samples.size() : after->begin;
     for (std::size_t i = from; i < end; ++i) {

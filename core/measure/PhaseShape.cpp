@@ -17,7 +17,7 @@ constexpr double kPlateauTo = 0.9;
 constexpr double kEdgeFoot = 0.25;
 constexpr double kEdgeTop = 0.75;
 
-/// The position of a sample. Signed: a position becomes one, and one a position, in a single step of the processor.
+/// The position of a sample. It is signed, so that the processor turns it into a double, and back, in a single step.
 using Index = std::ptrdiff_t;
 
 /// The first sample at or after a position, which must not be negative.
@@ -34,7 +34,7 @@ public:
     [[nodiscard]] double operator[](Index i) const { return (static_cast<double>(recorded(i)) - baseline_) * sign_; }
     [[nodiscard]] Index size() const { return std::ssize(samples_); }
 
-    /// Where the line between samples i - 1 and i passes `level`.
+    /// The place where the line between samples i - 1 and i passes `level`.
     [[nodiscard]] double crossing(Index i, double level) const {
         const double before = (*this)[i - 1];
         const double after = (*this)[i];
@@ -69,7 +69,7 @@ public:
         }
         return kNotMeasured;
     }
-    /// Passages up less passages down through half of `plateau`, on the edge whose first sample at or above it is `i`.
+    /// Passages up minus passages down through half of `plateau`, on the edge whose first sample at or above it is `i`.
     [[nodiscard]] double risesAt(Index i, Index to, double plateau) const {
         const double half = 0.5 * plateau;
         if ((*this)[i - 1] >= half) return crossing(i, half);
@@ -80,7 +80,7 @@ public:
         while (last < to && last + 1 < size() && (*this)[last] < kEdgeTop * plateau) ++last;
         double position = crossing(i, half);
         first = std::max<Index>(first, 1);
-        // Not a whole edge: the first passage must do.
+        // The edge is not whole: the first passage must do.
         if ((*this)[first - 1] >= half || (*this)[last] < half) return position;
         for (Index k = first; k <= last; ++k) {
             if (k == i || ((*this)[k - 1] >= half) == ((*this)[k] >= half)) continue;
@@ -88,7 +88,7 @@ public:
         }
         return position;
     }
-    /// The same of a trailing edge whose last sample at or above half is `i`, back to `to` at most.
+    /// The place for a trailing edge whose last sample at or above half is `i`, back to `to` at most.
     [[nodiscard]] double fallsAt(Index i, Index to, double plateau) const {
         const double half = 0.5 * plateau;
         if ((*this)[i + 1] >= half) return crossing(i + 1, half);

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kMinPhaseSamples = 10;
 constexpr std::size_t kAmplePhaseSamples = 40;
 constexpr double kRinging = 0.05;     // share of the area of the phase before: more is a phase by itself
-constexpr double kLower = 0.6;        // than the phase before: as high is a pulse of its own, however short
+constexpr double kLower = 0.6;        // share of the phase before; a pulse as high as that is another, however short
 constexpr double kFragment = 0.5;     // share of a neighbour's area: what is less and under-sampled is a piece of it
 constexpr double kRingsFor = 0.5;     // share of the phase before, from its end
 constexpr double kFlickersFor = 0.1;  // share of the phase after, before it: noise on a slow leading edge
@@ -22,7 +22,7 @@ constexpr double kAcrossInNoise = 4;
 constexpr double kRings = 0.05;          // overshoot from which on the tail belongs to the charge
 constexpr double kOvershootInNoise = 6;  // times the noise: less overshoot may be noise
 
-/// Where samples of the plateau are missing: the mean of the others.
+/// Where samples of the plateau are missing, the mean of the others.
 double heightOfPhase(const FoundPhase& phase) {
     const double plateau = std::abs(phase.measured.plateau);
     return std::isfinite(plateau) ? plateau : phase.area / (phase.to_s() - phase.from_s());
@@ -50,11 +50,11 @@ bool reachesEnd(const FoundPhase& phase) {
     return phase.onset < 1 + phase.measured.rise_s * rate || phase.end50 > last - 1 - phase.measured.fall_s * rate;
 }
 
-/// By samples where the edges could not be placed.
+/// Counted by samples where the edges could not be placed.
 double endOf(const FoundPhase& phase) { return std::isfinite(phase.end50) ? phase.measured.end_s : phase.to_s(); }
 double onsetOf(const FoundPhase& phase) { return std::isfinite(phase.onset) ? phase.measured.onset_s : phase.from_s(); }
 
-/// From the end of one phase to the start of the next; by samples where the edges could not be placed.
+/// The time from the end of one phase to the start of the next; by samples where the edges could not be placed.
 double gapBetween(const FoundPhase& a, const FoundPhase& b) {
     const double gap = b.measured.onset_s - a.measured.end_s;
     if (std::isfinite(gap)) return gap;
@@ -127,7 +127,7 @@ void PulseAssembly::integrate(std::size_t k) {
     m.charge = phase.sign * integralOf(phase, levels_.baseline, from, to) / view.rate_hz;
 }
 
-/// Between a phase and another where they can be one pulse; else NaN.
+/// The gap between two phases that may form one pulse; else NaN.
 double PulseAssembly::gapTo(std::size_t k, std::size_t second) const {
     if (levels_.count != StateCount::Three || second >= kept_ || at(k).sign == at(second).sign) return kNotMeasured;
     const double gap = gapBetween(at(k), at(second));
@@ -137,20 +137,19 @@ double PulseAssembly::gapTo(std::size_t k, std::size_t second) const {
     return gap <= gapMax_s_ + blur ? gap : kNotMeasured;
 }
 
-/// Whether what lies between a phase and the second one of its pulse is a piece of either: a spike in the gap, or the
-/// ringing after a clipped phase.
+/// Whether a piece of either phase lies between them: a spike in the gap, or the ringing after a clipped phase.
 bool PulseAssembly::isSplit(std::size_t k) const {
     if (k + 2 >= kept_ || at(k + 1).measured.samples >= kMinPhaseSamples) return false;
     const auto& whole = at(k + 1).sign == at(k).sign ? at(k) : at(k + 2);
     return at(k + 1).area < kFragment * whole.area && std::isfinite(gapTo(k, k + 2));
 }
 
-/// Whether the phase that leads may lie in missing samples before this one.
+/// Whether the leading phase may lie in missing samples before this one.
 bool PulseAssembly::mayLackLeading(std::size_t k) const {
     const auto& phase = at(k);
     if (!(static_cast<double>(phase.hiddenBefore) <= gapMax_s_ * phase.view->rate_hz)) return false;
     if (levels_.count == StateCount::Three) return phase.sign > 0 ? !upLeads_ || downLeads_ : !downLeads_ || upLeads_;
-    // Only one side is known. It is the second where the samples go missing or come back on the other.
+    // Only one side is known. This is the second where the samples go missing, or come back, on the other side.
     const double height = std::abs((phase.sign > 0 ? levels_.high : levels_.low) - levels_.baseline);
     const double least = std::max(kAcross * height, kAcrossInNoise * levels_.noise);
     const auto liesThere = [&](std::size_t i) {
@@ -177,11 +176,11 @@ void PulseAssembly::pairNext() {
     const bool lacksLeading = mayLackLeading(k);
     const bool alone = lacksLeading && upLeads_ != downLeads_;
     const bool pairs = std::isfinite(gap) && !alone && !(std::isfinite(next) && gap > 2 * next + step && k == 0);
-    // Where it is not known which side leads, the same holds for what follows missing samples.
+    // Where the leading side is not known, the same holds for phases after missing samples.
     chainedToHidden_ = chainedToHidden_ || (lacksLeading && !alone && (!pairs || std::isfinite(next)));
     flags.incomplete = alone || chainedToHidden_;
     chainedToHidden_ = chainedToHidden_ && std::isfinite(pairs ? next : gap);
-    // From a phase that the record cut on, phases follow so closely that each may belong to either neighbour.
+    // From a phase that the record cuts on, phases follow so closely that each may belong to either neighbour.
     if (k == 0) chainedToCut_ = at(k).truncated;
     const bool chained = chainedToCut_;
     chainedToCut_ = chainedToCut_ && std::isfinite(pairs ? next : gap);

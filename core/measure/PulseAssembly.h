@@ -1,8 +1,8 @@
 // PulseAssembly.h - from phases to pulses: each phase is measured, ringing is left out, charges are integrated and the
 // phases that belong together are paired. Private to core/measure.
 //
-// Phases come one by one, in time order, and leave as pulses two phases later. Nothing looks further than that, so a
-// record of hundreds of thousands of pulses keeps no more than a few measured phases at a time.
+// Phases come one by one, in time order, and leave as pulses two phases later. Nothing looks further ahead, so that a
+// record of hundreds of thousands of pulses keeps only a few measured phases at a time.
 //
 // Thread-safety: none; one owner.
 #pragma once
@@ -27,7 +27,7 @@ public:
 
     /// The next phase in time. Its view must outlive this.
     void add(const PhaseSpan& span);
-    /// No phase follows. To be called once, after the last.
+    /// No phase follows. Call it once, after the last.
     [[nodiscard]] std::vector<PulseMeasurement> finish();
     /// The longest phase that was not ringing.
     [[nodiscard]] double widest_s() const noexcept { return widest_s_; }
@@ -41,7 +41,7 @@ private:
     [[nodiscard]] bool mayLackLeading(std::size_t k) const;
     void addPulse(std::initializer_list<const FoundPhase*> phases, const PulseFlags& flags);
 
-    /// Phases are numbered as they are kept. The newest, of which it is not known yet whether it is, has number kept_.
+    /// Phases are numbered as they are kept. The newest, which may not turn out to be one, has number kept_.
     [[nodiscard]] FoundPhase& at(std::size_t k) noexcept { return window_[k % window_.size()]; }
     [[nodiscard]] const FoundPhase& at(std::size_t k) const noexcept { return window_[k % window_.size()]; }
 
@@ -51,10 +51,10 @@ private:
     std::array<FoundPhase, 8> window_;  ///< the last phases: five are looked at
     bool hasNewest_ = false;
     std::size_t kept_ = 0;       ///< phases that are not ringing
-    std::size_t paired_ = 0;     ///< how many of these are in pulses already
+    std::size_t paired_ = 0;     ///< how many of these belong to pulses already
     bool chainedToCut_ = false;  ///< the next to be paired
     bool chainedToHidden_ = false;
-    bool upLeads_ = false;  ///< whether up leads in the pulses with two phases so far
+    bool upLeads_ = false;  ///< whether the upper phase leads in the pulses with two phases so far
     bool downLeads_ = false;
     double widest_s_ = 0;
     std::vector<PulseMeasurement> pulses_;

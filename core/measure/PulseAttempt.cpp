@@ -69,7 +69,7 @@ Silence silenceBefore(const SampleView& view, const PulseAttempt& found, const P
     return silence(view, found, std::max(p.onset - kSilentTo * p.width, p.silentFrom + (p.first ? 0 : quarter)),
                    p.onset - std::min(kSilentFrom * p.width, quarter));
 }
-/// The same after it, or `later` times two widths further on.
+/// The silence after it, or `later` times two widths further on.
 Silence silenceAfter(const SampleView& view, const PulseAttempt& found, const PulsePlace& p, std::size_t later = 0) {
     const double quarter = 0.25 * (p.silentTo - p.end);
     const double shift = static_cast<double>(later) * (kSilentTo - kSilentFrom) * p.width;
@@ -77,7 +77,7 @@ Silence silenceAfter(const SampleView& view, const PulseAttempt& found, const Pu
                    std::min(p.end + shift + kSilentTo * p.width, p.silentTo - (p.last ? 0 : quarter)));
 }
 
-/// Every so many pulses are looked at.
+/// Looks at one of so many pulses.
 template <class Look>
 void lookAtPulses(const PulseAttempt& found, Look look) {
     const std::size_t stride = std::max<std::size_t>(1, found.pulses.size() / kJudgedPulses);

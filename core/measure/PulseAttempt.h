@@ -19,7 +19,7 @@ struct PulseAttempt {
     std::size_t mean = 1;
     std::size_t meanOfSecond = 1;
     double widest_s = 0;         // phase
-    double secondStandsOut = 0;  // in its own view, where there are three states
+    double secondStandsOut = 0;  // how far it stands out in its own view, where there are three states
     double unrest = 0;           // see SignalQuality
     double levelAfter = 0;       // as SignalQuality::levelAfter
     double levelBefore = 0;
@@ -38,24 +38,24 @@ struct PulseAttempt {
     }
 };
 
-/// From the baseline to a state; 0 where there is none.
+/// The distance from the baseline to a state; 0 where there is none.
 [[nodiscard]] double distanceOf(double state, double baseline);
-/// From the baseline to the state that is further away.
+/// The distance from the baseline to the state that is further away.
 [[nodiscard]] double heightOf(const StateLevels& levels);
 
-/// How far the baseline moves by more than its noise: two thirds of the samples about it are within this. 0 if that is
-/// the noise, or less than a fiftieth of the pulses.
+/// How far the baseline moves by more than its noise: two thirds of the samples around it are within this. 0 if it is
+/// only noise, or less than a fiftieth of the pulses.
 [[nodiscard]] double unrestOf(const SampleView& view, const StateLevels& levels, double noise);
 
 /// A signal whose edges fill its pulses (a sine, a triangle) has no states, whatever its histogram says.
 [[nodiscard]] bool restsOnPlateaus(const std::vector<PulseMeasurement>& pulses);
 
 /// A wave of the baseline that is measured as a pulse: low and long beside the others, and without a plateau. Null
-/// where there is none.
+/// without one.
 [[nodiscard]] const PhaseMeasurement* slowWave(const PulseAttempt& found);
 
 struct AfterPulses {
-    double difference = 0;  // after less before
+    double difference = 0;  // the silence after less the one before
     double before = 0;
 };
 
@@ -64,8 +64,8 @@ struct AfterPulses {
 /// phase begins at most.
 [[nodiscard]] std::optional<AfterPulses> levelAfter(const SampleView& view, const PulseAttempt& found, double within_s);
 
-/// How far the signal lies from the baseline just beside its pulses, beyond the noise: of the larger side, the RMS
-/// over pulses and the most. `noise`: of a sample, standard deviation.
+/// How far the signal lies from the baseline just beside its pulses, beyond the noise: on the larger side, the RMS over
+/// pulses and the largest. `noise`: a sample's, standard deviation.
 void lookBeside(const SampleView& view, PulseAttempt& found, double noise);
 
 }  // namespace tacto

@@ -17,7 +17,7 @@ namespace tacto {
 namespace {
 
 constexpr double kReliable = 12;  // times the noise, from the baseline to a state
-constexpr double kSlack = 1.1;    // white noise falls by the root of the mean's length, real noise by less
+constexpr double kSlack = 1.1;    // white noise falls by the root of the mean's length, real noise falls less
 constexpr double kWhite = 1.4;    // times what averaging leaves of white noise
 constexpr std::size_t kLongestMean = 4096;
 constexpr double kSecondReliable = 6;  // times the noise: that it follows a leading phase is known besides
@@ -29,7 +29,7 @@ constexpr double kDithers = 0.5;
 constexpr double kMaxBeside = 0.07;  // share of the largest state
 constexpr double kMaxUnrest = 0.05;  // share of the way to the nearest state: a phase begins at 0.09 to 0.15
 
-/// How far the larger state stands out of the noise; and the smaller, of three.
+/// How far the larger state stands out of the noise; of three states, the smaller.
 double strongOf(const StateLevels& levels) { return heightOf(levels) / levels.noise; }
 double weakOf(const StateLevels& levels) {
     const double distance = std::min(distanceOf(levels.high, levels.baseline), distanceOf(levels.low, levels.baseline));
@@ -40,7 +40,7 @@ Sides strongSide(const StateLevels& levels) {
     return up ? Sides::Up : Sides::Down;
 }
 
-/// How many samples of a view must become one for a state `standsOut` times the noise to be reliable.
+/// How many samples of a view must become one to make a state `standsOut` times the noise reliable.
 std::size_t meanFor(double standsOut) {
     const double mean = std::ceil(kSlack * (kReliable / standsOut) * (kReliable / standsOut));
     return mean < static_cast<double>(kLongestMean) ? static_cast<std::size_t>(mean) : kLongestMean + 1;
@@ -58,13 +58,13 @@ public:
         return attempt;
     }
 
-    /// The least averaged view of `base` in which pulses are reliable; `base` itself where there is none.
+    /// The least averaged view of `base` in which pulses are reliable; `base` itself without one.
     [[nodiscard]] PulseAttempt best(const SampleView& base, const SampleBlocks& blocks) const {
         PulseAttempt plain = on(base, blocks);
         const double standsOut = strongOf(plain.levels);
         if (plain.hasStates() && standsOut >= kReliable) return complete(base, std::move(plain));
         std::size_t mean = plain.hasStates() ? std::max<std::size_t>(2, meanFor(standsOut)) : 4;
-        // Each step goes to a longer mean, but for one step back to the shortest that is reliable.
+        // Each step goes to a longer mean, except for one step back to the shortest that is reliable.
         for (bool back = false; mean <= kLongestMean && base.samples.size() / mean >= 20;) {
             const auto view = averaged(base, mean);
             PulseAttempt attempt = on(view, SampleBlocks(view.samples));
@@ -96,7 +96,7 @@ private:
         return judged(view, withSecondSide(view, std::move(found)));
     }
 
-    /// What is not whole is flagged, and what does not stand on its baseline refused.
+    /// Flags what is not whole, and refuses what does not stand on its baseline.
     [[nodiscard]] PulseAttempt judged(const SampleView& view, PulseAttempt whole) const {
         if (!whole.hasStates()) return whole;
         markCutPulses(view, whole);
@@ -127,7 +127,7 @@ private:
         return whole;
     }
 
-    /// With two states only one side is known. Where the record begins or ends on the other, a phase is cut there that
+    /// With two states only one side is known. Where the record begins or ends on the other side, it cuts a phase that
     /// may belong to the pulse beside it.
     void markCutPulses(const SampleView& view, PulseAttempt& found) const {
         if (found.levels.count != StateCount::Two || found.pulses.empty()) return;
@@ -152,11 +152,11 @@ private:
     }
 
     [[nodiscard]] double lsbOf(const SampleView& view) const {
-        // Only noise of half a step and more lets a mean see between two codes.
+        // Only noise of half a step or more lets a mean see between two codes.
         return noise_ > kDithers * lsb_ ? lsb_ / std::sqrt(static_cast<double>(view.mean)) : lsb_;
     }
 
-    /// Averaging shows pulses in white noise. In what wanders it shows whatever is there at the time.
+    /// Averaging shows pulses in white noise. In a signal that wanders it shows whatever is there at the time.
     [[nodiscard]] bool isWhite(const SampleView& base, const PulseAttempt& attempt) const {
         const double share = std::sqrt(static_cast<double>(attempt.mean) / static_cast<double>(base.mean));
         const double noise = neighbourNoise(base.samples, lsbOf(base));
@@ -202,7 +202,7 @@ private:
             if (auto both = onTwoMeans(view, averaged(view, mean), found)) return *std::move(both);
         }
         if (three) return found;
-        // It stays hidden; but the baseline is where the signal is before its pulses.
+        // It stays hidden; but the baseline is where the signal lies before its pulses.
         const SampleBlocks blocks(view.samples);
         const bool up = strongSide(found.levels) == Sides::Up;
         found.levels.baseline = found.levelBefore;
@@ -295,12 +295,12 @@ FoundPulses findPulses(const Capture& capture, const CaptureChannel& channel, co
     const double standsOut = strongOf(found.levels);
     found.quality.snr_db = 20 * std::log10(standsOut);
     found.quality.doubtful = standsOut < kReliable || (biphasic && attempt.secondStandsOut < kSecondReliable);
-    // Where a second phase may be missed, a pulse without one is not known to lack it.
+    // Where a second phase may be missed, a pulse without one cannot be said to lack it.
     for (auto& pulse : found.pulses) {
         if (found.quality.doubtful && !pulse.second) pulse.imbalance = kNotMeasured;
     }
     found.quality.unrest = attempt.unrest;
-    // As a standard deviation that holds for each pulse: the most is no more than two.
+    // As a standard deviation that holds for each pulse: the largest is no more than two of it.
     const double beside = std::max(attempt.beside, 0.5 * attempt.mostBeside);
     if (beside > std::max(kUnseenInSteps * lsb, kUnseen * heightOf(found.levels))) {
         found.quality.unrest = std::max(attempt.unrest, beside);

@@ -60,7 +60,7 @@ Result<ChannelMeasurement> measureTrains(std::span<const Capture> captures, std:
     std::vector<PulseMeasurement> pulses;
     std::vector<std::size_t> breaks;  // pulses that follow upon an unknown time
     ChannelMeasurement result;
-    const CaptureChannel* described = nullptr;  // the channel whose range and resolution the uncertainty is from
+    const CaptureChannel* described = nullptr;  // the channel whose range and resolution give the uncertainty
     std::size_t empty = 0;
     std::size_t disordered = 0;
     std::string why;

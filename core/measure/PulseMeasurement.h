@@ -38,7 +38,7 @@ namespace tacto {
 
 // An optional value that is usually missing: it takes the room of a pointer.
 //
-// As std::optional, which always keeps room for the value. Copies copy the value.
+// Like std::optional, which however always keeps room for the value. Copies copy the value.
 
 template <class T>
 class Boxed {
@@ -57,7 +57,7 @@ public:
 
     [[nodiscard]] bool has_value() const noexcept { return value_ != nullptr; }
     [[nodiscard]] explicit operator bool() const noexcept { return has_value(); }
-    /// Only where it has a value.
+    /// Call it only where there is a value.
     [[nodiscard]] const T& operator*() const noexcept { return *value_; }
     [[nodiscard]] const T* operator->() const noexcept { return value_.get(); }
 
@@ -101,7 +101,7 @@ struct PulseMeasurement {
     double gap_s = kNotMeasured;      ///< 50 % to 50 %, between the phases
     double imbalance = kNotMeasured;  ///< |Q1 + Q2| / max(|Q1|, |Q2|); 1 when a biphasic channel's pulse has no
                                       ///< second phase; NaN on a monophasic channel
-    /// Where it lies in the record, to a sample; known about a flagged pulse too, so that it can be shown.
+    /// The place in the record, to a sample; known about a flagged pulse, too, so that it can be shown.
     double seenFrom_s = kNotMeasured;
     double seenTo_s = kNotMeasured;
     [[nodiscard]] double onset_s() const noexcept { return leading.onset_s; }
@@ -122,12 +122,12 @@ struct TrainMeasurement {
 
 /// How pulses are told apart and grouped. Without a rate or a gap each pulse is its own train.
 struct MeasureOptions {
-    std::optional<Hertz> intraTrainRate{};  ///< pulses whose onsets are at most 1.5 / rate apart form one train
+    std::optional<Hertz> intraTrainRate{};  ///< pulses with onsets at most 1.5 / rate apart form one train
     std::optional<Seconds> trainGap{};      ///< the most between pulses of a train, onset to onset; wins over the rate
     Seconds interPhaseGapMax{1e-3};         ///< opposite phases at most this far apart form one pulse
 };
 
-/// How far the record itself lets its pulses be known.
+/// How well the record itself lets its pulses be known.
 struct SignalQuality {
     double snr_db = kNotMeasured;  ///< largest state over the noise, as measured (averaged); infinite without noise
     std::size_t mean = 1;          ///< samples averaged into one before measuring
@@ -149,10 +149,10 @@ struct MeasurementUncertainty {
     /// offset cancels.
     double amplitude = kNotMeasured;
     double width_s = kNotMeasured;     ///< sampling step/√6, the noise on the edges, and the time base
-    double interval_s = kNotMeasured;  ///< the same, and the time stamps of separate records
+    double interval_s = kNotMeasured;  ///< the time, with the time stamps of separate records
     double gap_s = kNotMeasured;       ///< as width_s; biphasic only
     double charge = kNotMeasured;  ///< charge of the leading phase: gain and noise over the width, step/√6 of its edges
-    double imbalance = kNotMeasured;  ///< without what both charges share; biphasic only
+    double imbalance = kNotMeasured;  ///< without what both charges have in common; biphasic only
 };
 
 /// A reading lies within this many standard uncertainties of the truth in 95 of 100 cases.
@@ -164,7 +164,7 @@ struct ChannelMeasurement {
     double rate_hz = 0;
     std::size_t samples = 0;
     StateLevels states;
-    std::vector<PulseMeasurement> pulses;  ///< all found, in time order, flagged ones included
+    std::vector<PulseMeasurement> pulses;  ///< all pulses found, in time order, flagged ones included
     std::vector<TrainMeasurement> trains;
     std::size_t measuredPulses = 0;  ///< `pulses` of cli.md: those that the statistics are of
     SignalQuality quality;

@@ -83,8 +83,8 @@ float third(std::span<const float> samples, const std::vector<float>& extremes, 
     return sign * smallest[2];
 }
 
-/// Where the first of `samples` lies that is beyond; their number if none is. Eight are asked in one go, for the
-/// silence between two pulses is short where a record holds many.
+/// The index of the first of `samples` that is beyond; their number if none is. Eight are asked at once, as the silence
+/// between two pulses is short where a record holds many.
 std::size_t firstBeyond(std::span<const float> samples, float below, float above) noexcept {
     constexpr std::size_t kLaneRow = 8;
     const std::size_t n = samples.size();

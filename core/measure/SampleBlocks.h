@@ -1,8 +1,8 @@
 // SampleBlocks.h - the extremes of every 256 samples of a record, so that what lies beyond a threshold is found without
 // reading the silence between. Private to core/measure.
 //
-// One pass over the samples makes them; the levels of a signal, its pulses and its clipping then ask the blocks first.
-// A sample that is missing (NaN) or infinite is neither an extreme nor beyond anything.
+// One pass over the samples makes the blocks; the levels of a signal, its pulses and its clipping then ask the blocks
+// first. A sample that is missing (NaN) or infinite is neither an extreme nor beyond anything.
 //
 // Thread-safety: immutable after construction. The samples stay the caller's and must outlive this.
 #pragma once
@@ -25,8 +25,8 @@ public:
     [[nodiscard]] std::size_t finite() const noexcept { return finite_; }
     [[nodiscard]] bool complete() const noexcept { return finite_ == samples_.size(); }
 
-    /// Over the whole record; the third from outside is the extreme without two glitches. Infinite where there are
-    /// fewer samples.
+    /// Taken over the whole record; the third from outside is the extreme without two glitches. Infinite where there
+    /// are fewer samples.
     [[nodiscard]] float lowest() const noexcept { return lowest_; }
     [[nodiscard]] float highest() const noexcept { return highest_; }
     [[nodiscard]] float thirdLowest() const noexcept { return thirdLowest_; }
@@ -68,7 +68,7 @@ struct SampleView {
     double rate_hz = 0;
     double start_s = 0;  ///< time of the first of `samples`: the middle of what it is the mean of
 
-    /// In `samples`, fractions included, and back.
+    /// The position in `samples`, fractions included, and back.
     [[nodiscard]] double positionOf(double time_s) const noexcept { return (time_s - start_s) * rate_hz; }
     [[nodiscard]] double timeOf(double position) const noexcept { return start_s + position / rate_hz; }
 };

@@ -93,7 +93,7 @@ struct Moments {
     double near = 0, sum = 0, squares = 0, half = 0, spread = 0;
 };
 
-/// In lanes without branches, a few thousand samples at a time: a float's digits suffice for so short a sum.
+/// Computed in lanes without branches, a few thousand samples at a time: a float's digits suffice for so short a sum.
 Moments momentsAbout(std::span<const float> samples, double origin, double window, double half) {
     constexpr std::size_t kFloatLanes = 8;
     constexpr std::size_t kLaneRows = 256;
@@ -150,7 +150,7 @@ bool refineBaseline(std::span<const float> samples, double noise, StateLevels& l
     const auto [near, sum, squares, half, spread] = moments;
     if (!(half > 0) || !(near > 0)) return false;
     if (std::sqrt(spread / half) > kRestingSpread * nearest) return false;
-    const double mean = sum / near;  // from the origin; the squares are about it to a float's digits
+    const double mean = sum / near;  // counted from the origin; the squares are about the mean, to a float's digits
     const bool isLow = levels.low == levels.baseline;
     const bool isHigh = levels.high == levels.baseline;
     levels.baseline = origin + mean;

@@ -30,7 +30,7 @@ struct StateLevels {
 /// Two states: the baseline is the state with nine tenths of the samples; else the one near zero (within a tenth of
 /// the difference) if the other is not; else the lower. NaN samples are left out.
 [[nodiscard]] StateLevels findStateLevels(std::span<const float> samples, double lsb, bool logic);
-/// The same of a record whose extremes are known already.
+/// Finds the levels of a record with known extremes.
 [[nodiscard]] StateLevels findStateLevels(const SampleBlocks& blocks, double lsb, bool logic);
 
 /// Standard deviation of the noise from the median step between neighbours (4096 of them): edges are too few to move

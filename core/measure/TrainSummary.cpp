@@ -20,7 +20,7 @@ public:
     /// `most`: how many will be added at most.
     explicit Readings(std::size_t most) { reserveLarge(values_, most); }
 
-    /// What was not measured (NaN) is left out.
+    /// Leaves out readings that were not measured (NaN).
     void add(double reading) {
         if (!std::isnan(reading)) values_.push_back(reading);
     }
@@ -33,13 +33,13 @@ private:
 /// Which pulses form a train, and the trains' means.
 class TrainGrouping {
 public:
-    /// Pulses whose onsets are at most `gap` apart form one train. `breaks`, ascending: pulses before which an unknown
-    /// time has passed; must outlive this. `pulses`: how many will be added.
+    /// Pulses with onsets at most `gap` apart form one train. `breaks`, ascending: pulses before which an unknown time
+    /// has passed; must outlive this. `pulses`: how many will be added.
     TrainGrouping(double gap, std::span<const std::size_t> breaks, std::size_t pulses);
 
     /// The next pulse in time.
     void add(const PulseMeasurement& pulse);
-    /// No pulse follows. To be called once, after the last.
+    /// No pulse follows. Call it once, after the last.
     [[nodiscard]] std::vector<TrainMeasurement> finish();
 
 private:
@@ -47,7 +47,7 @@ private:
     void end();
 
     double gap_;
-    std::span<const std::size_t> breaks_;  ///< those still to come
+    std::span<const std::size_t> breaks_;  ///< the breaks that are still to come
     std::size_t added_ = 0;
     double lastOnset_s_ = 0;
     std::vector<TrainMeasurement> trains_;  ///< the last one holds sums until it ends
@@ -55,14 +55,14 @@ private:
 
 TrainGrouping::TrainGrouping(double gap, std::span<const std::size_t> breaks, std::size_t pulses)
     : gap_(gap), breaks_(breaks) {
-    // Without a gap each pulse is a train.
+    // Without a gap each pulse is a train of its own.
     if (!(gap > 0)) reserveLarge(trains_, pulses);
 }
 
 void TrainGrouping::add(const PulseMeasurement& pulse) {
     const bool afterBreak = !breaks_.empty() && breaks_.front() == added_;
     if (afterBreak) breaks_ = breaks_.subspan(1);
-    // Known also of a pulse that was flagged and whose numbers are gone.
+    // Known even for a flagged pulse without its numbers.
     const double onset_s = std::isnan(pulse.onset_s()) ? pulse.seenFrom_s : pulse.onset_s();
     if (added_ == 0 || afterBreak || !(onset_s - lastOnset_s_ <= gap_)) begin(pulse, afterBreak);
     lastOnset_s_ = onset_s;
@@ -147,7 +147,7 @@ private:
         droop_{leading_}, charge_{leading_}, gap_s_{both_}, imbalance_{both_};
 };
 
-/// How many pulses are what a warning may be about.
+/// How many pulses a warning may be about.
 struct PulseCounts {
     std::size_t measured = 0, clipped = 0, truncated = 0, incomplete = 0, underSampled = 0, coarse = 0, single = 0;
     std::size_t flatTop = 0;
@@ -212,8 +212,8 @@ MeasurementUncertainty uncertaintyOf(const ChannelMeasurement& result, const Cap
     const double step = static_cast<double>(result.quality.mean) / result.rate_hz;  // time between two values
     const double width = result.width_s.mean;
     const double noise = result.states.noise / std::sqrt(std::max(1.0, 0.6 * width / step));
-    // What is not stated is NaN, and so is all that needs it.
-    // A level is the difference of two, each to a step; an offset is in both and cancels.
+    // Unstated values are NaN, and so is all that needs them. A level is the difference of two, each to a step; an
+    // offset is in both and cancels.
     const double lsb = channel.lsb > 0 ? channel.lsb : result.quality.foundStep;
     const double resolution = (lsb > 0 ? lsb : kNotMeasured) / std::sqrt(6.0);
     const double gain =
@@ -228,7 +228,7 @@ MeasurementUncertainty uncertaintyOf(const ChannelMeasurement& result, const Cap
     u.width_s = std::hypot(edges, time.base * width / std::sqrt(3.0));
     u.interval_s = std::hypot(std::hypot(edges, time.base * result.interval_s.mean / std::sqrt(3.0)),
                               std::sqrt(2.0 / 3.0) * time.stamp_s);
-    // Over the width, the edges, and the baseline that is subtracted all along.
+    // The noise over the width, the edges, and the baseline that is subtracted all along.
     const auto chargeNoise = [&](double length, double height, double sampling) {
         const double samples = result.states.noise * std::sqrt(sampling * (length + 4 * edge));
         return std::hypot(std::hypot(samples, noise * length), height * sampling / std::sqrt(6.0));

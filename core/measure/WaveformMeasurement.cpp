@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kHysteresis = 0.1;  ///< share of the difference between the two states
 
-/// Where the waveform is beyond the reference level: `level` and a tenth of the difference on, times `sign`.
+/// The waveform is beyond the reference level: at `level` and a tenth of the difference further on, times `sign`.
 struct Reference {
     double level = 0;
     double margin = 0;
@@ -43,7 +43,7 @@ public:
 
     void take(double index, double value) {
         const double beyond = reference_.sign * (value - reference_.level);
-        // The instant is that of the crossing itself; it counts once the margin is passed.
+        // The instant is when the crossing itself happens; it counts once the margin is passed.
         if (known_ && (before_ < 0) != (beyond < 0)) crossed_ = index - beyond / (beyond - before_);
         before_ = beyond;
         known_ = true;
@@ -66,7 +66,7 @@ private:
         const int side = up ? 1 : -1;
         if (side == side_) return;
         side_ = side;
-        if (!begun) return;  // where the record begins is not a crossing
+        if (!begun) return;  // the beginning of a record is not a crossing
         if (!up) {
             down_ = crossed_;
             return;
@@ -92,7 +92,7 @@ private:
     double firstUp_ = 0, lastUp_ = 0, down_ = 0;
     double beyondInWhole_ = 0;
     std::size_t periods_ = 0;
-    bool gap_ = false;     ///< since the last crossing
+    bool gap_ = false;     ///< a gap since the last crossing
     bool broken_ = false;  ///< a gap in a whole period
 };
 

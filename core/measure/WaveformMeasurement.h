@@ -31,7 +31,7 @@ struct WaveformMeasurement {
     double mean = kNotMeasured;
     double frequency_hz = kNotMeasured;
     double duty = kNotMeasured;  ///< 0..1
-    std::size_t periods = 0;     ///< that frequency and duty are of
+    std::size_t periods = 0;     ///< the periods that frequency and duty are taken from
     std::size_t missing = 0;     ///< samples
     bool clipped = false;
 };

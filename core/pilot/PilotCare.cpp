@@ -16,10 +16,10 @@ namespace {
 
 constexpr Seconds kBetweenChecks{30};
 constexpr double kChecksAgree = 0.2;  // two checks, 30 s apart
-constexpr double kBlocksAgree = 0.3;  // before a block, and on a resume
+constexpr double kBlocksAgree = 0.3;  // asked before a block, and on a resume
 constexpr int kSkinEnds = 2;          // erythema or oedema from which a session ends
 constexpr std::chrono::milliseconds kStopIn{10};
-constexpr int kStopTries = 3;  // while the other one's STOP is pressed
+constexpr int kStopTries = 3;  // how often it is tried while the other person's STOP is pressed
 
 constexpr Word<int> kSkinKeys[] = {{"0", 0}, {"1", 1}, {"2", 2}, {"3", 3}, {"4", 4}};
 
@@ -28,7 +28,7 @@ double inMs(std::chrono::nanoseconds time) { return std::chrono::duration<double
 constexpr std::string_view kQualities[] = {"touch",    "pressure", "tapping",   "vibration", "tingling",
                                            "pricking", "burning",  "twitching", "phantom"};
 
-/// Each is read as "Totally natural" for "totally-natural".
+/// Each word is shown as a title: "Totally natural" for "totally-natural".
 std::vector<PromptTarget> targetsOf(std::span<const std::string_view> keys) {
     std::vector<PromptTarget> out;
     for (const auto key : keys) {
@@ -78,21 +78,21 @@ std::string machineLacks(const DeviceSet& devices, const Profile& profile, Level
 
 PilotCare::PilotCare(PilotStage& stage) : stage_(stage) {
     stage_.onSeatedAgain([this]() -> Result<void> {
-        // Where nothing was measured before, the checklist is still to do it.
+        // Where nothing was measured before, the checklist has still to do it.
         if (stage_.settings().unit == LevelUnit::Intensity || firstImpedance() == nullptr) return {};
         return asAtFirst(fmt::format("seated again, {}", stage_.record().count(row::kImpedance)));
     });
     stage_.afterCare = [this]() -> Result<void> {
         const auto looked = skin("after");
-        const auto asked = sideEffects("after");  // whatever the skin says
+        const auto asked = sideEffects("after");  // asked whatever the skin is like
         return looked ? asked : looked;
     };
 }
 
 std::string PilotCare::part() const { return fmt::format("part {}", stage_.record().count(row::kResumed) + 1); }
 
-/// The impedance measured in the first part of the session that has one; null where none has. Electrodes whose two
-/// checks disagreed have none.
+/// The first impedance that was measured in any part of the session; null without one. Electrodes whose two checks
+/// disagreed have none.
 const nlohmann::json* PilotCare::firstImpedance() const {
     const auto& record = stage_.record();
     const auto parts = record.count(row::kResumed) + 1;
@@ -141,13 +141,13 @@ Result<void> PilotCare::stopTest(PromptTo by) {
         if (auto ready = stage_.arm(); !ready) return ready;
         auto prompt = goOnPrompt(fmt::format("Press STOP now: the {}'s is being tested.", nameOf(by)), by);
         prompt.name = "stop-test";
-        PilotScreen screen;  // from here on a stop is theirs
+        PilotScreen screen;  // from here on a stop is the participant's
         screen.phase = "checklist";
         screen.text = prompt.text;
         stage_.participant().show(screen);
         const auto answered = stage_.participant().ask(prompt);
         pressed = stage_.takeStop();
-        const auto mark = stage_.bench().stops().mark();  // one from here on is not a test
+        const auto mark = stage_.bench().stops().mark();  // a stop from here on is not a test
         armed = stage_.isArmed();
         if (!answered && !pressed) {  // an abort, a lost screen, the program: no test
             if (auto goesOn = stage_.goOnAfter("stop-test", answered.error()); !goesOn) return goesOn;
@@ -187,7 +187,7 @@ Result<void> PilotCare::electrodes() {
     lot.kind = PromptKind::Text;
     const auto noted = stage_.ask(row::kGate, "electrode lot", lot);
     if (!noted) return failure(noted);
-    // As they were measured first; where nothing was, they may have been fitted since.
+    // Compared with the first measurement; without one, the electrodes may have been fitted since.
     const auto* begun = resumed ? firstImpedance() : nullptr;
     const double before = begun != nullptr ? numberOr(*begun, "impedance_ohm") : kNaN;
     if (begun != nullptr) {
@@ -205,7 +205,7 @@ Result<void> PilotCare::electrodes() {
                     *second, before));
 }
 
-/// Electrodes whose two checks disagree are seated again, and both checks are made anew.
+/// If two checks disagree, the electrodes are seated again, and both checks are repeated.
 Result<double> PilotCare::checkedTwice() {
     const auto name = part() + " impedance";
     for (int tries = 1;; ++tries) {

@@ -16,16 +16,15 @@ namespace tacto {
 
 class PilotCare {
 public:
-    /// `stage` outlives it, and measures |Z| anew once electrodes may be others: within 30 % of the session's first, as
-    /// before a block. A session that is stopped for good asks for skin and side effects all the same.
+    /// `stage` outlives it, and measures |Z| again once electrodes may have changed: within 30 % of the session's
+    /// first, as before a block. A session that is stopped for good asks for skin and side effects all the same.
     explicit PilotCare(PilotStage& stage);
     PilotCare(const PilotCare&) = delete;
     PilotCare& operator=(const PilotCare&) = delete;
 
-    /// In every part: machine, both STOPs, and the electrodes, or with a massager the masking noise. The first part
-    /// asks for the skin before and the electrodes' lot too; a later one whether electrodes or massager were left
-    /// untouched.
-    /// Errors: Stopped with the gate's sentence, when the session has ended.
+    /// Runs in every part: machine, both STOPs, and the electrodes, or with a massager the masking noise. The first
+    /// part also asks for the skin before and the electrodes' lot; a later one whether electrodes or massager were left
+    /// untouched. Errors: Stopped with the gate's sentence, when the session has ended.
     [[nodiscard]] Result<void> checklist();
     /// |Z| before a block, within 30 % of the session's first; a massager has none. Errors: as checklist().
     [[nodiscard]] Result<void> beforeBlock(int block);
@@ -34,7 +33,7 @@ public:
     std::function<Result<void>(const std::string& moment, int score)> skinReacted;
     /// `moment`: "before", "break 3", "after". Errors: Stopped where it ends the session.
     [[nodiscard]] Result<void> skin(const std::string& moment);
-    /// Each condition felt once more without its name, and rated. After a second encoding also which of the two was
+    /// Each condition is felt once more without its name, and rated. After a second encoding, also which of the two was
     /// easier, and which is more like touch.
     [[nodiscard]] Result<void> ratings(const std::vector<PresentedCondition>& conditions);
     /// `moment`: "before", "after".
@@ -50,7 +49,7 @@ private:
     [[nodiscard]] Result<void> massager();
     [[nodiscard]] Result<void> mustHold(const std::string& name, const char* asked, const char* question,
                                         const char* sentence);
-    /// |Z| of the second of two checks that agree; the session ends where those of the third seating do not.
+    /// |Z| of the second of two checks that agree; the session ends if they still disagree after the third seating.
     [[nodiscard]] Result<double> checkedTwice();
     /// |Z|, into the record as `name`; the session ends where it is not what it was at first after the third seating.
     [[nodiscard]] Result<void> asAtFirst(const std::string& name);

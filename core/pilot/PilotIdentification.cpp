@@ -14,10 +14,10 @@ namespace tacto {
 
 namespace {
 
-constexpr Seconds kTargetsTimeout{10};  // from the appearance of the targets
+constexpr Seconds kTargetsTimeout{10};  // counted from the appearance of the targets
 constexpr Seconds kFeedback{1.5};
 constexpr Seconds kDriftRest{300};  // recovery took about 15 min (Kaczmarek 2000): three of them
-constexpr int kMaxOnDemand = 5;     // of each condition
+constexpr int kMaxOnDemand = 5;     // for each condition
 constexpr std::uint64_t kMaxBlocks = 50;
 
 nlohmann::json toJson(const std::vector<PlannedTrial>& planned, const std::vector<Condition>& conditions) {
@@ -130,7 +130,7 @@ StageTrial PilotIdentification::stageTrial(const PlannedTrial& planned) const {
     trial.screen.phase = nameOf(planned.phase);
     trial.screen.block = static_cast<int>(planned.block);
     if (planned.phase == TrialPhase::Test) trial.screen.blocks = stage_.settings().blocks;
-    for (const auto& each : plan_) {  // where it stands among those of its phase
+    for (const auto& each : plan_) {  // finds its place in its phase
         if (textOr(each, "phase") != nameOf(planned.phase)) continue;
         ++trial.screen.trials;
         if (countOr(each, "number") <= planned.number) ++trial.screen.trial;
@@ -176,7 +176,7 @@ Result<void> PilotIdentification::familiarise() {
         const auto felt = present(planned, trial);
         if (!felt) return failure(felt);
     }
-    // At the places and keys of the answers, so none is taken away.
+    // They stand at the places and keys of the answers, so that none is taken away.
     std::vector<PromptTarget> offered = conditionPrompt(places()).targets;
     offered.resize(labels().size());
     offered.push_back({"go-on", "Go on"});
@@ -213,7 +213,7 @@ Result<void> PilotIdentification::train() {
     for (const auto& planned : of(TrialPhase::Training)) {
         if (rule->done()) break;
         auto trial = stageTrial(planned);
-        trial.prompt.within.reset();  // No hurry while learning
+        trial.prompt.within.reset();  // there is no hurry while learning
         const auto answer = present(planned, trial);
         if (!answer) return failure(answer);
         const bool right = answer->response == nameOfCondition(planned);
@@ -270,7 +270,7 @@ Result<bool> PilotIdentification::driftCheck(int block) {
     settings.last = lastDetection_;
     settings.min = thresholds_.found()->min;
     settings.block = static_cast<std::size_t>(block);
-    // Nothing lies above I_max, which was accepted for half an hour: a session that goes on is ramped no higher.
+    // Nothing lies above I_max, which was accepted for half an hour: a resumed session is ramped no higher.
     const auto& all = *thresholds_.grid();
     const LevelCeiling highest[] = {{thresholds_.found()->max, all.limitedBy()}};
     const auto grid = LevelGrid::create(all.unit(), all.step(), highest);
@@ -307,7 +307,7 @@ Result<bool> PilotIdentification::driftCheck(int block) {
     return found.adapted ? goesOnAdapted(block) : Result<bool>(true);
 }
 
-/// What is weakest is felt too little by now, and rests did not help: whether to go on is the participant's to say.
+/// The weakest level is felt too little by now, and rests did not help: the participant decides whether to continue.
 Result<bool> PilotIdentification::goesOnAdapted(int block) {
     const auto said = stage_.ask(row::kPhase, fmt::format("ending before block {}", block),
                                  choicePrompt("ending", "You may feel the weakest less by now. Go on, or end here?",

@@ -14,7 +14,7 @@ namespace tacto {
 
 class PilotIdentification {
 public:
-    /// All outlive it.
+    /// All arguments outlive it.
     PilotIdentification(PilotStage& stage, PilotThresholds& thresholds) : stage_(stage), thresholds_(thresholds) {}
 
     /// The order of the whole session and its seed, from the row where one is stored. Comes before anything is
@@ -23,26 +23,26 @@ public:
     /// that is not the one drawn from its seed.
     [[nodiscard]] Result<void> plan(bool withTrials);
 
-    // After the range, which is usable. Errors: as PilotStage; InvalidArgument out of order.
+    // Comes after the range, which is usable. Errors: as PilotStage; InvalidArgument out of order.
 
     [[nodiscard]] Result<void> familiarise();
     [[nodiscard]] Result<void> train();
     /// Block 1, 2, ...
     [[nodiscard]] Result<void> testBlock(int block);
-    /// Before a later block: is the lowest level still felt? Marks the block where it is not and asks the participant:
-    /// false where they end here.
+    /// Asks before a later block whether the lowest level is still felt. Marks the block where it is not and asks the
+    /// participant: false where they end here.
     [[nodiscard]] Result<bool> driftCheck(int block);
-    /// After block `block`: output off, at least `time`, until both people press on.
+    /// The break after block `block`: output off, at least `time`, until both people press on.
     [[nodiscard]] Result<void> takeBreak(int block, Seconds time);
 
     [[nodiscard]] const std::vector<PresentedCondition>& presented() const noexcept { return presented_; }
     [[nodiscard]] std::vector<std::string> labels() const;
-    /// The same at their places in every question about them.
+    /// The conditions at their places in every question about them.
     [[nodiscard]] std::vector<std::string> places() const;
     [[nodiscard]] nlohmann::json planJson() const { return plan_; }
-    /// Answered trials of the plan, in order, those of earlier parts too.
+    /// Answered trials of the plan, in order, including those of earlier parts.
     [[nodiscard]] const std::vector<IdentificationTrial>& trials() const noexcept { return trials_; }
-    /// For how long trains had been given before each of them.
+    /// How long trains had been given before each of them.
     [[nodiscard]] const std::vector<Seconds>& stimulatedBefore() const noexcept { return stimulated_; }
     /// What a massager's motor did in each of them that was not empty; NaN where it was not measured.
     [[nodiscard]] const std::vector<VibrationTrial>& vibrations() const noexcept { return vibrations_; }
@@ -67,7 +67,7 @@ private:
     std::vector<PlannedTrial> planned_;
     std::vector<PresentedCondition> presented_;
     std::vector<IdentificationTrial> trials_;
-    std::vector<Seconds> stimulated_;  // As long as trials_
+    std::vector<Seconds> stimulated_;  // one for each of trials_
     std::vector<VibrationTrial> vibrations_;
     nlohmann::json drift_ = nlohmann::json::array();
     double lastDetection_ = kNaN;

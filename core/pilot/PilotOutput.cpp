@@ -12,7 +12,7 @@ namespace tacto {
 
 namespace {
 
-constexpr Seconds kHindrancePoll{0.1};  // between two looks at what is in the way
+constexpr Seconds kHindrancePoll{0.1};  // between two looks at what stands in the way
 constexpr Seconds kReasonTimeout{300};
 
 /// The check pulse found no load that the bench is armed on.
@@ -166,8 +166,8 @@ Result<void> PilotOutput::clearTheWay(const StageTrial& trial) {
     return {};
 }
 
-/// Nothing is on while a question waits, and what is armed does not stay so. A row that cannot be written is the error
-/// of the answer's row.
+/// Nothing is on while a question waits, and nothing stays armed. A row that cannot be written is the error of the
+/// answer's row.
 void PilotOutput::whileAsked() {
     const auto hindrance = stage_.participant().hindrance();
     if (!armed_ || !hindrance || hindrance->isBreak) {
@@ -180,7 +180,7 @@ void PilotOutput::whileAsked() {
     static_cast<void>(stage_.record().write(row::kFocusLost, "question", {{"why", hindrance->why}}));
 }
 
-/// The output is off. The operator ends it, then the participant goes on.
+/// The output is off. The operator ends the break, then the participant continues.
 Result<void> PilotOutput::takeBreak(const std::string& during, PilotScreen screen) {
     auto& record = stage_.record();
     auto& people = stage_.participant();
@@ -237,12 +237,12 @@ Result<void> PilotOutput::afterThePause(const StageTrial& trial) {
     return askToGoOn("The pause is over. Nothing is on. Go on when you want to.");
 }
 
-// After a stop, a fault or a lost screen
+// it comes after a stop, a fault or a lost screen
 
 Result<void> PilotOutput::recover(const std::string& during, const Error& why) {
     rest();
     if (stage_.ended() != PilotEnd::Unfinished) return tl::unexpected<Error>(why);
-    if (runEnds_) {  // for good, though another person pressed too
+    if (runEnds_) {  // ends for good, though another person pressed, too
         const auto noted = interrupted(during, why);
         return noted ? tl::unexpected<Error>(why) : noted;
     }
@@ -287,7 +287,7 @@ Result<void> PilotOutput::seatTheirScreen(const std::string& during) {
         "go on.",
         PromptTo::Operator);
     prompt.name = kScreenPrompt;
-    PilotAnswer none;  // no time is left
+    PilotAnswer none;  // there is no time left
     none.given = false;
     for (;;) {
         const auto mark = bench.stops().mark();
@@ -301,7 +301,7 @@ Result<void> PilotOutput::seatTheirScreen(const std::string& during) {
                         kScreenTimeout.count() / 60);
         const auto begun = asked ? beginAnew(mark) : Result<void>(failure(asked));
         if (begun && people.hasScreen()) return {};
-        if (begun || stops_.takeScreenGone() || stops_.takePaused()) continue;  // not there yet, or gone once more
+        if (begun || stops_.takeScreenGone() || stops_.takePaused()) continue;  // it is not there yet, or gone again
         if (stops_.aborted()) return noteAbort(during);
         if (auto noted = noteStop(kScreenPrompt, begun.error()); !noted) return noted;
         people.show({});
@@ -356,16 +356,16 @@ Result<void> PilotOutput::afterTheFault(const std::string& during, const Error& 
     if (auto kept = record.write(row::kFault, during, {{"why", why.message}}); !kept) return kept;
     if (record.count(row::kFault) >= kMaxFaults)
         return stage_.end(PilotEnd::Stopped, fmt::format("{}: {}", kSecondFault, why.message));
-    if (const char* by = stops_.takeBy(); by != nullptr && isParticipants(by)) {  // and they pressed too
+    if (const char* by = stops_.takeBy(); by != nullptr && isParticipants(by)) {  // the participant pressed, too
         if (auto noted = noteParticipantStop(during, by); !noted) return noted;
     }
-    auto cause = withoutNumbers(why.message);  // they may be of the train; the row has them
+    auto cause = withoutNumbers(why.message);  // numbers may tell of the train; the row has them
     for (int tries = 1;; ++tries) {
         if (auto seen = askToSee(cause); !seen) return seen;
         const auto reset = stage_.bench().resetFault();
         if (reset) break;
         if (tries >= kSeatings) return reset;
-        cause = reset.error().message;  // it is still there
+        cause = reset.error().message;  // the cause is still there
     }
     electrodesTouched();
     ramp_.becomeDue();
@@ -384,8 +384,8 @@ Result<void> PilotOutput::askToGoOn(const std::string& text) {
     auto& bench = stage_.bench();
     for (;;) {
         stage_.participant().show(screen);
-        const auto mark = bench.stops().mark();  // a stop from here on is one after their "go on"
-        if (stopped()) {                         // one that came while the last was handled
+        const auto mark = bench.stops().mark();  // a stop from here on comes after their "go on"
+        if (stopped()) {                         // a stop came while the last one was handled
             const Error why{ErrorCode::Stopped, "stopped before the participant was asked"};
             if (auto goesOn = interrupted("go on", why); !goesOn) return goesOn;
             continue;
@@ -393,7 +393,7 @@ Result<void> PilotOutput::askToGoOn(const std::string& text) {
         const auto asked = stage_.participant().ask(goOnPrompt(text, PromptTo::Participant));
         const auto begun = asked ? beginAnew(mark) : Result<void>(failure(asked));
         if (begun) break;
-        // Nothing is on, and they press STOP once more: theirs counts, and they are asked again.
+        // Nothing is on, and they press STOP once more: it counts, and they are asked again.
         if (auto goesOn = interrupted("go on", begun.error()); !goesOn) return goesOn;
     }
     stage_.noteAnswered();
@@ -406,7 +406,7 @@ Result<void> LevelRamp::judged(double level, bool tooStrong, const std::string& 
     if (tooStrong) {
         tooStrong_ = std::min(tooStrong_, level);
         auto reported = bench.reportDiscomfort(stage_.levelOf(level));
-        stage_.rest();  // Armed anew under the lower limit before anything else is presented
+        stage_.rest();  // armed again under the lower limit before anything else is presented
         return reported;
     }
     accepted_.try_emplace(level, trial);
@@ -417,7 +417,7 @@ Result<void> LevelRamp::reach() {
     if (!due_) return {};
     due_ = false;
     const auto accepted = accepted_;
-    // Each ramp is presented: none takes the answers of another.
+    // Each ramp is presented: it never takes the answers of an earlier one.
     std::size_t number = 0;
     const auto named = [&number](double level) { return fmt::format("ramp {} {}", number, level); };
     while (!accepted.empty() && stage_.record().begun(named(accepted.begin()->first)) > 0) ++number;
@@ -426,7 +426,7 @@ Result<void> LevelRamp::reach() {
         if (auto reached = presentAgain(named(level), level, first); !reached) return reached;
     }
     if (accepted.empty()) return {};
-    PilotScreen letGo;  // levels rise no more
+    PilotScreen letGo;  // levels stop rising
     letGo.phase = "ascending";
     letGo.text = "You can let go now.";
     stage_.participant().show(letGo);
@@ -444,7 +444,7 @@ Result<void> LevelRamp::presentAgain(const std::string& name, double level, cons
     again.screen.state = ScreenState::Feel;
     again.screen.phase = "ascending";
     again.held = true;
-    again.counts = false;   // So that a session that was resumed goes on as one that was not
+    again.counts = false;   // so that a resumed session continues like an undisturbed one
     again.drawnAs = first;  // A virtual participant says of a level what they said of it before
     const auto answer = stage_.trial(again);
     if (!answer) return failure(answer);

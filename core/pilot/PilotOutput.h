@@ -1,5 +1,5 @@
-// PilotOutput.h - the output of a pilot session: armed before something is presented, off again after a stop, a fault,
-// a pause and a participant's screen that is gone.
+// PilotOutput.h - the output of a pilot session: armed before something is presented, off again after a stop, a fault
+// or a pause, and when the participant's screen has gone.
 //
 // What PilotStage is made of. What is in the way of a presentation is waited for here: in the operator's break and
 // while the bench is paused the output is off; without the keys it is off after kFocusTimeout, also while a question
@@ -60,7 +60,7 @@ private:
 class PilotOutput {
 public:
     static constexpr int kSeatings = 3;            ///< in a row, of electrodes that do not pass their check
-    static constexpr Seconds kFocusTimeout{10};    ///< it stays armed so long while the keys are elsewhere
+    static constexpr Seconds kFocusTimeout{10};    ///< it stays armed for so long while another window has the keys
     static constexpr Seconds kScreenTimeout{600};  ///< a participant's screen may be gone so long
 
     /// `stage` outlives it. `rampDue`: the levels were accepted in an earlier part.
@@ -72,10 +72,10 @@ public:
     void stop(const char* by) noexcept;
     /// See PilotStage.
     [[nodiscard]] std::optional<PressedStops::Press> takeStop() noexcept { return stops_.takePress(); }
-    /// A stop came since the last one was handled, or the run's.
+    /// Whether a stop has come since the last one was handled, or the run's stop.
     [[nodiscard]] bool stopped() const noexcept { return stops_.any() || runEnds_; }
 
-    // As those of PilotStage.
+    // Does what PilotStage::endRun() does.
     void endRun() noexcept { runEnds_ = true; }
     [[nodiscard]] Result<void> beginAnew(StopMark mark);
     [[nodiscard]] bool isArmed() const noexcept { return armed_; }
@@ -86,20 +86,20 @@ public:
     [[nodiscard]] LevelRamp& ramp() noexcept { return ramp_; }
     [[nodiscard]] double impedance() const noexcept { return impedance_; }
     void setImpedance(double ohm) noexcept { impedance_ = ohm; }
-    /// As measureImpedance() found it last: the same for whatever is presented.
+    /// The last result of measureImpedance(): the same whatever is presented.
     [[nodiscard]] double checkedImpedance() const noexcept { return checked_; }
 
     /// Waits until nothing is in the way of `trial`; a break of the operator's is taken meanwhile.
     [[nodiscard]] Result<void> clearTheWay(const StageTrial& trial);
     /// The bench is paused: looks for kHindrancePoll, in which it says so.
     [[nodiscard]] bool isPaused();
-    /// The bench was paused while `trial` was presented: waits until the pause is over and the participant goes on.
+    /// The bench was paused while `trial` was presented: waits until the pause is over and the participant continues.
     [[nodiscard]] Result<void> afterThePause(const StageTrial& trial);
     /// A question waits, and kWaitingLook has passed.
     void whileAsked();
-    /// After a stop, a fault or a lost screen: nothing when the session goes on.
+    /// Recovers after a stop, a fault or a lost screen: nothing when the session continues.
     [[nodiscard]] Result<void> recover(const std::string& during, const Error& why);
-    /// Asks again after each stop, once the participant wants to go on.
+    /// Asks again after each stop, once the participant wants to continue.
     [[nodiscard]] Result<PilotAnswer> insist(const PilotPrompt& prompt);
     /// Electrodes, or a massager, do not pass their check, which is not a fault: writes a row `gate` and has the
     /// operator seat them again. Levels are then reached again by a ramp.
@@ -120,10 +120,10 @@ private:
     [[nodiscard]] Result<void> idleWhile(const std::string& during, const PilotScreen& screen,
                                          const std::function<bool()>& lasts);
     [[nodiscard]] Result<void> afterTheFault(const std::string& during, const Error& why);
-    /// A lost screen or a stop, until the participant may be asked whether they want to go on.
+    /// A lost screen or a stop, until the participant may be asked whether they want to continue.
     [[nodiscard]] Result<void> interrupted(const std::string& during, const Error& why);
     [[nodiscard]] Result<void> seatTheirScreen(const std::string& during);
-    /// Writes who stopped; nothing when it may go on once the participant wants to.
+    /// Writes who stopped; nothing when it may continue once the participant wants to.
     [[nodiscard]] Result<void> noteStop(const std::string& during, const Error& why);
     [[nodiscard]] Result<void> noteParticipantStop(const std::string& during, const char* by);
     [[nodiscard]] Result<void> noteAbort(const std::string& during);
@@ -137,8 +137,8 @@ private:
     std::atomic<bool> runEnds_{false};
     bool armed_ = false;
     bool reasonAsked_ = false;
-    bool unmeasured_ = false;  // Since electrodes may have been touched
-    Seconds keysGone_{0};      // While a question waits
+    bool unmeasured_ = false;  // electrodes may have been touched, and not been measured since
+    Seconds keysGone_{0};      // how long the keys have been elsewhere while a question waits
     double impedance_ = kNaN;
     double checked_ = kNaN;
 };

@@ -20,27 +20,27 @@
 namespace tacto {
 
 /// One presentation as it was approved and delivered: what a virtual participant feels. A window ignores it. After a
-/// resume the session tells those of the earlier parts again, so that what was learned is known.
+/// resume the session repeats those of earlier parts, so that what was learned is known.
 struct FeltPresentation {
     double level = 0;     ///< mA, or a massager's intensity (0 to 1); 0: an empty presentation
     Seconds interval{0};  ///< onset to onset
-    double weaker = 0;    ///< of a comparison: the other of its two levels; else 0
+    double weaker = 0;    ///< in a comparison, the other of its two levels; else 0
     int inInterval = 0;   ///< 1 or 2: where the train of a detection trial, or the stronger of two, came; else 0
     std::string named;    ///< familiarisation: the condition's key, as the screen said; else empty
-    /// For how long trains were given in this session before this presentation: what adaptation follows.
+    /// How long trains were given in this session before this presentation: adaptation follows from it.
     Seconds stimulated{0};
-    /// What the person's answer is drawn for: "seed 1 session 2 test 17", the same however often it was resumed.
+    /// The key for drawing the person's answer: "seed 1 session 2 test 17", the same however often it was resumed.
     std::string drawnFor;
 };
 
-/// What is in the way of a presentation, and is not a fault.
+/// An obstacle to a presentation that is not a fault.
 struct Hindrance {
     bool isBreak = false;  ///< the operator wants one; else what `why` says, half a sentence
     std::string why;
 };
 
 // Stops without a press of STOP: the first begins with this, the others are these. After kOperatorPauses the session
-// goes on once the break that is wanted is over.
+// continues once the wanted break is over.
 inline constexpr const char* kScreenGone = "the participant's screen";
 inline constexpr const char* kOperatorPauses = "operator (break now)";
 inline constexpr const char* kOperatorAborts = "operator (abort)";
@@ -60,7 +60,7 @@ public:
     /// answer, naming the prompt; Device when the screen is gone.
     /// A prompt named "stop-test" (one of GoOn) is answered by pressing STOP, and so returns Stopped.
     [[nodiscard]] virtual Result<PilotAnswer> ask(const PilotPrompt& prompt) = 0;
-    /// What was just presented, before the question about it.
+    /// Tells what was just presented, before the question about it.
     virtual void delivered(const FeltPresentation& felt) = 0;
     /// Presses since the last show() that came before targets; empties the list.
     [[nodiscard]] virtual std::vector<EarlyPress> takeEarly() = 0;
@@ -69,18 +69,18 @@ public:
     /// The session is over and its bench goes next: once this returns, `stop` is not called any more.
     virtual void leave() noexcept {}
 
-    /// While levels rise: whether the participant still holds the key, pedal or target. From Hold's answer on until
-    /// the session shows Rest, letting go also calls `stop(kParticipantLetGo)`.
+    /// Whether the participant still holds the key, pedal or target, while levels rise. From Hold's answer until the
+    /// session shows Rest, letting go also calls `stop(kParticipantLetGo)`.
     [[nodiscard]] virtual bool holding() const noexcept = 0;
-    /// After a stop by kParticipantLetGo: whether it was the contact and not the participant, since what was held went
+    /// After a stop by kParticipantLetGo, whether it was the contact and not the participant, since the held thing went
     /// down again sooner than a finger can. Waits until that is known, 20 ms at most. The output is off either way.
     [[nodiscard]] virtual bool letGoWasBounce() { return false; }
-    /// Why no presentation may start now: the operator's break, a participant's window without the keys. Nothing is
-    /// in the way of one without a window.
+    /// Why no presentation may start now: the operator's break, or a participant's window without the keys. Without a
+    /// window nothing stands in the way.
     [[nodiscard]] virtual std::optional<Hindrance> hindrance() const { return {}; }
     /// The participant sees what is shown. Before it is false `stop` was called with kScreenGone.
     [[nodiscard]] virtual bool hasScreen() const noexcept { return true; }
-    /// Whether ask() takes time by the clock on the wall. A virtual participant's does not: the session lets the
+    /// Whether ask() takes time by the clock on the wall. A virtual participant takes none: the session lets the
     /// answer's `after` pass on the bench's clock.
     [[nodiscard]] virtual bool answersInRealTime() const noexcept = 0;
 

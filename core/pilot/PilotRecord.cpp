@@ -83,7 +83,7 @@ std::size_t PilotRecord::begun(const std::string& name) const {
 
 PilotTrials pilotTrials(const std::vector<SessionRow>& rows) {
     PilotTrials out;
-    std::map<std::size_t, std::size_t> attempts;        // of begun trials without an answer
+    std::map<std::size_t, std::size_t> attempts;        // begun trials without an answer, counted
     std::map<std::size_t, IdentificationTrial> silent;  // the last time without an answer
     for (const auto& each : rows) {
         if (each.name == row::kPlan) {

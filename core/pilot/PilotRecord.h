@@ -2,7 +2,7 @@
 //
 // A session may have several parts, each a session file: a crashed one is never written again. The record is given the
 // events of all earlier parts, in order, and appends to the present one. Whatever has a row is taken from it and is
-// neither asked nor presented again; the first thing without one happens now.
+// neither asked nor presented again; the first step without a row happens now.
 //
 // Promise (hazard H8): `trial-begin` is on disk before a presentation's first train is asked for, and `answer` before
 // the next trial begins. A row that cannot be written is an error before the train.
@@ -36,7 +36,7 @@ class SessionWriter;
 namespace row {
 inline constexpr const char* kPlan = "plan";
 inline constexpr const char* kTrialBegin = "trial-begin";
-inline constexpr const char* kPresentation = "presentation";  // it has begun; where a recorder is told
+inline constexpr const char* kPresentation = "presentation";  // it has begun; a recorder is told so
 inline constexpr const char* kAnswer = "answer";
 inline constexpr const char* kNoAnswer = "no-answer";
 inline constexpr const char* kAnswerEarly = "answer-early";
@@ -64,8 +64,8 @@ inline constexpr const char* kHold = "hold";  // the operator answered by name w
 inline constexpr const char* kAdverseEvent = "adverse-event";
 inline constexpr const char* kSessionEnd = "session-end";
 inline constexpr const char* kEnd = "end";    // name of its row
-inline constexpr const char* kEnds = "ends";  // in the body of a gate that did not hold: `said` ends the session
-inline constexpr const char* kRamp = "ramp";  // in the body of a trial: its level was accepted before
+inline constexpr const char* kEnds = "ends";  // in the body of a gate that did not hold: `said` then ends the session
+inline constexpr const char* kRamp = "ramp";  // in the body of a trial: its level had been accepted before
 inline constexpr const char* kTooStrong = "too-strong";  // a response
 
 // Ratings that compare the session's encoding with an earlier one are named by the first of these and one of the next
@@ -76,7 +76,7 @@ inline constexpr const char* kMoreLikeTouch = "more-like-touch";
 inline constexpr const char* kNoDifference = "no-difference";
 }  // namespace row
 
-/// What an EEG or EMG recorder is told of a row that is on disk (resources/design/pilot.md, section 5).
+/// The message to an EEG or EMG recorder about a row that is on disk (resources/design/pilot.md, section 5).
 struct PilotMarker {
     Instant at{0};          ///< as the row says
     std::string_view name;  ///< the row's kind; nothing of what it says
@@ -92,15 +92,15 @@ public:
     /// `writer` and `clock` outlive the record; `earlier` are the events of the session's earlier parts.
     PilotRecord(SessionWriter& writer, const Clock& clock, const std::vector<SessionRow>& earlier);
 
-    /// The last row of `kind` named `name` (its member "name"), of any part; null where there is none. Valid until the
-    /// next write().
+    /// The last row of `kind` named `name` (its member "name"), in any part; null without one. Valid until the next
+    /// write().
     [[nodiscard]] const Json* find(std::string_view kind, const std::string& name) const;
     /// Appends a row. `body` is an object; its member "name" becomes `name`. Errors: Io.
     [[nodiscard]] Result<void> write(std::string_view kind, const std::string& name, Json body = Json::object());
-    /// The same for what happened at `at`, a moment ago.
+    /// Writes what happened at `at`, a moment ago.
     [[nodiscard]] Result<void> writeAt(Instant at, std::string_view kind, const std::string& name,
                                        Json body = Json::object());
-    /// What the row says; where there is none, what `make` returns, written first. Errors: as `make` and write().
+    /// What the row says; without a row, what `make` returns, written first. Errors: as `make` and write().
     [[nodiscard]] Result<Json> once(std::string_view kind, const std::string& name,
                                     const std::function<Result<Json>()>& make);
     /// The last row of each kind and name, of any part.
@@ -111,7 +111,7 @@ public:
     [[nodiscard]] std::size_t begun(const std::string& name) const;
     /// Whether there were rows before this part, which are replayed.
     [[nodiscard]] bool isResumed() const noexcept { return resumed_; }
-    /// Whether something has happened in this part beside what resuming itself does: no row is replayed any more.
+    /// Whether anything has happened in this part besides resuming: rows are not replayed any longer.
     [[nodiscard]] std::size_t written() const noexcept { return written_; }
 
     /// Called after each row is on disk with the number of rows written by this part; tests end the program there.
@@ -138,7 +138,7 @@ struct OpenTrial {
     bool operator==(const OpenTrial&) const = default;
 };
 
-/// What the rows of all parts of a session say of its trials with a number: those of the plan.
+/// The numbered trials, which are those of the plan, as the rows of all parts of a session tell them.
 struct PilotTrials {
     nlohmann::json plan;                      ///< [{number, phase, block, condition}]; null where none is stored
     std::vector<IdentificationTrial> trials;  ///< answered, or twice without an answer; in the order answered
@@ -146,16 +146,16 @@ struct PilotTrials {
 };
 [[nodiscard]] PilotTrials pilotTrials(const std::vector<SessionRow>& rows);
 
-// How a pilot session ends, and what ends it for good by the rows that it has.
+// How a pilot session ends, and which of its rows end it for good.
 
-/// How a session stands when its script has ended.
+/// The state of a session when its script has ended.
 enum class PilotEnd {
     Unfinished,  ///< interrupted; may be resumed
     Complete,
     Stopped,  ///< ended before its end, for good
 };
 [[nodiscard]] std::string_view nameOf(PilotEnd end) noexcept;  // "unfinished", "complete", "stopped"
-/// Nothing for another word.
+/// Nothing for any other word.
 [[nodiscard]] std::optional<PilotEnd> pilotEndFrom(std::string_view word) noexcept;
 
 inline constexpr std::size_t kMaxParticipantStops = 3;  ///< the third ends the session (pilot.md section 5)
@@ -166,9 +166,9 @@ inline constexpr const char* kSecondFault = "a second fault ends the session";
 /// `level`: "1.5 mA".
 [[nodiscard]] std::string tooStrongNow(std::string_view level);
 
-/// What has ended a session for good: the third stop, the second fault, a gate that did not hold, a level of the ramp
-/// that is too strong now. A sentence; empty while nothing has. A session that was killed before it ended is not tried
-/// again.
+/// The reason why a session has ended for good: the third stop, the second fault, a gate that did not hold, a level of
+/// the ramp that is too strong now. A sentence; empty while nothing has ended it. A session that was killed before it
+/// ended is not tried again.
 [[nodiscard]] std::string endedBy(const PilotRecord& record);
 
 // Rows of a pilot session that say what was planned and found, each described once: as they are written, read again
@@ -185,18 +185,18 @@ struct PlanRow {
     std::string answers;  ///< conditions by their place and key, with commas between; empty: kAnswerPlaces
 };
 [[nodiscard]] nlohmann::json toJson(const PlanRow& row);
-/// What cannot be read stays as it is in a new one; so for the others.
+/// Unreadable members stay as they are in a new one; so for the others.
 [[nodiscard]] PlanRow planRowFrom(const nlohmann::json& body);
 
 /// Row "range".
 struct RangeRow {
     LevelUnit unit = LevelUnit::Current;
     bool usable = false;
-    std::string reason = {};  ///< in a sentence, where it is not usable
+    std::string reason = {};  ///< one sentence that says why it is not usable
     double min = kNaN, max = kNaN;
     double jnd = kNaN;  ///< from one to the other
     LevelLimit limitedBy = LevelLimit::TooStrong;
-    // Where they are currents:
+    // If they are currents:
     Volts minVoltage{kNaN}, maxVoltage{kNaN};  ///< at `impedance`
     Ohms impedance{kNaN};
 };
@@ -208,14 +208,14 @@ struct DriftRow {
     LevelUnit unit = LevelUnit::Current;
     std::uint64_t block = 0;
     Estimate detection = {};
-    double probability = kNaN;  ///< that the weakest condition is felt too little
+    double probability = kNaN;  ///< how likely the weakest condition is felt too little
     std::uint64_t rests = 0;
     bool adapted = false;
 };
 [[nodiscard]] nlohmann::json toJson(const DriftRow& row);
 [[nodiscard]] DriftRow driftRowFrom(const nlohmann::json& body);
 
-/// As StatisticsJson.h has it; null without a value.
+/// The estimate as StatisticsJson.h writes it; null without a value.
 [[nodiscard]] nlohmann::json estimateOrNull(const Estimate& estimate);
 [[nodiscard]] Estimate estimateFrom(const nlohmann::json& value);
 

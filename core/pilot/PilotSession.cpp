@@ -143,7 +143,7 @@ Result<nlohmann::json> PilotSession::identificationResults() const {
     return results;
 }
 
-/// From what was delivered and how long stimulation had gone on before each trial.
+/// Predicted from what was delivered and how long stimulation had lasted before each trial.
 Result<void> PilotSession::addPredicted(nlohmann::json& results) const {
     const auto conditions = delivered(identification_.presented());
     if (conditions.empty()) return {};

@@ -2,7 +2,7 @@
 // calls.
 //
 // Built on the bench, the two people and the record; SessionRequest, gates of the study and files belong to the caller.
-// The same protocol called again on the rows of an earlier part goes on where that ended.
+// The same protocol called again on the rows of an earlier part continues where that ended.
 //
 // Thread-safety: one caller, the script's thread; endRun() and cancel() from any thread.
 #pragma once
@@ -21,8 +21,8 @@ namespace tacto {
 
 class PilotSession {
 public:
-    /// All outlive the session. `truth`: of a virtual participant, for what is predicted; null for a person. `parts`:
-    /// files of the session, with this one.
+    /// All arguments outlive the session. `truth`: a virtual participant's, for predictions; null for a person.
+    /// `parts`: files of the session, with this one.
     PilotSession(Bench& bench, PilotParticipant& participant, PilotRecord& record, PilotSettings settings,
                  const VirtualObserver* truth, int parts);
 
@@ -41,7 +41,7 @@ public:
     [[nodiscard]] PilotCare& care() noexcept { return care_; }
     [[nodiscard]] PilotThresholds& thresholds() noexcept { return thresholds_; }
     [[nodiscard]] PilotIdentification& identification() noexcept { return identification_; }
-    /// As those of PilotStage.
+    /// Does what PilotStage::endRun() does.
     void endRun() noexcept { stage_.endRun(); }
     void cancel() noexcept { stage_.cancel(); }
 
@@ -49,7 +49,7 @@ public:
     [[nodiscard]] nlohmann::json thresholdResults() const;
     /// Results of `run pilot-identification`. Errors: as identify() and fitOf().
     [[nodiscard]] Result<nlohmann::json> identificationResults() const;
-    /// What every result says first.
+    /// The sentence with which every result begins.
     [[nodiscard]] Result<std::string> headlineText() const;
 
 private:

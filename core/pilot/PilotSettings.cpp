@@ -28,7 +28,7 @@ namespace {
 
 constexpr const char* kPain = "pain";
 
-/// All that held a session while it ran, whether it was answered or not.
+/// All events that held a session while it ran, whether they were answered or not.
 std::vector<PilotHold> heldIn(const std::vector<SessionRow>& rows, int ceiling) {
     std::vector<PilotHold> all;
     for (const auto& each : rows) {

@@ -13,9 +13,9 @@ namespace tacto {
 namespace {
 
 constexpr std::size_t kMaxLate = 5;              // presentations in a row that the bench could not begin in time
-constexpr Seconds kMinPause{2};                  // from an answer to the next first train
+constexpr Seconds kMinPause{2};                  // time from an answer to the first train of the next
 constexpr Seconds kDot{0.5};                     // the dot is shown so long before it
-constexpr const char* kStopAnswer = "stop";      // to a presentation that they stopped
+constexpr const char* kStopAnswer = "stop";      // the answer to a presentation that they stopped
 constexpr const char* kVibration = "vibration";  // member of an answer: what the motor did
 
 nlohmann::json trainsJson(const Presented& presented) {
@@ -81,9 +81,9 @@ Result<void> PilotStage::pass(Seconds time) {
 
 Result<void> PilotStage::end(PilotEnd how, const std::string& why) {
     rest();
-    if (end_ != PilotEnd::Unfinished) return fail(ErrorCode::Stopped, "{}", why);  // it ends once
+    if (end_ != PilotEnd::Unfinished) return fail(ErrorCode::Stopped, "{}", why);  // a session ends once
     end_ = how;
-    // Before anything is asked: killed meanwhile, it is over all the same.
+    // Written before anything is asked: if it is killed meanwhile, the session is over all the same.
     const auto ended = record_.once(row::kSessionEnd, row::kEnd, [&]() -> Result<Json> {
         return Json{{"state", nameOf(how)}, {"why", why}};
     });
@@ -112,7 +112,7 @@ Result<StageAnswer> PilotStage::trial(const StageTrial& trial) {
         if (participant_.hindrance()) continue;
         if (trial.held && !participant_.holding()) {
             if (auto held = hold(); !held) return failure(held);
-            continue;  // a stop may have come before they held: armed anew
+            continue;  // a stop may have come before they held: armed again
         }
         const auto number = record_.begun(trial.name) + 1;
         auto answer = attempt(trial, number, late);
@@ -292,7 +292,7 @@ Result<PilotStage::Json> PilotStage::ask(const char* kind, const std::string& na
     return record_.once(kind, name, [&]() -> Result<Json> {
         const auto said = output_.insist(prompt);
         if (!said) return failure(said);
-        // After its end a bench that has faulted, or was stopped, lets no time pass.
+        // After its end, a bench that has faulted or was stopped lets no time pass.
         if (!participant_.answersInRealTime() && end_ == PilotEnd::Unfinished) {
             if (auto passed = pass(said->after); !passed) return failure(passed);
         }

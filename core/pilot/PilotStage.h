@@ -1,8 +1,8 @@
-// PilotStage.h - where a pilot session happens: presents, asks and records one thing at a time, and goes on after a
+// PilotStage.h - where a pilot session happens: presents, asks and records one thing at a time, and continues after a
 // stop or a fault when the people say so. The procedures are written against it.
 //
-// Nothing that has an answer in the record happens again. Output is armed by ready() and stays so until rest(), a
-// break, a stop, a fault, or until the participant's window is without the keys for long (PilotOutput.h).
+// Nothing that has an answer in the record happens again. ready() arms the output, which stays armed until rest(), a
+// break, a stop or a fault, or until the participant's window has been without the keys for long (PilotOutput.h).
 //
 // Errors of all calls: Stopped when the session ended or was interrupted (end() says which); Io when a row cannot be
 // written, which comes before any train; LimitExceeded and Device as the bench's.
@@ -16,8 +16,8 @@
 #include <string>
 
 #include "core/bench/Bench.h"
-#include "core/pilot/PilotParticipant.h"
 #include "core/pilot/PilotOutput.h"
+#include "core/pilot/PilotParticipant.h"
 #include "core/pilot/PilotRecord.h"
 #include "core/pilot/PilotSettings.h"
 #include "core/pilot/VibrationWatch.h"
@@ -26,25 +26,25 @@ namespace tacto {
 
 /// One presentation with its question.
 struct StageTrial {
-    std::string name;                                 ///< of its rows: "test 17"
+    std::string name;                                 ///< the name in its rows: "test 17"
     nlohmann::json about = nlohmann::json::object();  ///< into both rows: number, phase, block, condition
     double level = 0;                                 ///< in the settings' unit; 0: empty
-    double weaker = 0;                                ///< of a comparison: the other of its two levels; else 0
+    double weaker = 0;                                ///< in a comparison, the other of its two levels; else 0
     Presentation presentation;
     PilotPrompt prompt;
     bool asks = true;  ///< false: nothing is asked, and its answer has no response
-    /// From before the first train until the targets appear; with ScreenState::Interval it marks the two intervals of
-    /// a trial as they pass.
+    /// Shown from before the first train until the targets appear; with ScreenState::Interval it marks the two
+    /// intervals of a trial as they pass.
     PilotScreen screen;
     FeltPresentation felt;     ///< `named` and `inInterval`; the stage fills in the rest
     bool askedAgain = false;   ///< this is the second time: no answer is final
-    bool stopAnswers = false;  ///< a participant's stop of it is its answer ("stop"), once they want to go on
+    bool stopAnswers = false;  ///< a participant's stop is the answer to it ("stop"), once they want to continue
     bool held = false;         ///< levels rise: not presented while the participant does not hold
-    bool counts = true;        ///< it adds to how long the participant was stimulated
-    std::string drawnAs;       ///< what the answer is drawn for; empty: `name`
+    bool counts = true;        ///< adds to how long the participant was stimulated
+    std::string drawnAs;       ///< the key with which the answer is drawn; empty: `name`
 };
 
-/// For how long it stimulates: each of its trains until the next could have come.
+/// How long it stimulates: each of its trains counts until the next could have come.
 [[nodiscard]] inline Seconds lengthOf(const StageTrial& trial) {
     const Seconds trains = static_cast<double>(trial.presentation.onsets.size()) * trial.presentation.interval;
     return trial.level > 0 ? std::min(trains, trial.presentation.duration) : Seconds(0);
@@ -56,14 +56,14 @@ struct StageAnswer {
     std::size_t attempt = 1;
     bool given = true;
     bool replayed = false;
-    std::optional<BurstFigures> vibration;  ///< of a massager; nothing where it was not measured
+    std::optional<BurstFigures> vibration;  ///< what the massager did; nothing where it was not measured
 };
 
 class PilotStage {
 public:
     using Json = nlohmann::json;
 
-    /// All outlive the stage. Sets the participant's `stop`.
+    /// All arguments outlive the stage. Sets the participant's `stop`.
     PilotStage(Bench& bench, PilotParticipant& participant, PilotRecord& record, PilotSettings settings);
     ~PilotStage();
     PilotStage(const PilotStage&) = delete;
@@ -78,7 +78,7 @@ public:
     /// Arms and presents nothing: for the test of the STOPs. Where the output is real, the operator confirms it by
     /// name.
     [[nodiscard]] Result<void> arm() { return output_.arm(); }
-    /// Nothing is presented until the operator has answered what happened with their name; asked once. Output off.
+    /// Nothing is presented until the operator has answered by name what happened; asked once. Output off.
     [[nodiscard]] Result<void> answeredFor(const PilotHold& held);
     /// The participant holds, and lets go to stop. Waits until they do.
     [[nodiscard]] Result<void> hold();
@@ -94,7 +94,7 @@ public:
         return output_.seatAgain(during, why);
     }
     static constexpr int kSeatings = PilotOutput::kSeatings;
-    /// After an error of the participant's: nothing when the session goes on.
+    /// Continues after an error of the participant's: nothing when the session continues.
     [[nodiscard]] Result<void> goOnAfter(const std::string& during, const Error& why) {
         return output_.recover(during, why);
     }
@@ -122,9 +122,9 @@ public:
     [[nodiscard]] std::optional<PressedStop> takeStop() noexcept { return output_.takeStop(); }
     [[nodiscard]] bool stopped() const noexcept { return output_.stopped(); }
     [[nodiscard]] bool isArmed() const noexcept { return output_.isArmed(); }
-    /// Another order takes the place of the one that was stopped before `mark`. Errors: Stopped, when the run was.
+    /// Begins another order in place of the one that was stopped before `mark`. Errors: Stopped, when the run was.
     [[nodiscard]] Result<void> beginAnew(StopMark mark) { return output_.beginAnew(mark); }
-    /// From here on a stop is that of the run: no test takes it for its own, and nothing goes on after it. Any thread,
+    /// From here on a stop stops the run: no test takes it for its own, and nothing continues after it. Any thread,
     /// before that stop.
     void endRun() noexcept { output_.endRun(); }
     /// Wakes the people's prompts: for the end of the script. Any thread.
@@ -140,17 +140,17 @@ public:
     [[nodiscard]] StimulusLevel levelOf(double level) const;
     /// |Z| measured last; NaN where none is known.
     [[nodiscard]] double impedance() const noexcept { return output_.impedance(); }
-    /// For how long trains were given, in this and earlier parts.
+    /// How long trains were given, in this and earlier parts.
     [[nodiscard]] Seconds stimulated() const noexcept { return stimulated_; }
     /// The next first train comes no sooner than a pause after this moment.
     void noteAnswered() noexcept { lastAnswer_ = bench_.clock().now(); }
-    /// Until when a bench in person mode may wait for an answer: prompts of trials are shorter.
+    /// How long a bench in person mode may wait for an answer: prompts of trials are shorter.
     static constexpr Seconds kAskingTimeout{60};
 
 private:
     [[nodiscard]] Result<StageAnswer> replay(const StageTrial& trial, const Json& row);
     [[nodiscard]] Json about(const StageTrial& trial, std::size_t attempt) const;
-    /// Nothing where it is void and nothing is wrong; `late` counts those that could not begin in time.
+    /// Nothing where it is void and nothing is wrong; `late` counts the attempts that could not begin in time.
     [[nodiscard]] Result<std::optional<StageAnswer>> attempt(const StageTrial& trial, std::size_t number,
                                                              std::size_t& late);
     [[nodiscard]] Result<StageAnswer> stoppedAnswer(const StageTrial& trial);

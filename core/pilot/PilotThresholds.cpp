@@ -71,7 +71,7 @@ Result<void> PilotThresholds::ascendingLimits() {
     }
     ascending_ = limits->result();
     if (liveSeries_ > 0) {
-        PilotScreen rest;  // levels rise no more: what was held may be let go
+        PilotScreen rest;  // levels stop rising: the held target may be let go
         rest.phase = "ascending";
         rest.text = "You can let go now.";
         stage_.participant().show(rest);
@@ -96,7 +96,7 @@ Result<void> PilotThresholds::present(AscendingLimits& limits, const AscendingPr
     if (live && liveSeries_ != next.series) {
         if (auto armed = stage_.ready(); !armed) return armed;
         if (auto held = stage_.hold(); !held) return held;
-        // A series that was interrupted goes on at the level that the ramp has reached again.
+        // An interrupted series continues at the level that the ramp has reached again.
         const bool begins = liveSeries_ > 0 || limits.result().series.back().highest == 0;
         if (begins) {
             if (auto begun = stage_.bench().beginAscending(); !begun) return begun;
@@ -231,7 +231,7 @@ Result<void> PilotThresholds::range() {
         range_ = range->result();
     }
     if (range_->usable) stage_.settle(range_->max);
-    // The volts are those of the impedance at that moment: from the row, also after a resume.
+    // The volts belong to the impedance at that moment: they come from the row, also after a resume.
     auto stored =
         stage_.record().once(row::kRange, "range", [this]() -> Result<nlohmann::json> { return describe(*range_); });
     if (!stored) return failure(stored);

@@ -23,7 +23,7 @@ public:
     /// `stage` outlives it.
     explicit PilotThresholds(PilotStage& stage) : stage_(stage) {}
 
-    // In this order. Errors: as PilotStage; InvalidArgument out of order.
+    // To be called in this order. Errors: as PilotStage; InvalidArgument out of order.
 
     [[nodiscard]] Result<void> ascendingLimits();
     /// Without a felt level there is nothing to measure: done at once, without an estimate.
@@ -33,13 +33,13 @@ public:
     /// compare.
     [[nodiscard]] Result<void> comparison();
 
-    /// As part of the results; detection, range and comparison are null until they are measured.
+    /// The part of the results; detection, range and comparison are null until they are measured.
     [[nodiscard]] nlohmann::json toJson() const;
-    /// As its row says it; null before it was measured.
+    /// The range as its row says it; null before it was measured.
     [[nodiscard]] const nlohmann::json& rangeJson() const noexcept { return rangeRow_; }
     [[nodiscard]] const AscendingResult& limits() const noexcept { return ascending_; }
     [[nodiscard]] const std::optional<PersonalRangeResult>& found() const noexcept { return range_; }
-    /// Posterior mean of the detection threshold; NaN where there is none.
+    /// Posterior mean of the detection threshold; NaN without one.
     [[nodiscard]] double estimate() const noexcept { return estimate_.value; }
     /// The levels that detection and drift trials may have; after detection().
     [[nodiscard]] const std::optional<LevelGrid>& grid() const noexcept { return detectionGrid_; }
@@ -54,7 +54,7 @@ private:
     template <class Procedure, class Settings>
     [[nodiscard]] Result<void> measureBy(Settings settings);
     [[nodiscard]] nlohmann::json describe(const PersonalRangeResult& found) const;
-    /// The common part of the trials with two intervals, of which `held` holds the train, or the stronger one.
+    /// The common part of trials with two intervals; `held` is the interval with the train, or the stronger one.
     [[nodiscard]] Result<TrialInterval> askInterval(StageTrial trial, TrialInterval held, std::size_t number);
 
     PilotStage& stage_;
@@ -63,7 +63,7 @@ private:
     std::optional<LevelGrid> detectionGrid_;
     DetectionMethod method_ = DetectionMethod::Quest;
     Estimate estimate_{kNaN, kNaN, kNaN};
-    bool estimateAtEdge_ = false;  // of what was considered: it may lie anywhere beyond
+    bool estimateAtEdge_ = false;  // the estimate lies at the edge of what was considered, or anywhere beyond
     IntervalShares shares_;
     std::vector<AnsweredTwoIntervalTrial> trials_;
     bool measured_ = false;

@@ -45,7 +45,7 @@ public:
     /// Someone pressed STOP, or let go; null: neither.
     [[nodiscard]] const char* by() const noexcept { return settled(by_.load()); }
     [[nodiscard]] const char* takeBy() noexcept { return settled(by_.exchange(nullptr)); }
-    /// The same, with how long it took from the press until the output was off.
+    /// Takes the press, and how long it took until the output was off.
     [[nodiscard]] std::optional<Press> takePress() noexcept {
         const char* by = takeBy();
         if (by == nullptr) return std::nullopt;
@@ -59,7 +59,7 @@ public:
     [[nodiscard]] bool aborted() const noexcept { return settled(aborted_.load()); }
 
 private:
-    /// Whether a person pressed.
+    /// Whether a person pressed it.
     bool keep(const char* by) noexcept {
         const std::string_view text(by);
         std::atomic<bool>* const other = text.starts_with(kScreenGone) ? &screenGone_

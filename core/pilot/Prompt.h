@@ -18,7 +18,7 @@
 
 namespace tacto {
 
-/// Which of the two people is asked. Both: each has to answer, and the answer is the participant's.
+/// Which of the two people is asked. Both: each has to answer, and the participant's answer counts.
 enum class PromptTo { Participant, Operator, Both };
 [[nodiscard]] std::string_view nameOf(PromptTo to) noexcept;  // "participant", "operator", "both"
 
@@ -30,28 +30,28 @@ enum class PromptKind {
     YesNo,      ///< "yes", "no"
     GoOn,       ///< "go-on": nothing happens until it is pressed
     Choice,     ///< one of `targets`: naturalness, which encoding was easier, a skin score
-    Several,    ///< any number of `targets`, also none: qualities
+    Several,    ///< any number of `targets`, or none: qualities
     Scale,      ///< a whole number from `least` to `most`: intensity, pain, severity
     Text,       ///< a line of text: the electrodes' lot, a note. Never a name
 };
 [[nodiscard]] std::string_view nameOf(PromptKind kind) noexcept;  // "hold", "strength", "interval", ...
 
 struct PromptTarget {
-    std::string key;   ///< what the record keeps
-    std::string text;  ///< what the person reads
+    std::string key;   ///< the key in the record
+    std::string text;  ///< the words that the person reads
     bool operator==(const PromptTarget&) const = default;
 };
 
 struct PilotPrompt {
     PromptTo to = PromptTo::Participant;
     PromptKind kind = PromptKind::GoOn;
-    std::string name;  ///< what is asked, as the record names it: "identification", "skin", "intensity"
+    std::string name;  ///< the question's name in the record: "identification", "skin", "intensity"
     std::string text;  ///< the question
-    /// In the order in which they are shown, always at the same place. Empty for Text, Scale and Hold.
+    /// The targets in the order in which they are shown, always at the same place. Empty for Text, Scale and Hold.
     std::vector<PromptTarget> targets;
     /// Targets appear now or later, never before; the response time starts with them. A press before counts as early.
     Instant targetsAt{0};
-    /// After which time without an answer the answer is empty; nothing: waits.
+    /// The time after which a missing answer counts as empty; nothing: waits.
     std::optional<Seconds> within;
     int least = 0, most = 10;  ///< Scale
     std::string leastText;     ///< Scale: what its ends mean
@@ -62,22 +62,22 @@ struct PilotPrompt {
 struct PilotAnswer {
     std::vector<std::string> keys;  ///< one; any number for Several; the text for Text. Empty for Scale: see `value`
     std::optional<int> value = {};  ///< Scale
-    /// From the appearance of the targets to the press.
+    /// The time from the appearance of the targets to the press.
     Seconds after{0};
     /// False: `within` passed without an answer.
     bool given = true;
 
-    /// The only key; empty where there is none.
+    /// The only key; empty without one.
     [[nodiscard]] std::string_view key() const noexcept { return keys.empty() ? std::string_view() : keys.front(); }
 };
 
 /// A press that came before the targets: recorded, and no answer.
 struct EarlyPress {
-    std::string key;  ///< what it would have been; empty where the key has no target
+    std::string key;  ///< the answer that it would have been; empty where the key has no target
     Instant at{0};
 };
 
-/// What goes on, for the two screens. What depends on a condition stands in `operatorText` and `named` only.
+/// What is going on, for the two screens. Only `operatorText` and `named` may depend on a condition.
 enum class ScreenState {
     Rest,      ///< nothing happens
     Dot,       ///< a presentation is about to start
@@ -92,25 +92,25 @@ struct PilotScreen {
     std::string phase;  ///< "checklist", "ascending", "detection", "range", "familiarisation", "training", "test",
                         ///< "drift", "break", "ratings", "ended"
     int block = 0;      ///< from 1; 0: none
-    int blocks = 0;     ///< of the test
-    int trial = 0;      ///< of the phase, for the operator; 0: none
+    int blocks = 0;     ///< blocks in the test
+    int trial = 0;      ///< the trial within the phase, for the operator; 0: none
     int trials = 0;
     double impedance_ohm = kNaN;   ///< |Z| as measured by itself before the block, not by a train; NaN: not measured
-    int interval = 0;              ///< with Interval: 1 or 2; 0: neither, yet or between
+    int interval = 0;              ///< 1 or 2 with Interval; 0: neither, before them or between
     std::string named;             ///< Named: the name of what is or was felt
     std::optional<bool> right;     ///< training: whether the answer was right
     std::optional<Instant> until;  ///< Break: its earliest end
-    std::string text;              ///< for the participant; the same for every condition
-    std::string operatorText;      ///< for the operator, not shown while they are blind
-    bool operatorMayKnow = false;  ///< nothing in `operatorText` depends on a condition
+    std::string text;              ///< what the participant reads; the same for every condition
+    std::string operatorText;      ///< what the operator reads; hidden while they are blind
+    bool operatorMayKnow = false;  ///< `operatorText` has nothing that depends on a condition
 };
 
 // Names of questions to the operator: the participant's window is to be shown again; why they aborted.
 inline constexpr const char* kScreenPrompt = "screen-gone";
 inline constexpr const char* kReasonPrompt = "abort-reason";
 
-/// The four answers in their field of two rows and two columns, in the first of kAnswerWays ways; the places are those
-/// of keys and buttons 1 to 4. The others turn it and swap its rows and columns: what lay in a line does so still.
+/// The four answers in their field of two rows and two columns, in the first of kAnswerWays ways; the places have keys
+/// and buttons 1 to 4. The others turn it and swap its rows and columns: answers in one line stay in one line.
 inline constexpr std::array<std::string_view, 4> kAnswerPlaces{"smooth-high", "rough-high", "smooth-low", "rough-low"};
 inline constexpr std::size_t kAnswerWays = 8;
 /// `way` below kAnswerWays.

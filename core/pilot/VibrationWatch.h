@@ -1,8 +1,8 @@
 // VibrationWatch.h - what a massager really did while something was presented, where the bench's sensor has an
 // accelerometer that is fastened to its motor.
 //
-// It is not known to the program where a sensor is fastened. A board that lies beside the motor measures bursts in
-// which nothing moves, which is said as such; without a sensor nothing is measured.
+// The program does not know where a sensor is fastened. A board that lies beside the motor measures bursts in which
+// nothing moves, and this is said; without a sensor nothing is measured.
 #pragma once
 
 #include <memory>

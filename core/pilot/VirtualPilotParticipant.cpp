@@ -40,7 +40,7 @@ Result<PilotAnswer> VirtualPilotParticipant::ask(const PilotPrompt& prompt) {
         if (stop) stop(prompt.to == PromptTo::Operator ? "operator" : "participant");
         return fail(ErrorCode::Stopped, "stopped by the {}, as asked", nameOf(prompt.to));
     }
-    // To a millisecond, as a clock on a table would read.
+    // Rounded to a millisecond, as a clock on a table would read.
     Random times(observer_.settings().seed, "response time " + felt_.drawnFor + " " + prompt.name);
     const Seconds after(std::round(1000 * 0.7 * std::exp(0.35 * times.normal())) / 1000);
     if (prompt.kind == PromptKind::Scale) {

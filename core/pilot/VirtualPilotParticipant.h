@@ -1,8 +1,8 @@
 // VirtualPilotParticipant.h - a virtual participant, and the operator beside them, who answers everything
 // harmlessly: both people of a rehearsal, through the same interface as a window's.
 //
-// What is felt follows from what was delivered (VirtualObserver.h); conditions are known by the names under which they
-// were felt in familiarisation. Response times are drawn and have no source: they say nothing about people.
+// Feelings follow from what was delivered (VirtualObserver.h); conditions are known by the names under which they were
+// felt in familiarisation. Response times are drawn and have no source: they say nothing about people.
 //
 // Thread-safety: as PilotParticipant.
 #pragma once

@@ -12,7 +12,7 @@ namespace {
 // 0.1 + 0.2 exceeds 0.3 in binary: levels on a decimal grid may miss their ceiling by rounding alone.
 constexpr double kLevelRounding = 1e-9;
 
-/// Not by way of amperes: 4.5 mA would come back as more than 4.5, and more than a limit of 4.5.
+/// Computed without amperes: 4.5 mA would come back as more than 4.5, and more than a limit of 4.5.
 double milliamps(const PulseTrain& train) noexcept {
     const auto* current = std::get_if<Milliamps>(&train.amplitude);
     return current != nullptr ? current->value() : siValue(train.amplitude) * 1e3;

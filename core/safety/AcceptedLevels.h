@@ -17,7 +17,7 @@
 
 namespace tacto {
 
-/// What a person permits on one scale, mA or a massager's intensity, as the rules above go.
+/// The levels that a person permits on one scale, mA or a massager's intensity, by the rules above.
 class AcceptedScale {
 public:
     /// `level` was called uncomfortable: from now on nothing exceeds it. A higher value than before changes nothing.
@@ -29,7 +29,7 @@ public:
 protected:
     /// A new participant: nothing accepted.
     void begin(double discomfortLimit, double rampStep) noexcept;
-    /// The same participant again with other settings: keeps what was accepted and the lower discomfort limit.
+    /// The same participant continues with other settings: keeps what was accepted and the lower discomfort limit.
     void resume(double discomfortLimit, double rampStep) noexcept;
     void forget() noexcept { highest_ = seriesLast_ = 0; }
     void keep(double level) noexcept;
@@ -40,14 +40,14 @@ protected:
     bool ascending_ = false;
 
 private:
-    double highest_ = 0;     // In this session, of the kind at hand
-    double seriesLast_ = 0;  // In this ascending series
+    double highest_ = 0;     // the highest in this session, of the kind at hand
+    double seriesLast_ = 0;  // the last in this ascending series
 };
 
 /// Currents, in mA.
 class AcceptedLevels : public AcceptedScale {
 public:
-    /// As AcceptedScale, with the cap of the study, if it has one.
+    /// Begins as AcceptedScale does, with the cap of the study, if it has one.
     void begin(Milliamps discomfortLimit, Milliamps rampStep, std::optional<Milliamps> cap = {}) noexcept;
     void resume(Milliamps discomfortLimit, Milliamps rampStep, std::optional<Milliamps> cap = {}) noexcept;
 
@@ -66,7 +66,7 @@ public:
 private:
     [[nodiscard]] bool sameKind(const PulseTrain& train) const noexcept;
 
-    double cap_ = std::numeric_limits<double>::infinity();  // In mA; infinite: the study has none
+    double cap_ = std::numeric_limits<double>::infinity();  // in mA; infinite: the study has none
     PulseTrain kind_;                                       // Amplitude ignored
 };
 

@@ -16,7 +16,7 @@
 
 namespace tacto {
 
-/// Between which a quantity may come out.
+/// The two values between which a quantity may come out.
 template <class Value>
 struct Range {
     Value least{0};
@@ -37,15 +37,14 @@ public:
                    const std::optional<Spread>& stated) noexcept;
     [[nodiscard]] double most(double programmed) const noexcept;
     [[nodiscard]] double least(double programmed) const noexcept;
-    /// The same of a time; one that has no spread stays as it is to the last bit.
+    /// The range of a time; a time without a spread stays as it is to the last bit.
     template <class Time>
     [[nodiscard]] Range<Time> times(Time programmed) const noexcept {
         const double s = Seconds(programmed).count();
         const auto bound = [&](double at) { return at == s ? programmed : Time(Seconds(at)); };
         return {bound(least(s)), bound(most(s))};
     }
-    /// The smallest ratio of what comes out to what is programmed, at `programmed` and at the ends of the line; above
-    /// 0.
+    /// The range of a time; a time without a spread stays as it is to the last bit.
     [[nodiscard]] double leastRatio(double programmed) const noexcept;
 
 private:
@@ -79,19 +78,19 @@ class DeliveryBounds {
 public:
     explicit DeliveryBounds(const GateSetup& setup) noexcept;
 
-    /// What was commanded: of a calibrated stimulator what it delivers by its lines, else what is programmed.
+    /// The commanded train: for a calibrated stimulator what it delivers by its lines, else what is programmed.
     [[nodiscard]] PulseTrain commandOf(const PulseTrain& programmed) const noexcept;
-    /// What a person's level counts as: the larger of what is programmed and what is delivered by the line; and when it
-    /// is accepted, the smaller. Levels of one unit are compared with each other, so their uncertainty cancels.
+    /// The level that counts for a person: the larger of what is programmed and what is delivered by the line; and when
+    /// it is accepted, the smaller. Levels of one unit are compared with each other, so that their uncertainty cancels.
     [[nodiscard]] PulseTrain levelOf(const PulseTrain& programmed) const noexcept;
     [[nodiscard]] PulseTrain acceptedAs(const PulseTrain& programmed) const noexcept;
 
     [[nodiscard]] Range<double> amplitudes(double programmed) const noexcept {
         return {amplitude_.least(programmed), amplitude_.most(programmed)};
     }
-    /// Between which an interval may come out: the shortest gives the most exposure, the longest the lowest band.
+    /// Between these an interval may come out: the shortest gives the most exposure, the longest the lowest band.
     [[nodiscard]] Range<Seconds> intervals(Seconds programmed) const noexcept { return interval_.times(programmed); }
-    /// How much longer a window of real time may last by the clock that trains are booked on: 1 or more.
+    /// How much longer a window of real time may last by the clock on which trains are booked: 1 or more.
     [[nodiscard]] double stretch(Seconds programmed) const noexcept {
         return 1 / interval_.leastRatio(programmed.count());
     }

@@ -18,7 +18,7 @@ namespace tacto {
 
 struct BookedTrain {
     Instant earliest{0};      ///< approved: it cannot start before
-    Instant latest{0};        ///< its approval's end plus its own duration: it has ended by then
+    Instant latest{0};        ///< the approval's end plus its own duration: by then it has ended
     double hz = 0;            ///< repetition frequency, for frequency bands
     TrainExposure overRange;  ///< worst case over the load range
     TrainExposure at500;
@@ -43,7 +43,7 @@ public:
         double lowestHz = 0;  ///< lowest rate of the trains counted; infinite for none
         std::size_t trains = 0;
     };
-    /// All trains that could share a window of `window` with one that starts at `now` or later.
+    /// The sums of all trains that could share a window of `window` with one that starts at `now` or later.
     [[nodiscard]] Sums couldShare(Seconds window, Instant now, double stretch = 1) const noexcept;
     /// The trains approved within (now − window, now]: what a display shows.
     [[nodiscard]] Sums booked(Seconds window, Instant now) const noexcept;

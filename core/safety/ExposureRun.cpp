@@ -44,7 +44,7 @@ Run largerRun(const Run& a, const Run& b) noexcept {
 
 namespace {
 
-/// What a capacitor may hold, V.
+/// The voltages that a capacitor may hold, V.
 struct Held {
     double least = 0, most = 0;
     void include(double voltage) noexcept {
@@ -60,13 +60,13 @@ constexpr Held kNothing{std::numeric_limits<double>::infinity(), -std::numeric_l
 double voltageSquared(const SegmentResponse& response) noexcept {
     double sum = 0;
     for (ResponsePiece piece : response.pieces()) {
-        piece.i = piece.v;  // ∫i² of a piece whose current is its voltage
+        piece.i = piece.v;  // ∫i² of a piece with a current equal to its voltage
         sum += piece.currentSquared();
     }
     return sum;
 }
 
-/// What a segment adds up to that the capacitor began with `start`.
+/// The sums over a segment that the capacitor began with `start`.
 Sums sumsOf(const Plan& plan, const SegmentResponse& response, double start) noexcept {
     Sums sums{0, voltageSquared(response), storedAt(plan, start) - storedAt(plan, response.endCapacitorVoltage)};
     for (const ResponsePiece& piece : response.pieces()) {
@@ -82,9 +82,9 @@ void addTo(TrainSums& total, const Sums& sums, double times = 1) noexcept {
     total.dissipated_J += times * sums.dissipated;
 }
 
-/// What one stretch holds more than either of two alike: late(a) + early(b) = a + early(b) - early(a). With f the
-/// square of a quantity x, the integral of |f_b - f_a| is at most 2 sqrt(most) |x_b - x_a| by the Cauchy-Schwarz
-/// inequality. `difference` is the sums of x_b - x_a; heat is the sum of two squares. At most the stretch itself.
+/// The excess of one stretch over either of two alike: late(a) + early(b) = a + early(b) - early(a). With f the square
+/// of a quantity x, the integral of |f_b - f_a| is at most 2 sqrt(most) |x_b - x_a| by the Cauchy-Schwarz inequality.
+/// `difference` is the sums of x_b - x_a; heat is the sum of two squares. At most the stretch itself.
 Sums extraOfCut(const Sums& most, const Sums& difference) noexcept {
     const auto of = [](double sum, double apart) {
         const double bound = 2 * std::sqrt(sum * apart);
@@ -94,22 +94,22 @@ Sums extraOfCut(const Sums& most, const Sums& difference) noexcept {
             of(most.dissipated, difference.dissipated)};
 }
 
-/// The sums of the difference of two answers to one drive, whose capacitors begin `apart` V from each other. A linear
-/// load's difference is its undriven answer; beyond the compliance, too, it never grows, and a current differs by at
-/// most what the series resistance makes of it.
+/// The sums of the difference of two answers to one drive, with capacitors that begin `apart` V from each other. A
+/// linear load's difference is its undriven answer; beyond the compliance, too, it never grows, and a current differs
+/// by at most what the series resistance makes of it.
 Sums differenceBound(const Plan& plan, double seconds, double apart) noexcept {
     const double square = apart * apart * seconds;
     const double rs = plan.circuit.seriesOhm, rp = plan.circuit.parallelOhm;
     return {square / (rs * rs), square, square * (1 / rs + 1 / rp)};
 }
 
-/// What the pulses of a train hold where they are not alike, because each finds another voltage on the capacitor.
+/// The pulses of a train where they differ, because each finds another voltage on the capacitor.
 class PulseParts {
 public:
-    static constexpr std::size_t kRest = 3;  // after the pulse's segments, of which there are up to three
+    static constexpr std::size_t kRest = 3;  // the rest comes after the pulse's segments, which are three at most
     explicit PulseParts(const Plan& plan) noexcept : plan_(plan) {}
 
-    /// One pulse's segment, which the capacitor began with any of `held`.
+    /// Adds one pulse's segment, which the capacitor began with any of `held`.
     void add(std::size_t segment, const Held& held, const Sums& sums) noexcept {
         Part& part = parts_[segment];
         part.most = larger(sums, part.most);
@@ -130,7 +130,7 @@ public:
         Sums most;
         for (std::size_t s = 0; s < kParts; ++s) {
             const double apart = parts_[s].held.most - parts_[s].held.least;
-            if (apart <= kAlike * largest) continue;  // Also where no pulse has this part
+            if (apart <= kAlike * largest) continue;  // true also where no pulse has this part
             DriveSegment segment = plan_.betweenPulses;
             segment.duration_s = plan_.mostBetweenPulses_s;
             if (s < kRest) segment = plan_.pulse.items[s];
@@ -187,7 +187,7 @@ Run runFrom(const Plan& plan, double capacitorVoltage) noexcept {
         Sums rest;
         if (plan.betweenPulses.duration_s > 0) rest = add(plan.betweenPulses, PulsePart::Rest);
 
-        // Once a pulse leaves the capacitor as it found it, all further pulses are this one.
+        // Once a pulse leaves the capacitor as it found it, all further pulses are the same.
         const double moved = std::abs(response.capacitorVoltage() - capacitorVoltage);
         const bool settled = moved <= kAlike * totals.peakVoltage_V;
         const int alike = settled ? plan.pulses - done : 1;
@@ -230,7 +230,7 @@ Run runFrom(const Plan& plan, double capacitorVoltage) noexcept {
     return run;
 }
 
-/// As Run::cut, of a window that begins in one train and ends in another, which found the load up to `apart` V
+/// Like Run::cut, for a window that begins in one train and ends in another, which found the load up to `apart` V
 /// differently.
 Sums cutBetween(const Plan& plan, const Run& worst, double apart) noexcept {
     const auto sumsIn = [](const TrainSums& all) {
@@ -247,14 +247,14 @@ Sums cutBetween(const Plan& plan, const Run& worst, double apart) noexcept {
     return extraOfCut(train, larger(sumsIn(runFrom(undriven, apart).whole), Sums{}));
 }
 
-/// How much of what a train finds on the capacitor is left when the next begins.
+/// The share of the charge found by a train that is left when the next begins.
 double slopeOf(const Plan& plan, const Run& rested) noexcept {
     if (!std::isinf(plan.limits.compliance_V)) {
         const double probe = rested.peakVoltage;
         return (runFrom(plan, probe).endOfInterval - rested.endOfInterval) / probe;
     }
     const double rs = plan.circuit.seriesOhm, rp = plan.circuit.parallelOhm;
-    const auto decays = [&](const DriveSegment& segment) {  // in time constants; only a voltage flows through R_s
+    const auto decays = [&](const DriveSegment& segment) {  // in time constants; R_s counts only with a voltage
         const double ohm = segment.drive == Drive::Voltage ? rs * rp / (rs + rp) : rp;
         return segment.duration_s / (ohm * plan.circuit.capacitance_F);
     };
@@ -359,11 +359,11 @@ double voltageOf(const Plan& plan, double stored_J) noexcept {
     return plan.circuit.hasCapacitor() ? std::sqrt(2 * stored_J / plan.circuit.capacitance_F) : 0;
 }
 
-/// The same for any number of trains, the first of which finds up to `carried` on the load. What holds more bounds
-/// more: the widest run is the bound of all.
+/// The run for any number of trains, where the first finds up to `carried` on the load. A run that holds more bounds
+/// more: the widest is the bound of all.
 Run enclosed(const Plan& plan, double carried) noexcept {
-    // Each end maps linearly from train to train: end' = end(0) + slope * end, towards a steady one. Which duration
-    // makes an end may change on the way there, and the slope with it.
+    // Each end maps linearly from train to train: end' = end(0) + slope * end, towards a steady one. On the way another
+    // duration may make an end, and with it another slope.
     constexpr int kMaxSlopes = 8;
     constexpr double kRounding = 1e-15;  // share of the voltage towards which a phase charges the capacitor
     double rounding = 0;
@@ -395,7 +395,7 @@ Run enclosed(const Plan& plan, double carried) noexcept {
         next.include(steady(found.most, left.most, next.most, leftNext.most));
         found = next;
     }
-    // Beyond its compliance a source is not linear; what is not enclosed then is not known, and refused.
+    // Beyond its compliance a source is not linear; what cannot be enclosed then is unknown, and refused.
     return unknownRun();
 }
 

@@ -30,16 +30,16 @@ struct Sums {
     return {larger(a.squares, b.squares), larger(a.volts, b.volts), larger(a.dissipated, b.dissipated)};
 }
 
-/// What one run of a train adds up to, starting with some voltage on the load's capacitor.
+/// The sums over one run of a train, starting with some voltage on the load's capacitor.
 struct Run {
     double peakVoltage = 0, peakCurrent = 0, phaseCharge = 0;  // Largest of any pulse
     double netCharge = 0, energy = 0;                          // Largest of any pulse, its rest included
     // A stretch of n periods holds at most n times `pulse`, part by part the most of any pulse, and `cut`: it may begin
     // in a part of one pulse and end in the same part of another.
     Sums pulse, cut;
-    Sums cutTrain;             // The same of whole trains, which may find the load differently
-    TrainSums inDuration;      // Over n / rate
-    TrainSums whole;           // The same with the rest until the next train
+    Sums cutTrain;             // whole trains cut short, which may find the load differently
+    TrainSums inDuration;      // the sums over n / rate
+    TrainSums whole;           // the sums with the rest until the next train
     double endOfTrain = 0;     // Capacitor voltage after n / rate, V
     double endOfInterval = 0;  // when the next train begins
 };
@@ -49,10 +49,10 @@ struct Plan {
     Circuit circuit;
     PulseSegments pulse;
     DriveSegment betweenPulses;
-    std::array<double, 3> leastPulse_s{};  // each segment of the sparsest train of the range
+    std::array<double, 3> leastPulse_s{};  // each segment of the sparsest train in the range
     double mostBetweenPulses_s = 0;        // the longest rest between its pulses
     DriveSegment afterTrain;
-    double leastAfterTrain_s = 0;  // rest after the sparsest train of the range, whose pulses take longest
+    double leastAfterTrain_s = 0;  // rest after the sparsest train of the range, which has the longest pulses
     int pulses = 1;
     SourceLimits limits;  // Infinite: what clipping takes away is counted as delivered
 };
@@ -61,7 +61,7 @@ struct Plan {
 [[nodiscard]] std::array<double, 3> leastDurations(const PulseSegments& densest,
                                                    const PulseSegments& sparsest) noexcept;
 
-/// What the capacitor holds at that voltage, J; 0 without one.
+/// The energy in the capacitor at that voltage, J; 0 without one.
 [[nodiscard]] double storedAt(const Plan& plan, double capacitorVoltage) noexcept;
 
 /// Quantity by quantity.

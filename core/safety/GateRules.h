@@ -18,7 +18,7 @@ struct JudgedTrain;
 
 inline constexpr Instant kApprovalLife = std::chrono::milliseconds(100);
 
-/// What decimal numbers lose in binary: no device knows the difference.
+/// The loss of decimal numbers in binary: no device knows the difference.
 inline constexpr double kRounding = 1e-9;
 
 /// SetupRules.cpp. Errors: InvalidArgument naming what is missing or impossible.
@@ -36,13 +36,13 @@ struct AskedTrain {
 // TrainRules.cpp.
 /// Form, source and grid; no limits. Errors: InvalidArgument.
 [[nodiscard]] Result<void> checkRequest(const PulseTrain& train, Seconds interval, const SourceTraits& source);
-/// What a person, the impedance and the calibration permit. Errors: InvalidArgument, LimitExceeded.
+/// Checks what a person, the impedance and the calibration permit. Errors: InvalidArgument, LimitExceeded.
 [[nodiscard]] Result<void> checkAsked(const AskedTrain& asked);
-/// The same for an impedance check.
+/// Checks an impedance check that is asked for.
 [[nodiscard]] Result<void> checkAskedCheck(const AskedTrain& asked);
-/// What may come out of the train's times, and whether the unit's past is known. Errors: as checkAsked().
+/// Checks the train's times as they may come out, and whether the unit's past is known. Errors: as checkAsked().
 [[nodiscard]] Result<void> checkTimes(const AskedTrain& asked);
-/// Whether the meter holds another train.
+/// Whether the meter has room for another train.
 [[nodiscard]] Result<void> checkMeter(const State& state);
 
 // LimitRules.cpp.
@@ -54,11 +54,10 @@ struct ActiveLimit {
 };
 /// Every row of every set, in order, then the ceilings.
 [[nodiscard]] std::vector<ActiveLimit> activeLimits(const GateSetup& setup);
-/// Whether `value` keeps the row; a command computed (I·|Z|, or through a calibration) may miss "≤" by its
-/// last bits.
+/// Whether `value` keeps the row; a computed command (I·|Z|, or through a calibration) may miss "≤" by its last bits.
 [[nodiscard]] bool keepsLimit(const LimitRow& row, double value, bool commandComputed) noexcept;
-/// Every limit on the train alone, then with the trains before it. Errors: LimitExceeded naming the first that it
-/// breaks: "RMS current over 5 s would be 14.1 mA in the worst case (11.3 mA into 100 ohm); paper allows less than
+/// Checks every limit on the train alone, then with the trains before it. Errors: LimitExceeded naming the first that
+/// it breaks: "RMS current over 5 s would be 14.1 mA in the worst case (11.3 mA into 100 ohm); paper allows less than
 /// 10 mA (...)".
 [[nodiscard]] Result<void> checkLimits(const State& state, const JudgedTrain& train, Instant now);
 

@@ -27,7 +27,7 @@ enum class OutputMode { BenchLoad, Person };
 struct LoadRange {
     Load min;
     Load max;
-    Load nominal;  ///< declared, or as it was last measured: |Z| of it makes A out of a current
+    Load nominal;  ///< declared, or as last measured: its |Z| makes A out of a current
 
     /// `nominal` with its impedance multiplied by `low` and `high` at every frequency (time constants stay).
     [[nodiscard]] static LoadRange around(const Load& nominal, double low, double high);
@@ -37,7 +37,7 @@ struct LoadRange {
     [[nodiscard]] static LoadRange measured(Ohms magnitude);
     /// Resistances from `low` to `high`, nominal their geometric mean: previews, and a person before the check pulse.
     [[nodiscard]] static LoadRange between(Ohms low, Ohms high);
-    /// Whether what one pulse leaves may be found by the next.
+    /// Whether the next pulse may find what one pulse leaves.
     [[nodiscard]] bool keepsCharge() const noexcept {
         return min.kind == LoadKind::SkinEquivalent || max.kind == LoadKind::SkinEquivalent;
     }
@@ -51,13 +51,13 @@ struct Ceiling {
 };
 using Ceilings = std::vector<Ceiling>;
 
-/// What a person at a massager permits; its levels are intensities from 0 to 1.
+/// The permissions of a person at a massager; their levels are intensities from 0 to 1.
 struct PersonVibration {
     double discomfortLimit = 1;  ///< above 0 to 1; may fall during a session, never rise
     double rampStep = 0.05;      ///< above 0 to 1; the largest step above an accepted intensity (H6)
 };
 
-/// What must be known before anything reaches a person.
+/// All that must be known before anything reaches a person.
 struct PersonSetup {
     std::string participant;  ///< pseudonym; accepted levels and discomfort live as long as it stays the same
     bool consentRecorded = false;
@@ -82,13 +82,13 @@ struct GateSetup {
     /// The last that is known about the stimulator that is connected, also where it has expired or is left aside.
     /// Trains are what is programmed; everything is judged by the worse of programmed and delivered (H1, H9).
     KnownLines calibration;
-    /// Whether it holds and trains are programmed by it: then the command is delivered, else what is programmed.
-    /// Required in person mode, of all four lines.
+    /// Whether a calibration holds and trains are programmed by it: then the command is delivered, else what is
+    /// programmed. Required in person mode, with all four lines.
     bool calibrated = false;
 };
 
 inline constexpr Seconds kCheckInterval{0.5};  ///< the shortest time between two impedance checks
-/// At which a check is judged: it has room to last longer than it is programmed.
+/// The interval at which a check is judged: it has room to last longer than programmed.
 [[nodiscard]] inline Seconds checkInterval(const PulseTrain& check) noexcept {
     return std::max(kCheckInterval, 1.2 * check.duration());
 }

@@ -7,8 +7,8 @@
 
 namespace tacto::gate {
 
-// It is not known since when another source is connected: what one left that rests in high impedance may have stayed so
-// until now.
+// Nobody knows how long another source has been connected: the charge left by one that rests in high impedance may have
+// stayed until now.
 double State::carriedAt(Instant now) const noexcept {
     double left = 0;
     for (const GapState leftBy : {GapState::HoldsZero, GapState::HighImpedance}) {

@@ -17,8 +17,8 @@
 namespace tacto::gate {
 
 struct State {
-    std::optional<GateSetup> setup;        // Nothing: everything is refused
-    std::optional<DeliveryBounds> bounds;  // what the setup may deliver
+    std::optional<GateSetup> setup;        // nothing: everything is refused
+    std::optional<DeliveryBounds> bounds;  // the bounds of what the setup may deliver
     std::vector<ActiveLimit> limits;
     LoadRange load;
     double area = 0;
@@ -31,13 +31,13 @@ struct State {
 
     std::optional<Ohms> impedance;
     Instant impedanceAt{std::numeric_limits<Instant::rep>::min()};
-    std::optional<Ohms> lastGood;    // since configure(), whatever came after it
+    std::optional<Ohms> lastGood;    // the newest good one since configure(), whatever came after it
     bool impedanceRejected = false;  // the last reading was not a number or out of range
 
     std::map<std::string, AcceptedLevels> people;         // a participant who comes back keeps the accepted levels
     AcceptedLevels none;                                  // permits nothing
     AcceptedLevels* levels = &none;                       // the current participant's, in people; without one, none
-    std::map<std::string, AcceptedIntensities> vibrated;  // what each participant at a massager accepted
+    std::map<std::string, AcceptedIntensities> vibrated;  // intensities that each participant at a massager accepted
     AcceptedIntensities noIntensities;                    // permits nothing
     AcceptedIntensities* intensities = &noIntensities;
 
@@ -48,7 +48,7 @@ struct State {
     [[nodiscard]] bool commandIsComputed() const noexcept {
         return setup && (setup->source.drive == Drive::Current || setup->calibration.has_value());
     }
-    /// What is left of the residual voltage by `now`, on the load that keeps it longest.
+    /// The rest of the residual voltage at `now`, on the load that keeps it longest.
     [[nodiscard]] double carriedAt(Instant now) const noexcept;
     /// Whether a reading belongs to the declared load.
     [[nodiscard]] bool agreesWithDeclared(double ohm) const noexcept;
@@ -58,15 +58,15 @@ struct State {
 
 /// A train on its way through the limits.
 struct JudgedTrain {
-    PulseTrain command;        // what it should come out as, for the figure beside the worst case
-    Seconds interval{0};       // as it was asked for
-    Range<Seconds> intervals;  // between which it may come out
+    PulseTrain command;        // the wanted train, for the figure beside the worst case
+    Seconds interval{0};       // the interval that was asked for
+    Range<Seconds> intervals;  // the two values between which it may come out
     double stretch = 1;        // as DeliveryBounds::stretch()
-    double carried_V = 0;      // what it may find on the load
+    double carried_V = 0;      // the voltage that it may find on the load
     TrainExposure overRange, at500;
-    /// For frequency bands: the lowest.
+    /// The frequency for bands: the lowest.
     [[nodiscard]] double hz() const noexcept { return 1 / intervals.most.count(); }
-    /// Whether the row belongs to a band that the train may come out in.
+    /// Whether the row belongs to a band in which the train may come out.
     [[nodiscard]] bool fallsUnder(const LimitRow& row) const noexcept {
         return row.holdsAt(hz()) || row.holdsAt(1 / intervals.least.count());
     }

@@ -40,7 +40,7 @@ public:
     [[nodiscard]] bool alive(Instant now) const noexcept {
         return !gate::firstBroken(kAliveConditions, Pulse{last_.load(std::memory_order_acquire), now});
     }
-    /// How long ago the last beat was; nothing before the first and after end().
+    /// The time since the last beat; nothing before the first and after end().
     [[nodiscard]] std::optional<Instant> silence(Instant now) const noexcept {
         const auto last = last_.load(std::memory_order_acquire);
         if (last == kNoBeat) return std::nullopt;

@@ -224,7 +224,7 @@ Result<std::uint64_t> Interlock::requestArming(Instant now) {
 Result<void> Interlock::confirmArming(std::uint64_t ticket, Instant now) {
     const std::lock_guard lock(mutex_);
     if (auto kept = judge(kConfirmRules, state_.load(std::memory_order_relaxed)); !kept) return kept;
-    const Ticket shown{ticket, std::exchange(ticket_, 0), requestedAt_, now};  // One request, one confirmation
+    const Ticket shown{ticket, std::exchange(ticket_, 0), requestedAt_, now};  // each request has one confirmation
     if (auto kept = judge(kTicketRules, shown); !kept) return kept;
     state_.store(InterlockState::Checking, std::memory_order_release);
     reason_ = {};

@@ -36,14 +36,14 @@ enum class FaultCause {
     StaleSensor,
     LimitBroken,  ///< something measured above a limit
     Internal,     ///< a broken invariant
-    StuckOn,      ///< the device goes on after its train should have ended
+    StuckOn,      ///< the device continues after its train should have ended
 };
 inline constexpr int kFaultCauseCount = 11;
 [[nodiscard]] std::string_view nameOf(FaultCause cause) noexcept;  // "open electrode", ...
 /// Timeout for a cause that is lateness alone (status missing, loop silent, stale sensor), else Device.
 [[nodiscard]] ErrorCode codeOf(FaultCause cause) noexcept;
 
-/// What arming needs. Everything false or empty: nothing is assumed.
+/// The evidence that arming needs. Everything false or empty: nothing is assumed.
 struct ArmingEvidence {
     bool limitsLoaded = false;
     bool deviceIdentified = false;
@@ -57,8 +57,8 @@ struct ArmingEvidence {
     bool declaredLoadConfirmed = false;  ///< stands in for a reading where the device cannot read back
 };
 
-/// What a fault of that cause leaves of the output, as a sentence: "Output is off.", but of a device that does not
-/// obey.
+/// The state of the output after a fault of that cause, as a sentence: "Output is off.", except for a device that does
+/// not obey.
 [[nodiscard]] std::string_view outputAfter(std::optional<FaultCause> cause) noexcept;
 
 class UnitRecord;
@@ -66,10 +66,10 @@ class UnitRecord;
 class Interlock {
 public:
     static constexpr Instant kImpedanceAge = std::chrono::seconds(5);    ///< older readings do not count
-    static constexpr Instant kConfirmWithin = std::chrono::seconds(30);  ///< between the two steps
+    static constexpr Instant kConfirmWithin = std::chrono::seconds(30);  ///< the time between the two steps
 
     [[nodiscard]] InterlockState state() const noexcept { return state_.load(std::memory_order_acquire); }
-    /// Why it is faulted or was last disarmed; empty otherwise.
+    /// Why it is faulted, or why it was last disarmed; empty otherwise.
     [[nodiscard]] FixedText<159> reason() const noexcept;
     /// The first cause that is still present, StuckOn before the others, then in the order of FaultCause; nothing
     /// unless Faulted.

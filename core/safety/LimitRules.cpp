@@ -52,7 +52,7 @@ tl::unexpected<Error> refusedAlone(const TrainAtLimit& t) {
     std::string aside;
     if (row.judged == JudgedAt::Ohm500) {
         aside = " into 500 ohm";
-    } else if (row.quantity != Quantity::CommandVoltage) {  // which is the same in any case
+    } else if (row.quantity != Quantity::CommandVoltage) {  // the command voltage is the same in any case
         const State& s = t.state;
         const Load& usual = s.person() ? s.load.nominal : s.setup->load.nominal;
         const auto there =
@@ -64,7 +64,7 @@ tl::unexpected<Error> refusedAlone(const TrainAtLimit& t) {
 }
 
 bool breaksInWindow(const TrainAtLimit& t) {
-    // Trains of different rates share the window: every band that one of them belongs to holds.
+    // Trains of different rates share the window: every band that holds one of them counts.
     const bool holds = t.train.fallsUnder(t.limit.row) || t.limit.row.holdsAt(t.window->lowestHz);
     return t.judged() && holds && !keepsLimit(t.limit.row, t.valueInWindow(), false);
 }

@@ -114,7 +114,7 @@ std::string_view shortTitleOf(std::string_view id) noexcept {
     if (id == "fda-pms") return "FDA guidance";
     if (id == "iec-60601-2-10") return "IEC 60601-2-10";
     if (id == "paper") return "the paper";
-    if (id == "gate") return "this program";  // what it refuses, and must
+    if (id == "gate") return "this program";  // the program refuses it, and must
     if (id == "interlock") return "the rules of arming";
     if (id == "laboratory") return "the laboratory";
     return id;

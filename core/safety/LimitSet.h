@@ -43,9 +43,9 @@ inline constexpr std::size_t kQuantityCount = 13;
 using QuantityValues = std::array<double, kQuantityCount>;
 [[nodiscard]] constexpr std::size_t indexOf(Quantity q) noexcept { return static_cast<std::size_t>(q); }
 
-/// As written in limit files: "rms_current_5s".
+/// The key in limit files: "rms_current_5s".
 [[nodiscard]] std::string_view keyOf(Quantity quantity) noexcept;
-/// As read by people: "RMS current over 5 s".
+/// The title that people read: "RMS current over 5 s".
 [[nodiscard]] std::string_view titleOf(Quantity quantity) noexcept;
 /// "V", "mA", "uC", "mJ", "mA/cm2", "W/cm2": plain ASCII, as in files.
 [[nodiscard]] std::string_view unitOf(Quantity quantity) noexcept;
@@ -56,7 +56,7 @@ using QuantityValues = std::array<double, kQuantityCount>;
 /// Nothing for an unknown key.
 [[nodiscard]] std::optional<Quantity> quantityOf(std::string_view key) noexcept;
 
-/// Where a row is judged.
+/// The load on which a row is judged.
 enum class JudgedAt {
     LoadRange,  ///< worst case between load_min and load_max
     Ohm500,     ///< into 500 Ω, as the standards state their figures
@@ -87,7 +87,7 @@ struct LimitRow {
     [[nodiscard]] bool holdsAt(double hz) const noexcept {
         return (hz > aboveHz || aboveHz == 0) && (upToHz == 0 || hz <= upToHz);
     }
-    /// Whether `value` keeps the limit. NaN never does.
+    /// Whether `value` keeps the limit. NaN never keeps it.
     [[nodiscard]] bool keeps(double value) const noexcept { return strict ? value < max : value <= max; }
 };
 
@@ -114,23 +114,23 @@ struct LimitSet {
     std::vector<DisclosureRow> disclosures;
 };
 
-/// For people: the title of the set with this id, "the encoding profile" for the ceilings of "profile", the id itself
-/// where no set has it.
+/// The title that people read of the set with this id, "the encoding profile" for the ceilings of "profile", the id
+/// itself where no set has it.
 [[nodiscard]] std::string_view titleOf(std::span<const LimitSet> sets, std::string_view id) noexcept;
 
-/// The same in two words, and who else refuses: "the paper", "this program" for "gate". The id itself where there are
-/// none.
+/// The title in two words, also of others who refuse: "the paper", "this program" for "gate". The id itself where there
+/// is none.
 [[nodiscard]] std::string_view shortTitleOf(std::string_view id) noexcept;
 
-/// Reads one limit set. `name` stands in messages for the file's name.
-/// Errors: ParseError, one sentence naming file, row and what would be accepted. Never throws, whatever the text.
+/// Reads one limit set. `name` stands in messages for the file's name. Errors: ParseError, one sentence naming file,
+/// row and what would be accepted. Never throws, whatever the text.
 [[nodiscard]] Result<LimitSet> parseLimitSet(std::string_view json, std::string_view name);
 
 // One line of an exposure table: a quantity, its value, and the limit it is held against.
 //
 // Never allocates and is trivially copyable: the control loop fills these while delivering.
 
-/// A table holds no more. A setup with more limits is refused: one that no table shows would seem to be kept.
+/// The most rows of a table. A setup with more limits is refused: a limit that no table shows would seem to be kept.
 inline constexpr std::size_t kMaxExposureRows = 64;
 
 struct ExposureRow {
@@ -146,8 +146,8 @@ struct ExposureRow {
     bool evaluated = false;  ///< false: reads "not evaluated", and is never a pass (H9)
     bool within = false;     ///< evaluated and within the limit (true without a limit)
     FixedText<95> reason;    ///< why it was not evaluated, else empty
-    double measured = kNaN;  ///< in `unit`: what an instrument showed of what was set; NaN: none did
-    bool beyond = false;     ///< what was measured lies beyond what the source states of its accuracy
+    double measured = kNaN;  ///< in `unit`: what an instrument showed of what was set; NaN: no instrument did
+    bool beyond = false;     ///< the measured value lies beyond the source's stated accuracy
 };
 
 }  // namespace tacto

@@ -16,8 +16,8 @@ tl::expected<LockedFile, LockedFile::Refused> LockedFile::open(const std::filesy
                                                                ::mode_t mode) {
     int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode);
     const bool made = file >= 0;
-    // Without O_CREAT: in a folder for everybody the kernel refuses that for a file of another account. A link would
-    // lead to a file of another purpose, and a pipe would wait.
+    // Opened without O_CREAT: in a folder for everybody the kernel refuses that for another account's file. A link
+    // would lead to a file with another purpose, and a pipe would wait.
     if (!made && errno == EEXIST) file = ::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
     const auto refused = [&](Refusal why) {
         const int error = errno;
@@ -32,7 +32,7 @@ tl::expected<LockedFile, LockedFile::Refused> LockedFile::open(const std::filesy
     struct stat about {};
     if (::fstat(file, &about) != 0) return refused(Refusal::Failed);
     if (!S_ISREG(about.st_mode) || about.st_nlink != 1) return refused(Refusal::NotItsOwn);
-    if (made && ::fchmod(file, mode) != 0) return refused(Refusal::Failed);  // whatever the umask says
+    if (made && ::fchmod(file, mode) != 0) return refused(Refusal::Failed);  // sets the mode whatever the umask says
     // Allocated now: a full disk is found here and not in the middle of a run.
     if (const int error = ::posix_fallocate(file, 0, static_cast<::off_t>(size)); error != 0) {
         errno = error;
@@ -52,7 +52,7 @@ LockedFile::LockedFile(LockedFile&& other) noexcept
 
 LockedFile::~LockedFile() {
     if (content_ != nullptr) ::munmap(content_, size_);
-    if (file_ >= 0) ::close(file_);  // and with it the lock
+    if (file_ >= 0) ::close(file_);  // closing releases the lock, too
 }
 
 std::uint64_t checksumOf(const void* data, std::size_t size) noexcept {

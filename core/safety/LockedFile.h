@@ -1,5 +1,5 @@
-// LockedFile.h - a file of fixed size that one process at a time maps into memory, for what must outlive the process
-// however it ends.
+// LockedFile.h - a file of fixed size that one process at a time maps into memory, for data that must outlive the
+// process however it ends.
 //
 // Thread-safety: none; one owner. Writing into the mapping makes no system call.
 #pragma once
@@ -35,7 +35,7 @@ public:
     LockedFile& operator=(LockedFile&&) = delete;
 
     [[nodiscard]] void* content() const noexcept { return content_; }
-    [[nodiscard]] bool made() const noexcept { return made_; }    ///< by this open()
+    [[nodiscard]] bool made() const noexcept { return made_; }    ///< this open() made the file
     [[nodiscard]] bool whole() const noexcept { return whole_; }  ///< false: it was there, in another size
 
 private:

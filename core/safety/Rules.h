@@ -1,10 +1,9 @@
 // Rules.h - internal: every rule of the gate, the interlock, the heartbeat and the train's read-back by name, and how
 // tables of rules are evaluated.
 //
-// What may be refused stands in constexpr tables, in the order in which it is refused: a rule's name, what breaks it,
-// and what is said then. firstBroken() goes through a table; no other code asks whether a rule is in force. The
-// mutation test takes one rule at a time out of force and sees a test fail; in the product inForce() is the constant
-// true and leaves no trace.
+// The refusals stand in constexpr tables, in their order: a rule's name, what breaks it, and the sentence for it.
+// firstBroken() goes through a table; no other code asks whether a rule is in force. The mutation test takes one rule
+// at a time out of force and sees a test fail; in the product inForce() is the constant true and leaves no trace.
 //
 // A new rule gets a name of its own here; the tests do not build until it stands in their table
 // (tests/safety/CheckNames.h), and fail until there is a case that it alone refuses, or refuses in these words. A

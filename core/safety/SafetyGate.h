@@ -78,8 +78,8 @@ private:
     Instant expires_;
 };
 
-/// What is asked: a train already rounded to the device's step (see rounding in GateSetup.h), and the
-/// shortest onset-to-onset interval at which trains like it may follow.
+/// The request: a train already rounded to the device's step (see rounding in GateSetup.h), and the shortest
+/// onset-to-onset interval at which trains like it may follow.
 struct TrainRequest {
     PulseTrain train;
     Seconds interval{2};
@@ -116,7 +116,7 @@ public:
     /// because its past is not known. Never clamps.
     [[nodiscard]] Result<ApprovedTrain> approve(const TrainRequest& request);
 
-    /// One impedance check pulse, at the device's smallest check amplitude. Same checks as approve().
+    /// Approves one impedance check pulse, at the device's smallest check amplitude, with the same checks as approve().
     [[nodiscard]] Result<ApprovedTrain> approveCheck(Instant onset);
 
     /// Errors: InvalidArgument outside 0..1 or not finite, or longer than 1 s; LimitExceeded for a person at
@@ -129,8 +129,8 @@ public:
     /// The participant called `level` uncomfortable; nothing exceeds it afterwards, also after configure() for the same
     /// participant. Voids every approval. Errors: NotArmed outside person mode; InvalidArgument unless finite and ≥ 0.
     [[nodiscard]] Result<void> reportDiscomfort(Milliamps level);
-    /// The same of a person at a massager (see AcceptedLevels.h). Errors: NotArmed for anyone else;
-    /// InvalidArgument unless 0 to 1; of acceptIntensity() LimitExceeded for an intensity that was not permitted.
+    /// Accepts it for a person at a massager (see AcceptedLevels.h). Errors: NotArmed for anyone else; InvalidArgument
+    /// unless 0 to 1; LimitExceeded of acceptIntensity() for an intensity that was not permitted.
     [[nodiscard]] Result<void> acceptIntensity(double intensity);
     [[nodiscard]] Result<void> reportUncomfortable(double intensity);
     /// The highest intensity that a burst may have now; nothing but for a person at a massager.
@@ -153,7 +153,7 @@ public:
         return isCurrent(approved.epoch_, approved.expires_);
     }
 
-    /// Between which the amplitude of a train that is programmed to `programmed` comes out, as it is judged; V or mA.
+    /// The two amplitudes between which a train that is programmed to `programmed` comes out, as it is judged; V or mA.
     /// NaN before configure().
     struct Amplitudes {
         double least, most;

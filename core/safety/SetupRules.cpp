@@ -184,7 +184,7 @@ constexpr Rule<GateSetup> kSetupRules[] = {
 
 struct Personal {
     const GateSetup& setup;
-    const PersonSetup& person;  // an empty one when there is none
+    const PersonSetup& person;  // an empty one where there is none
 };
 
 constexpr Rule<Personal> kPersonRules[] = {
@@ -198,7 +198,7 @@ constexpr Rule<Personal> kPersonRules[] = {
      }},
 };
 
-/// What a person at electrodes needs.
+/// The needs of a person at electrodes.
 constexpr Rule<Personal> kElectrodeRules[] = {
     {PersonArea, [](auto& p) { return !p.setup.electrodeArea; },
      [](auto&) { return invalid("person mode needs the electrode area in cm2"); }},
@@ -240,7 +240,7 @@ constexpr Rule<Personal> kElectrodeRules[] = {
 
 bool isShare(double value) noexcept { return value > 0 && value <= 1; }
 
-/// What a person at a massager needs.
+/// The needs of a person at a massager.
 constexpr Rule<PersonVibration> kVibrationRules[] = {
     {PersonVibrationLimit, [](auto& v) { return !isShare(v.discomfortLimit); },
      [](auto& v) {

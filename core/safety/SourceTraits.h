@@ -12,7 +12,7 @@
 
 namespace tacto {
 
-/// How far what comes out may be from what is programmed, as the maker or the driver's document states it. Nothing: not
+/// How far the output may be from the programmed value, as the maker or the driver's document states it. Nothing: not
 /// stated, and ± 5 % is judged (kUnknownSpread).
 struct StatedAccuracy {
     std::optional<Spread> amplitude{};   ///< V or mA
@@ -29,7 +29,7 @@ inline constexpr Seconds kLongestWithoutDeadMan{2};
 
 struct SourceTraits {
     Drive drive = Drive::Voltage;        ///< Voltage or Current; never HighImpedance
-    GapState gap = GapState::HoldsZero;  ///< between phases, and after the pulse
+    GapState gap = GapState::HoldsZero;  ///< what it does between phases, and after the pulse
     double amplitudeStep = 0;            ///< V or mA by `drive`; 0 = continuous
     double amplitudeMax = 0;             ///< V or mA by `drive`
     Volts compliance{0};                 ///< largest voltage the output can reach
@@ -41,7 +41,7 @@ struct SourceTraits {
     Seconds deadMan{0};           ///< output stops by itself this long after the last keep-alive; 0 = none
     bool readsBack = true;        ///< status() reports open, short and impedance after each train
     Milliamps checkCurrent{0.5};  ///< amplitude of the impedance check on a current source
-    Volts checkVoltage{1};        ///< of the check pulse, on a voltage source
+    Volts checkVoltage{1};        ///< the check pulse's voltage, on a voltage source
     StatedAccuracy accuracy;
 };
 

@@ -13,8 +13,8 @@
 
 namespace tacto {
 
-/// The moment at which an operator asked for something. One that no counter made, or another counter, counts as
-/// stopped: an order whose mark was forgotten starts nothing.
+/// The moment at which an operator asked for something. A mark from no counter, or from another one, counts as stopped:
+/// an order with a forgotten mark starts nothing.
 class StopMark {
 public:
     StopMark() noexcept = default;

@@ -21,7 +21,7 @@ struct ReadTrain {
     Instant now;
     [[nodiscard]] bool late() const noexcept { return now - end > kStatusDeadline; }
     [[nodiscard]] bool early() const noexcept { return status.delivering || status.at < end; }
-    /// Without a stated uncertainty nothing excuses the reading.
+    /// Unless its uncertainty is stated, nothing excuses the reading.
     [[nodiscard]] double uncertainty() const noexcept { return status.imbalanceUncertainty.value_or(0); }
 };
 
@@ -38,7 +38,7 @@ struct FindingRule {
     int id;
     bool (*broken)(const ReadTrain&) noexcept;
     TrainFinding finding;
-    FixedText<159> reason;  // for net charge with its figures
+    FixedText<159> reason;  // where net charge is the reason, it has the figures
 };
 
 constexpr FixedText<159> kMissing = "no status from the stimulator within 50 ms after a train";

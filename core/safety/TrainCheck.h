@@ -16,19 +16,19 @@ enum class ElectrodeReading { NotMeasured, Ok, Open, Short };
 /// A stimulator's status in plain values, read after a train.
 struct TrainReadBack {
     Instant at{0};            ///< when the device was read
-    bool delivering = false;  ///< it says that a train is still in progress
+    bool delivering = false;  ///< the device says that a train is still in progress
     ElectrodeReading electrode = ElectrodeReading::NotMeasured;
     std::optional<double> imbalance;             ///< |net charge| / phase charge, tail included
-    std::optional<double> imbalanceUncertainty;  ///< its uncertainty, 95 %
+    std::optional<double> imbalanceUncertainty;  ///< the uncertainty of the imbalance, 95 %
 };
 
 enum class TrainFinding {
-    Pending,        ///< no status yet, and its 50 ms are not over
+    Pending,        ///< there is no status yet, and its 50 ms are not over
     Ok,             ///< the next train is released
     Open,           ///< output stops before the next train
     Short,          ///< output stops before the next train
     NetCharge,      ///< person mode: above 1 % of phase charge beyond its uncertainty: fault
-    StatusMissing,  ///< no status within 50 ms after the train: fault
+    StatusMissing,  ///< no status came within 50 ms after the train: fault
     StuckOn,        ///< still delivering 50 ms after the train's end: fault
     Garbage,        ///< values that no measurement gives (NaN, negative): fault
 };

@@ -22,11 +22,11 @@ using exposure::Run;
 using exposure::storedAt;
 using exposure::worstRun;
 
-/// How many whole periods any window touches at most; a billionth keeps 5 s / 0.5 s at 10.
+/// The most whole periods that any window touches; a billionth keeps 5 s / 0.5 s at 10.
 double periodsIn(double window_s, double period_s) noexcept { return std::ceil(window_s / period_s - 1e-9); }
 
-/// How much of a pulse's power into a resistor a stretch of time holds at most: the larger phase first, then the other
-/// as if there were no gap.
+/// The largest share of a pulse's power into a resistor that a stretch of time holds: the larger phase first, then the
+/// other as if there were no gap.
 double shareOfPulse(const PulseSegments& pulse, double seconds) noexcept {
     const DriveSegment *more = &pulse.items[0], *less = &pulse.items[pulse.count - 1];
     if (std::abs(less->start) > std::abs(more->start)) std::swap(more, less);
@@ -37,8 +37,8 @@ double shareOfPulse(const PulseSegments& pulse, double seconds) noexcept {
     return (first * std::min(seconds, more->duration_s) + second * after) / all;
 }
 
-/// How many pulses' worth any stretch of a train holds at most: `power` of what is a sum of squares, and of what is
-/// left over `charge`. A pulse that it cuts counts whole, but into a resistor by what may lie within.
+/// The most that any stretch of a train holds, counted in pulses: `power` for sums of squares, and `charge` for what is
+/// left over. A pulse that it cuts counts whole, but into a resistor only by the part that may lie within.
 struct PulsesIn {
     double power = 0, charge = 0;
     PulsesIn(const PulseSegments& pulse, double seconds, double period, bool resistor) noexcept
@@ -49,20 +49,20 @@ struct PulsesIn {
     }
 };
 
-/// What any `intervals` intervals hold.
+/// The sums over any `intervals` intervals.
 TrainSums trainsOf(const Run& run, double intervals) noexcept {
     return {intervals * run.whole.currentSquared_A2s + run.cutTrain.squares,
             intervals * run.whole.voltageSquared_V2s + run.cutTrain.volts, intervals * run.whole.netCharge_C,
             intervals * run.whole.dissipated_J + run.cutTrain.dissipated, run.whole.stored_J};
 }
 
-/// What so many pulses within a train hold.
+/// The sums over so many pulses within a train.
 TrainSums pulsesOf(const Run& run, const PulsesIn& count) noexcept {
     return {count.power * run.pulse.squares + run.cut.squares, count.power * run.pulse.volts + run.cut.volts,
             count.charge * run.netCharge, count.power * run.pulse.dissipated + run.cut.dissipated, run.whole.stored_J};
 }
 
-/// The same of trains that may find the load differently.
+/// The sums of trains that may find the load differently.
 TrainSums pulsesOfTrains(const Run& run, const PulsesIn& count) noexcept {
     TrainSums sums = pulsesOf(run, count);
     sums += {run.cutTrain.squares, run.cutTrain.volts, 0, run.cutTrain.dissipated, 0};

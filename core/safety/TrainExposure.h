@@ -23,7 +23,7 @@ struct TrainSums {
     double currentSquared_A2s = 0;
     double voltageSquared_V2s = 0;
     double netCharge_C = 0;  ///< Σ |net charge| of the pulses: no window holds more, wherever it begins
-    /// What the load turned into heat, and the most that its capacitor held meanwhile. A pulse takes part of the second
+    /// The heat that the load made, and the most that its capacitor held meanwhile. A pulse takes part of the second
     /// back, a window that ends before does not: none holds more than both.
     double dissipated_J = 0;
     double stored_J = 0;
@@ -32,7 +32,7 @@ struct TrainSums {
 };
 
 struct TrainExposure {
-    QuantityValues values{};  ///< each in unitOf() its quantity; densities are NaN without an area
+    QuantityValues values{};  ///< each in the unit unitOf() of its quantity; densities are NaN without an area
     TrainSums in1s;           ///< the most that one train puts into any second: all of it, unless it lasts longer
     TrainSums in5s;           ///< sums over the worst 5 s
     double residual_V = 0;    ///< largest |voltage| it leaves on the load's capacitor at its end
@@ -41,12 +41,12 @@ struct TrainExposure {
 
 /// Trains that differ in phase width, inter-phase gap and rate alone: what may come out of one that is programmed.
 struct TrainRange {
-    PulseTrain sparsest;  ///< all three at their least
-    PulseTrain densest;   ///< all three at their most
+    PulseTrain sparsest;  ///< all three at their smallest
+    PulseTrain densest;   ///< all three at their largest
 };
 
-/// Where a train finds the load: with up to this |voltage| on its capacitor, of either sign, from trains before it.
-/// The gate carries it from train to train; previews start from rest.
+/// The state in which a train finds the load: up to this |voltage| on its capacitor, of either sign, from trains before
+/// it. The gate carries it from train to train; previews start from rest.
 struct Carried {
     double voltage_V = 0;
 };
@@ -59,14 +59,14 @@ struct Carried {
 [[nodiscard]] TrainExposure exposureOf(const PulseTrain& train, Seconds interval, const Load& load,
                                        const SourceTraits& source, double area_cm2, Carried carried = {}) noexcept;
 
-/// The same of `trains`: of the densest one, but ∫i², ∫v² and heat are upper bounds for every train of the range.
+/// The exposure to the densest of `trains`, but ∫i², ∫v² and heat are upper bounds for every train of the range.
 [[nodiscard]] TrainExposure exposureOf(const TrainRange& trains, Seconds interval, const Load& load,
                                        const SourceTraits& source, double area_cm2, Carried carried = {}) noexcept;
 
 /// A of science.md section 4, V: the amplitude, or of a current I·|Z| of `load` at the end of the leading phase.
 [[nodiscard]] double commandVoltage(const PulseTrain& train, const Load& load, const SourceTraits& source) noexcept;
 
-/// |Z| of `load` at the end of the leading phase of the source's pulses, the same whatever `train`'s amplitude is.
+/// |Z| of `load` at the end of the leading phase of the source's pulses, the same for any amplitude of `train`.
 [[nodiscard]] Ohms impedanceOf(const Load& load, const PulseTrain& train, const SourceTraits& source) noexcept;
 
 /// The larger of both, quantity by quantity (NaN wins: it must not be hidden).
@@ -81,12 +81,12 @@ struct Carried {
 /// The windowed quantities from sums that fell into one window of windowOf(quantity) seconds; NaN for others.
 [[nodiscard]] double windowedValue(Quantity quantity, const TrainSums& inWindow, double area_cm2) noexcept;
 
-/// Every limit of the setup's sets and ceilings against this train, in the worst case over the load range and over what
-/// the stimulator may make of it (DeliveryBounds.h), without the meter; then the in-train
-/// RMS without a limit. What a report and a preview show. Density rows without an area read not evaluated.
+/// Judges every limit of the setup's sets and ceilings on this train, in the worst case over the load range and over
+/// what the stimulator may make of it (DeliveryBounds.h), without the meter; then the in-train RMS without a limit.
+/// Reports and previews show it. Density rows without an area read not evaluated.
 [[nodiscard]] std::vector<ExposureRow> exposureTable(const GateSetup& setup, const PulseTrain& train, Seconds interval);
 
-/// Whether the gate refuses a train for this row. One that is not evaluated refuses none, as in the gate.
+/// Whether the gate refuses a train for this row. A row that was not evaluated refuses none, as in the gate.
 [[nodiscard]] bool forbids(const ExposureRow& row) noexcept;
 /// The first row of a table that forbids; null where none does.
 [[nodiscard]] const ExposureRow* firstForbidding(std::span<const ExposureRow> rows) noexcept;

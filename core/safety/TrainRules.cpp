@@ -24,7 +24,7 @@ struct TrainForm {
     [[nodiscard]] double amplitude() const noexcept { return inOwnUnit(train.amplitude); }
 };
 
-/// On a multiple of `step` but for what decimal steps lose in binary.
+/// Whether the value is a multiple of `step`, apart from what decimal steps lose in binary.
 bool onGrid(double value, double step) noexcept {
     if (step == 0) return true;
     const double steps = value / step;

@@ -30,12 +30,12 @@ std::string_view textIn(const std::array<char, N>& from) noexcept {
 
 struct Head {
     std::uint64_t magic = kMagic;
-    std::uint64_t trainSize = 0;  // another build may hold other numbers
+    std::uint64_t trainSize = 0;  // another build may hold another number
     std::array<char, 48> boot{};
     std::int64_t quietUntil_ns = 0;  // since boot
     std::int64_t wall_s = 0;         // when it was opened
     std::int64_t process = 0;
-    std::uint64_t id = 0;  // this record's own, at random: what a claim names
+    std::uint64_t id = 0;  // a random number for this record: a claim names it
 };
 
 /// Times since boot.
@@ -48,7 +48,7 @@ struct Train {
     std::array<std::int64_t, 2> leftAt_ns{};
 };
 
-/// All bits 0, as a new file is.
+/// Whether all bits are 0, as in a new file.
 bool isEmpty(const Checked<Train>& train) {
     static const std::array<std::byte, sizeof train> kZeros{};
     const auto bytes = std::as_bytes(std::span(&train, 1));
@@ -130,7 +130,7 @@ UnitRecord::UnitRecord(LockedFile&& file, std::unique_ptr<UnitClaim> claim, cons
       clock_(clock),
       time_(time),
       quietUntil_(clock.now()) {
-    if (!file_.whole()) map_.head.sum = map_.fault.sum = 0;  // What is missing is not nothing
+    if (!file_.whole()) map_.head.sum = map_.fault.sum = 0;  // a missing record is not an empty one
     if (file_.made()) {
         map_.head.write({.trainSize = sizeof(Train)});
         map_.fault.write({});
@@ -183,14 +183,14 @@ void UnitRecord::takeOver() {
     copyText(head.boot, bootId);
     head.quietUntil_ns = !why.empty() ? (boot + kRest).count() : keep ? before.content.quietUntil_ns : 0;
     if (!why.empty() || !keep) {
-        // Until the new head stands, the record does not check.
+        // The record does not check until the new head is there.
         std::atomic_ref(map_.head.sum).store(0);
         for (auto& train : map_.trains) train = {};
         next_ = 1;
     }
     const bool faultElsewhere = claim_ && claim_->faulted();
     if (!map_.fault.sound() || (faultElsewhere && map_.fault.content.causes == 0)) {
-        // As a fault of the device: a reset asks it again, and arming begins with a check pulse.
+        // Counts as a fault of the device: a reset asks it again, and arming begins with a check pulse.
         Fault unknown{.causes = 1U << static_cast<unsigned>(FaultCause::DeviceFault), .wall_s = wall};
         copyText(unknown.reason,
                  map_.fault.sound()
@@ -212,7 +212,7 @@ ResidualVoltages UnitRecord::replay(ExposureMeter& meter) const noexcept {
     const Instant window = toInstant(ExposureMeter::kLongestWindow * kLongestStretch);
     ResidualVoltages left;
     if (next_ == 1) return left;
-    // In the order in which they were booked; what is overwritten is older than any window.
+    // Read in the order in which they were booked; whatever is overwritten is older than any window.
     const std::uint64_t oldest = next_ > kTrains ? next_ - kTrains : 1;
     for (std::uint64_t sequence = oldest; sequence < next_; ++sequence) {
         const Train& train = map_.trains[sequence % kTrains].content;

@@ -31,11 +31,11 @@
 
 namespace tacto {
 
-// Where the program keeps what outlives it about each unit (UnitRecord, UnitClaim).
+// The place where the program keeps what outlives it about each unit (UnitRecord, UnitClaim).
 
 struct UnitFolders {
     std::filesystem::path records;
-    std::filesystem::path claims;  ///< the same for everybody on this computer, and emptied when it starts
+    std::filesystem::path claims;  ///< one folder for everybody on this computer, emptied when it starts
 };
 
 /// The records in $XDG_DATA_HOME/tactoscope/units or ~/.local/share/tactoscope/units, the claims in /run/lock.
@@ -48,7 +48,7 @@ struct ResidualVoltage {
     double volts = 0;
     Instant at{0};
 };
-/// By what the source that left it does at rest, in the order of GapState.
+/// Sorted by what the source that left it does at rest, in the order of GapState.
 using ResidualVoltages = std::array<ResidualVoltage, 2>;
 
 struct UnitFault {
@@ -59,10 +59,10 @@ struct UnitFault {
 
 class UnitRecord {
 public:
-    /// How many trains it holds: as many as the meter.
+    /// How many trains the record holds: as many as the meter.
     static constexpr std::size_t kTrains = ExposureMeter::kCapacity;
-    /// How long a unit rests whose past is not known: the longest window after a train of 2 s that may have begun when
-    /// the process before ended.
+    /// How long a unit with an unknown past rests: the longest window after a train of 2 s that may have begun when the
+    /// process before ended.
     static constexpr Instant kRest = std::chrono::seconds(8);
     /// By the wall clock, a record from another start of the computer that is at least this old is long ago.
     static constexpr std::chrono::seconds kLongAgo{60};
@@ -76,10 +76,10 @@ public:
     UnitRecord(const UnitRecord&) = delete;
     UnitRecord& operator=(const UnitRecord&) = delete;
 
-    /// Until then, on the clock, nothing is approved, because what the unit delivered before is not known. In the past
-    /// where it is known.
+    /// Nothing is approved before this moment, on the clock, as it is not known what the unit delivered before. It lies
+    /// in the past where that is known.
     [[nodiscard]] Instant quietUntil() const noexcept { return quietUntil_; }
-    /// Why: one sentence; empty where the past is known.
+    /// The reason in one sentence; empty where the past is known.
     [[nodiscard]] std::string_view whyQuiet() const noexcept { return why_; }
 
     /// Books the trains of earlier processes that a window could still touch, with their times on the clock (before it
@@ -110,9 +110,8 @@ private:
     std::uint64_t next_ = 1;  // Sequence number of the next train
 };
 
-// Which record of a unit was the last one that a program drove it from, in a place that no account and no
-// environment chooses (H1): a unit with two records, of two accounts or two data folders, has a past that neither
-// knows.
+// Which record of a unit was the last from which a program drove it, in a place that no account and no environment
+// chooses (H1): a unit with two records, of two accounts or two data folders, has a past that neither knows.
 //
 // One small file per unit in a folder of the computer's that everybody may write to and that a start of the computer
 // empties. It is locked while the claim lives, so two accounts never drive one unit at once. Where it cannot be kept,

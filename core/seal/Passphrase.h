@@ -14,7 +14,7 @@
 
 namespace tacto {
 
-/// How dear a guess is. Only a caller in C++ chooses: no file and no option does.
+/// The cost of one guess. Only a caller in C++ chooses it: no file and no option does.
 class PassphraseCost {
 public:
     /// 256 MiB, three passes.

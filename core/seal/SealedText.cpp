@@ -36,7 +36,7 @@ Result<std::size_t> decrypt(const Secret& key, std::string_view boundTo, std::si
     return size;
 }
 
-/// The size of what comes out, padding included.
+/// The size of the output, padding included.
 Result<std::size_t> paddedSize(const Secret& key, std::size_t block, std::span<const std::byte> sealed) {
     if (key.size() != kKeyBytes) return invalid("a key has {} bytes, not 32", key.size());
     if (sealed.size() < kNonceBytes + kTagBytes + block || (sealed.size() - kNonceBytes - kTagBytes) % block != 0)
@@ -62,7 +62,7 @@ std::vector<std::byte> sealBytes(const Secret& key, std::string_view boundTo, st
     std::size_t paddedTo = 0;
     randombytes_buf(out.data(), kNonceBytes);
     if (key.size() != kKeyBytes || sodium_pad(&paddedTo, raw(text), size, block, padded) != 0 || paddedTo != padded)
-        std::abort();  // a key or block of ours that is none
+        std::abort();  // a key or block of ours that is not valid
     crypto_aead_xchacha20poly1305_ietf_encrypt(raw(text), nullptr, raw(text), padded, raw(boundTo), boundTo.size(),
                                                nullptr, raw(out.data()), raw(key.bytes().data()));
     return out;

@@ -19,7 +19,7 @@
 namespace tacto {
 
 inline constexpr std::size_t kKeyBytes = 32;
-/// What lengths are rounded up to (sodium_pad), so that "none" is not shorter than "rough-high".
+/// Lengths are rounded up to multiples of this (sodium_pad), so that "none" is not shorter than "rough-high".
 inline constexpr std::size_t kTextBlock = 256;
 inline constexpr std::size_t kChunkBlock = 4096;
 

@@ -47,7 +47,7 @@ private:
 /// The open file `descriptor` belongs to this account or to root, and no one else may read or change it. `what` it is
 /// stands in the sentence: "the key file". A terminal is not asked. Errors: NotFound, naming the mode or the owner.
 [[nodiscard]] Result<void> isOwnFile(int descriptor, const std::filesystem::path& file, std::string_view what);
-/// The same by name; a link counts as what it names.
+/// Checks the file by name; a link counts as what it names.
 [[nodiscard]] Result<void> isOwnFile(const std::filesystem::path& file, std::string_view what);
 /// The folder belongs to this account or to root, and no one else may put another file into it.
 [[nodiscard]] Result<void> isOwnFolder(const std::filesystem::path& folder, std::string_view what);

@@ -17,7 +17,7 @@ static_assert(std::endian::native == std::endian::little, "session files are lit
 
 namespace {
 
-/// A number of the line, which stands in an object of its own nowhere.
+/// A number in the line, without an object of its own.
 ValueKind<ChunkHead> lineKind(double StampLine::*number) {
     ValueKind<ChunkHead> kind;
     kind.info.accepted = "a number";

@@ -31,7 +31,7 @@ struct StampLine {
 /// The line that every stamp lies on to within kStampTolerance_s, or nothing. One finite stamp is a line.
 [[nodiscard]] std::optional<StampLine> lineThrough(std::span<const double> t_s) noexcept;
 
-/// What the log row of a chunk says about it.
+/// The head of a chunk in its log row.
 struct ChunkHead {
     int stream = 0;
     std::int64_t index = 0;         ///< 0, 1, ... within the stream

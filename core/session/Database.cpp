@@ -25,7 +25,7 @@ tl::unexpected<Error> failFrom(sqlite3* database, int code) {
     }
 }
 
-/// SQLite says of whatever keeps it from opening a file that it is unable to.
+/// SQLite says only that it is unable to open a file, whatever keeps it from doing so.
 Error whyNotOpened(sqlite3* database, int code, const std::string& target) {
     constexpr int kSuffix = 8;  // length of the suffix of the journal's name, as SQLite counts it
     const auto bytes = std::filesystem::absolute(target).native().size();
@@ -153,7 +153,7 @@ struct DatabaseFile::State {
     [[nodiscard]] sqlite3_file* file() noexcept { return reinterpret_cast<sqlite3_file*>(room.data()); }
 
     sqlite3_filename name;
-    std::vector<std::max_align_t> room;  // for a file of the layer, whose size it says
+    std::vector<std::max_align_t> room;  // room for one of the layer's files, whose size it says
 };
 
 Result<DatabaseFile> DatabaseFile::open(const std::filesystem::path& path) {

@@ -76,9 +76,9 @@ private:
 
 class DatabaseFile {
 public:
-    /// For reading; nothing is locked. Errors: Io.
+    /// Opens it for reading; nothing is locked. Errors: Io.
     [[nodiscard]] static Result<DatabaseFile> open(const std::filesystem::path& path);
-    /// In bytes. Errors: Io.
+    /// The size in bytes. Errors: Io.
     [[nodiscard]] Result<std::int64_t> size() const;
     /// Fills `bytes` from `at`. Errors: Io, also where the file ends before.
     [[nodiscard]] Result<void> read(std::int64_t at, std::span<std::byte> bytes) const;
@@ -100,7 +100,7 @@ private:
 
 struct WalFindings {
     std::uint64_t readableFrames = 0;
-    bool headerDamaged = false;     ///< there are frames, and what says how to read them is not valid
+    bool headerDamaged = false;     ///< there are frames, but the header that tells how to read them is not valid
     std::uint64_t lostCommits = 0;  ///< commits behind the first bad frame, without the unfinished last transaction
 };
 

@@ -25,7 +25,7 @@ public:
     /// Makes the file with `about` as row 1. Errors: InvalidArgument when it exists; Io.
     [[nodiscard]] static Result<Ledger> create(const std::filesystem::path& path, const SessionAbout& about,
                                                std::chrono::sys_seconds now);
-    /// Goes on after its last row. Errors: NotFound; ParseError for one that is damaged; Io.
+    /// Continues after its last row. Errors: NotFound; ParseError for one that is damaged; Io.
     [[nodiscard]] static Result<Ledger> open(const std::filesystem::path& path);
     Ledger(Ledger&&) noexcept;
     Ledger& operator=(Ledger&&) noexcept;

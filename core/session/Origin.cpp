@@ -110,7 +110,7 @@ nlohmann::json devicesJson(const std::vector<SessionDevice>& all) {
 
 namespace {
 
-/// What the session's benches wrote.
+/// The notes of the session's benches.
 struct Recorded {
     std::vector<std::string> flags;
     bool complete = false;

@@ -29,15 +29,15 @@ public:
     RowSeal(const RowSeal&) = delete;
     RowSeal& operator=(const RowSeal&) = delete;
 
-    /// The sealed text as printable characters without quotes or escapes: it stands in a JSON string. Twice the same
-    /// text gives two seals. Its length reveals that of `text` to a block only.
+    /// The sealed text as printable characters without quotes or escapes: it stands in a JSON string. The same text
+    /// sealed twice gives two seals. Its length reveals the length of `text` only to a block.
     [[nodiscard]] virtual std::string sealText(std::int64_t seq, std::string_view kind,
                                                std::string_view text) const = 0;
     /// Errors: ParseError for what this seal did not make for this row: altered, moved, or of another key.
     [[nodiscard]] virtual Result<std::string> openText(std::int64_t seq, std::string_view kind,
                                                        std::string_view sealed) const = 0;
 
-    /// The same for the bytes of a chunk or capture: `parts` one after the other.
+    /// Seals the bytes of a chunk or capture: `parts` one after the other.
     [[nodiscard]] virtual std::vector<std::byte> sealBytes(std::int64_t seq, std::string_view kind,
                                                            std::span<const std::span<const std::byte>> parts) const = 0;
     [[nodiscard]] virtual Result<std::vector<std::byte>> openBytes(std::int64_t seq, std::string_view kind,

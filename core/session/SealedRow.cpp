@@ -14,7 +14,7 @@ namespace {
 
 using Keys = std::span<const std::string_view>;
 
-/// What rows of a kind show; events of a name have rules of their own.
+/// The visible members in rows of a kind; events with a name have rules of their own.
 struct ShownOfKind {
     std::string_view kind;
     bool name;
@@ -50,7 +50,7 @@ constexpr ShownOfEvent kShownOfEvents[] = {
     {kCertificateEvent, {}, true},
     {kMarksEvent, {}, true},
     {kMarkEvent, {}, true},
-    // Their names say how far the session went; the bodies are sealed.
+    // Their names say how far the session has come; the bodies are sealed.
     {kOperatorMarkEvent, {}},
     {"device report", {}},
     {"keep-alive", {}},

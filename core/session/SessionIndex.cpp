@@ -64,7 +64,7 @@ std::string checkOf(std::string_view path, std::string_view stamp, std::string_v
 Result<Database> openTable(const fs::path& file) {
     auto database = Database::open(file.string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
     if (!database) return failure(database);
-    // Nothing is lost with it.
+    // Nothing is lost with this setting.
     if (auto set = database->execute("PRAGMA synchronous=OFF; PRAGMA journal_mode=MEMORY; PRAGMA busy_timeout=500;");
         !set)
         return failure(set);
@@ -128,7 +128,7 @@ void keep(Database& database, const std::string& path, const Stamp& stamp, const
     insert->bind(2, std::string_view(stamp.text));
     insert->bind(3, std::string_view(body));
     insert->bind(4, std::string_view(checked));
-    static_cast<void>(insert->run());  // it is read again next time
+    static_cast<void>(insert->run());  // the row is read again next time
 }
 
 ListedSession fromFile(const fs::path& path, const Stamp& stamp) {

@@ -35,11 +35,11 @@ struct SessionSummary {
 /// Read from the session itself. Errors: as SessionReader.
 [[nodiscard]] Result<SessionSummary> summarise(const std::filesystem::path& session);
 
-/// Whether another program has the session open, and so is recording it where it has no end mark.
+/// Whether another program has the session open, and so, if it has no end mark, is recording it.
 [[nodiscard]] bool openElsewhere(const std::filesystem::path& session);
 
 [[nodiscard]] std::string toJsonText(const SessionSummary& summary);
-/// Errors: ParseError for what is not a summary.
+/// Errors: ParseError for any other text.
 [[nodiscard]] Result<SessionSummary> summaryFrom(std::string_view json);
 
 struct ListedSession {
@@ -54,8 +54,8 @@ public:
     /// `file` need not be there; its folder is made when needed.
     explicit SessionIndex(std::filesystem::path file) : file_(std::move(file)) {}
 
-    /// The sessions in the order of `sessions`; those that are not there are left out. `going`, called after each one
-    /// that had to be read with how many are done, says whether to go on: what was read until then is kept.
+    /// The sessions in the order of `sessions`, without missing ones. `going` is called after each one that had to be
+    /// read, with how many are done, and says whether to continue: what was read until then is kept.
     [[nodiscard]] std::vector<ListedSession> list(const std::vector<std::filesystem::path>& sessions,
                                                   const std::function<bool(std::size_t done)>& going) const;
     /// Reads the session itself and corrects the index.

@@ -27,7 +27,7 @@ constexpr LabelField kLabelFields[] = {{"operator", &SessionLabels::operatorName
                                        {"sample", &SessionLabels::sample, kLabelLimit},
                                        {"note", &SessionLabels::note, kSessionNoteLimit}};
 
-/// What is different, as the body of a row; empty where nothing is.
+/// The differences, as the body of a row; empty where nothing differs.
 nlohmann::json changesFrom(const SessionLabels& before, const SessionLabels& now) {
     auto body = nlohmann::json::object();
     for (const auto& field : kLabelFields)
@@ -41,7 +41,7 @@ class FileLock {
 public:
     explicit FileLock(const std::filesystem::path& path) : handle_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
     ~FileLock() {
-        if (handle_ >= 0) ::close(handle_);  // and with it the lock
+        if (handle_ >= 0) ::close(handle_);  // closing releases the lock, too
     }
     FileLock(const FileLock&) = delete;
     FileLock& operator=(const FileLock&) = delete;
@@ -58,7 +58,7 @@ private:
     int handle_;
 };
 
-/// A copy beside the session that goes unless it has taken its place.
+/// A copy beside the session that is removed unless it has taken the session's place.
 class Copy {
 public:
     explicit Copy(const std::filesystem::path& of) : path_(draftBeside(of)) {}
@@ -152,7 +152,7 @@ Result<SessionLabels> saveLabels(const std::filesystem::path& session, const Ses
     if (auto checked = checkLabels(changed); !checked) return failure(checked);
     const auto name = session.filename().string();
     const FileLock lock(session);
-    const bool held = lock.take(session);  // before reading: what another program kept until here is read, and stays
+    const bool held = lock.take(session);  // held before reading: what another program kept so far is read, and stays
     const auto reader = SessionReader::open(session);
     if (!reader) return failure(reader);
     const auto before = reader->labels();

@@ -6,8 +6,7 @@
 //
 //   {"wall": "2026-11-20T14:03:05Z", "operator": "...", "sample": "...", "note": "...", "tags": ["...", ...]}
 //
-// Only what was changed is in it, and only what the person changed: a field that another program changed meanwhile
-// stays as that program left it.
+// It holds only what the person changed: a field that another program changed meanwhile stays as that program left it.
 //
 // Thread-safety: any thread, several programs: the second to change a session is refused while the first is at it.
 #pragma once
@@ -30,7 +29,7 @@ inline constexpr std::size_t kMaxTags = 20;
 /// holds a comma or stands twice; too many of them.
 [[nodiscard]] Result<void> checkLabels(const SessionLabels& labels);
 
-/// Whether `session`, which `reader` reads, takes changes. Errors: Unsupported for one that has no end mark (it is
+/// Whether `session`, which `reader` reads, takes changes. Errors: Unsupported for a session without an end mark (it is
 /// being recorded, or was interrupted); Io for a read-only one.
 [[nodiscard]] Result<void> takesLabels(const std::filesystem::path& session, const SessionReader& reader);
 

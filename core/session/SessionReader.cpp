@@ -33,7 +33,7 @@ std::string hexOf(std::span<const std::byte> bytes) {
 struct SessionReader::State {
     State(SessionSource opened, std::shared_ptr<const RowSeal> key) : source(std::move(opened)), seal(std::move(key)) {}
     SessionSource source;
-    std::shared_ptr<const RowSeal> seal;  // Null where there is none or it is not needed
+    std::shared_ptr<const RowSeal> seal;  // null where there is none or it is not needed
     std::filesystem::path path;
     SessionAbout about;
     std::string head;

@@ -49,16 +49,16 @@ public:
     /// Follows the chain over all rows. What samples hold is for verifySession(). Errors: ParseError naming the row
     /// that is missing or was altered; Io.
     [[nodiscard]] Result<void> checkChain() const;
-    /// When the recording's last row was written: how long the session is.
+    /// When the recording's last row was written, which tells how long the session is.
     [[nodiscard]] Instant lastAt() const noexcept;
-    /// As entered before it began, with what was changed since; the note reads "sealed" where they are. Errors: as the
-    /// lists.
+    /// The labels as entered before it began, with later changes; the note reads "sealed" where they are. Errors: as
+    /// the lists.
     [[nodiscard]] Result<SessionLabels> labels() const;
 
     // Each list is in the order written. Errors: ParseError naming the row; Io.
     [[nodiscard]] Result<std::vector<SessionRow>> events() const;
     [[nodiscard]] Result<std::vector<SessionRow>> commands() const;
-    /// The same row by row: hours of trains have more than memory should.
+    /// Calls it row by row: hours of trains take more memory than there should be.
     [[nodiscard]] Result<void> forEachCommand(const std::function<void(const SessionRow&)>& visit) const;
     [[nodiscard]] Result<std::vector<SessionRow>> measurements() const;
     [[nodiscard]] Result<std::vector<SessionRow>> log() const;

@@ -20,7 +20,7 @@ namespace tacto {
 
 namespace {
 
-/// How long the recorder sleeps when the ring is empty: 10 ms of ring filling at most.
+/// How long the recorder sleeps when the ring is empty: the ring fills for at most 10 ms.
 constexpr auto kPoll = std::chrono::milliseconds(10);
 constexpr auto kDrainTimeout = std::chrono::seconds(5);
 
@@ -92,7 +92,7 @@ struct SessionRecorder::State {
 
     SessionWriter& writer;
     const bool inlineWrites;
-    std::unique_ptr<SpscRing<Record>> ring;  // Only with a thread of its own
+    std::unique_ptr<SpscRing<Record>> ring;  // there only with a thread of its own
     std::atomic<bool> broken{false};
     static constexpr std::chrono::nanoseconds::rep kIdle = -1;
     std::atomic<std::chrono::nanoseconds::rep> writingSince{kIdle};
@@ -112,7 +112,7 @@ struct SessionRecorder::State {
     std::uint64_t drainsWanted = 0;
     std::uint64_t drainsDone = 0;
     bool ending = false;
-    std::thread thread;  // Not guarded: constructor and destructor only
+    std::thread thread;  // not guarded: only constructor and destructor touch it
 
     void keep(const Error& cause) {
         const std::lock_guard lock(mutex);
@@ -212,7 +212,7 @@ SessionRecorder::~SessionRecorder() {
 }
 
 void SessionRecorder::samples(int stream, std::size_t columns, const SampleBlock& block) noexcept {
-    if (state_->inlineWrites) {  // no need to cut it up
+    if (state_->inlineWrites) {  // there is no need to cut it up
         if (block.samples() > 0) state_->check(state_->writer.append(stream, block));
         return;
     }

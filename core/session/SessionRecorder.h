@@ -53,7 +53,7 @@ public:
 
     /// Adds samples to a stream of `columns` columns (an id from SessionWriter::addStream). `columns` ≤ kMaxColumns.
     void samples(int stream, std::size_t columns, const SampleBlock& block) noexcept;
-    /// One sample with its columns: a frame of the roughness chain, a line of telemetry.
+    /// Records one sample with its columns: a frame of the roughness chain, a line of telemetry.
     void frame(int stream, double t_s, std::span<const double> values) noexcept;
     /// `name` must live forever. Written with the samples.
     void command(Instant at, const char* name, std::initializer_list<RecordField> fields,
@@ -71,11 +71,11 @@ public:
 
     /// Waits until everything recorded before is committed. Errors: as SessionWriter::failed(); Timeout after 5 s.
     [[nodiscard]] Result<void> drain();
-    /// Why recording ended: the writer's first error. Never blocks; for the control loop.
+    /// Whether recording has ended by the writer's first error. Never blocks; for the control loop.
     [[nodiscard]] bool failed() const noexcept;
     [[nodiscard]] std::optional<Error> error() const;
-    /// For how long the writing has taken that goes on now: how long the disk has stood still. 0 between two writings
-    /// and where the caller itself writes. Never blocks; for the control loop.
+    /// How long the present writing has taken so far: how long the disk has stood still. 0 between two writings and
+    /// where the caller itself writes. Never blocks; for the control loop.
     [[nodiscard]] std::chrono::nanoseconds standsStillFor() const noexcept;
     /// Records lost to overflow so far.
     [[nodiscard]] std::uint64_t dropped() const noexcept;

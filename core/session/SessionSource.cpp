@@ -27,7 +27,7 @@ std::string uriOf(const std::filesystem::path& path, const char* query) {
     return uri + "?" + query;
 }
 
-/// Whether the first page says "SQLite, made by Tactoscope", for a file that SQLite itself will not open.
+/// Whether the first page says "SQLite, made by Tactoscope", in a file that SQLite itself will not open.
 bool looksLikeSession(const std::filesystem::path& path) {
     std::array<char, 72> head{};
     const auto file = DatabaseFile::open(path);
@@ -37,7 +37,7 @@ bool looksLikeSession(const std::filesystem::path& path) {
     return std::string_view(head.data(), 15) == "SQLite format 3" && id == kApplicationId;
 }
 
-/// What another program's writer changes when it moves rows from the journal into the file: the file, and the first
+/// The traces of another program's writer when it moves rows from the journal into the file: the file, and the first
 /// bytes of a journal that begins again.
 struct Written {
     std::filesystem::file_time_type at{};
@@ -51,7 +51,7 @@ Written writtenNow(const std::filesystem::path& path) {
     Written now;
     now.at = std::filesystem::last_write_time(path, ignored);
     now.size = std::filesystem::file_size(path, ignored);
-    std::ifstream journal(beside(path, "-wal"), std::ios::binary);  // no lock is on a journal
+    std::ifstream journal(beside(path, "-wal"), std::ios::binary);  // a journal is never locked
     journal.read(now.journal.data(), now.journal.size());
     return now;
 }

@@ -43,7 +43,7 @@ private:
     [[nodiscard]] static Result<SessionSource> openCopy(const std::filesystem::path& path);
     [[nodiscard]] static Result<SessionSource> openInPlace(const std::filesystem::path& path, const char* mode);
 
-    std::shared_ptr<PrivateFolder> copy_;  // Before database_: removed after it is closed
+    std::shared_ptr<PrivateFolder> copy_;  // stands before database_, so that it is removed after that is closed
     Database database_;
     bool hadJournal_ = false;
     bool sealed_ = false;

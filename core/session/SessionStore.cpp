@@ -84,7 +84,7 @@ Result<SessionStore> SessionStore::create(const std::filesystem::path& path, Ins
         store->seal_ = seal;
         if (auto row = store->add(kind::kAbout, at, "", about); !row) return failure(row);
         if (auto written = store->commit(); !written) return failure(written);
-        // Without it the rows would be in the draft's journal, which is not published.
+        // Without this the rows would be in the draft's journal, which is not published.
         if (auto whole = store->database_->execute("PRAGMA wal_checkpoint(TRUNCATE)"); !whole) return failure(whole);
         if (auto closed = store->close(); !closed) return failure(closed);
         if (auto published = publish(draft, path); !published) return failure(published);
@@ -201,7 +201,7 @@ Result<SessionStore::Row> SessionStore::put(std::string_view kind, Instant at, s
     }
     auto row = chain(kind, at, name, body, digest);
     if (auto written = write(row); !written) return failure(written);
-    row.name = row.body = {};  // they go with `outside`
+    row.name = row.body = {};  // they leave with `outside`
     return row;
 }
 

@@ -38,7 +38,7 @@ public:
     /// Opens a file that no writer holds, to add rows after its last one (Ledger.h). Errors: as annotate().
     [[nodiscard]] static Result<SessionStore> continued(const std::filesystem::path& path);
 
-    /// What commit() promises for rows that were not added by addNow(). PowerLoss unless set.
+    /// The durability that commit() promises for rows that were not added by addNow(). PowerLoss unless set.
     void setBackground(Durability durability) noexcept { background_ = durability; }
 
     /// Adds a row to the open transaction. The value is its seq.
@@ -60,8 +60,7 @@ public:
     [[nodiscard]] Result<void> collect();
     /// Commits, and moves everything from the journal into the file.
     [[nodiscard]] Result<void> close();
-    /// Closes after an error: what is not committed is dropped. A later row without the one that failed would be a
-    /// hole.
+    /// Closes after an error: uncommitted rows are dropped. A later row without the failed one would be a hole.
     void abandon() noexcept;
 
     [[nodiscard]] const Digest& head() const noexcept { return head_; }
@@ -87,8 +86,8 @@ private:
     struct QueuedChunk {
         ChunkHead head;
         SampleBlock block;
-        std::vector<std::byte> sealed;  // In place of the block, where rows are sealed
-        std::string body;               // What row.body looks at
+        std::vector<std::byte> sealed;  // the block as it is sealed, where rows are sealed
+        std::string body;               // the text that row.body refers to
         Row row;
     };
 
@@ -98,7 +97,7 @@ private:
     /// Gives a row its number and hash.
     [[nodiscard]] Row chain(std::string_view kind, Instant at, std::string_view name, std::string_view body,
                             const std::optional<Digest>& digest);
-    /// The same, sealed where rows are, and writes it.
+    /// Seals the row, where rows are sealed, and writes it.
     [[nodiscard]] Result<Row> put(std::string_view kind, Instant at, std::string_view name, std::string_view body,
                                   const std::optional<Digest>& digest = std::nullopt);
     [[nodiscard]] Result<void> write(const Row& row);
@@ -106,18 +105,18 @@ private:
     [[nodiscard]] Result<void> writeAll(const std::vector<QueuedChunk>& chunks);
     /// Makes sure that a transaction of at least this durability is open and holds all that was queued.
     [[nodiscard]] Result<void> begin(Durability durability);
-    /// The same without a look at the queue.
+    /// Opens without a look at the queue.
     [[nodiscard]] Result<void> open(Durability durability);
     /// Waits for a commit started before, and returns how it went.
     [[nodiscard]] Result<void> settle();
     void recycle(std::vector<QueuedChunk>& chunks);
 
-    std::optional<Database> database_;      // Nothing once closed
-    std::optional<Statements> statements_;  // After database_: destroyed before it
+    std::optional<Database> database_;      // nothing once it is closed
+    std::optional<Statements> statements_;  // stands after database_, so that it is destroyed before it
     std::shared_ptr<const RowSeal> seal_;   // Null: rows are stored as they are
     Digest head_{};
     std::int64_t seq_ = 0;
-    std::vector<QueuedChunk> queued_;   // In the chain, not yet written
+    std::vector<QueuedChunk> queued_;   // in the chain, but not yet written
     std::vector<QueuedChunk> written_;  // Being written by committing_
     std::vector<SampleBlock> spare_;    // Empty, with room: keeps a steady state from allocating
     bool inTransaction_ = false;

@@ -23,11 +23,11 @@ inline constexpr const char* kCalibrationMeasurement = "calibration to keep";
 /// at once when it first drives the output.
 inline constexpr const char* kMarksEvent = "marks";
 inline constexpr const char* kMarkEvent = "mark";
-/// What came out of a stimulator is not what was set; its text is a mark of the session.
+/// The stimulator's output differs from what was set; the text is a mark of the session.
 inline constexpr const char* kMeasuredBeyondEvent = "measured beyond";
 /// The operator marked this moment; the word is body["text"].
 inline constexpr const char* kOperatorMarkEvent = "operator mark";
-/// How the oscilloscope's calibration certificate stood when the session began, a sentence.
+/// The sentence on how the oscilloscope's calibration certificate stood when the session began.
 inline constexpr const char* kCertificateEvent = "oscilloscope certificate";
 
 /// One device of the session.
@@ -38,7 +38,7 @@ struct SessionDevice {
     std::string serial;
     std::string firmware;
     bool simulated = false;
-    std::string origin{};  ///< one of core/session/Origin.h; empty in sessions from before it was said
+    std::string origin{};  ///< one of core/session/Origin.h; empty in sessions older than it
     [[nodiscard]] bool is(Role wanted) const noexcept { return role == nameOf(wanted); }
     bool operator==(const SessionDevice&) const = default;
 };
@@ -50,7 +50,7 @@ struct SessionLimitSet {
     bool operator==(const SessionLimitSet&) const = default;
 };
 
-/// What was used and when it began: everything a report says before its first figure. Written once, first.
+/// The equipment and the beginning: everything a report says before its first figure. Written once, first.
 struct SessionAbout {
     std::string programVersion;
     std::string protocol;        ///< name, e.g. "separability"; empty for a session without a script
@@ -69,10 +69,10 @@ struct SessionAbout {
     bool virtualClock = false;  ///< filled in by the writer from its clock
 };
 
-/// What people say about a session: as entered before it began, and as changed after it ended (SessionLabels.h).
+/// People's words on a session: as entered before it began, and as changed after it ended (SessionLabels.h).
 struct SessionLabels {
     std::string operatorName;
-    std::string sample;  ///< what was measured, by the laboratory's own id
+    std::string sample;  ///< the measured sample, by the laboratory's own id
     std::string note;
     std::vector<std::string> tags;
     bool operator==(const SessionLabels&) const = default;
@@ -112,7 +112,7 @@ struct SessionTrial {
     Instant at{0};
     std::string condition;
     nlohmann::json measured;
-    bool sealed = false;  ///< as SessionRow's; the condition reads "sealed"
+    bool sealed = false;  ///< like SessionRow's; the condition reads "sealed"
 };
 
 struct SessionVerdict {
@@ -122,7 +122,7 @@ struct SessionVerdict {
     std::string verdict;  ///< "pass", "fail", "indeterminate", "stopped"; "none": found, and not judged
     std::vector<std::string> reasons;
     nlohmann::json results;
-    bool sealed = false;  ///< as SessionRow's; subject and verdict read "sealed"
+    bool sealed = false;  ///< like SessionRow's; subject and verdict read "sealed"
 };
 
 /// A capture without its samples; SessionReader::capture(seq) reads those.
@@ -134,7 +134,7 @@ struct SessionCaptureInfo {
     std::uint64_t samples = 0;
     std::vector<std::string> channels;
     bool simulated = false;
-    bool sealed = false;  ///< as SessionRow's; only seq, at and trial are known
+    bool sealed = false;  ///< like SessionRow's; only seq, at and trial are known
 };
 
 // SessionAbout and SessionStream as the JSON of their log rows.
@@ -142,7 +142,7 @@ struct SessionCaptureInfo {
 [[nodiscard]] nlohmann::json toJson(const SessionAbout& about);
 /// Missing fields stay empty.
 [[nodiscard]] SessionAbout aboutFrom(const nlohmann::json& json);
-/// What the same seed must reproduce of it: wall time, versions and paths left out.
+/// The part that the same seed must reproduce: wall time, versions and paths left out.
 [[nodiscard]] nlohmann::json reproducible(const SessionAbout& about);
 
 [[nodiscard]] nlohmann::json toJson(const SessionStream& stream);

@@ -20,7 +20,7 @@ namespace {
 /// Enough to see what happened; a broken first row would otherwise give a sentence for every row after it.
 constexpr std::size_t kMaxProblems = 40;
 
-/// No recording gets there; beyond it, counting on would overflow.
+/// No recording gets so far; beyond it, counting on would overflow.
 constexpr std::int64_t kLastSeq = std::int64_t{1} << 60;
 
 std::optional<Digest> digestFrom(std::span<const std::byte> bytes) {
@@ -129,7 +129,7 @@ private:
             const Digest hash = chainHash(previous, entry);
             if (stored != hash)
                 problem("row {} ({} {}) was altered: its hash is wrong", entry.seq, entry.kind, entry.name);
-            // Go on from what is stored, so that one altered row is one problem.
+            // Continue from what is stored, so that one altered row is one problem.
             previous = stored.value_or(hash);
             const auto body = parseJson(entry.body, fmt::format("row {} ({})", entry.seq, entry.kind), kRowLimits);
             if (!body) problem("{}", body.error().message);
@@ -241,7 +241,7 @@ private:
         return there;
     }
 
-    /// How many samples it holds is sealed too.
+    /// The number of samples that it holds is sealed, too.
     [[nodiscard]] Result<void> checkSealedChunk(const Entry& entry, const nlohmann::json& body, Statement& row) {
         const auto number = countOr(body, "stream");
         const auto index = static_cast<std::int64_t>(countOr(body, "index"));

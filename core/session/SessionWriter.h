@@ -1,4 +1,4 @@
-// SessionWriter.h - makes a session file (*.tacto): one append-only SQLite log whose rows hang on a hash chain.
+// SessionWriter.h - makes a session file (*.tacto): one append-only SQLite log with its rows on a hash chain.
 //
 // Promise (hazard H8): when event(), trial(), verdict() or reportItem() returned a value, that row survives kill -9
 // and power loss. Samples, commands, captures, measurements and log lines are committed at least once a second of the
@@ -47,7 +47,7 @@ public:
 
     /// Returns the id for append(). Errors: InvalidArgument without columns; Io.
     [[nodiscard]] Result<int> addStream(const SessionStream& stream);
-    /// The same for a sensor's stream; columns are "x","y","z" | "force" | "c1".."cn".
+    /// Adds a sensor's stream; columns are "x","y","z" | "force" | "c1".."cn".
     [[nodiscard]] Result<int> addStream(const StreamInfo& stream);
 
     /// Adds samples. Stamps and values are kept as given, NaN too; stamps on a straight line to within 1 ns are stored
@@ -57,9 +57,9 @@ public:
 
     /// What happened: "armed", "stop", "refused", "fault" ... Committed before it returns. The value is the row's seq.
     [[nodiscard]] Result<std::int64_t> event(Instant at, std::string_view kind, const nlohmann::json& details);
-    /// What was sent to a device. Committed with the samples.
+    /// Records what was sent to a device. Committed with the samples.
     [[nodiscard]] Result<std::int64_t> command(Instant at, std::string_view name, const nlohmann::json& details);
-    /// One trial and what was measured in it. Committed before it returns. The value is the trial's number, from 1.
+    /// Records one trial and its measurements. Committed before it returns. The value is the trial's number, from 1.
     [[nodiscard]] Result<int> trial(Instant at, std::string_view condition, const nlohmann::json& measured);
     /// An oscilloscope record, compressed without loss where that helps. Committed with the samples.
     /// Errors: InvalidArgument for channels of unequal length or a trial not yet written; Io.
@@ -84,10 +84,10 @@ public:
     /// Every later call that writes is an InvalidArgument; a second close() does nothing.
     [[nodiscard]] Result<void> close(std::string_view reason = "finished");
 
-    /// Why nothing more is recorded, once the disk refused; nothing while all is well.
+    /// Why nothing is recorded any longer, once the disk refused; nothing while all is well.
     [[nodiscard]] std::optional<Error> failed() const;
     /// The hash of the last row, 64 hexadecimal digits: printed in the report. Stays available after close(). Once
-    /// failed() it may be that of a row the disk refused.
+    /// failed() it may belong to a row the disk refused.
     [[nodiscard]] std::string chainHead() const;
     [[nodiscard]] const std::filesystem::path& path() const noexcept;
 

@@ -29,8 +29,8 @@ void addTable(std::vector<BidsFile>& files, const std::string& stem, const BidsT
     files.push_back({stem + ".json", textOf(about)});
 }
 
-/// How many participants and sessions there are of each kind. Who is enrolled and has had no session took no part;
-/// where none of them has had one, all are counted.
+/// How many participants and sessions there are of each kind. Those who are enrolled and had no session took no part;
+/// where nobody had one, all are counted.
 struct Basis {
     explicit Basis(const BidsStudy& study) {
         const auto tookPart = [](const BidsParticipant& each) { return !each.sessions.empty(); };
@@ -58,7 +58,7 @@ struct Basis {
     std::size_t waiting = 0;  ///< enrolled, and without a session
 };
 
-/// No name of what is simulated, wholly or in part, is one that a study of people could have.
+/// The title of something simulated, wholly or in part, is none that a study of people could have.
 std::string titleOf(const BidsStudy& study) {
     const Basis basis(study);
     if (basis.word().empty()) return study.rehearsal ? study.title + " (rehearsal)" : study.title;
@@ -127,7 +127,7 @@ BidsFile readme(const BidsStudy& study) {
     return {"README", text};
 }
 
-/// From 89 years on "89+", as BIDS recommends: few people are as old.
+/// From 89 years on it is "89+", as BIDS recommends: few people are as old.
 std::string sharedAge(const std::string& age) {
     constexpr double kOldestShared = 89;
     const auto years = parseNumber(age);

@@ -17,23 +17,23 @@
 
 namespace tacto {
 
-/// What is exported of a participant besides the group, only when it is asked for.
+/// The personal data exported besides the group, only when they are asked for.
 struct BidsWith {
     bool age = false, sex = false, handedness = false;
 };
-/// "age,sex,handedness", any of them. Errors: InvalidArgument naming what is not among them.
+/// "age,sex,handedness", any of them. Errors: InvalidArgument naming any other word.
 [[nodiscard]] Result<BidsWith> bidsWithFrom(std::string_view list);
 
 struct BidsFile {
-    std::string path;  ///< within the dataset, "sub-02/sub-02_sessions.tsv"
+    std::string path;  ///< the path within the dataset, "sub-02/sub-02_sessions.tsv"
     std::string text;
 };
 
 /// The label of the `enrolled`-th participant (from 1): "03". Errors: InvalidArgument for 0, of which or of places.
 [[nodiscard]] Result<std::string> bidsLabel(const BidsStudy& study, std::size_t enrolled);
 
-/// All files, in the order of their paths. `version` is the program's.
-/// Errors: InvalidArgument for a participant or a session that is numbered twice or 0.
+/// All files, in the order of their paths. `version` is the program's. Errors: InvalidArgument for a participant or a
+/// session whose number is 0 or comes twice.
 [[nodiscard]] Result<std::vector<BidsFile>> bidsFiles(const BidsStudy& study, const BidsWith& with,
                                                       std::string_view version);
 

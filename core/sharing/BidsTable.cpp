@@ -83,7 +83,7 @@ std::string shared(std::string_view response) {
     return response == kNotSureResponse ? "not_sure" : std::string(response);
 }
 
-/// Whether the answer was right; nothing without one, and where nothing was asked.
+/// Whether the answer was right; nothing without an answer, and where nothing was asked.
 std::optional<bool> isRight(const IdentificationTrial& trial) {
     if (trial.response.empty()) return std::nullopt;
     if (trial.condition == kCatchCondition) return trial.response == kNoneResponse;

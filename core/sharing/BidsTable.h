@@ -35,14 +35,14 @@ struct BidsColumn {
     std::string name;
     std::string description;
     std::string units{};                                        ///< SI, empty where it has none
-    std::vector<std::pair<std::string, std::string>> levels{};  ///< of a column of words, with their meaning
+    std::vector<std::pair<std::string, std::string>> levels{};  ///< for a column of words, each with its meaning
 };
 
 class BidsTable {
 public:
     explicit BidsTable(std::vector<BidsColumn> columns) : columns_(std::move(columns)) {}
 
-    /// As many cells as there are columns.
+    /// There must be as many cells as columns.
     void add(std::initializer_list<BidsCell> cells) { add(std::vector<BidsCell>(cells)); }
     void add(std::vector<BidsCell> cells);
     [[nodiscard]] bool isEmpty() const noexcept { return rows_.empty(); }
@@ -55,8 +55,8 @@ private:
     std::vector<std::vector<BidsCell>> rows_;
 };
 
-// The tables of one session: trials, thresholds, ratings, side effects. Those of a session with a massager have
-// strengths, and what its motor did, where others have currents, voltages and impedances.
+// The tables of one session: trials, thresholds, ratings, side effects. With a massager they have strengths, and what
+// its motor did, in place of currents, voltages and impedances.
 
 [[nodiscard]] BidsTable identificationTable(const BidsSession& session, bool massager);
 [[nodiscard]] BidsTable thresholdsTable(const BidsSession& session, bool massager);

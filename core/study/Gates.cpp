@@ -21,7 +21,7 @@ constexpr ExclusionItem kExclusionItems[] = {
 
 constexpr auto kClockTolerance = std::chrono::minutes(5);
 
-/// How a sentence names a participant: by code where it is known.
+/// A participant's name in a sentence: the code where it is known.
 std::string shownName(const Participant& participant) {
     return participant.code.empty() ? fmt::format("participant {}", participant.id) : participant.code;
 }

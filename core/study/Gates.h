@@ -34,17 +34,17 @@ struct ExclusionItem {
 };
 [[nodiscard]] std::span<const ExclusionItem> exclusionItems() noexcept;
 
-/// A ledger that is older than one that this computer knows was gone on with (StudyBook::goBack()).
+/// A resumption with a ledger older than one that this computer knows (StudyBook::goBack()).
 struct StudyGoingBack {
     std::chrono::sys_seconds at{};
-    std::chrono::sys_seconds newestAt{};  ///< of the newest row that was known; 1970 where that is not known
+    std::chrono::sys_seconds newestAt{};  ///< when the newest known row was written; 1970 where that is not known
     std::int64_t lost = 0;                ///< rows; 0: how many is not known
-    std::vector<std::string> rows;        ///< their names, as far as they are known
-    std::vector<std::string> files;       ///< of sessions that it does not know: given up
+    std::vector<std::string> rows;        ///< the names of the rows, as far as they are known
+    std::vector<std::string> files;       ///< files of sessions that it does not know: given up
     std::vector<std::string> unsealed;  ///< names of rows that were taken over and that the study's key had not written
 };
 
-/// What reports and readers of an export are told of it.
+/// The sentence about it for reports and readers of an export.
 [[nodiscard]] std::string goingBackText(const StudyGoingBack& back);
 
 /// An answer that the participant gave today.
@@ -52,20 +52,20 @@ struct ExclusionAnswer {
     std::string key;
     bool yes = false;
 };
-/// Every item answered no.
+/// Answers that exclude nothing: every item with no.
 [[nodiscard]] std::vector<ExclusionAnswer> nothingExcludes();
 
-/// Each item is answered, and with no. The sentence never says which answer was yes: that is sealed.
+/// Every item must be answered, and with no. The sentence never says which answer was yes: that is sealed.
 [[nodiscard]] Result<void> exclusionGate(std::span<const ExclusionAnswer> answers);
 
 /// The reference is there, `today` lies within the approval, and the settings and scripts are those approved.
 [[nodiscard]] Result<void> approvalGate(const StudySettings& settings, CalibrationDate today);
 /// `script` is one of those approved.
 [[nodiscard]] Result<void> scriptGate(const StudySettings& settings, const ScriptHash& script);
-/// What a session is run with, `procedure`, is what was approved. A rehearsal does not ask, nor does a study whose
-/// approval names no procedure.
+/// A session's `procedure` must be the approved one. A rehearsal does not ask, nor does a study whose approval names no
+/// procedure.
 [[nodiscard]] Result<void> procedureGate(const StudySettings& settings, const StudyProcedure& procedure);
-/// Active, and fewer sessions than the approval allows.
+/// Whether they are active, and had fewer sessions than the approval allows.
 [[nodiscard]] Result<void> participantGate(const StudySettings& settings, const Participant& participant);
 /// The last session lies far enough back; a rehearsal does not ask.
 [[nodiscard]] Result<void> gapGate(const StudySettings& settings, std::optional<std::chrono::sys_seconds> lastSession,
@@ -74,11 +74,11 @@ struct ExclusionAnswer {
 /// form's version was approved, with the initials of who took it.
 [[nodiscard]] Result<void> consentGate(const StudySettings& settings, const Participant& participant,
                                        CalibrationDate since, CalibrationDate today);
-/// What a ledger that went back has lost is not known, a session a moment ago among it: as long as two sessions lie
-/// apart none begins, nor on the same day. A rehearsal does not ask.
+/// A ledger that went back may have lost a session from a moment ago: as long as two sessions lie apart none begins,
+/// nor on the same day. A rehearsal does not ask.
 [[nodiscard]] Result<void> wentBackGate(const StudySettings& settings, std::span<const StudyGoingBack> all,
                                         std::chrono::sys_seconds now);
-/// The clock is not more than 5 min behind the last of what was noted, which is `of`.
+/// The clock is not more than 5 min behind the last noted moment, which `of` names.
 [[nodiscard]] Result<void> clockGate(std::chrono::sys_seconds last, std::chrono::sys_seconds now,
                                      std::string_view of = "the ledger's last row");
 /// A virtual participant, and a rehearsal with electrodes, on simulated devices only; a person on a simulated one in a

@@ -54,7 +54,7 @@ Result<std::optional<LedgerEnd>> notedLedgerEnd(const fs::path& file) {
 std::optional<LedgerEnd> ledgerEndOf(const fs::path& session) {
     const auto reader = SessionReader::open(session);
     const auto events = reader ? reader->events() : Result<std::vector<SessionRow>>(failure(reader));
-    if (!events) return std::nullopt;  // what cannot be read is found elsewhere
+    if (!events) return std::nullopt;  // an unreadable file is found elsewhere
     for (const auto& row : *events)
         if (row.name == kLedgerEvent) return endIn(row.body);
     return std::nullopt;

@@ -72,7 +72,7 @@ public:
     [[nodiscard]] Result<void> take(const SessionRow& row) {
         state.last = std::max(state.last, std::chrono::sys_seconds(wholeSeconds(row.at)));
         state.rows.push_back(row.name);
-        // What counts from its row on counts from `last`: a clock that was set back dates nothing back.
+        // Rows that count from their own time on count from `last`: a clock that was set back dates nothing back.
         if (row.name == ledger::kStudy || row.name == ledger::kAmendment) {
             settings(row);
             return {};
@@ -120,7 +120,7 @@ private:
     static std::chrono::seconds wholeSeconds(Instant at) noexcept {
         return std::chrono::floor<std::chrono::seconds>(at);
     }
-    /// What names a file: hexadecimal digits, and no path.
+    /// Whether it can name a file: hexadecimal digits, and no path.
     static bool isId(std::string_view text) noexcept { return isHex(text, 16); }
     static tl::unexpected<Error> unfit(const SessionRow& row, std::string_view what) {
         return fail(ErrorCode::ParseError, "row {} ({}) of the ledger is about {}", row.seq, row.name, what);
@@ -148,8 +148,8 @@ private:
         state.settings = std::move(now);
     }
 
-    /// A consent to a version of the form counts from the first day on which that version was in force: the first one's
-    /// from the approval's, a later one's from that of the amendment, or of the approval where that changed with it.
+    /// A consent to a version of the form counts from the first day on which that version was in force: for the first
+    /// version the approval's day, for a later one the amendment's, or the approval's where that changed with it.
     void formInForce(const SessionRow& row, const nlohmann::json& now) {
         const auto fromOf = [](const nlohmann::json& settings) {
             return textOr(valueOr(settings, "approval"), "from");
@@ -213,7 +213,7 @@ private:
         return {};
     }
 
-    /// What the key may still open, until it is destroyed, is shown no more.
+    /// What the key may still open, until it is destroyed, is no longer shown.
     void withdrawn(Participant& participant, bool isVirtual) {
         Participant left;
         left.virtualGone = isVirtual;
@@ -330,7 +330,7 @@ Result<nlohmann::json> openedInLedger(const std::string& study, const Secret& ke
 
 std::string macInLedger(const std::string& study, const Secret& key, std::int64_t seq, std::chrono::sys_seconds at,
                         std::string_view name, const nlohmann::json& body, std::string_view before) {
-    constexpr std::uint64_t kMacs = 2;  // of the key's subkeys; 1 is that of labels
+    constexpr std::uint64_t kMacs = 2;  // which of the key's subkeys; number 1 is for labels
     return macText(subkey(key, kMacs), fmt::format("{}\n{}\n{}\n{}\n{}\n{}", study, seq, at.time_since_epoch().count(),
                                                    name, before, dumpJson(body)));
 }

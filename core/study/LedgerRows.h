@@ -13,7 +13,7 @@
 //   adverse-event, exported   {session, sealed under the study's key}
 //
 // Each row has a "mac" over itself and the hash of the row before it, under a subkey of the study's: it vouches for all
-// rows up to it. Rows of before that have none, and rows that were appended without the key.
+// rows up to it. Older rows have none, and neither have rows that were appended without the key.
 //
 // Thread-safety: values.
 #pragma once
@@ -49,25 +49,25 @@ inline constexpr const char* kWentBack = "went-back";
 }  // namespace ledger
 
 struct LedgerState {
-    std::string settingsSha256;              ///< of study.json, as last written
-    nlohmann::json settings;                 ///< the same, as JSON
-    std::vector<std::string> references;     ///< of the approval and of each amendment
+    std::string settingsSha256;              ///< hash of study.json, as last written
+    nlohmann::json settings;                 ///< study.json as JSON
+    std::vector<std::string> references;     ///< the approval's reference, and that of each amendment
     int firstPlaces = 0;                     ///< participants that the first approval allowed
     std::vector<StudyAmendment> amendments;  ///< in order
-    std::size_t adverseEventRows = 0;        ///< also without the key
+    std::size_t adverseEventRows = 0;        ///< counted also without the key
     std::vector<Participant> participants;
     std::map<std::string, std::string> promised;  ///< participant to the data_on_request that they consented to last
     std::map<std::string, std::chrono::sys_seconds> excluded;         ///< participant to their last yes
     std::vector<StudySession> sessions;                               ///< without `answered`
-    std::map<std::string, std::string> heads;                         ///< of ended files: file to chain head
-    std::vector<std::pair<std::string, AdverseEvent>> adverseEvents;  ///< with the key only
+    std::map<std::string, std::string> heads;                         ///< chain head of each file that has ended
+    std::vector<std::pair<std::string, AdverseEvent>> adverseEvents;  ///< known with the key only
     std::map<std::string, NextDay> nextDays;           ///< session to what was said last; with the key only
-    std::vector<StudyExport> exports;                  ///< with the key only
+    std::vector<StudyExport> exports;                  ///< known with the key only
     std::map<std::string, CalibrationDate> formSince;  ///< version of the consent form to the first day that it counts
     std::vector<StudyGoingBack> wentBack;              ///< in order
     std::vector<std::string> rows;                     ///< the name of each, from row 2 on
     std::int64_t vouched = 0;                          ///< the last row with a "mac"; 0: none, or without the key
-    std::chrono::sys_seconds last{};                   ///< of the newest row
+    std::chrono::sys_seconds last{};                   ///< when the newest row was written
     std::string head;
 
     [[nodiscard]] Participant* participant(std::string_view id) noexcept;
@@ -86,12 +86,12 @@ struct LedgerState {
                                       std::chrono::sys_seconds at, std::string_view name, const nlohmann::json& body,
                                       std::string_view before);
 
-/// What a participant's row in the ledger seals.
+/// The sealed part of a participant's row in the ledger.
 [[nodiscard]] nlohmann::json toJson(const Participant& participant);
 [[nodiscard]] nlohmann::json toJson(const Consent& consent);
 [[nodiscard]] nlohmann::json toJson(const AdverseEvent& event);
 
-/// What a row could not be read back with is not written. Errors: InvalidArgument naming the field, its value and what
+/// Refuses values with which a row could not be read back. Errors: InvalidArgument naming the field, its value and what
 /// is accepted.
 [[nodiscard]] Result<void> checkForLedger(const Participant& participant);
 [[nodiscard]] Result<void> checkForLedger(const Consent& consent);

@@ -14,7 +14,7 @@ namespace tacto {
 namespace {
 
 constexpr std::string_view kCodeAlphabet = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZ";
-/// Without those that are taken for one another when written by hand.
+/// Leaves out characters that are mistaken for one another when written by hand.
 constexpr std::string_view kDrawn = "23456789ABCDEFGHJKLMNPQRSTUVWXYZ";
 constexpr std::size_t kShortestCode = 3;
 constexpr std::size_t kLongestCode = 16;

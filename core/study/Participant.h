@@ -34,7 +34,7 @@ struct Consent {
     bool operator==(const Consent&) const = default;
 };
 
-/// As BIDS names them.
+/// The words of BIDS.
 inline constexpr std::string_view kSexes[] = {"female", "male", "other"};
 inline constexpr std::string_view kHandednesses[] = {"right", "left", "ambidextrous"};
 
@@ -43,7 +43,7 @@ struct Participant {
     std::string code;  ///< "P-7K3D"; empty without the study's key, and once withdrawn
     ParticipantGroup group = ParticipantGroup::Intact;
     std::optional<std::uint64_t> virtualSeed;  ///< a virtual participant's
-    std::string age, sex, handedness;          ///< only where the approval asks for them, whole years; else empty
+    std::string age, sex, handedness;          ///< only where the approval asks for them, in whole years; else empty
     std::vector<Consent> consents;
     ParticipantState state = ParticipantState::Active;
     int sessions = 0;          ///< begun
@@ -54,7 +54,7 @@ struct Participant {
     [[nodiscard]] bool isVirtual() const noexcept { return virtualSeed.has_value() || virtualGone; }
 };
 
-/// What names a virtual participant before a code does: "virtual:SEED".
+/// The beginning of a virtual participant's name before there is a code: "virtual:SEED".
 inline constexpr std::string_view kVirtualPrefix = "virtual:";
 [[nodiscard]] std::string virtualName(std::uint64_t seed);
 
@@ -70,8 +70,8 @@ inline constexpr std::string_view kVirtualPrefix = "virtual:";
 /// The check character of letters and digits (upper case). Nothing for another character.
 [[nodiscard]] std::optional<char> checkCharacter(std::string_view lettersAndDigits) noexcept;
 
-// On whom and on what the figures of a session rest. It is noted when the session begins, and every count, figure, name
-// and sentence made of the session says it; what rests on one is never counted with another.
+// The people and devices on which the figures of a session rest. It is noted when the session begins, and every count,
+// figure, name and sentence made of the session says it; figures of one kind are never counted with another's.
 
 enum class SessionBasis {
     Person,           ///< a person answered what real devices gave
@@ -94,7 +94,7 @@ inline constexpr Word<SessionBasis> kSessionBases[] = {{"person", SessionBasis::
 /// "3 people and 12 virtual participants"; "0 people" where there are none.
 [[nodiscard]] std::string countsText(const std::map<SessionBasis, std::size_t>& counts);
 
-/// What the results of a pilot protocol rest on: their member `participant` says it.
+/// The basis of a pilot protocol's results: their member `participant` tells it.
 [[nodiscard]] SessionBasis basisIn(const nlohmann::json& results);
 
 }  // namespace tacto

@@ -140,7 +140,7 @@ Result<Participant> Study::enrol(Participant participant) {
         return fail(ErrorCode::Unsupported, "{} is enrolled already; another seed is expected",
                     virtualName(*participant.virtualSeed));
     }
-    const auto taken = [&](const std::string& code) {  // with or without its hyphens
+    const auto taken = [&](const std::string& code) {  // compared with and without its hyphens
         return std::ranges::any_of(state_->known.participants, [&](const Participant& each) {
             return lettersAndDigits(each.code) == lettersAndDigits(code);
         });
@@ -158,7 +158,7 @@ Result<Participant> Study::enrol(Participant participant) {
     if (auto sound = checkAbout(participant); !sound) return failure(sound);
     if (auto fits = checkForLedger(participant); !fits) return failure(fits);
     participant.id = randomHex(kIdDigits);
-    // The key first: a row whose key was lost would never open.
+    // The key comes first: a row whose key was lost would never open.
     if (auto added = state_->keys->add(participant.id, participant.code); !added) return failure(added);
     const auto number = static_cast<int>(state_->known.participants.size()) + 1;
     auto noted = state_->appendOf(participant, ledger::kEnrolled, {{"number", number}}, toJson(participant));
@@ -204,7 +204,7 @@ Result<void> Study::withdraw(std::string_view code) {
     if (auto may = state_->changeable(); !may) return may;
     const auto participant = state_->find(code);
     if (!participant) return failure(participant);
-    // What the form said that they consented to holds, whatever was amended since.
+    // The form on which they consented holds, whatever was amended since.
     const auto promised = state_->known.promised.find(participant->id);
     const bool mayDestroy =
         promised != state_->known.promised.end() && promised->second == nameOf(DataOnRequest::Destroy);

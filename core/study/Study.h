@@ -46,14 +46,14 @@ inline constexpr Word<StudySessionState> kStudySessionStates[] = {{"unfinished",
     return wordFor(Words<StudySessionState>(kStudySessionStates), state);
 }
 
-/// One file of a session. A session that crashed goes on in a new one.
+/// One file of a session. A crashed session continues in a new one.
 struct StudyPart {
     std::string file;  ///< 16 hexadecimal digits: sessions/FILE.tacto
     std::chrono::sys_seconds begun{};
 };
 
 struct StudySession {
-    std::string id;           ///< 16 hexadecimal digits; that of its first part
+    std::string id;           ///< 16 hexadecimal digits; the first part's id
     std::string participant;  ///< Participant::id
     std::string code;         ///< empty without the key
     int number = 0;           ///< 1, 2, ... of this participant
@@ -62,13 +62,13 @@ struct StudySession {
     StudySessionState state = StudySessionState::Unfinished;
     SessionBasis basis = SessionBasis::Person;
     bool opened = true;            ///< false where the program noted that its bench could not be opened
-    std::vector<StudyPart> parts;  ///< in the order begun, at least one
+    std::vector<StudyPart> parts;  ///< its parts in the order in which they began, at least one
     int answered = 0;              ///< rows "answer" in its files
 };
 
-/// What going on with a ledger that is not the newest known gives up.
+/// The loss when a study continues with a ledger that is not the newest known.
 struct LedgerLoss {
-    std::int64_t row = 0;             ///< this ledger's last ...
+    std::int64_t row = 0;             ///< the last row of this ledger ...
     std::chrono::sys_seconds ends{};  ///< ... and when it was written
     std::int64_t newest = 0;          ///< the last that is known; 0: how far it went is not known
     std::string newestHead;
@@ -76,34 +76,34 @@ struct LedgerLoss {
     std::vector<std::string> rows;        ///< names of those that are lost, as far as they are known
     std::vector<std::string> enrolled;    ///< codes that the key file has and this ledger does not
     int keysGone = 0;                     ///< participants of this ledger whose key is not in the key file
-    std::vector<std::string> files;       ///< of sessions that this ledger does not know
+    std::vector<std::string> files;       ///< files of sessions that this ledger does not know
     std::vector<std::string> unsealed;    ///< names of rows of this ledger that were not written with the study's key
     int withdrawn = 0;                    ///< participants who withdrew by this ledger, and have a key yet
 
     /// Rows that are lost; 0: how many is not known.
     [[nodiscard]] std::int64_t lost() const noexcept;
-    /// What goBack() is confirmed with: "lose-4-rows"; "take-2-rows" where nothing is lost and rows are taken over.
+    /// The word that confirms goBack(): "lose-4-rows"; "take-2-rows" where nothing is lost and rows are taken over.
     [[nodiscard]] std::string word() const;
     /// All of it in words, for people.
     [[nodiscard]] std::string sentence() const;
 };
 
-/// What a session is begun with.
+/// The request with which a session begins.
 struct SessionRequest {
-    std::string code;  ///< or "virtual:SEED" of a participant who is enrolled
+    std::string code;  ///< the code, or "virtual:SEED" for a virtual participant who is enrolled
     ScriptHash script;
-    StudyProcedure procedure{};  ///< of the profile and protocol that it is run with
+    StudyProcedure procedure{};  ///< the profile and protocol that it is run with
     std::string encoding;
     bool codeConfirmed = false;  ///< the participant read the code on their own screen and said that it is theirs
     bool devicesSimulated = false;
-    bool personAnswers = false;  ///< in a rehearsal: for a virtual participant
+    bool personAnswers = false;  ///< in a rehearsal, a person answers for a virtual participant
     std::vector<ExclusionAnswer> exclusions;
 };
 
 /// A session, or a part of one, that was just begun. The file does not exist yet: the caller makes it with
 /// SessionWriter::create(path, about, clock, seal).
 struct BegunSession {
-    StudySession session;  ///< with the new part as its last
+    StudySession session;  ///< the session, with the new part as its last
     std::filesystem::path path;
     std::shared_ptr<const RowSeal> seal;
     std::int64_t ledgerRow = 0;  ///< where the ledger ends now: the file's first event says it (LedgerEnd.h)
@@ -130,13 +130,13 @@ struct AdverseEvent {
 struct StudyExport {
     std::chrono::sys_seconds at{};
     std::string what;   ///< "bids"; "study report", "participant report"
-    std::string place;  ///< where they were written
+    std::string place;  ///< the place where they were written
 };
 
 class Study {
 public:
     enum class Access { Change, Read };
-    /// What tests replace.
+    /// The parts that tests replace.
     struct Surroundings {
         const SystemTime* time = &SystemTime::real();
         std::filesystem::path keyFolder = defaultKeyFolder();
@@ -180,20 +180,20 @@ public:
     [[nodiscard]] bool hasKey() const noexcept;
     /// 64 hexadecimal digits.
     [[nodiscard]] std::string ledgerHead() const;
-    /// On whom and what the figures of such a session would rest.
+    /// The basis on which the figures of such a session would rest.
     [[nodiscard]] static SessionBasis basisOf(const SessionRequest& request, const Participant& who) noexcept;
-    /// On whom and what those of this participant rest: all their sessions, or the one that they would begin.
+    /// The basis of this participant's figures: of all their sessions, or of the one that they would begin.
     [[nodiscard]] SessionBasis basisOf(const Participant& who) const;
     /// Today in UTC, by the clock of the ledger's rows.
     [[nodiscard]] CalibrationDate today() const;
     /// The record and approval gates, now: before each block, and for what the window shows.
     [[nodiscard]] Result<void> stillApproved() const;
 
-    /// In the order of enrolment, withdrawn ones among them.
+    /// All participants in the order of enrolment, withdrawn ones included.
     [[nodiscard]] std::vector<Participant> participants() const;
-    /// By code or "virtual:SEED". Errors: NotFound, also for a wrong check character.
+    /// Finds by code or "virtual:SEED". Errors: NotFound, also for a wrong check character.
     [[nodiscard]] Result<Participant> find(std::string_view code) const;
-    /// In the order begun. Reads the sessions' files for `answered`.
+    /// The sessions in the order in which they began. Reads the sessions' files for `answered`.
     [[nodiscard]] std::vector<StudySession> sessions() const;
     /// Errors: NotFound.
     [[nodiscard]] Result<StudySession> session(std::string_view id) const;
@@ -205,7 +205,7 @@ public:
     /// taken, and as checkAbout().
     [[nodiscard]] Result<Participant> enrol(Participant participant);
     [[nodiscard]] Result<void> consent(std::string_view code, const Consent& consent);
-    /// The participant takes part no more; the data stay.
+    /// The participant takes part no longer; the data stay.
     [[nodiscard]] Result<void> leave(std::string_view code);
     /// Destroys the participant's key: nothing of theirs opens any more. Errors: kGateRefused where the study keeps
     /// data (data_on_request), and did when they consented last.
@@ -213,52 +213,52 @@ public:
     /// Changes settings under a committee's amendment. Errors: InvalidArgument without a reference of its own, for one
     /// that an earlier amendment had, and for fewer participants than are enrolled.
     [[nodiscard]] Result<void> amend(StudySettings settings, std::string_view reference);
-    /// In their order; also without the key.
+    /// The amendments in their order; known also without the key.
     [[nodiscard]] const std::vector<StudyAmendment>& amendments() const noexcept;
     /// The consent gate, today. Errors: kGateRefused.
     [[nodiscard]] Result<void> consented(const Participant& participant) const;
 
-    /// What goBack() would give up. Errors: kGateRefused where the ledger is the newest known.
+    /// The loss that goBack() would cause. Errors: kGateRefused where the ledger is the newest known.
     [[nodiscard]] Result<LedgerLoss> lossOfGoingBack() const;
-    /// Goes on with this ledger and gives up the newer one, which takes no change any more; that is a row of it for
-    /// ever. Errors: InvalidArgument for another word than that of the loss; as lossOfGoingBack().
+    /// Continues with this ledger and gives up the newer one, which takes no change any longer; a row of it says so for
+    /// ever. Errors: InvalidArgument for any word but the one that names the loss; as lossOfGoingBack().
     [[nodiscard]] Result<void> goBack(std::string_view word);
-    /// In their order; also without the key.
+    /// The goings-back in their order; known also without the key.
     [[nodiscard]] const std::vector<StudyGoingBack>& goingsBack() const noexcept;
 
-    /// What was answered with yes, sealed for the participant; with it their day is over, whatever is answered later.
-    /// Nothing where every answer is no, and for a virtual participant.
+    /// The items answered with yes, sealed for the participant; with them their day is over, whatever is answered
+    /// later. Nothing where every answer is no, and for a virtual participant.
     [[nodiscard]] Result<void> noteExclusions(const SessionRequest& request);
-    /// Whether every gate would let a session begin, were none unfinished. Nothing is changed.
+    /// Whether every gate would let a session begin, were none unfinished. Changes nothing.
     [[nodiscard]] Result<void> mayBegin(const SessionRequest& request) const;
     /// Asks every gate, then books the session. Nothing is made when one refuses.
     [[nodiscard]] Result<BegunSession> beginSession(const SessionRequest& request);
-    /// A new part of an unfinished session; the same gates, but for the gap. Errors: NotFound; kGateRefused for one
-    /// that ended.
+    /// A new part of an unfinished session, with the same gates except for the gap. Errors: NotFound; kGateRefused for
+    /// a session that has ended.
     [[nodiscard]] Result<BegunSession> continueSession(std::string_view id, const SessionRequest& request);
     /// Books the end of a session with the chain head of its last file. A complete or stopped one is never continued.
     [[nodiscard]] Result<void> endSession(std::string_view id, StudySessionState state, std::string_view chainHead);
-    /// Ends one that was just begun and whose bench could not be opened: it counts neither as a session of the
-    /// participant nor for the gap. A file that is merely gone is not one of these.
+    /// Ends a session that was just begun and whose bench could not be opened: it counts neither as a session of the
+    /// participant nor for the gap. A file that is merely gone is not such a session.
     [[nodiscard]] Result<void> cancelSession(std::string_view id);
-    /// What opens the file of a part. Errors: NotFound for an unknown part; Unsupported once withdrawn or without key.
+    /// Opens the file of a part. Errors: NotFound for an unknown part; Unsupported once withdrawn or without key.
     [[nodiscard]] Result<std::shared_ptr<const RowSeal>> sealOf(std::string_view file) const;
     [[nodiscard]] std::filesystem::path pathOf(std::string_view file) const;
-    /// What a part of a session recorded, opened: what resuming, results and exports go by. Nothing for one whose file
-    /// was never made. Errors: as sealOf() and SessionReader; ParseError for one that is not whole or not sealed,
-    /// or is gone or another since the ledger noted it.
+    /// The opened record of a part of a session, for resuming, results and exports. Nothing for a part whose file was
+    /// never made. Errors: as sealOf() and SessionReader; ParseError for a file that is not whole or not sealed, or has
+    /// gone or changed since the ledger noted it.
     [[nodiscard]] Result<std::optional<SessionReader>> part(std::string_view file) const;
     /// The events of all parts of a session, in order. Errors: as part().
     [[nodiscard]] Result<std::vector<SessionRow>> events(const StudySession& session) const;
 
-    /// Under the study's key: survives a withdrawal.
+    /// Stands under the study's key: survives a withdrawal.
     [[nodiscard]] Result<void> adverseEvent(std::string_view session, const AdverseEvent& event);
     [[nodiscard]] Result<std::vector<std::pair<std::string, AdverseEvent>>> adverseEvents() const;
-    /// How many; also without the key.
+    /// How many there are; known also without the key.
     [[nodiscard]] std::size_t adverseEventCount() const noexcept;
-    /// What was said and seen on a day after the session, under the participant's key; the last one counts. Skin that
-    /// scores 2 or more is noted as an adverse event too. Errors: NotFound; InvalidArgument as checkNextDay();
-    /// kGateRefused on the day on which the session was begun; Unsupported for a participant who withdrew.
+    /// Notes what was said and seen on a day after the session, under the participant's key; the last one counts. Skin
+    /// that scores 2 or more is noted as an adverse event, too. Errors: NotFound; InvalidArgument as checkNextDay();
+    /// kGateRefused on the day on which the session began; Unsupported for a participant who withdrew.
     [[nodiscard]] Result<void> nextDay(std::string_view session, const NextDay& said);
     /// Nothing where it was not asked, or without the key.
     [[nodiscard]] std::optional<NextDay> nextDay(std::string_view session) const;
@@ -271,7 +271,7 @@ public:
     /// Notes that data were exported to `place`, which is sealed. Errors: InvalidArgument for a place inside the study
     /// folder.
     [[nodiscard]] Result<void> exported(const std::filesystem::path& place, std::string_view what);
-    /// In the order made; empty without the key.
+    /// The exports in the order in which they were made; empty without the key.
     [[nodiscard]] std::vector<StudyExport> exports() const;
 
 private:

@@ -55,7 +55,7 @@ void weigh(Newest& newest, const SessionReader& ledger, const LedgerEnd& end, st
 
 Result<Newest> newestKnown(const StudyBook& book) {
     Newest newest;
-    if (book.settings.kind == StudyKind::Rehearsal) return newest;  // its keys lie beside it and go back with it
+    if (book.settings.kind == StudyKind::Rehearsal) return newest;  // a rehearsal's keys lie beside it and go back too
     const auto ledger = SessionReader::open(book.files.ledger());
     if (!ledger) return failure(ledger);
     weighOwn(newest, book, *ledger);
@@ -91,7 +91,7 @@ Result<StudyBook> StudyBook::open(const std::filesystem::path& folder, const Pas
     if (!Study::isThere(folder)) return fail(ErrorCode::NotFound, "there is no study in {}", folder.string());
     const auto text = readTextFile(files.settings());
     if (!text) return failure(text);
-    // Its version comes before everything else: what a newer program wrote is not judged.
+    // The version is read before everything else: a newer program's study is not judged.
     const auto first = parseStudy(*text, files.settings().string());
     if (!first) return failure(first);
     book.settings = *first;
@@ -117,7 +117,7 @@ Result<StudyBook> StudyBook::open(const std::filesystem::path& folder, const Pas
     auto opened = Ledger::open(files.ledger());
     if (!opened) return failure(opened);
     book.ledger.emplace(std::move(*opened));
-    if (!book.isNewest()) return book;  // each change is refused, with the reason
+    if (!book.isNewest()) return book;  // every change is refused, with the reason
     if (*current != *text) {
         if (auto published = publishStudy(files); !published) return failure(published);
     }
@@ -248,7 +248,7 @@ Result<void> StudyBook::write(const char* name, nlohmann::json body, const Secre
 
 LedgerEnd StudyBook::end() const { return {ledger->next() - 1, ledger->head(), known.last, known.rows}; }
 
-/// Where one of the two cannot be written the other says it, and where neither can, what they said before stays.
+/// Where one of the two cannot be written, the other still says it, and where neither can, the old notes stay.
 void StudyBook::noteEnd() {
     if (settings.kind == StudyKind::Rehearsal) return;
     const auto now = end();
@@ -351,7 +351,7 @@ Result<void> StudyBook::nextDay(std::string_view session, const NextDay& said) {
             "skin on a day after the session scored {} of 4; severity and relation as noted by the program, for the "
             "investigator to judge",
             said.skin());
-        // The last entry counts, and is of the same event.
+        // The last entry counts, and belongs to the same event.
         const auto isNoted = [&](const auto& each) { return each.first == session && each.second.what == what; };
         if (std::ranges::none_of(known.adverseEvents, isNoted)) {
             auto noted = adverseEvent(session, {.what = what, .severity = severityOfSkin(said.skin()), .relation = 5});
@@ -362,7 +362,7 @@ Result<void> StudyBook::nextDay(std::string_view session, const NextDay& said) {
 }
 
 Result<std::uint64_t> StudyBook::labelSeed() const {
-    constexpr std::uint64_t kLabels = 1;  // of the key's subkeys; the ledger is sealed under the key itself
+    constexpr std::uint64_t kLabels = 1;  // which of the key's subkeys; the ledger is sealed under the key itself
     if (!keys) return fail(ErrorCode::Unsupported, "labels of participants need the study's passphrase");
     const auto key = subkey(keys->study(), kLabels);
     std::uint64_t seed = 0;
@@ -504,7 +504,7 @@ Result<void> StudyGates::stillApproved() const {
     return approvalGate(book_.settings, book_.today());
 }
 
-/// What a person answered and what a virtual participant did are never one participant's.
+/// A person's answers and a virtual participant's never belong to one participant.
 Result<void> StudyGates::basisGate(const SessionRequest& request, const Participant& participant) const {
     if (request.personAnswers && participant.isVirtual() && book_.settings.kind == StudyKind::Study)
         return fail(kGateRefused,

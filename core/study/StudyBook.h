@@ -26,8 +26,8 @@ struct StudyBook {
     Study::Surroundings around;
     StudySettings settings;
     std::optional<StudyLock> lock;
-    std::optional<StudyKeys> keys;  ///< nothing without the passphrase
-    std::optional<Ledger> ledger;   ///< nothing when opened for reading
+    std::optional<StudyKeys> keys;  ///< none without the passphrase
+    std::optional<Ledger> ledger;   ///< none when opened for reading
     LedgerState known;
 
     /// As Study::open().
@@ -35,7 +35,7 @@ struct StudyBook {
                                                 Study::Access access, const Study::Surroundings& around);
 
     [[nodiscard]] std::chrono::sys_seconds now() const { return around.time->wall(); }
-    /// In UTC; never before that of the ledger's last row.
+    /// Today in UTC; never before the day of the ledger's last row.
     [[nodiscard]] CalibrationDate today() const;
 
     /// Takes the keys: a rehearsal's without a passphrase; none for a study without one. Errors: as StudyKeys::open().
@@ -47,25 +47,25 @@ struct StudyBook {
     /// The ledger is the newest that this computer knows of: it goes as far as is noted beside the keys, in the key
     /// file and in each session, and knows every session's file. Errors: kGateRefused, naming the way back.
     [[nodiscard]] Result<void> isNewest() const;
-    /// What is given up where it is not. Errors: as isNewest() where it is; Unsupported as changeable().
+    /// The loss where it is not the newest. Errors: as isNewest() where it is; Unsupported as changeable().
     [[nodiscard]] Result<LedgerLoss> lossOfGoingBack() const;
     [[nodiscard]] Result<void> goBack(std::string_view word);
 
     /// Appends `body`, with `content` sealed under `key` where there is one. Errors: as changeable().
     [[nodiscard]] Result<void> append(const char* name, nlohmann::json body, const Secret* key = nullptr,
                                       const nlohmann::json& content = {});
-    /// The same, whatever the ledger's end is.
+    /// Writes it, whatever the ledger's end is.
     [[nodiscard]] Result<void> write(const char* name, nlohmann::json body, const Secret* key = nullptr,
                                      const nlohmann::json& content = {});
-    /// As append(), under a participant's key.
+    /// Appends like append(), under a participant's key.
     [[nodiscard]] Result<void> appendOf(const Participant& participant, const char* name, nlohmann::json body,
                                         const nlohmann::json& content);
     /// Errors: Unsupported once the key is destroyed, or without the passphrase.
     [[nodiscard]] Result<const StudyKeys::Entry*> keyOf(std::string_view participant) const;
-    /// By code or "virtual:SEED". Errors: as Study::find().
+    /// Finds by code or "virtual:SEED". Errors: as Study::find().
     [[nodiscard]] Result<Participant> find(std::string_view code) const;
 
-    // As those of Study.
+    // Does what Study::amend() does.
     [[nodiscard]] Result<void> amend(StudySettings amended, std::string_view reference);
     [[nodiscard]] Result<void> adverseEvent(std::string_view session, const AdverseEvent& event);
     [[nodiscard]] Result<void> nextDay(std::string_view session, const NextDay& said);
@@ -74,16 +74,16 @@ struct StudyBook {
     /// The first day that a consent to this version of the form counts from: of one that was never in force, the first
     /// approval's.
     [[nodiscard]] CalibrationDate formSince(std::string_view version) const;
-    /// The consent gate, today.
+    /// Asks the consent gate for today.
     [[nodiscard]] Result<void> consented(const Participant& participant) const;
-    /// Where this account notes how far the ledger goes (LedgerEnd.h), and what copies of the study hold while they are
-    /// changed; both empty for a rehearsal.
+    /// The file in which this account notes how far the ledger goes (LedgerEnd.h), and the one that copies of the study
+    /// hold while they are changed; both empty for a rehearsal.
     [[nodiscard]] std::filesystem::path endFile() const;
     [[nodiscard]] std::filesystem::path keysLock() const;
     [[nodiscard]] LedgerEnd end() const;
     [[nodiscard]] Result<std::shared_ptr<const RowSeal>> sealFor(const StudySession& session,
                                                                  std::string_view file) const;
-    // As those of Study.
+    // Does what Study::sealOf() does.
     [[nodiscard]] Result<std::shared_ptr<const RowSeal>> sealOf(std::string_view file) const;
     [[nodiscard]] Result<std::optional<SessionReader>> part(std::string_view file) const;
     /// The session as it stands in the ledger now, with the seal of its last part.
@@ -94,7 +94,7 @@ struct StudyBook {
     [[nodiscard]] Result<void> finishWithdrawals();
 };
 
-/// The day of `at` in UTC: what days of a study are, whatever zone the computer is set to.
+/// The day of `at` in UTC: days of a study are in UTC, whatever zone the computer is set to.
 [[nodiscard]] CalibrationDate utcDay(std::chrono::sys_seconds at);
 /// The chain head of a session's file; empty for one that was never made, cannot be read or was changed.
 [[nodiscard]] std::string headOf(const std::filesystem::path& file);
@@ -114,7 +114,7 @@ public:
     [[nodiscard]] Result<void> record() const;
     /// Record and approval.
     [[nodiscard]] Result<void> stillApproved() const;
-    /// Every gate of a session; `again`: of one that goes on.
+    /// Asks every gate of a session; `again`: of one that is resumed.
     [[nodiscard]] Result<void> session(const SessionRequest& request, Participant participant, bool again) const;
 
 private:

@@ -61,7 +61,7 @@ public:
         : folder_(std::exchange(other.folder_, -1)), file_(std::move(other.file_)), keys_(std::move(other.keys_)) {}
     StudyLock& operator=(StudyLock&&) = delete;
     ~StudyLock() {
-        if (folder_ >= 0) ::close(folder_);  // and with it the lock
+        if (folder_ >= 0) ::close(folder_);  // closing releases the lock, too
     }
 
 private:
@@ -74,16 +74,16 @@ private:
 
 // Makes the folder and the key file of a study.
 
-/// Where the keys of a study lie.
+/// The file with the keys of a study.
 [[nodiscard]] std::filesystem::path keyFileOf(const StudyFiles& files, const StudySettings& settings,
                                               const Study::Surroundings& around);
 /// Errors: Unsupported when the key folder lies inside the study's.
 [[nodiscard]] Result<void> keysLieOutside(const StudyFiles& files, const Study::Surroundings& around);
 
-/// `settings` as those of a rehearsal: what is empty is filled in, and it takes as many participants as are wanted.
+/// `settings` for a rehearsal: empty fields are filled in, and it takes as many participants as are wanted.
 [[nodiscard]] StudySettings asRehearsal(StudySettings settings, CalibrationDate today);
 
-/// The body of the ledger's rows "study" and "amendment"; `text` is that of study.json.
+/// The body of the ledger's rows "study" and "amendment"; `text` is the text of study.json.
 [[nodiscard]] nlohmann::json settingsRow(const StudySettings& settings, std::string_view text);
 
 /// Makes the study under another name first, so that a crash leaves none or a whole one. `passphrase` is null for a

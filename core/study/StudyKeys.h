@@ -45,7 +45,7 @@ public:
 
     [[nodiscard]] const Secret& study() const noexcept { return study_; }
     [[nodiscard]] const std::vector<Entry>& entries() const noexcept { return entries_; }
-    /// How far the ledger went when the keys were written last; row 0 where that is not known.
+    /// How far the ledger went when the keys were last written; row 0 where that is not known.
     [[nodiscard]] const LedgerEnd& ledgerEnd() const noexcept { return end_; }
     /// Errors: Io; what was said before stays.
     [[nodiscard]] Result<void> noteEnd(const LedgerEnd& end);

@@ -20,7 +20,7 @@ constexpr Word<Limb> kLimbs[] = {{"left", Limb::Left}, {"right", Limb::Right}};
 constexpr Word<DataOnRequest> kDataOnRequest[] = {{"destroy", DataOnRequest::Destroy}, {"keep", DataOnRequest::Keep}};
 /// The four conditions of two textures and two pressures. Their names are in the protocol and in no plain text here.
 constexpr std::string_view kTexturePressure = "texture-pressure";
-/// What the four are called: as they are, or texture and pressure exchanged.
+/// The names of the four as they are, or with texture and pressure exchanged.
 constexpr std::string_view kEncodings[] = {"standard", "swapped"};
 
 constexpr AcceptedText kShortText{.mostBytes = 200};

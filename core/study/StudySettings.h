@@ -30,7 +30,7 @@ enum class Limb { Left, Right };
 enum class DetectionMethod { Quest, Staircase };
 inline constexpr Word<DetectionMethod> kDetectionMethods[] = {{"quest", DetectionMethod::Quest},
                                                               {"staircase", DetectionMethod::Staircase}};
-/// What happens to the data of a participant who asks for it to be destroyed.
+/// The fate of a participant's data when they ask for destruction.
 enum class DataOnRequest { Destroy, Keep };
 
 [[nodiscard]] std::string_view nameOf(StudyKind kind) noexcept;
@@ -70,20 +70,20 @@ inline constexpr std::string_view kBiphasic = "biphasic";
 
 struct StudyTrain {
     std::string shape{kBiphasic};
-    double width_us = 200;  ///< of a phase
+    double width_us = 200;  ///< one phase's width
     double gap_us = 50;
     int pulses = 1;
-    double rate_hz = 0;  ///< of the pulses in a train; 0 with one pulse
+    double rate_hz = 0;  ///< pulses in a train; 0 with one pulse
     bool operator==(const StudyTrain&) const = default;
 };
 
-/// What people feel and are asked, beside electrode and train: an approval is for it, and a session's profile and
-/// protocol must agree with it.
+/// The stimuli and questions for people, beside electrode and train: an approval is for them, and a session's profile
+/// and protocol must agree with them.
 struct StudyProcedure {
     double intervalMin_s = 0.5;  ///< T_min
     double intervalMax_s = 2;    ///< T_max
     DetectionMethod method = DetectionMethod::Quest;
-    std::string conditionsSha256{};  ///< of the conditions, their assignment, polarity, load range and ceilings
+    std::string conditionsSha256{};  ///< hash of the conditions, their assignment, polarity, load range and ceilings
     bool comparison = false;         ///< sessions of thresholds measure the Weber fraction of strength too
     bool operator==(const StudyProcedure&) const = default;
 };
@@ -98,11 +98,11 @@ struct StudySettings {
     Approval approval;
     std::string consentVersion;
     int participantsMax = 5;
-    int sessionsMax = 4;  ///< of one participant
+    int sessionsMax = 4;  ///< sessions that one participant may have
     double gapMin_h = 20;
     double sessionMax_min = 60;
     double cap_mA = 15;
-    std::vector<LimitSetHash> limits;  ///< of the approval
+    std::vector<LimitSetHash> limits;  ///< the approval's limits
     ElectrodeSite site = ElectrodeSite::UpperArm;
     Nerve nerve = Nerve::Median;
     Limb limb = Limb::Right;
@@ -116,10 +116,10 @@ struct StudySettings {
     int catchTrials = 2;  ///< per block
     bool blind = true;
     DataOnRequest dataOnRequest = DataOnRequest::Destroy;
-    /// Of 10: a pain that is rated so high holds the next presentation (pilot.md section 4). Studies from before it was
-    /// kept have none in their approval, and are held to kPainCeiling.
+    /// A pain from 0 to 10 that is rated so high holds the next presentation (pilot.md section 4). Earlier studies have
+    /// no ceiling in their approval, and are held to kPainCeiling.
     std::optional<int> painCeiling;
-    std::string license;                      ///< under which exports may be used: "CC-BY-4.0"; empty: not decided
+    std::string license;                      ///< the licence for using exports: "CC-BY-4.0"; empty: not decided
     std::vector<ScriptHash> scripts;          ///< approved; a session's script must be one of them
     std::optional<StudyProcedure> procedure;  ///< approved; older studies have none until they are amended
     bool operator==(const StudySettings&) const = default;
@@ -133,10 +133,10 @@ struct StudySettings {
 /// profile says of the procedure, which have options of their own.
 [[nodiscard]] Result<void> setStudyField(StudySettings& settings, std::string_view key, std::string_view value);
 
-/// What an approval's protocol_sha256 stands for: SHA-256 over every setting but the approval itself and the
-/// license of exports, and the scripts. A procedure that is absent does not count.
+/// The hash in an approval's protocol_sha256: SHA-256 over every setting but the approval itself and the license of
+/// exports, and the scripts. A missing procedure does not count.
 [[nodiscard]] std::string protocolHash(const StudySettings& settings);
-/// The same of settings and what a session is run with: a session that was interrupted goes on with no other.
+/// The hash of settings and what a session is run with: an interrupted session resumes with no other.
 [[nodiscard]] std::string runHash(StudySettings settings, const StudyProcedure& procedure);
 
 // What an approval covers of the procedure, in words, for people who read a report or a terminal.
@@ -149,7 +149,7 @@ struct ProcedureFact {
 /// approval keeps no procedure, that is said in the place of intervals, conditions and detection.
 [[nodiscard]] std::vector<ProcedureFact> approvedProcedure(const StudySettings& settings);
 
-/// What a key of study.json that an amendment changed is called; the key itself where it has no other name, and with a
+/// The words for a key of study.json that an amendment changed; the key itself where it has no other name, and with a
 /// massager where it is about current.
 [[nodiscard]] std::string amendedWords(std::string_view key, Modality modality);
 

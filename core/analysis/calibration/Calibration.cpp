@@ -58,7 +58,7 @@ std::vector<CalibrationLevel> findLevels(std::span<const CalibrationReading> rea
         const auto above = std::upper_bound(firsts.begin(), firsts.end(), r.commanded);
         const auto k = static_cast<std::size_t>(above - firsts.begin()) - 1;
         levelOf.push_back(k);
-        // From the first command, so that equal commands keep their every digit.
+        // Counted from the first command, so that equal commands keep their every digit.
         levels[k].commanded += r.commanded - firsts[k];
         ++counts[k];
     }
@@ -81,7 +81,7 @@ std::vector<Group> findGroups(const Calibration& found, const std::vector<std::s
     return groups;
 }
 
-/// As if each had been commanded the level's own value.
+/// The measurements, as if each had been commanded the level's own value.
 std::vector<double> measuredOf(const Calibration& found, const Group& group) {
     std::vector<double> out;
     for (const std::size_t i : group.members) {
@@ -167,7 +167,7 @@ void fitLine(Calibration& found) {
 }
 
 void markOutliers(Calibration& found, const std::vector<Group>& groups, double resolution) {
-    std::vector<double> apart;  // every two repeats
+    std::vector<double> apart;  // the differences of every two repeats
     std::vector<std::pair<std::size_t, double>> of;
     for (const auto& group : groups) {
         if (group.members.size() < 3) continue;  // among two, neither is the odd one

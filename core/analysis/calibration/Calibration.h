@@ -36,7 +36,7 @@ inline constexpr double kOutlierDistance = 5;  ///< robust standard deviations
 inline constexpr std::size_t kWantedLevels = 11;
 inline constexpr std::size_t kWantedRepeats = 5;  ///< per level and direction
 
-/// In the unit of the calibrated quantity: V, mA, s.
+/// A command and its reading, in the unit of the calibrated quantity: V, mA, s.
 struct CalibrationReading {
     double commanded = 0;
     double measured = std::numeric_limits<double>::quiet_NaN();  ///< NaN: was not measured
@@ -68,7 +68,7 @@ struct Calibration {
     bool weighted = false;
     double fullScale = 0;  ///< magnitude of the largest command
     double residualMax_pct = 0;
-    double repeatability = std::numeric_limits<double>::quiet_NaN();  ///< in the readings' unit; NaN: nothing repeated
+    double repeatability = std::numeric_limits<double>::quiet_NaN();  ///< in the readings' unit; NaN: none repeated
     double repeatability_pct = std::numeric_limits<double>::quiet_NaN();
     double hysteresis_pct = std::numeric_limits<double>::quiet_NaN();  ///< NaN: no level was met both ways
     std::vector<CalibrationLevel> levels;                              ///< by rising command
@@ -82,7 +82,7 @@ struct Calibration {
 struct CalibrationOptions {
     /// Commands that lie within this share of the largest are one level at their mean, and their differences are not
     /// scatter: a source whose current follows a measured load is programmed to a slightly different one each time.
-    double sameLevel = 1e-9;  ///< the same number, printed and read back
+    double sameLevel = 1e-9;  ///< tells numbers apart, printed and read back
     double resolution = 0;    ///< one step of the instrument, in the readings' unit; 0 = not known
 };
 

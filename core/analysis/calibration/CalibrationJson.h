@@ -32,7 +32,7 @@ namespace tacto {
 /// measured; an empty or nan `u` is not stated.
 /// Errors: NotFound, Io; ParseError naming file, line and what was expected.
 [[nodiscard]] Result<std::vector<CalibrationReading>> readCalibrationReadings(const std::filesystem::path& path);
-/// The same from text; `name` stands for the file in messages.
+/// Reads them from text; `name` stands for the file in messages.
 [[nodiscard]] Result<std::vector<CalibrationReading>> parseCalibrationReadings(std::string_view text,
                                                                                std::string_view name);
 

@@ -54,7 +54,7 @@ Result<UncertaintyBudget> levelBudget(const CalibrationLevel& level, std::size_t
     return combine(std::move(rows), options);
 }
 
-/// What the fit makes of an error of each level: the line's gain, or its offset, is the sum of weight times mean.
+/// How the fit weighs an error of each level: the line's gain, or its offset, is the sum of weight times mean.
 struct LineWeights {
     std::vector<double> gain, offset;
 };

@@ -26,7 +26,7 @@ struct InstrumentErrors {
     double gainTolerance = kNaN;    ///< relative (0.005 = 0.5 %): vertical gain, or the time base
     double probeTolerance = 0;      ///< relative, of the probe or shunt
     double linearityTolerance = 0;  ///< in the readings' unit, beside the gain
-    double offsetTolerance = 0;     ///< in the readings' unit; 0 where levels are read from their own baseline
+    double offsetTolerance = 0;     ///< in the readings' unit; 0 where each reading has its own baseline
     /// One step (LSB) in the readings' unit; 0 for times. A level that is read from its own baseline (offsetTolerance
     /// 0) is the difference of two, each to a step.
     double resolution = kNaN;
@@ -61,7 +61,7 @@ struct JudgedCalibration {
     UncertaintyBudget offset;
     double tolerance_pct = 0;
     Verdict verdict = Verdict::Indeterminate;
-    std::vector<std::string> reasons;  ///< what decided the verdict comes first
+    std::vector<std::string> reasons;  ///< reasons; the one that decided the verdict comes first
     /// The level of the largest command.
     [[nodiscard]] const JudgedLevel& fullScale() const noexcept;
     /// The level of the smallest.
@@ -75,7 +75,7 @@ struct JudgedCalibration {
 [[nodiscard]] Result<JudgedCalibration> judgeCalibration(Calibration calibration, const InstrumentErrors& errors,
                                                          double tolerance_pct, const BudgetOptions& options = {});
 
-/// The same readings against another tolerance; cheap. `tolerance_pct` > 0, else every level is indeterminate.
+/// The verdict on these readings with another tolerance; cheap. `tolerance_pct` > 0, else all levels are indeterminate.
 [[nodiscard]] Verdict verdictAt(const JudgedCalibration& judged, double tolerance_pct) noexcept;
 
 }  // namespace tacto

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kQuarters = 4, kPairsOfQuarters = 6;
 constexpr double kMaxTolerance_pct = 100;
-constexpr double kUnstatedUncertainty = 0.001;  // where a table comes without, as in a separability
+constexpr double kUnstatedUncertainty = 0.001;  // stands in for what a table does not state, as in a separability
 
 double percentOf(double logRatio) { return 100 * std::expm1(logRatio); }
 
@@ -71,7 +71,7 @@ private:
     double freedom_ = 0;
 };
 
-/// Of one reading, relative and without what the gain makes; NaN: not known, 0: not stated.
+/// The relative resolution of one reading, without what the gain makes; NaN: not known, 0: not stated.
 double resolutionOf(const SeparabilityTrial& trial) {
     const double gain = std::isnan(trial.amplitudeGain) ? 0 : trial.amplitudeGain;
     const double relative = trial.amplitudeUncertainty / trial.amplitude;

@@ -27,18 +27,18 @@ struct Drift {
         Statistics amplitude = {};
         Estimate change_pct = {};         ///< from the first trial of the session to its last; NaN for fewer than three
         std::vector<double> trial = {};   ///< numbers of the measured trials within the session, from 1
-        std::vector<double> change = {};  ///< of each, from the condition's mean, in %
+        std::vector<double> change = {};  ///< how far each is from the condition's mean, in %
     };
     /// A quarter of the session's trials, in their order.
     struct Quarter {
         std::size_t from = 0, to = 0;  ///< numbers of its first and its last trial
         std::size_t n = 0;             ///< measured trials
-        double change_pct = 0;         ///< from the mean of the four; NaN where it cannot be told from the conditions
+        double change_pct = 0;         ///< from the mean of the four; NaN where the conditions could explain it
     };
     std::size_t trials = 0;
     std::vector<Condition> conditions;
     std::vector<Quarter> quarters;
-    /// What all conditions have in common: a straight line over the whole session, first trial to last.
+    /// The part that all conditions share: a straight line over the whole session, first trial to last.
     Estimate change_pct;
     /// The largest difference of two quarters, which a warm-up or a step makes and a straight line hides. The interval
     /// holds for the largest of the six (Bonferroni).
@@ -55,7 +55,7 @@ struct Drift {
 /// finite, and a tolerance out of its range.
 [[nodiscard]] Result<Drift> judgeDrift(std::span<const SeparabilityTrial> trials, const DriftOptions& options = {});
 
-/// In the shape of the command line's contract (cli.md); `curves` is the figure, for plot.curves().
+/// The drift as the command line's contract has it (cli.md); `curves` is the figure, for plot.curves().
 [[nodiscard]] nlohmann::json toJson(const Drift& found);
 /// How it is judged and shown.
 [[nodiscard]] ResultTraits driftKind();

@@ -18,19 +18,19 @@ namespace tacto {
 
 /// One person and one encoding.
 struct PersonResult {
-    std::string name;            ///< as it is shown: a code in the study, a label outside it
+    std::string name;            ///< the shown name: a code in the study, a label outside it
     bool usable = true;          ///< had a range between detection and discomfort
     ConfusionFigures figures{};  ///< n = 0 where no test trial was answered
 };
 
-/// A person of whom nothing can be said, and why.
+/// A person who cannot be judged, and why.
 struct PersonLeftOut {
     std::string name, reason;
 };
 
 struct FewPeople {
     std::vector<PersonResult> people;
-    std::vector<PersonLeftOut> leftOut;  ///< in none of the figures
+    std::vector<PersonLeftOut> leftOut;  ///< people who stand in none of the figures
     std::string who = "people";          ///< whom this speaks of: "virtual participants"
     Statistics accuracy;                 ///< over those who answered test trials
     Statistics itCorrected_bits;         ///< over those who answered test trials

@@ -29,7 +29,7 @@ std::optional<std::size_t> indexOf(const std::vector<std::string>& names, std::s
     return static_cast<std::size_t>(at - names.begin());
 }
 
-/// What test trials name, in the order first met, after those in `met`.
+/// The names in test trials, in the order first met, after those in `met`.
 std::vector<std::string> namesMet(std::span<const IdentificationTrial> trials, std::string IdentificationTrial::*name,
                                   std::vector<std::string> met) {
     for (const auto& trial : trials) {
@@ -54,7 +54,7 @@ Result<void> checkLabels(const std::vector<std::string>& labels) {
     return {};
 }
 
-/// What is presented, or answered, must be known: a misspelt one would otherwise be a wrong answer.
+/// Presented conditions and answers must be known: a misspelt one would otherwise be a wrong answer.
 Result<void> checkTrials(std::span<const IdentificationTrial> trials, const std::vector<std::string>& labels,
                          const std::vector<std::string>& columns) {
     std::set<std::size_t> answered;
@@ -75,7 +75,7 @@ Result<void> checkTrials(std::span<const IdentificationTrial> trials, const std:
     return {};
 }
 
-/// Right answers stand on the diagonal; `names` are offered beside what is not a name.
+/// Right answers stand on the diagonal; `names` are offered in addition to the words that are no names.
 ConfusionFigures figuresOf(const Counts& counts, std::size_t names) {
     ConfusionFigures out;
     std::vector<std::vector<double>> table;

@@ -1,8 +1,8 @@
 // Identification.h - what one participant's identification session shows: which answers were given to which conditions,
 // how far that is from guessing, and what may have disturbed it.
 //
-// Only test trials count, and catch trials apart from the others. "none" and "not sure" are answers like any other and
-// are wrong. A trial without an answer is counted and enters nothing else. Definitions: science.md section 11.
+// Only test trials count, and catch trials are counted by themselves. "none" and "not sure" are answers like any other
+// and are wrong. A trial without an answer is counted and enters nothing else. Definitions: science.md section 11.
 #pragma once
 
 #include <cstddef>
@@ -35,7 +35,7 @@ inline constexpr std::string_view kNoneResponse = "none";         ///< "I felt n
 inline constexpr std::string_view kNotSureResponse = "not-sure";  ///< never right
 
 struct IdentificationTrial {
-    std::size_t number = 0;  ///< in the plan; skipped training leaves holes
+    std::size_t number = 0;  ///< its number in the plan; skipped training leaves holes
     TrialPhase phase = TrialPhase::Test;
     std::size_t block = 0;
     std::string condition;  ///< a label, or kCatchCondition
@@ -43,7 +43,7 @@ struct IdentificationTrial {
     std::size_t attempt = 1;   ///< 2 where the first was interrupted or not answered
     double rt_s = kNaN;        ///< from the appearance of the targets; NaN without an answer
     Milliamps current{kNaN};   ///< delivered; NaN where the device has none (a massager)
-    double interval_s = kNaN;  ///< between onsets of trains; NaN for a catch
+    double interval_s = kNaN;  ///< between onsets of trains; NaN for a catch trial
     std::size_t trains = 0;    ///< delivered
 };
 
@@ -52,7 +52,7 @@ struct LabelFeatures {
     std::string_view texture;
     std::string_view pressure;
 };
-/// Views into `label`; the second part is what follows the first hyphen, empty where there is none.
+/// Views into `label`; the second part follows the first hyphen, and is empty without one.
 [[nodiscard]] LabelFeatures featuresOf(std::string_view label) noexcept;
 
 /// A table of answers against guessing.
@@ -68,7 +68,7 @@ struct ConfusionFigures {
 
 /// One feature, the other passed over: rows are its two values, columns the two and the other answers.
 struct FeatureFigures {
-    std::vector<std::string> values;                  ///< as first met in the labels
+    std::vector<std::string> values;                  ///< the values as first met in the labels
     std::vector<std::vector<std::size_t>> confusion;  ///< [presented][answered]
     ConfusionFigures figures;
     /// `values[0]` against `values[1]` in the trials that were answered with a label, 0.5 added to each count and
@@ -89,7 +89,7 @@ struct BlockFigures {
     std::size_t hits = 0;
 };
 
-/// How often an answer was given, whatever was presented.
+/// How often an answer was given, no matter what was presented.
 struct AnswerShare {
     std::string response;
     std::size_t n = 0;
@@ -101,7 +101,7 @@ struct Identification {
     std::vector<std::string> columns;                 ///< labels, then the other answers: "none", "not-sure"
     std::vector<std::vector<std::size_t>> confusion;  ///< [presented][answered]
     ConfusionFigures all;
-    std::optional<FeatureFigures> texture;  ///< where the labels are two by two
+    std::optional<FeatureFigures> texture;  ///< known where the labels are two by two
     std::optional<FeatureFigures> pressure;
     CatchFigures catches;
     std::size_t noAnswer = 0;  ///< trials and catch trials that were asked twice without an answer
@@ -112,7 +112,7 @@ struct Identification {
     Estimate learning;
     /// Accuracy where the trial before it in the block was of the same condition, and of another. Catch trials and the
     /// first of a block have no such trial before them.
-    BlockFigures afterSame, afterOther;        // their `block` is not used
+    BlockFigures afterSame, afterOther;        // `block` has no meaning in these
     std::vector<double> medianResponseTime_s;  ///< one for each label's rows, as presented; NaN without answers
 };
 
@@ -122,8 +122,8 @@ struct Identification {
 /// or response is neither a label nor one of the reserved words, or whose number comes a second time with an answer.
 [[nodiscard]] Result<Identification> identify(std::span<const IdentificationTrial> trials,
                                               std::vector<std::string> labels);
-/// The same for trials of which nothing else is known: rows are the conditions met, and the answers met beside those
-/// are the answers offered, each in the order first met. Errors: as identify().
+/// Judges trials of which nothing else is known: rows are the conditions met, and the answers offered are the
+/// conditions and all other answers met, each in the order first met. Errors: as identify().
 [[nodiscard]] Result<Identification> identifyAsMet(std::span<const IdentificationTrial> trials);
 
 }  // namespace tacto

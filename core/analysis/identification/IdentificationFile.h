@@ -23,7 +23,7 @@ struct ParticipantTrials {
 /// response or n/a is not an answer. A row without a phase is a test trial. Errors: NotFound, Io; ParseError naming
 /// file, line and what was expected.
 [[nodiscard]] Result<std::vector<ParticipantTrials>> readIdentificationTrials(const std::filesystem::path& path);
-/// The same from text; `name` stands for the file in messages.
+/// Reads them from text; `name` stands for the file in messages.
 [[nodiscard]] Result<std::vector<ParticipantTrials>> parseIdentificationTrials(std::string_view text,
                                                                                std::string_view name);
 

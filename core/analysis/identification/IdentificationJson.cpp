@@ -144,7 +144,7 @@ ResultRecord<FewPeople> describePeople() {
     return all;
 }
 
-/// What a result says about a trial.
+/// The fields of a trial in a result.
 RecordFields<IdentificationTrial> answerFields() {
     using T = IdentificationTrial;
     RecordFields<T> all;
@@ -159,7 +159,7 @@ RecordFields<IdentificationTrial> answerFields() {
     return all;
 }
 
-/// What a session's row says beside.
+/// The further fields in a session's row.
 RecordFields<IdentificationTrial> trialFields() {
     using T = IdentificationTrial;
     auto all = answerFields();

@@ -21,7 +21,7 @@ namespace tacto {
 /// {"n", "hits", "accuracy", "p_chance", "it_bits", "it_bias_bits", "it_corrected_bits", "it_corrected_low_bits",
 /// "it_corrected_high_bits"}: as counted, what is taken off, what is left and its 95 % interval
 [[nodiscard]] nlohmann::json toJson(const ConfusionFigures& figures);
-/// The corrected information of such figures, with its interval; NaN for what is not there.
+/// The corrected information of such figures, with its interval; NaN for a missing value.
 [[nodiscard]] Estimate correctedBitsFrom(const nlohmann::json& figures);
 /// {"number", "phase", "block", "condition", "response", "attempt", "rt_s"}; response null without an answer
 [[nodiscard]] nlohmann::json toJson(const IdentificationTrial& trial);

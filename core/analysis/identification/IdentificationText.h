@@ -11,7 +11,7 @@
 
 namespace tacto {
 
-/// What the conditions lay between: current and what voltage that was, or a massager's intensity.
+/// The range of the conditions: a current with its voltage, or a massager's intensity.
 struct PresentedRange {
     std::optional<Milliamps> low, high;
     Volts lowVoltage{kNaN}, highVoltage{kNaN};  ///< at `impedance`
@@ -23,17 +23,17 @@ struct PresentedRange {
 [[nodiscard]] std::string voltageRangeText(Volts low, Volts high);
 
 /// "P-7K3M told the four apart in 68 of 80 trials (85 %, 95 % interval 76 to 91 %, chance 25 %) between 4.0 and 6.5 mA,
-/// 14 to 22 V at 3.4 kΩ." What is not known is left out. Without trials: "P-7K3M answered no test trial."
+/// 14 to 22 V at 3.4 kΩ." Unknown parts are left out. Without trials: "P-7K3M answered no test trial."
 [[nodiscard]] std::string headline(const std::string& name, const Identification& found, const PresentedRange& range);
 
-/// What people read for a condition or an answer: "rough, firm" for "rough-high", "not sure" for "not-sure". Another
-/// name as it is.
+/// The words that people read for a condition or an answer: "rough, firm" for "rough-high", "not sure" for "not-sure".
+/// Other names stay as they are.
 [[nodiscard]] std::string answerWords(std::string_view key);
 
-/// "0.012"; "< 0.001" below that, and "–" for what is not known.
+/// "0.012"; "< 0.001" below that, and "–" for an unknown value.
 [[nodiscard]] std::string chanceText(double p);
 
-/// "1.94 (1.72 to 2.00)": corrected information and its 95 % interval, in bits; "–" for what is not known.
+/// "1.94 (1.72 to 2.00)": corrected information and its 95 % interval, in bits; "–" for an unknown value.
 [[nodiscard]] std::string bitsText(const Estimate& bits);
 
 /// "80 trials: ± 8 % at 85 %, ± 11 % at 50 %; 27 right of 80 is above chance."; `n` ≥ 1.

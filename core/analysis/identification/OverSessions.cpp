@@ -27,14 +27,14 @@ Result<void> checkSessions(const std::vector<SessionFigures>& sessions) {
     return {};
 }
 
-/// The first session of which `known` holds; null for none.
+/// The first session for which `known` holds; null for none.
 template <class Known>
 const SessionFigures* firstOf(const std::vector<SessionFigures>& sessions, Known known) {
     const auto found = std::ranges::find_if(sessions, known);
     return found == sessions.end() ? nullptr : &*found;
 }
 
-/// A figure divided by that of the first session that has it.
+/// A figure divided by the one in the first session that has it.
 template <class Figure>
 double ratioToFirst(const std::vector<SessionFigures>& sessions, const SessionFigures& session, Figure figure) {
     const auto* first = firstOf(sessions, [&](const auto& each) { return figure(each) > 0; });
@@ -66,7 +66,7 @@ Estimate ratioOf(const Estimate& a, const Estimate& b) noexcept {
 
 double smallestChange(std::size_t n, double accuracy) noexcept {
     constexpr double kZ = 1.959963984540054;                     // 97.5 % point of the normal distribution
-    if (n == 0 || !(accuracy > 0 && accuracy < 1)) return kNaN;  // all alike: the spread is not known
+    if (n == 0 || !(accuracy > 0 && accuracy < 1)) return kNaN;  // all answers are alike: the spread is not known
     return kZ * std::sqrt(2 * accuracy * (1 - accuracy) / static_cast<double>(n));
 }
 
@@ -93,7 +93,7 @@ Result<OverSessions> compareSessions(std::vector<SessionFigures> sessions) {
 namespace {
 
 constexpr double kDeviance95 = 3.841458820694124;  // 95 % point of χ² with one degree of freedom
-/// In units of the whole range of x: beyond it every answer lies on the curve's flat ends.
+/// In units of the whole range of x; with a steeper curve every answer lies on its flat ends.
 constexpr double kSteepest = 200;
 constexpr int kHalvings = 200;
 
@@ -129,7 +129,7 @@ private:
     [[nodiscard]] static double softPlus(double z) { return std::max(z, 0.0) + std::log1p(std::exp(-std::abs(z))); }
     [[nodiscard]] static double probability(double z) { return 1 / (1 + std::exp(-z)); }
 
-    /// As many right answers expected as there are: their number rises with the intercept.
+    /// The intercept that makes as many right answers expected as there are: their number rises with it.
     [[nodiscard]] double interceptFor(double slope) const {
         double low = -60 - std::abs(slope), high = 60 + std::abs(slope);
         for (int i = 0; i < kHalvings && high - low > 1e-14 * (1 + std::abs(low)); ++i) {
@@ -147,7 +147,7 @@ private:
     double right_ = 0;
 };
 
-/// Where `above` turns from true to false between `inside` and `outside`.
+/// The place between `inside` and `outside` where `above` turns from true to false.
 template <class Above>
 double turnOf(double inside, double outside, Above&& above) {
     for (int i = 0; i < kHalvings && std::abs(outside - inside) > 1e-13 * (1 + std::abs(inside)); ++i) {
@@ -178,7 +178,7 @@ Estimate logisticSlope(std::span<const LogisticPoint> points) {
     const SlopeProfile profile(std::move(used));
     constexpr double kOpen = std::numeric_limits<double>::infinity();
     const double found = turnOf(-kSteepest, kSteepest, [&](double b) { return profile.score(b) > 0; });
-    // Where every answer agrees with a slope, steeper ones are as good but for rounding.
+    // Where every answer agrees with a slope, steeper slopes are just as good, but for rounding.
     constexpr double kAsGood = 1e-9;
     const double asGood = profile.logLikelihood(found) - kAsGood;
     const bool openAbove = profile.logLikelihood(kSteepest) >= asGood;

@@ -30,8 +30,8 @@ struct SessionFigures {
 /// Against the first session in which the figure was measured; NaN for that one and where it was not.
 struct SessionChange {
     std::size_t number = 0;
-    Estimate accuracy;        ///< less that of the first, Newcombe 95 %
-    Estimate detection;       ///< divided by that of the first, as ratioOf()
+    Estimate accuracy;        ///< minus the first session's, Newcombe 95 %
+    Estimate detection;       ///< divided by the first session's, as ratioOf()
     double tooStrong = kNaN;  ///< ratios; one reading has no interval
     double high = kNaN;
     double impedance = kNaN;
@@ -79,7 +79,7 @@ struct LogisticPoint {
 // An ideal observer does equally well with each by symmetry, so what is asked is whether names fit. One session has one
 // encoding, so trials of two encodings are independent samples.
 
-/// What one person did with one encoding; NaN and 0 where it was not recorded.
+/// One person's results with one encoding; NaN and 0 where nothing was recorded.
 struct EncodingResult {
     std::string encoding;
     std::size_t n = 0;
@@ -91,7 +91,7 @@ struct EncodingResult {
 
 struct EncodingPair {
     std::string a, b;
-    Estimate difference;  ///< accuracy of a less that of b, Newcombe 95 %
+    Estimate difference;  ///< accuracy of a minus accuracy of b, Newcombe 95 %
 };
 
 struct EncodingComparison {
@@ -102,7 +102,7 @@ struct EncodingComparison {
 
 [[nodiscard]] EncodingComparison compareEncodings(std::vector<EncodingResult> inOrder, std::string preferred = {});
 
-/// How many people preferred each. Shown and never tested: five alike of five have p = 0.06.
+/// How many people preferred each. Shown and never tested: if five of five people agree, p is 0.06.
 [[nodiscard]] std::map<std::string, std::size_t> preferences(std::span<const EncodingComparison> people);
 
 /// The order in which the `enrolled`-th person (from 0) has `encodings` of them, as indices: a row of a Williams design

@@ -19,10 +19,10 @@ constexpr double kSqrt2 = 1.4142135623730951;
 constexpr double kSqrt3 = 1.7320508075688772;
 constexpr double kSqrt12 = 3.4641016151377544;
 
-/// Rows of what is stated of a channel; what is not stated is NaN and makes the figure's U unknown.
+/// Rows for what is stated about a channel; anything unstated is NaN and makes the figure's U unknown.
 class ChannelDoubt {
 public:
-    /// Null for a channel that is not there: nothing is stated of it.
+    /// Null for a missing channel: nothing is stated of it.
     explicit ChannelDoubt(const CaptureChannel* channel) : channel_(channel) {}
 
     /// Relative.
@@ -32,8 +32,8 @@ public:
     void addProbe(BudgetRows& rows, double sensitivity) const;
     /// A level above its baseline: two of them, each to a step of the converter; and the linearity between them.
     void addLevel(BudgetRows& rows, double sensitivity) const;
-    /// The sum of two equal and opposite levels, over `width_s` each, above one baseline, which is in both alike. What
-    /// bends one bends the other the opposite way (the cubic of CalibrationVerdict.h).
+    /// The sum of two equal and opposite levels, over `width_s` each, above one baseline, which both share. What bends
+    /// one level bends the other the opposite way (the cubic of CalibrationVerdict.h).
     void addOpposites(BudgetRows& rows, double width_s) const;
 
 private:

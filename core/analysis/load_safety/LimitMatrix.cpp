@@ -32,8 +32,8 @@ LimitCell cellOf(const SafetyRow& row) {
     return cell;
 }
 
-/// Output must end by itself whether or not trains run when the circuit opens: the worse verdict, and the longer time
-/// unless one of them is timed against the next train.
+/// Output must end by itself whether or not trains run when the circuit opens: takes the worse verdict, and the longer
+/// time unless one of them is timed against the next train.
 LimitCell worseOf(const LimitCell& a, const LimitCell& b) {
     const bool timed = std::isfinite(a.margin_pct) || std::isfinite(b.margin_pct);
     auto worse = std::isfinite(b.margin_pct) ? b : a;

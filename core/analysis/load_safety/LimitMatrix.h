@@ -15,7 +15,7 @@ namespace tacto {
 inline constexpr const char* kExtrapolatedColumn = "worst case";
 
 struct LimitCell {
-    /// For a trip the time to the end of output: from the train that found it where known, else from the change.
+    /// In a trip, the time to the end of output: from the train that found it where known, else from the change.
     double value = std::numeric_limits<double>::quiet_NaN();
     double expanded = std::numeric_limits<double>::quiet_NaN();  ///< U, in the value's unit
     /// (limit - value - U) / limit; below 0: not kept. For a trip what was left of the time to the next train.
@@ -27,7 +27,7 @@ struct LimitCell {
 struct LimitLine {
     std::string item, title, unit, set;
     double limit = std::numeric_limits<double>::quiet_NaN();  ///< NaN: output must end before the next train (H3)
-    bool strict = false;                                      ///< "<" and not "≤"
+    bool strict = false;                                      ///< whether it is "<" and not "≤"
     std::string source;                                       ///< document and clause
     std::string confidence;  ///< in that source, as its limit set states it; empty for this program's own
     double margin_pct = std::numeric_limits<double>::quiet_NaN();  ///< the smallest of the cells
@@ -37,8 +37,8 @@ struct LimitLine {
 };
 
 struct LimitMatrix {
-    std::vector<std::string> loads;  ///< in the order of the rows; kExtrapolatedColumn last
-    /// What failed first, then what is indeterminate, then by the margin left; what was not evaluated stands last.
+    std::vector<std::string> loads;  ///< the loads in the order of the rows; kExtrapolatedColumn is last
+    /// Failed limits come first, then indeterminate ones, then by the margin left; those not evaluated stand last.
     std::vector<LimitLine> lines;
 };
 

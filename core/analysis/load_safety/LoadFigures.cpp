@@ -11,8 +11,8 @@ namespace {
 
 /// An onset may jitter against the window's edge; a hundredth of a train is not a further train.
 constexpr double kWindowEdge = 0.01;
-/// For a straight line that is followed from there to the end: the noise of its value over that of the mean, and the
-/// share of the way that a bend may be worth.
+/// For a straight line that is continued to the end: the noise of its value over that of the mean, and the share of the
+/// way that a bend may be worth.
 constexpr double kLineNoise = 2.6, kLineDoubt = 0.2;
 
 Reading rootOf(const Reading& squares, double seconds, double scale) {
@@ -64,8 +64,7 @@ void LoadFigures::addTimeBase(BudgetRows& rows, double sensitivity) const {
     rows.push_back({"time base", Distribution::Rectangular, timeBase_, kSqrt3, sensitivity});
 }
 
-/// The uncertainty of a width, relative: what it adds to charges, energies and squares. The time base is in all of
-/// them alike.
+/// The relative uncertainty of a width: what it adds to charges, energies and squares. They all share the time base.
 void LoadFigures::addWidth(BudgetRows& rows, double sensitivity) const {
     addTimeBase(rows, sensitivity);
     addNormal(rows, "sampling of the edges", dt_ / std::sqrt(6.0) / meanOver(trains_, &TrainFigures::width_s),
@@ -89,7 +88,7 @@ Reading LoadFigures::impedanceOf(const LoadTrains& trains, const ChannelDoubt& v
     const double samples = trains.front().endSamples * static_cast<double>(trains.size());
     const double ohms = volts / amps;
     BudgetRows rows;
-    if (gainShared_) {  // it divides out
+    if (gainShared_) {  // the shared gain divides out
         v.addProbe(rows, ohms);
         i.addProbe(rows, ohms);
     } else {
@@ -104,7 +103,7 @@ Reading LoadFigures::impedanceOf(const LoadTrains& trains, const ChannelDoubt& v
     return figure(ohms, std::move(rows));
 }
 
-/// The mean of the trains, each in doubt by `rows`: their spread is that of what was programmed as well.
+/// The mean of the trains, each uncertain by `rows`: their spread includes that of the programmed values.
 void LoadFigures::addAmplitude(LoadReading& out, Reading& amplitude, double TrainFigures::*member,
                                const BudgetRows& rows, bool driven) const {
     const double mean = meanOver(trains_, member);
@@ -134,7 +133,7 @@ void LoadFigures::addVoltage(LoadReading& out) const {
     const double w = meanOver(trains_, &TrainFigures::width_s);
     BudgetRows width;
     addWidth(width, w);
-    // Where the samples fall moves a width as well, and is in it already: what the trains differ by beyond that counts.
+    // The position of the samples moves a width, too, and is in it already: only larger differences of trains count.
     constexpr double kBeyond = 2;
     const double sampling = dt_ / std::sqrt(6.0);
     if (statisticsOver(trains_, &TrainFigures::width_s).sd > kBeyond * sampling) {
@@ -329,7 +328,7 @@ void addFineRange(LoadReading& out, const LoadFigures& figures, std::span<const 
         if (!rows.empty() && !(here > net)) continue;
         net = here;
         rows.clear();
-        // A moving level takes every step of the converter alike; what stays is that of the baseline under it.
+        // A moving level takes every step of the converter evenly; the step of the baseline under it stays.
         rows.push_back({"resolution of current", Distribution::Rectangular,
                         two->wide.channel->lsb > 0 ? two->wide.channel->lsb : kNaN, kSqrt12,
                         charge.wide_s / expected.pulses});

@@ -12,12 +12,12 @@ namespace tacto {
 /// A current below that many steps of its converter says nothing.
 constexpr double kMinLsb = 10;
 
-/// In another unit, or of a part.
+/// The reading in another unit, or a part of it.
 [[nodiscard]] Reading times(double factor, const Reading& reading);
 
 class LoadFigures {
 public:
-    /// At least one train; `capture` is the first one's. All outlive this.
+    /// Takes at least one train; `capture` is the first one's. All arguments outlive this.
     LoadFigures(const LoadTrains& trains, const ExpectedTrain& expected, const Capture& capture)
         : trains_(trains),
           expected_(expected),
@@ -31,13 +31,13 @@ public:
 
     /// Amplitude, width and peak.
     void addVoltage(LoadReading& out) const;
-    /// For trains of more than one pulse.
+    /// Adds the rate, in trains of more than one pulse.
     void addRate(LoadReading& out) const;
     /// `rhythm`: readLoad()'s, where the interval is taken from it.
     void addInterval(LoadReading& out, const Capture* rhythm) const;
     /// After addInterval().
     void addVoltageWindows(LoadReading& out) const;
-    /// All that rests on the current; after the others.
+    /// Adds all that rests on the current; called after the others.
     void addCurrent(LoadReading& out) const;
     [[nodiscard]] Reading impedanceOf(const LoadTrains& trains, const ChannelDoubt& v, const ChannelDoubt& i,
                                       double currentLsb) const;
@@ -58,8 +58,8 @@ private:
     const bool gainShared_;
 };
 
-// What a second, finer current range shows of the same command: a skin equivalent's charging spike clips
-// in it, the end of a phase does not. Private to core/analysis.
+// Adds a second, finer current range for the same command: a skin equivalent's charging spike clips in it, the end of a
+// phase does not. Private to core/analysis.
 
 /// |Z|, net charge and imbalance of `out`, read again: in `fine`, and in `captures` only while `fine` clips; not
 /// measured where a record of the two cannot be read. `figures` are those of `captures`, whose charge and width `out`

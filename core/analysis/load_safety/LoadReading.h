@@ -39,10 +39,10 @@ struct Reading {
     [[nodiscard]] bool measured() const noexcept;
 };
 
-/// What is in `rows`, as the uncertainty of `value`. Without any row that is not known, U is combine()'s.
+/// A value with the uncertainty of `rows`. Without any row the uncertainty is unknown; U is combine()'s.
 [[nodiscard]] Reading readingOf(double value, std::vector<Contribution> rows, const BudgetOptions& budget);
 
-/// What a load's trains measured: the largest of them, unless a line says otherwise.
+/// The measurements of a load's trains: the largest of them, unless a line says otherwise.
 struct LoadReading {
     Reading delivered;      ///< amplitude over what each train was to have, 1 = as programmed; mean
     Reading amplitude_v;    ///< plateau of the leading phase, magnitude; of a current source at its end; mean
@@ -70,17 +70,17 @@ struct LoadReading {
     bool biphasic = false;     ///< every pulse had a second phase
     bool underTenLsb = false;  ///< the current peaks below 10 LSB: nothing about current is evaluated
     std::size_t trains = 0;    ///< captures measured
-    /// What the figures without U lack, as sentences end: "the oscilloscope does not state the gain of voltage".
+    /// What figures without U lack, as a sentence's end: "the oscilloscope does not state the gain of voltage".
     std::string notStated;
     std::vector<std::string> warnings;
 };
 
-/// What the trains in the captures were meant to be: it gives a pulse's place in a record.
+/// The intended trains in the captures: they tell a pulse's place in a record.
 struct ExpectedTrain {
     int pulses = 1;
     double rate_hz = 100;  ///< intra-train
-    /// What the source imposes: its channel shows where the phases are. The other one is the load's answer, which
-    /// on a capacitor goes on after the phase is over. Voltage or Current.
+    /// The drive that the source imposes: its channel shows where the phases are. The other channel shows the load's
+    /// answer, which on a capacitor outlasts the phase. Voltage or Current.
     Drive drive = Drive::Voltage;
     /// Amplitude that the device was to deliver in each capture, V or mA by its drive; empty = not known.
     std::vector<double> programmed{};

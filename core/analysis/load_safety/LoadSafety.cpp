@@ -66,8 +66,7 @@ bool isReference(const SafetyRow& row) {
     return row.item == "reference" || row.item == "absolute_reference" || row.item == "time_reference";
 }
 
-/// What is said about those that passed is true of each: a command has no uncertainty, and a trip is judged by its
-/// time.
+/// A sentence on passed rows is true of each: a command has no uncertainty, and a trip is judged by its time.
 std::string whatPassed(const std::vector<SafetyRow>& rows) {
     std::size_t withU = 0, trips = 0, commanded = 0, others = 0;
     for (const auto& row : rows) {
@@ -120,7 +119,7 @@ void decide(const LoadSafetyInput& input, LoadSafety& out) {
             : refused == 2 ? "; both commands that must be refused were refused"
                            : fmt::format("; all {} commands that must be refused were refused", refused)));
     }
-    // Without a known load that reads as what it is, nothing else was asked.
+    // Unless a known load reads as it should, nothing else was asked.
     for (const auto& row : out.rows) {
         if (isReference(row) && row.verdict != RowVerdict::Pass) out.reasons.push_back(row.reason);
     }

@@ -25,24 +25,24 @@ enum class RowVerdict {
     Pass,
     Fail,
     Indeterminate,      ///< within U of the limit
-    NotEvaluated,       ///< not measured; never a pass
+    NotEvaluated,       ///< it was not measured; this is never a pass
     NotApplicable,      ///< cannot be asked of this device; named, and does not hold up a pass
-    RefusedAsExpected,  ///< over a limit on this load, asked for, and refused
+    RefusedAsExpected,  ///< the command is over a limit on this load, was asked for, and was refused
     Attention,          ///< above a figure that asks for a warning or for marking; no fault
 };
 /// "pass", "fail", "indeterminate", "not evaluated", "not applicable", "refused as expected", "attention"
 [[nodiscard]] std::string_view nameOf(RowVerdict verdict) noexcept;
 
-/// What a row's value rests on: what was captured is judged, what was computed says so.
+/// The basis of a row's value: captured values are judged, computed ones say so.
 enum class RowBasis { Measured, Commanded, Computed };
 /// "measured", "commanded", "computed"
 [[nodiscard]] std::string_view nameOf(RowBasis basis) noexcept;
 
 /// One thing judged.
 struct SafetyRow {
-    std::string load;   ///< as parseLoad() reads it, or the range; empty for what is not of a load
+    std::string load;   ///< as parseLoad() reads it, or the range; empty for rows without a load
     std::string item;   ///< key of a quantity ("rms_current_5s"), or "load_value", "amplitude_error", "refusal", ...
-    std::string title;  ///< as read by people
+    std::string title;  ///< the title that people read
     double value = std::numeric_limits<double>::quiet_NaN();
     double expanded = std::numeric_limits<double>::quiet_NaN();  ///< U, in the value's unit
     double limit = std::numeric_limits<double>::quiet_NaN();
@@ -68,22 +68,22 @@ struct RefusedStep {
     double command_v = kNaN;
     double interval_s = kNaN;
     bool forbidden = false;  ///< predicted over a limit, worst case of the declared load ± 20 %
-    bool refused = false;    ///< what the program then did
+    bool refused = false;    ///< whether the program refused it
     std::string predicted;   ///< the figure, as "RMS current over 5 s 11.3 mA at 100 ohm, limit 10 mA"
     std::string reason;      ///< the refusal's own sentence
-    std::string what{};      ///< what was asked for, where it is not a command
+    std::string what{};      ///< what was asked for, if it is not a command
 };
 
-/// A command that the device cannot give on this load, by its step or its range: named, and no more.
+/// A command that the device cannot give on this load, by its step or its range: it is only named.
 struct UndrivenStep {
     double command_v = kNaN;
     double interval_s = kNaN;
     std::string reason;
 };
 
-/// What was done with one load of the set.
+/// All that was done with one load of the set.
 struct LoadRecord {
-    std::string name;  ///< as parseLoad() reads it
+    std::string name;  ///< the text that parseLoad() reads
     Load load;
     Reading dmm_ohm;     ///< entered by the operator with its standard uncertainty; else not measured
     std::string serial;  ///< the resistor's; may be empty
@@ -104,7 +104,7 @@ struct TripTrial {
     double stop_s = kNaN;     ///< from the onset of the train that found the change to the end of output; at most
     double allowed_s = kNaN;  ///< from that onset to when the next train was due
 };
-/// Those that a full check holds.
+/// The parts that a full check holds.
 inline constexpr std::array<std::string_view, 6> kRequiredTrips = {
     "open", "short", "open while delivering", "short while delivering", "intermittent contact", "dead-man"};
 
@@ -181,7 +181,7 @@ struct LoadSafety {
 
 [[nodiscard]] LoadSafety judgeLoadSafety(const LoadSafetyInput& input);
 
-/// The known-reference check: a load whose value is known, measured first. Passes within tolerances.load_pct.
+/// The known-reference check: a known load is measured first. Passes within tolerances.load_pct.
 [[nodiscard]] SafetyRow judgeReference(const LoadRecord& record, const LoadSafetyInput& input);
 /// The interval of its trains, which the computer's clock hands out: what an oscilloscope whose time base is wrong by
 /// more than it states reads wrong, and with it every width and charge.

@@ -68,7 +68,7 @@ RecordFields<LoadReading> buildReadingFields() {
 
 const RecordFields<LoadReading>& readingFields() { return builtOnce<buildReadingFields>(); }
 
-/// What every kind of step begins with.
+/// The beginning that every kind of step shares.
 template <class Step>
 RecordFields<Step> stepFields() {
     RecordFields<Step> all;
@@ -118,7 +118,7 @@ RecordFields<TripTrial> buildTripFields() {
     return scripted(std::move(all));
 }
 
-/// How far the absolute reference was off.
+/// The error of the absolute reference.
 struct AbsoluteError {
     double off_pct = kNaN, expanded_pct = kNaN, allowed_pct = kNaN;
     std::string text;

@@ -53,7 +53,7 @@ std::string missingOf(const LoadRecord& record) {
     return record.steps.empty() ? "nothing was delivered" : "it was not measured";
 }
 
-/// Over the electrode's area, whose own uncertainty counts.
+/// Divides by the electrode's area, whose own uncertainty counts.
 Reading perArea(const Reading& reading, const LoadSafetyInput& input) {
     if (!input.area_cm2) return {};
     const auto out = scaledBy(1 / *input.area_cm2, reading);
@@ -61,8 +61,8 @@ Reading perArea(const Reading& reading, const LoadSafetyInput& input) {
     return {out.value, std::hypot(out.u, area / 2), std::hypot(out.expanded, area)};
 }
 
-/// The step whose value and uncertainty come highest; one that was not measured, or whose uncertainty is not known,
-/// wins, so that it is not hidden.
+/// The step with the highest sum of value and uncertainty; a step that was not measured, or with an unknown
+/// uncertainty, wins, so that it is not hidden.
 template <class Of>
 Reading highest(const LoadRecord& record, Of of) {
     Reading most;
@@ -135,7 +135,7 @@ void addLoadValue(std::vector<SafetyRow>& rows, const LoadRecord& record, const 
     if (!record.steps.empty()) {
         const Reading& got = record.steps.front().reading.impedance_ohm;
         const double truth = metered ? record.dmm_ohm.value : expectedOhms(record, input);
-        // As marked on it: a rectangle, whose 95 % are 0.95 of it and whose s is its half-width/√3.
+        // A tolerance as marked on it: a rectangle, whose 95 % are 0.95 of it and whose s is its half-width/√3.
         const double marked = input.tolerances.resistor_pct / 100 * truth;
         const Reading known = metered ? record.dmm_ohm : Reading{truth, marked / std::sqrt(3.0), 0.95 * marked};
         const double scale = 100 / truth;
@@ -164,8 +164,8 @@ void addAccuracy(std::vector<SafetyRow>& rows, const LoadRecord& record, const L
              rowOf(record, "amplitude_over", "amplitude above the command", highest(record, amplitudeError), "%"),
              input.tolerances.amplitude_pct, false, "laboratory", own);
     if (input.source.drive == Drive::Current) {
-        // It was programmed to A / |Z|: a |Z| that was read too low makes more of A, which the current alone does not
-        // show.
+        // It was programmed to A / |Z|: if |Z| was read too low, more than A is delivered, which the current alone does
+        // not show.
         addUpper(rows, record,
                  rowOf(record, "voltage_over", "voltage above the command", highest(record, voltageError), "%"),
                  input.tolerances.load_pct, false, "laboratory", own);
@@ -252,7 +252,7 @@ SafetyRow commandRow(const LoadRecord& record, const LimitSet& set, const LimitR
     return row;
 }
 
-/// Those over 1 s or 5 s, which no record is long enough for.
+/// Whether it is taken over 1 s or 5 s, for which no record is long enough.
 bool isOverAWindow(Quantity quantity) {
     switch (quantity) {
         case Quantity::RmsCurrent1s:

@@ -12,7 +12,7 @@ namespace tacto {
 /// Value, accuracy, net charge, every limit that applies, refusals: all that one load was asked.
 [[nodiscard]] std::vector<SafetyRow> rowsOf(const LoadRecord& record, const LoadSafetyInput& input);
 
-/// What a step's reading says about a quantity; not measured for what only a command has, or without an area.
+/// The value of a quantity in a step's reading; not measured for what only a command has, or without an area.
 [[nodiscard]] Reading readingOf(const LoadReading& reading, Quantity quantity, const LoadSafetyInput& input);
 
 /// Largest of the steps, quantity by quantity; not measured when one step was not.

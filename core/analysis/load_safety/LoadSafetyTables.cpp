@@ -19,17 +19,17 @@ const LoadRecord* recordAt(const LoadSafetyInput& input, double ohm) {
     return nullptr;
 }
 
-/// What the device makes of a command, relative: of all measured steps the one that delivers most.
+/// The device's error on a command, relative: from the measured step that delivers most.
 struct Made {
     Reading amplitude{1, 0, 0}, width{1, 0, 0}, rate{1, 0, 0}, interval{1, 0, 0};
     bool measured = false;
 };
-/// What was measured nowhere is not as commanded, but unknown.
+/// A value that was measured nowhere is unknown, and not as commanded.
 Made madeOf(const LoadSafetyInput& input) {
     Made out;
     bool widthSeen = false, intervalSeen = false;
-    bool rateSeen = input.train.pulses == 1;  // which has none
-    // One that was measured without a known U leaves nothing known.
+    bool rateSeen = input.train.pulses == 1;  // a single pulse has no rate to see
+    // A step that was measured without a known U leaves nothing known.
     const auto take = [](Reading& into, double value, const Reading& got, double scale, bool more) {
         if (std::isnan(got.value)) return;
         const double expanded = scale * got.expanded;
@@ -58,7 +58,7 @@ Made madeOf(const LoadSafetyInput& input) {
     return out;
 }
 
-/// What a command is multiplied with, one after the other by its U.
+/// The factors of a command, one after the other by its U.
 struct Factors {
     double amplitude = 1, width = 1, rate = 1, interval = 1, area = 1;
 };
@@ -96,7 +96,7 @@ Reading extrapolate(const LoadSafetyInput& input, const std::vector<Place>& plac
         }
         return most;
     };
-    // A train more or less that jitters over a window's edge is not a further train (as in LoadReading).
+    // A train that jitters over a window's edge is not a further train (as in LoadReading).
     const auto beyondTheEdge = [&](double shorter) {
         constexpr double kLongestWindow_s = 5, kEdge = 0.01;
         return shorter * kLongestWindow_s / input.interval_s > kEdge ? shorter : 0;
@@ -172,7 +172,7 @@ LoadReading strongestOf(const LoadRecord& record) {
               &LoadReading::dc_ma, &LoadReading::power_1s_w}) {
             take(most.*member, reading.*member);
         }
-        most.trains = first ? reading.trains : std::min(most.trains, reading.trains);  // each figure is of as many
+        most.trains = first ? reading.trains : std::min(most.trains, reading.trains);  // so that all count the same
         first = false;
     }
     if (!record.steps.empty()) most.interval_s = record.steps.back().reading.interval_s;
@@ -252,7 +252,7 @@ LoadWorstCase worstCaseOf(const LoadSafetyInput& input) {
     std::vector<Place> overRange{{Load::resistor(Ohms(out.low_ohm)), input.command_v},
                                  {Load::resistor(Ohms(out.high_ohm)), input.command_v}};
     const std::vector<Place> at500{{Load::resistor(Ohms(500)), input.command_v}};
-    // On the skin equivalent the strongest command that the limits let through: more is refused.
+    // On the skin equivalent the strongest command that the limits allow is taken; a stronger one is refused.
     for (const auto& record : input.loads) {
         if (record.load.kind != LoadKind::SkinEquivalent || record.steps.empty()) continue;
         double most = 0;
@@ -263,7 +263,7 @@ LoadWorstCase worstCaseOf(const LoadSafetyInput& input) {
     std::vector<RowVerdict> verdicts;
     for (const auto& set : input.limits) {
         for (const auto& limit : set.rows) {
-            // A command is what it was, whatever the device makes of it.
+            // A command stays what it was, whatever the device makes of it.
             if (limit.quantity == Quantity::CommandVoltage || !limit.holdsAt(1 / input.interval_s)) continue;
             // The open circuit is the worst case of the voltage, and it is measured: openCircuitRows().
             if (limit.quantity == Quantity::PeakVoltage) continue;

@@ -29,10 +29,10 @@ struct LoadTrace {
     [[nodiscard]] std::size_t indexAt(double t_s) const noexcept;
 };
 
-/// Nothing when the channel is missing, a sample is not finite, or fewer than 8 samples of quiet lie before `onset_s`.
+/// Nothing where the channel is missing, a sample is not finite, or fewer than 8 samples of quiet lie before `onset_s`.
 [[nodiscard]] std::optional<LoadTrace> traceOf(const Capture& capture, std::string_view name, double onset_s);
 
-/// Over the record after the baseline. SI units of the channel and seconds.
+/// Sums over the record after the baseline. SI units of the channel and seconds.
 struct TraceSums {
     double peak = 0;       ///< largest magnitude
     double step = 0;       ///< the smaller step to its neighbours: what may stand between two samples
@@ -46,7 +46,7 @@ struct TraceSums {
 [[nodiscard]] double integralOf(const LoadTrace& trace, double from_s, double to_s);
 /// Mean over [from_s, to_s); NaN for an empty stretch.
 [[nodiscard]] double meanOf(const LoadTrace& trace, double from_s, double to_s);
-/// At `at_s`, the straight line that fits the samples of [from_s, to_s) best; NaN with fewer than two.
+/// The value at `at_s` of the straight line that fits the samples of [from_s, to_s) best; NaN with fewer than two.
 [[nodiscard]] double lineAt(const LoadTrace& trace, double from_s, double to_s, double at_s);
 /// ∫ v·i dt after both baselines.
 [[nodiscard]] double energyOf(const LoadTrace& voltage, const LoadTrace& current);

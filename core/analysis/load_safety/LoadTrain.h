@@ -34,12 +34,12 @@ struct TrainFigures {
 [[nodiscard]] std::optional<ChannelMeasurement> pulsesOf(const Capture& capture, const ExpectedTrain& expected,
                                                          std::vector<std::string>& warnings);
 
-/// What the ends of its leading phases show; `current` is null where it cannot be read.
+/// The values at the ends of its leading phases; `current` is null where it cannot be read.
 void readEnds(const LoadTrace& voltage, const LoadTrace* current, const ChannelMeasurement& pulses, Drive drive,
               TrainFigures& out);
 
-/// Nothing, with a warning, where the voltage cannot be read; without the current its figures are NaN. `programmed`:
-/// the amplitude that was to be delivered.
+/// Nothing, with a warning, where the voltage cannot be read; without a current, its figures are NaN. `programmed`: the
+/// amplitude that was to be delivered.
 [[nodiscard]] std::optional<TrainFigures> readTrain(const Capture& capture, const ExpectedTrain& expected,
                                                     double programmed, std::vector<std::string>& warnings);
 

@@ -120,7 +120,7 @@ void AscendingLimits::answerEmpty(StrengthWord word) {
 
 void AscendingLimits::answerLevel(StrengthWord word) {
     const double level = grid_.level(index_);
-    if (repeat_ && first_ == last_) {  // Its answer is replaced
+    if (repeat_ && first_ == last_) {  // Another answer replaces this one
         first_ = 0;
         current().felt = kNone;
     }

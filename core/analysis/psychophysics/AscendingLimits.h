@@ -18,7 +18,7 @@
 
 namespace tacto {
 
-/// What a participant says about one presentation.
+/// A participant's words for one presentation.
 enum class StrengthWord { Nothing, Weak, Strong, TooStrong };
 inline constexpr Word<StrengthWord> kStrengthWords[] = {{"nothing", StrengthWord::Nothing},
                                                         {"weak", StrengthWord::Weak},
@@ -46,9 +46,9 @@ struct AscendingPresentation {
 struct AscendingSeries {
     double felt = std::numeric_limits<double>::quiet_NaN();  ///< first level felt; NaN: none
     double tooStrong = std::numeric_limits<double>::quiet_NaN();
-    double highest = 0;  ///< that was answered
+    double highest = 0;  ///< the highest level that was answered
     SeriesEnd endedBy = SeriesEnd::Open;
-    LevelLimit ceiling = LevelLimit::Device;  ///< what the ceiling was, where it ended the series
+    LevelLimit ceiling = LevelLimit::Device;  ///< the kind of ceiling, where it ended the series
     std::size_t feltEmpty = 0;
     [[nodiscard]] bool marked() const noexcept { return feltEmpty >= 2; }
 };
@@ -68,7 +68,7 @@ public:
     /// Errors: InvalidArgument for a grid of currents whose step exceeds 1 mA, naming it.
     [[nodiscard]] static Result<AscendingLimits> create(const LevelGrid& grid, std::uint64_t seed);
 
-    /// What is to be presented now: the same until it is answered; nothing when done().
+    /// The next presentation: the same until it is answered; nothing when done().
     [[nodiscard]] std::optional<AscendingPresentation> next() const;
     /// Errors: InvalidArgument for a value that is not a word, or when nothing is asked for; nothing has changed then.
     [[nodiscard]] Result<void> answer(StrengthWord word);
@@ -99,10 +99,10 @@ private:
     LevelGrid grid_;
     std::uint64_t seed_;
     std::size_t ceiling_;   // Index; falls to below what was called too strong
-    LevelLimit limitedBy_;  // What sets ceiling_
+    LevelLimit limitedBy_;  // the reason for ceiling_
     AscendingResult result_;
     std::size_t number_ = 1;      // The presentation that is asked for
-    std::size_t index_ = 0;       // Its level; 0: empty
+    std::size_t index_ = 0;       // The level's index; 0: empty
     std::size_t last_ = 0;        // Last level of this series
     std::size_t first_ = 0;       // First level felt in this series; 0: none
     std::size_t leading_ = 0;     // Empty presentations still due at the beginning

@@ -19,9 +19,9 @@ namespace tacto {
 
 enum class LevelUnit { Current, Intensity };
 
-/// What keeps levels from being higher.
+/// The reason why levels cannot be higher.
 enum class LevelLimit {
-    Device,        ///< its largest amplitude
+    Device,        ///< the device's largest amplitude
     Gate,          ///< the largest level that the gate approves
     Cap,           ///< the study's cap
     TooStrong,     ///< the participant called a level too strong
@@ -44,7 +44,7 @@ inline constexpr double kIntensityStep = 0.05;
     return std::string(what) + (unit == LevelUnit::Current ? "_ma" : "_intensity");
 }
 [[nodiscard]] constexpr std::string_view nameOf(LevelLimit limit) noexcept { return wordFor(kLevelLimits, limit); }
-/// What people read for it: "what was too strong".
+/// The words that people read for it: "what was too strong".
 inline constexpr Word<LevelLimit> kLevelLimitsInWords[] = {
     {"the device's largest level", LevelLimit::Device},
     {"the safety gate", LevelLimit::Gate},
@@ -80,10 +80,10 @@ public:
     [[nodiscard]] double level(std::size_t index) const noexcept { return step_ * static_cast<double>(index); }
     [[nodiscard]] double highest() const noexcept { return level(count_); }
 
-    // What lies within a billionth of a step of a level counts as that level. `value` is finite and ≥ 0.
-    /// At most count(); 0 for less than a step.
+    // A value within a billionth of a step of a level counts as that level. `value` is finite and ≥ 0. At most count();
+    // 0 for less than a step.
     [[nodiscard]] std::size_t atOrBelow(double value) const noexcept;
-    /// Nothing above the highest level.
+    /// Nothing where the value lies above the highest level.
     [[nodiscard]] std::optional<std::size_t> atOrAbove(double value) const noexcept;
     /// 1 to count(); of two equally near the weaker.
     [[nodiscard]] std::size_t nearest(double value) const noexcept;

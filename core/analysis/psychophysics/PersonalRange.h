@@ -25,10 +25,10 @@ struct PersonalRangeSettings {
 
 struct PersonalRangeResult {
     bool usable = false;
-    std::string reason;                                     ///< in a sentence, when it is not usable; else empty
+    std::string reason;                                     ///< one sentence that says why it is not usable; else empty
     double min = std::numeric_limits<double>::quiet_NaN();  ///< I_min on the grid; NaN: above the highest level
     double max = std::numeric_limits<double>::quiet_NaN();  ///< I_max on the grid; NaN: below one step
-    LevelLimit limitedBy = LevelLimit::TooStrong;           ///< what keeps I_max from being higher
+    LevelLimit limitedBy = LevelLimit::TooStrong;           ///< the reason why I_max is no higher
     std::size_t steps = 0;                                  ///< from min to max; 0 where max is not above min
     double jnd = std::numeric_limits<double>::quiet_NaN();  ///< ln(max/min) / ln(1 + weber); NaN where not usable
     std::size_t lowered = 0;                                ///< times that the participant said no

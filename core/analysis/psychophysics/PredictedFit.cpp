@@ -39,7 +39,7 @@ double gOf(std::span<const double> counts, std::span<const double> expected) {
     return std::max(g, 0.0);
 }
 
-/// How many simulated sessions lie where, seen from one G.
+/// The places of simulated sessions, seen from one G.
 struct SimulatedG {
     double g = 0;
     std::size_t larger = 0;

@@ -48,7 +48,7 @@ public:
     [[nodiscard]] static Result<QuestPlus> create(const LevelGrid& grid, const QuestPlusSettings& settings,
                                                   std::uint64_t seed);
 
-    /// The same until it is answered; nothing when done().
+    /// The same trial until it is answered; nothing when done().
     [[nodiscard]] std::optional<TwoIntervalTrial> next() const;
     /// Errors: InvalidArgument for a value that is not an interval, or when done(); nothing has changed then.
     [[nodiscard]] Result<void> answer(TrialInterval said);
@@ -88,7 +88,7 @@ struct DriftCheckSettings {
     double felt = 0;        ///< F of the session's ascending limits, in the grid's unit: the centre of the α grid
     double last = 0;        ///< last estimate of α; > 0
     double min = 0;         ///< I_min; > 0
-    std::size_t block = 0;  ///< that follows: names the order of intervals
+    std::size_t block = 0;  ///< the block that follows; it names the order of intervals
     double priorSd_db = 2.5;
     std::size_t trials = 12;
     double margin = 1.1;

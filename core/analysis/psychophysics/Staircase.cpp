@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kStartTimes = 1.5;       // In F
 constexpr double kStepShare = 0.05;       // In F
-constexpr std::size_t kUpSteps = 2;       // For one down
+constexpr std::size_t kUpSteps = 2;       // Steps up for one step down
 constexpr std::size_t kDoubledUntil = 2;  // Reversals
 constexpr std::size_t kRightForDown = 2;
 

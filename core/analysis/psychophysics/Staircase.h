@@ -19,7 +19,7 @@ namespace tacto {
 
 struct StaircaseSettings {
     double felt = 0;                   ///< F, in the grid's unit
-    std::size_t reversals = 8;         ///< that end it; ≥ 2
+    std::size_t reversals = 8;         ///< how many reversals end it; ≥ 2
     std::size_t averaged = 6;          ///< how many of the last reversals are averaged; 1 to `reversals`
     std::size_t most = 60;             ///< trials; ≥ 1
     std::string stream = "staircase";  ///< name of the order of intervals
@@ -39,7 +39,7 @@ public:
     /// Errors: InvalidArgument naming the setting, its value and what is accepted.
     [[nodiscard]] static Result<Staircase> create(const LevelGrid& grid, const StaircaseSettings& settings,
                                                   std::uint64_t seed);
-    /// The same until it is answered; nothing when done().
+    /// The same trial until it is answered; nothing when done().
     [[nodiscard]] std::optional<TwoIntervalTrial> next() const;
     /// Errors: InvalidArgument for a value that is not an interval, or when done(); nothing has changed then.
     [[nodiscard]] Result<void> answer(TrialInterval said);

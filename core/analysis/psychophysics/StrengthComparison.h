@@ -23,7 +23,7 @@
 namespace tacto {
 
 struct StrengthComparisonSettings {
-    double low = 0;  ///< the range whose levels are compared, in the grid's unit; at least one step wide
+    double low = 0;  ///< the range of the levels that are compared, in the grid's unit; at least one step wide
     double high = 0;
     std::size_t trials = 40;  ///< 1 to 1000
 };
@@ -35,7 +35,7 @@ struct StrengthPair {
 struct ComparisonTrial {
     std::size_t number = 0;  ///< from 1
     StrengthPair pair;
-    TrialInterval interval = TrialInterval::First;  ///< that holds the stronger
+    TrialInterval interval = TrialInterval::First;  ///< the interval that holds the stronger
 };
 
 struct AnsweredComparison {
@@ -45,7 +45,7 @@ struct AnsweredComparison {
 
 struct StrengthComparisonResult {
     Estimate weber;       ///< with its 95 % interval
-    bool atEdge = false;  ///< it may lie beyond 0.01 to 1, and the interval is too narrow
+    bool atEdge = false;  ///< the estimate may lie beyond 0.01 to 1, and the interval is too narrow
     IntervalShares intervals;
     std::vector<AnsweredComparison> trials;
 };
@@ -57,7 +57,7 @@ public:
                                                            const StrengthComparisonSettings& settings,
                                                            std::uint64_t seed);
 
-    /// The same until it is answered; nothing after the last.
+    /// The same trial until it is answered; nothing after the last.
     [[nodiscard]] std::optional<ComparisonTrial> next() const;
     /// Errors: InvalidArgument for a value that is not an interval, or after the last; nothing has changed then.
     [[nodiscard]] Result<void> answer(TrialInterval said);

@@ -49,8 +49,8 @@ std::optional<PlannedOrder> orderOfBlock(const PlannedBlocks& wanted, Random& ra
     return std::nullopt;
 }
 
-/// Each block is drawn by itself, and all of them again when a run crosses their ends, so that whole orders are equally
-/// likely.
+/// Each block is drawn by itself, and all of them are drawn again when a run crosses their ends, so that whole orders
+/// are equally likely.
 std::optional<PlannedOrder> orderOfPhase(const PlannedBlocks& wanted, std::uint64_t seed) {
     Random random(seed, fmt::format("plan, {}", nameOf(wanted.phase)));
     for (int tries = 0; tries < kTries; ++tries) {

@@ -33,7 +33,7 @@ struct TrialPlanSettings {
 struct PlannedTrial {
     std::size_t number = 0;  ///< from 1, over the whole plan
     TrialPhase phase = TrialPhase::Test;
-    std::size_t block = 0;                 ///< from 1 within the phase; of familiarisation the round
+    std::size_t block = 0;                 ///< from 1 within the phase; in familiarisation the round
     std::optional<std::size_t> condition;  ///< 0 to conditions − 1; nothing: a catch trial, nothing is presented
     bool operator==(const PlannedTrial&) const = default;
 };
@@ -43,9 +43,9 @@ inline constexpr std::size_t kMaxInARow = 3;
 /// Errors: InvalidArgument naming the setting, its value and what is accepted, or when no order was found that obeys.
 [[nodiscard]] Result<std::vector<PlannedTrial>> planTrials(const TrialPlanSettings& settings, std::uint64_t seed);
 
-// When training ends: after a block with 7 of 8 right, or after four blocks (pilot.md section 4).
+// Decides when training ends: after a block with 7 of 8 right, or after four blocks (pilot.md section 4).
 //
-// A participant who does not reach it goes on to the test all the same.
+// A participant who does not reach it takes the test all the same.
 
 struct TrainingRuleSettings {
     std::size_t blockSize = 8;  ///< ≥ 1

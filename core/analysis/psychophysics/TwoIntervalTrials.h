@@ -44,7 +44,7 @@ struct AnsweredTwoIntervalTrial {
 };
 
 struct IntervalShare {
-    std::size_t trials = 0;  ///< with the train in this interval
+    std::size_t trials = 0;  ///< trials with the train in this interval
     std::size_t right = 0;
 };
 struct IntervalShares {
@@ -55,7 +55,7 @@ struct IntervalShares {
 
 class TwoIntervalOrder {
 public:
-    /// `name` tells the procedures of a session apart: two of the same seed and name are alike.
+    /// `name` tells the procedures of a session apart: two with the same seed and name are the same.
     TwoIntervalOrder(std::uint64_t seed, std::string_view name);
     /// The interval of trial `number`, from 1.
     [[nodiscard]] TrialInterval of(std::size_t number) const;
@@ -63,7 +63,7 @@ public:
 private:
     std::uint64_t seed_;
     std::string name_;
-    mutable std::optional<std::size_t> drawn_;  ///< which ten are in ten_
+    mutable std::optional<std::size_t> drawn_;  ///< which ten stand in ten_
     mutable std::array<TrialInterval, 10> ten_{};
 };
 
@@ -90,7 +90,7 @@ public:
     /// The first of those within kEqualEntropy; one that was taken kMaxAlike times in a row only where it is the only
     /// one.
     [[nodiscard]] std::size_t mostInformative() const;
-    /// That choice; none: choices().
+    /// The choice that is forbidden; choices() where none is.
     [[nodiscard]] std::size_t forbidden() const noexcept;
 
 private:
@@ -103,7 +103,7 @@ private:
     std::vector<std::size_t> taken_;
 };
 
-/// Weights on an even grid of a quantity, the sum of which is 1; each cell is taken as even.
+/// Weights on an even grid of a quantity, with a sum of 1; the weight is even within a cell.
 struct EvenDensity {
     double first = 0;  ///< middle of the first cell
     double step = 1;

@@ -10,7 +10,7 @@ namespace tacto {
 
 namespace {
 
-/// From `least` at `from` to `most` at `to` on a logarithmic scale, with noise, as a whole number of the scale.
+/// Rises on a logarithmic scale from `least` at `from` to `most` at `to`, with noise, as a whole number of the scale.
 struct RatingScale {
     double from;
     double to;

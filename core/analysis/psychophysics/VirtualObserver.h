@@ -71,7 +71,7 @@ public:
     [[nodiscard]] StrengthWord strength(std::string_view key, double level, Seconds stimulated) const;
     [[nodiscard]] TrialInterval detect(std::string_view key, double level, TrialInterval interval,
                                        Seconds stimulated) const;
-    /// In which interval the stronger of two levels seemed to be; both > 0. `interval` holds it.
+    /// The interval in which the stronger of two levels seemed to be; both > 0. `interval` holds it.
     [[nodiscard]] TrialInterval compare(std::string_view key, double weaker, double stronger,
                                         TrialInterval interval) const;
     /// Index of the condition that is named, or `conditions.size()` for "none". `presented`: which of them; nothing: a
@@ -92,14 +92,14 @@ public:
     [[nodiscard]] double detection() const noexcept { return detection_; }
     [[nodiscard]] double tooStrong() const noexcept { return tooStrong_; }
     [[nodiscard]] const VirtualObserverSettings& settings() const noexcept { return settings_; }
-    /// By how much thresholds have risen: 1 to 1 + a.
+    /// The factor by which thresholds have risen: 1 to 1 + a.
     [[nodiscard]] double risen(Seconds stimulated) const noexcept;
 
 private:
     explicit VirtualObserver(const VirtualObserverSettings& settings) noexcept;
     [[nodiscard]] Random randomFor(std::string_view question, std::string_view key) const;
     [[nodiscard]] double jnd(double level) const noexcept;
-    /// The same as it is felt, with the observer's noise.
+    /// The level as it is felt, with the observer's noise.
     [[nodiscard]] double noisy(Random random, double level) const noexcept;
     [[nodiscard]] IdentificationTask taskFor(std::span<const DeliveredCondition> conditions) const;
     [[nodiscard]] Observer observerAfter(Seconds stimulated) const;

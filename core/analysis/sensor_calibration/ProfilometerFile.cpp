@@ -42,7 +42,7 @@ std::optional<double> unitOf(std::string_view text) {
 
 struct Number {
     double value = 0;
-    std::optional<double> unit;  // that follows it
+    std::optional<double> unit;  // the unit that follows it
 };
 
 /// "1.62", "1,62", "1.62 µm".
@@ -254,7 +254,7 @@ private:
     std::array<Found, 2> found_;
     std::array<Column, 2> columns_;
     std::size_t line_ = 0;
-    std::size_t nameSeen_ = 0;  // line that names Ra, whatever followed
+    std::size_t nameSeen_ = 0;  // the line that names Ra, whatever followed
 };
 
 }  // namespace

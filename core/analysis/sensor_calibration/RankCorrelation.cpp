@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kNormal95 = 1.959963984540054;
 
-/// The correlation of ranks, whose mean is (n + 1) / 2 whatever the ties. NaN when one side does not vary.
+/// The correlation of ranks, whose mean is (n + 1) / 2 for any ties. NaN when one side does not vary.
 double correlation(const std::vector<double>& a, const std::vector<double>& b) {
     const double middle = (static_cast<double>(a.size()) + 1) / 2;
     double ab = 0, aa = 0, bb = 0;

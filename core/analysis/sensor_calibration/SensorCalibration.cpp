@@ -96,7 +96,7 @@ void sayAbsent(SensorFeature feature, const std::vector<SlidSurface>& surfaces, 
         keyOf(feature)));
 }
 
-/// Every feature's distance and its new scale; what is in use and not told apart becomes a reason.
+/// Every feature's distance and its new scale; a feature in use that does not tell them apart becomes a reason.
 void setScales(const std::vector<SlidSurface>& surfaces, SensorCalibration& found, RoughnessSettings& scaled) {
     const auto used = featuresInUse(scaled);
     std::size_t present = 0;

@@ -25,7 +25,7 @@ inline constexpr std::array kSensorFeatures{SensorFeature::H, SensorFeature::HAb
                                             SensorFeature::VDynamic};
 [[nodiscard]] std::string_view keyOf(SensorFeature feature) noexcept;  // "h", "h_abs", "v_static", "v_dynamic"
 [[nodiscard]] double valueOf(const SlideReading& slide, SensorFeature feature) noexcept;
-/// The two that `settings` choose, those of weight 0 left out.
+/// The two that `settings` choose, without those of weight 0.
 [[nodiscard]] std::vector<SensorFeature> featuresInUse(const RoughnessSettings& settings);
 
 struct SlidSurface {
@@ -47,12 +47,12 @@ struct SurfaceResult {
 
 struct SensorCalibration {
     bool accepted = false;
-    std::vector<std::string> reasons;   ///< why not, one sentence each
-    std::vector<std::string> warnings;  ///< what limits an accepted one
-    RoughnessSettings settings;         ///< with the new scales, surfaces and rest; as they were where refused
+    std::vector<std::string> reasons;   ///< reasons why it is not usable, one sentence each
+    std::vector<std::string> warnings;  ///< limitations of an accepted calibration
+    RoughnessSettings settings;         ///< settings with the new scales, surfaces and rest; unchanged where refused
     std::optional<RoughnessUncertainty> uncertainty;  ///< uncertainty of R under the new scales; nothing: not evaluated
     std::vector<SurfaceResult> surfaces;
-    std::array<std::optional<SurfaceDistance>, kSensorFeatures.size()> distances;  ///< nothing: the rig lacks it
+    std::array<std::optional<SurfaceDistance>, kSensorFeatures.size()> distances;  ///< nothing where the rig lacks it
     std::optional<SurfaceDistance> distanceR;
     std::optional<RankCorrelation> ranking;  ///< nothing: fewer than five surfaces of known Ra, or R does not vary
 };
@@ -63,7 +63,7 @@ struct SensorCalibration {
 [[nodiscard]] Result<SensorCalibration> calibrateSensor(const std::vector<SlidSurface>& surfaces,
                                                         const RoughnessSettings& settings, const SensorRest& rest);
 
-// How far R of one slide can be off: what the slide and the two references repeat to.
+// How far R of one slide can be off, from the repeatability of the slide and the two references.
 //
 // R = Σ w g / Σ w, and g is linear in log10 of its feature, so that R of a slide moves by z = Σ c log10 x with
 // c = w / (Σ w · (log10 x_rough − log10 x_smooth)). s is the standard deviation of z within a surface, pooled over all

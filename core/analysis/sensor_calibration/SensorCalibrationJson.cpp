@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// On the logarithm of the feature.
+/// Words for the logarithm of the feature.
 std::string_view wordsOf(SensorFeature feature) noexcept {
     switch (feature) {
         case SensorFeature::H:

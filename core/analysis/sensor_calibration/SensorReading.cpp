@@ -75,7 +75,7 @@ Result<SensorRest> readRest(const SensorSamples& samples, const RoughnessSetting
     (*chain)->feed(samples.blocks, frames);
     (*chain)->finish(frames);
     for (const auto& frame : frames) {
-        // Without force contact is assumed, not seen.
+        // Without force, contact is assumed and not seen.
         if (frame.contact && streamOf(samples, StreamKind::Force) != nullptr) {
             return invalid(
                 "the fingertip at rest: it was in contact {} s after the start; nothing touching is expected",

@@ -1,6 +1,6 @@
 // SensorReading.h - what a fingertip measured while it rested, slid or carried a weight: samples in, features out.
 //
-// The same chain reads them as the live bench (core/dsp), so a scale that is measured here means the same there.
+// The live bench reads them with the same chain (core/dsp), so that a scale measured here means the same there.
 #pragma once
 
 #include <limits>
@@ -21,7 +21,7 @@ namespace tacto {
 struct SensorSamples {
     std::vector<StreamInfo> streams;
     std::vector<SampleBlock> blocks;  ///< one per stream
-    std::string serial{};             ///< the fingertip's, whose scales hold; empty: not known
+    std::string serial{};             ///< the fingertip whose scales hold; empty: not known
 };
 
 /// The fingertip at rest, touching nothing.
@@ -57,7 +57,7 @@ struct ForceInUse {
     double uncertainty = kNaN;  ///< standard, of the mean, with kForceParts - 1 degrees of freedom; NaN: not known
 };
 
-/// A force record is cut into that many parts; what their means scatter by tells how well the whole mean is known.
+/// A force record is cut into that many parts; the scatter of their means tells how well the whole mean is known.
 /// Single samples would not: a finger trembles, so that neighbours are alike.
 inline constexpr std::size_t kForceParts = 8;
 /// Standard uncertainty of the mean of a stream's first channel, from its parts; NaN for fewer than two samples a part.
@@ -66,7 +66,7 @@ inline constexpr std::size_t kForceParts = 8;
 /// One weight on the resting fingertip: means over all samples, in the sensor's own units; NaN: not read.
 struct WeightReading {
     double mass_g = kNaN;
-    double reference_n = kNaN;  ///< what it weighs
+    double reference_n = kNaN;  ///< the force of its weight
     double force = kNaN;
     std::optional<StreamUnit> forceUnit{};  ///< nothing: there is no force sensor
     std::vector<double> taxels{};
@@ -74,7 +74,7 @@ struct WeightReading {
     std::optional<ForceInUse> inUse{};      ///< nothing: there is no force sensor
 };
 
-/// What the sensor, as the profile scales it, says too much under a known weight: N, with its U (95 %).
+/// The error of the sensor, with the profile's scale, under a known weight: N, with its U (95 %).
 struct WeightError {
     double value = kNaN;
     double expanded = kNaN;  ///< NaN: a part of it is not known
@@ -90,7 +90,7 @@ struct WeightError {
 
 /// Statistics of one channel over all finite samples; n = 0 where there is no such stream.
 [[nodiscard]] Statistics levelOf(const SensorSamples& samples, StreamKind kind, std::size_t channel = 0);
-/// Nothing where there is no such stream.
+/// Nothing where no such stream exists.
 [[nodiscard]] const StreamInfo* streamOf(const SensorSamples& samples, StreamKind kind) noexcept;
 
 // A sensor's reading against known references: how much one unit of it stands for, and from where.
@@ -105,7 +105,7 @@ struct WeightError {
 struct SensorScale {
     double scale = 0;  ///< reference per unit of reading: N per count, Pa per count
     double scaleU = std::numeric_limits<double>::quiet_NaN();  ///< 95 %; NaN where nothing was repeated
-    double offset = 0;  ///< in the reference's unit: what a reading of 0 stands for
+    double offset = 0;  ///< in the reference's unit: what stands for a reading of 0
     double offsetU = std::numeric_limits<double>::quiet_NaN();
     Calibration fit;  ///< readings against references
 };

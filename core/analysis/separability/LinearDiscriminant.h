@@ -16,10 +16,10 @@ struct LabelledPoint {
 class LinearDiscriminant {
 public:
     /// Means per class and the covariance pooled over all of them, with points minus classes degrees of freedom. No
-    /// variance is taken below the square of `floor`, both of which are above zero. Classes without points stay unused.
+    /// variance is taken below the square of `floor`, which is above zero. Classes without points stay unused.
     LinearDiscriminant(const std::vector<LabelledPoint>& points, std::size_t classes, const Eigen::Vector2d& floor);
 
-    /// The class whose mean is nearest in Mahalanobis distance: LDA with equal priors. The first one on a tie.
+    /// The class with the nearest mean in Mahalanobis distance: LDA with equal priors. The first one on a tie.
     [[nodiscard]] std::size_t classify(const Eigen::Vector2d& x) const;
 
     /// Mahalanobis distance between two classes' means; NaN when one has no points.

@@ -69,11 +69,11 @@ double intervalUncertaintyOf(const SeparabilityTrial& trial) {
                : std::hypot(trial.intervalUncertainty_s, trial.timeBase * trial.interval_s);
 }
 
-/// But for the gain and for the time base: they are the same in all trials, and divide out of the ratio of two.
+/// All but the uncertainty of the gain and the time base, which are the same in all trials and divide out of a ratio.
 double ownAmplitudeUncertaintyOf(const SeparabilityTrial& trial) {
     const double gain = std::isnan(trial.amplitudeGain) ? 0 : trial.amplitudeGain * trial.amplitude;
     const double rest = trial.amplitudeUncertainty * trial.amplitudeUncertainty - gain * gain;
-    return std::sqrt(rest < 0 ? 0 : rest);  // what is not known stays so
+    return std::sqrt(rest < 0 ? 0 : rest);  // an unknown value stays unknown
 }
 double ownIntervalUncertaintyOf(const SeparabilityTrial& trial) {
     return std::isnan(trial.timeBase) ? trial.timeBase : trial.intervalUncertainty_s;

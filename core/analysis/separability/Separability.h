@@ -35,8 +35,8 @@ struct SeparabilityTrial {
 };
 
 struct SeparabilityOptions {
-    /// Conditions that must be there, in the order of the confusion matrix. Empty: those that occur, the paper's four
-    /// in their own order (smooth-low, smooth-high, rough-low, rough-high), others as first met.
+    /// Conditions that must be there, in the order of the confusion matrix. Empty: the conditions met, with the paper's
+    /// four in their own order (smooth-low, smooth-high, rough-low, rough-high), others as first met.
     std::vector<std::string> conditions;
 };
 
@@ -48,7 +48,7 @@ struct ConditionSummary {
     Statistics interval_s;
     double amplitudeVariation = std::numeric_limits<double>::quiet_NaN();  ///< coefficient of variation, sd/mean
     double intervalVariation = std::numeric_limits<double>::quiet_NaN();
-    Bounds amplitudeVariationBounds;  ///< what is judged
+    Bounds amplitudeVariationBounds;  ///< the judged bounds
     Bounds intervalVariationBounds;
 };
 
@@ -59,7 +59,7 @@ struct PairSummary {
                               ///< instrument's uncertainty is unknown
     double amplitudeJnd = 0;  ///< just-noticeable differences between the means
     double intervalJnd = 0;
-    Bounds amplitudeJndBounds;  ///< what is judged; the instrument's uncertainty is in them, but for the gain and the
+    Bounds amplitudeJndBounds;  ///< the judged bounds, with the instrument's uncertainty, except for the gain and the
                                 ///< time base, which divide out of a ratio
     Bounds intervalJndBounds;
 };

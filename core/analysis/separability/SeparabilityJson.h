@@ -29,7 +29,7 @@ namespace tacto {
 /// writes them), in any order among others; names are trimmed. An empty or nan value is a trial that was not measured.
 /// Errors: NotFound, Io; ParseError naming file, line and what was expected.
 [[nodiscard]] Result<std::vector<SeparabilityTrial>> readSeparabilityTrials(const std::filesystem::path& path);
-/// The same from text; `name` stands for the file in messages.
+/// Reads them from text; `name` stands for the file in messages.
 [[nodiscard]] Result<std::vector<SeparabilityTrial>> parseSeparabilityTrials(std::string_view text,
                                                                              std::string_view name);
 

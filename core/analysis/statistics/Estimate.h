@@ -55,8 +55,8 @@ inline constexpr double kAboveChanceLevel = 0.05;
 // between 0.05 and 1, where γ is the share of people who can.
 
 /// When `k` of `n` people were above chance: γ at the mode of θ, (k/n - 0.05)/0.95 and at least 0, with the shortest
-/// interval that holds 95 %. It begins at 0 where the mode is there, and ends at 1 where k = n: "at least" is its lower
-/// end. n = 0 knows nothing: no value, 0 to 1. k ≤ n.
+/// interval that holds 95 %. It begins at 0 where the mode is 0, and ends at 1 where k = n; its lower end is the "at
+/// least". For n = 0 nothing is known: no value, 0 to 1. k ≤ n.
 [[nodiscard]] Estimate prevalenceInterval(std::size_t k, std::size_t n) noexcept;
 
 /// The quantile `q` of a Beta(a, b) that is cut off below `from`; a, b ≥ 1, 0 ≤ from < 1, q in 0 to 1.

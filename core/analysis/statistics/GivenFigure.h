@@ -22,11 +22,11 @@ struct GivenFigure {
     return {};
 }
 
-/// What is counted.
+/// A count.
 [[nodiscard]] inline GivenFigure givenCount(std::string_view name, std::size_t count, double low, double high) {
     return {name, static_cast<double>(count), {.low = low, .high = high, .whole = true}};
 }
-/// What is above 0.
+/// A figure above 0.
 [[nodiscard]] inline GivenFigure givenAboveZero(std::string_view name, double value,
                                                 double high = AcceptedNumbers{}.high) {
     return {name, value, {.low = 0, .high = high, .openLow = true}};

@@ -12,7 +12,7 @@ namespace {
 
 using Table = std::vector<std::vector<double>>;
 
-/// What a share adds to an entropy, bits.
+/// The contribution of a share to an entropy, bits.
 double surprise(double share) noexcept { return share > 0 ? -share * std::log2(share) : 0; }
 
 double entropy(std::span<const double> shares) noexcept {
@@ -21,7 +21,7 @@ double entropy(std::span<const double> shares) noexcept {
     return bits;
 }
 
-/// What `k` of `n` trials add to an entropy by the jackknife of second order; as counted of a single trial.
+/// The contribution of `k` of `n` trials to an entropy by the jackknife of second order; as counted for a single trial.
 double jackknifed(double k, double n) noexcept {
     const double all = surprise(k / n);
     if (n < 2) return all;
@@ -91,7 +91,7 @@ Variance varianceAt(const Answers& told) {
     return out;
 }
 
-/// With two more answers in each row, spread as all answers are.
+/// The answers with two more in each row, spread as all answers are.
 Answers smoothed(Answers told) {
     constexpr double kMore = 2;
     for (std::size_t s = 0; s < told.n.size(); ++s) {
@@ -126,7 +126,7 @@ Estimate correctedInformation(std::span<const std::vector<double>> counts) {
         const auto& share = told.share[s];
         for (const double part : share) bits -= weight * jackknifed(n * part, n);
         if (n < 2) continue;
-        // One of the row's trials is left out, whichever answer it had; the row counts as before.
+        // Leaves out one of the row's trials, whichever answer it had; the row counts as before.
         const double row = entropy(share);
         double mean = 0, squares = 0;
         for (std::size_t left = 0; left < share.size(); ++left) {

@@ -40,7 +40,7 @@ struct Contribution {
     double degreesOfFreedom = std::numeric_limits<double>::infinity();  ///< ≥ 1; infinite for what is stated
 
     [[nodiscard]] double standardUncertainty() const noexcept { return value / divisor; }
-    /// In the result's unit.
+    /// The contribution, in the result's unit.
     [[nodiscard]] double contribution() const noexcept;
 };
 

@@ -47,8 +47,8 @@ double statedOf(const CapturedTrain& train, double before_v) {
     return train.amplitudeUncertainty_v * std::hypot(1 / train.amplitude_v, 1 / before_v);
 }
 
-/// Expanded, of the step from `before_s` to the interval that ends with train `k`. Two intervals share the stamp
-/// between them, which makes one longer as it makes the other shorter. u: that of the least certain of their three
+/// The expanded uncertainty of the step from `before_s` to the interval that ends with train `k`. Two intervals share
+/// the stamp between them, which makes one longer as it makes the other shorter. u: of the least certain of their three
 /// stamps.
 double intervalUncertainty_jnd(const std::vector<CapturedTrain>& trains, std::size_t k, double before_s) {
     double stamp_s = 0;
@@ -117,7 +117,7 @@ void addChange(ChangeGroup& group, const CapturedChange& change, const ChangeLim
     if (!(measured.trains <= fastest.trains)) ++group.tooMany;
 }
 
-/// What speaks against a pass, in sentences.
+/// The reasons against a pass, in sentences.
 struct Findings {
     std::vector<std::string> failures, open, notes;
     [[nodiscard]] Verdict verdict() const {
@@ -225,7 +225,7 @@ ChangeJudgement judgeChanges(std::span<const CapturedChange> changes, const std:
 
 namespace {
 
-/// Steps of one name: what was measured, what was not.
+/// Steps of one name, measured and not measured.
 struct MeasuredSteps {
     std::string name;
     std::vector<double> latency_s, designed_s, error_s, trains, designedTrains;
@@ -239,7 +239,7 @@ void addStep(MeasuredSteps& group, const CapturedChange& step) {
     if (std::isfinite(designed.latency_s)) group.designed_s.push_back(designed.latency_s);
     if (std::isfinite(measured.latency_s) && std::isfinite(designed.latency_s)) {
         group.latency_s.push_back(measured.latency_s);
-        // Within what a measurement of the design may find, there is no difference.
+        // A difference within what a measurement of the design may find is none.
         const double low = step.designedFirst.latency_s, high = step.designedLast.latency_s;
         const bool ranged = low <= designed.latency_s && designed.latency_s <= high;
         group.error_s.push_back(measured.latency_s -

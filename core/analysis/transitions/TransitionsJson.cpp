@@ -106,7 +106,7 @@ RecordFields<CapturedTrain> trainFields() {
     return all;
 }
 
-/// What steps and movements have in common.
+/// The fields that steps and movements share.
 RecordFields<CapturedChange> changeFields() {
     using C = CapturedChange;
     RecordFields<C> all;

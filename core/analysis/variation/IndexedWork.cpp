@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::chrono::milliseconds kPollInterval{50};
 
-/// A thread inherits the vector registers of the one that starts it. Where that one has left their upper halves in use,
-/// as the scripts' engine does, scalar mathematics waits for them at every step: measured 7 to 10 times slower.
+/// A thread inherits the vector registers of the thread that starts it. If that thread has left their upper halves in
+/// use, as the scripts' engine does, scalar mathematics waits for them at every step: measured 7 to 10 times slower.
 void clearUpperHalves() noexcept {
 #if defined(__x86_64__)
     if (__builtin_cpu_supports("avx")) asm volatile("vzeroupper");
@@ -70,7 +70,7 @@ Result<std::size_t> runIndexed(const IndexedWork& wanted, std::stop_token stop) 
     const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
     const std::size_t most = wanted.threads == 0 ? cores : wanted.threads;
     {
-        std::vector<std::jthread> threads;  // joined at the end of this scope, whatever happens in it
+        std::vector<std::jthread> threads;  // joined at the end of this scope in any case
         for (std::size_t i = 0; i < std::min(most, wanted.count); ++i) {
             {
                 const std::lock_guard lock(crew.mutex);

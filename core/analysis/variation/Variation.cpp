@@ -105,7 +105,7 @@ bool isClearlySeparable(const ParticipantPrediction& person) {
     return true;
 }
 
-/// What was answered, over the served participants.
+/// Adds the answers of the served participants.
 void addAnswers(Variation& out, std::span<const ParticipantPrediction> people, std::size_t conditions) {
     out.confusion.assign(conditions, std::vector<std::size_t>(conditions + 1, 0));
     std::size_t right = 0, trials = 0;
@@ -140,7 +140,7 @@ void addAnswers(Variation& out, std::span<const ParticipantPrediction> people, s
     out.pooledCorrected = correctedInformation(table).value;
 }
 
-/// Each participant into one group of those who are served, refused, and so on.
+/// Puts each participant into one group: served, refused, and so on.
 void addPeople(Variation& out, std::span<const ParticipantPrediction> people) {
     for (const auto& person : people) {
         const bool refused = std::ranges::any_of(
@@ -233,7 +233,7 @@ Result<Variation> predictVariation(const VariationOptions& options, std::stop_to
         auto needed = trialsNeeded(out.accuracies, wanted);
         if (!needed) return failure(needed);
         out.trials = std::move(*needed);
-        std::vector<std::size_t> sizes = {3, 4, 5};  // what the paper plans
+        std::vector<std::size_t> sizes = {3, 4, 5};  // the sizes that the paper plans
         if (wanted.participants < 3 || wanted.participants > 5) sizes.push_back(wanted.participants);
         const PilotPeople group{out.accuracies, out.participants};
         for (const auto size : sizes) {

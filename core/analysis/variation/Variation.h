@@ -9,7 +9,7 @@
 // strong. A participant for whom every condition counts is served; distances are over conditions that count, answers
 // and accuracies over those who are served.
 //
-// Nothing of it is measured: it says what to expect if people are as the distributions state.
+// Nothing here is measured: it tells what to expect if people are as the distributions state.
 //
 // Thread-safety: predictVariation() keeps its threads to itself; the rest are values.
 #pragma once
@@ -51,8 +51,8 @@ struct ParticipantPrediction {
 struct PredictedPair {
     std::string a;
     std::string b;
-    std::size_t participants = 0;  ///< for whom both count; the following are over them
-    Estimate jnd;                  ///< both dimensions together: median, 5 and 95 %
+    std::size_t participants = 0;  ///< people for whom both count; what follows is over them
+    Estimate jnd;                  ///< with both dimensions together: median, 5 and 95 %
     Estimate amplitude_jnd;
     Estimate interval_jnd;
 };
@@ -102,7 +102,7 @@ struct Variation {
     Estimate information;                             ///< expected, bits
     double pooledAccuracy = 0;                        ///< accuracy over the sampled trials; NaN without any
     double pooledInformation = 0;                     ///< information in the sampled trials, bits, not corrected
-    double pooledCorrected = 0;                       ///< without what chance adds, bits
+    double pooledCorrected = 0;                       ///< without the part that chance adds, bits
     std::vector<double> accuracies;                   ///< sorted
     std::optional<TrialsNeeded> trials;               ///< nothing without served participants
     std::vector<PilotOutlook> pilots;  ///< for 3, 4, 5 and options.wanted.participants people; empty likewise

@@ -19,10 +19,10 @@
 
 namespace tacto {
 
-/// Which amplitudes a participant gets.
+/// The amplitudes that a participant gets.
 enum class AmplitudeLevels {
     Profile,   ///< the profile's A_min to A_max, the same for everybody
-    Personal,  ///< as far as it lies in the profile's range: from what the participant feels to what is too strong
+    Personal,  ///< from what the participant feels to what is too strong, as far as it lies in the profile's range
 };
 [[nodiscard]] std::string_view nameOf(AmplitudeLevels levels) noexcept;  // "profile", "personal"
 [[nodiscard]] Result<AmplitudeLevels> amplitudeLevelsFrom(std::string_view name);
@@ -33,7 +33,7 @@ struct VirtualStimulation {
     std::vector<LimitSet> limits;
     Ceilings ceilings;
     std::optional<SquareCentimetres> electrodeArea;  ///< > 0; nothing: that for which the skin is given
-    Ohms loadLow{500};                               ///< between which a person's |Z| must lie
+    Ohms loadLow{500};                               ///< a person's |Z| must lie between these two
     Ohms loadHigh{10'000};
     AmplitudeLevels levels = AmplitudeLevels::Personal;
     /// Personal: A_min is this times the detection threshold, clear of it by 4 differences of 10 % (choice) ...
@@ -55,7 +55,7 @@ enum class DeliveryOutcome {
     NoRange,              ///< personal levels: nothing between the participant's two levels lies in the profile's range
 };
 [[nodiscard]] std::string_view nameOf(DeliveryOutcome outcome) noexcept;
-/// What the gate does: an impedance or an amplitude that is not permitted.
+/// Whether the gate refused it: an impedance or an amplitude that is not permitted.
 [[nodiscard]] constexpr bool isRefused(DeliveryOutcome outcome) noexcept {
     return outcome == DeliveryOutcome::ImpedanceOutOfRange || outcome == DeliveryOutcome::RefusedByLimits ||
            outcome == DeliveryOutcome::Uncomfortable;
@@ -63,7 +63,7 @@ enum class DeliveryOutcome {
 
 struct PredictedStimulus {
     DeliveryOutcome outcome = DeliveryOutcome::NoRange;
-    std::string reason;  ///< in short, without values: the same for everybody whom it concerns; empty if presented
+    std::string reason;  ///< in short, without values: the same for everybody whom it concerns; empty where presented
     Volts command{0};    ///< the encoder's amplitude
     Seconds interval{0};
     Milliamps current{0};  ///< mean of the leading phase, as delivered (or as refused); 0 if there was no command

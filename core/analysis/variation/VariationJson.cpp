@@ -334,7 +334,7 @@ public:
                std::string_view source, double scale = 1) {
         const LogNormal& now = model_.*member;
         const LogNormal& shipped = shipped_.*member;
-        // No source gives the spread of any of them.
+        // No source states the spread of these figures.
         const auto spreadMark = nameOf(now.spread != shipped.spread ? PremiseMark::Set : PremiseMark::Choice);
         add(std::move(quantity), withUnit(scale * now.median, unit), fmt::format("{:.4g} ({})", now.spread, spreadMark),
             mark, source, now.median != shipped.median, withUnit(scale * shipped.median, unit));
@@ -344,7 +344,7 @@ public:
         add(std::move(quantity), withUnit(value, unit), "", mark, source, value != shippedValue,
             withUnit(shippedValue, unit));
     }
-    /// What follows from the other figures or from the run.
+    /// A figure that follows from other figures or from the run.
     void derived(std::string quantity, std::string value, PremiseMark mark, std::string_view source) {
         add(std::move(quantity), std::move(value), "", mark, source, false, "");
     }

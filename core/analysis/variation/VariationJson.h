@@ -59,7 +59,7 @@ struct Premise {
     std::string source;  ///< source of the shipped value; for a choice what it leans on, in a sentence
 };
 
-/// In the order of the chain: thresholds, skin, discrimination, levels. `options` has been predicted with.
+/// The premises in the order of the chain: thresholds, skin, discrimination, levels. `options` of the prediction.
 [[nodiscard]] std::vector<Premise> premisesOf(const VariationOptions& options);
 
 /// How a prediction is shown.

@@ -32,7 +32,7 @@ std::vector<Region> regionsOf(const IdentificationTask& task) {
     std::vector<Region> regions(task.points.size());
     for (std::size_t j = 0; j < task.points.size(); ++j) {
         regions[j].empty = !task.given[j];
-        if (regions[j].empty) continue;  // its point may be unknown
+        if (regions[j].empty) continue;  // the point of an empty region may be unknown
         for (std::size_t m = 0; m < task.points.size(); ++m) {
             if (m == j || !task.given[m]) continue;
             const auto& own = task.points[j];
@@ -52,7 +52,7 @@ std::vector<Region> regionsOf(const IdentificationTask& task) {
     return regions;
 }
 
-/// Where along the amplitude the regions' cross-section has a step or a kink.
+/// The amplitudes at which the regions' cross-section has a step or a kink.
 std::vector<double> breaksOf(const std::vector<Region>& regions) {
     std::vector<double> breaks;
     for (const auto& region : regions) {
@@ -105,7 +105,7 @@ double panel(const Region& region, const FeltPoint& stimulus, double sigma, doub
     return sum * half / (sigma * std::sqrt(2 * std::numbers::pi));
 }
 
-/// Nothing for an amplitude below detection.
+/// Nothing where the amplitude lies below detection.
 std::size_t answerTo(const IdentificationTask& task, const FeltPoint& felt) noexcept {
     std::size_t best = task.points.size();
     double nearest = std::numeric_limits<double>::infinity();

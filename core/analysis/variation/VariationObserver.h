@@ -33,13 +33,13 @@ struct FeltPoint {
 /// Euclidean: the d' of two conditions for an observer whose noise is 1.
 [[nodiscard]] double distance_jnd(const FeltPoint& a, const FeltPoint& b) noexcept;
 
-/// What `who` feels of a train of `level` (a current, or an intensity) that comes every `interval`.
+/// What `who` feels when a train of `level` (a current, or an intensity) comes every `interval`.
 [[nodiscard]] FeltPoint feltBy(const VirtualParticipant& who, double level, Seconds interval) noexcept;
 
 struct Observer {
     double noise_jnd = 1;  ///< > 0, both dimensions
     double lapse = 0;      ///< 0 to 1
-    /// In the amplitude's just-noticeable differences; minus infinity: everything is felt.
+    /// In just-noticeable differences of amplitude; minus infinity: everything is felt.
     double detection_jnd = -std::numeric_limits<double>::infinity();
     GuessBehaviour guess = GuessBehaviour::None;
 };
@@ -48,10 +48,10 @@ struct Observer {
 [[nodiscard]] Observer observerOf(const VirtualParticipant& who, double detection,
                                   GuessBehaviour guess = GuessBehaviour::None) noexcept;
 
-/// A condition that is never given keeps its row and column, so that indices are those of the experiment.
+/// A condition that is never given keeps its row and column, so that indices match the experiment.
 struct IdentificationTask {
     std::vector<FeltPoint> points;  ///< one for every condition
-    std::vector<bool> given;        ///< as long as `points`: presented, and learned as an answer
+    std::vector<bool> given;        ///< as many as `points`: presented, and learned as an answer
 };
 
 /// [stimulus][response], the last response being "none"; rows of conditions that are not given are 0. To about 1e-10,

@@ -15,7 +15,7 @@ double widthOf(std::size_t k, std::size_t n) noexcept {
     return interval.high - interval.low;
 }
 
-/// Smallest k from n/2 up whose interval is narrow enough, n + 1 if none is: the interval is the widest in the
+/// Smallest k from n/2 up with a narrow enough interval, n + 1 if there is none: the interval is the widest in the
 /// middle and the same for k and n - k.
 std::size_t narrowFrom(std::size_t n, double width) noexcept {
     return firstEnough((n + 1) / 2, n + 1, [&](std::size_t k) { return widthOf(k, n) <= width; });
@@ -54,7 +54,7 @@ std::optional<std::size_t> fewest(std::size_t step, std::size_t enoughFrom, doub
     return n;
 }
 
-/// At this many trials every outcome is narrow enough, or `most`.
+/// The number of trials at which every outcome is narrow enough, or `most`.
 std::size_t alwaysNarrow(double width, std::size_t most) noexcept {
     return firstEnough(1, most, [&](std::size_t n) { return widthOf((n + 1) / 2, n) <= width; });
 }

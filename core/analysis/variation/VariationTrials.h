@@ -19,7 +19,7 @@ namespace tacto {
 
 struct TrialsWanted {
     double width = 0.1;            ///< width of the 95 % interval, upper end less lower; 0.02 to 1
-    double chance = 0.25;          ///< which the lower end must exceed; above 0, below 1
+    double chance = 0.25;          ///< the chance that the lower end must exceed; above 0, below 1
     double assurance = 0.8;        ///< probability with which a pilot reaches what is wanted; 0.5 to 0.999
     std::size_t conditions = 4;    ///< trials of a participant are a multiple of this
     std::size_t participants = 5;  ///< people in the pilot, for the pooled figures: the paper plans 3 to 5
@@ -41,13 +41,13 @@ struct TrialsWanted {
 struct PooledTrials {
     std::optional<std::size_t> total;           ///< trials of all participants; nothing when no number is enough
     std::optional<std::size_t> perParticipant;  ///< whole blocks
-    double designEffect = 1;                    ///< at that many per participant; NaN when no number is enough
+    double designEffect = 1;                    ///< at that many trials per participant; NaN when no number is enough
     /// Fewest participants with whom it can be reached at all, whatever each of them does.
     std::optional<std::size_t> participantsLeast;
 };
 
 struct TrialsNeeded {
-    /// From this many on every larger number of whole blocks is enough too; nothing when `most` is not.
+    /// From this number on, every larger number of whole blocks is enough, too; nothing when `most` is not enough.
     std::optional<std::size_t> forWidth;
     std::optional<std::size_t> aboveChance;
     PooledTrials pooledForWidth;
@@ -83,8 +83,8 @@ struct PilotOutlook {
     std::size_t rightFrom = 0;    ///< so many right answers are above chance; trials + 1 where no number is
     double allServed = 0;         ///< probability that every one is served
     double allAboveChance = 0;    ///< probability that every one is served and above chance
-    double prevalenceAll = 0;     ///< then: at least this share of such people can do it (lower end of 95 %)
-    double prevalenceButOne = 0;  ///< the share of such people where one of them does not
+    double prevalenceAll = 0;     ///< in that case, at least this share of such people can do it (lower end of 95 %)
+    double prevalenceButOne = 0;  ///< the share of such people where one of them cannot
     Estimate width;               ///< width of one person's 95 % interval: median, 5 and 95 % over the served
 };
 

@@ -75,7 +75,7 @@ VirtualParticipant drawParticipant(const PopulationModel& model, std::uint64_t s
         medians[i] = thresholds[i]->median;
         own[i] = scale * thresholds[i]->at(shared + std::sqrt(1 - model.thresholdCorrelation) * random.normal());
     }
-    std::ranges::sort(own);  // who tolerates a current feels it
+    std::ranges::sort(own);  // whoever tolerates a current feels it
     out.detection = Milliamps(own[0]);
     out.attention = Milliamps(own[1]);
     out.intolerance = Milliamps(own[2]);

@@ -34,7 +34,7 @@ struct LogNormal {
     bool operator==(const LogNormal&) const = default;
 };
 
-/// What is accepted of each figure: populationFields().
+/// The accepted values of each figure stand in populationFields().
 struct PopulationModel {
     LogNormal series_ohm{200, 1.5};     ///< R_s
     LogNormal parallel_ohm{10e3, 1.5};  ///< R_p under `skinArea`: falls with the area
@@ -45,8 +45,8 @@ struct PopulationModel {
     LogNormal attention_ma{6.9, 1.4};     ///< attention
     LogNormal intolerance_ma{13.8, 1.4};  ///< intolerance
     double thresholdCorrelation = 0.8;    ///< between the logarithms of a person's thresholds
-    /// From where stimulation is too strong for a median person, above the median of detection. 9.8: the geometric mean
-    /// of attention and intolerance.
+    /// The level from which stimulation is too strong for a median person, above the median of detection. 9.8: the
+    /// geometric mean of attention and intolerance.
     double discomfort_ma = 9.8;
     LogNormal amplitudeWeber{kAmplitudeWeberFraction, 1.25};
     LogNormal intervalWeber{kIntervalWeberFraction, 1.25};
@@ -64,8 +64,8 @@ struct PopulationModel {
 
 struct VirtualParticipant {
     std::size_t index = 0;
-    Load skin;  ///< under the electrode they get
-    /// For pulses of `width`, as drawParticipant() was given it: detection < attention < intolerance.
+    Load skin;  ///< the skin under the electrode they get
+    /// For pulses of the `width` that drawParticipant() got: detection < attention < intolerance.
     Milliamps detection{0};
     Milliamps attention{0};
     Milliamps intolerance{0};
@@ -92,7 +92,7 @@ struct PopulationField {
     std::string_view name;      ///< "median perception threshold"
     std::string_view holdsFor;  ///< what the name leaves out: "at 150 us per phase"; may be empty
     AcceptedNumbers accepted;
-    LogNormal PopulationModel::*drawn = nullptr;  ///< what each person draws, of which this is the median; else:
+    LogNormal PopulationModel::*drawn = nullptr;  ///< what each person draws, with this as its median; else:
     double PopulationModel::*single = nullptr;
 
     [[nodiscard]] double& in(PopulationModel& model) const { return drawn ? (model.*drawn).median : model.*single; }

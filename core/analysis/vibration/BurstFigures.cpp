@@ -94,10 +94,10 @@ Result<Course> courseOf(std::span<const AccelerationSample> samples, double firs
 
 struct OneBurst {
     double onset_s, rise_s, strength;
-    double samples;  // that the strength was taken from
+    double samples;  // how many samples gave the strength
 };
 
-/// Nothing where the motor did not move. `until`: the next burst, or when it has run down.
+/// Nothing where the motor did not move. `until`: the next burst, or the end of its run-down.
 std::optional<OneBurst> measure(const Course& course, const CommandedBurst& burst, double until) {
     const auto begin = course.from(burst.onset_s), end = course.from(until);
     if (begin >= end) return std::nullopt;
@@ -169,7 +169,7 @@ Result<BurstFigures> burstFigures(std::span<const AccelerationSample> samples, s
     out.strengthUncertainty_m_s2 = out.noise_m_s2 / std::sqrt(taken);
     if (intervals == 0) return out;
     out.interval_s = between / intervals;
-    // Each of the two onsets lies anywhere in a sample period; those between cancel.
+    // Each of the two onsets lies anywhere in a sample period; the onsets between them cancel.
     out.intervalUncertainty_s = course->period_s / std::sqrt(6.0) / intervals;
     return out;
 }

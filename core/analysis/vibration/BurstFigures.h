@@ -30,7 +30,7 @@ struct AccelerationSample {
     double x = 0, y = 0, z = 0;
 };
 
-/// As it was commanded.
+/// A burst as it was commanded.
 struct CommandedBurst {
     double onset_s = 0;
     Seconds duration{0.1};
@@ -38,8 +38,8 @@ struct CommandedBurst {
 
 struct BurstFigures {
     std::size_t bursts = 0;       ///< commanded
-    std::size_t moved = 0;        ///< in which the motor moved
-    std::size_t missed = 0;       ///< that were not measured
+    std::size_t moved = 0;        ///< bursts in which the motor moved
+    std::size_t missed = 0;       ///< bursts that were not measured
     double strength_m_s2 = kNaN;  ///< means over those that moved
     double latency_s = kNaN;
     double rise_s = kNaN;

@@ -24,7 +24,7 @@ struct VibrationTrial {
     std::string condition;
     double intensity = kNaN;  ///< commanded
     double interval_s = kNaN;
-    BurstFigures measured;  ///< what an accelerometer read; all NaN where there was none
+    BurstFigures measured;  ///< an accelerometer's readings; all NaN without one
 };
 
 struct VibrationCondition {
@@ -37,7 +37,7 @@ struct VibrationCondition {
 };
 
 struct VibrationSeparability {
-    bool measured = false;  ///< at least one burst was
+    bool measured = false;  ///< at least one burst was measured
     std::vector<VibrationCondition> conditions;
     std::vector<PairSummary> pairs;  ///< amplitude is strength
     Estimate accuracy;

@@ -41,7 +41,7 @@ std::optional<ApprovedTrain> ArmingSequence::checkPulse(Instant now, bool hasSti
     return std::move(*check);
 }
 
-/// On the operator's word alone, and for a massager: nothing measures the load.
+/// Arms on the operator's word alone; a massager, too, as nothing measures its load.
 void ArmingSequence::armWithoutCheck(Instant now) noexcept {
     command_->evidence.impedanceAt = now;
     const auto permitted = interlock_.arm(command_->evidence, now);

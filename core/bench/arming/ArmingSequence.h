@@ -19,7 +19,7 @@ namespace tacto {
 /// The second step of arming, prepared by the bench.
 struct ArmCommand {
     GateSetup setup;
-    ArmingEvidence evidence;  ///< its impedance is filled in from the check pulse
+    ArmingEvidence evidence;  ///< the check pulse fills in its impedance
     /// |Z| of the declared load, where captures will tell what becomes of it and the stimulator does not: what a
     /// profile that holds charge or energy refers to.
     std::optional<Ohms> declared{};
@@ -29,7 +29,7 @@ struct ArmCommand {
     bool confirmByCapture = false;
 };
 
-/// The load that the output was armed on, as it was measured then and since.
+/// The load that the output was armed on, as measured then and since.
 struct ArmedLoad {
     std::optional<Ohms> reference;  ///< |Z| when the output was armed: what a profile that holds charge refers to
     Instant armedAt{0};
@@ -40,13 +40,13 @@ struct ArmedLoad {
 
 class ArmingSequence {
 public:
-    /// All outlive the sequence; what is armed is written to `load`.
+    /// All arguments outlive the sequence; what is armed is written to `load`.
     ArmingSequence(SafetyGate& gate, Interlock& interlock, ArmedLoad& load) noexcept
         : gate_(gate), interlock_(interlock), load_(load) {}
 
-    /// Another arming is asked for: there is no result of it yet.
+    /// Another arming is asked for, which has no result yet.
     void expect();
-    /// Nothing while the arming goes on, then success or why not. Taken once.
+    /// Nothing while the arming is going on, then success or why it failed. Taken once.
     [[nodiscard]] std::optional<Result<void>> result();
 
     void begin(ArmCommand command) noexcept;
@@ -58,7 +58,7 @@ public:
     [[nodiscard]] std::optional<ApprovedTrain> checkPulse(Instant now, bool hasStimulator) noexcept;
     /// The device has reported the check pulse, and it is sound.
     void checkRead(const TrainReport& report) noexcept;
-    /// What the oscilloscope showed of the check pulse; arms once the device has reported too.
+    /// Takes the oscilloscope's view of the check pulse; arms once the device has reported, too.
     void confirm(Result<Ohms> seen) noexcept;
     void armOnCapture(Instant now) noexcept;
 
@@ -78,7 +78,7 @@ private:
     std::optional<ArmCommand> command_;
     bool checkPosted_ = false;
     bool checkRead_ = false;                 // the device has reported, the capture has not come
-    std::optional<Result<Ohms>> confirmed_;  // what the capture showed
+    std::optional<Result<Ohms>> confirmed_;  // the load that the capture showed
 
     std::mutex resultMutex_;
     std::optional<Result<void>> result_;

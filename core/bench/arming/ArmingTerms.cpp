@@ -33,7 +33,7 @@ std::string ArmingTerms::text(const Load& load) const {
     return armingText(output->identity(), stimulated, config_.profile, config_.mode, load);
 }
 
-/// A confirmation of another text is none: a device, profile or area may have changed since it was shown.
+/// A confirmation of another text does not count: a device, profile or area may have changed since it was shown.
 Result<void> ArmingTerms::checkConfirmed(const ArmRequest& request, const Load& load) const {
     if (request.confirmed.empty() && !output_.isReal()) return {};
     const auto shown = text(load);

@@ -13,8 +13,8 @@
 
 namespace tacto {
 
-// The calibration of the stimulator that is known, and whether it is applied: every train is
-// judged by the one that is known, and programmed by the one that is applied.
+// The known calibration of the stimulator, and whether it is applied: every train is judged by the known one, and
+// programmed by the applied one.
 
 class BenchCalibration {
 public:
@@ -22,15 +22,15 @@ public:
     explicit BenchCalibration(const BenchConfig& config)
         : config_(config), applied_(config.calibrationHolds ? config.calibration : std::nullopt) {}
 
-    /// One is known, and holds.
+    /// Whether a calibration is known, and holds.
     [[nodiscard]] bool held() const noexcept { return config_.calibration && config_.calibrationHolds; }
-    /// Nothing while it is left aside.
+    /// Nothing while the calibration is left aside.
     [[nodiscard]] const KnownLines& applied() const noexcept { return applied_; }
     /// Takes it up, where it holds, or leaves it aside. False where that changes nothing.
     [[nodiscard]] bool apply(bool wanted);
     /// Errors: NotArmed in person mode, after the last day on which it holds.
     [[nodiscard]] Result<void> checkDate() const;
-    /// What is applied, for the session.
+    /// Notes the applied calibration for the session.
     void note(const BenchNotes& notes) const;
 
 private:
@@ -40,12 +40,12 @@ private:
 
 class ArmingTerms {
 public:
-    /// All outlive this; they are asked each time, since profile and calibration change.
+    /// All arguments outlive this; they are asked each time, since profile and calibration change.
     ArmingTerms(const BenchConfig& config, const BenchOutput& output, const BenchCalibration& calibration) noexcept
         : config_(config), output_(output), calibration_(calibration) {}
 
     [[nodiscard]] GateSetup setupFor(const Load& load) const;
-    /// What the operator confirms (CommandPreview.h); empty without an output.
+    /// The text that the operator confirms (CommandPreview.h); empty without an output.
     [[nodiscard]] std::string text(const Load& load) const;
     /// Errors: NotArmed unless the request confirms that text; for a simulated output it may confirm none.
     [[nodiscard]] Result<void> checkConfirmed(const ArmRequest& request, const Load& load) const;
@@ -65,8 +65,8 @@ private:
 /// rehearsal; with one sentence.
 [[nodiscard]] Result<void> checkWhere(const BenchConfig& config);
 
-/// In person mode a simulated stimulator of which no calibration is known states its own. Nothing else is changed, and
-/// no other device is asked.
+/// In person mode a simulated stimulator without a known calibration states its own. Nothing else is changed, and no
+/// other device is asked.
 [[nodiscard]] BenchConfig withStatedCalibration(BenchConfig config);
 
 }  // namespace tacto

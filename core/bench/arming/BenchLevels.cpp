@@ -9,7 +9,7 @@ namespace tacto {
 
 namespace {
 
-constexpr Milliamps kContinuousStep{0.1};  // of a source without a grid (choice)
+constexpr Milliamps kContinuousStep{0.1};  // the step for a source without a grid (choice)
 constexpr Instant kAnswerTimeout = std::chrono::milliseconds(500);
 constexpr Instant kLevelPoll = std::chrono::milliseconds(1);
 
@@ -56,7 +56,7 @@ void BenchLevels::presented(const StimulusLevel& level, const Presented& ended) 
     if (!isEmpty(level) && !ended.isVoid()) presented_ = level;
 }
 
-/// With a train of the study's kind where the output is a stimulator.
+/// A request with a train of the study's kind where the output is a stimulator.
 Result<LevelRequest> BenchLevels::requestFor(LevelRequest::What what, const StimulusLevel& level) const {
     LevelRequest request{.what = what, .train = {}, .level = level};
     if (takesIntensities()) return request;
@@ -90,7 +90,7 @@ Result<void> BenchLevels::reportDiscomfort(const StimulusLevel& level) {
         return invalid("{} too strong; {} is accepted", textOf(level),
                        current != nullptr ? "a finite current of 0 or more" : "an intensity from 0 to 1");
     }
-    gate_.latchStop();  // nothing that was approved before comes after the word
+    gate_.latchStop();  // so that nothing approved earlier comes after the word
     StimulusLevel limit = level;
     if (current != nullptr) {
         auto& known = config_.person->discomfortLimit;
@@ -123,7 +123,7 @@ Result<StimulusLevel> BenchLevels::ceiling() {
     return tell(*request);
 }
 
-/// Also after a stop or a fault: what a participant says counts at any time.
+/// Told after a stop or a fault, too: what a participant says counts at any time.
 Result<StimulusLevel> BenchLevels::tell(const LevelRequest& request) {
     auto& desk = loop_->levels();
     desk.ask(request);
@@ -134,7 +134,7 @@ Result<StimulusLevel> BenchLevels::tell(const LevelRequest& request) {
     return fail(ErrorCode::Timeout, "the control loop does not run: it has not heard of a level within 0.5 s");
 }
 
-/// The reason against a level, accepted or not; empty when there is none.
+/// The reason against a level, accepted or not; empty without one.
 std::string BenchLevels::hindranceTo(Milliamps level, Seconds interval, const GateSetup& setup) const {
     const auto& person = *config_.person;
     if (!(level.value() <= output_.source().amplitudeMax)) return "the device's largest";
@@ -161,7 +161,7 @@ Result<PermittedLevel> BenchLevels::limit(Seconds interval) const {
     GateSetup setup = terms_.setupFor(Load::resistor(Ohms(ohm)));
     setup.load = LoadRange::measured(Ohms(ohm));
     const Seconds kept = programmedFor(interval, calibration_.applied());
-    // Every hindrance stands against all higher levels too.
+    // What hinders one level hinders all higher levels, too.
     int permitted = 0;
     int hindered = static_cast<int>(output_.source().amplitudeMax / step().value()) + 2;
     std::string by = "the device's largest";

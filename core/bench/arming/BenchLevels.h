@@ -11,8 +11,8 @@ namespace tacto {
 
 class BenchLevels {
 public:
-    /// All outlive this; `loop` is there before the first call. What was too strong lowers the limit in `config`, so
-    /// that it holds at every arming.
+    /// All arguments outlive this; `loop` is there before the first call. A level that was too strong lowers the limit
+    /// in `config`, so that it holds at every arming.
     BenchLevels(BenchConfig& config, const BenchOutput& output, const BenchCalibration& calibration,
                 const ArmingTerms& terms, const BenchNotes& notes, SafetyGate& gate, BenchTime& time,
                 const std::unique_ptr<ControlLoop>& loop) noexcept
@@ -30,7 +30,7 @@ public:
     /// A presentation ended: only the level of one that was complete may be accepted.
     void presented(const StimulusLevel& level, const Presented& ended) noexcept;
 
-    /// As Bench.h says of them.
+    /// Bench.h describes these.
     [[nodiscard]] Result<void> accept(const StimulusLevel& level);
     [[nodiscard]] Result<void> reportDiscomfort(const StimulusLevel& level);
     [[nodiscard]] Result<void> ascend(bool begin);
@@ -56,7 +56,7 @@ private:
     SafetyGate& gate_;
     BenchTime& time_;
     const std::unique_ptr<ControlLoop>& loop_;
-    std::optional<StimulusLevel> presented_;  // by the last presentation, if it was complete and not empty
+    std::optional<StimulusLevel> presented_;  // the last presentation's level, if it was complete and not empty
 };
 
 }  // namespace tacto

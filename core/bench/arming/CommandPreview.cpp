@@ -13,7 +13,7 @@ namespace tacto {
 
 namespace {
 
-/// No grid, and no ceiling of its own but the standard's 500 V.
+/// It has no grid, and no ceiling of its own but the standard's 500 V.
 SourceTraits idealVoltageSource() {
     SourceTraits source;
     source.drive = Drive::Voltage;
@@ -83,7 +83,7 @@ std::optional<std::string> madeWithAnother(const Profile& profile, std::string_v
 
 namespace {
 
-/// What a device says of itself, with everything replaced that is more than a name.
+/// A device's own words, with everything replaced that is more than a name.
 std::string plain(std::string_view said) {
     constexpr std::string_view kKept = " ._:+,()/#=-";
     std::string out(said);

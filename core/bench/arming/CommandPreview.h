@@ -22,7 +22,7 @@
 namespace tacto {
 
 struct CommandPreview {
-    Ohms impedance{0};              ///< of the load at the end of the leading phase
+    Ohms impedance{0};              ///< the load's impedance at the end of the leading phase
     std::vector<ExposureRow> rows;  ///< exposureTable() of the train
     std::optional<Error> refusal;   ///< the gate's; nothing where it approves
 };

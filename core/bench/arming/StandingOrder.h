@@ -23,7 +23,7 @@ public:
         : stops_(stops ? stops : std::make_shared<StopCounter>()), asked_(stops ? asked : stops_->mark()) {}
 
     [[nodiscard]] StopCounter& stops() noexcept { return *stops_; }
-    /// When the operator gave it.
+    /// When the operator gave the order.
     [[nodiscard]] StopMark asked() const noexcept { return asked_.load(std::memory_order_acquire); }
     /// A stop has come since.
     [[nodiscard]] bool stopped() const noexcept { return stops_->movedSince(asked()); }
@@ -38,7 +38,7 @@ public:
         }
         changed_.notify_all();
     }
-    /// After a stop: a waiting call looks at once.
+    /// Wakes a waiting call after a stop: it looks at once.
     void wakeWaiting() noexcept {
         { const std::scoped_lock lock(mutex_); }
         changed_.notify_all();
@@ -72,18 +72,18 @@ public:
     /// `stops` outlives this; null: nothing stops an order but the interlock.
     explicit OwnerWatchdog(StopCounter* stops) noexcept : stops_(stops) {}
 
-    /// Who ordered the output is looking after it until then.
+    /// The owner of the output looks after it until then.
     void attend(Instant until) noexcept { attendedUntil_.store(until.count(), std::memory_order_release); }
     [[nodiscard]] bool attended(Instant now) const noexcept {
         return now.count() <= attendedUntil_.load(std::memory_order_acquire);
     }
 
-    /// What comes from now on is an order that the loop has not ended.
+    /// From now on an order holds that the loop has not ended.
     void begin() noexcept {
         const std::scoped_lock lock(mutex_);
         endedBecause_ = {};
     }
-    /// Every order from before is over, as by a stop.
+    /// Ends every earlier order, as by a stop.
     void end(std::string_view why) noexcept {
         {
             const std::scoped_lock lock(mutex_);

@@ -19,22 +19,22 @@ public:
     /// `devices` outlive the output. Nothing is open yet.
     explicit BenchOutput(const DeviceSet& devices);
 
-    /// One output at a time: a massager is opened only where there is no stimulator. All outlive the output; `wake` is
-    /// OutputSession's.
+    /// There is one output at a time: a massager is opened only where there is no stimulator. All outlive the output;
+    /// `wake` is OutputSession's.
     void open(SafetyGate& gate, const Heartbeat& heartbeat, const Clock& clock, std::function<void()> wake);
     [[nodiscard]] bool isOpen() const noexcept { return stimulator_ || massager_; }
-    /// Null where it is another, or none.
+    /// Null where the output is of another kind, or there is none.
     [[nodiscard]] StimulatorSession* stimulator() const noexcept { return stimulator_.get(); }
     [[nodiscard]] MassagerSession* massager() const noexcept { return massager_.get(); }
 
-    /// Off now, and again after a write that is in flight; a massager that is there and not open is off, too.
+    /// Switches off now, and again after a write that is in flight; a massager that is plugged in and not open, too.
     void off() noexcept;
     /// An order is with its session.
     [[nodiscard]] bool busy() const noexcept;
     /// Does what is due and returns when it wants to be called again. Requires isOpen().
     Instant serve(Instant now) noexcept;
 
-    /// What the bench encodes for: the stimulator; without one no limit, for display alone.
+    /// The source that the bench encodes for: the stimulator; without one no limit, for display alone.
     [[nodiscard]] const SourceTraits& source() const noexcept { return source_; }
     /// Null without an output.
     [[nodiscard]] const Device* device() const noexcept;

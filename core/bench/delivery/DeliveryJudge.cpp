@@ -25,7 +25,7 @@ ElectrodeReading readingOf(ElectrodeState state) noexcept {
     return ElectrodeReading::NotMeasured;
 }
 
-/// How far a stimulator may be off that is still calibrated up to its limit: what the gate judges an unknown one by.
+/// How far off a stimulator may be that still counts as calibrated up to its limit; the gate judges others by that.
 constexpr double kCommandTolerance = 0.05;
 
 template <class... Values>
@@ -53,9 +53,9 @@ std::optional<LoopFault> DeliveryJudge::delivered(const TrainReport& report, boo
     return permitted ? reading(report) : std::nullopt;
 }
 
-/// Every train must be read by a source that reads: what is not known of its electrode is no reason to go on.
+/// A source that reads must read every train: not knowing its electrode is no reason to continue.
 std::optional<LoopFault> DeliveryJudge::reading(const TrainReport& report) {
-    const bool put = report.isCheck || expected_ > 0;  // nothing is read of no output
+    const bool put = report.isCheck || expected_ > 0;  // without output nothing is read
     const bool unread = std::isnan(report.measured);
     if (put && unread && readsAmplitude_)
         return LoopFault{FaultCause::StatusMissing,
@@ -85,10 +85,10 @@ TrainJudgement DeliveryJudge::status(const TrainReport& report) const noexcept {
     return judgeTrain(mode_, readBackOf(report), report.end, report.statusAt);
 }
 
-/// What is programmed proves nothing: a calibration may have made it so. The command must come out, read back in the
+/// A programmed value proves nothing: a calibration may have made it so. The command must come out, read back in the
 /// device's own steps; a check pulse is so small that a step would excuse anything.
 std::optional<LoopFault> DeliveryJudge::readBack(const TrainReport& report) {
-    if (std::isnan(report.measured)) return std::nullopt;  // it is not read back
+    if (std::isnan(report.measured)) return std::nullopt;  // the device does not read it back
     readsAmplitude_ = true;
     const double expected = report.isCheck ? report.amplitude : expected_;
     // Less than that share of the command is noise, whatever a step excuses.
@@ -111,8 +111,8 @@ std::optional<LoopFault> DeliveryJudge::amplitude(const SeenAmplitude& seen) {
                                seen.amplitude, unit(), seen.expected, unit())};
 }
 
-/// More than the gate has judged by is a fault where it passes a limit: the gate's worst case, by as much larger, or
-/// squared where a quantity goes with the square. The commanded voltage is held against its limit as it was measured.
+/// More than the gate has judged by is a fault where it passes a limit: the gate's worst case times the excess, or its
+/// square for a squared quantity. The commanded voltage is held against its limit as it was measured.
 std::optional<LoopFault> DeliveryJudge::overLimit(const SeenAmplitude& seen) {
     if (seen.isCheck) return std::nullopt;
     const auto judged = gate_.amplitudes(seen.programmed);
@@ -140,7 +140,7 @@ std::optional<LoopFault> DeliveryJudge::overLimit(const SeenAmplitude& seen) {
     return fault;
 }
 
-/// What is of no one command is held against the limit of commands alone, whatever came of it.
+/// An output without a command is held against the limit of commands alone, whatever became of it.
 std::optional<LoopFault> DeliveryJudge::unasked(const SeenAmplitude& seen) {
     const auto state = interlock_.state();
     if (state == InterlockState::Disarmed || state == InterlockState::Disconnected) return std::nullopt;
@@ -160,7 +160,7 @@ std::optional<LoopFault> DeliveryJudge::unasked(const SeenAmplitude& seen) {
 void DeliveryJudge::keep(const SeenAmplitude& seen, bool beyond) noexcept {
     constexpr Instant kStays = std::chrono::seconds(5);  // as the windows of the limits
     const bool another = std::isnan(measured_.amplitude) || seen.onset - measured_.at > kStays;
-    // One that is off stays in sight.
+    // A deviation stays in sight.
     if (!another && (measured_.beyond != beyond ? measured_.beyond : measured_.amplitude > seen.amplitude)) return;
     measured_ = {
         seen.by, seen.onset, seen.amplitude, seen.uncertainty + seen.unstated, seen.expected, voltsOf(seen.amplitude),

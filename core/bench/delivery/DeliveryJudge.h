@@ -17,18 +17,18 @@
 
 namespace tacto {
 
-/// What ends delivery, and why.
+/// The end of delivery, and its reason.
 struct LoopFault {
     FaultCause cause;
     FixedText<255> reason;  ///< no heap before the output is off
 };
 
-/// What the report's status says of the train.
+/// The train as the report's status tells it.
 [[nodiscard]] TrainReadBack readBackOf(const TrainReport& report) noexcept;
 
 class DeliveryJudge {
 public:
-    /// All outlive the judge, which keeps `load` up to date. `source`: the stimulator's.
+    /// All arguments outlive the judge, which keeps `load` up to date. `source`: the stimulator's.
     DeliveryJudge(OutputMode mode, SafetyGate& gate, const Interlock& interlock, ArmedLoad& load,
                   const SourceTraits& source)
         : mode_(mode), gate_(gate), interlock_(interlock), load_(load), source_(source) {
@@ -38,23 +38,23 @@ public:
     /// The amplitude that the train that was posted last should come out with, V or mA.
     void expect(double amplitude) noexcept { expected_ = amplitude; }
 
-    /// What a train or a check pulse says; `permitted`: trains like it may still be posted, so its reading counts.
+    /// Judges a train or a check pulse; `permitted`: trains like it may still be posted, so its reading counts.
     [[nodiscard]] std::optional<LoopFault> delivered(const TrainReport& report, bool permitted);
-    /// What its status says.
+    /// Judges its status.
     [[nodiscard]] TrainJudgement status(const TrainReport& report) const noexcept;
     [[nodiscard]] bool wasCutOff(const TrainReport& report) const noexcept;
-    /// Whether what is read back is the amplitude that was commanded.
+    /// Whether the amplitude that is read back is the one that was commanded.
     [[nodiscard]] std::optional<LoopFault> readBack(const TrainReport& report);
-    /// The same from a capture.
+    /// Judges the amplitude in a capture in the same way.
     [[nodiscard]] std::optional<LoopFault> amplitude(const SeenAmplitude& seen);
-    /// What was measured of the output since it was armed; nothing measured yet: NaN.
+    /// The measurements of the output since it was armed; before the first: NaN.
     [[nodiscard]] const MeasuredOutput& measured() const noexcept { return measured_; }
     void forgetMeasured() noexcept { measured_ = {}; }
     /// The unit of amplitudes: "V" or "mA".
     [[nodiscard]] const char* unit() const noexcept { return amplitudeUnit(source_.drive); }
-    /// Where the stimulator does not read back: what a capture shows of the load.
+    /// Judges the load in a capture, where the stimulator does not read back.
     [[nodiscard]] std::optional<LoopFault> load(const SeenLoad& seen, bool permitted, Instant now);
-    /// A train that should have ended at `trainEnd` and of which nothing, or only that it goes on, is known by `now`.
+    /// A train that should have ended at `trainEnd`; by `now` nothing is known of it, or only that it continues.
     [[nodiscard]] std::optional<LoopFault> silence(Instant trainEnd, bool goesOn, Instant now) const;
 
 private:
@@ -71,7 +71,7 @@ private:
     ArmedLoad& load_;
     const SourceTraits& source_;
     double expected_ = NAN;
-    bool readsAmplitude_ = false;  // it did once
+    bool readsAmplitude_ = false;  // the device has read it back at least once
     MeasuredOutput measured_;
     std::vector<ExposureRow> rows_;
 };
@@ -81,11 +81,11 @@ private:
 
 class ReadingWatch {
 public:
-    /// All outlive the watch; the stimulator may be null.
+    /// All arguments outlive the watch; the stimulator may be null.
     ReadingWatch(const StimulatorSession* stimulator, const ArmedLoad& load, const DeliveryJudge& judge) noexcept
         : stimulator_(stimulator), load_(load), judge_(judge) {}
 
-    /// A train that ended and whose status has not come in time.
+    /// A train that ended without a status in time.
     [[nodiscard]] std::optional<LoopFault> silence(Instant now) const {
         if (stimulator_ == nullptr || stimulator_->idle()) return std::nullopt;
         return judge_.silence(stimulator_->trainEnd(), stimulator_->saysItDelivers(), now);

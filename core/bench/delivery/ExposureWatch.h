@@ -19,8 +19,8 @@
 
 namespace tacto {
 
-// The largest value that each row of the exposure table has had during an order. Trivially copyable.
-// Where limits of a set on one quantity differ by frequency it is the one that was in force then.
+// The largest value that each row of the exposure table has had during an order. Trivially copyable. Where limits of a
+// set on one quantity differ by frequency, the value counts against the limit in force then.
 
 class WorstExposure {
 public:
@@ -59,7 +59,7 @@ public:
     void beginOrder() noexcept { anotherOrder_.store(true, std::memory_order_release); }
     /// A window is fullest when a train has just been booked: the next look() is one.
     void lookNext() noexcept { at_ = Instant(0); }
-    /// Where a look is due. `measured` stands beside what was commanded.
+    /// Looks where a look is due. `measured` stands beside what was commanded.
     void look(Instant now, const MeasuredOutput& measured) noexcept;
 
     /// The table of the last look, into `all`.
@@ -73,7 +73,7 @@ private:
     };
 
     const SafetyGate& gate_;
-    std::atomic<bool> anotherOrder_{false};  // and worst_ is of the one before
+    std::atomic<bool> anotherOrder_{false};  // another order has come, and worst_ belongs to the one before
     // The loop's own:
     std::vector<ExposureRow> rows_;
     Instant at_{0};

@@ -37,8 +37,7 @@ public:
         device_.forceOff();
     }
 
-    /// How long the loop had been silent when the output had been switched off for it, the last time; 0 = never. Any
-    /// thread.
+    /// How long the loop had been silent when the output was last switched off for it; 0 = never. Any thread.
     [[nodiscard]] Instant silencedAfter() const noexcept {
         return Instant(silencedAfter_.load(std::memory_order_relaxed));
     }
@@ -152,7 +151,7 @@ public:
         : OutputSession(device, gate, heartbeat, clock, std::move(wake)) {}
 
     /// Hands over a burst to be sent at `onset`. The session must be idle(). `interval` is for the report, whose
-    /// `amplitude` is the intensity, 0 to 1; nothing of a burst is read back.
+    /// `amplitude` is the intensity, 0 to 1; a burst is not read back.
     void post(ApprovedBurst&& burst, Instant onset, Seconds interval) noexcept {
         OutputSession::post({std::move(burst), onset, interval});
     }

@@ -29,11 +29,11 @@ using StimulusLevel = std::variant<Milliamps, VibrationIntensity>;
 [[nodiscard]] std::string textOf(const StimulusLevel& level);  // "4.5 mA", "intensity 0.4"
 
 struct Presentation {
-    StimulusLevel level = Milliamps(0);  ///< of every train; where `levels` says otherwise, the highest of those
+    StimulusLevel level = Milliamps(0);  ///< every train's level; where `levels` says otherwise, the highest of those
     std::vector<Seconds> onsets{};       ///< from the beginning, ascending, at least `interval` apart; 1 to kMaxTrains
     Seconds interval{0};   ///< > 0, that each train is judged at: the shortest at which another may follow
-    Seconds duration{0};   ///< of the whole, at least kTail after the last onset, at most kLongest
-    Instant notBefore{0};  ///< of the bench's clock: it begins then, or as soon after as the bench is ready
+    Seconds duration{0};   ///< the whole presentation, at least kTail after the last onset, at most kLongest
+    Instant notBefore{0};  ///< by the bench's clock: it begins then, or as soon after as the bench is ready
     std::vector<StimulusLevel> levels{};  ///< one for each onset, none of them empty; empty: all at `level`
     /// `train` < onsets.size().
     [[nodiscard]] const StimulusLevel& levelOf(std::size_t train) const noexcept {
@@ -42,7 +42,7 @@ struct Presentation {
 
     static constexpr std::size_t kMaxTrains = 64;
     static constexpr Seconds kLongest{60};
-    static constexpr Seconds kTail{0.2};  ///< for the last train and its status
+    static constexpr Seconds kTail{0.2};  ///< room for the last train and its status
     bool operator==(const Presentation&) const = default;
 };
 
@@ -55,8 +55,8 @@ struct Presentation {
 /// judged at `interval`.
 [[nodiscard]] Presentation detectionPresentation(StimulusLevel level, bool inSecond, Seconds trainLength,
                                                  Seconds interval);
-/// The same intervals with a train in each, to be compared: `first` in the first, `second` in the second. Both are
-/// above 0 and of one kind.
+/// Two intervals with a train in each, to be compared: `first` in the first, `second` in the second. Both are above 0
+/// and of one kind.
 [[nodiscard]] Presentation comparisonPresentation(StimulusLevel first, StimulusLevel second, Seconds trainLength,
                                                   Seconds interval);
 /// Which of its two intervals passes that long after its beginning: 1 or 2; 0 before the first and between them. The
@@ -68,9 +68,9 @@ struct Presentation {
 /// kind or number, an empty one among them, and a highest that is not `level`. The device's grid is the bench's matter.
 [[nodiscard]] Result<void> validate(const Presentation& presentation);
 
-/// How a presentation ended. All but Complete make it void.
+/// How a presentation ended. Every end but Complete makes it void.
 enum class PresentationEnd {
-    Complete,  ///< every train was delivered and judged good, or none was to be
+    Complete,  ///< every train was delivered and judged good, or there was none to deliver
     Refused,   ///< the gate refused a train; nothing more was delivered
     Stopped,   ///< a stop came, or the output was disarmed
     Paused,    ///< the output was paused
@@ -83,7 +83,7 @@ struct PresentedTrain {
     Instant onset{0};                       ///< when it was written to the device, on the bench's clock
     StimulusLevel approved = Milliamps(0);  ///< as programmed
     std::optional<Milliamps> readBack{};    ///< nothing where the device does not read back
-    Seconds interval{0};                    ///< that it was approved for
+    Seconds interval{0};                    ///< the interval that it was approved for
     std::optional<Ohms> impedance{};        ///< |Z|, read back with it
     bool operator==(const PresentedTrain&) const = default;
 };
@@ -94,10 +94,10 @@ struct Presented {
 
     PresentationEnd end = PresentationEnd::Stopped;
     std::string reason;  ///< one sentence; empty when complete
-    Instant began{0};    ///< its onsets count from then; never before `notBefore`. Without meaning if it never did
+    Instant began{0};    ///< its onsets count from here; never before `notBefore`; meaningless if it never began
     Instant ended{0};
-    std::vector<PresentedTrain> trains;  ///< those that were delivered and read before its end, also of a void one
-    std::optional<Ohms> impedance;       ///< the last reading of |Z|, also from before it; nothing where there is none
+    std::vector<PresentedTrain> trains;  ///< trains delivered and read before its end, those of a void one included
+    std::optional<Ohms> impedance;       ///< the last reading of |Z|, even from before it; nothing without one
     [[nodiscard]] bool isVoid() const noexcept { return end != PresentationEnd::Complete; }
 };
 

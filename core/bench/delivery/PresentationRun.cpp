@@ -87,11 +87,11 @@ Result<PlannedStimulus> PresentationRun::plan(TrainPlanner& planner, SafetyGate&
     return PlannedVibration{std::move(*burst), at, what_->interval};
 }
 
-/// The same before an empty presentation: nothing may tell them apart.
+/// An empty presentation takes the same steps: nothing may tell them apart.
 PresentationRun::Due PresentationRun::beforeBegin(const Sight& sight) noexcept {
     const Instant begin = std::max(what_->notBefore, sight.now + ControlLoop::kPeriod);
     const Instant first = begin + what_->onsets.front();
-    // Not by the first onset, which may come later than a check takes: `begin` would recede forever.
+    // The first onset is no measure: it may come later than a check takes, and `begin` would recede forever.
     if (sight.now < begin - kCheckAhead) return Due::Nothing;
     if (sight.readingUntil && *sight.readingUntil < first) return Due::Check;
     began_ = begin;
@@ -104,7 +104,7 @@ PresentationRun::Due PresentationRun::beforeBegin(const Sight& sight) noexcept {
 void PresentationRun::read(const TrainReport& report) noexcept {
     if (!active()) return;
     if (!std::isnan(report.impedance_ohm)) made_.impedance = Ohms(report.impedance_ohm);
-    // What an earlier presentation left under way is not of this one.
+    // A train left under way by an earlier presentation does not belong to this one.
     if (report.isCheck || report.outcome == TrainOutcome::LoopSilent || awaited_ == 0) return;
     --awaited_;
     if (report.outcome == TrainOutcome::Voided) lost_ = true;

@@ -37,17 +37,17 @@ public:
     struct Sight {
         Instant now{0};
         InterlockState state = InterlockState::Armed;
-        std::string_view reason{};            ///< of the interlock
-        bool stopped = false;                 ///< since the order
-        bool paused = false;                  ///< since the presentation was asked for
+        std::string_view reason{};            ///< the interlock's reason
+        bool stopped = false;                 ///< a stop has come since the order
+        bool paused = false;                  ///< a pause has come since the presentation was asked for
         bool idle = true;                     ///< no train is being written or read
         std::optional<Instant> readingUntil;  ///< when the reading of |Z| grows old; nothing where none is taken
     };
     enum class Due { Nothing, Check, Train };
 
-    /// Another presentation is asked for: there is no result of it yet.
+    /// Another presentation is asked for, which has no result yet.
     void expect();
-    /// Nothing while it goes on. Taken once.
+    /// Nothing while it is going on. Taken once.
     [[nodiscard]] std::optional<Presented> result();
     /// When the trains of the last presentation asked for begin to pass, even if all are empty; known a moment before.
     /// Nothing while it waits.
@@ -56,28 +56,28 @@ public:
     /// `presentation` has passed validate(). `planner` says how its times are kept, for now.
     void begin(Presentation presentation, const TrainPlanner& planner);
     [[nodiscard]] bool active() const noexcept { return what_.has_value(); }
-    /// What is due now. Begins and completes the presentation when it is time.
+    /// The next step. Begins and completes the presentation when it is time.
     [[nodiscard]] Due next(const Sight& sight) noexcept;
     /// Whether its trains have begun to pass, even if all are empty.
     [[nodiscard]] bool begun() const noexcept { return began_.has_value(); }
     /// Has the train judged that is due: next() said Train. A refusal ends the presentation. Errors: as
     /// TrainPlanner::planLevel() and SafetyGate::approve().
     [[nodiscard]] Result<PlannedStimulus> plan(TrainPlanner& planner, SafetyGate& gate, Instant now);
-    /// It was handed over.
+    /// The train was handed over.
     void posted() noexcept {
         ++next_;
         ++awaited_;
     }
-    /// What became of a train or of a check pulse.
+    /// Takes the outcome of a train or of a check pulse.
     void read(const TrainReport& report) noexcept;
     /// Ends it. `reason`: one sentence. Does nothing when none is active.
     void end(Instant now, PresentationEnd end, std::string_view reason) noexcept;
 
 private:
     struct Timed {
-        std::vector<StimulusLevel> levels;  // of each train; all empty in an empty presentation
-        Seconds interval;                   // as it was asked for
-        std::vector<Instant> onsets;        // from the beginning, as they must be kept
+        std::vector<StimulusLevel> levels;  // each train's level; empty in an empty presentation
+        Seconds interval;                   // the interval that was asked for
+        std::vector<Instant> onsets;        // onsets from the beginning, to be kept
         Instant duration, notBefore;
     };
     [[nodiscard]] Instant onset() const noexcept { return *began_ + what_->onsets[next_]; }
@@ -87,7 +87,7 @@ private:
     std::optional<Timed> what_;
     std::optional<Instant> began_;
     std::size_t next_ = 0;
-    std::size_t awaited_ = 0;  // trains that were posted and whose report has not come
+    std::size_t awaited_ = 0;  // posted trains whose report has not come
     bool lost_ = false;        // a train was taken back before it was written
     Presented made_;
 

@@ -13,7 +13,7 @@ constexpr Instant kStimulatorPoll = std::chrono::milliseconds(20);
 constexpr Instant kStatusDelay = std::chrono::milliseconds(2);
 constexpr Instant kStatusRetry = std::chrono::milliseconds(5);
 
-/// From the onset of the first pulse to the end of the last.
+/// The time from the onset of the first pulse to the end of the last.
 Instant durationOf(const PulseTrain& train) noexcept {
     return toInstant((train.pulses - 1) / train.rate.value()) + toInstant(train.pulseDuration());
 }

@@ -13,7 +13,7 @@
 
 namespace tacto {
 
-/// The record of a stimulator that is real, from which `gate` goes on. Both, `clock` and `time` outlive the use of it.
+/// The record of a real stimulator, from which `gate` continues. Both, `clock` and `time` outlive the use of it.
 /// Errors: as UnitRecord::open().
 [[nodiscard]] Result<std::unique_ptr<UnitRecord>> takeUpUnit(const DeviceIdentity& stimulator,
                                                              const UnitFolders& folders, const Clock& clock,
@@ -35,10 +35,10 @@ public:
 
     /// How long deliver() may take until the train begins: a device is programmed first.
     static constexpr Instant kBeginsWithin = std::chrono::milliseconds(200);
-    /// When a train that is to be written at `onset` has ended at the latest.
+    /// The latest time at which a train that is to be written at `onset` has ended.
     [[nodiscard]] static Instant latestEnd(const PulseTrain& train, Instant onset) noexcept;
-    /// When the train that is in the session ends at the latest, as far as it is known: its status is due from then on.
-    /// Any thread.
+    /// The latest end of the train that is in the session, as far as it is known: its status is due from then on. Any
+    /// thread.
     [[nodiscard]] Instant trainEnd() const noexcept { return Instant(trainEnd_.load(std::memory_order_acquire)); }
 
     /// The last answer about that train was that it is still being delivered. Any thread.
@@ -49,7 +49,7 @@ public:
 
     /// Asks the device how it is, outside any train: for leaving a fault. Answered by the next serve().
     void askHealth() noexcept { healthAsked_.store(true, std::memory_order_release); }
-    /// Nothing while unanswered; then success when the device answers and delivers nothing, else why not.
+    /// Nothing while unanswered; then success when the device answers and delivers nothing, else why it failed.
     [[nodiscard]] std::optional<Result<void>> health();
 
     /// The longest time between two keep-alives of a device with a dead-man switch, while the loop was alive. Any

@@ -99,7 +99,7 @@ void TrainDispatch::reported(const TrainReport& report, StepTelemetry& shown) co
     if (posted_ == 0) return;
     auto& train = lastPosted(shown);
     if (report.outcome == TrainOutcome::Voided) train.amplitude = NAN;
-    if (report.end == Instant(0)) return;  // when it was put out is not known better
+    if (report.end == Instant(0)) return;  // it is not known better when it was put out
     train.from = report.onset;
     train.until = report.end;
     train.acknowledged = report.outcome == TrainOutcome::Delivered;

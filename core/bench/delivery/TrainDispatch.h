@@ -1,5 +1,5 @@
 // TrainDispatch.h - hands approved trains, bursts and check pulses to the output's session: asks whether one may still
-// be posted, has the one that is due judged, and posts it.
+// be posted, has the due one judged, and posts it.
 //
 // Thread-safety: pause() and paused() any thread; the rest has one caller, the control loop. Does not allocate but for
 // an error.
@@ -23,7 +23,7 @@ namespace tacto {
 
 class TrainDispatch {
 public:
-    /// All outlive the dispatch. One or both of the sessions may be null.
+    /// All of these outlive the dispatch. One or both of the sessions may be null.
     struct Parts {
         SafetyGate& gate;
         Interlock& interlock;
@@ -35,7 +35,7 @@ public:
         ExposureWatch& exposure;
         StimulatorSession* stimulator;
         MassagerSession* massager;
-        Latest<StepTelemetry>& latest;  ///< what is shown: a record may come before the loop's step has ended
+        Latest<StepTelemetry>& latest;  ///< the shown telemetry: a record may come before the loop's step has ended
     };
     explicit TrainDispatch(Parts parts) noexcept : parts_(parts) {}
 
@@ -46,11 +46,11 @@ public:
     /// voids approvals, so an approval made after the voiding is held back here, and one made before it is void. The
     /// counter counts where the stop came before the interlock had anything to disarm.
     [[nodiscard]] bool mayPost(bool isCheck) const noexcept;
-    /// Nothing is being written or read.
+    /// Whether nothing is being written or read.
     [[nodiscard]] bool idle() const noexcept;
     void forceOff() noexcept;
 
-    /// A train or a burst is due within `ahead`, and may be posted.
+    /// Whether a train or a burst is due within `ahead`, and may be posted.
     [[nodiscard]] bool isDue(const TrainPlanner& planner, Instant now, Instant ahead) const noexcept;
     /// Moves the interlock to Delivering. False when a stop came in between.
     [[nodiscard]] bool beginDelivery() noexcept;
@@ -70,7 +70,7 @@ public:
         post(std::move(check), onset, std::nullopt, shown);
     }
 
-    /// What the device said of the train that was posted last.
+    /// The device's report on the train that was posted last.
     void reported(const TrainReport& report, StepTelemetry& shown) const noexcept;
 
 private:

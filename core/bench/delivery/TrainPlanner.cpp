@@ -35,7 +35,7 @@ Result<void> staysNear(const PulseTrain& programmed, const PulseTrain& command) 
     return timesStayNear(programmed, command);
 }
 
-/// As SafetyGate: what decimal steps lose in binary.
+/// The tolerance is SafetyGate's: what decimal steps lose in binary.
 bool isOnGrid(double value, double step) noexcept {
     return step == 0 || std::abs(value / step - std::round(value / step)) <= 1e-6;
 }

@@ -17,9 +17,9 @@ namespace tacto {
 struct PlannedTrain {
     ApprovedTrain approved;
     Instant onset;
-    Command command;        ///< what was asked for, in volts
-    Volts held;             ///< what it became on this impedance
-    RoundedTrain rounding;  ///< and how far the device's step took it from that
+    Command command;        ///< the command in volts
+    Volts held;             ///< the amplitude that it became on this impedance
+    RoundedTrain rounding;  ///< how far the device's step took it from that
     double expected;        ///< amplitude that should come out, V or mA: the command, to the device's step
 };
 
@@ -33,7 +33,7 @@ struct PlannedLevel {
 struct PlannedBurst {
     ApprovedBurst approved;
     Instant onset;
-    Command command;  ///< what was asked for, in volts
+    Command command;  ///< the command in volts
 };
 
 class TrainPlanner {
@@ -47,13 +47,13 @@ public:
     /// was measured.
     void armedOn(std::optional<Ohms> impedance) noexcept { armed_ = impedance; }
 
-    /// What is wanted from now on. An absent pressure gives the longest interval. Errors: as Encoder::encode(); then
+    /// Sets the wish from now on. An absent pressure gives the longest interval. Errors: as Encoder::encode(); then
     /// nothing is wanted.
     [[nodiscard]] Result<void> want(double roughness, std::optional<double> pressure, Instant now);
-    /// No train until the next want().
+    /// Wants no train until the next want().
     void wantNothing() noexcept;
 
-    /// When the next train is due; nothing while none is wanted.
+    /// The time at which the next train is due; nothing while none is wanted.
     [[nodiscard]] std::optional<Instant> due() const noexcept { return series_.due(); }
     /// The command of the next train; nothing while none is wanted.
     [[nodiscard]] const std::optional<Command>& command() const noexcept { return series_.command(); }
@@ -67,7 +67,7 @@ public:
     /// levelTrain() and SafetyGate::approve().
     [[nodiscard]] Result<PlannedLevel> planLevel(Milliamps level, Seconds interval, Instant onset);
 
-    /// The same for a massager in place of the electrodes: a vibration of A / A_max. Errors: SafetyGate::approve().
+    /// Plans a burst for a massager: a vibration of A / A_max. Errors: as SafetyGate::approve().
     [[nodiscard]] Result<PlannedBurst> planBurst(Instant now);
 
     /// A time as it must be kept so that it comes out as `wanted`.
@@ -80,14 +80,14 @@ private:
     const SourceTraits source_;
     const KnownLines calibration_;
     SafetyGate& gate_;
-    TrainSeries series_;  // what is wanted, under the limits on a step
+    TrainSeries series_;  // the wanted trains, under the limits on a step
     std::optional<Ohms> armed_;
 };
 
 /// The profile's train at a level that the device can set: the amplitude is programmed as it is, phase width and gap as
-/// the calibration says, to the device's step. Its kind is that of a person's accepted levels. Errors: Unsupported for
-/// a voltage source; InvalidArgument for a level that is not above 0 and on the grid; as roundToDevice(); LimitExceeded
-/// where the calibration would program a time more than 20 % beside the profile's.
+/// the calibration says, to the device's step. It is the kind of train with which a person's accepted levels were
+/// found. Errors: Unsupported for a voltage source; InvalidArgument for a level that is not above 0 and on the grid; as
+/// roundToDevice().
 [[nodiscard]] Result<PulseTrain> levelTrain(const EncodingProfile& profile, const SourceTraits& source,
                                             const KnownLines& calibration, Milliamps level);
 

@@ -13,7 +13,7 @@
 namespace tacto {
 
 enum class TrainOutcome {
-    Delivered,   ///< and the device's status was read afterwards
+    Delivered,   ///< delivered, and the device's status was read afterwards
     Voided,      ///< a stop, a new configuration or time took the approval back; nothing was written
     Failed,      ///< the device refused, went away or did not answer; it was switched off
     LoopSilent,  ///< no train: the control loop was silent for 100 ms and the output was switched off
@@ -23,12 +23,12 @@ enum class TrainOutcome {
 struct TrainReport {
     TrainOutcome outcome = TrainOutcome::Voided;
     bool isCheck = false;          ///< the impedance check, not a train
-    Instant onset{0};              ///< when it was written
-    Instant end{0};                ///< of its last pulse
-    bool stillDelivering = false;  ///< what the device said when its status was read
+    Instant onset{0};              ///< when the train was written
+    Instant end{0};                ///< the end of its last pulse
+    bool stillDelivering = false;  ///< the device's word when its status was read
     double amplitude = 0;          ///< V or mA, as delivered
-    double measured = NAN;         ///< the same, as the device read it back; NaN where it does not
-    double interval_s = 0;         ///< that it was approved for
+    double measured = NAN;         ///< the value as the device read it back; NaN where it does not
+    double interval_s = 0;         ///< the interval that it was approved for
     PulseTrain train{};            ///< all that was programmed, as approved; unused for a massager
     Instant approvedUntil{0};      ///< when the approval would have expired
     ElectrodeState electrode = ElectrodeState::NotMeasured;

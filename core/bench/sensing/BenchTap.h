@@ -18,7 +18,7 @@ namespace tacto {
 
 /// One sample of one stream, in the unit that the sensor's StreamInfo names.
 struct TapSample {
-    static constexpr std::size_t kMaxChannels = 32;  ///< what a display can show; channels beyond are left out
+    static constexpr std::size_t kMaxChannels = 32;  ///< as many as a display can show; channels beyond are left out
     double t_s = 0;
     std::uint32_t stream = 0;  ///< index into the sensor's streams()
     std::uint32_t channels = 0;

@@ -12,9 +12,9 @@ namespace {
 /// Below this a current is not distinguished from none (the limit of the load-safety check too).
 constexpr double kMinSteps = 10;
 
-/// Where the instrument does not say how well it knows the time of its records.
+/// For an instrument that does not say how well it knows the time of its records.
 constexpr Instant kUnknownStamp = std::chrono::milliseconds(50);
-/// From a write to the onset it leads to, beyond what a driver waits for itself.
+/// The time from a write to its onset, on top of a driver's own waiting.
 constexpr Instant kOutputDelay = std::chrono::milliseconds(2);
 
 struct Stretch {
@@ -31,13 +31,13 @@ Instant stampSlack(const Capture& capture) {
     return std::isfinite(stated_s) ? toInstant(Seconds(stated_s)) + kOutputDelay : kUnknownStamp;
 }
 
-/// One reading of both is one of each.
+/// Whether one reading of both is one reading of each.
 bool alike(const ProgrammedTrain& a, const ProgrammedTrain& b) {
     constexpr double kSame = 1e-9;
     return std::abs(a.expected - b.expected) <= kSame * std::abs(b.expected) && a.isCheck == b.isCheck;
 }
 
-/// No pulse of the command could be missed: it was put out within the record, whose samples lie close enough.
+/// Whether no pulse of the command could be missed: it was put out within the record, and the samples lie close enough.
 bool mustShow(const Capture& capture, const SourceTraits& source, const ProgrammedTrain& command) {
     constexpr double kSamplesInPhase = 2;
     const auto [from, until] = stretchOf(capture);
@@ -46,7 +46,7 @@ bool mustShow(const Capture& capture, const SourceTraits& source, const Programm
            capture.rate_hz * Seconds(source.widthMin).count() >= kSamplesInPhase;
 }
 
-/// From the least to the most in a channel that knows its resolution; nothing where samples are missing.
+/// The span of a channel that knows its resolution, from least to greatest; nothing where samples are missing.
 std::optional<double> mostIn(const CaptureChannel& channel) {
     if (!(channel.lsb > 0) || channel.samples.empty()) return std::nullopt;
     const auto [low, high] = std::minmax_element(channel.samples.begin(), channel.samples.end());
@@ -64,7 +64,7 @@ std::optional<Ohms> leastImpedance(const Capture& capture, std::size_t voltage, 
     return Ohms(amplitude / visible);
 }
 
-/// As IEC 60601-2-10 asks of an amplitude.
+/// IEC 60601-2-10 asks this of an amplitude.
 constexpr double kMaxOff = 0.20;
 
 }  // namespace
@@ -121,7 +121,7 @@ std::optional<ProgrammedTrain> commandShownIn(const Capture& capture, std::span<
         if (shown != nullptr && !(alike(command, *shown))) return std::nullopt;
         if (shown == nullptr || command.from > shown->from) shown = &command;
     }
-    // Before the oldest that is remembered there was another.
+    // Before the oldest remembered one there was another.
     if (shown == nullptr || (full && from < oldest - slack)) return std::nullopt;
     return *shown;
 }
@@ -138,7 +138,7 @@ std::optional<SeenAmplitude> amplitudeSeenIn(const Capture& capture, const Sourc
     SeenAmplitude seen;
     const auto measured = measureChannel(capture, index);
     const double mean = measured.amplitude.mean, most = measured.amplitude.max;
-    // One pulse that is larger than the others is as large.
+    // The largest pulse counts: one that is larger than the others is enough.
     double amplitude = !(std::abs(mean - expected) > std::abs(most - expected)) ? most : mean;
     const auto swing = mostIn(channel);
     const bool clipped =
@@ -155,7 +155,7 @@ std::optional<SeenAmplitude> amplitudeSeenIn(const Capture& capture, const Sourc
         amplitude = *swing;
     }
     seen.amplitude = scale * amplitude;
-    // What the instrument does not state excuses nothing: a fault is then found sooner (hazard H3).
+    // Unstated accuracy excuses nothing: a fault is then found sooner (hazard H3).
     const auto stated = [](double tolerance) { return std::isfinite(tolerance) ? tolerance : 0; };
     seen.uncertainty = scale * ((stated(channel.gainTolerance) + stated(channel.probeTolerance)) * amplitude +
                                 stated(channel.offsetTolerance) + channel.linearityTolerance + channel.lsb);

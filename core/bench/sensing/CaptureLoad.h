@@ -20,17 +20,17 @@ namespace tacto {
 struct SeenLoad {
     Ohms impedance;        ///< |Z| at the end of the leading phase (science.md section 4), mean over the pulses
     bool atLeast = false;  ///< the voltage drove no current that the channel could show: |Z| is this or more
-    Instant at{0};         ///< of the trigger
+    Instant at{0};         ///< when it was triggered
 };
 
-/// How large a train came out, beside how large it should have been; V or mA by the stimulator's drive.
+/// The size of a train as it came out, beside the size that it should have had; V or mA by the stimulator's drive.
 struct SeenAmplitude {
     const char* by = "the oscilloscope shows";  ///< begins the sentence of a fault
     double amplitude = 0;
-    double expected = 0;     ///< NaN: of no command, or of more than one
+    double expected = 0;     ///< NaN: no command, or more than one
     double programmed = 0;   ///< for it
-    double uncertainty = 0;  ///< of `amplitude`, half-width, as its instrument states it
-    double unstated = 0;     ///< the same of one that states nothing: it proves no limit broken, and excuses nothing
+    double uncertainty = 0;  ///< half-width for `amplitude`, as its instrument states it
+    double unstated = 0;     ///< the uncertainty where none is stated: it proves no limit broken, and excuses nothing
     Instant onset{0};
     bool isCheck = false;
 };
@@ -47,7 +47,7 @@ struct SeenAmplitude {
 [[nodiscard]] std::optional<SeenAmplitude> amplitudeSeenIn(const Capture& capture, const SourceTraits& source,
                                                            const ProgrammedTrain& command = {});
 
-/// Nothing for a record without a trigger, without a channel in V and one in A, or without a pulse that was measured.
+/// Nothing for a record without a trigger, without a channel in V and one in A, or without a measured pulse.
 [[nodiscard]] std::optional<SeenLoad> loadSeenIn(const Capture& capture);
 
 /// |Z| of the load, where `capture` shows `commanded`: a voltage or a current within 20 % and the reading's own

@@ -59,12 +59,12 @@ double FingerInput::age_s(double now_s) const noexcept {
     return since ? std::max(oldest, now_s - *since) : oldest;
 }
 
-/// No axis of an accelerometer is still by itself: its noise is larger than its steps. Force and taxels may be, but for
-/// an array that is touched and has moved all the time.
+/// No axis of an accelerometer is still by itself: its noise is larger than its steps. Force and taxels may be still,
+/// except an array that is touched and has moved all the time.
 std::optional<double> FingerInput::standsStillSince() const noexcept {
     constexpr std::size_t kArray = 4;  // taxels that are not all filtered to the same values
     const auto streams = session_.device().streams();
-    std::optional<double> latest;  // when the last of them came to stand
+    std::optional<double> latest;  // when the last of them stopped changing
     bool all = !still_.empty();
     for (std::size_t s = 0; s < still_.size(); ++s) {
         const auto since = still_[s].since();

@@ -27,8 +27,8 @@ public:
     /// The newest frame; its R is NaN before the first.
     [[nodiscard]] const RoughnessFrame& latest() const noexcept { return latest_; }
 
-    /// Age of the oldest stream's newest sample; infinite before the first. While the samples stand still, as all
-    /// streams do, an axis of the acceleration or a touched array of taxels, it is that of the first of those.
+    /// Age of the oldest stream's newest sample; infinite before the first. While all streams stand still, or one axis
+    /// of the acceleration or a touched array of taxels does, it is the age of the first sample that stood still.
     [[nodiscard]] double age_s(double now_s) const noexcept;
     /// Fresh when no sample stands still, every stream, and the newest frame allowing for its window, is at most 100 ms
     /// old, none is stamped in the future, and no value of the last 100 ms was outside what a fingertip can give

@@ -50,15 +50,15 @@ public:
 
     /// Null without a sensor.
     [[nodiscard]] const FingerInput* input() const noexcept { return finger_.get(); }
-    /// The flags of the one before stay, but for those of calibration where R was not shown and drove nothing.
+    /// The earlier flags stay, except those of calibration where R was not shown and drove nothing.
     void replace(NextFinger next) noexcept;
 
     /// Takes what arrived, for journal, taps and `shown`.
     void read(Instant now, StepTelemetry& shown) noexcept;
-    /// What has failed since the last time: a sensor that is gone ends the output of any source. A plug was
-    /// pulled at the finger.
+    /// The failure since the last call: a missing sensor ends the output of any source. A plug was pulled at the
+    /// finger.
     [[nodiscard]] std::optional<LoopFault> failure() noexcept;
-    /// Losses that the sensor reports, once in ten seconds while it goes on losing.
+    /// Notes the losses that the sensor reports, once in ten seconds while it keeps losing.
     void noteLosses(Instant now) noexcept;
     /// R drives the output: every flag of it is in the session before the bench closes, since it may never close.
     void noteFlags(Instant now) noexcept;
@@ -70,10 +70,10 @@ private:
     const ReportingDevice* const report_;
     LoopJournal& journal_;
     SampleTaps& taps_;
-    RoughnessFlags flagsKept_;  // of fingers before this one, and what has driven the output
+    RoughnessFlags flagsKept_;  // flags of earlier fingers, and of what has driven the output
     std::uint64_t failuresSeen_ = 0;
     std::uint64_t lossesNoted_ = 0;
-    Instant lossesDue_{0};  // not before then
+    Instant lossesDue_{0};  // losses are not reported before then
 };
 
 }  // namespace tacto

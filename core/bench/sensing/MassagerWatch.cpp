@@ -11,7 +11,7 @@ constexpr double kQuiet = 3;        // times the floor
 constexpr std::size_t kEnough = 20;
 constexpr double kSteady = 0.1;  // standard deviation of windows, of their mean
 constexpr double kTone = 2.1;    // kurtosis: 1.5 of a tone, 3 of noise
-constexpr double kFalls = 0.01;  // from window to window: more is a motor that runs down
+constexpr double kFalls = 0.01;  // from window to window; a larger fall is a motor that runs down
 constexpr int kTries = 6;        // more: a slow motor is not steady at once
 }  // namespace
 
@@ -49,7 +49,7 @@ void MassagerWatch::feed(const SampleBlock& block, std::size_t axes) noexcept {
     }
 }
 
-/// The kurtosis is that of the axis that moves most.
+/// The kurtosis belongs to the axis that moves most.
 void MassagerWatch::close(const Window& window) noexcept {
     double all = 0, most = 0, kurtosis = 0;
     for (const auto& axis : window.axes) {
@@ -88,7 +88,7 @@ void MassagerWatch::take(double begin_s, double strength, double kurtosis) noexc
     const double deviation = std::sqrt(std::max(0.0, squares_ / static_cast<double>(count_) - mean * mean));
     const bool holds = std::abs(fall_) <= kFalls * mean * static_cast<double>(pairs_);
     const bool goesOn = deviation <= kSteady * mean && holds && kurtosis_ / static_cast<double>(count_) < kTone;
-    // In rests too short to see a motor run down, one that was not steady may be a slow one.
+    // In rests too short to see a motor run down, an unsteady one may be a slow one.
     const bool sees = pairs_ >= kEnough * 3 / 4;
     if (++tries_ > (sees ? kTries : 0) && !goesOn) return forget();
     count_ = pairs_ = 0;

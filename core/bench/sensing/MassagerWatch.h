@@ -1,8 +1,8 @@
-// MassagerWatch.h - a massager that goes on when it should rest, where an accelerometer feels it (hazard H2).
+// MassagerWatch.h - notices a massager that runs when it should rest, where an accelerometer feels it (hazard H2).
 //
-// An accelerometer may be fastened to the massager, or slide on something else. What it feels is the massager's where
-// it begins with a burst after quiet, and goes on after bursts with a strength that stands still, as a motor's does and
-// a sliding finger's does not.
+// An accelerometer may be fastened to the massager, or slide on something else. It feels the massager if the motion
+// begins with a burst after quiet, and continues after bursts with a constant strength, as a motor's does and a sliding
+// finger's does not.
 //
 // Thread-safety: none; the control loop owns it. Does not allocate.
 #pragma once
@@ -26,9 +26,9 @@ public:
     void burst(Instant begin, Instant end) noexcept;
     /// The newest samples of an acceleration, of `axes` channels.
     void feed(const SampleBlock& block, std::size_t axes) noexcept;
-    /// The strength in m/s² with which the massager goes on, root mean square of all axes; 0 while it does not.
+    /// The strength in m/s² with which the massager keeps running, root mean square of all axes; 0 while it rests.
     [[nodiscard]] double goesOnAt() const noexcept { return found_; }
-    /// What went on is known, or is another's: it is looked for anew.
+    /// The motion is explained, or has another cause: looks for it anew.
     void forget() noexcept;
 
 private:
@@ -49,17 +49,17 @@ private:
     void take(double begin_s, double strength, double kurtosis) noexcept;
 
     Window now_;
-    double begin_s_ = std::numeric_limits<double>::infinity();  // of the newest burst
+    double begin_s_ = std::numeric_limits<double>::infinity();  // the newest burst's beginning
     double end_s_ = -std::numeric_limits<double>::infinity();
     double floor_ = std::numeric_limits<double>::infinity();     // the least strength so far
-    double quiet_s_ = -std::numeric_limits<double>::infinity();  // of the last quiet window of rest
+    double quiet_s_ = -std::numeric_limits<double>::infinity();  // the last quiet window at rest
     bool follows_ = false;                                       // a burst began after quiet, and none was since
     int tries_ = 0;                                              // seconds of rest since then that were looked at
     std::size_t count_ = 0;                                      // windows of rest that were not quiet
-    std::size_t pairs_ = 0;                                      // of them that follow each other
+    std::size_t pairs_ = 0;                                      // bursts that follow each other
     double last_s_ = -1, last_ = 0;                              // the newest of them
-    double fall_ = 0;                                            // from one to the next, summed
-    double sum_ = 0, squares_ = 0;                               // of their strengths
+    double fall_ = 0;                                            // the falls from one to the next, summed
+    double sum_ = 0, squares_ = 0;                               // the sum of their strengths, and of the squares
     double kurtosis_ = 0;                                        // sum of theirs
     double found_ = 0;
 };

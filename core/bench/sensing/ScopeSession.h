@@ -32,7 +32,7 @@ public:
     /// Whether the device can take a record without a trigger.
     [[nodiscard]] bool canForce() const noexcept { return forced_ != nullptr; }
     [[nodiscard]] const Oscilloscope& device() const noexcept { return device_; }
-    /// No more captures.
+    /// Takes no more captures.
     void cancel();
     [[nodiscard]] std::size_t ready() const;
     /// The device takes the next trigger: it was configured and armed for the last request.
@@ -66,7 +66,7 @@ private:
     std::optional<Instant> forceAfter_;       // guarded
     // serve()'s:
     Instant quietSince_{0};
-    bool forceAsked_ = false;  // and its record has not come
+    bool forceAsked_ = false;  // a record was asked for with force, and has not come
 };
 
 }  // namespace tacto

@@ -9,7 +9,7 @@ namespace tacto {
 
 namespace {
 constexpr Instant kReadEvery = std::chrono::milliseconds(2);
-constexpr Instant kRecoveryPollInterval = std::chrono::milliseconds(100);  // whether a device that failed was asked for
+constexpr Instant kRecoveryPollInterval = std::chrono::milliseconds(100);  // how often a failed device is asked for
 constexpr double kRingSeconds = 1;
 }  // namespace
 

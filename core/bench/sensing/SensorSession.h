@@ -24,7 +24,7 @@ namespace tacto {
 
 class SensorSession {
 public:
-    static constexpr std::size_t kMaxChannels = 63;  // what the session recorder takes
+    static constexpr std::size_t kMaxChannels = 63;  // as many as the session recorder takes
 
     /// Errors: Unsupported for a stream of more than kMaxChannels channels. `device` outlives the session.
     [[nodiscard]] static Result<std::unique_ptr<SensorSession>> create(TactileSensor& device);
@@ -44,7 +44,7 @@ public:
     /// Asks a device that failed to be opened again: for leaving a fault. Answered by the next serve(), which may wait
     /// for the device.
     void askHealth() noexcept { healthAsked_.store(true, std::memory_order_release); }
-    /// Nothing while unanswered; then success when the device answers, else why not.
+    /// Nothing while unanswered; then success when the device answers, else why it does not.
     [[nodiscard]] std::optional<Result<void>> health();
     [[nodiscard]] FixedText<160> error() const noexcept;
     /// True when the device has no more samples and all were collected.

@@ -15,7 +15,7 @@ namespace {
 /// What the columns of the first rows hold, by number from 1.
 struct ColumnsOfRows {
     std::vector<std::size_t> numbers;  ///< no text
-    std::vector<std::size_t> rising;   ///< those of them that rise in even steps, and stamps: what times are like
+    std::vector<std::size_t> rising;   ///< the columns of them that rise in even steps, as times and stamps do
 };
 
 bool risesEvenly(const std::vector<double>& values) {
@@ -78,7 +78,7 @@ public:
 
     std::vector<CsvAdvice> take() {
         const auto layout = layOut(dialect_, head_, given_, file_);
-        if (layout) {  // it is the rows: the columns that have none like the one refused
+        if (layout) {  // a row was refused: offers the columns that have no such row
             if (!layout->otherTimes.empty()) addOwnTimes(*layout);
             for (const auto& channel : layout->channels) {
                 auto options = given_;
@@ -172,7 +172,7 @@ private:
         return dialect != CsvDialect::Plain && head_.body.size() > 1 && isNext(head_.body[0], head_.body[1]);
     }
 
-    /// All that hold numbers.
+    /// Adds all columns that hold numbers.
     void addColumns(ReadOptions options, std::string_view how = "") {
         options.columns.clear();
         for (const auto number : columns_.numbers) {

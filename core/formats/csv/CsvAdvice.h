@@ -14,12 +14,12 @@ struct CsvAdvice {
     std::string words;
 };
 
-/// How the sentences about times that are not even go on: they advise a rate themselves, where it is meant.
+/// How the sentences about uneven times end: they themselves advise a rate where that is meant.
 constexpr std::string_view kRateInstead = "; where the samples are even all the same, --sample-rate ";
 
-/// What is worth a try on the table that begins with `text` (whole lines) and is of `dialect`, the least first. A rate
-/// is among them where no column of times was found: the one that the file states, else the word HZ stands for it, and
-/// the options hold 1 Hz.
+/// Options worth a try on the table that begins with `text` (whole lines) and has `dialect`, the smallest change first.
+/// A rate is among them where no column of times was found: the one that the file states, else the word HZ stands for
+/// it, and the options hold 1 Hz.
 [[nodiscard]] std::vector<CsvAdvice> adviceToTry(std::string_view text, CsvDialect dialect, const ReadOptions& given,
                                                  std::string_view file);
 

@@ -37,7 +37,7 @@ double shortestLevel(std::span<const double> stamps, const std::vector<CaptureCh
     return shortest;
 }
 
-/// How much of an edge a sample shows that stands `behind` of a step before it (up to half) or behind it.
+/// The share of an edge that a sample shows which stands `behind` of a step before it (up to half) or behind it.
 double shareOfEdge(double edgeBehind) {
     constexpr double kRounding = 1e-6;
     if (edgeBehind <= -0.5 + kRounding) return 1;

@@ -3,7 +3,7 @@
 //
 // The levels are drawn as samples, from each change to the next. An edge that does not come half-way between two
 // samples is a sample between the levels, so that a straight line crosses the middle just then: widths and intervals
-// are those of the stamps.
+// are exactly those of the stamps.
 #pragma once
 
 #include <span>
@@ -16,8 +16,8 @@ namespace tacto {
 /// from the row before it. The last may be the record's end alone.
 [[nodiscard]] bool listsChanges(const std::vector<CaptureChannel>& channels);
 
-/// The same of some columns of a table: a row may be the change of another one, so the stamps tell. They rise in steps
-/// of which less than half are alike.
+/// Whether rows can only be the changes of some columns of a larger table: a row may be the change of another column,
+/// so that the stamps tell. They rise in steps of which less than half are alike.
 [[nodiscard]] bool listsChangesOfMore(const std::vector<CaptureChannel>& channels, std::span<const double> stamps_s);
 
 /// Draws the levels of `reading` between its rows, whose times are `stamps_s`, and sets rate and start. The last level

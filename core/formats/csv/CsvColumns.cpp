@@ -104,7 +104,7 @@ CsvColumn columnNamed(std::string_view text) {
     const auto mark = text.rfind('_');
     if (mark != std::string_view::npos && mark > 0 && mark + 1 < text.size()) {
         const auto unit = spelledUnit(text.substr(mark + 1));
-        // Not the least of voltages, and not the first of some channels.
+        // It is the least neither of voltages nor of some channels.
         constexpr std::array<std::string_view, 7> kLettered{"channel", "ch",    "kanal", "phase",
                                                             "input",   "probe", "line"};
         const bool isLettered =

@@ -7,7 +7,7 @@
 namespace tacto {
 
 struct CsvColumn {
-    std::string name;  ///< without its unit
+    std::string name;  ///< the name without its unit
     std::string unit;  ///< "s", "V", "A" or ""
     double factor = 1;
     std::string unknownUnit;  ///< a unit that is none of these
@@ -31,10 +31,10 @@ struct CsvColumn {
 /// Whether a column counts rows: "index", "Sample".
 [[nodiscard]] bool isIndexColumn(const CsvColumn& column);
 
-/// The line of the header, or of keys beside rows, whose first field is `key`, capitals and a colon or equals sign at
-/// its end ignored.
+/// The line of the header, or of keys beside rows, with `key` as its first field; capitals and a colon or equals sign
+/// at its end are ignored.
 [[nodiscard]] const CsvLine* lineCalled(const CsvHead& head, std::string_view key);
-/// The second field of that line; empty where there is none.
+/// The second field of that line; empty without one.
 [[nodiscard]] std::string_view wordCalled(const CsvHead& head, std::string_view key);
 /// The number in it, also behind a colon ("Analog:2e-9").
 [[nodiscard]] std::optional<double> numberCalled(const CsvHead& head, std::string_view key);

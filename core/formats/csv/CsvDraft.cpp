@@ -13,7 +13,7 @@ namespace tacto {
 
 namespace {
 
-/// Any table can be read with these, named columns or not.
+/// With these options any table can be read, whether its columns have names or not.
 bool optionsGiveTheTime(const ReadOptions& options) { return !options.timeColumn.empty() || options.rate.has_value(); }
 
 bool hasTimeAndChannel(const CsvLine& line) {
@@ -147,7 +147,7 @@ Result<CsvDraft> plainDraft(const CsvHead& head, const ReadOptions& options, std
                     "{}:{}: columns '{}'; a time column and channels were expected, as in time_s,voltage_v,current_a",
                     file, head.header.front().number, fmt::join(namesIn(head.header.front()), ","));
     }
-    if (named != nullptr && stated && named->number == stated->line) named = nullptr;  // nothing but keys
+    if (named != nullptr && stated && named->number == stated->line) named = nullptr;  // the line has nothing but keys
     std::vector<std::string> names;
     const auto* units = named != nullptr && isLineOfUnits(*named) ? named : nullptr;
     if (named != nullptr) {
@@ -221,7 +221,7 @@ Result<CsvDraft> plainDraft(const CsvHead& head, const ReadOptions& options, std
 
 namespace {
 
-/// The time column that the options choose, with its unit. Errors: InvalidArgument where there is none, or its unit is
+/// The time column that the options choose, with its unit. Errors: InvalidArgument if it does not exist, or its unit is
 /// not one of time.
 Result<void> chooseTimeColumn(CsvDraft& draft, const CsvHead& head, ReadOptions& options, std::string_view file) {
     auto& layout = draft.layout;
@@ -294,7 +294,7 @@ std::vector<CsvLayout::OtherTime> timesOfChannels(const CsvDraft& draft) {
     return times;
 }
 
-/// Takes the times that stand before the channels that are read; those of further ones must agree.
+/// Takes the times that stand before the chosen channels; times of further channels must agree.
 void pairTimes(CsvLayout& layout, const std::vector<CsvLayout::OtherTime>& times,
                const std::vector<ChannelPlan>& channels) {
     std::vector<CsvLayout::OtherTime> used;
@@ -329,7 +329,7 @@ Result<void> keepChannels(CsvLayout& layout, std::vector<ChannelPlan>& channels,
             return isTimeColumn({plan.name, plan.unit, plan.factor, plan.unknownUnit});
         });
     }
-    // It was the seconds that mattered.
+    // Only the seconds mattered.
     leaveOut([](const ChannelPlan& plan) { return plan.unit == "s"; }, "is a time");
     if (channels.empty()) {
         return fail(ErrorCode::ParseError, "{}:{}: only times; at least one channel was expected", file,
@@ -344,7 +344,7 @@ Result<void> keepChannels(CsvLayout& layout, std::vector<ChannelPlan>& channels,
     return {};
 }
 
-/// Errors: ParseError for a channel in an unknown unit, without a name, or with that of another.
+/// Errors: ParseError for a channel in an unknown unit, without a name, or with another channel's name.
 Result<void> checkChannels(CsvLayout& layout, std::vector<ChannelPlan>& channels, bool chosen, std::string_view file) {
     for (std::size_t i = 0; i < channels.size(); ++i) {
         auto& channel = channels[i];

@@ -21,11 +21,11 @@ struct CsvDraft {
         layout.dataOffset = first.offset;
         layout.dataLine = first.number;
     }
-    /// Another column, behind those in layout.names: a channel. `spelled` is its unit as written in the file.
+    /// Adds a channel for another column, behind those in layout.names. `spelled` is its unit as written in the file.
     void addChannel(std::string name, std::string_view spelled);
-    /// The same of a column whose name says its unit.
+    /// Adds a column whose name says its unit.
     void addNamed(const std::string& named);
-    /// The same of a column that is not read.
+    /// Adds a column that is not read.
     void addOther(std::string name) { layout.names.push_back(std::move(name)); }
     /// The rows are apart by `interval_s`, from `start_s` on. Where it is not finite and above 0 the table needs a rate
     /// from the options; `stated` is how the file writes it.
@@ -38,7 +38,7 @@ struct CsvDraft {
 /// The layout of a plain table. Errors: ParseError where no line names a time column and channels, and no option helps.
 [[nodiscard]] Result<CsvDraft> plainDraft(const CsvHead& head, const ReadOptions& options, std::string_view file);
 
-/// With the options: time column, rate, choice, units, probes. Columns of text and of other quantities are left out
+/// Applies the options: time column, rate, choice, units, probes. Columns of text and of other quantities are left out
 /// with a warning, unless they were chosen. Errors: as layOut().
 [[nodiscard]] Result<CsvLayout> finished(CsvDraft draft, const CsvHead& head, const ReadOptions& options,
                                          std::string_view file);

@@ -41,7 +41,7 @@ std::string_view headOf(std::string_view text) {
 
 bool isText(std::string_view head) { return head.find('\0') == std::string_view::npos; }
 
-/// The dialect that the options name, else the one that the table is of.
+/// The dialect that the options name, else the one of the table.
 CsvDialect dialectFor(const CsvHead& head, const ReadOptions& options) {
     if (options.format == known(CsvDialect::Plain).id) return CsvDialect::Plain;
     for (const auto& maker : csvMakers()) {
@@ -50,7 +50,7 @@ CsvDialect dialectFor(const CsvHead& head, const ReadOptions& options) {
     return dialectOf(head);
 }
 
-/// `blocks` stands at its beginning, of which `text` is the first part.
+/// `blocks` stands at its beginning, and `text` is its first part.
 Result<CaptureReading> readOnce(TextBlocks& blocks, std::string_view text, CsvDialect dialect, const CsvHead& head,
                                 const ReadOptions& options, const ReadWatch& watch) {
     const auto layout = layOut(dialect, head, options, blocks.name());

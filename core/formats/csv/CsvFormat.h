@@ -43,7 +43,7 @@ private:
 [[nodiscard]] Result<CaptureReading> readCapture(const std::filesystem::path& path, const ReadOptions& options = {},
                                                  const ReadWatch& watch = {});
 
-/// The same from text; `name` stands for the file in messages.
+/// Reads it from text; `name` stands for the file in messages.
 [[nodiscard]] Result<CaptureReading> parseCapture(std::string_view text, std::string_view name,
                                                   const ReadOptions& options = {}, const ReadWatch& watch = {});
 

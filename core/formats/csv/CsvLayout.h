@@ -49,7 +49,7 @@ enum class CsvDialect {
     Plain
 };
 
-/// Where the times of the rows come from.
+/// The source of the rows' times.
 enum class RowTimes {
     Column,  ///< a column of times
     Index,   ///< a column of sample numbers: time = start + number * interval
@@ -72,19 +72,19 @@ struct CsvLayout {
     };
     std::vector<OtherTime> otherTimes;  ///< times of other channels: they must agree with the time column
     std::optional<double> interval_s;   ///< as the header states it
-    std::string noInterval;             ///< why it states none, where the rows are counted: needs a rate
+    std::string noInterval;             ///< why the header states none, where the rows are counted: a rate is needed
     double start_s = 0;                 ///< time of sample 0 where times are an index or counted
     std::optional<double> rows;         ///< how many the header announces
     /// What another number of rows means, where they are then no single record: such a table is refused.
     std::string otherRows;
-    std::string endsAt;                  ///< the rows end before a line that begins so; empty: with the file
+    std::string endsAt;                  ///< the rows end before a line with this beginning; empty: with the file
     bool mayEndInText = false;           ///< remarks may stand behind the last column
-    std::optional<double> givenRate_hz;  ///< by the options: stamps are then not asked
-    std::vector<ChannelPlan> channels;   ///< as they will be read; number is the column from 1
+    std::optional<double> givenRate_hz;  ///< the rate that the options give: stamps are then not asked
+    std::vector<ChannelPlan> channels;   ///< the channels as they will be read; number is the column from 1
     std::vector<std::string> warnings;
 };
 
-/// Whether a table that begins so is of the dialect. Plain is any table.
+/// Whether a table that begins in this way has the dialect. Any table is plain.
 [[nodiscard]] bool isOfDialect(CsvDialect dialect, const CsvHead& head);
 
 /// Errors: ParseError naming line and what was expected; InvalidArgument for options that do not fit the table.

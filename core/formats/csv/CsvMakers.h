@@ -11,13 +11,13 @@ struct CsvMaker {
     CsvDialect dialect;
     std::string_view id;    ///< the format's id: "csv-rigol"
     std::string_view name;  ///< for people
-    /// Whether a table that begins so is one of the maker's. The header is not empty or there is a first row.
+    /// Whether a table that begins in this way is one of the maker's. The header is not empty, or there is a first row.
     bool (*recognises)(const CsvHead& head);
     /// The layout of a table that is recognised. Errors: ParseError naming file and what was expected.
     Result<CsvDraft> (*draft)(const CsvHead& head, std::string_view file);
 };
 
-/// In the order in which they are tried. The plain dialect is not among them.
+/// The makers in the order in which they are tried. The plain dialect is not among them.
 [[nodiscard]] std::span<const CsvMaker> csvMakers() noexcept;
 
 extern const CsvMaker kRigolCsv;
@@ -49,7 +49,7 @@ void readRecordKeys(const CsvHead& head, CsvLayout& layout);
 /// Whether keys stand in columns 1 and 2 of rows whose columns 4 and 5 hold time and value.
 [[nodiscard]] bool keysStandBesideRows(const CsvHead& head, std::size_t firstLine);
 
-/// Such a table; its rows begin with header line `firstLine`.
+/// The draft of such a table; its rows begin with header line `firstLine`.
 [[nodiscard]] CsvDraft draftBesideKeys(const CsvHead& head, std::size_t firstLine);
 
 }  // namespace tacto

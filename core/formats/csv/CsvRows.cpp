@@ -203,7 +203,7 @@ Result<void> CsvRows::takeFields(std::string_view line, std::size_t row) {
 
 namespace {
 
-/// Whether all are finite, without a branch for each: their exponents are asked.
+/// Whether all are finite; their exponents are asked, which needs no branch for each.
 bool allFinite(const float* samples, std::size_t count) {
     constexpr std::uint32_t kExponent = 0x7F800000U;
     std::uint32_t highest = 0;
@@ -303,7 +303,7 @@ public:
                 "{}:{}: column '{}' has no finite value here{}; pulses that touch a missing sample are not measured",
                 file, missing_[c].line, layout.names[layout.channels[c].number - 1],
                 count == 1 ? "" : fmt::format(", and in {} rows in all", count)));
-            // Beyond a float is beyond any oscilloscope: as missing as nan.
+            // A value beyond a float is beyond any oscilloscope: it counts as missing, like nan.
             std::ranges::replace_if(
                 samples, [](float sample) { return !std::isfinite(sample); }, std::numeric_limits<float>::quiet_NaN());
         }
@@ -349,7 +349,7 @@ Result<void> readTimesAgain(TextBlocks& blocks, const CsvHead& head, const CsvLa
     CsvRows rows(timesOnly, head.separator, head.point, blocks);
     times.startAgain();
     while (!times.hasAll()) {
-        const auto batch = rows.next({{}, watch.stop});  // its progress is behind it
+        const auto batch = rows.next({{}, watch.stop});  // progress is not reported a second time
         if (!batch) return failure(batch);
         if ((*batch)->rows == 0) return fail(ErrorCode::Io, "{} became shorter while it was read", blocks.name());
         times.addAgain(std::span((*batch)->times).first((*batch)->rows));
@@ -412,7 +412,7 @@ Result<CaptureReading> readCsvTable(TextBlocks& blocks, const CsvHead& head, con
     if (growing.times.needsAll() || (changes && !growing.times.hasAll())) {
         if (auto again = readTimesAgain(blocks, head, layout, watch, growing.times); !again) return failure(again);
     }
-    // Where columns were left out, rows may be the changes of those.
+    // Where columns were left out, the rows may be their changes.
     const bool ofMore = isTimed && channels.size() + 1 < layout.width && growing.times.hasAll();
     const bool drawn = changes || (ofMore && listsChangesOfMore(channels, growing.times.stamps()));
     if (drawn && layout.givenRate_hz) {

@@ -48,7 +48,7 @@ private:
     struct Use {
         bool ignored = true;
         std::vector<double> values{};
-        std::size_t channel = kTime;  ///< in the batch
+        std::size_t channel = kTime;  ///< its channel in the batch
         double factor = 1;
         std::size_t noValues = 0;
         bool stamps = false;  ///< dates and times
@@ -80,7 +80,7 @@ private:
     std::size_t endLine_ = 0;
 };
 
-// A capture out of a table whose layout is known.
+// Reads a capture out of a table with a known layout.
 
 /// Reads all rows in one pass, holding the samples and one block; of a long table whose times are not plainly even the
 /// times a second time, and holds them. Rows at the end in which no channel has a value are

@@ -13,12 +13,12 @@ namespace tacto {
 namespace {
 
 constexpr double kTolerance = 0.5 + 1e-9;  // share of a step that is accepted; the rest is rounding
-constexpr double kCalm = 0.26;             // not worth a word: what rounding to half a step's digits does
+constexpr double kCalm = 0.26;             // no more than rounding to half a step's digits does: not worth a word
 
 /// What the steps are like, as far as a message needs it.
 struct Steps {
     double usual = 0;       ///< their median
-    std::size_t worst = 0;  ///< the row behind the one that is farthest from it
+    std::size_t worst = 0;  ///< the row behind the farthest one
     bool everDown = false;
     bool everZero = false;
     double least = std::numeric_limits<double>::infinity();  ///< above 0
@@ -36,7 +36,7 @@ Steps stepsOf(std::span<const double> stamps) {
         steps.push_back(step);
     }
     const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-    std::ranges::nth_element(steps, middle);  // from here on out of order
+    std::ranges::nth_element(steps, middle);  // from here on they are out of order
     found.usual = *middle;
     double farthest = -1;
     for (std::size_t row = 1; row < stamps.size(); ++row) {
@@ -48,7 +48,7 @@ Steps stepsOf(std::span<const double> stamps) {
     return found;
 }
 
-/// How far any stamp is from the straight line that begins at the first; NaN stays one.
+/// How far any stamp is from the straight line that begins at the first; NaN stays NaN.
 double farthestFrom(std::span<const double> stamps, double step) {
     double farthest = 0;
     for (std::size_t i = 0; i < stamps.size(); ++i) {
@@ -63,7 +63,7 @@ bool areOnlyCoarse(const Steps& steps, double farthest) {
     return steps.everZero && !steps.everDown && std::isfinite(steps.least) && farthest <= 1.01 * steps.least;
 }
 
-/// Whether every stamp stands twice: Rohde & Schwarz' pairs of minimum and maximum, and others' peak detection.
+/// Whether every stamp comes twice: Rohde & Schwarz write pairs of minimum and maximum, others use peak detection.
 bool arePairs(std::span<const double> stamps) {
     if (stamps.size() < 4 || stamps.size() % 2 != 0) return false;
     for (std::size_t i = 0; i < stamps.size(); i += 2) {
@@ -72,7 +72,7 @@ bool arePairs(std::span<const double> stamps) {
     return true;
 }
 
-/// What reads rows whose times are not even: samples that are even all the same.
+/// The advice for rows with uneven times: samples that are even all the same.
 std::string rateInstead(double step_s) {
     return fmt::format("{}{} reads them{}", kRateInstead,
                        step_s > 0 && std::isfinite(1 / step_s) ? fmt::format("{:.10g}", 1 / step_s) : "HZ",
@@ -169,7 +169,7 @@ std::optional<double> CsvTimes::stated() const noexcept {
 bool CsvTimes::keepToStated() const noexcept { return stated() && seen_.farthestStated <= kTolerance * *stated(); }
 
 bool CsvTimes::needsAll() const {
-    constexpr double kSurely = 0.99;  // whatever the line's own rounding is
+    constexpr double kSurely = 0.99;  // certain, however the line itself is rounded
     if (hasAll() || layout_.givenRate_hz || missingRow_ != kNone || keepToStated()) return false;
     const double even = step();
     const double atMost = std::max(farthestFrom(stamps_, even), line_->farthestAtMost(even));
@@ -231,7 +231,7 @@ Result<void> CsvTimes::setTimes(CaptureReading& reading, const std::string& file
     }
     const bool hasStated = stated().has_value();
     const double even = step();
-    const double farthest = hasAll() ? farthestFrom(stamps_, even) : 0;  // what is not there is plainly even
+    const double farthest = hasAll() ? farthestFrom(stamps_, even) : 0;  // missing stamps are plainly even
     double step_s = even * unit_s;
     if (!(even > 0 && farthest <= kTolerance * even)) {
         const auto steps = stepsOf(stamps_);

@@ -16,10 +16,10 @@
 
 namespace tacto {
 
-/// How far stamps are from a straight line, known by the extremes of runs of them: a few bits for each stamp.
+/// Tells how far stamps are from a straight line, by the extremes of runs of them: a few bits for each stamp.
 class LineOfStamps {
 public:
-    /// The line begins at `first` and rises by `step`, which is about that of the lines that will be asked about.
+    /// The line begins at `first` and rises by `step`, which is close to the lines that will be asked about.
     LineOfStamps(double first, double step) noexcept : first_(first), step_(step) {}
 
     /// The stamp with this index; indices rise.
@@ -57,16 +57,16 @@ public:
     void keep() noexcept;
     void dropBehindKept();
 
-    /// Whether into() needs every stamp, since they are not plainly even: from the first one on they are added again.
+    /// Whether into() needs every stamp, since they are not plainly even: then all are added again from the first on.
     [[nodiscard]] bool needsAll() const;
     void startAgain();
-    /// Those behind the last that counts are ignored.
+    /// Ignores stamps behind the last one that counts.
     void addAgain(std::span<const double> stamps);
-    /// Every stamp that counts is there.
+    /// Whether every stamp that counts is there.
     [[nodiscard]] bool hasAll() const noexcept { return stamps_.size() == seen_.rows; }
-    /// Every stamp is where the interval that the header states has it.
+    /// Whether every stamp stands where the header's interval puts it.
     [[nodiscard]] bool keepToStated() const noexcept;
-    /// In seconds, or samples where they are an index; of rows that count.
+    /// In seconds, or in samples where they are an index; for rows that count.
     [[nodiscard]] std::span<const double> stamps() const noexcept { return stamps_; }
 
     /// Sets rate and start, with warnings. At least two stamps were added, unless the layout has none. Not while
@@ -92,7 +92,7 @@ private:
     [[nodiscard]] std::size_t lineOf(std::size_t row) const;
 
     const CsvLayout& layout_;
-    std::vector<double> stamps_;  ///< in s or samples: the first kKept, or all
+    std::vector<double> stamps_;  ///< in s or samples: the first kKept stamps, or all
     Seen seen_, kept_;
     std::optional<LineOfStamps> line_;  ///< the line of the stamps behind the first kKept
     /// Row and line, where the line is not the one behind the last row's.

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view kOneChannel = "one channel per file was expected; export each by itself";
 
-/// `,#voltbase=1000000(uV)`, whose comma keeps it from being a comment; of a logic analyzer `,#threshold=…`.
+/// `,#voltbase=1000000(uV)`, whose comma keeps it from being a comment; a logic analyzer has `,#threshold=…`.
 const CsvLine* baseLine(const CsvHead& head) {
     const auto found = std::ranges::find_if(head.header, [](const CsvLine& line) {
         return line.fields.size() > 1 && line.fields[0].empty() && line.fields[1].starts_with('#');

@@ -17,7 +17,7 @@ std::string withoutBlanks(std::string_view text) {
     return word;
 }
 
-/// "t0 = -25s" or "tInc = 2e-06s" of the line: index of the field; the line's width where there is none.
+/// "t0 = -25s" or "tInc = 2e-06s" in the line: index of the field; the line's width where it has none.
 std::size_t fieldGiving(const CsvLine& line, std::string_view key) {
     const auto found = std::ranges::find_if(
         line.fields, [&](const std::string& field) { return withoutBlanks(field).starts_with(key); });

@@ -13,7 +13,7 @@ bool isSiglent(const CsvHead& head) {
     if (lineCalled(head, "Record Length") != nullptr) {
         return lineCalled(head, "Sample Interval") != nullptr || lineCalled(head, "Sample Rate") != nullptr;
     }
-    // As saved on the instrument: the sources, then the units, or these alone.
+    // Saved on the instrument, the file has the sources, then the units, or these alone.
     const auto lines = head.header.size();
     return isLineOfUnits(head.header.back()) &&
            (lines == 1 || (lines == 2 && folded(head.header.front().fields.front()) == "source"));

@@ -1,4 +1,4 @@
-// The tables of Tektronix' oscilloscopes, and of Micsig's, which look like those of the TDS.
+// The tables of Tektronix' oscilloscopes, and of Micsig's, which look like the TDS tables.
 #include <algorithm>
 
 #include "core/formats/csv/CsvColumns.h"

@@ -11,7 +11,7 @@ bool isYokogawa(const CsvHead& head) {
            (lineCalled(head, "HResolution") != nullptr || lineCalled(head, "SampleRate") != nullptr);
 }
 
-/// From HResolution, else from the rate, whose unit has a field of its own ("100","MHz").
+/// The interval from HResolution, else from the rate, whose unit has a field of its own ("100","MHz").
 std::optional<double> intervalOf(const CsvHead& head) {
     if (const auto step = numberCalled(head, "HResolution")) return step;
     const auto* line = lineCalled(head, "SampleRate");

@@ -197,7 +197,7 @@ public:
             impedance_ = numberOr(body, "impedance_ohm");
             if (std::isnan(out_.impedance.value())) out_.impedance = Ohms(impedance_);
         } else if (each.name == row::kEstimate && body.contains("amplitude_weber")) {
-            // At the edge of what was considered it may be anything beyond: no figure.
+            // At the edge of what was considered it may be anything beyond: there is no figure.
             if (!flagOr(body, "at_edge")) out_.amplitudeWeber = estimateFrom(body["amplitude_weber"]).value;
         } else if (each.name == row::kEstimate) {
             const auto estimate =
@@ -334,9 +334,9 @@ private:
     BidsSession out_;
     double impedance_ = kNaN;
     double detectionLevel_ = kNaN;
-    double beforeLevel_ = kNaN, highestLevel_ = kNaN;  // of the ascending limits
+    double beforeLevel_ = kNaN, highestLevel_ = kNaN;  // levels in the ascending limits
     std::set<std::size_t> adapted_;                    // blocks
-    std::map<std::size_t, BidsTrial> silent_;          // without an answer so far
+    std::map<std::size_t, BidsTrial> silent_;          // trials without an answer so far
 };
 
 }  // namespace

@@ -18,13 +18,13 @@
 
 namespace tacto {
 
-/// What the stimulator put out in a session, in trials that were answered and in those that were not.
+/// The stimulator's output in a session, in trials that were answered and in those that were not.
 struct SessionExposure {
     std::size_t trains = 0;   ///< impedance checks apart
     double stimulated_s = 0;  ///< each train counts for the interval that it was approved for
-    double charge_uC = 0;     ///< of the leading phases: current times width, all pulses together
+    double charge_uC = 0;     ///< the leading phases' charge: current times width, all pulses together
 };
-/// `commands` are those of all parts. A train whose row does not say a number adds none.
+/// `commands` are those of all parts. A train whose row has no number adds nothing.
 [[nodiscard]] SessionExposure exposureOf(const std::vector<SessionRow>& commands);
 
 /// One session with what only the study may see of it.
@@ -37,7 +37,7 @@ struct SessionRecord {
 
 struct ParticipantRecord {
     Participant about;
-    SessionBasis basis = SessionBasis::Person;  ///< of all their sessions; without one, of the one that would begin
+    SessionBasis basis = SessionBasis::Person;  ///< what all their sessions rest on, or the next one if there are none
     std::vector<SessionRecord> sessions;
 };
 
@@ -49,23 +49,23 @@ struct StudyRecord {
     std::string ledgerHead;
     std::vector<StudyAmendment> amendments;
     std::vector<StudyGoingBack> goingsBack;
-    std::vector<ParticipantRecord> participants;  ///< in the order of enrolment; of a withdrawn one no sessions
+    std::vector<ParticipantRecord> participants;  ///< in the order of enrolment; a withdrawn one has no sessions
     std::vector<std::pair<std::string, AdverseEvent>> events;  ///< session id, event
-    std::map<std::string, SessionBasis> bases;  ///< by session id; also those of participants who withdrew
+    std::map<std::string, SessionBasis> bases;  ///< by session id, those of withdrawn participants included
 };
 
 /// Errors: Unsupported for a study that was opened without its key; as SessionReader.
 [[nodiscard]] Result<StudyRecord> readStudyRecord(const Study& study);
 
-/// The same study with the participants of one kind only, for each kind that there is, people first. What is counted
-/// or shown is of one of these: people and virtual participants are never counted together.
+/// The study with the participants of one kind only, for each kind that it has, people first. Counts and figures are
+/// made of one of these: people and virtual participants are never counted together.
 [[nodiscard]] std::vector<std::pair<SessionBasis, StudyRecord>> byBasis(const StudyRecord& study);
 
-/// What may leave the study: participants who are active or left.
+/// The part that may leave the study: participants who are active or left.
 [[nodiscard]] BidsStudy sharedStudy(const StudyRecord& record);
 
-/// What a pilot session comes to, as it may leave the study: trials, thresholds, range, ratings, side effects, skin.
-/// `rows` are the events of all parts, in order; `labels` the names offered. What no row says stays unknown; number,
+/// The results of a pilot session, as they may leave the study: trials, thresholds, range, ratings, side effects, skin.
+/// `rows` are the events of all parts, in order; `labels` the names offered. Values without a row stay unknown; number,
 /// days, complete and parts are the caller's.
 [[nodiscard]] BidsSession sessionResults(const std::vector<SessionRow>& rows, std::vector<std::string> labels);
 
