@@ -135,7 +135,7 @@ Result<Basis> basisOf(const std::string& file, std::string stated, std::span<con
     return basis;
 }
 
-/// What such figures say something of.
+/// The people whom such figures say something about.
 std::string_view whoOf(const Basis& basis) { return basis ? peopleOf(*basis) : "participants"; }
 
 std::string basisText(const Basis& basis) {
@@ -168,8 +168,8 @@ void printFigures(const Identification& found, const std::string& name, const Ba
     table.print();
 }
 
-/// The labels that each person's trials name are the answers offered. Nothing is judged, and several people are not
-/// pooled (pilot.md section 7). One of several whose trials cannot be analysed is named and left out.
+/// Each person's trials name the labels that were offered as answers. Nothing is judged, and several people are not
+/// pooled (pilot.md section 7). Of several people, one whose trials cannot be analysed is named and left out.
 int identification(const std::string& file, const std::string& stated, bool asJson) {
     const auto read = readIdentificationTrials(file);
     if (!read) return couldNotRun(read.error());

@@ -18,7 +18,7 @@ GateSetup setupFor(const PulseOrder& order, const SourceTraits& source) {
     setup.limits = order.limits;
     setup.ceilings = order.ceilings;
     setup.electrodeArea = order.electrodeArea;
-    setup.check = order.pulse;  // the same shape, so that |Z| means the same; the amplitude is the source's
+    setup.check = order.pulse;  // the same shape, so that |Z| means the same; the amplitude fits the source
     return setup;
 }
 
@@ -67,7 +67,7 @@ Result<void> BenchPulse::leaveFault() {
     if (status->delivering) return fail(ErrorCode::NotArmed, "not reset: the stimulator still delivers");
     for (int cause = 0; cause < kFaultCauseCount; ++cause) interlock_.causeGone(static_cast<FaultCause>(cause));
     if (auto reset = interlock_.reset(); !reset) return reset;
-    // One whose device was lost leaves it disconnected.
+    // A run whose device was lost leaves it disconnected.
     return interlock_.state() == InterlockState::Disconnected ? interlock_.connect() : Result<void>{};
 }
 
@@ -75,7 +75,7 @@ BenchPulse::~BenchPulse() { stop(); }
 
 void BenchPulse::stop() noexcept {
     stopped_ = true;
-    interlock_.disarm("stopped");  // before the approvals are void: see send()
+    interlock_.disarm("stopped");  // disarms before the approvals become void: see send()
     gate_.latchStop();
     session_.forceOff();
 }
@@ -100,7 +100,7 @@ Result<void> BenchPulse::request() {
 }
 
 Result<PulseOutcome> BenchPulse::deliver() {
-    // Nothing is approved earlier on a unit whose past is unknown.
+    // A unit whose past is unknown gets no approval before its record is complete.
     while (!stopped_ && record_ && clock_.now() < record_->quietUntil())
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
     if (stopped_) return fail(ErrorCode::Stopped, "stopped: nothing was delivered");
@@ -146,7 +146,7 @@ Result<PulseFinding> BenchPulse::send(Result<ApprovedTrain> approved, bool isChe
     }
     session_.post(std::move(*approved), clock_.now(), isCheck);
     const TrainReport reported = report();
-    // On every return the destructor switches off, and the session did where the device failed.
+    // Every return runs the destructor, which switches off; the session has done so where the device failed.
     if (stopped_) return fail(ErrorCode::Stopped, "stopped. Output is off.");
     if (reported.outcome == TrainOutcome::Voided) {
         return fail(ErrorCode::Timeout,
@@ -172,7 +172,7 @@ Result<PulseFinding> BenchPulse::send(Result<ApprovedTrain> approved, bool isChe
 /// Serves the session until it has an answer: it bounds every wait of its own.
 TrainReport BenchPulse::report() {
     constexpr Instant kBeatEvery = std::chrono::milliseconds(5);
-    heartbeat_.revive(clock_.elapsed());  // nothing beats between two pulses; approvals expire
+    heartbeat_.revive(clock_.elapsed());  // nothing else beats between two pulses, so that approvals expire
     for (;;) {
         const Instant now = clock_.now();
         if (!heartbeat_.beat(clock_.elapsed())) {

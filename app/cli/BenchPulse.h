@@ -25,10 +25,10 @@ struct PulseOrder {
     Ceilings ceilings;                               ///< the profile's own ceilings
     std::optional<SquareCentimetres> electrodeArea;  ///< without it density rows are not evaluated
     bool resetFault =
-        false;  ///< one in which an earlier run left the unit, if its cause is gone; else it ends this one
+        false;  ///< whether the state that an earlier run left may stand, if its cause is gone; else it ends this run
 };
 
-/// What one pulse showed.
+/// The findings of one pulse.
 struct PulseFinding {
     Milliamps current{0};
     ElectrodeState electrode = ElectrodeState::NotMeasured;

@@ -29,9 +29,9 @@ enum Exit : int {
 
 /// Prints the error's sentence on stderr and returns its exit code.
 [[nodiscard]] int failWith(const Error& error);
-/// The same where a file or device is at fault: exit code 3, even where the sentence is about a value.
+/// Does what refused() does, where a file or device is at fault: exit code 3, even where the sentence is about a value.
 [[nodiscard]] int couldNotRun(const Error& error);
-/// The same for a wrong command line: exit code 2.
+/// Refuses a wrong command line: exit code 2.
 [[nodiscard]] int usage(const std::string& sentence);
 
 /// One command: its words, its options, what it does.
@@ -64,7 +64,7 @@ void printJson(const nlohmann::json& value);
 // Defined one per file, in app/cli/<Name>Command.cpp.
 extern const Command kDevices, kProtocols, kRun, kRoughness, kEncode, kMeasure, kConvert, kAnalyze, kVerify, kHid,
     kScienceMode, kSensor, kCertificate, kStudy, kExport;
-// That of the program tactoscope-report; its words stand in the help of tactoscope-cli.
+// The words of the program tactoscope-report, which stand in the help of tactoscope-cli.
 extern const Command kReport;
 inline constexpr const char* kReportArguments =
     "{SESSION|STUDY} --out report.pdf [--participant CODE | --for READER] [--noted] [--passphrase-file F]";

@@ -70,7 +70,7 @@ Result<MeasureOptions> optionsFrom(const QCommandLineParser& parser) {
     return options;
 }
 
-/// As the capture itself says, else the folder it lies in; nothing: neither says, and the origin is not known.
+/// The capture itself says it, else the folder it lies in; nothing: neither does, and the origin is not known.
 std::optional<bool> simulatedAs(const std::filesystem::path& path, const Capture& capture) {
     return capture.simulated ? std::optional(true) : statedSimulated(path);
 }

@@ -20,7 +20,7 @@ std::size_t countOf(const ChannelMeasurement& m, Flag flag) {
 
 TextTable statisticsTable() { return TextTable({"", ">", ""}); }
 
-/// Nothing where nothing was measured.
+/// Writes nothing where nothing was measured.
 void addStatistic(TextTable& table, const char* name, const Statistics& s, std::string_view unit) {
     if (s.n == 0) return;
     table.add({name, scaledText(s.mean, unit, 4),
@@ -92,7 +92,7 @@ std::optional<LoadMeasurement> loadIn(const Capture& capture, const MeasureOptio
     const auto channels = loadChannels(capture);
     if (!channels) return std::nullopt;
     auto load = measureLoad(capture, channels->first, channels->second, options);
-    if (!load) return std::nullopt;  // it asks for just what loadChannels() found
+    if (!load) return std::nullopt;  // the request is for just what loadChannels() found
     return *std::move(load);
 }
 

@@ -20,7 +20,7 @@ Error missing(const std::string& why) {
     return {ErrorCode::NotFound, fmt::format("{} does not start ({}); install Tactoscope again", programPath(), why)};
 }
 
-/// What it says, without the name that its lines begin with.
+/// What the program says, without its name at the beginning of a line.
 std::string sentenceIn(const QByteArray& said) {
     constexpr std::string_view kName = "tactoscope-cli: ";
     auto text = said.trimmed().toStdString();
@@ -31,7 +31,7 @@ std::string sentenceIn(const QByteArray& said) {
 
 int becomeReportProgram(char** argv) {
     auto path = programPath();
-    char** words = argv + 1;  // after the program's name there follows what followed "report"
+    char** words = argv + 1;  // the words after "report" follow the program's name
     words[0] = path.data();
     ::execv(path.c_str(), words);
     return couldNotRun(missing(std::strerror(errno)));

@@ -8,7 +8,7 @@
 
 namespace tacto::cli {
 
-/// `tactoscope-cli report ...` goes on as tactoscope-report. Returns only where that cannot be started: the exit code.
+/// `tactoscope-cli report ...` becomes tactoscope-report. Returns only where that cannot be started: the exit code.
 [[nodiscard]] int becomeReportProgram(char** argv);
 
 /// Has the report of a session written to `out`, and says on stderr if the session was altered. Ends with this program.

@@ -149,7 +149,7 @@ tl::expected<RunOrder, int> orderFrom(const QCommandLineParser& parser, const Si
                 usage(fmt::format("run: --certificate-details is given for {}; a stimulator calibration is expected",
                                   order.script.name)));
         }
-        // Before devices are opened.
+        // This is checked before devices are opened.
         if (const auto read = certificateDetails(order.certificateDetails, utcToday()); !read)
             return tl::unexpected(couldNotRun(read.error()));
     }
@@ -293,7 +293,7 @@ void printSummary(const ScriptOutcome& outcome, const json& value) {
     std::_Exit(kStopped);
 }
 
-/// Beside the session; the path of the last, or null when there is none.
+/// Ends at once: a report may take long, and can be made later.
 json writeReports(const RunFiles& files, const std::vector<const char*>& endings) {
     json report = nullptr;
     for (const auto* ending : endings) {

@@ -77,7 +77,7 @@ tl::expected<PulseOrder, int> pulseOrderFrom(const QCommandLineParser& parser) {
                       parser.isSet("reset-fault")};
 }
 
-/// Before anything is delivered: a record that cannot be written would be lost.
+/// Checked before anything is delivered: a record that cannot be written would be lost.
 Result<void> canWrite(const std::filesystem::path& file) {
     const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
     std::error_code error;

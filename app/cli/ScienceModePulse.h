@@ -14,7 +14,7 @@ inline constexpr std::array<const char*, 7> kPulseOptions{"current",        "wid
 
 void declarePulse(QCommandLineParser& parser);
 
-/// --device, or sciencemode:. Errors: InvalidArgument for what is not a URI or names another kind of device.
+/// From --device, or sciencemode:. Errors: InvalidArgument for what is not a URI or names another kind of device.
 [[nodiscard]] Result<DeviceUri> scienceModeUri(const QCommandLineParser& parser);
 
 /// The whole command; the value is its exit code.

@@ -56,7 +56,7 @@ private:
     double next_s_ = 0;
 };
 
-/// For `time`, or until Ctrl+C is pressed. Errors: as SensorBoard::read().
+/// Listens for `time`, or until Ctrl+C is pressed. Errors: as SensorBoard::read().
 Result<Listened> listenTo(SensorBoard& board, Seconds time, const SignalStop& interrupts) {
     const auto streams = board.streams();
     std::vector<StreamHealth> health;

@@ -111,7 +111,7 @@ int enrol(Study& study, const QCommandLineParser& parser, const QStringList& wor
     return kDone;
 }
 
-/// After a change of one participant.
+/// What is printed after a change of one participant.
 int changed(const Result<void>& done, const Study& study, const std::string& code, const QCommandLineParser& parser) {
     if (!done) return failWith(done.error());
     if (!parser.isSet("json")) return kDone;
@@ -183,7 +183,7 @@ Result<StudySession> sessionOf(const Study& study, const Participant& participan
                 number.empty() ? "" : " " + number);
 }
 
-/// The plan of a session, what was answered, and what was begun and not answered.
+/// Prints the plan of a session, its answers, and what began and was not answered.
 int trials(Study& study, const QCommandLineParser& parser, const QStringList& words) {
     const auto participant = study.find(words.at(2).toStdString());
     if (!participant) return couldNotRun(participant.error());

@@ -25,7 +25,7 @@ Result<void> takeSets(const QCommandLineParser& parser, StudySettings& settings)
     return {};
 }
 
-/// With what --set changes and what this program and --profile are.
+/// The settings with what --set changes, and with what this program and --profile are.
 Result<StudySettings> asSetHere(const QCommandLineParser& parser, StudySettings settings) {
     if (!settings.procedure) settings.procedure.emplace();
     if (!settings.painCeiling) settings.painCeiling = kPainCeiling;

@@ -18,7 +18,7 @@ void declareStudyOptions(QCommandLineParser& parser);
 [[nodiscard]] std::string given(const QCommandLineParser& parser, const char* name);
 [[nodiscard]] Result<CalibrationDate> dateGiven(const QCommandLineParser& parser, const char* name);
 
-/// With the limit sets and pilot scripts of this program.
+/// The settings, with the limit sets and pilot scripts of this program.
 [[nodiscard]] Result<StudySettings> settingsGiven(const QCommandLineParser& parser);
 /// `settings` with what the options change, and this program's limit sets and pilot scripts.
 [[nodiscard]] Result<StudySettings> settingsAmended(const QCommandLineParser& parser, StudySettings settings);
@@ -33,7 +33,7 @@ void declareStudyOptions(QCommandLineParser& parser);
 [[nodiscard]] nlohmann::json amendmentJson(const StudyAmendment& amendment);
 [[nodiscard]] nlohmann::json studyJson(const Study& study);
 
-/// What an amendment changed, in words.
+/// The changes of an amendment, in words.
 [[nodiscard]] std::string changesText(const StudyAmendment& amendment, Modality modality);
 /// Prints all of it; what is sealed, as "(sealed)".
 void sayStudy(const Study& study);

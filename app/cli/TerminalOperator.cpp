@@ -18,7 +18,7 @@ namespace tacto::cli {
 
 namespace {
 
-/// For what is done by hand, as fitting a load.
+/// Long enough for work by hand, such as fitting a load.
 constexpr Seconds kQuestionTimeout{3600};
 
 }  // namespace

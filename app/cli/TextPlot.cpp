@@ -42,7 +42,7 @@ public:
         const auto picture = curve();
         const int middle = (rows_ - 1) / 2;
         for (int row = rows_ - 1; row >= 0; --row) {
-            const bool even = rows_ % 2 == 1;  // only then one row lies in the middle
+            const bool even = rows_ % 2 == 1;  // only then does one row lie in the middle
             const std::string label = row == 0                ? labels_[0]
                                       : row == rows_ - 1      ? labels_[2]
                                       : even && row == middle ? labels_[1]
@@ -140,7 +140,7 @@ private:
 }  // namespace
 
 std::string draw(const TextPlot& plot, int columns, int rows) {
-    // Before they are laid out: a text that is spelled out later would be longer than its place.
+    // This happens before they are laid out: a text that is spelled out later would be longer than its place.
     TextPlot harmless = plot;
     for (auto* text : {&harmless.title, &harmless.xTitle, &harmless.markText}) *text = printable(*text);
     return Canvas(harmless, columns, rows).text();

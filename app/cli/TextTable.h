@@ -13,11 +13,11 @@ public:
     /// A heading that begins with '>' stands to the right with its column, as numbers do; the mark is not printed.
     /// Headings that are all empty are not printed.
     explicit TextTable(std::vector<std::string> headings);
-    /// As many cells as there are headings.
+    /// There must be as many cells as headings.
     void add(std::vector<std::string> cells);
     /// A line between two rows, as wide as it is.
     void addLine(const std::string& line);
-    /// With headings, after an empty line.
+    /// Prints the headings, too, after an empty line.
     void print() const;
 
 private:

@@ -17,7 +17,7 @@ namespace {
 
 using nlohmann::json;
 
-/// In one line, with the spaces of a keyboard.
+/// The text in one line, with the spaces of a keyboard.
 std::string plain(QString text) {
     return text.replace('\n', ' ').replace(QChar(0x202f), ' ').replace(QChar(0x00a0), ' ').toStdString();
 }

@@ -20,7 +20,7 @@ constexpr const char* kNotice =
 
 /// In the order of the help.
 const std::vector<Command>& commands() {
-    // Another program does it (ReportProgram.h).
+    // Another program makes reports (ReportProgram.h).
     static const Command report{"report", kReportArguments, kReportSummary, nullptr, nullptr};
     static const std::vector<Command> all{kRun,     kProtocols,   kDevices, kRoughness, kEncode, kMeasure,
                                           kConvert, kAnalyze,     report,   kVerify,    kHid,    kScienceMode,

@@ -97,7 +97,7 @@ void addUncertainty(QCPAxisRect* axes, const CalibrationFigure& figure, QCPGraph
     bars->setData(u);
 }
 
-/// Each direction's mean, on a scale of its own: beside a tolerance of 2 % no hysteresis would be seen.
+/// Draws each direction's mean on a scale of its own: beside a tolerance of 2 % no hysteresis would be seen.
 void drawDirections(PlotSheet& sheet, QCPAxisRect* axes, QCPLegend* legend, const CalibrationFigure& figure) {
     Reach x, y;
     for (const auto& level : figure.levels) {

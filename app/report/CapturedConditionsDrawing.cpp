@@ -13,14 +13,14 @@ using CapturedLane = ConditionsFigure::Condition;
 constexpr int kCapturedLaneHeight = 78;
 constexpr int kCapturedAxisHeight = 34;
 
-/// All lanes on the same scales, so that heights and distances compare.
+/// Puts all lanes on the same scales, so that heights and distances compare.
 struct LaneScales {
     double span_s = 0;
     double reach_v = 0;
     double pulseBegin_s = 0, pulseEnd_s = 0;
 };
 
-/// From the first sample that stands out to the last, with a margin.
+/// The samples from the first that stands out to the last, with a margin.
 std::pair<std::size_t, std::size_t> pulseSpan(const CapturedLane& lane) {
     double peak = 0;
     for (const double v : lane.pulse_v) peak = std::isfinite(v) ? std::max(peak, std::abs(v)) : peak;

@@ -23,17 +23,17 @@ const ReportDevice* deviceOf(const ReportModel& model, Role role) {
     return found == model.devices.end() ? nullptr : &*found;
 }
 
-/// What was entered under that key; else what the program knows; else a line to write on.
+/// The entry under that key; else what the program knows; else a line to write on.
 ReportFact detailFact(const ReportModel& model, std::string_view key, const QString& known = {}) {
     const auto detail = std::ranges::find(kCertificateDetails, key, &CertificateDetail::key);
     const QString given = shownText(model.certificate->details[fromUtf8(key)].toString(), kShownCell);
     QString text = given.isEmpty() ? known : given;
-    // What the device says about itself is not replaced by what was entered.
+    // Entries do not replace what the device says about itself.
     if (!given.isEmpty() && !known.isEmpty() && given != known) text += QString(" (the device reports %1)").arg(known);
     return {fromUtf8(detail->title), text, false, text.isEmpty()};
 }
 
-/// What was done otherwise than the method says, as far as the program knows.
+/// The deviations from the method, as far as the program knows them.
 QString deviations(const ReportModel& model) {
     QStringList all;
     const auto quantities = quantitiesOf(model);
@@ -56,7 +56,7 @@ QString certified(const QJsonObject& certificate, const char* key, const char* w
     return QString("%1, U = %2 (k = 2)").arg(QLatin1String(what), settingText(u.toDouble(), unit));
 }
 
-/// What a reading stands on, as the certificate of an oscilloscope states it.
+/// The basis of a reading, as the certificate of an oscilloscope states it.
 struct CertifiedFigure {
     const char* key;
     const char* what;
@@ -103,7 +103,7 @@ void addTraceability(const ReportModel& model, std::vector<ReportFact>& facts) {
         const auto& figures = amplitude ? (current ? kOfCurrent : kOfVoltage) : kOfTime;
         Traced traced;
         for (const auto& [key, what, unit] : figures) {
-            // What the operator states takes the certificate's place.
+            // The operator's statement takes the certificate's place.
             const auto share =
                 each[u"stated_by"].toString() == "the operator" ? QString() : certified(certificate, key, what, unit);
             if (!share.isEmpty())
@@ -186,7 +186,7 @@ private:
     static double numberIn(const QJsonValue& row, const char* key) {
         return row[QLatin1String(key)].toDouble(kUnknown);
     }
-    /// To the place of the second digit of its U; four digits where U is not known.
+    /// The value to the place of the second digit of its U; with four digits where U is not known.
     static QString atPlace(double value, double u, const AxisUnit& axis) {
         if (!std::isfinite(value)) return "not measured";
         if (!(u > 0)) return quantityText(value * axis.factor, {});

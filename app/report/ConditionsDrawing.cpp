@@ -39,7 +39,7 @@ bool known(const Condition& c) {
 
 constexpr int kTitleHeight = 20;
 constexpr int kLaneHeight = 70;     // a lane's height, the strip with name and numbers included
-constexpr double kHeadroom = 1.18;  // for the markers
+constexpr double kHeadroom = 1.18;  // leaves room for the markers
 constexpr int kStripHeight = 15;
 constexpr int kAxisHeight = 34;
 
@@ -71,7 +71,7 @@ public:
             sheet_->explain(axes, panel.missing);
         }
         for (std::size_t i = 0; i < panel.lanes.size(); ++i) {
-            // As much room as a title takes, so that lanes left and right stand level.
+            // Takes as much room as a title, so that lanes left and right stand level.
             if (i == 2) sheet_->addTitle(row++, 0, {}, false, grid);
             auto* axes = addLaneAxes(grid, row++, timeAxis && i + 1 == panel.lanes.size());
             drawLane(axes, *panel.lanes[i]);
@@ -115,7 +115,7 @@ private:
         constexpr double kRoom = 300;  // a lane's room in half a sheet
         QString numbers = spreadText(condition.amplitude_v.mean, condition.amplitude_v.sd, "V") + ";  " +
                           spreadText(condition.interval_s.mean, condition.interval_s.sd, "s");
-        if (widthOf(condition.name + "   " + numbers) > kRoom)  // without the spread
+        if (widthOf(condition.name + "   " + numbers) > kRoom)  // leaves out the spread
             numbers =
                 quantityText(condition.amplitude_v.mean, "V") + ";  " + quantityText(condition.interval_s.mean, "s");
         sheet_->addNote(axes, numbers, {1, -0.02}, Qt::AlignRight | Qt::AlignBottom);

@@ -49,7 +49,7 @@ std::unique_ptr<PlotSheet> drawCurves(const CurvesFigure& figure, bool simulated
         const auto& curve = figure.curves[i];
         const QColor color = colors[i % colors.size()];
         addBand(axes, curve, color);
-        // Beyond as many as there are colours, curves are told apart by their dashes.
+        // Where there are more curves than colours, they are told apart by their dashes.
         auto* graph =
             addGraph(axes, curve.x, curve.y, QPen(color, 1.4, i < colors.size() ? Qt::SolidLine : Qt::DashLine));
         if (curve.steps) graph->setLineStyle(QCPGraph::lsStepLeft);

@@ -107,7 +107,7 @@ struct ConditionsFigure {
         Statistic interval_s;
         double n = kUnknown;
         struct Train {
-            double onset_s = kUnknown;  ///< from the first train's
+            double onset_s = kUnknown;  ///< after the onset of the first train
             double low_v = kUnknown;    ///< the extremes of its record
             double high_v = kUnknown;
         };
@@ -134,7 +134,7 @@ struct PlaneFigure {
 struct WaveformsFigure {
     struct Trace {
         QString condition;  ///< may be empty
-        QString label;      ///< what stands above it; the condition unless given
+        QString label;      ///< the words above it; the condition unless given
         std::optional<qint64> capture;
         double rate_hz = kUnknown;
         double start_s = 0;
@@ -147,7 +147,7 @@ struct WaveformsFigure {
 struct ConfusionFigure {
     QStringList labels;
     QStringList columns;
-    QString answers = "found";                ///< what the columns are
+    QString answers = "found";                ///< the title of the columns
     std::vector<std::vector<double>> counts;  ///< labels.size() rows of columns.size()
     Estimate accuracy;
 };
@@ -155,7 +155,7 @@ struct ConfusionFigure {
 struct ExposureFigure {
     struct Row {
         QString name;
-        double value = kUnknown;  ///< not finite: not evaluated
+        double value = kUnknown;  ///< a value that is not finite: not evaluated
         double limit = kUnknown;
         QString unit;
         QString source;
@@ -163,7 +163,7 @@ struct ExposureFigure {
         bool warning = false;
         std::optional<bool> within = {};
 
-        [[nodiscard]] bool evaluated() const;  ///< there is a value
+        [[nodiscard]] bool evaluated() const;  ///< whether there is a value
         [[nodiscard]] bool over() const;       ///< evaluated and not within its limit
     };
     std::vector<Row> rows;

@@ -183,7 +183,7 @@ std::unique_ptr<PlotSheet> emptySheet(const QString& why, bool simulated) {
 
 namespace {
 
-constexpr double kTouching = 1.0;  // px between the end of a text and the beginning of what goes on
+constexpr double kTouching = 1.0;  // px between the end of a text and the beginning of its continuation
 
 double advanceOf(const QString& escaped, double size, int weight) {
     QString text = escaped;

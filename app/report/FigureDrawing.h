@@ -20,7 +20,7 @@ namespace tacto {
 /// `simulated` puts the watermark on every plot.
 [[nodiscard]] std::unique_ptr<PlotSheet> drawFigure(const Figure& figure, bool simulated);
 
-/// What a reader must know to read the figure (what a bar, an ellipse, a height is), and its key number, in sentences.
+/// All that one must know to read the figure (what a bar, an ellipse, a height is), and its key number, in sentences.
 [[nodiscard]] QString figureLegend(const Figure& figure);
 
 /// An <svg> element for use inside HTML: no XML prologue, scales with its container, `title` for screen readers.
@@ -34,7 +34,7 @@ namespace tacto {
 inline constexpr std::size_t kWaveformsShown = 8;  ///< the first; more would not fit on a page
 [[nodiscard]] std::unique_ptr<PlotSheet> drawWaveforms(const WaveformsFigure& figure, bool simulated);
 [[nodiscard]] std::unique_ptr<PlotSheet> drawConfusion(const ConfusionFigure& figure, bool simulated);
-/// What has a limit or was not evaluated; its legend says the rest, and why.
+/// Draws rows that have a limit or were not evaluated; its legend tells the others, and why.
 [[nodiscard]] std::unique_ptr<PlotSheet> drawExposure(const ExposureFigure& figure, bool simulated);
 [[nodiscard]] QString exposureLegend(const ExposureFigure& figure);
 [[nodiscard]] std::unique_ptr<PlotSheet> drawTimeline(const TimelineFigure& figure, bool simulated);
@@ -56,7 +56,7 @@ inline constexpr std::size_t kWaveformsShown = 8;  ///< the first; more would no
 /// named with those that stand in for them elsewhere.
 [[nodiscard]] QString withWholeTexts(const QString& svg);
 
-// How far a drawing's axis must go.
+// Computes how far a drawing's axis must go.
 
 /// The smallest range that holds everything finite it was shown.
 struct Reach {

@@ -15,7 +15,7 @@ namespace {
 using nlohmann::json;
 using State = MatrixBlock::State;
 
-/// How much of a limit used is worth a second look, %.
+/// The share of a limit, in %, from which it is worth a second look.
 constexpr double kClose_pct = 80;
 
 QString wordsIn(const json& of, const char* key) { return visible(QString::fromStdString(textOr(of, key))); }
@@ -40,7 +40,7 @@ void judge(MatrixBlock::Cell& out, const json& cell, const QString& unit, bool h
     } else if (out.verdict == "not applicable") {
         out.detail = out.measured + "\nnot judged";
         out.share = "–";
-    } else if (!known && !hasLimit) {  // no limit to be within: it happened or it did not
+    } else if (!known && !hasLimit) {  // a rule without a limit: it was kept or it was not
         const bool failed = out.verdict == "fail";
         out.main = mark;
         out.detail = out.measured = quantityText(value, unit);
@@ -83,8 +83,8 @@ MatrixBlock::Cell cellOf(const json& cell, const QString& rowUnit, bool hasLimit
     return out;
 }
 
-/// One prefix for each unit of a matrix, whose columns are columns and whose rows are compared; the unit that all of a
-/// row share stands in its title. What stands in two lines of a cell is one figure.
+/// One prefix for each unit of a matrix, whose columns are columns and whose rows are compared; a unit that a whole row
+/// shares stands in its title. Two lines of a cell are one figure.
 void shareUnits(std::vector<MatrixBlock::Row>& rows) {
     const auto isOne = [](const MatrixBlock::Cell& cell) { return cell.detail.startsWith("± "); };
     std::vector<QStringList> figures;

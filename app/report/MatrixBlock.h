@@ -16,8 +16,8 @@ struct MatrixBlock {
     struct Cell {
         QString main, detail;
         State state = State::Empty;
-        QString verdict{};      ///< of what is judged: "pass"
-        QString share{};        ///< how much of the limit is used, "23 %"; or what is said in its place
+        QString verdict{};      ///< the verdict on what is judged: "pass"
+        QString share{};        ///< how much of the limit is used, "23 %", or the words in its place
         QString measured{};     ///< the value with its U and unit
         QString note{};         ///< what is to be known beside it, as a sentence
         bool hasShare = false;  ///< `share` is one
@@ -27,8 +27,8 @@ struct MatrixBlock {
         QString title, note;
         std::vector<Cell> cells;
         QString name{};                                       ///< the title without the unit that its cells share
-        QString unit{}, limit{}, set{}, source{}, verdict{};  ///< of a limit: "≤ 10 mA"; whose it is
-        bool hasLimit = false;                                ///< else `limit` is a rule in words, kept or not
+        QString unit{}, limit{}, set{}, source{}, verdict{};  ///< a limit, as "≤ 10 mA", and whose it is
+        bool hasLimit = false;                                ///< else `limit` is a rule in words that was kept or not
         int worst = -1;                                       ///< the cell with the smallest margin
     };
     QString caption{};
@@ -41,7 +41,7 @@ struct MatrixBlock {
 /// "set" or "sets", "source", "verdict", "worst_load", "cells"}, a cell null (nothing asked there) or {"load", "value",
 /// "unit", "expanded_uncertainty", "margin_pct", "verdict", "note", "text"}.
 [[nodiscard]] MatrixBlock matrixOf(const QStringList& columns, const nlohmann::json& rows);
-/// The same of toJson(LimitMatrix); one limit from two documents is one row. Empty for what is none.
+/// The block of what toJson(LimitMatrix) gives; one limit from two documents is one row. Empty for anything else.
 [[nodiscard]] MatrixBlock limitsOf(const nlohmann::json& matrix);
 /// A table of Across: each record is a column, by its first.
 [[nodiscard]] MatrixBlock acrossOf(const ResultTable& table, const nlohmann::json& records);

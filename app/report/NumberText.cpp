@@ -27,7 +27,7 @@ struct Split {
     [[nodiscard]] UnitPrefix prefixFor(int exponent) const { return tacto::prefixFor(base.toStdString(), exponent); }
 };
 
-/// "mA" → A and 1e-3; "mA/cm²" likewise. Units that take no prefix have an empty `base`.
+/// Splits "mA" into A and 1e-3; "mA/cm²" likewise. Units that take no prefix have an empty `base`.
 Split splitUnit(const QString& shown) {
     const auto parts = partsOfUnit(shown.toStdString());
     return {parts.factor, QString::fromStdString(parts.base)};
@@ -36,7 +36,7 @@ Split splitUnit(const QString& shown) {
 QString fixed(double value, int decimals) {
     QString text = QString::number(value, 'f', std::max(0, decimals));
     if (!text.startsWith('-')) return text;
-    // What rounds to zero is zero: there is no "−0.00".
+    // A value that rounds to zero is zero: there is no "−0.00".
     const bool zero = std::all_of(text.begin() + 1, text.end(), [](QChar c) { return c == '0' || c == '.'; });
     return text.replace(0, 1, zero ? QString() : QString(kMinus));
 }
@@ -45,7 +45,7 @@ QString withUnit(const QString& number, const QString& unit) {
     return unit.isEmpty() ? number : number + kSpace + unit;
 }
 
-/// As it stands on a page: a true minus, and a narrow space before the unit.
+/// The number as it stands on a page: a true minus, and a narrow space before the unit.
 QString onPage(const std::string& text, bool hasUnit) {
     QString shown = QString::fromStdString(text);
     shown.replace('-', kMinus);
@@ -82,7 +82,7 @@ QString intervalText(const Estimate& estimate, const QString& unit) {
     const Split split = splitUnit(shown);
     const double most = std::max({std::abs(value), std::abs(low), std::abs(high)}) * split.factor;
     const bool writtenOut = !split.base.isEmpty() || (most >= 1e-4 && most < 1e7);
-    // An interval of rounding errors is none.
+    // An interval of mere rounding errors is none.
     if (!(half * split.factor > kMinInterval * most) || !writtenOut)
         return QString("%1 (%2 to %3)")
             .arg(quantityText(value, unit), quantityText(low, unit), quantityText(high, unit));
@@ -231,8 +231,8 @@ namespace {
 struct FigureCell {
     QString* text = nullptr;
     QString base;
-    int exponent = 0;              // its prefix, as a power of ten
-    std::vector<QString> between;  // one more than numbers; the unit is left out
+    int exponent = 0;              // the prefix as a power of ten
+    std::vector<QString> between;  // what stands between the numbers: one more than numbers; the unit is left out
     std::vector<QString> numbers;
     std::vector<bool> unitAfter;
 

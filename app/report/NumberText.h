@@ -53,12 +53,12 @@ struct AxisUnit {
 /// A table's column, from the key that a result carries: "net_charge_uc" → "Net charge", values in µC.
 struct ColumnName {
     QString title;
-    QString unit;  ///< as shown; empty for plain numbers
+    QString unit;  ///< the shown unit; empty for plain numbers
 };
 [[nodiscard]] ColumnName columnName(const QString& key);
 
-/// One prefix and as many decimals for all numbers of a column, where they lie within a factor of 1000 of each other:
-/// numbers that are compared stand alike. Nothing otherwise, or for whole numbers without a unit.
+/// One prefix and as many decimals for all numbers of a column, where they lie within a factor of 1000 of each other,
+/// since compared numbers should look alike. Nothing otherwise, or for whole numbers without a unit.
 struct ColumnFormat {
     int exponent = 0;
     int decimals = 0;

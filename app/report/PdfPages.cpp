@@ -11,7 +11,7 @@ namespace {
 constexpr int kResolution = 1200;
 constexpr double kMargin = 68.85;  // (A4 width of 793.7 - 656) / 2
 constexpr double kTop = 64;
-// As large as the type: a sign from another face moves neither its line nor the next.
+// The line is as high as the type: a sign from another face moves neither its line nor the next.
 constexpr double kLineOfSize = 1.26;
 constexpr double kBaselineOfSize = 0.95;
 

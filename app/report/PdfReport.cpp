@@ -166,7 +166,7 @@ public:
         pages_.advance(kGap);
     }
 
-    /// What must stand on the page with a heading before blocks[i]: the first of it, and what a paragraph leads to.
+    /// The height needed on a page with a heading before blocks[i]: its first part, and the block of a paragraph.
     static double needOf(const std::vector<ReportBlock>& blocks, std::size_t i) {
         if (i >= blocks.size()) return 0;
         const auto& block = blocks[i];

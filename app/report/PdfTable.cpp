@@ -171,7 +171,7 @@ double setCaption(PdfPages& pages, const QString& caption, bool draw) {
     return height;
 }
 
-/// What must fit below the table's top: a short table is kept whole, a long one begins with a few rows.
+/// The height that must fit below the table's top: a short table is kept whole, a long one begins with a few rows.
 double beginningOf(const TableSetter& setter, double caption, std::size_t rows) {
     const double whole = caption + setter.wholeHeight();
     if (whole < PdfPages::kHeight / 4) return whole;
@@ -342,7 +342,7 @@ private:
         return fits ? font : textFont(kDetailSize, standsOut(cell.state));
     }
 
-    /// It stands below the last row, on the same page.
+    /// The legend stands below the last row, on the same page.
     [[nodiscard]] double legendHeight() const {
         if (matrix_.legend.isEmpty()) return 0;
         return 4 + PdfPages::textHeight(PdfPages::kWidth, matrix_.legend, textFont(10));
@@ -446,7 +446,7 @@ double matrixBeginning(const MatrixBlock& matrix) {
 
 void setMatrix(PdfPages& pages, const MatrixBlock& matrix) {
     MatrixSetter setter(pages, matrix);
-    // As a table, one that takes less than a quarter of a page is not split.
+    // Like any table, one that takes less than a quarter of a page is not split.
     const double whole = setter.whole();
     pages.require(whole < PdfPages::kHeight / 4 ? whole : setter.beginning());
     setter.set();

@@ -17,8 +17,8 @@ void setTable(PdfPages& pages, const TableBlock& table);
 
 // Sets a matrix on pages.
 
-/// Caption above, legend below. Rows are never split; the header is repeated on every page. What is close to its limit
-/// or beyond is shaded and bold, what was not evaluated hatched: told apart without colour.
+/// The caption stands above, the legend below. Rows are never split; the header is repeated on every page. Values close
+/// to the limit or beyond it are shaded and bold, unevaluated ones hatched: told apart without colour.
 void setMatrix(PdfPages& pages, const MatrixBlock& matrix);
 
 /// The height below which the matrix begins on the next page.

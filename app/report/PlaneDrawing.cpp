@@ -73,7 +73,7 @@ void drawPoints(QCPAxisRect* axes, const QVector<double>& x, const QVector<doubl
     points->setData(x, y);
 }
 
-/// One condition as deviations from its mean, in units that suit them.
+/// Draws one condition as deviations from its mean, in units that suit them.
 void drawEnlarged(PlotSheet& sheet, QCPLayoutGrid* grid, int cell, const Cluster& cluster, int index) {
     auto* axes = sheet.addAxes(cell / 2, cell % 2, grid);
     auto* horizontal = axes->axis(QCPAxis::atBottom);

@@ -102,7 +102,7 @@ void PlotSheet::explain(QCPAxisRect* axes, const QString& why) {
 
 QCPLegend* PlotSheet::addLegend(int row, int column, int entriesPerLine) {
     auto* legend = new QCPLegend;
-    // In a grid of its own with something that takes the rest: a legend's greatest width would bind its column.
+    // Stands in a grid of its own, beside something that takes the rest: a legend's greatest width binds its column.
     auto* line = new QCPLayoutGrid;
     plot_->plotLayout()->addElement(row, column, line);
     line->addElement(0, 0, legend);

@@ -44,9 +44,9 @@ public:
                          Qt::Alignment alignment = Qt::AlignCenter);
     /// Says in the middle of empty axes why they are empty, and hides their ticks.
     void explain(QCPAxisRect* axes, const QString& why);
-    /// For an entry per condition below the plots: line or marker with its name.
+    /// Adds a legend below the plots, with an entry per condition: line or marker with its name.
     QCPLegend* addLegend(int row, int column, int entriesPerLine);
-    /// Once its entries are in: no wider than they are.
+    /// Called once its entries are in, so that it is no wider than they are.
     static void fitLegend(QCPLegend* legend);
     /// Marks the session as simulated, behind the data. Called for every axes that show data.
     void watermark(QCPAxisRect* axes, int size = 26);
@@ -60,7 +60,7 @@ private:
     bool simulated_;
 };
 
-/// Ticks with a true minus and as many decimals as their step needs, all alike.
+/// Ticks with a true minus, all with as many decimals as their step needs.
 class PlainTicker : public QCPAxisTicker {
 public:
     /// About `count` ticks, or one every `fixedStep` from 0; `suffix` is a unit where an axis has no room for a label.

@@ -16,7 +16,7 @@ Result<ReportFormat> reportFormat(const QString& path) {
 }
 
 Result<void> writeReport(const ReportModel& model, const QString& path, const FontCheck& installed) {
-    // Before anything is drawn.
+    // Checked before anything is drawn.
     if (const auto format = reportFormat(path); !format) return failure(format);
     if (auto fonts = requireFonts(installed); !fonts) return fonts;
     return writeContent(contentOf(model), path, installed);

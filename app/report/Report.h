@@ -18,7 +18,7 @@ namespace tacto {
 
 enum class ReportFormat { Pdf, Html };
 
-/// By the ending of `path`: .pdf, .html or .htm. Errors: InvalidArgument naming what was given and what is accepted.
+/// The format by the ending of `path`: .pdf, .html or .htm. Errors: InvalidArgument naming what was given and accepted.
 [[nodiscard]] Result<ReportFormat> reportFormat(const QString& path);
 
 /// Writes `model` to `path`.
@@ -28,7 +28,7 @@ enum class ReportFormat { Pdf, Html };
 [[nodiscard]] Result<void> writeReport(const ReportModel& model, const QString& path,
                                        const FontCheck& installed = fontInstalled);
 
-/// The same for a content that is not a session's (StudyReport.h).
+/// Writes a content that does not come from a session (StudyReport.h).
 [[nodiscard]] Result<void> writeContent(const ReportContent& content, const QString& path,
                                         const FontCheck& installed = fontInstalled);
 

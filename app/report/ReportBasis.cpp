@@ -16,7 +16,7 @@ namespace tacto {
 
 namespace {
 
-constexpr qsizetype kMaxNamedAt = 8;  // names of what was not evaluated; the rest is counted
+constexpr qsizetype kMaxNamedAt = 8;  // how many unevaluated rows are named; the rest is counted
 
 QString sentence(QString key) {
     key.replace('_', ' ');
@@ -98,7 +98,7 @@ void readInstruments(const QJsonObject& results, ReportModel& model) {
     }
 }
 
-/// Sessions of older versions say no more than whether the check passed; one that did not may have been open, which its
+/// Sessions of older versions tell only whether the check passed; a check that did not may have been open, as its
 /// numbers tell.
 QString referenceVerdict(const QJsonObject& check) {
     if (check.value("verdict").isString()) return check.value("verdict").toString();
@@ -251,7 +251,7 @@ FactsBlock factsOf(const ReportModel& model) {
     FactsBlock block;
     block.oneColumn = true;
     const auto& basis = model.basis;
-    const bool certified = isCertificate(model);  // its first page has said some of it
+    const bool certified = isCertificate(model);  // a certificate's first page has said some of it
     block.facts = certified ? certificateMethod(model) : basis.rule;
     block.facts.insert(block.facts.end(), basis.restsOn.begin(), basis.restsOn.end());
     if (has(model, Role::Oscilloscope)) {

@@ -21,8 +21,8 @@ namespace tacto {
 /// Adds what `results` say to `model.basis`; its devices and protocol are filled in already.
 void readBasis(const QJsonObject& results, ReportModel& model);
 
-// What stands below the verdict on a report's first page: how it was decided, what it rests on, what was
-// not evaluated, and who did it and who checked it.
+// The text below the verdict on a report's first page: how it was decided, what it rests on, what was not evaluated,
+// and who did it and who checked it.
 
 void addFrontPage(const ReportModel& model, Captions& captions, std::vector<ReportBlock>& blocks);
 

@@ -31,7 +31,7 @@ bool isSimulated(const ReportModel& model, std::initializer_list<Role> roles) {
     return found ? any : model.simulated;
 }
 
-/// A mark belongs to a figure: what an oscilloscope saw of a stimulator's output is measured, whatever felt the
+/// Each figure has its own mark: what an oscilloscope saw of a stimulator's output is measured, whatever felt the
 /// texture (hazard H9).
 bool isSimulated(const ReportModel& model, const Figure& figure) {
     if (std::holds_alternative<TimelineFigure>(figure.content)) return model.simulated;
@@ -113,18 +113,18 @@ TableBlock devicesTable(const ReportModel& model) {
     return table;
 }
 
-/// Tells two reports apart, also those of one session that has grown since.
+/// Tells two reports apart, even of one session that has grown since.
 QString reportNumber(const ReportModel& model) {
     return model.session + (model.chainHead.isEmpty() ? QString() : "-" + model.chainHead.left(8));
 }
 
-/// What is simulated, replayed and real: on the first page.
+/// The marks of what is simulated, replayed and real: on the first page.
 void addMarks(const ReportModel& model, std::vector<ReportBlock>& blocks) {
     if (model.simulated && model.devices.empty()) {
         blocks.emplace_back(
             ParagraphBlock{"Simulated without a device: its numbers are predicted, none was measured."});
     } else if (!model.marks.isEmpty()) {
-        // Which correction was applied before a calibration, its certificate says in full.
+        // The certificate says in full which correction was applied before a calibration.
         QStringList marks = model.marks;
         if (isCertificate(model)) marks.removeIf([](const QString& mark) { return mark.contains("not calibrated"); });
         if (!marks.isEmpty()) blocks.emplace_back(ParagraphBlock{marks.join('\n')});
@@ -165,7 +165,7 @@ TableBlock tableOf(const ResultTable& source, const nlohmann::json& records, con
     for (const auto& column : source.columns) {
         auto text = columnText(column, records);
         const bool known = std::ranges::any_of(text.cells, [](const QString& cell) { return cell != u"–"; });
-        if (!known && !records.empty()) continue;  // a column of which no row says anything is not there
+        if (!known && !records.empty()) continue;  // a column that is empty in every row is left out
         if (column.as == ResultColumn::As::Text) sharePrefix(text.cells);
         auto title = text.header.replace('\n', ' ');
         if (text.right) {
@@ -183,7 +183,7 @@ TableBlock tableOf(const ResultTable& source, const nlohmann::json& records, con
     return table;
 }
 
-/// One below the other: what the record does not have is left out.
+/// The facts below each other; what the record does not have is left out.
 TableBlock factsOf(const ResultTable& source, const nlohmann::json& record, const QString& caption) {
     TableBlock table;
     table.caption = caption;
@@ -228,7 +228,7 @@ void addResults(const nlohmann::json& results, bool limitsAlone, Captions& capti
 void addItems(const ReportModel& model, Captions& captions, std::vector<ReportBlock>& blocks) {
     if (model.items.empty()) return;
     blocks.emplace_back(captions.heading(isCertificate(model) ? "How they were found" : "Results"));
-    // How near the limits are is what is asked first.
+    // How near the limits are is asked first.
     for (const auto& item : model.items)
         if (const auto* found = std::get_if<ReportResults>(&item)) addResults(found->results, true, captions, blocks);
     for (const auto& item : model.items) {
@@ -252,7 +252,7 @@ void addItems(const ReportModel& model, Captions& captions, std::vector<ReportBl
     }
 }
 
-/// What the gate computed is not a measurement, and is never titled as one (science.md section 12).
+/// Computed values are no measurements, and are never titled as such (science.md section 12).
 void addComputed(const ReportModel& model, Captions& captions, std::vector<ReportBlock>& blocks) {
     const bool anyJudged = std::any_of(model.exposure.begin(), model.exposure.end(),
                                        [](const auto& row) { return !row.evaluated() || row.limit > 0; });

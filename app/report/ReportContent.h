@@ -58,10 +58,10 @@ struct FigureBlock {
 /// Lines to be filled in by hand: who did it, who checked it.
 struct SignaturesBlock {
     QStringList roles;    ///< a line each
-    QStringList columns;  ///< what is written on it
-    QStringList given;    ///< as `roles`: what stands in the first column already; may be empty
+    QStringList columns;  ///< the titles on it
+    QStringList given;    ///< like `roles`: what stands in the first column already; may be empty
     QString second = {};  ///< what stands in the second column of the first role; may be empty
-    bool open = false;    ///< what is not given is left to be written, also on a page that is only read
+    bool open = false;    ///< leaves room for missing entries, also on a page that is only read
 };
 struct CodeBlock {
     QStringList lines;
@@ -88,7 +88,7 @@ struct ReportContent {
 class Captions {
 public:
     explicit Captions(bool simulated = false) : simulated_(simulated) {}
-    /// Whether the tables that follow are of what is simulated.
+    /// Whether the tables that follow show something simulated.
     void setSimulated(bool simulated) { simulated_ = simulated; }
     QString figure(const QString& text, bool simulated) { return numbered("Figure", ++figures_, text, simulated); }
     QString table(const QString& text) { return numbered("Table", ++tables_, text, simulated_); }

@@ -26,7 +26,7 @@ struct ReportDevice {
     QString serial;
     QString firmware;
     bool simulated = false;
-    QString origin;  ///< one of core/session/Origin.h
+    QString origin;  ///< the origin: one of core/session/Origin.h
     [[nodiscard]] bool is(Role wanted) const { return role == QLatin1String(nameOf(wanted).data()); }
 };
 
@@ -35,7 +35,7 @@ struct ReportFact {
     QString name;
     QString value;
     bool isHash = false;  ///< set in a monospaced face, broken anywhere
-    bool isOpen = false;  ///< not known: a ruled line to write on
+    bool isOpen = false;  ///< not known: printed as a ruled line to write on
 };
 
 struct ReportFigure {
@@ -65,7 +65,7 @@ struct ReportMatrix {
     QJsonArray rows;
 };
 
-/// What a run found, to be shown as the tables of its kind.
+/// The results of a run, to be shown as the tables of its kind.
 struct ReportResults {
     nlohmann::json results;
 };
@@ -80,7 +80,7 @@ struct ReportInstrument {
     QString statedBy;  ///< "data sheet of …", "gain by certificate 4711 …", "digital twin"; "unknown"
 };
 
-/// What a verdict stands on; page 1 of a report.
+/// The basis of a verdict; page 1 of a report.
 struct ReportBasis {
     std::vector<ReportFact> rule;     ///< how a value, its uncertainty and a limit become a verdict
     std::vector<ReportFact> restsOn;  ///< references, calibration
@@ -95,10 +95,10 @@ struct ReportBasis {
     QString tags;
 };
 
-/// What makes the report of a stimulator's calibration a certificate (CertificatePages.h).
+/// The parts that make the report of a stimulator's calibration a certificate (CertificatePages.h).
 struct ReportCertificate {
-    QJsonObject details;       ///< as entered: CertificateDetails.h; what is missing is an open line
-    QJsonObject results;       ///< what report.certificate() wrote: quantities, before, kept
+    QJsonObject details;       ///< as entered: CertificateDetails.h; missing ones are open lines
+    QJsonObject results;       ///< written by report.certificate(): quantities, before, kept
     QJsonObject oscilloscope;  ///< the certificate that the oscilloscope's figures are from; empty: none is used
 };
 
@@ -107,7 +107,7 @@ struct ReportEvent {
     double t_s = 0;  ///< on the session's time base
     QString kind;    ///< "fault", "refused", "stop", ...
     QString text;
-    int count = 1;  ///< alike events in a row are counted, not repeated
+    int count = 1;  ///< similar events in a row are counted, not repeated
 };
 
 struct ReportModel {
@@ -121,8 +121,8 @@ struct ReportModel {
     ReportVerdict verdict = ReportVerdict::None;
     QStringList reasons;     ///< why that verdict; one sentence each
     bool simulated = false;  ///< any device of the session was simulated
-    QStringList marks;       ///< as sessionMarks() gives them: origin, calibration, the flags of R, its known limit
-    QString chainHead;       ///< hex; empty only when there is none yet
+    QStringList marks;       ///< the marks from sessionMarks(): origin, calibration, the flags of R, its known limit
+    QString chainHead;       ///< hex; empty only before there is one
     QStringList damage;      ///< what verify finds wrong with the session; empty when it is intact
     ReportBasis basis;
     std::optional<ReportCertificate> certificate;

@@ -22,7 +22,7 @@ using As = ResultColumn::As;
 using Shape = ResultTable::Shape;
 
 constexpr double kOnePrefix = 1e4;        // numbers further apart than this have a prefix each
-constexpr double kOnePrefixWithU = 1000;  // and those with all the decimals of an uncertainty
+constexpr double kOnePrefixWithU = 1000;  // with an uncertainty, all of its decimals are shown
 constexpr int kDigits = 4, kSpreadDigits = 2;
 const QString kNone = QStringLiteral("–");
 
@@ -107,7 +107,7 @@ void scale(Known& known, double factor) {
     for (auto* number : {&known.value, &known.around, &known.low, &known.high, &known.bound}) *number *= factor;
 }
 
-/// "0.26, at most 0.75": a bound that was asked for and is not there is unknown.
+/// "0.26, at most 0.75": a bound that was asked for and is missing is unknown.
 QString boundedText(const QString& value, const char* most, double bound, const QString& shown) {
     return QObject::tr("%1, %2 %3")
         .arg(value, QObject::tr(most), std::isfinite(bound) ? shown : QObject::tr("unknown"));

@@ -1,4 +1,4 @@
-// ResultCells.h - results as text: the cells of a column, in window, report and terminal alike.
+// ResultCells.h - results as text: the cells of a column, the same in window, report and terminal.
 #pragma once
 
 #include <QStringList>
@@ -18,15 +18,15 @@ struct ColumnText {
 };
 [[nodiscard]] ColumnText columnText(const ResultColumn& column, const nlohmann::json& records);
 
-/// A table of Confusion; without rows where the results have none, or one whose names are not as many.
+/// A table of Confusion; without rows where the results have none, or one with another number of names.
 struct CountsText {
     QStringList down, across;
     std::vector<QStringList> counts;
 };
 [[nodiscard]] CountsText countsText(const ResultTable& table, const nlohmann::json& results);
 
-/// For results of a kind that is not known, a lab's own: their numbers, texts and lists of records, with the words of
-/// their keys. What is nested deeper is left out.
+/// The tables for results of an unknown kind, a laboratory's own: their numbers, texts and lists of records, with the
+/// words of their keys. What is nested deeper is left out.
 [[nodiscard]] std::vector<ResultTable> tablesIn(const nlohmann::json& results);
 
 /// The tables of the results' kind; tablesIn() where that is not known.
@@ -42,7 +42,7 @@ struct CountsText {
 
 /// "FDA guidance" of "fda-pms"; "this program" of "gate"; an id that is not known stands as it is.
 [[nodiscard]] QString limitSetTitle(const QString& id);
-/// What a limit is that has no number.
+/// The words for a limit that has no number.
 inline constexpr const char* kUntilNextTrain = "before the next train";
 /// "≤ 40 V" of {"limit", "unit", "compare"}; empty without a limit.
 [[nodiscard]] QString limitText(const nlohmann::json& line);

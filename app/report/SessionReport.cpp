@@ -29,7 +29,7 @@ QString plainText(const QJsonValue& value) {
                                              : QJsonDocument(value.toObject()).toJson(QJsonDocument::Compact));
 }
 
-/// What a shell takes as one word.
+/// The word in a form that a shell takes as one word.
 QString shellWord(const QString& word) {
     static const QString plain("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+:./,@%");
     const bool harmless =
@@ -91,7 +91,7 @@ bool judgeTheSame(const ExposureFigure::Row& a, const ExposureFigure::Row& b) {
     return a.name == b.name && a.source == b.source && !(a.limit < b.limit) && !(a.limit > b.limit);
 }
 
-/// The worse of two rows alike: one not evaluated first, then the larger share of its limit.
+/// The worse of two similar rows: an unevaluated one first, then the larger share of its limit.
 void addExposure(ReportModel& model, const ExposureFigure::Row& row) {
     for (auto& known : model.exposure) {
         if (!judgeTheSame(known, row)) continue;
@@ -143,7 +143,7 @@ public:
         }
     }
 
-    /// What was entered for a certificate: a run that makes none needs it not.
+    /// Entries for a certificate: a run that makes none does not need them.
     void finish() {
         if (model_.certificate) model_.certificate->details = details_;
     }
@@ -176,7 +176,7 @@ private:
         auto figure = parseFigure(item["figure"].toObject());
         if (figure) {
             if (const auto* exposure = std::get_if<ExposureFigure>(&figure->content)) {
-                // What the program itself recorded has a section of its own; twice would be one too many.
+                // The program's own record has a section of its own; twice would be one too many.
                 if (recorded(*exposure)) return;
                 caption += " (computed from approved trains)";
             }
@@ -191,7 +191,7 @@ private:
         model_.items.emplace_back(missing(caption, figure.error()));
     }
 
-    /// Whether the program's own record says as much: the same limits, and at least these values.
+    /// Whether the program's own record says as much: the same limits, and values at least as high.
     [[nodiscard]] bool recorded(const ExposureFigure& figure) const {
         return std::all_of(figure.rows.begin(), figure.rows.end(), [&](const auto& row) {
             return std::any_of(model_.exposure.begin(), model_.exposure.end(), [&](const auto& own) {
@@ -239,7 +239,7 @@ QString sentenceOf(const QJsonObject& body) {
     for (const char* key : {"text", "message", "reason"}) {
         if (!body[QLatin1String(key)].isString()) continue;
         const auto said = body[QLatin1String(key)].toString();
-        const auto gap = body["longest_gap_s"];  // between two keep-alives
+        const auto gap = body["longest_gap_s"];  // the longest time between two keep-alives
         return gap.isDouble() ? said + ": " + quantityText(gap.toDouble(), "s", 3) : said;
     }
     QStringList parts;
@@ -249,7 +249,7 @@ QString sentenceOf(const QJsonObject& body) {
 
 void addEvent(ReportModel& model, const SessionRow& row) {
     ReportEvent event{toSeconds(row.at), text(row.name), sentenceOf(qtObject(row.body))};
-    if (!model.events.empty() && row.name != kOperatorMarkEvent) {  // each mark is a moment of its own
+    if (!model.events.empty() && row.name != kOperatorMarkEvent) {  // every mark stands as a moment of its own
         auto& last = model.events.back();
         if (last.kind == event.kind && last.text == event.text) {
             ++last.count;
@@ -259,7 +259,7 @@ void addEvent(ReportModel& model, const SessionRow& row) {
     model.events.push_back(std::move(event));
 }
 
-/// What was said about the session after it ended is told apart from what was entered before it began.
+/// Labels from after the session's end are told apart from those entered before it began.
 void takeLabels(const SessionLabels& labels, ReportBasis& basis) {
     const auto later = [](const std::string& now, QString& shown) {
         if (text(now) == shown) return;
@@ -289,7 +289,7 @@ Result<void> fillVerdict(const SessionReader& reader, ReportModel& model, const 
     }
     if (!reader.closed()) {
         model.certificate.reset();
-        // H9: a run that broke off proves nothing, whatever its last verdict was.
+        // H9: an interrupted run proves nothing, whatever its last verdict was.
         if (model.verdict != ReportVerdict::Fail) model.verdict = ReportVerdict::Stopped;
         model.reasons.prepend("The session was not closed: the run was interrupted, or is still going on.");
     }

@@ -32,15 +32,14 @@
 
 namespace tacto {
 
-/// Verifies the file first; what is wrong with it is in ReportModel::damage, and no pass stands on it.
-/// Errors: what SessionReader answers (NotFound, Unsupported for what is not a session, ParseError, Io);
-/// InvalidArgument for exposure rows that break their contract. A report item that does so is shown as a sentence in
-/// its place instead.
+/// Verifies the file first; ReportModel::damage tells what is wrong with it, and no pass stands on it. Errors: what
+/// SessionReader answers (NotFound, Unsupported for a file that is no session, ParseError, Io); InvalidArgument for
+/// exposure rows that break their contract. A report item that does so is shown as a sentence in its place instead.
 [[nodiscard]] Result<ReportModel> readSessionReport(const std::filesystem::path& sessionFile);
 
 // JSON of a session file as Qt has it: figures, tables and reports are read with Qt's classes.
 
-/// Empty for what is not an object. What no JSON text can hold (a broken byte in a name) is replaced.
+/// Empty for anything but an object. Bytes that JSON text cannot hold (a broken name) are replaced.
 [[nodiscard]] inline QJsonObject qtObject(const nlohmann::json& json) {
     return QJsonDocument::fromJson(QByteArray::fromStdString(dumpJson(json))).object();
 }

@@ -10,12 +10,12 @@ namespace tacto {
 
 inline constexpr qsizetype kShownText = 4000;
 inline constexpr qsizetype kShownCell = 1000;  ///< characters in a table's cell, which is not broken between pages
-inline constexpr qsizetype kShownHead = 80;    ///< on every page
+inline constexpr qsizetype kShownHead = 80;    ///< shown at the head of every page
 
 /// The text, or its first `most` characters and how many more the session holds.
 [[nodiscard]] QString shownText(const QString& text, qsizetype most = kShownText);
 
-/// With its first letter as a sentence has it: "Peak voltage".
+/// The text with a capital at its beginning: "Peak voltage".
 [[nodiscard]] QString capitalised(QString text);
 
 /// An axis's title, in window and report: "Force (N)"; without a unit the title alone.

@@ -47,14 +47,14 @@ double highestLevel(const SessionRecord& session, const char* key) {
     return most;
 }
 
-/// Which participant a row is of, and on what it rests.
+/// The participant of a row, and what the row rests on.
 QString rowName(const BidsStudy& shared, const ParticipantRecord& participant, ShownName name = ShownName::Label) {
     const auto enrolled = static_cast<std::size_t>(std::max(0, participant.about.enrolled));
     return shown(namedWith(participant.basis, name == ShownName::Code ? participant.about.code
                                                                       : bidsLabel(shared, enrolled).value_or("–")));
 }
 
-/// What the records that are kept say where none says that a check did not hold.
+/// The words of the kept records where none says that a check did not hold.
 QString noRefusalText(const StudyRecord& study) {
     const bool anyCheck = std::ranges::any_of(study.participants, [](const auto& participant) {
         return std::ranges::any_of(participant.sessions,

@@ -15,7 +15,7 @@ namespace tacto {
 enum class ShownName { Code, Label };
 [[nodiscard]] TableBlock courseTable(const StudyRecord& study, ShownName name, const QString& caption);
 [[nodiscard]] TableBlock careTable(const StudyRecord& study, const QString& caption);
-/// What was noticed before, after and on a day after each session, and "not asked" where it was not.
+/// Side effects before, after and on a day after each session, and "not asked" where nobody asked.
 [[nodiscard]] TableBlock sideEffectsTable(const StudyRecord& study, ShownName name, const QString& caption);
 [[nodiscard]] TableBlock refusalsTable(const StudyRecord& study, const QString& caption);
 [[nodiscard]] TableBlock eventsTable(const StudyRecord& study, const QString& caption);

@@ -170,7 +170,7 @@ struct Preference {
 };
 constexpr Preference kPreferences[] = {{row::kEasier, "Easier to tell"}, {row::kMoreLikeTouch, "More like touch"}};
 
-/// What was said last; empty where it was not asked.
+/// The last answer; empty where nobody asked.
 std::string preferredBy(const ParticipantRecord& participant, const char* item) {
     std::string said;
     for (const auto& session : participant.sessions) {
@@ -181,7 +181,7 @@ std::string preferredBy(const ParticipantRecord& participant, const char* item) 
     return said;
 }
 
-/// In the order in which the person had them.
+/// The encodings in the order in which the person had them.
 std::vector<EncodingResult> encodingsOf(const ParticipantRecord& participant) {
     std::vector<EncodingResult> had;
     for (const auto& session : participant.sessions) {
@@ -267,11 +267,11 @@ QString preferencesNote(const StudyRecord& study) {
 
 namespace {
 
-/// Weber fractions of amplitude: half, once and twice the one that is assumed, since 0.10 has no source.
+/// Weber fractions of amplitude: half, once and twice the assumed one, since 0.10 has no source.
 constexpr double kWeberFractions[] = {kAmplitudeWeberFraction / 2, kAmplitudeWeberFraction,
                                       2 * kAmplitudeWeberFraction};
 
-/// As delivered in the test, in the order of the labels; nothing where one of them was not.
+/// The conditions as delivered in the test, in the order of the labels; nothing where one of them was not delivered.
 std::optional<std::vector<DeliveredCondition>> deliveredIn(const AnalysedSession& one, bool massager) {
     std::vector<DeliveredCondition> all;
     for (const auto& label : one.found.labels) {
@@ -296,7 +296,7 @@ Result<VirtualObserver> personWith(double detection, double weber, bool massager
     settings.unit = massager ? LevelUnit::Intensity : LevelUnit::Current;
     auto& who = settings.who;
     who.detection = Milliamps(detection * unit);
-    // What is named does not depend on these.
+    // Names do not depend on these.
     who.attention = who.intolerance = who.discomfort = Milliamps(2 * detection * unit);
     who.amplitudeWeber = weber;
     return VirtualObserver::create(settings);

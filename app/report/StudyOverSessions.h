@@ -26,8 +26,8 @@ struct AnalysedSession {
                                            const std::string& name, const std::vector<AnalysedSession>& sessions,
                                            bool massager);
 
-// Which of several encodings people say they prefer. Shown with the order in which they had them,
-// and never tested: five alike of five people have p = 0.06.
+// Which of several encodings people say they prefer. Shown with the order in which they had them, and never tested: if
+// five of five people agree, p is 0.06.
 
 /// "Easier to tell: swapped. More like touch: no difference."; empty where the person was not asked.
 [[nodiscard]] QString preferenceText(const ParticipantRecord& participant);
@@ -37,9 +37,9 @@ struct AnalysedSession {
 /// The orders in which those people had the encodings, whether they are balanced, and why nothing is tested.
 [[nodiscard]] QString preferencesNote(const StudyRecord& study);
 
-// What a model of a person with the thresholds that they had in a session would have answered,
-// beside what they answered (pilot.md section 8). It is shown and never judged: a person's Weber fraction of interval
-// is not known, that of amplitude only where they compared strengths.
+// What a model of a person with the thresholds of a session would have answered, beside what the person answered
+// (pilot.md section 8). It is shown and never judged: a person's Weber fraction of interval is not known, and that of
+// amplitude only where they compared strengths.
 
 /// `weber`: their own, of amplitude; NaN where it was not measured. Nothing where the session has no detection
 /// threshold, or some condition was not presented in its test. Errors: as VirtualObserver::create().

@@ -177,7 +177,7 @@ QStringList unusableRanges(const ParticipantRecord& participant) {
     return said;
 }
 
-/// As they measured it last.
+/// The fraction as they last measured it.
 double amplitudeWeberOf(const ParticipantRecord& participant) {
     double weber = kNaN;
     for (const auto& session : participant.sessions) {

@@ -27,7 +27,7 @@ public:
     [[nodiscard]] PersonResult result() const;
 
     void addHeadlines(std::vector<ReportBlock>& blocks) const;
-    /// Nothing for one without a session to speak of. Errors: as addPredicted(), addVibration() and addOverSessions().
+    /// Adds nothing for a person without a session to show. Errors: addPredicted(), addVibration(), addOverSessions().
     [[nodiscard]] Result<void> add(std::vector<ReportBlock>& blocks, Captions& captions, Modality modality,
                                    bool simulated) const;
 
@@ -35,14 +35,14 @@ private:
     explicit StudyPerson(const ParticipantRecord& participant) : participant_(&participant) {}
     [[nodiscard]] Result<void> addSession(std::vector<ReportBlock>& blocks, Captions& captions,
                                           const AnalysedSession& one, bool massager, bool simulated) const;
-    /// With what their figures rest on, where that is not a person on real devices.
+    /// The name, with what their figures rest on where that is not a person on real devices.
     [[nodiscard]] std::string name() const { return namedWith(participant_->basis, participant_->about.code); }
 
     const ParticipantRecord* participant_;
     std::vector<AnalysedSession> sessions_;
 };
 
-// What a massager's motor did in a session, beside what it was commanded to do.
+// The motions of a massager's motor in a session, beside its commands.
 
 /// One sentence where no accelerometer was on it. Errors: as judgeVibration().
 [[nodiscard]] Result<void> addVibration(std::vector<ReportBlock>& blocks, Captions& captions,

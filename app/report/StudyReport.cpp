@@ -16,7 +16,7 @@ namespace tacto {
 
 namespace {
 
-/// What is said before all else of figures that do not rest on people and real devices; empty of those that do.
+/// The warning before all figures that do not rest on people and real devices; empty for those that do.
 QString warningOf(SessionBasis basis) {
     switch (basis) {
         case SessionBasis::Person:
@@ -31,7 +31,7 @@ QString warningOf(SessionBasis basis) {
            "people do.";
 }
 
-/// How many of each kind have had a session; where none of them has, how many are enrolled.
+/// How many of each kind have had a session; where nobody has, how many are enrolled.
 std::map<SessionBasis, std::size_t> tookPart(const StudyRecord& study) {
     std::map<SessionBasis, std::size_t> counts;
     const auto had = [](const ParticipantRecord& each) { return !each.sessions.empty(); };
@@ -45,7 +45,7 @@ std::map<SessionBasis, std::size_t> tookPart(const StudyRecord& study) {
 ReportContent begun(const StudyRecord& study, std::vector<SessionBasis> parts, const QString& title,
                     const QString& subtitle) {
     ReportContent content;
-    // Who is enrolled and has had no session makes no report one of people.
+    // Enrolled people who had no session do not make it a report of people.
     const auto counts = parts.size() > 1 ? tookPart(study) : std::map<SessionBasis, std::size_t>{{parts.front(), 1}};
     const auto simulated = std::ranges::count_if(counts, [](const auto& each) { return isSimulatedBasis(each.first); });
     content.simulated = simulated == std::ssize(counts);
@@ -119,7 +119,7 @@ void addApproval(std::vector<ReportBlock>& blocks, Captions& captions, const Stu
     blocks.emplace_back(procedureFacts(study));
 }
 
-/// All that is found about the participants of one kind.
+/// Adds all that was found about the participants of one kind.
 Result<void> addResults(std::vector<ReportBlock>& blocks, Captions& captions, SessionBasis basis,
                         const StudyRecord& study) {
     std::vector<StudyPerson> persons;
@@ -152,7 +152,7 @@ Result<void> addResults(std::vector<ReportBlock>& blocks, Captions& captions, Se
     return {};
 }
 
-/// Who took part, and what happened to the participants of one kind.
+/// Adds who took part, and what happened to the participants of one kind.
 void addCare(std::vector<ReportBlock>& blocks, Captions& captions, SessionBasis basis, const StudyRecord& study) {
     blocks.emplace_back(captions.heading("Flow of participants"));
     blocks.emplace_back(flowTable(study, basis, captions.table("From enrolment to result")));

@@ -1,8 +1,8 @@
 // StudyReport.h - the three reports of a pilot study: for those who run it, for its ethics committee, and one page in
 // plain words for a participant.
 //
-// They are made when they are asked for, and never lie in the study folder. The committee's and the participant's name
-// no code; the study's does, and says so.
+// Reports are made when they are asked for, and never lie in the study folder. The committee's and the participant's
+// name no code; the study's does, and says so.
 //
 // Thread-safety: the GUI thread (drawn figures are widgets).
 #pragma once
@@ -15,7 +15,7 @@
 
 namespace tacto {
 
-/// Each person's result first, then what few people show together, encodings, and one person over sessions.
+/// Each person's result comes first, then what few people show together, encodings, and one person over sessions.
 /// Errors: as identify().
 [[nodiscard]] Result<ReportContent> studyReport(const StudyRecord& study);
 

@@ -12,9 +12,9 @@ namespace tacto {
 [[nodiscard]] inline QString qtext(const std::string& value) { return QString::fromStdString(value); }
 /// "People", "Virtual participants".
 [[nodiscard]] QString peopleHeading(SessionBasis basis);
-/// "–" for what is not known.
+/// "–" for an unknown value.
 [[nodiscard]] QString figureText(double value, int decimals);
-/// "85 % (76 to 91)"; "–" for what is not known.
+/// "85 % (76 to 91)"; "–" for an unknown share.
 [[nodiscard]] QString shareText(const Estimate& share);
 
 }  // namespace tacto

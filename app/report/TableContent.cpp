@@ -86,11 +86,11 @@ void fillColumn(TableBlock& table, const ReportTable& source, const QString& key
                   : key == "load"              ? shownText(loadText(cellText(value, {})), kShownCell)
                                                : wordsOf(value, name.unit));
     }
-    // What a row is about begins as a sentence does; a condition's or a material's name stays as it is given.
+    // The subject of a row begins with a capital; a condition's or a material's name stays as it is given.
     static const QStringList about{"requirement", "output", "trip"};
     if (about.contains(key)) std::ranges::transform(cells, cells.begin(), capitalised);
     if (key != "load") sharePrefix(cells);  // a load's name stays as it is on the bench
-    // A column of which no row says anything is not there.
+    // A column that is empty in every row is left out.
     if (std::all_of(cells.begin(), cells.end(), [](const QString& cell) { return cell.isEmpty(); })) return;
     QString title = shownText(name.title, kShownCell);
     if (numeric || figures) {

@@ -13,7 +13,7 @@ namespace tacto {
 [[nodiscard]] MatrixBlock matrixOf(const ReportMatrix& source, const QString& caption);
 /// Long texts are cut as ShownText.h says.
 [[nodiscard]] MatrixBlock shortened(MatrixBlock matrix, const QString& caption);
-/// The three limits of which the most is used, each where it is.
+/// The three limits that are used the most, each on its load.
 [[nodiscard]] TableBlock closestOf(const MatrixBlock& limits, const QString& caption);
 /// One prefix for each unit in each column of the tables that were not made by tableOf().
 void sharePrefixes(std::vector<ReportBlock>& blocks);

@@ -56,7 +56,7 @@ protected:
         const int lines = static_cast<int>((box.width() + box.height()) / kStep);
         for (int i = 1; i <= lines; ++i) {
             const double offset = i * kStep;
-            // From the left or bottom edge up to the top or right edge, at 45°.
+            // Draws from the left or bottom edge to the top or right edge, at 45°.
             const double startX = std::max(0.0, offset - box.height());
             const double startY = std::min(offset, box.height());
             const double endX = std::min(offset, box.width());
@@ -82,7 +82,7 @@ QString shortened(const QString& text, const QFont& font, double width) {
     return QFontMetricsF(font).elidedText(text, Qt::ElideRight, width);
 }
 
-/// Not evaluated is drawn too; what has no limit is in the legend.
+/// Rows that were not evaluated are drawn, too; those without a limit are in the legend.
 bool isDrawn(const ExposureFigure::Row& row) { return !row.evaluated() || (std::isfinite(row.limit) && row.limit > 0); }
 
 QColor shade(double share) {

@@ -18,7 +18,7 @@ QColor colourOf(double jnd, double wanted) {
     return blend(ink::kAmber, std::min(1.0, 0.35 + 0.65 * (jnd - wanted) / (3 * wanted)));
 }
 
-/// What fits a cell: "0.4", "12".
+/// The number in a form that fits a cell: "0.4", "12".
 QString jndText(double jnd) { return QString::number(jnd, 'f', jnd < 9.95 ? 1 : 0); }
 
 void addCell(QCPAxisRect* axes, double x, double y, double half, const QPen& pen, const QBrush& brush) {
@@ -48,7 +48,7 @@ void addNumber(QCPAxisRect* axes, double x, double y, const QString& number, dou
     text->setText(number);
 }
 
-/// From 0 to 1, where the plane ends; the cells at its edges reach beyond.
+/// The axis ends at 0 and 1, where the plane ends; the cells at its edges reach beyond.
 QSharedPointer<QCPAxisTicker> ends() {
     auto ticks = QSharedPointer<QCPAxisTickerText>::create();
     for (int fifth = 0; fifth <= 5; ++fifth) ticks->addTick(0.2 * fifth, QString::number(0.2 * fifth, 'f', 1));

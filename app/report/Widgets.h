@@ -42,6 +42,6 @@
 #include <QToolButton>
 #include <QtPrintSupport/QPrinter>
 
-#define QT_QTPRINTSUPPORT_MODULE_H  // as if it had been included
+#define QT_QTPRINTSUPPORT_MODULE_H  // defined as if it had been included
 #include <qcustomplot.h>
 #undef QT_QTPRINTSUPPORT_MODULE_H

@@ -22,7 +22,7 @@ class SensorBoardPorts;
 /// Game pads and foot switches.
 [[nodiscard]] std::shared_ptr<const ButtonDevices> buttonDevices();
 
-/// Where sensor boards may be, for looking at one without a bench.
+/// Finds where sensor boards may be, for looking at one without a bench.
 [[nodiscard]] std::shared_ptr<SensorBoardPorts> sensorBoardPorts();
 
 }  // namespace tacto

@@ -26,7 +26,7 @@ bool wasTested(const Study& study, const StudySession& session) {
                                [](const IdentificationTrial& trial) { return trial.phase == TrialPhase::Test; });
 }
 
-/// How many of their kind were enrolled before them: with virtual participants among them, people are balanced over
+/// How many participants of the same kind were enrolled earlier: with virtual ones among them, people are balanced over
 /// people.
 std::size_t placeAmongTheirs(const Study& study, const Participant& who) {
     const auto all = study.participants();
@@ -35,7 +35,7 @@ std::size_t placeAmongTheirs(const Study& study, const Participant& who) {
     }));
 }
 
-/// As the plan of an earlier session has them; empty where there is none.
+/// The answers in the plan of an earlier session; empty without one.
 std::vector<std::string> answersBefore(const Study& study, const Participant& who) {
     for (const auto& session : study.sessions()) {
         if (session.participant != who.id) continue;

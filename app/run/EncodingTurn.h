@@ -1,5 +1,5 @@
-// EncodingTurn.h - which of a study's encodings a participant's session has. Each participant has them in an order of
-// their own among their kind (williamsOrder()), one a session; one whose session was not completed comes again.
+// EncodingTurn.h - the encoding of a study that a participant's session has. Each participant has them in an order of
+// their own among their kind (williamsOrder()), one a session; an encoding whose session was not completed comes again.
 //
 // Thread-safety: as Study.
 #pragma once
@@ -14,10 +14,10 @@ namespace tacto {
 
 struct EncodingTurn {
     std::string encoding = "standard";
-    std::string earlier;  ///< another, that the participant had in a complete session with test trials; empty: none
+    std::string earlier;  ///< another encoding that the participant had in a complete session with tests; empty: none
 };
 
-/// `continued`: the session that goes on, with the encoding that it began with.
+/// `continued`: the session that is resumed, with the encoding that it began with.
 [[nodiscard]] EncodingTurn encodingTurn(const Study& study, const Participant& who,
                                         const std::optional<StudySession>& continued);
 

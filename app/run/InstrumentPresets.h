@@ -2,7 +2,7 @@
 // what their data sheet or certificate states, and put together as the address of a device.
 //
 // A figure that is not stated is unknown, and so is each figure of an instrument whose certificate expired: neither
-// gets into an address (hazard H9). What an address says gives way to a certificate of the oscilloscope
+// gets into an address (hazard H9). A certificate of the oscilloscope comes before what an address says
 // (ScopeStatement.h).
 //
 //   {"instruments": [{"kind": "shunt", "name": "R100", "ohms": 100, "accuracy_pct": 0.1, "due": "2027-03-01"}]}
@@ -43,13 +43,13 @@ struct InstrumentPreset {
 /// Errors: InvalidArgument naming the value and what is accepted.
 [[nodiscard]] Result<void> check(const InstrumentPreset& preset);
 
-/// What is chosen for a bench. Nothing for a kind that is not chosen.
+/// The chosen instruments of a bench. Nothing for a kind without a choice.
 struct ChosenInstruments {
     std::optional<InstrumentPreset> oscilloscope, shunt, probe;
 };
 struct ComposedAddress {
     std::string text;               ///< the oscilloscope's address, with what is stated; empty without one
-    std::vector<std::string> said;  ///< sentences: what is not used or not known, and what that leaves unknown
+    std::vector<std::string> said;  ///< sentences on what is unused or unknown, and what that leaves unknown
 };
 [[nodiscard]] ComposedAddress composed(const ChosenInstruments& chosen, CalibrationDate today);
 
@@ -59,7 +59,7 @@ public:
     /// accepted.
     [[nodiscard]] static Result<InstrumentPresets> open(std::filesystem::path file);
     [[nodiscard]] const std::vector<InstrumentPreset>& all() const noexcept { return all_; }
-    /// In place of one of that kind and name. Errors: as check(); Io.
+    /// Replaces a preset with the same kind and name. Errors: as check(); Io.
     [[nodiscard]] Result<void> save(const InstrumentPreset& preset);
     /// Errors: NotFound; Io.
     [[nodiscard]] Result<void> remove(InstrumentKind kind, std::string_view name);

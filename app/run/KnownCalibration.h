@@ -1,7 +1,7 @@
 // KnownCalibration.h - what the store knows of the stimulator that is connected, for a bench that is about to be made.
 //
-// What is missing, expired, damaged or of a simulated bench only is *not calibrated*; the text says why. The gate
-// judges by the last that is known all the same, and arms no stimulator that is out of order by it (H1, H9).
+// A calibration that is missing, expired, damaged or from a simulated bench counts as *not calibrated*; the text says
+// why. The gate judges by the last known one all the same, and arms no stimulator that is out of order by it (H1, H9).
 //
 // Thread-safety: pure but for reading the store.
 #pragma once
@@ -11,7 +11,7 @@
 namespace tacto {
 
 struct KnownCalibration {
-    KnownLines calibration;                      ///< the last, whatever its date
+    KnownLines calibration;                      ///< the latest calibration, whatever its date
     bool holds = false;                          ///< today, for this device
     std::optional<std::chrono::sys_days> until;  ///< the last day on which it does
     std::string text;                            ///< one sentence; empty without a stimulator

@@ -1,8 +1,8 @@
 // LoadSafetyRecord.h - what a run of the load-safety protocol leaves of the stimulator that it checked: a line when it
 // begins and one when it ends (core/calibration/LoadSafetyStore.h).
 //
-// Only the shipped protocol leaves any: the bytes that run must be those that the program was built with. What they say
-// comes from the open devices, the bench's profile and limits, and the program's own verdict (hazard H9).
+// Only the shipped protocol leaves such a record: the bytes that run must be those that the program was built with.
+// What it says comes from the open devices, the bench's profile and limits, and the program's own verdict (hazard H9).
 //
 // Thread-safety: pure but for the store's file.
 #pragma once

@@ -12,7 +12,7 @@ namespace tacto {
 
 namespace {
 
-/// Limit sets beside those of the approval can only tighten.
+/// Limit sets in addition to the approval's can only tighten.
 Result<void> limitsGate(const StudySettings& study, const ShippedLimits& limits) {
     if (study.limits.empty()) {
         return fail(kGateRefused,

@@ -1,4 +1,4 @@
-// MachineGate.h - whether the stimulator or massager that is open may be at a person today (pilot.md section 3): a
+// MachineGate.h - whether the open stimulator or massager may be used on a person today (pilot.md section 3): a
 // biphasic current source with a valid calibration, whose load-safety check passed at most 30 days ago, under limits no
 // wider than those of the study's approval; or a massager that tells its strengths apart.
 //

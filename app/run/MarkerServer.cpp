@@ -59,7 +59,7 @@ public:
         forgetTaken();
         return ends_.size();
     }
-    /// `waiting()` then says what was not taken.
+    /// `waiting()` then tells what was not taken.
     void hangUp(std::chrono::steady_clock::time_point until) {
         using std::chrono::duration_cast, std::chrono::milliseconds;
         socket_->disconnect();
@@ -83,7 +83,7 @@ private:
     }
     QTcpSocket* const socket_;
     std::int64_t offered_ = 0;       // bytes
-    std::deque<std::int64_t> ends_;  // where the lines that wait end, counted as offered_ is
+    std::deque<std::int64_t> ends_;  // where each waiting line ends, counted as offered_ is
 };
 
 }  // namespace
@@ -161,7 +161,7 @@ struct MarkerServer::State {
     // Guarded; held for moments:
     std::vector<Waiting> waiting;
     std::uint64_t made = 0, dropped = 0;
-    QEventLoop* loop = nullptr;  ///< null: it serves no more
+    QEventLoop* loop = nullptr;  ///< null: it serves no longer
 };
 
 void MarkerServer::State::serve(const MarkerAddress& at, std::promise<Result<void>>& listening) {
@@ -201,7 +201,7 @@ void MarkerServer::State::accept(QTcpServer& from) {
         QObject::connect(socket, &QTcpSocket::readyRead, socket, [socket] { static_cast<void>(socket->readAll()); });
         QObject::connect(
             socket, &QTcpSocket::disconnected, socket, [this, socket] { left(socket); },
-            Qt::QueuedConnection);  // not while a line is written to it
+            Qt::QueuedConnection);  // not while a line is being written to it
         if (clock) greet(*recorders.back());
     }
 }
@@ -278,7 +278,7 @@ void MarkerServer::send(Instant at, std::string_view name) {
         return;
     }
     state.waiting.push_back({state.made, at, std::string(name)});
-    if (state.waiting.size() > 1) return;  // its thread is told already
+    if (state.waiting.size() > 1) return;  // the thread has been told already
     QMetaObject::invokeMethod(
         state.loop, [&state] { state.take(); }, Qt::QueuedConnection);
 }

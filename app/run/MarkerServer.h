@@ -23,7 +23,7 @@
 
 namespace tacto {
 
-/// Where the program listens.
+/// The address at which the program listens.
 struct MarkerAddress {
     std::string host = "127.0.0.1";  ///< this computer's; others reach the usual one from this computer alone
     std::uint16_t port = 0;
@@ -35,10 +35,10 @@ struct MarkerAddress {
     bool operator==(const MarkerAddress&) const = default;
 };
 
-/// What became of the markers.
+/// How many markers were sent, and what became of them.
 struct MarkerTally {
     std::uint64_t made = 0;
-    std::uint64_t unheard = 0;    ///< those of them that went to no recorder
+    std::uint64_t unheard = 0;    ///< those of them that reached no recorder
     std::uint64_t lost = 0;       ///< lines that a recorder did not take while it was connected
     std::uint64_t recorders = 0;  ///< connections, one after the other too
     bool operator==(const MarkerTally&) const = default;
@@ -49,7 +49,7 @@ struct MarkerTally {
 
 class MarkerServer {
 public:
-    static constexpr std::size_t kMaxRecorders = 8;  ///< one more is hung up on
+    static constexpr std::size_t kMaxRecorders = 8;  ///< a further recorder is hung up on
     static constexpr std::int64_t kBacklog = 65536;  ///< bytes that wait for one recorder
 
     /// Recorders can connect from now on. Errors: Io where the port is taken or the address is not this computer's.

@@ -61,7 +61,7 @@ SessionAbout aboutSession(const DeviceSet& devices, const BenchOrder& order) {
                                  device.firmware, device.simulated, originOf(devices, device)});
         about.simulated = about.simulated || device.simulated;
     }
-    // Without a device nothing is measured: what such a protocol says is predicted.
+    // Without a device nothing is measured: the results of such a protocol are predictions.
     about.simulated = about.simulated || (!about.protocol.empty() && devices.identities().empty());
     about.profileJson = dumpJson(toJson(order.profile));
     const auto& limits = order.limits;

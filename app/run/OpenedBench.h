@@ -19,10 +19,10 @@
 
 namespace tacto {
 
-/// What to open, for whom, and where it is recorded.
+/// What a bench opens, for whom, and where it is recorded.
 struct BenchOrder {
     std::vector<DeviceUri> uris = {};
-    std::set<Role> needed = {};  ///< sim: fills those of them that no other device does
+    std::set<Role> needed = {};  ///< sim: fills the roles that no other device fills
     std::string declaredLoad = kDefaultLoad;
     std::uint64_t seed = 1;
     bool realtime = false;  ///< the steady clock even where a virtual one could serve
@@ -30,14 +30,14 @@ struct BenchOrder {
     ShippedLimits limits = {};
     std::string out = {};  ///< folder, as prepareRunFiles() takes it
     RunNotes notes = {};
-    /// Their stops end this order, from the opening of the devices on; null: the bench's own. `asked`: the moment at
-    /// which the operator asked for it.
+    /// The stops that end this order, from the opening of the devices on; null: the bench's own. `asked`: when the
+    /// operator asked for it.
     std::shared_ptr<StopCounter> stops = nullptr;
     StopMark asked = {};
     std::function<bool()> watched = {};  ///< BenchConfig::watched
     OutputMode mode = OutputMode::BenchLoad;
     std::optional<PersonSetup> person = {};  ///< for OutputMode::Person
-    bool virtualParticipant = false;         ///< as BenchConfig says, both
+    bool virtualParticipant = false;         ///< as in BenchConfig
     bool rehearsal = false;
     /// Makes the session file in place of makeRunSession(); empty: that does. It is given the open devices, and may
     /// refuse them: then nothing was made.
@@ -64,7 +64,7 @@ struct OpenedBench {
 [[nodiscard]] Result<std::shared_ptr<OpenedBench>> openBench(const BenchOrder& order, Registry& registry,
                                                              std::shared_ptr<BenchTap> tap = nullptr);
 
-/// What a session says before its first row.
+/// The description of a session before its first row.
 [[nodiscard]] SessionAbout aboutSession(const DeviceSet& devices, const BenchOrder& order);
 
 }  // namespace tacto

@@ -13,7 +13,7 @@ bool isSimulated(const DeviceUri& uri) { return uri.scheme == "sim"; }
 
 bool isMassager(const DeviceUri& uri) { return uri.scheme == "hid" || (isSimulated(uri) && uri.path == "massager"); }
 
-/// As the settings say; nothing where they leave it to the study.
+/// The modality in the settings; nothing where they leave it to the study.
 std::optional<Modality> wantedModality(const RunOrder& order) {
     return valueFor(kModalities, textOr(order.settings.parameters, "modality"));
 }
@@ -31,7 +31,7 @@ Result<Study> existing(const PilotOrder& pilot) {
     return fail(ErrorCode::NotFound, "the study in {} is sealed; --passphrase-file is expected", pilot.study.string());
 }
 
-/// In a rehearsal; also one whose enrolment alone is on disk, because the program died before the consent was.
+/// The participant of a rehearsal, even if only the enrolment is on disk because the program died before the consent.
 Result<Participant> enrolledByItself(OpenedStudy& opened, const std::string& name, std::uint64_t seed) {
     auto& study = opened.study;
     auto found = study.find(name);

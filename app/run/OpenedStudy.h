@@ -18,7 +18,7 @@ namespace tacto {
 struct OpenedStudy {
     Study study;
     Participant who;
-    std::vector<std::string> remarks;  ///< what was done by itself, a sentence each
+    std::vector<std::string> remarks;  ///< actions taken without being asked, a sentence each
 };
 
 /// As `pilot` and the settings of `order` say. Errors: NotFound for a study, code or passphrase that cannot be used and

@@ -12,14 +12,14 @@
 
 namespace tacto {
 
-/// Where and with whom.
+/// Where the session runs, and with whom.
 struct PilotOrder {
     std::filesystem::path study;
     std::optional<Passphrase> passphrase;
     /// The participant's and operator's windows; null: headless, and then a person is refused.
     PilotParticipant* people = nullptr;
     bool codeConfirmed = false;  ///< a person read the code on their screen
-    /// Empty: a virtual participant's, who answers no to each but those of `--set exclusions`.
+    /// Empty for a virtual participant, who answers no to each but those of `--set exclusions`.
     std::vector<ExclusionAnswer> exclusions;
     std::optional<MarkerAddress> markers;  ///< nothing: none are sent
 };

@@ -1,4 +1,4 @@
-// PilotRows.h - the rows of a session of a study, those of all its parts.
+// PilotRows.h - the rows of a study's session, from all its parts.
 //
 // Thread-safety: as Study.
 #pragma once
@@ -15,7 +15,7 @@
 
 namespace tacto {
 
-/// A session that was interrupted can go on so long after something was last presented or answered in it.
+/// How long after the last presentation or answer an interrupted session can be resumed.
 inline constexpr std::chrono::hours kResumedWithin{2};
 
 struct PilotRows {
@@ -24,13 +24,13 @@ struct PilotRows {
     std::string chainHead;                  ///< the last part's chain head
     std::string runSha256;                  ///< runHash() of its plan; empty where it was not kept yet
     std::optional<SessionDevice> delivers;  ///< the stimulator or massager of the first part
-    /// When something was last presented or answered; else when the session began, however often it was gone on with.
-    /// On a virtual clock a session's time runs ahead of the wall's, so a part counts from its beginning. Nothing: a
+    /// When something was last presented or answered; else when the session began, however often it was resumed. On a
+    /// virtual clock a session's time runs ahead of the wall's, so that a part counts from its beginning. Nothing: a
     /// part does not say when it began.
     std::optional<std::chrono::sys_seconds> answeredAt{};
-    std::optional<PilotEnd> ended;  ///< as its row says; nothing where there is none
+    std::optional<PilotEnd> ended;  ///< as its row says; nothing without such a row
 
-    /// What is complete has nothing left to present, however late it is.
+    /// A complete session has nothing left to present, however late it is.
     [[nodiscard]] bool mayGoOn(std::chrono::sys_seconds now) const {
         return ended == PilotEnd::Complete || (answeredAt && now - *answeredAt <= kResumedWithin);
     }

@@ -20,8 +20,8 @@ constexpr const char *kMethod = "method", *kComparison = "comparison";
 
 std::string textOf(const RunOrder& order, const char* name) { return textOr(order.settings.parameters, name); }
 
-/// What the script is to do: what was chosen, else what the study was approved for. What a script does not declare it
-/// does not do, and that is approved.
+/// The task of the script: the chosen procedure, else the approved one of the study. A script does not do what it does
+/// not declare, and that is approved.
 AskedProcedure askedProcedure(RunOrder& order, const std::optional<StudyProcedure>& approved) {
     auto& parameters = order.settings.parameters;
     const auto isOpen = [&](const char* name) {
@@ -54,7 +54,7 @@ PersonSetup stimulated(const Participant& who, const StudySettings& study, const
     PersonSetup person;
     person.participant = who.code;
     person.consentRecorded = !who.consents.empty();
-    person.discomfortLimit = Milliamps(2 * study.cap_mA);  // Until something is called too strong; the cap is lower
+    person.discomfortLimit = Milliamps(2 * study.cap_mA);  // until something is called too strong; the cap is lower
     person.rampStep = Milliamps(1);
     person.cap = Milliamps(study.cap_mA);
     person.impedanceLow = profile.loadLow;
@@ -176,13 +176,13 @@ Result<std::unique_ptr<PilotRun>> PilotRun::prepare(RunOrder order, PilotOrder p
     }
     const auto answers = virtualAnswers(order.settings.parameters);
     if (!answers) return failure(answers);
-    if (textOf(order, "participant").starts_with(kVirtualPrefix)) {  // Before a rehearsal is made for it
+    if (textOf(order, "participant").starts_with(kVirtualPrefix)) {  // checked before a rehearsal is made for it
         if (auto held = exclusionGate(*answers); !held) return failure(held);
     }
     auto study = openStudyFor(order, pilot);
     if (!study) return failure(study);
     std::unique_ptr<PilotRun> made(new PilotRun(std::move(*study), std::move(markers)));
-    SessionRequest answered;  // whatever refuses afterwards
+    SessionRequest answered;  // kept, whatever refuses afterwards
     answered.code = made->who_.code;
     answered.exclusions = pilot.exclusions;
     if (auto noted = made->study_.noteExclusions(answered); !noted) return failure(noted);
@@ -231,7 +231,7 @@ Result<std::unique_ptr<PilotRun>> PilotRun::prepare(RunOrder order, PilotOrder p
     return made;
 }
 
-/// A session whose bench could not be opened is not one that may go on. A continued session stays as it was.
+/// A session whose bench could not be opened cannot be resumed. A continued session stays as it was.
 void PilotRun::cancelBooked() {
     if (!begun_ || unfinished_.continued()) return;
     static_cast<void>(study_.cancelSession(begun_->session.id));
@@ -250,8 +250,8 @@ Result<void> PilotRun::mayGoOn() const {
                 most_min);
 }
 
-/// In the ledger, which a withdrawal leaves. How severe it is and what it comes from is the investigator's to say:
-/// until then it counts as what it may be at worst.
+/// Writes into the ledger, which a withdrawal leaves. The investigator says how severe it is and what it comes from:
+/// until then the worst is assumed.
 Result<void> PilotRun::noteSkin(const std::string& moment, int score) {
     AdverseEvent event;
     event.what = fmt::format(
@@ -264,7 +264,7 @@ Result<void> PilotRun::noteSkin(const std::string& moment, int score) {
     const auto noted = study_.adverseEvents();
     if (!noted) return failure(noted);
     const bool known = std::ranges::any_of(*noted, [&](const auto& each) {
-        return each.first == session && each.second.what == event.what;  // before it was interrupted and resumed
+        return each.first == session && each.second.what == event.what;  // noted before it was interrupted and resumed
     });
     return known ? Result<void>() : study_.adverseEvent(session, event);
 }
@@ -274,7 +274,7 @@ Result<void> PilotRun::start(RunRequest hooks) {
     return run_->start(std::move(hooks));
 }
 
-/// Once no row with a marker is written any more.
+/// Called once no row with a marker is written any longer.
 std::optional<MarkerTally> PilotRun::endMarkers() {
     if (!markers_) return std::nullopt;
     if (run_->script() != nullptr) static_cast<void>(run_->script()->wait());
@@ -285,7 +285,7 @@ std::optional<MarkerTally> PilotRun::endMarkers() {
 }
 
 RunResult PilotRun::finish() {
-    session_->stage().participant().leave();  // their STOP must not find a bench that is gone
+    session_->stage().participant().leave();  // so that their STOP never meets a bench that is gone
     const auto markers = endMarkers();
     auto result = run_->finish();
     result.markers = markers;

@@ -37,14 +37,14 @@ public:
 
     /// As ProtocolRun::start().
     [[nodiscard]] Result<void> start(RunRequest hooks);
-    /// As ProtocolRun::finish(), with the session's last row saying what became of the markers; then the ledger says
-    /// how the session ended.
+    /// Ends like ProtocolRun::finish(), with the session's last row saying what became of the markers; then the ledger
+    /// says how the session ended.
     [[nodiscard]] RunResult finish();
 
     [[nodiscard]] ProtocolRun& run() noexcept { return *run_; }
     [[nodiscard]] PilotSession& session() noexcept { return *session_; }
     [[nodiscard]] const Study& study() const noexcept { return study_; }
-    /// What was done by itself, a sentence each: a rehearsal made, a participant enrolled, a session ended.
+    /// Actions taken without being asked, a sentence each: a rehearsal made, a participant enrolled, a session ended.
     [[nodiscard]] const std::vector<std::string>& remarks() const noexcept { return remarks_; }
 
 private:

@@ -13,7 +13,7 @@ namespace tacto {
 
 namespace {
 
-/// What ended the output: safety or a person, not a mistake in a script.
+/// Whether safety or a person ended the output, and not a mistake in a script.
 bool endedBySafety(const ScriptOutcome& outcome, const Bench& bench) {
     if (bench.faults() > outcome.expectedFaults) return true;
     if (!outcome.error) return outcome.verdict == ScriptVerdict::Stopped;
@@ -158,7 +158,7 @@ RunResult ProtocolRun::finish() {
     if (auto closed = session.close(result.outcome.error ? "ended by an error" : "finished"); !closed)
         result.troubles.push_back(closed.error());
     opened_->session.reset();
-    // What is not on disk was not shown (hazard H8).
+    // What is not on disk does not count as shown (hazard H8).
     const auto kept = verifySession(result.session);
     if (!kept)
         result.troubles.push_back(kept.error());

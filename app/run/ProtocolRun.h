@@ -14,13 +14,13 @@
 
 namespace tacto {
 
-/// What the operator asks for, checked.
+/// The operator's order, checked.
 struct RunOrder : BenchOrder {
     ProtocolSource script;
     ProtocolDeclaration declaration;  ///< as the operator saw it; without a title: the script was not read before
     ProtocolSettings settings;
-    std::string ownLoad = {};      ///< in place of the load that the parameters declare: a virtual participant's skin
-    std::set<Role> ownNeeds = {};  ///< in place of what the script declares to need: a massager study's; empty: that
+    std::string ownLoad = {};      ///< replaces the load that the parameters declare: a virtual participant's skin
+    std::set<Role> ownNeeds = {};  ///< replaces what the script declares to need, in massager studies; empty: nothing
     /// File of the order's details for the certificate of a stimulator calibration: CertificateDetails.h; empty: the
     /// laboratory's own alone. Other kinds of results do not use it.
     std::filesystem::path certificateDetails = {};
@@ -30,23 +30,23 @@ struct RunOrder : BenchOrder {
 /// The load that a protocol's parameters declare: what the simulated bench starts with.
 [[nodiscard]] std::string declaredLoad(const nlohmann::json& parameters);
 
-/// What a session says about its script.
+/// The description of a script in its session.
 [[nodiscard]] SessionAbout aboutScript(const RunOrder& order);
 
-/// What came of a run, also when it failed.
+/// The outcome of a run, also of a failed one.
 struct RunResult {
     ScriptOutcome outcome;
     bool stoppedBySafety = false;    ///< a fault, a refused train, an operator's stop
-    bool simulated = false;          ///< any device, or a prediction; `marks` say which
-    std::vector<std::string> marks;  ///< as sessionMarks() gives them: origin, calibration, the flags of R
+    bool simulated = false;          ///< by a device, or as a prediction; `marks` say which
+    std::vector<std::string> marks;  ///< the marks from sessionMarks(): origin, calibration, the flags of R
     std::vector<SessionDevice> devices;
     std::filesystem::path session;
     std::vector<Error> troubles;         ///< beside the outcome's error, which does not say them: closing the session
     std::optional<MarkerTally> markers;  ///< for a pilot session with markers
     /// pass, fail, indeterminate, stopped; empty for a protocol that judges nothing or ended by an error.
     [[nodiscard]] std::string verdict() const;
-    /// Without an error the first trouble becomes it, and there is no verdict; troubles that the error says are left
-    /// out.
+    /// If nothing else failed, the first trouble becomes the error, and there is no verdict; troubles that the error
+    /// mentions are left out.
     void weighTroubles();
 };
 
@@ -63,8 +63,8 @@ public:
     ProtocolRun& operator=(const ProtocolRun&) = delete;
 
     /// Fills in script, declaration, parameters, seed, bench, session and capture folder of `hooks`, whose callbacks
-    /// and operator are the caller's, and starts the script. What is known to fail, as a profile that the stimulator
-    /// cannot reach, is said through `onLog` before. Errors: as ScriptRun::start(); finish() reports them too.
+    /// and operator are the caller's, and starts the script. Expected failures, as a profile beyond the stimulator's
+    /// reach, are told through `onLog` first. Errors: as ScriptRun::start(); finish() reports them too.
     [[nodiscard]] Result<void> start(RunRequest hooks);
     /// Blocks until the script has ended, then closes bench and session.
     [[nodiscard]] RunResult finish();
@@ -80,9 +80,9 @@ private:
     void endCheck(RunResult& result);
     explicit ProtocolRun(RunOrder order) : order_(std::move(order)) {}
     RunOrder order_;
-    std::shared_ptr<OpenedBench> opened_;  // and the script's
+    std::shared_ptr<OpenedBench> opened_;  // the bench that is open, and the script's
     std::optional<Error> notStarted_;
-    std::optional<LoadSafetyCheck> check_;  // what is kept of a load-safety run
+    std::optional<LoadSafetyCheck> check_;  // the record of a load-safety run
     std::unique_ptr<ScriptRun> script_;     // Last: ends first
 };
 

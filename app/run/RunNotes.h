@@ -11,10 +11,10 @@
 
 namespace tacto {
 
-/// Each one line of at most kNoteLimit characters (Unicode code points); empty: not recorded.
+/// Each note is one line of at most kNoteLimit characters (Unicode code points); empty: not recorded.
 struct RunNotes {
     std::string operatorName;
-    std::string sample;  ///< what is measured, by the laboratory's own id
+    std::string sample;  ///< the measured sample, by the laboratory's own id
     std::string reviewer;
     std::string ambient;  ///< "22.5 °C, 45 % RH"
 };

@@ -1,8 +1,8 @@
 // ScopeStatement.h - what else is stated of the oscilloscope that is open: by its calibration certificate.
 //
-// A certificate counts for its serial number alone and from its date until it is due. Captures of a folder
-// (`capture:`) have none: which instrument took them, and when, is not known. A serial number of a simulated
-// oscilloscope (SIM-...) counts for a simulated one only. What is not used says why (hazard H9).
+// A certificate counts for its serial number alone and from its date until it is due. Captures of a folder (`capture:`)
+// have none: it is not known which instrument took them, and when. A serial number of a simulated oscilloscope
+// (SIM-...) counts for a simulated one only. An unused certificate says why (hazard H9).
 //
 // Thread-safety: pure but for reading the store; keepCertificate() as SessionWriter.
 #pragma once
@@ -19,8 +19,8 @@ namespace tacto {
 struct KnownCertificate {
     InstrumentStatement statement;  ///< empty unless used
     bool used = false;
-    std::string text;                          ///< one sentence; empty where no certificate can be of this oscilloscope
-    std::optional<Certificate> certificate{};  ///< the one that is used
+    std::string text;                          ///< one sentence; empty where this oscilloscope can have no certificate
+    std::optional<Certificate> certificate{};  ///< the certificate in use
 };
 /// How the certificate of that device stands today.
 [[nodiscard]] KnownCertificate knownCertificate(const DeviceIdentity& oscilloscope);

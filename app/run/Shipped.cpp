@@ -17,7 +17,7 @@ bool overlap(const LimitRow& a, const LimitRow& b) noexcept {
     return (a.upToHz == 0 || b.aboveHz < a.upToHz) && (b.upToHz == 0 || a.aboveHz < b.upToHz);
 }
 
-/// A looser row would break nothing, since the built-in ones stay in force, and yet promise what is not so.
+/// A looser row would break nothing, since the built-in rows stay in force, and yet would promise something untrue.
 Result<void> tightens(const LimitSet& added, const std::vector<LimitSet>& shipped, const std::string& file) {
     for (const auto& row : added.rows) {
         if (row.action != LimitAction::Refuse) continue;
@@ -40,7 +40,7 @@ Result<void> tightens(const LimitSet& added, const std::vector<LimitSet>& shippe
 Result<std::vector<std::filesystem::path>> limitFiles() {
     std::vector<std::filesystem::path> files;
     const auto resources = resourcesFolder();
-    if (!resources) return files;  // what is built in needs no folder
+    if (!resources) return files;  // built-in files need no folder
     std::error_code error;
     if (!std::filesystem::exists(*resources / "limits", error)) return files;
     for (const auto& entry : std::filesystem::directory_iterator(*resources / "limits", error)) {

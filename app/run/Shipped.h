@@ -19,7 +19,7 @@ namespace tacto {
 struct ShippedLimits {
     std::vector<LimitSet> sets;
     std::vector<std::string> sha256;  ///< digest of each set's file, in the same order
-    std::vector<std::string> from;    ///< where its file lies; empty for one that is built in; in the same order
+    std::vector<std::string> from;    ///< where each one's file lies; empty for a built-in one; in the same order
 };
 /// Errors: as parseLimitSet(); ParseError for a file in the resources' limits/ that would take the place of a built-in
 /// set, or that allows more than a built-in row of the same quantity.
@@ -28,7 +28,7 @@ struct ShippedLimits {
 /// resources/instruments. Errors: as parseInstrumentProfile(); none in a program whose tests pass.
 [[nodiscard]] Result<std::vector<InstrumentProfile>> shippedInstruments();
 
-/// "Limit sets in force beside the built-in ones: lab-x (/lab/limits/lab-x.json)."; empty where there is none.
+/// "Limit sets in force beside the built-in ones: lab-x (/lab/limits/lab-x.json)."; empty without any.
 [[nodiscard]] std::string addedLimitsText(const ShippedLimits& limits);
 
 }  // namespace tacto

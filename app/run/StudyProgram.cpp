@@ -14,7 +14,7 @@ constexpr std::string_view kPilotScripts = "pilot-";
 void fitProfile(Profile& profile, const StudySettings& study) {
     profile.electrodeArea = study.electrode.area;
     auto& train = profile.encoding.train;
-    // Monophasic is refused at a person, and with it whatever else a study may name.
+    // Monophasic trains are refused on a person, together with whatever else a study may name.
     train.shape = study.train.shape == kBiphasic ? PulseShape::SymmetricBiphasic : PulseShape::Monophasic;
     train.phaseWidth = Micros(study.train.width_us);
     train.interPhaseGap = Micros(study.train.gap_us);

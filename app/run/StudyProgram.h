@@ -10,12 +10,12 @@ namespace tacto {
 
 /// `profile` with the electrode and the one kind of train of the study.
 void fitProfile(Profile& profile, const StudySettings& study);
-/// What a session's script is to do.
+/// The task of a session's script.
 struct AskedProcedure {
     DetectionMethod method = DetectionMethod::Quest;
     bool comparison = false;
 };
-/// What `profile` makes people of this study feel, and what they are asked.
+/// The stimuli of `profile` for people of this study, and the questions to them.
 [[nodiscard]] StudyProcedure procedureOf(const Profile& profile, const StudySettings& study,
                                          const AskedProcedure& asked);
 

@@ -17,7 +17,7 @@ Result<UnfinishedSession> UnfinishedSession::choose(const Study& study, const Pa
                     "session {} of {} ({}) is unfinished; --set unfinished=resume or unfinished=end is expected",
                     open->number, who.code, open->protocol);
     auto rows = pilotRows(study, *open);
-    if (choice.wanted == "end") {  // also one that can no longer be read
+    if (choice.wanted == "end") {  // also for a session that can no longer be read
         // Complete where the program was ended before the study knew.
         const bool complete = rows && rows->ended == PilotEnd::Complete;
         made.ends_ = Ends{std::move(*open), complete ? StudySessionState::Complete : StudySessionState::Stopped};

@@ -18,8 +18,8 @@ namespace tacto {
 /// The seed in "virtual:SEED"; nothing in a code. Errors: NotFound for another seed than a whole number from 0.
 [[nodiscard]] Result<std::optional<std::uint64_t>> virtualSeed(std::string_view participant);
 
-/// No to each item of the checklist but the one that `parameters` name as "exclusions". Errors: InvalidArgument for an
-/// item that the checklist does not have.
+/// Answers No to each item of the checklist but the one that `parameters` name as "exclusions". Errors: InvalidArgument
+/// for an item that the checklist does not have.
 [[nodiscard]] Result<std::vector<ExclusionAnswer>> virtualAnswers(const nlohmann::json& parameters);
 
 /// Participant `seed` of the population that `parameters` describe, under the electrode and pulse of `study`. Errors:

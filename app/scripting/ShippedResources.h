@@ -14,14 +14,14 @@ struct ShippedLimitText {
     std::string_view file;  ///< "paper.json"
     std::string_view text;
 };
-/// In the order of their names.
+/// The limits in the order of their names.
 [[nodiscard]] std::span<const ShippedLimitText> shippedLimitTexts() noexcept;
 
 struct ShippedInstrumentText {
     std::string_view file;  ///< "rigol-ds2000.json"
     std::string_view text;
 };
-/// In the order of their names.
+/// The instruments in the order of their names.
 [[nodiscard]] std::span<const ShippedInstrumentText> shippedInstrumentTexts() noexcept;
 
 /// resources/encodings/default.json.

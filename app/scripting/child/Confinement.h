@@ -5,8 +5,8 @@
 
 namespace tacto {
 
-/// From here on system calls other than those for memory, time, locks and what is open already fail with EPERM
-/// (seccomp). Where the kernel has no such filter nothing changes: then this process is a process and no more.
+/// From here on, system calls other than those for memory, time, locks and open files fail with EPERM (seccomp). Where
+/// the kernel has no such filter nothing changes: then this process is just a process.
 void confine() noexcept;
 
 }  // namespace tacto

@@ -33,7 +33,7 @@ private:
     QJSEngine& engine_;
     HostCalls& calls_;
     const QString scriptUrl_;
-    std::deque<std::pair<QJSValue, std::int64_t>> failures_;  // what was thrown, and for which
+    std::deque<std::pair<QJSValue, std::int64_t>> failures_;  // the thrown values, each with its number
 };
 
 }  // namespace tacto

@@ -86,7 +86,7 @@ struct Sandbox::Engine {
     QJSEngine js;
     const std::string text;
     const std::string file;
-    QStringList hostNames;  // of the host's globals
+    QStringList hostNames;  // the host's global names
     std::unique_ptr<HostBridge> bridge;
     bool ranOutOfMemory = false;
 };
@@ -234,7 +234,7 @@ Thrown Sandbox::Engine::errorFrom(const QJSValue& thrown, const QStringList& tra
     // on.
     static const QRegularExpression frame(QStringLiteral(R"(^(.*?):(-?\d+):(-?\d+):(.*)$)"));
     const QString url = urlOf(file);
-    // Where the stack ran out, Qt 6.8 gives the innermost frame any number. What ends too early ends behind the text.
+    // Where the stack ran out, Qt 6.8 gives the innermost frame any number. A script cut short ends behind the text.
     const auto lineIn = [lines = std::ranges::count(text, '\n') + 3](const QString& number) {
         const int line = number.toInt();
         return line >= 1 && line <= lines ? line : 0;
@@ -258,7 +258,7 @@ Thrown Sandbox::Engine::errorFrom(const QJSValue& thrown, const QStringList& tra
     }
     const QString name = thrown.property(QStringLiteral("name")).toString();
     const QString message = thrown.property(QStringLiteral("message")).toString();
-    if (name == QStringLiteral("TypeError") && message == QStringLiteral("Type error")) {  // all the engine says
+    if (name == QStringLiteral("TypeError") && message == QStringLiteral("Type error")) {  // the engine says just this
         error.reason = "TypeError: something that belongs to the program, or is constant, was written or deleted";
         return error;
     }

@@ -25,12 +25,12 @@ struct SeenFunction {
     std::string javascript;  ///< HostFunction::javascript
 };
 
-/// What became of a call.
+/// The outcome of a call.
 struct HostAnswer {
     nlohmann::json value;
     std::optional<std::int64_t> failure = {};  ///< the program's number for it: it threw
-    int code = 0;                              ///< of the failure
-    std::string text;                          ///< for the operator
+    int code = 0;                              ///< the failure's code
+    std::string text;                          ///< what the operator reads
 };
 
 /// Receives what scripts call.
@@ -39,7 +39,7 @@ public:
     virtual ~HostCalls() = default;
     /// `function`: its place in the table. `line`: where in the script the call stands; 0 when unknown.
     virtual HostAnswer call(int function, const nlohmann::json& arguments, int line) = 0;
-    /// For arguments that cannot be handed over.
+    /// Answers a call whose arguments cannot be handed over.
     virtual HostAnswer refuse(int function, const std::string& why) = 0;
 };
 
@@ -47,7 +47,7 @@ public:
 struct Thrown {
     std::string reason;
     int line = 0;                              ///< 0 when unknown
-    std::optional<std::int64_t> failure = {};  ///< the very failure of a call
+    std::optional<std::int64_t> failure = {};  ///< the failure of the call itself
     bool outOfMemory = false;
 };
 

@@ -20,7 +20,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Without the program there is nothing to do.
+/// Without the program this process has nothing to do.
 [[noreturn]] void end(int code) noexcept { std::_Exit(code); }
 
 class Program final : public HostCalls {
@@ -114,7 +114,7 @@ int serve() {
 }  // namespace tacto
 
 int main(int argc, char** argv) {
-    ::syscall(SYS_close_range, tacto::kScriptSocket + 1, ~0U, 0);  // whatever the program left open
+    ::syscall(SYS_close_range, tacto::kScriptSocket + 1, ~0U, 0);  // closes whatever the program left open
     int type = 0;
     socklen_t size = sizeof type;
     if (argc != 1 || ::getsockopt(tacto::kScriptSocket, SOL_SOCKET, SO_TYPE, &type, &size) != 0) {

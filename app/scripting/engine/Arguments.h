@@ -25,7 +25,7 @@ public:
     /// that is missing.
     [[nodiscard]] static Result<Arguments> check(const HostFunction& function, const nlohmann::json& list);
 
-    // What was left out is the parameter's default, or where it has none `fallback`, NaN, or empty.
+    // The number; if it was left out, the parameter's default, or without one `fallback`, NaN, or empty.
     [[nodiscard]] double number(std::string_view name) const;
     [[nodiscard]] double number(std::string_view name, double fallback) const;
     [[nodiscard]] int whole(std::string_view name, int fallback = 0) const;
@@ -33,7 +33,7 @@ public:
     [[nodiscard]] std::string text(std::string_view name) const;
     [[nodiscard]] const nlohmann::json& list(std::string_view name) const;
     [[nodiscard]] const nlohmann::json& object(std::string_view name) const;
-    /// As parseLoad() reads it.
+    /// The load, as parseLoad() reads it.
     [[nodiscard]] std::string load(std::string_view name) const;
     /// Null where it was left out.
     [[nodiscard]] const nlohmann::json& any(std::string_view name) const;
@@ -46,7 +46,7 @@ public:
     /// "bench.loadSafety", of the function that was called.
     [[nodiscard]] std::string_view object() const noexcept { return function_.object; }
 
-    /// For what a function finds wrong itself: "bench.wait: seconds is 3, ACCEPTED is expected".
+    /// The error for what a function finds wrong by itself: "bench.wait: seconds is 3, ACCEPTED is expected".
     [[nodiscard]] tl::unexpected<Error> wrong(std::string_view name, const nlohmann::json& value,
                                               std::string_view accepted) const;
 

@@ -13,7 +13,7 @@ inline constexpr const char* kConfirmArming = "confirm-arming";
 /// Asks for the confirmation where the output is real, unless this run has it for the same text and no load was
 /// changed since. A simulated output needs none. Errors: as parseLoad() and Operator::ask().
 [[nodiscard]] Result<ArmRequest> confirmedArming(ScriptSession& session, const std::string& load);
-/// The same, and arms. Errors: as confirmedArming() and Bench::arm().
+/// Asks as confirmedArming() does, and arms. Errors: as confirmedArming() and Bench::arm().
 [[nodiscard]] Result<void> armConfirmed(ScriptSession& session, const std::string& load);
 
 }  // namespace tacto

@@ -13,7 +13,7 @@ namespace tacto {
 
 namespace {
 
-/// For what only declares something.
+/// The memory for a script that only declares something.
 constexpr std::size_t kMaxMemory = std::size_t{512} << 20;
 constexpr std::size_t kMaxDeclared = 4'000'000;  // bytes
 
@@ -70,7 +70,7 @@ void findQuestions(const ProtocolSource& source, ProtocolDeclaration& declaratio
             declaration.questions.push_back(name);
         }
     }
-    // In this order, as a form shows them.
+    // The questions stand in the order in which a form shows them.
     for (const std::string_view question :
          {"setup", "dmm-*", "dmm-u-*", "serial-*", "wiring", kConfirmArming, "surface-*", "fit-load"}) {
         if (mayAsk(text, question)) declaration.questions.emplace_back(question);

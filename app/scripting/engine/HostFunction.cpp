@@ -20,7 +20,7 @@ std::string HostFunction::fullName() const {
 const std::vector<HostFunction>& hostFunctions() {
     static const std::vector<HostFunction> all = [] {
         std::vector<HostFunction> out;
-        // An object after the one that it is within.
+        // An object comes after the object that holds it.
         const std::pair<std::string_view, std::vector<HostTable*>> objects[] = {
             {"", {generalFunctions}},
             {"random", {randomFunctions}},

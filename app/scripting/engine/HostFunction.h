@@ -35,24 +35,24 @@ struct HostFunction {
     std::vector<HostParameter> parameters = {};
     std::string_view text = {};               ///< what it does, one or two sentences
     std::string_view returns = {};            ///< empty for nothing
-    std::string_view errors = {};             ///< when it throws; empty when it does so for wrong arguments only
+    std::string_view errors = {};             ///< when it throws; empty when only wrong arguments make it throw
     std::vector<std::string_view> asks = {};  ///< questions to the operator that scripts are searched for
     std::optional<Role> needs = {};           ///< without a device of this role the call fails
     bool failsDisarmed = false;               ///< a failure, of its arguments too, leaves the output disarmed
     HostCall* call = nullptr;
-    /// For functions that must hand the script's own values back: an expression for the function, in which `native`
+    /// Serves functions that must hand the script's own values back: an expression for the function, in which `native`
     /// is the call above. Runs in strict mode before the script does.
     std::string_view javascript = {};
-    std::vector<HostParameter> passes = {};  ///< what it passes to `native`, where that is not `parameters`
+    std::vector<HostParameter> passes = {};  ///< the parameters passed to `native`, where those are not `parameters`
 
     /// "bench.wait", "progress".
     [[nodiscard]] std::string fullName() const;
 };
 
-/// All of them, grouped by object.
+/// All functions, grouped by object.
 [[nodiscard]] const std::vector<HostFunction>& hostFunctions();
 
-/// The option with that path, "analysis.variation.detection_ma". Null where there is none.
+/// The option with that path, "analysis.variation.detection_ma". Null if there is none.
 [[nodiscard]] const HostParameter* hostOption(std::string_view path);
 
 }  // namespace tacto

@@ -24,7 +24,7 @@ enum class ValueType {
     Any,   ///< the function checks it itself
 };
 
-/// What the names of the members of the last argument begin with.
+/// The beginning of the names of all members of the last argument.
 inline constexpr std::string_view kOptionPrefix = "options.";
 
 struct HostParameter {
@@ -32,19 +32,19 @@ struct HostParameter {
     /// than those that are listed; "from.roughness" for a member of another argument.
     std::string_view name;
     ValueType type = ValueType::Any;
-    std::string_view unit = {};        ///< "s", "ohm"; empty for a number without one and for what is not a number
-    std::string_view about = {};       ///< what it is
-    AcceptedNumbers numbers = {};      ///< Number and Whole
-    ValueType items = ValueType::Any;  ///< type of a list's elements
+    std::string_view unit = {};                ///< "s", "ohm"; empty for values without a unit
+    std::string_view about = {};               ///< what it is
+    AcceptedNumbers numbers = {};              ///< Number and Whole
+    ValueType items = ValueType::Any;          ///< type of a list's elements
     std::vector<std::string_view> words = {};  ///< the texts that are accepted; empty for any
-    std::size_t mostCharacters = 0;            ///< of a text; 0: any number
+    std::size_t mostCharacters = 0;            ///< the longest text; 0: any length
     bool mayBeLeftOut = false;
     bool mayBeEmpty = false;          ///< a text
-    bool mayBeNull = false;           ///< null and NaN: not known
+    bool mayBeNull = false;           ///< null and NaN mean: not known
     nlohmann::json usual = {};        ///< the value where it is left out
-    std::string_view usualText = {};  ///< the same in words, where the function works it out
+    std::string_view usualText = {};  ///< the usual value in words, where the function works it out
 
-    // How tables write it: number("seconds", "s", "on the bench's clock").range(0, 86'400).otherwise(1)
+    // The range. Tables write it so: number("seconds", "s", "on the bench's clock").range(0, 86'400).otherwise(1)
     [[nodiscard]] HostParameter range(double from, double to) const;
     [[nodiscard]] HostParameter atLeast(double from) const;
     [[nodiscard]] HostParameter above(double from) const;
@@ -56,10 +56,10 @@ struct HostParameter {
     [[nodiscard]] HostParameter otherwise(nlohmann::json value) const;
     [[nodiscard]] HostParameter optional(std::string_view whereLeftOut = {}) const;
 
-    /// What is accepted, for errors and for the reference: "a whole number from 1 to 64".
+    /// The accepted values, for errors and for the reference: "a whole number from 1 to 64".
     [[nodiscard]] std::string accepted() const;
     [[nodiscard]] bool accepts(const nlohmann::json& value) const;
-    /// What counts where it is left out, with its unit; empty where nothing does.
+    /// The value where it is left out, with its unit; empty where there is none.
     [[nodiscard]] std::string defaultText() const;
 };
 

@@ -34,15 +34,15 @@ struct OperatorQuestion {
     std::string confirms{};
     /// Confirm, at a terminal: the word that is typed.
     std::string word = "yes";
-    /// Which question of the desk's this is, so that an answer to one before it is none to this one.
+    /// The question's number at this desk, so that an answer to an earlier question does not answer this one.
     std::uint64_t id = 0;
 };
 
 class Operator {
 public:
     virtual ~Operator() = default;
-    /// For how long output may go on while a question waits, unless present() is called again: the operator has the
-    /// stop, as long as there is something to press.
+    /// How long output may go on while a question waits, unless present() is called again: the operator has the stop,
+    /// as long as there is something to press.
     [[nodiscard]] virtual Seconds unwatchedFor() const { return Seconds(35); }  // longer than a terminal's arming waits
     /// Called by ask() while it waits and the operator could press the stop. Set by the run.
     std::function<void()> present;

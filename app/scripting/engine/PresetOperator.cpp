@@ -8,7 +8,7 @@ namespace tacto {
 
 namespace {
 
-/// What is to be given in advance, as it is typed.
+/// The answer to be given in advance, as it is typed.
 std::string presetFor(const OperatorQuestion& question) {
     return question.confirms.empty() ? fmt::format("--set {}=...", question.name)
                                      : fmt::format("--set {}=\"{}\"", question.name, question.confirms);

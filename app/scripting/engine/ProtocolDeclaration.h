@@ -28,16 +28,16 @@ struct ProtocolSource {
     std::string name;            ///< "separability"
     std::filesystem::path path;  ///< may be empty for a text that lies in no file
     std::string text;
-    std::string sha256;    ///< of the text's bytes; filled in by the library
+    std::string sha256;    ///< hash of the text's bytes; the library fills it in
     bool shipped = false;  ///< comes with the program: its bytes are those that the program was built with
 };
 
-/// What errors of a script begin with: its path, or "separability.js".
+/// The beginning of a script's errors: its path, or "separability.js".
 [[nodiscard]] std::string fileOf(const ProtocolSource& source);
 /// Where a script comes from, for people: "shipped with the program", or its path.
 [[nodiscard]] std::string originOf(const ProtocolSource& source);
 
-/// What a window draws while a run's rows come.
+/// The picture that a window draws while a run's rows come.
 enum class ProtocolView {
     Trials,       ///< trains as captured
     Loads,        ///< a row per load of the bench set
@@ -57,16 +57,16 @@ struct ProtocolDeclaration {
     std::vector<std::string> questions;  ///< names the script's text passes to `operator`, "dmm-*" where only the
                                          ///< beginning stands there; "surface-*" and "fit-load" where it uses
                                          ///< functions that may ask those
-    bool hasOtherQuestions = false;      ///< it also computes whole names
+    bool hasOtherQuestions = false;      ///< whole names are computed, too
 };
 
-/// What a run takes out of a list of KEY=VALUE settings.
+/// The settings that a run takes out of a list of KEY=VALUE.
 struct ProtocolSettings {
     nlohmann::json parameters = nlohmann::json::object();  ///< every declared parameter, typed
     std::map<std::string, std::string> answers;            ///< for `operator`, by question name
     /// The parameters (choices apart) that are the operator's word and not the script's default.
     std::set<std::string> given;
-    std::set<std::string> chosen;  ///< choices that were set, also to what they are by themselves
+    std::set<std::string> chosen;  ///< choices that were set, also to their defaults
 };
 
 /// Runs the script's top level and reads what it declares.
@@ -84,8 +84,8 @@ struct ProtocolSettings {
 [[nodiscard]] Result<ProtocolDeclaration> parseDeclaration(const nlohmann::json& given, const nlohmann::json& order,
                                                            const nlohmann::json& choiceOrder);
 
-/// What `now` declares otherwise than `before`, as "another purpose"; empty where they declare the same. Names and
-/// questions are not compared: a script does not declare those.
+/// How `now` differs from `before`, as "another purpose"; empty where they declare the same. Names and questions are
+/// not compared: a script does not declare those.
 [[nodiscard]] std::string differenceOf(const ProtocolDeclaration& before, const ProtocolDeclaration& now);
 
 /// Defaults overridden by `settings`; keys that are not parameters answer the script's questions.

@@ -29,7 +29,7 @@ fs::path environmentPath(const char* name) {
     return value == nullptr ? fs::path() : fs::path(value);
 }
 
-/// What the shipped protocol of that name was built with; null for another name.
+/// The digest of the shipped protocol with that name; null for another name.
 const ShippedProtocol* digestOfShipped(std::string_view name) {
     const auto all = shippedProtocols();
     const auto at = std::ranges::find(all, name, &ShippedProtocol::name);
@@ -72,7 +72,7 @@ Result<ProtocolSource> readScript(const fs::path& path) {
     return source;
 }
 
-/// Scripts of a folder by name; what is not there or not readable is not listed.
+/// Scripts of a folder by name; leaves out what is missing or unreadable.
 std::map<std::string, fs::path> scriptsIn(const fs::path& folder) {
     std::map<std::string, fs::path> found;
     std::error_code failed;
@@ -94,7 +94,7 @@ Result<fs::path> resourcesFolder() {
         return !folder.empty() && fs::is_directory(folder / "protocols", failed);
     };
     if (const auto set = environmentPath("TACTOSCOPE_RESOURCES"); !set.empty()) {
-        // What was asked for explicitly is not silently replaced by something else.
+        // An explicit wish is not silently replaced by something else.
         if (usable(set)) return set;
         return fail(ErrorCode::NotFound, "TACTOSCOPE_RESOURCES is {}, a folder with protocols/ is expected",
                     set.string());
@@ -129,7 +129,7 @@ Result<fs::path> drawingFile(std::string_view name) {
 
 fs::path userProtocolsFolder() {
     const auto data = dataFolder();
-    return data.is_absolute() ? data / "protocols" : fs::path();  // never scripts of the folder it is started in
+    return data.is_absolute() ? data / "protocols" : fs::path();  // never a script of the folder it starts in
 }
 
 ProtocolLibrary::ProtocolLibrary() : user_(userProtocolsFolder()) {

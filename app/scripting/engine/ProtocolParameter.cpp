@@ -26,10 +26,10 @@ constexpr Word<ParameterType> kTypes[] = {{"number", ParameterType::Number},   {
                                           {"file", ParameterType::File}};
 constexpr std::string_view kReferenceStep = "reference";
 
-/// A double holds every whole number up to here, and not every one beyond.
+/// A double holds every whole number up to here, but not every larger one.
 constexpr double kMaxWholeNumber = 9007199254740992;  // 2^53
 
-/// No wider than from -`widest` to `widest`.
+/// A range no wider than from -`widest` to `widest`.
 AcceptedNumbers rangeOf(const ProtocolParameter& parameter, double widest = std::numeric_limits<double>::max()) {
     return {.low = std::max(parameter.min.value_or(-widest), -widest),
             .high = std::min(parameter.max.value_or(widest), widest),
@@ -172,7 +172,7 @@ bool isName(std::string_view name) {
            std::all_of(name.begin(), name.end(), [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
 }
 
-/// With these parameters the operator vouches for what the program cannot know, so the field must say what it is.
+/// In these parameters the operator vouches for what the program cannot know, so the field must say what it is.
 Result<void> saysWhatItVouchesFor(const ProtocolParameter& parameter) {
     struct OperatorStated {
         std::string_view name, unit, word;

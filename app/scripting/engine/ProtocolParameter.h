@@ -22,17 +22,17 @@ enum class ParameterType { Number, Integer, Choice, Text, Boolean, Date, File };
 
 struct ProtocolParameter {
     std::string name;   ///< the key of --set and of `p` in run(p)
-    std::string label;  ///< for people; the name where the script gives none
+    std::string label;  ///< what people read; the name where the script gives none
     std::string unit;   ///< "ohm", "s"; empty for a bare number
     ParameterType type = ParameterType::Number;
     std::optional<double> min;  ///< Number and Integer
     std::optional<double> max;
     std::vector<std::pair<std::string, std::string>> choices;  ///< Choice: key and its explanation, as written
     nlohmann::json value;                                      ///< the default, within the range
-    bool reference = false;  ///< of the known reference that is read first: `step: "reference"`
-    /// What is not known without it; 0 or nothing is not an answer then, and a window asks for it first. May be empty.
+    bool reference = false;  ///< the step that first reads the known reference: `step: "reference"`
+    /// What stays unknown without it; then 0 or nothing is not an answer, and a window asks for it first. May be empty.
     std::string needed;
-    /// What 0 stands for: "from the profile"; Number and Integer that take 0. Empty: for the number.
+    /// The meaning of 0: "from the profile"; for Number and Integer that take 0. Empty: the number itself.
     std::string zero{};
     [[nodiscard]] bool operator==(const ProtocolParameter&) const = default;
 };

@@ -16,7 +16,7 @@
 
 namespace tacto {
 
-/// What was commanded when a capture was taken: s, and V or mA by the source. NaN where it is not known.
+/// The command when a capture was taken: s, and V or mA by the source. NaN where it is not known.
 struct CapturedCommand {
     double amplitude = 0;
     double interval_s = 0;
@@ -29,10 +29,10 @@ struct CapturedCommand {
 /// One reading of measure.pulse().
 struct OwnReading {
     std::vector<std::int64_t> captures;
-    std::vector<CapturedCommand> commands;  ///< of each capture
+    std::vector<CapturedCommand> commands;  ///< one for each capture
     nlohmann::json read;                    ///< amplitude, interval_s, width_s, gap_s as measured; null: not measured
-    std::string unit;                       ///< of the amplitude: V or mA
-    // As the oscilloscope states it, in the amplitude's unit; NaN: not stated.
+    std::string unit;                       ///< the amplitude's unit: V or mA
+    // The oscilloscope's statement, in the amplitude's unit; NaN: not stated.
     double gainTolerance = kNaN;
     double probeTolerance = kNaN;
     double linearityTolerance = 0;
@@ -50,12 +50,12 @@ struct OwnCalibration {
     nlohmann::json found;                ///< as the function returned it
     std::vector<std::int64_t> readings;  ///< their numbers
     bool simulated = false;
-    std::optional<double> gainTolerance;  ///< of the instrument, relative half-width; nothing: not stated
+    std::optional<double> gainTolerance;  ///< the instrument's, as a relative half-width; nothing: not stated
     std::string statedBy;                 ///< "the instrument" or "the operator"
-    bool calibrationApplied = false;      ///< in one of the readings
+    bool calibrationApplied = false;      ///< one of the readings had its calibration applied
 };
 
-/// What a script gets of `value`, and hands back: NaN and the infinities are null, whole numbers have no fraction.
+/// The form of `value` that scripts get and hand back: NaN and the infinities are null, whole numbers have no fraction.
 [[nodiscard]] nlohmann::json asScriptsSeeIt(nlohmann::json value);
 
 class RunReadings {
@@ -63,15 +63,15 @@ public:
     [[nodiscard]] std::int64_t add(OwnReading reading);
     [[nodiscard]] std::int64_t add(OwnCalibration calibration);
 
-    /// The readings with these numbers, for one calibration. Errors: InvalidArgument for a number that is none, or a
-    /// reading or capture that comes twice.
+    /// The readings with these numbers, for one calibration. Errors: InvalidArgument for a number without a reading, or
+    /// a reading or capture that comes twice.
     [[nodiscard]] Result<std::vector<const OwnReading*>> readings(const std::vector<std::int64_t>& numbers) const;
     /// Remembers what a host function returned, where scripts hand on whole objects.
     void note(nlohmann::json made);
     /// True for what was noted, unchanged.
     [[nodiscard]] bool noted(const nlohmann::json& said) const;
 
-    /// Nothing for a number that is none.
+    /// Nothing for a number that belongs to no calibration.
     [[nodiscard]] const OwnCalibration* calibration(const nlohmann::json& number) const noexcept;
 
 private:

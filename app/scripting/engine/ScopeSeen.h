@@ -17,17 +17,17 @@ namespace tacto {
 class ScopeSeen {
 public:
     void add(const Capture& capture);
-    /// What an absolute reference came to, as a sentence.
+    /// Sets the result of an absolute reference, as a sentence.
     void setAbsolute(std::string text) { absolute_ = std::move(text); }
     [[nodiscard]] bool any() const noexcept { return !channels_.empty(); }
-    /// Whether each record so far stated how good its time stamp is; true before the first.
+    /// Whether every record so far stated how good its time stamp is; true before the first.
     [[nodiscard]] bool stampsStated() const noexcept { return !std::isnan(stamp_s_); }
 
     /// A row per channel: {"name", "serial", "channel", "unit", "gain_pct", "offset", "lsb", "probe_pct",
     /// "linearity", "timebase_ppm", "stamp_s", "stated_by"}: the largest of all captures, null where one does not state
     /// it.
     [[nodiscard]] nlohmann::json rows(const DeviceIdentity& scope) const;
-    /// What the absolute scale of the voltage rests on, and what is not stated: sentences.
+    /// What the absolute scale of the voltage rests on, and what is not stated, in sentences.
     [[nodiscard]] std::vector<std::string> restsOn() const;
 
 private:

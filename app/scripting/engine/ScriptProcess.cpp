@@ -29,8 +29,8 @@ using nlohmann::json;
 /// For a process that does not even compute: it was stopped from outside, or the machine stands still.
 constexpr std::chrono::minutes kMaxSilence{10};
 constexpr std::chrono::milliseconds kMaxStart{3000};
-constexpr std::chrono::milliseconds kLastMoments{200};  // of a process whose socket is closed
-constexpr int kTimesOnABusyMachine = 10;  // what takes a second of the processor may take this often as long
+constexpr std::chrono::milliseconds kLastMoments{200};  // how long a process whose socket is closed may still run
+constexpr int kTimesOnABusyMachine = 10;                // one second of the processor's time may take this many seconds
 
 int findRunLine(const std::string& text) {
     static const QRegularExpression run(QStringLiteral(R"(\bfunction\s*\*?\s*run\s*\(|\b(?:const|let|var)\s+run\s*=)"));
@@ -62,7 +62,7 @@ std::optional<std::chrono::nanoseconds> timeUsedBy(pid_t pid) {
 
 }  // namespace
 
-/// How long the script may neither call nor end. With a `limit` calls give it no new time.
+/// How long the script may go without a call or an end. With a `limit`, calls give it no new time.
 class ScriptProcess::Patience {
 public:
     Patience(pid_t pid, std::optional<std::chrono::milliseconds> limit) : pid_(pid), limit_(limit) { begin(); }
@@ -97,7 +97,7 @@ private:
 
 namespace {
 
-/// A number where one stands, whatever stands there.
+/// A number where one stands; other values do no harm.
 std::int64_t wholeIn(const json& message, const char* key, std::int64_t otherwise) {
     const auto at = message.find(key);
     return at != message.end() && at->is_number_integer() ? at->get<std::int64_t>() : otherwise;
@@ -159,7 +159,7 @@ ScriptProcess::~ScriptProcess() {
 
 void ScriptProcess::end() noexcept {
     ending_ = true;
-    ::shutdown(socket_, SHUT_RDWR);  // another process may hold the other end too
+    ::shutdown(socket_, SHUT_RDWR);  // needed because another process may hold the other end, too
     const std::lock_guard lock(life_);
     if (!reaped_) static_cast<void>(::kill(pid_, SIGKILL));
 }
@@ -255,7 +255,7 @@ std::optional<Result<void>> ScriptProcess::answer(const json& message, Patience&
     const auto index = wholeIn(message, refused ? "refused" : "call", -1);
     if (index < 0 || index >= static_cast<std::int64_t>(functions.size())) return std::nullopt;
     const HostFunction& function = functions[static_cast<std::size_t>(index)];
-    if (refused) {  // its arguments cannot be handed over
+    if (refused) {  // the arguments cannot be handed over
         return sendMessage(
             socket_,
             remember({ErrorCode::InvalidArgument, fmt::format("{}: {}", function.fullName(), textIn(message, "why"))}),
@@ -287,7 +287,7 @@ std::optional<ScriptError> ScriptProcess::endedBy(const json& ended) const {
     if (ended.is_null()) return std::nullopt;
     if (!ended.is_object()) return error(ErrorCode::ParseError, "ended in a way that no script can");
     const auto line = static_cast<int>(std::clamp<std::int64_t>(wholeIn(ended, "line", 0), 0, lines_));
-    // The code and the sentence of a failed call are the program's own, whatever the script made of it.
+    // The code and the sentence of a failed call are the program's own, whatever the script made of them.
     const auto number = wholeIn(ended, "failure", 0);
     for (const auto& [known, failed] : failures_)
         if (known == number) return error(failed.code, failed.message, line);
@@ -297,10 +297,10 @@ std::optional<ScriptError> ScriptProcess::endedBy(const json& ended) const {
     return error(ErrorCode::ParseError, textIn(ended, "reason"), line);
 }
 
-/// Nothing more can come of it.
+/// Ends it: nothing more can come of it.
 ScriptError ScriptProcess::lost(const Error& why) {
     const bool asked = ending_;
-    // One that closed its socket and lives on has not ended by itself.
+    // A process that closed its socket and lives on has not ended by itself.
     const bool byItself = why.code == ErrorCode::Io && endsWithin(kLastMoments);
     if (!byItself) end();
     reap();

@@ -1,7 +1,7 @@
 // ScriptProcess.h - a script in a process of its own, tactoscope-script: it holds the engine and nothing else, so that
 // what makes the engine crash, hang or take all memory ends that process and not the gate's (hazard H10).
 //
-// What comes from it is bounded and read as what a stranger says: a call names a function of the table and hands over
+// What comes from it is bounded and read like a stranger's word: a call names a function of the table and hands over
 // plain data; the code and the sentence of a failure are the program's own, whatever the script does with it.
 //
 // Thread-safety: one thread makes, loads and runs; end() and awaitEnd() from any.
@@ -35,9 +35,9 @@ public:
     virtual Result<nlohmann::json> call(const HostFunction& function, const nlohmann::json& arguments, int line) = 0;
 };
 
-/// Why a script ended: what was thrown, and from where.
+/// Why a script ended: what was thrown, and where.
 struct ScriptError {
-    ErrorCode code = ErrorCode::InvalidArgument;  ///< of the host call that failed, ParseError for the script's own
+    ErrorCode code = ErrorCode::InvalidArgument;  ///< the failed host call's code; ParseError for errors of the script
     std::string reason;
     std::string file;
     int line = 0;
@@ -46,7 +46,7 @@ struct ScriptError {
 
 class ScriptProcess {
 public:
-    /// How long a script may compute between two calls: a moment of the processor's time more ends it.
+    /// How long a script may compute between two calls, in the processor's time; more ends it.
     static constexpr std::chrono::seconds kMaxThought{60};
 
     /// Starts `program`; where that is empty tactoscope-script, which is beside this one. `memory`: bytes by which it
@@ -71,7 +71,7 @@ public:
     void end() noexcept;
     /// Waits until the process has ended; returns whether it was asked to. For a thread that does nothing else.
     [[nodiscard]] bool awaitEnd() const noexcept;
-    /// Whether it has ended, by itself or not: it loads and runs nothing any more.
+    /// Whether it has ended, by itself or not: it loads and runs nothing any longer.
     [[nodiscard]] bool ended() const noexcept;
     [[nodiscard]] pid_t id() const noexcept { return pid_; }
     /// Line of `function run` in the loaded script, or 1.
@@ -93,7 +93,7 @@ private:
     void reap() noexcept;
 
     static constexpr std::size_t kFailures = 256;
-    bool ready_ = false;  // it has said so
+    bool ready_ = false;  // it has said that it is ready
     const pid_t pid_;
     const int socket_;
     std::atomic<bool> ending_{false};  // asked to
@@ -103,10 +103,10 @@ private:
     HostPort* port_ = nullptr;
     std::function<bool()> stopped_;  // asked while the process is waited for
     std::string file_;
-    int lines_ = 0;  // of the script
+    int lines_ = 0;  // lines in the script
     int runLine_ = 1;
-    int lastLine_ = 0;                                     // of the last call
-    std::deque<std::pair<std::int64_t, Error>> failures_;  // what calls failed with, by number
+    int lastLine_ = 0;                                     // the line of the last call
+    std::deque<std::pair<std::int64_t, Error>> failures_;  // the errors of failed calls, by number
     std::int64_t nextFailure_ = 1;
 };
 

@@ -22,7 +22,7 @@ namespace tacto {
 namespace {
 constexpr std::chrono::seconds kHostCallLimit{5};
 
-/// Without the C library's streams: the thread that stands still may hold them, and stderr may take nothing.
+/// Writes without the C library's streams: the thread that stands still may hold them, and stderr may take nothing.
 [[noreturn]] void endProgram(const std::string& why) {
     if (takesMore(STDERR_FILENO)) static_cast<void>(!::write(STDERR_FILENO, why.data(), why.size()));
     std::abort();
@@ -30,7 +30,7 @@ constexpr std::chrono::seconds kHostCallLimit{5};
 
 }  // namespace
 
-/// What of it is not guarded belongs to the script's thread until that has ended, then to wait()'s caller.
+/// Unguarded members belong to the script's thread until that has ended, then to wait()'s caller.
 struct ScriptRun::State final : HostPort {
     State(RunRequest given, std::unique_ptr<ScriptProcess> started)
         : request(std::move(given)), session(request), process(std::move(started)) {}
@@ -41,7 +41,7 @@ struct ScriptRun::State final : HostPort {
     std::optional<ScriptError> error;
     bool stoppedInTime = false;  // the stop came before the script's end
     bool running = false;
-    int line = 0;  // of the last host call
+    int line = 0;  // the line of the last host call
 
     std::mutex control;  // held for moments only
     std::condition_variable woken;
@@ -55,8 +55,8 @@ struct ScriptRun::State final : HostPort {
 
     const std::unique_ptr<ScriptProcess> process;
     std::thread thread;                    // serves the process
-    std::thread watch;                     // for its end, also while a host call waits
-    std::unique_ptr<MemoryGuard> memory;   // of what the script makes the program keep
+    std::thread watch;                     // waits for its end, also during a host call
+    std::unique_ptr<MemoryGuard> memory;   // guards what the script makes the program keep
     std::optional<ScriptOutcome> outcome;  // wait()'s caller only
 
     Result<nlohmann::json> call(const HostFunction& function, const nlohmann::json& arguments, int from) override;
@@ -71,7 +71,7 @@ struct ScriptRun::State final : HostPort {
     [[nodiscard]] std::optional<ScriptError> checkDeclared();
     void writeAbout();
     void conclude();
-    std::uint64_t faultsBefore = 0;  // of the bench, at the start
+    std::uint64_t faultsBefore = 0;  // the bench's faults at the start
     void writeVerdict();
     void writeEvent(std::string_view kind, const nlohmann::json& details);
     [[nodiscard]] std::string stopText(int at);
@@ -90,7 +90,7 @@ Result<nlohmann::json> ScriptRun::State::call(const HostFunction& function, cons
         if (lost) return fail(ErrorCode::Stopped, "the script's process has ended");
     }
     if (declares) {
-        // As the program read it: the first one counts, and none inside run(p).
+        // The first declaration counts, and none inside run(p): the program read it so.
         if (running || !declared.is_null()) return fail(ErrorCode::InvalidArgument, "protocol() was called twice");
         declared = arguments;
         return nlohmann::json();
@@ -102,7 +102,7 @@ Result<nlohmann::json> ScriptRun::State::call(const HostFunction& function, cons
         if (!answer && function.failsDisarmed) request.bench->disarm();
         request.bench->attend();
         return answer;
-    } catch (const std::exception& surprise) {  // of a library, as JSON or memory: the script gets it as an Error
+    } catch (const std::exception& surprise) {  // a library's exception, as from JSON: the script gets it as an Error
         if (function.failsDisarmed) request.bench->disarm();
         return fail(ErrorCode::InvalidArgument, "{}: {}", function.fullName(), surprise.what());
     }
@@ -128,7 +128,7 @@ void ScriptRun::State::stop(const char* by) noexcept {
     process->end();
 }
 
-/// With `control`. The output first.
+/// Called with `control` held. The output goes first.
 void ScriptRun::State::endOutput(const char* by) noexcept {
     if (request.pilot != nullptr) request.pilot->endRun();  // a flag: no test takes this stop for its own
     request.bench->stop(by);
@@ -141,7 +141,7 @@ void ScriptRun::State::wake() noexcept {
     if (request.pilot != nullptr) request.pilot->cancel();
 }
 
-/// A script whose process is gone drives nothing, whatever call of it is under way.
+/// A script whose process is gone drives nothing, whichever call of it is under way.
 void ScriptRun::State::watchProcess() noexcept {
     if (process->awaitEnd()) return;
     {
@@ -170,15 +170,15 @@ void ScriptRun::State::execute() {
         process->end();
         error = ScriptError{ErrorCode::Io, surprise.what(), fileOf(request.script), line};
     }
-    request.bench->disarm();  // however it ended: returned, threw, crashed or was ended
+    request.bench->disarm();  // done however it ended: returned, threw, crashed or was ended
     const std::lock_guard lock(control);
-    stoppedInTime = stopping;  // also where the script swallowed it
+    stoppedInTime = stopping;  // it stopped, even where the script swallowed the stop
     ended = true;
     woken.notify_all();
 }
 
-/// Whether it has ended. After a stop its process is gone at once, and a host call wakes within milliseconds; one that
-/// does not leaves the bench in two hands.
+/// Whether it has ended. After a stop its process is gone at once, and a host call wakes within milliseconds; a call
+/// that does not would leave the bench in two hands.
 bool ScriptRun::State::waitForEnd(std::optional<std::chrono::milliseconds> limit) {
     std::unique_lock lock(control);
     const auto until = std::chrono::steady_clock::now() + limit.value_or(std::chrono::milliseconds(0));
@@ -205,7 +205,7 @@ std::optional<ScriptError> ScriptRun::State::checkDeclared() {
     if (declared.is_array()) {
         if (auto read = parseDeclaration(declared[0], declared[1], declared[2])) now = std::move(*read);
     }
-    if (!request.declaration) {  // nothing was read before
+    if (!request.declaration) {  // it was not read before
         request.declaration = std::move(now);
         return std::nullopt;
     }
@@ -254,7 +254,7 @@ void ScriptRun::State::conclude() {
     memory.reset();
     {
         const std::lock_guard lock(control);
-        over = true;  // from here on stop() leaves the bench alone
+        over = true;  // from here on stop() does not touch the bench
     }
     session.recordExposure();
     ScriptOutcome result;
@@ -269,7 +269,7 @@ void ScriptRun::State::conclude() {
         result.line = error->line;
         result.error = Error{error->code, error->text()};
     }
-    // What the script swallowed is still the end of the run: no verdict stands on what came after it.
+    // Even if the script swallowed it, it is the end of the run: no verdict stands on what came after it.
     if (!result.error && session.endedWith()) {
         result.verdict = session.endedWith()->code == ErrorCode::Stopped ? ScriptVerdict::Stopped : ScriptVerdict::None;
         result.line = line;

@@ -34,7 +34,7 @@ class Bench;
 class PilotSession;
 class SessionWriter;
 
-/// How far a progress(list, label) loop is.
+/// The progress of a loop over progress(list, label).
 struct ScriptProgress {
     std::string label;
     std::size_t done = 0;
@@ -53,12 +53,12 @@ struct RunRequest {
     /// where nothing is said.
     std::optional<std::size_t> memoryLimit;
     std::uint64_t seed = 1;
-    Bench* bench = nullptr;               ///< not used elsewhere until the run is over, stop() apart
-    std::filesystem::path program;        ///< in place of tactoscope-script, where it is not empty
-    StopMark asked = {};                  ///< of the bench's stops(): when the operator asked for the run
-    SessionWriter* session = nullptr;     ///< null records nothing
+    Bench* bench = nullptr;               ///< used by nobody else until the run is over, except for stop()
+    std::filesystem::path program;        ///< runs instead of tactoscope-script, where it is not empty
+    StopMark asked = {};                  ///< the bench's stops() when the operator asked for the run
+    SessionWriter* session = nullptr;     ///< where null, nothing is recorded
     PilotSession* pilot = nullptr;        ///< what the object `pilot` works on; null: there is none
-    Operator* operatorDesk = nullptr;     ///< not owned; null: every question fails with its name
+    Operator* operatorDesk = nullptr;     ///< not owned; where null, every question fails with its name
     std::filesystem::path captureFolder;  ///< each capture as a CSV file there; empty writes none
     std::function<void(const ScriptProgress&)> onProgress;  ///< on the script's thread; may be empty
     std::function<void(const std::string&)> onLog;          ///< on the script's thread; may be empty
@@ -80,14 +80,14 @@ inline constexpr Word<ScriptVerdict> kScriptVerdicts[] = {{"pass", ScriptVerdict
 
 struct ScriptOutcome {
     ScriptVerdict verdict = ScriptVerdict::None;
-    std::vector<std::string> reasons;  ///< of the verdict, one sentence each
+    std::vector<std::string> reasons;  ///< reasons for the verdict, one sentence each
     /// What the verdict was given; null without one. After an early end what record.partial() kept, with partial: true.
     nlohmann::json results;
     std::optional<Error> error;  ///< "file:line: reason" when run() did not return
-    std::string file;            ///< of the error
+    std::string file;            ///< the file in which the error stands
     int line = 0;
-    std::uint64_t expectedFaults = 0;  ///< of the bench: provoked on purpose, found and reset by the script's trips
-    std::vector<std::string> log;      ///< what log() said
+    std::uint64_t expectedFaults = 0;  ///< faults that the script's trips provoke on purpose, find and reset
+    std::vector<std::string> log;      ///< the lines from log()
 };
 
 class ScriptRun {
@@ -108,12 +108,12 @@ public:
     void resume() noexcept;
     /// The number of the script's process, to look at it or to end it.
     [[nodiscard]] int processId() const noexcept;
-    /// Whether it waits, or will at its next host call.
+    /// Whether it waits, or will wait at its next host call.
     [[nodiscard]] bool paused() const noexcept;
 
     /// Blocks until the script has ended. On return the bench is disarmed.
     [[nodiscard]] ScriptOutcome wait();
-    /// The same, giving up after `time`: nothing then, and the script goes on.
+    /// Waits as wait() does, but gives up after `time`: nothing then, and the script continues.
     [[nodiscard]] std::optional<ScriptOutcome> waitFor(std::chrono::milliseconds time);
 
 private:

@@ -116,7 +116,7 @@ namespace {
 /// unlike trains would pass for an error of the stimulator (hazard H1).
 bool programmedAlike(const Capture& capture, const Telemetry& now, const EncodingProfile& encoding) {
     constexpr double kSame = 1e-3;    // relative
-    constexpr double kNear_s = 0.05;  // from the planned onset to the trigger
+    constexpr double kNear_s = 0.05;  // seconds from the planned onset to the trigger
     const auto same = [](double a, double b) { return std::abs(a - b) <= kSame * std::max(std::abs(a), std::abs(b)); };
     const double end_s = capture.start_s + static_cast<double>(capture.samples()) / capture.rate_hz;
     std::vector<ProgrammedTrain> programmed;
@@ -141,8 +141,8 @@ bool programmedAlike(const Capture& capture, const Telemetry& now, const Encodin
 
 }  // namespace
 
-/// What was asked of the stimulator, on its own grid: that is what the gate judged and the device was programmed to. A
-/// record of no one command has no amplitude: another train's would pass for an error of the stimulator.
+/// The command to the stimulator, on its own grid: the gate judged it and the device was programmed to it. A record
+/// with more than one command has no amplitude: another train's would pass for an error of the stimulator.
 CapturedCommand ScriptSession::commandOf(const Capture& capture) const {
     const auto& bench = *request_.bench;
     const Telemetry now = bench.telemetry();
@@ -317,7 +317,7 @@ nlohmann::json ScriptSession::takePartial() {
     if (const auto kind = kindOf(out); !kind.empty()) out["kind"] = kind;
     addBasis(out);
     out["partial"] = true;
-    out["verdict"] = nullptr;  // nothing that ended early passes, whatever it had come to (hazard H9)
+    out["verdict"] = nullptr;  // nothing that ended early passes, whatever its result so far (hazard H9)
     if (request_.session == nullptr) return out;
     for (const auto& table : partialTables_) {
         nlohmann::json item = table;
@@ -366,7 +366,7 @@ void ScriptSession::recordBasis(const nlohmann::json& results) {
     for (const auto* key : {"kind", "decision_rule", "rests_on", "not_evaluated", "instruments", "reference"}) {
         if (results.contains(key)) basis[key] = results[key];
     }
-    // A report that lacks it says that it is not known.
+    // A report without it says that it is not known.
     (void)request_.session->reportItem(now(), {{"kind", "basis"}, {"results", std::move(basis)}});
 }
 

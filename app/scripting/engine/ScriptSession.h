@@ -50,7 +50,7 @@ public:
     [[nodiscard]] Result<nlohmann::json> ask(const OperatorQuestion& question);
     /// Asks the operator to do something, and to confirm it. Errors: as ask().
     [[nodiscard]] Result<void> askTo(std::string name, std::string text);
-    /// What the operator confirmed in this run, until a load is changed.
+    /// The text that the operator confirmed in this run, until a load is changed.
     [[nodiscard]] bool hasConfirmed(const std::string& text) const { return confirmed_.contains(text); }
     void noteConfirmed(const std::string& text) { confirmed_.insert(text); }
     void forgetConfirmed() { confirmed_.clear(); }
@@ -65,15 +65,15 @@ public:
     [[nodiscard]] nlohmann::json hold(std::vector<Capture> captures);
     /// The captures behind a list of handles. Errors: InvalidArgument for what is not a handle or is held no longer.
     [[nodiscard]] Result<std::vector<const Capture*>> held(const nlohmann::json& handles) const;
-    /// What was commanded when each of them was taken. Errors: as held().
+    /// The command of each capture when it was taken. Errors: as held().
     [[nodiscard]] Result<std::vector<CapturedCommand>> commandsOf(const nlohmann::json& handles) const;
 
-    /// What the program itself read and computed in this run.
+    /// The program's own readings and results in this run.
     [[nodiscard]] RunReadings& own() noexcept { return own_; }
     /// The number that the operator gave the parameter `name` on purpose; nothing where it is the script's default.
     [[nodiscard]] std::optional<double> operatorsNumber(const std::string& name) const;
-    /// Whether the operator gave this text: as a parameter, as what was entered for a question, or as one of the words
-    /// of these (between blanks or semicolons).
+    /// Whether the operator gave this text: as a parameter, as the answer to a question, or as one word of these
+    /// (between blanks or semicolons).
     [[nodiscard]] bool isOperatorsText(const std::string& text) const;
     /// The profile as the operator chose it, before the script changed anything for its run.
     [[nodiscard]] const Profile& chosenProfile() const noexcept { return chosen_; }
@@ -93,8 +93,8 @@ public:
     [[nodiscard]] Result<void> reportText(const std::string& text) {
         return reportItem({{"kind", "text"}, {"text", text}});
     }
-    /// As the event "script: KIND": no event of the program begins like this, and "script not started" is one (hazard
-    /// H9).
+    /// Keeps it as the event "script: KIND": no event of the program begins like this, and "script not started" is one
+    /// (hazard H9).
     [[nodiscard]] Result<void> keepEvent(const std::string& kind, const nlohmann::json& details);
     [[nodiscard]] Result<void> keepMeasurement(std::string_view name, const nlohmann::json& values);
 
@@ -105,7 +105,7 @@ public:
     /// One capture of each condition, in the order first met: what plot.waveforms shows.
     struct Exemplar {
         std::string condition;
-        std::optional<std::int64_t> row;  ///< of the session file
+        std::optional<std::int64_t> row;  ///< the row in the session file
         Capture capture;
     };
     [[nodiscard]] std::span<const Exemplar> exemplars() const noexcept { return exemplars_; }
@@ -119,11 +119,11 @@ public:
     void noteExpectedFault() noexcept { ++expectedFaults_; }
     [[nodiscard]] std::uint64_t expectedFaults() const noexcept { return expectedFaults_; }
 
-    /// What prints and reads results goes by what they are, not by what they happen to hold: by the kind of the
-    /// analysis that the script returns, else by the one that it declares.
+    /// Code that prints and reads results goes by their kind, not by what they happen to hold: the kind of the analysis
+    /// that the script returns, else the kind that it declares.
     [[nodiscard]] std::string kindOf(const nlohmann::json& results) const;
 
-    /// What stands if the run ends early: results, and tables {caption, rows, columns} for the report.
+    /// Keeps results for the case that the run ends early, and tables {caption, rows, columns} for the report.
     void keepPartial(nlohmann::json results, nlohmann::json tables);
     /// The kept results, marked, and their tables written into the report; null where nothing was kept.
     [[nodiscard]] nlohmann::json takePartial();
@@ -137,7 +137,7 @@ public:
 
 private:
     [[nodiscard]] InstrumentStatement operatorsStatement() const;
-    /// What the run's captures state, into its results.
+    /// Adds what the run's captures state to its results.
     void addBasis(nlohmann::json& results) const;
     ScopeSeen scopeSeen_;
     struct Held {

@@ -47,7 +47,7 @@ std::size_t available() noexcept {
     return kilobytes == 0 ? kMaxGuardedBytes : std::size_t{1024} * kilobytes;
 }
 
-/// The first number in a file of the kernel's; nothing where there is none ("max").
+/// The first number in a file of the kernel's; nothing where it has none ("max").
 std::optional<std::size_t> numberIn(const std::string& path) {
     std::ifstream file(path);
     std::size_t value = 0;
@@ -55,7 +55,7 @@ std::optional<std::size_t> numberIn(const std::string& path) {
     return value;
 }
 
-/// What the control group of this program leaves it, in bytes: of the group itself and of those around it.
+/// The bytes that this program's control group leaves it: its own group and those around it.
 std::size_t leftByGroup() {
     std::size_t left = std::numeric_limits<std::size_t>::max();
     std::ifstream groups("/proc/self/cgroup");

@@ -1,5 +1,5 @@
 // MemoryGuard.h - watches how much memory a process takes while a script runs: the script's own, and the program's,
-// which keeps what the script makes it keep. Otherwise the kernel would kill one of them (hazard H10).
+// which keeps what the script tells it to keep. Otherwise the kernel would kill one of them (hazard H10).
 //
 // Thread-safety: constructed and destroyed by one thread; `onExceeded` is called once, from the guard's own thread.
 #pragma once

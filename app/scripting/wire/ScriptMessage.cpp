@@ -23,7 +23,7 @@ class Mover {
 public:
     Mover(int socket, const WhileWaiting& waiting) : socket_(socket), waiting_(waiting) {}
 
-    /// All of them, or an error. `move`: recv() or send() of what is left.
+    /// Moves all of the bytes, or returns an error. `move`: recv() or send() of what is left.
     template <class Move>
     Result<void> all(std::size_t size, short when, Move move) {
         for (std::size_t done = 0; done < size;) {
@@ -43,7 +43,7 @@ public:
     }
 
 private:
-    /// By the clock: an end that sends a byte now and then is waited for as one that sends none.
+    /// Judged by the clock: an end that sends a byte now and then is waited for no longer than a silent one.
     Result<void> look() {
         if (!waiting_ || std::chrono::steady_clock::now() < next_) return {};
         next_ = std::chrono::steady_clock::now() + kLook;
@@ -85,7 +85,7 @@ Result<nlohmann::json> receiveMessage(int socket, const WhileWaiting& waiting) {
         size |= static_cast<std::size_t>(static_cast<unsigned char>(head[i])) << (8 * i);
     if (size > kMaxFrame) return fail(ErrorCode::ParseError, "a message of {} bytes", size);
     std::string frame;
-    constexpr std::size_t kBlock = std::size_t{1} << 20;  // what is announced may never come
+    constexpr std::size_t kBlock = std::size_t{1} << 20;  // announced bytes may never come
     while (frame.size() < size) {
         const std::size_t have = frame.size();
         frame.resize(std::min(size, have + kBlock));

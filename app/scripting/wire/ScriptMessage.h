@@ -20,11 +20,11 @@ namespace tacto {
 
 /// The socket's number in tactoscope-script.
 inline constexpr int kScriptSocket = 3;
-/// How tactoscope-script ends when it was given the memory that it may have.
+/// The exit code of tactoscope-script when it has used up the memory that it may have.
 inline constexpr int kTooMuchMemory = 77;
 inline constexpr std::size_t kMaxFrame = std::size_t{64} << 20;  ///< bytes
-inline constexpr std::size_t kMaxValues = 10'000'000;            ///< of a frame
-inline constexpr int kMaxScriptDepth = 32;                       ///< of a value that a script hands over
+inline constexpr std::size_t kMaxValues = 10'000'000;            ///< values in a frame
+inline constexpr int kMaxScriptDepth = 32;                       ///< depth of a value that a script hands over
 inline constexpr std::size_t kMaxReason = 2000;                  ///< bytes of what a script throws
 
 /// Called every 100 ms while the other end is waited for; an error of its own ends the waiting.

@@ -11,7 +11,7 @@ namespace tacto::host::analysis {
 
 namespace {
 
-/// The numbers of the run's own readings that `rows` name; nothing where one of them names none.
+/// The numbers of the run's own readings that `rows` name; nothing where a row names none.
 std::optional<std::vector<std::int64_t>> ownNumbers(const Json& rows) {
     std::vector<std::int64_t> numbers;
     for (const auto& row : rows) {
@@ -25,8 +25,8 @@ std::optional<std::vector<std::int64_t>> ownNumbers(const Json& rows) {
 /// Levels of a kept calibration are told apart at least this well, relative to the largest.
 constexpr double kWidestLevel = 0.05;
 
-/// A calibration of the run's own readings: commands, readings and what the instrument states come from the program,
-/// whatever the rows say beside. `errors` grow to what the instrument states, and never shrink.
+/// A calibration of the run's own readings: commands, readings and the instrument's statements come from the program,
+/// whatever else the rows say. `errors` grow to what the instrument states, and never shrink.
 class OwnSeries {
 public:
     OwnSeries(ScriptSession& session, const OwnQuantity& quantity, std::vector<std::int64_t> numbers,
@@ -60,7 +60,7 @@ public:
         return {};
     }
 
-    /// The captures carry what the operator or else the instrument states; what neither does is not known, whatever a
+    /// The captures carry what the operator or else the instrument states; everything else is unknown, whatever a
     /// script says of it.
     void widen(InstrumentErrors& errors) {
         const bool amplitude = quantity_.isAmplitude();
@@ -202,7 +202,7 @@ namespace tacto {
 
 std::vector<HostFunction> calibrationAnalysis() {
     using namespace takes;
-    constexpr double kLargest = 1e9;  // of a tolerance
+    constexpr double kLargest = 1e9;  // the largest tolerance
     return {
         {.name = "calibration",
          .parameters =

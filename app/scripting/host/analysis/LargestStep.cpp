@@ -60,7 +60,7 @@ Json gridOf(const std::vector<std::vector<double>>& cells) {
     return rows;
 }
 
-/// What is too large, in sentences.
+/// The steps that are too large, in sentences.
 std::vector<std::string> tooLarge(const LargestSteps& steps, const char* movement) {
     std::vector<std::string> reasons;
     const auto judge = [&](const char* what, const TransitionStep& step, double jnd, double from, double to,
@@ -93,7 +93,7 @@ std::vector<HostParameter> sweepSettings(bool ofOptions) {
 
 Result<Json> computedTransitions(ScriptSession& session, const Arguments& arguments, int lines, double traverse,
                                  bool jumps) {
-    // No more than a moment of computing: a stop does not wait for it.
+    // Computing takes no longer than a moment, as a stop does not wait for it.
     constexpr double kMaxSweep_s = 12'000;
     if (!(lines * traverse <= kMaxSweep_s))
         return arguments.wrong("traverse_s", traverse, fmt::format("at most {:g} s divided by the lines", kMaxSweep_s));

@@ -156,7 +156,7 @@ Result<Variation> predicted(ScriptSession& session, const VariationOptions& opti
     });
     if (!found && found.error().code != ErrorCode::Stopped) return found;
     if (stopped) {
-        // What is done by then stands as a partial result, in the run's outcome and its report.
+        // The work done by then stands as a partial result, in the run's outcome and its report.
         if (found) session.keepPartial(toJson(*found, options), Json::array());
         return tl::unexpected<Error>(*stopped);
     }

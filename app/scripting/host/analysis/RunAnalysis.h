@@ -16,22 +16,22 @@ using Json = nlohmann::json;
 
 struct CalibrationAsked {
     std::string quantity = "amplitude";
-    double tolerance_pct = 2;  ///< of the command at each level
+    double tolerance_pct = 2;  ///< relative to the command at each level
     CalibrationOptions fit;
-    /// What the instrument states of itself comes from the readings; these may widen it.
+    /// The instrument's own statements come from the readings; these may widen them.
     InstrumentErrors errors;
 };
 /// The calibration of one quantity as analysis.calibration() returns it; `readings` as it takes them. Errors:
-/// InvalidArgument for a reading that is none; as fitCalibration().
+/// InvalidArgument for an entry that is no reading; as fitCalibration().
 [[nodiscard]] Result<Json> calibrationOf(ScriptSession& session, const Json& readings, const CalibrationAsked& asked);
 
-/// As analysis.separability() returns it. Errors: InvalidArgument named after the function that was called.
+/// The result of analysis.separability(). Errors: InvalidArgument named after the function that was called.
 [[nodiscard]] Result<Json> separabilityOf(const Arguments& arguments, const Json& trials,
                                           std::vector<std::string> conditions);
 
 /// Members lines, traverse_s and jumps of "options" or "settings".
 [[nodiscard]] std::vector<HostParameter> sweepSettings(bool ofOptions);
-/// As analysis.transitions() returns it, by the encoding in force.
+/// The result of analysis.transitions(), by the encoding in force.
 [[nodiscard]] Result<Json> computedTransitions(ScriptSession& session, const Arguments& arguments, int lines,
                                                double traverse_s, bool jumps);
 

@@ -12,7 +12,7 @@ namespace tacto::host::analysis {
 
 namespace {
 
-// No more than a moment of computing: a stop does not wait for it.
+// Computing takes no longer than a moment, as a stop does not wait for it.
 constexpr std::size_t kMaxTrials = 20'000, kMaxConditions = 64;
 
 Result<std::vector<SeparabilityTrial>> trialsFrom(const Arguments& arguments, const Json& rows) {

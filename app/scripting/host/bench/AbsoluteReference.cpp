@@ -45,7 +45,7 @@ Result<Level> levelAt(ScriptSession& session, double volts, double range_V) {
     settings.sampleRate = std::min(Hertz(1e5), bench.devices().oscilloscope->traits().maxRate);
     settings.samples = 5000;
     settings.voltageRange = Volts(range_V);
-    settings.triggerLevel = 0.98 * range_V;  // nothing reaches it
+    settings.triggerLevel = 0.98 * range_V;  // a level that nothing reaches
     if (auto asked = bench.requestCaptures(1, settings, Seconds(0.2)); !asked) return failure(asked);
     constexpr double kTimeout_s = 10, kPoll_s = 0.05;
     for (double waited = 0; waited < kTimeout_s; waited += kPoll_s) {
@@ -87,7 +87,7 @@ Reading differenceOf(const Level& high, const Level& zero, double source_pct) {
     return readingOf(value, std::move(rows), {});
 }
 
-/// One rule everywhere: |reading - reference| + U ≤ tolerance.
+/// The rule is the same everywhere: |reading - reference| + U ≤ tolerance.
 Result<Json> read(ScriptSession& session, double volts, double source_pct, double tolerance_pct) {
     Bench& bench = session.bench();
     bench.disarm();

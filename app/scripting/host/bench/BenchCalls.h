@@ -23,7 +23,7 @@ using Json = nlohmann::json;
 /// an unknown key or a value outside its range; as Bench::setProfile().
 [[nodiscard]] Result<void> changeEncoding(Bench& bench, const Json& changes);
 
-/// As bench.devices and bench.calibration return it.
+/// The value of bench.devices and bench.calibration.
 [[nodiscard]] Json devicesOf(ScriptSession& session);
 [[nodiscard]] Result<Json> storedCalibration(ScriptSession& session);
 
@@ -32,16 +32,15 @@ struct KnownLoad {
     double tolerance_pct;     ///< how far the reading may lie from the load, its uncertainty included
     double itsTolerance_pct;  ///< the load's own
 };
-/// Whether a known load reads as what it is, judged and recorded: { load_ohm, measured_ohm, expanded_ohm,
-/// deviation_pct, expanded_uncertainty_pct, allowed_pct, verdict, passed, reason }; `reading` is one of
-/// measure.pulse(). Errors: Io.
+/// Whether a known load reads as it should, judged and recorded: { load_ohm, measured_ohm, expanded_ohm, deviation_pct,
+/// expanded_uncertainty_pct, allowed_pct, verdict, passed, reason }; `reading` is one of measure.pulse(). Errors: Io.
 [[nodiscard]] Result<Json> judgeReference(ScriptSession& session, const Json& reading, const KnownLoad& known);
 /// bench.readKnownLoad(): arms, reads one train of the strongest command, and judges it. The output stays armed.
 [[nodiscard]] Result<Json> knownLoad(ScriptSession& session, double load_ohm, double tolerance_pct);
 
 /// Members of "settings" of a reference source: reference_v, 0 for none, and reference_u_pct.
 [[nodiscard]] std::vector<HostParameter> absoluteSettings();
-/// As bench.readReference() returns it; null where the settings have no source.
+/// The result of bench.readReference(); null where the settings have no source.
 [[nodiscard]] Result<Json> absoluteReading(ScriptSession& session, const Arguments& arguments, double tolerance_pct);
 
 struct Sliding {
@@ -57,15 +56,15 @@ struct Sliding {
 
 /// How much of a record lies before a train's onset.
 inline constexpr double kPreTrigger = 0.15;
-/// After the last pulse of a train: the charge runs off.
+/// The time after the last pulse of a train in which the charge runs off.
 inline constexpr Seconds kTrainTail{3e-4};
 
 /// A record of one whole train of the bench's encoding and its tail: rate, length and place of the trigger.
 [[nodiscard]] ScopeSettings trainRecord(const Bench& bench, Hertz rate);
-/// |Z| of now; until it was measured, 1 kΩ.
+/// the present |Z|; 1 kΩ until it was measured
 [[nodiscard]] Ohms presentLoad(const Telemetry& now) noexcept;
 
-/// How the records are taken. NaN, and 0 samples: as the command, the train and |Z| of now suggest.
+/// How the records are taken. NaN, and 0 samples: as the present command, train and |Z| suggest.
 struct CaptureOptions {
     int trains = 1;
     double rate_hz = kNaN;

@@ -27,10 +27,10 @@ ScopeSettings scopeSettings(Bench& bench, const CaptureOptions& options) {
     return settings;
 }
 
-/// One record that holds `trains` trains at the interval of now: from one record to another their distance is known
+/// One record that holds `trains` trains at the present interval: from one record to another their distance is known
 /// only as well as the records' time stamps are (science.md section 12).
 Result<std::vector<Capture>> captureInOne(Bench& bench, int trains, ScopeSettings settings) {
-    constexpr double kBefore = 0.05, kSpare = 0.1;  // of the record; of an interval
+    constexpr double kBefore = 0.05, kSpare = 0.1;  // a share of the record, and a share of an interval
     constexpr double kMaxSamples = 5e5, kMinRate_hz = 1e5;
     const double interval_s = bench.telemetry().interval_s;
     if (!(interval_s > 0) || !std::isfinite(interval_s))

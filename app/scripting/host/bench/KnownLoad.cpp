@@ -13,7 +13,7 @@ namespace tacto::host::bench {
 
 namespace {
 
-/// What is wrong with a check that did not pass, as a sentence.
+/// The fault of a check that did not pass, as a sentence.
 std::string whyNot(std::string_view verdict, const Json& check, double load, double tolerance_pct) {
     const auto at = [&check](const char* key) { return check.value(key, Json()); };
     const auto text = [&](const char* key, const char* missing) {
@@ -38,7 +38,7 @@ std::string whyNot(std::string_view verdict, const Json& check, double load, dou
 
 }  // namespace
 
-/// One rule everywhere: |reading - reference| + U ≤ tolerance (science.md section 12).
+/// The rule is the same everywhere: |reading - reference| + U ≤ tolerance (science.md section 12).
 Result<Json> judgeReference(ScriptSession& session, const Json& reading, const KnownLoad& known) {
     const auto [load, tolerance_pct, load_pct] = known;
     const double measured = numberOr(reading, "load_ohm");

@@ -1,5 +1,5 @@
-// What a protocol changes of the profile and the stimulator for its run: encoding, electrode
-// area, calibration.
+// The changes that a protocol makes to the profile and the stimulator for its run: encoding, electrode area,
+// calibration.
 #include <algorithm>
 #include <optional>
 

@@ -1,4 +1,4 @@
-// What a protocol can read off the bench, and what stands on it.
+// The state of the bench for a protocol, and what stands on it.
 #include <algorithm>
 #include <limits>
 

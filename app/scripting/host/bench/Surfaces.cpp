@@ -19,7 +19,7 @@ Result<void> slide(ScriptSession& session, const Sliding& sliding) {
 
 namespace {
 
-/// With the options speed_mm_s and force_n; `usualForce_n` where the function has no default.
+/// A slide with the options speed_mm_s and force_n; `usualForce_n` where the function has no default.
 Sliding slidingOver(std::string material, const Arguments& arguments, double usualForce_n = 1) {
     return {std::move(material), arguments.number("options.speed_mm_s"),
             arguments.number("options.force_n", usualForce_n)};
@@ -109,7 +109,7 @@ Result<Json> measureReference(ScriptSession& session, const Arguments& arguments
 Result<Json> setReferences(ScriptSession& session, const Arguments& arguments) {
     const Json& smooth = arguments.object("smooth");
     const Json& rough = arguments.object("rough");
-    // What gives R its scale, and so trains their amplitude, is felt on this rig and not made up (hazard H7).
+    // The scale of R, and so the amplitude of trains, is felt on this rig and not made up (hazard H7).
     for (const auto& [name, said] : {std::pair("smooth", &smooth), std::pair("rough", &rough)}) {
         if (!session.own().noted(*said))
             return arguments.wrong(name, *said, "what bench.measureReference() returned in this run, unchanged,");
@@ -121,13 +121,13 @@ Result<Json> setReferences(ScriptSession& session, const Arguments& arguments) {
     int set = 0;
     for (const auto& [key, scale] : {std::pair<const char*, ReferenceScale*>{"h", &spectral}, {"v", &taxel}}) {
         const ReferenceScale measured{numberOr(smooth, key), numberOr(rough, key)};
-        if (std::isnan(measured.smooth) && std::isnan(measured.rough)) continue;  // this rig does not have it
+        if (std::isnan(measured.smooth) && std::isnan(measured.rough)) continue;  // this rig does not have that feature
         *scale = measured;
         ++set;
     }
     if (set == 0) return arguments.wrong("smooth", smooth, "what bench.measureReference() returned");
     settings.calibrated = true;
-    settings.uncertainty.reset();  // each reference was slid over once: what it repeats to is not known
+    settings.uncertainty.reset();  // one slide over each reference does not tell how well it repeats
     // The references are of this fingertip from now on; scales of another one are not.
     if (const auto& sensor = session.bench().devices().sensor; sensor && settings.sensor) {
         if (matchOf(*settings.sensor, sensor->identity().serial) == FingertipMatch::Another) settings.sensor.reset();

@@ -29,7 +29,7 @@ struct Named {
     double roughness, pressure;
 };
 
-/// What a comparison has come to: the first of the encodings is the default that the others are compared with.
+/// The state of a comparison: the first of the encodings is the default, with which the others are compared.
 struct Comparison {
     double low = 0, high = 0, load_ohm = 0, load_pct = 0, traverse_s = 0;
     Json reference = {};
@@ -62,7 +62,7 @@ Json listOf(const std::vector<Named>& places) {
     return out;
 }
 
-// NaN where one was not measured, or there is none.
+// NaN where a value was not measured, or does not exist.
 
 double largest(const std::vector<double>& values) {
     double most = -std::numeric_limits<double>::infinity();
@@ -84,7 +84,7 @@ double mean(const std::vector<double>& values) {
     return values.empty() ? kNaN : sum / static_cast<double>(values.size());
 }
 
-/// Of one member of rows.
+/// The values of one member of the rows.
 std::vector<double> columnOf(const Json& rows, const char* key) {
     std::vector<double> values;
     for (const auto& row : rows) values.push_back(numberOr(row, key));
@@ -125,7 +125,7 @@ Json neighboursOf(const Json& pairs) {
             {"mean_jnd", numberOrNull(mean(all))}};
 }
 
-/// How many just-noticeable differences lie between two values; below 0 where the second is smaller.
+/// The difference of two values in just-noticeable differences; below 0 where the second is smaller.
 double difference(const Json& from, const Json& to, const char* quantity) {
     const bool isAmplitude = std::string_view(quantity) == "amplitude";
     const char* key = isAmplitude ? "amplitude_v" : "interval_s";
@@ -148,7 +148,7 @@ std::array<double, 6> distancesOf(const Json& each) {
 }
 
 /// How far the two assignments of a curve differ as measured, once smooth-high and rough-low have changed places: the
-/// largest over all distances and conditions, just-noticeable differences. NaN before a curve was measured under both.
+/// largest over all distances and conditions, in just-noticeable differences. NaN until both were measured.
 double asymmetryOf(const Json& done) {
     std::vector<double> found;
     for (const auto& usual : done) {
@@ -204,7 +204,7 @@ Json conditionRows(const Json& done, const Json& differences) {
     return rows;
 }
 
-/// All curves that come within a hundredth of the best: measurement does not tell them apart.
+/// All curves within a hundredth of the best: measurement does not tell them apart.
 template <class Key>
 std::string bestOf(const std::vector<Json>& curves, const Key& key) {
     std::vector<double> values;
@@ -230,7 +230,7 @@ std::string conclusionOf(const Json& done) {
         bestOf(curves, [](const Json& each) { return -numberOr(each, "gradual_jnd"); }));
 }
 
-/// What the figures say by themselves, and where they end.
+/// What the figures say by themselves, and where their meaning ends.
 std::string symmetryOf(double asymmetry) {
     return fmt::format(
         "Swapping R and P is a symmetry of this metric: it exchanges smooth-high and rough-low, and texture and "
@@ -240,7 +240,7 @@ std::string symmetryOf(double asymmetry) {
         std::isnan(asymmetry) ? "" : fmt::format(" (measured: within {:.2f} JND)", std::max(kAtLeast_jnd, asymmetry)));
 }
 
-/// What is the same for all is said once.
+/// Says once what is the same for all.
 std::string sameForAll(const Json& done) {
     const auto known = [](const Json& estimate, const char* key) {
         const double value = numberOr(estimate, key);
@@ -380,8 +380,8 @@ std::vector<HostFunction> encodingComparisonFunctions() {
                         number("settings.load_tolerance_pct", "%", "within which it must read").range(0, 100),
                         number("settings.traverse_s", "s", "in which a finger crosses the plane").range(0.1, 600)},
          .text = "Begins the comparison, and says in the report what it cannot decide.",
-         .returns = "{ conditions, levels }: what is to be presented under each encoding, lists of { name, roughness, "
-                    "pressure }.",
+         .returns = "{ conditions, levels }: two lists of { name, roughness, pressure }, to be presented under each "
+                    "encoding.",
          .call = host::encoding_comparison::begin},
         {.name = "knownLoad",
          .text = "As bench.readKnownLoad(), and disarms.",

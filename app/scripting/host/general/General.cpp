@@ -82,7 +82,7 @@ std::vector<HostFunction> generalFunctions() {
          .text = "Goes through a list in a for...of loop and shows how far it is.",
          .returns = "What for...of takes.",
          .call = host::general::progress,
-         .javascript =  // By hand: a frozen generator's objects do not iterate in this engine.
+         .javascript =  // Written by hand, as a frozen generator's objects do not iterate in this engine.
          R"js((list, label) => {
             const total = list && list.length, done = { value: undefined, done: true };
             native(0, total, label);

@@ -10,11 +10,11 @@ namespace tacto::host::load_safety {
 
 namespace {
 
-constexpr double kIntervals = 1.2;  // of a wait: the next train has come, also a little late
+constexpr double kIntervals = 1.2;  // how many intervals to wait: the next train has come by then, even a bit late
 
 struct Attempt {
     bool refused = false;
-    std::string reason;  ///< of the refusal
+    std::string reason;  ///< why it was refused
 };
 
 /// Asks for one train of this command while armed; the drive is off again afterwards.
@@ -72,7 +72,7 @@ Result<Json> readTrains(ScriptSession& session, const LoadCommand& command, int 
         if (!rhythm) return rhythm;
         captures.rhythm = std::move(*rhythm);
     }
-    // Where current settles far below a charging spike, it is read in a range of its own.
+    // A current that settles far below a charging spike is read in a range of its own.
     if (std::isfinite(command.fineRange_ma)) {
         options.currentRange_ma = command.fineRange_ma;
         auto fine = held(session, options);

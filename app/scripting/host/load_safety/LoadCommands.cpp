@@ -1,4 +1,4 @@
-// What a command would do to a load before it is given.
+// The effect of a command on a load, before it is given.
 #include "app/scripting/host/load_safety/LoadCommands.h"
 
 #include <algorithm>
@@ -15,8 +15,8 @@ namespace tacto::host::load_safety {
 
 namespace {
 
-constexpr double kHeadroom = 1.5;     // of the range over the expected peak: an output that is too large still shows
-constexpr double kTimeConstants = 8;  // of tail: what is left is 0.03 %
+constexpr double kHeadroom = 1.5;     // range over the expected peak: an output that is too large still shows
+constexpr double kTimeConstants = 8;  // length of the tail: 0.03 % is left at its end
 constexpr double kLongestTail_s = 0.02;
 
 /// V, or mA.
@@ -34,7 +34,7 @@ std::string forbids(const GateSetup& setup, const PulseTrain& train, Seconds int
                        exactText(row->limit, row->unit), row->set.view());
 }
 
-/// What forbids arming on this load: every arming gives an impedance check first.
+/// The limit that forbids arming on this load: every arming gives an impedance check first.
 std::string forbidsCheck(const GateSetup& setup) {
     const PulseTrain check = checkTrainOf(setup);
     const auto why = forbids(setup, check, checkInterval(check));
@@ -102,7 +102,7 @@ Result<LoadCommand> commandFor(ScriptSession& session, const std::string& name, 
     out.forbidden = forbids(setup, train, command->interval);
     const double area = setup.electrodeArea ? setup.electrodeArea->value() : kNaN;
     const auto most = exposureOf(train, command->interval, *load, source, area);
-    // Where a skin equivalent's current has settled it is far below its charging spike: a range of its own for it.
+    // Once a skin equivalent's current has settled, it is far below its charging spike, and gets a range of its own.
     constexpr double kOverTheEnd = 5e3;  // mA per A
     const bool spikes = load->kind == LoadKind::SkinEquivalent && source.drive == Drive::Voltage;
     if (spikes) out.fineRange_ma = kOverTheEnd * out.command_v / ohms.value();

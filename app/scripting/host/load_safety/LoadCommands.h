@@ -17,18 +17,18 @@ struct LoadCommand {
     std::string load;
     double roughness = 0, pressure = 0;
     double command_v = 0, interval_s = 0;
-    std::string checkForbidden{};     ///< what forbids the impedance check, and so arming; empty: nothing
+    std::string checkForbidden{};     ///< the limit that forbids the impedance check, and so arming; empty: none
     std::string notApplicable{};      ///< why the device cannot give it; empty: it can, and the rest is stated
     std::string forbidden{};          ///< the limit that forbids it; empty: none does
-    double fineRange_ma = kNaN;       ///< for current that settles far below a charging spike; NaN: there is none
-    bench::CaptureOptions capture{};  ///< that show the whole train
+    double fineRange_ma = kNaN;       ///< range for current that settles far below a charging spike; NaN: there is none
+    bench::CaptureOptions capture{};  ///< captures must show the whole train
 };
 
-/// What is to be given on a load, by computation: `count` commands at the shortest interval, from the weakest amplitude
-/// to the strongest in even steps. Errors: InvalidArgument for a load that cannot be read; as Encoder::encode().
+/// The computed commands for a load: `count` commands at the shortest interval, from the weakest amplitude to the
+/// strongest in even steps. Errors: InvalidArgument for a load that cannot be read; as Encoder::encode().
 [[nodiscard]] Result<std::vector<LoadCommand>> commandsFor(ScriptSession& session, const std::string& load, int count);
-/// How strong the strongest of these is that the device can give and the limits allow: 0 the weakest to 1 the
-/// strongest. Nothing where there is none.
+/// The strongest of these that the device can give and the limits allow, counted from the weakest at 0. Nothing where
+/// there is none.
 [[nodiscard]] std::optional<std::size_t> strongestOf(const std::vector<LoadCommand>& commands);
 
 /// Arms as bench.arm() does. Nothing when armed, else what is wrong with this load, which ends its part of the check

@@ -22,12 +22,12 @@ namespace {
 constexpr const char* kUsualLoad = "1 kohm";
 constexpr const char* kBurstLoad = "500 ohm";
 
-/// What a check has come to, in the shapes of LoadSafetyJson.h.
+/// The state of a check, in the shapes of LoadSafetyJson.h.
 struct LoadCheck {
     LoadSafetyTolerances tolerances;
     std::string knownLoad;
-    int trains = 0, commands = 0;  ///< read of a command; of a load
-    bool multimeter = false;       ///< its readings are asked for
+    int trains = 0, commands = 0;  ///< figures read for a command; figures of a load
+    bool multimeter = false;       ///< readings of a multimeter are asked for
     double silence_s = 0;
     Json loads = Json::array(), trips = Json::array();
     Json reference, absolute, openCircuit;
@@ -42,7 +42,7 @@ LoadSafetyTolerances tolerancesFrom(const Arguments& arguments) {
     return out;
 }
 
-/// What the bench is and may deliver; loads and trips come from the check.
+/// The bench and what it may deliver; loads and trips come from the check.
 LoadSafetyInput inputFor(Bench& bench, const LoadSafetyTolerances& tolerances) {
     LoadSafetyInput input;
     const auto& profile = bench.profile();
@@ -95,7 +95,7 @@ Result<Json> judged(ScriptSession& session, const LoadCheck& check) {
     return out;
 }
 
-/// The same, kept in case the run ends early.
+/// Keeps the record, in case the run ends early.
 Result<Json> keep(ScriptSession& session, const LoadCheck& check) {
     auto found = judged(session, check);
     if (found) session.keepPartial(*found, Json::array());
@@ -106,7 +106,7 @@ Json newLoad(const std::string& name) {
     return {{"name", name}, {"steps", Json::array()}, {"refusals", Json::array()}, {"undriven", Json::array()}};
 }
 
-/// From a multimeter, where the technician has one at hand.
+/// Enters a reading of a multimeter, where the technician has one at hand.
 Result<void> enterValue(ScriptSession& session, Json& load) {
     const auto name = load["name"].get<std::string>();
     std::string key;
@@ -180,7 +180,7 @@ Result<void> askToArm(ScriptSession& session, Json& load, const std::string& for
     return {};
 }
 
-/// By its first command: a load that is not what it should be gets no other. Empty when it is, else why not.
+/// Judges the load by its first command: a wrong load gets no other. Empty when it is right, else why it is not.
 Result<std::string> wrongValue(ScriptSession& session, const Json& load, const LoadSafetyTolerances& tolerances) {
     const auto record = loadRecordFrom(load);
     if (!record) return failure(record);
@@ -188,7 +188,7 @@ Result<std::string> wrongValue(ScriptSession& session, const Json& load, const L
     return row.verdict == RowVerdict::Pass ? std::string() : row.reason;
 }
 
-/// Its value is verified first: nothing else is asked of a load that is not what it should be.
+/// The load's value is verified first: a load with a wrong value gets no further commands.
 Result<void> measureInto(ScriptSession& session, Json& load, const LoadCheck& check) {
     const auto name = load["name"].get<std::string>();
     const auto commands = commandsFor(session, name, check.commands);
@@ -265,7 +265,7 @@ Result<Json> knownLoad(ScriptSession& session, const Arguments& arguments) {
     return Json(std::ranges::all_of((*found)["rows"], passed) && (absolute.is_null() || absolute["passed"] == true));
 }
 
-/// What a load has come to is at once a row of the session, and of the window.
+/// The result of a load is at once a row of the session, and of the window.
 Result<Json> load(ScriptSession& session, const Arguments& arguments) {
     const auto check = session.begun<LoadCheck>(arguments.object());
     if (!check) return failure(check);
@@ -293,7 +293,7 @@ Result<Json> load(ScriptSession& session, const Arguments& arguments) {
     return done(session.addTrial(name, trial));
 }
 
-/// Into an open circuit the strongest trains, whose voltage is measured there.
+/// Delivers the strongest trains into an open circuit, where their voltage is measured.
 Result<Json> trip(ScriptSession& session, const Arguments& arguments) {
     const auto check = session.begun<LoadCheck>(arguments.object());
     if (!check) return failure(check);

@@ -1,4 +1,4 @@
-// What must end output by itself, provoked on a bench load: an open or short circuit, contact that comes and goes, a
+// Provokes on a bench load all that must end output by itself: an open or short circuit, contact that comes and goes, a
 // control loop that falls silent (hazards H2, H3).
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,7 @@ bool canTell(Bench& bench) {
 constexpr std::string_view kNoReadBack =
     "this stimulator does not read back, so only the operator can notice that the load changed";
 
-/// Without ending the output first.
+/// Changes the load without ending the output first.
 Result<void> change(ScriptSession& session, const std::string& to, const std::string& request) {
     return bench::changeLoad(session, to, "change-load", request);
 }
@@ -68,7 +68,7 @@ Result<void> startTrains(ScriptSession& session, const std::string& load, double
     return fail(ErrorCode::Timeout, "no two trains were delivered into {} within {:.1f} s", load, longest_s);
 }
 
-/// From the onset of the last train to the control loop's last step: the output had ended by then.
+/// The time from the onset of the last train to the control loop's last step: by then the output had ended.
 double sinceLastTrain(const Telemetry& seen) {
     double since = kNaN;
     for (const auto& train : seen.programmed) {
@@ -169,7 +169,7 @@ Result<Json> tripWhileDelivering(ScriptSession& session, const std::string& beco
     if (auto cleared = acknowledge(session, load, fmt::format("Fit {} again, then confirm", load)); !cleared) {
         return failure(cleared);
     }
-    // One train finds the change; with contact that comes and goes some find it still good.
+    // One train finds the change; with contact that comes and goes, some trains find it still good.
     const bool stopped = becomes == "intermittent" || seen.trainsDelivered <= delivered + 1;
     Json out = trial(name, true, stopped, after_s, seen.reason.view());
     out["command_v"] = numberOrNull(command_v);
@@ -189,7 +189,7 @@ Result<Json> tripBySilence(ScriptSession& session, const std::string& load, doub
     if (auto started = startTrains(session, load); !started) return failure(started);
     const auto delivered = bench.telemetry().trainsDelivered;
     if (auto silent = bench.withholdHeartbeat(Seconds(seconds)); !silent) return failure(silent);
-    // The loop is back and looks at what happened: it must find a fault, and must not go on.
+    // The loop is back and looks at what happened: it must find a fault, and must not continue.
     const auto waited = bench.wait(Seconds(seconds));
     const auto seen = bench.telemetry();
     if (waited) {
@@ -201,7 +201,7 @@ Result<Json> tripBySilence(ScriptSession& session, const std::string& load, doub
     }
     session.noteExpectedFault();
     if (auto reset = bench.resetFault(); !reset) return failure(reset);
-    const bool quiet = seen.trainsDelivered <= delivered + 1;  // one may have been under way
+    const bool quiet = seen.trainsDelivered <= delivered + 1;  // one train may have been under way
     const auto after = bench.silencedAfter();
     return trial("dead-man", true, quiet && after.has_value(), after ? after->count() : kNaN, seen.reason.view());
 }

@@ -1,4 +1,4 @@
-// What trains did to a load, from captures.
+// The effect of trains on a load, from captures.
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -11,8 +11,8 @@ namespace tacto::host::measure {
 
 namespace {
 
-/// What the last trains were programmed to, one more than were captured, if all were programmed alike: an instrument
-/// whose time stamps are too coarse to tell trains apart has seen no other. NaN if not.
+/// The amplitude to which the last trains were programmed, one more than were captured, if all were programmed alike:
+/// an instrument whose time stamps are too coarse to tell trains apart has seen no other. NaN if not.
 double settledAt(const Telemetry& now, std::size_t captures) {
     auto programmed = now.programmed;
     std::ranges::sort(programmed, std::ranges::greater(), &ProgrammedTrain::onset);

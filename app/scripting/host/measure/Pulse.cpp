@@ -10,7 +10,7 @@ namespace tacto::host::measure {
 
 namespace {
 
-/// What the data sheet of the channel that was read states, in the reading's unit (`scale`: mA per A).
+/// The data sheet's statements on the channel that was read, in the reading's unit (`scale`: mA per A).
 Json instrumentOf(const Capture& capture, const CaptureChannel& channel, double scale) {
     const auto positive = [](double value) { return value > 0 ? Json(value) : Json(); };
     return {{"gain_tolerance", numberOrNull(channel.gainTolerance)},
@@ -26,7 +26,7 @@ Json instrumentOf(const Capture& capture, const CaptureChannel& channel, double 
             {"full_scale", positive(channel.high * scale)}};
 }
 
-/// What was asked of the stimulator when the capture was taken.
+/// The command to the stimulator when the capture was taken.
 Json commandJson(const CapturedCommand& command) {
     return {{"amplitude", numberOrNull(command.amplitude)},
             {"interval_s", numberOrNull(command.interval_s)},
@@ -40,7 +40,7 @@ void addLoad(Json& out, const Capture& capture, const ChannelMeasurement& voltag
     const double amps = meanOfTrains(current, &TrainMeasurement::amplitude);
     const auto *v = channelOf(capture, "voltage"), *i = channelOf(capture, "current");
     if (v == nullptr || i == nullptr || !(volts > 0) || !(amps > 0)) return;
-    const bool shared = capture.gainShared;  // then it divides out
+    const bool shared = capture.gainShared;  // a shared gain divides out
     const double relative = std::hypot((shared ? withoutGain(voltage, *v) : voltage.uncertainty.amplitude) / volts,
                                        (shared ? withoutGain(current, *i) : current.uncertainty.amplitude) / amps);
     out["load_ohm"] = volts / amps;

@@ -28,7 +28,7 @@ double meanOfTrains(const ChannelMeasurement& channel, double TrainMeasurement::
 }
 
 namespace {
-/// What is left of an uncertainty without a part of it. What is not known stays so.
+/// An uncertainty without a part of it. An unknown part leaves it unknown.
 double without(double part, double all) noexcept {
     const double rest = all * all - part * part;
     return std::sqrt(rest < 0 ? 0 : rest);

@@ -20,7 +20,7 @@ double worstTimeBase(const std::vector<Capture>& captures) {
     return worst;
 }
 
-/// Relative, of the voltage's gain, which is the same in all trials; NaN where one of them does not state it.
+/// The relative uncertainty of the voltage's gain, which all trials share; NaN where one trial does not state it.
 double gainUncertainty(const std::vector<Capture>& captures) {
     double worst = 0;
     for (const auto& capture : captures) {
@@ -36,7 +36,7 @@ double gainUncertainty(const std::vector<Capture>& captures) {
 double intervalWithoutTimeBase(const ChannelMeasurement& channel, double timeBase) {
     const double base = timeBase * channel.interval_s.mean, all = channel.uncertainty.interval_s;
     const double rest = all * all - base * base;
-    return std::sqrt(rest < 0 ? 0 : rest);  // what is not known stays so
+    return std::sqrt(rest < 0 ? 0 : rest);  // an unknown value stays unknown
 }
 
 Result<Json> train(ScriptSession& session, const Arguments& arguments) {

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// What `call(pilot)` answers: JSON, or nothing. Errors: Unsupported outside a study's session; as `call`.
+/// The answer of `call(pilot)`: JSON, or nothing. Errors: Unsupported outside a study's session; as `call`.
 template <class Call>
 [[nodiscard]] Result<Json> inPilot(ScriptSession& session, const Call& call) {
     const auto pilot = session.pilot();

@@ -163,7 +163,7 @@ Result<Json> keepCalibration(ScriptSession& session, const Json& found, const Va
     const auto* before = store->latest(made.serial, made.unit);
     const Json supersedes = before == nullptr ? Json() : Json(dateText(before->made));
     if (auto added = store->add(made); !added) return failure(added);
-    session.own().note({{"kept at", made.sessionHead}});  // for the certificate
+    session.own().note({{"kept at", made.sessionHead}});  // for the certificate to name
     return Json{{"serial", made.serial},     {"valid_until", dateText(made.validUntil)}, {"supersedes", supersedes},
                 {"readings", made.readings}, {"session_head", made.sessionHead},         {"simulated", made.simulated}};
 }

@@ -14,8 +14,8 @@ struct Validity {
     std::string scopeDue{};  ///< the day on which the oscilloscope's own calibration is due; empty: not stated
 };
 
-/// As record.calibration(). `found`: { amplitude, interval, width, gap }, of which the numbers of their calibrations
-/// alone count.
+/// Keeps it as record.calibration() does. `found`: { amplitude, interval, width, gap }; only the numbers in their
+/// calibrations count.
 [[nodiscard]] Result<nlohmann::json> keepCalibration(ScriptSession& session, const nlohmann::json& found,
                                                      const Validity& validity);
 

@@ -18,8 +18,8 @@ namespace tacto::host::report {
 
 using Json = nlohmann::json;
 
-/// With so many significant digits, zeros at the end included; "–" for what is not known. Whole numbers of up to six
-/// digits are written out: 1010, not 1.01e+3.
+/// The value with so many significant digits, zeros at the end included; "–" for what is not known. Whole numbers of up
+/// to six digits are written out: 1010, not 1.01e+3.
 [[nodiscard]] inline std::string digitsOf(double value, int digits) {
     if (!std::isfinite(value)) return "–";
     const auto scientific = fmt::format("{:.{}e}", value, digits - 1);
@@ -30,7 +30,7 @@ using Json = nlohmann::json;
     return fmt::format("{:.{}f}", value, digits - 1 - exponent);
 }
 
-/// An empty list where it is absent or none.
+/// An empty list where it is missing or null.
 [[nodiscard]] inline const Json& listIn(const Json& row, const char* key) {
     static const Json kNone = Json::array();
     const auto at = row.find(key);

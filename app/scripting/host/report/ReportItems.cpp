@@ -30,7 +30,7 @@ Correction correctionOf(const Json& line) {
     return validateNumbers(out, "the certificate") ? Correction(out) : Correction();
 }
 
-/// What this run kept; nothing where it kept none.
+/// The calibration that this run kept; nothing where it kept none.
 std::optional<StoredCalibration> keptByThisRun(ScriptSession& session) {
     const auto& stimulator = *session.bench().devices().stimulator;
     const auto& device = stimulator.identity();

@@ -75,7 +75,7 @@ Result<SensorSamples> listenFor(ScriptSession& session, double duration_s) {
     return samples;
 }
 
-/// Nothing without a force sensor.
+/// The force in use; nothing without a force sensor.
 Result<std::optional<ForceInUse>> forceInUse(ScriptSession& session, const SensorSamples& samples) {
     auto chain = RoughnessChain::create(samples.streams, session.bench().profile().roughness, {}, samples.serial);
     if (!chain) return failure(chain);

@@ -23,7 +23,7 @@ struct FingertipRest {
     std::optional<ForceInUse> inUse;  ///< nothing without a force sensor
     double duration_s = 0;
 };
-/// As bench.measureRest() returns it.
+/// The result of bench.measureRest().
 [[nodiscard]] Json toJson(const FingertipRest& rest);
 
 // Readings. Each disarms first. Errors: without an answer, for too few samples, when the run is stopped.
@@ -37,7 +37,7 @@ struct FingertipRest {
                                                const SensorRest& rest);
 [[nodiscard]] Json streamsOf(ScriptSession& session);
 
-/// A surface of which the operator gave the roughness.
+/// A surface with the roughness that the operator gave.
 struct GivenSurface {
     std::string name;
     double ra_um = kNaN, rz_um = kNaN;  ///< Rz may be unknown
@@ -48,8 +48,8 @@ struct GivenSurface {
 /// The references first. Errors: InvalidArgument for a text that cannot be read, a surface that is named twice, an Rz
 /// below its Ra, a rough reference that is not the rougher, a file that the operator did not choose.
 [[nodiscard]] Result<std::vector<GivenSurface>> surfacesGiven(ScriptSession& session, const Arguments& arguments);
-/// In g, the smallest first; `text` has them separated by ";". Errors: InvalidArgument for a text that cannot be read,
-/// one weight alone, or one that comes twice.
+/// The weights in g, the smallest first; `text` has them separated by ";". Errors: InvalidArgument for a text that
+/// cannot be read, a single weight, or a weight that comes twice.
 [[nodiscard]] Result<std::vector<double>> massesGiven(const std::string& text);
 
 /// bench.profilometer(): Ra and Rz of a file that the operator chose.
@@ -60,7 +60,7 @@ struct Weighed {
     WeightReading reading;
     SweepDirection direction;
 };
-/// What the references are known to, relative; NaN: not known, and neither is the uncertainty of what rests on it.
+/// How well the references are known, relative; NaN: not known, and neither is the uncertainty of what rests on them.
 struct WeighingTolerances {
     double weights = 0, gravity = kNaN, area = kNaN;
 };
@@ -71,14 +71,14 @@ struct KnownWeight {
     Json check;
     std::string reason;  ///< empty where it passed, and without a reading
 };
-/// Before anything is believed: a weight must read as what it is, within the tolerance with its U, which is that of the
-/// weight, of local gravity and of both readings. In counts it is not known what it should read; then it must stand out
+/// Judged before anything is believed: a weight must read as it should, within the tolerance with its U, which comes
+/// from the weight, local gravity and both readings. In counts nobody knows what it should read; then it must stand out
 /// from rest by five standard deviations. `reading`: nothing where there is no weight or no force sensor.
 [[nodiscard]] KnownWeight judgeWeight(const std::optional<WeightReading>& reading, const FingertipRest& rest,
                                       const WeighingTolerances& known, double tolerance_pct);
 
-/// What one unit of force and of each taxel stands for: { force, taxels: list }: force as SensorScale with unit, taxels
-/// { taxel, unit, scale, offset_pa, … }; scale is null with a reason where there is none. `area_cm2` 0: not known.
+/// The size of one unit of force and of each taxel: { force, taxels: list }: force as SensorScale with unit, taxels {
+/// taxel, unit, scale, offset_pa, … }; scale is null with a reason where there is none. `area_cm2` 0: not known.
 [[nodiscard]] Json fingertipScales(const std::vector<Weighed>& weighed, double area_cm2,
                                    const WeighingTolerances& known);
 /// Turns force and taxels into N and Pa by these scales for the rest of the run; R is uncalibrated until references

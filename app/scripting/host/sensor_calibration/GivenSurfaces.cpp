@@ -1,4 +1,4 @@
-// What the operator says of the specimens: surfaces by their Ra and Rz or by a profilometer's file, and weights.
+// The operator's statements on the specimens: surfaces by their Ra and Rz or by a profilometer's file, and weights.
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -14,7 +14,7 @@ namespace {
 
 /// Errors: InvalidArgument for a path that the operator did not give, or that is not a file.
 Result<ProfilometerReading> readChosen(ScriptSession& session, const std::string& path) {
-    // The same answer whether there is such a file or not: a script cannot look around (hazard H10).
+    // The answer is the same whether such a file exists or not: a script cannot look around (hazard H10).
     if (!session.isOperatorsText(path)) {
         return fail(ErrorCode::InvalidArgument,
                     "bench.profilometer: the operator did not choose {}; a path that the operator gave as a parameter "
@@ -34,7 +34,7 @@ Result<GivenSurface> fromFile(ScriptSession& session, std::string name, const st
     return GivenSurface{std::move(name), found->ra_um, found->rz_um, path};
 }
 
-/// What `text` has between its semicolons.
+/// The parts of `text` between its semicolons.
 std::vector<std::string> partsOf(const std::string& text) {
     std::vector<std::string> parts;
     for (const auto part : split(text, ';')) {

@@ -1,4 +1,4 @@
-// What a sensor calibration becomes: a profile.
+// Makes a profile of a sensor calibration.
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -60,8 +60,8 @@ Result<Json> keepProfile(ScriptSession& session, const SensorCalibration& found,
 
     Profile inForce = session.bench().profile();
     inForce.roughness = roughness;
-    // What is kept is the operator's profile with other scales: encoding, area, loads and ceilings are not a script's
-    // to write (hazard H1).
+    // Keeps the operator's profile with other scales: encoding, area, loads and ceilings are not a script's to write
+    // (hazard H1).
     Profile profile = session.chosenProfile();
     profile.roughness = roughness;
     profile.name = fmt::format("{} {}, calibrated on {}{}", identity.name, identity.serial, day,

@@ -20,13 +20,13 @@ namespace {
 
 using report::digitsOf;
 
-constexpr std::size_t kMaxWeighings = 10'000;  // of one direction
+constexpr std::size_t kMaxWeighings = 10'000;  // in one direction
 constexpr double kStandsOut = 5;               // standard deviations at rest
 
 std::string toldApart(const Json& results) {
     const Json& surfaces = results.at("surfaces");
     const Json& distance = results.at("d_prime").at("R");
-    // What one repeat cannot tell is not known, and is not 0.
+    // A single repeat leaves the spread unknown, and not 0.
     return fmt::format("{} and {} are told apart: d′ of R is {} (95 %: {} to {}), at least 1 is wanted",
                        surfaces.at(0).at("name").get<std::string>(), surfaces.at(1).at("name").get<std::string>(),
                        digitsOf(numberOr(distance, "value"), 3), digitsOf(numberOr(distance, "low"), 3),
@@ -97,11 +97,11 @@ KnownWeight judgeWeight(const std::optional<WeightReading>& reading, const Finge
 
 namespace {
 
-/// What a calibration has come to.
+/// The state of a calibration.
 struct SensorRun {
     std::vector<GivenSurface> given;
     std::vector<double> masses;
-    int repeats = 0;  ///< of each weight, each way
+    int repeats = 0;  ///< how often each weight is put on, and taken off
     bench::Sliding sliding;
     double duration_s = 0, gravity_m_s2 = 0, area_cm2 = 0, reference_pct = 0;
     WeighingTolerances known;
@@ -109,9 +109,9 @@ struct SensorRun {
     FingertipRest rest;
     std::vector<Weighed> weighed;
     std::vector<SlidSurface> surfaces;
-    std::vector<Json> slides;  ///< of each surface, as they are shown
+    std::vector<Json> slides;  ///< the slides over each surface, in the order in which they are shown
     Json results = Json::object();
-    std::string notKnown;  ///< why the known weight does not read as what it is
+    std::string notKnown;  ///< why the known weight does not read as it should
 };
 
 Result<void> record(ScriptSession& session, std::string_view name, const Json& values, const Json& results) {
@@ -293,7 +293,7 @@ Result<Json> slide(ScriptSession& session, const Arguments& arguments) {
     return done(lift(session));
 }
 
-/// What was found becomes a profile, unless the references cannot be told apart.
+/// The findings become a profile, unless the references cannot be told apart.
 Result<void> keepFound(ScriptSession& session, const SensorCalibration& found, SensorRun& run) {
     run.results["profile"] = nullptr;
     if (!found.accepted)
@@ -321,8 +321,8 @@ Result<void> sayRanking(ScriptSession& session, const SensorCalibration& found) 
         "On the simulated fingertip the ranking holds by construction: the relief of its surfaces follows their Ra.");
 }
 
-/// Of the references, and of force and taxels where weights were asked for. What does not follow the weights is a fault
-/// of the fingertip.
+/// The verdict covers the references, and force and taxels where weights were asked for. A fingertip that does not
+/// follow the weights has a fault.
 void addVerdict(Json& results, bool weighed) {
     Json verdict = results.at("verdict");
     Json reasons = results.at("accepted") == true ? Json::array({toldApart(results)}) : results.at("reasons");

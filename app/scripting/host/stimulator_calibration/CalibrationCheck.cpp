@@ -50,7 +50,7 @@ std::string notHeld(const Json& row) {
 Json checkAgainst(const Json& line, const Json& found, double tolerance_pct) {
     const auto quantity = textOr(found, "quantity");
     const auto* one = calibratedQuantity(quantity);
-    const double scale = one != nullptr ? one->perUnit : 1;  // as people read them
+    const double scale = one != nullptr ? one->perUnit : 1;  // in the units that people read
     Json rows = Json::array(), reasons = Json::array();
     const Json& levels = report::listIn(found, "levels");
     Verdict verdict = levels.empty() ? Verdict::Indeterminate : Verdict::Pass;
@@ -66,7 +66,7 @@ Json checkAgainst(const Json& line, const Json& found, double tolerance_pct) {
         const bool known =
             commanded >= 0.98 * numberOr(line, "lowest") && commanded <= 1.02 * numberOr(line, "highest");
         const auto within = known ? guardBanded(off, u, allowed) : Verdict::Indeterminate;
-        // A reading that was not measured may be the one that is off.
+        // The reading that was not measured may be the one that is off.
         const double missing = numberOr(level, "not_measured");
         const Verdict judged = missing == 0 ? within : worseOf(within, Verdict::Indeterminate);
         verdict = worseOf(verdict, judged);

@@ -61,7 +61,7 @@ Result<void> armWith(ScriptSession& session, const Json& encoding, double load_o
     return driveAt(session, roughness, 1);
 }
 
-/// One range for all levels: its errors are then the same for all.
+/// All levels have one range, so that its errors are the same for all.
 Result<Json> readTrains(ScriptSession& session, const LevelSettings& settings, int trains) {
     const double highest_v = settings.amplitude_v.high;
     auto captures =
@@ -88,7 +88,7 @@ Result<void> setLevel(ScriptSession& session, const LevelSettings& settings, std
 /// Two records, or both trains in one where the oscilloscope does not state how good the time stamps of records are.
 Result<Json> readInterval(ScriptSession& session, const LevelSettings& settings, double share) {
     if (!session.scopeSeen().stampsStated()) {
-        // A record of both begins with whatever train comes first: it has the new interval by then.
+        // A record of both begins with whatever train comes first: by then it has the new interval.
         if (auto waited = session.bench().wait(Seconds(2 * settings.interval_s.at(share))); !waited)
             return failure(waited);
     }
@@ -159,7 +159,7 @@ Result<void> warmUp(ScriptSession& session, double load_ohm, double seconds) {
 
 Result<void> beginLevels(ScriptSession& session, const LevelSettings& settings, const CalibratedQuantity& quantity) {
     if (auto changed = bench::changeEncoding(session.bench(), encodingOver(settings)); !changed) return changed;
-    if (quantity.id != "amplitude" && quantity.id != "interval") return {};  // each of their levels arms
+    if (quantity.id != "amplitude" && quantity.id != "interval") return {};  // each level of these arms the output
     return armOn(session, settings.load_ohm);
 }
 

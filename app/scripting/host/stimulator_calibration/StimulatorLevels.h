@@ -20,7 +20,7 @@ struct LevelRange {
     double low = 0, high = 0;
 };
 
-/// What the levels of a run go by.
+/// The settings for the levels of a run.
 struct LevelSettings {
     double load_ohm = 0, rate_hz = 0, settling_s = 0;
     LevelRange amplitude_v = {}, interval_s = {}, width_us = {}, gap_us = {};

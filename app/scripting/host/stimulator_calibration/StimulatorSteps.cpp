@@ -30,7 +30,7 @@ std::string worstOf(const std::vector<Json>& judged) {
     return any("fail") ? "fail" : any("indeterminate") ? "indeterminate" : "pass";
 }
 
-/// How much of its tolerance the worst level uses; 0 where nothing says so.
+/// How much of its tolerance the worst level uses; 0 where that is not known.
 double worstUse(const Json& found) {
     double worst = 0;
     for (const auto& level : listIn(found, "levels")) {
@@ -83,7 +83,7 @@ Json checkVerdictOf(const std::vector<Json>& checks, const std::string& stored) 
 
 namespace {
 
-/// What a calibration has come to.
+/// The state of a calibration.
 struct StimulatorRun {
     LevelSettings settings;
     int levels = 0, repeats = 0;
@@ -91,14 +91,14 @@ struct StimulatorRun {
     double warmUp_s = 0, tolerance_pct = 0, timing_pct = 0, load_pct = 0, reference_pct = 0;
     record::Validity validity;
     Json stored;
-    const CalibratedQuantity* quantity = nullptr;  ///< whose levels are read
-    Json rows = Json::array();                     ///< its readings so far
+    const CalibratedQuantity* quantity = nullptr;  ///< the quantity whose levels are read
+    Json rows = Json::array();                     ///< the readings of it so far
     Json results = Json::object();
-    std::vector<Json> found;  ///< of each quantity, or its check
-    std::string unknown;      ///< why a reference does not read as what it is
+    std::vector<Json> found;  ///< the calibration of each quantity, or its check
+    std::string unknown;      ///< why a reference does not read as it should
 };
 
-/// What would be refused at the end is refused before an hour's work.
+/// Refuses now what would be refused at the end, after an hour's work.
 Result<Json> begin(ScriptSession& session, const Arguments& arguments) {
     StimulatorRun first;
     const auto settings = levelSettingsFrom(arguments);
@@ -196,7 +196,7 @@ Result<StimulatorRun*> reading(ScriptSession& session, const Arguments& argument
                 arguments.object());
 }
 
-/// What stands if the run ends early.
+/// Keeps the state in case the run ends early.
 void keep(ScriptSession& session, const StimulatorRun& run) {
     const std::string quantity(run.quantity->id);
     Json results = run.results;

@@ -42,8 +42,7 @@ StepCourse courseOf(const StepResponse& response) {
     return {seconds(response.latency), response.trains ? *response.trains : kNaN, seconds(response.complete)};
 }
 
-/// What was seen of the step, beside its design; the captures of the train that carries it and of the one before are
-/// kept.
+/// The observed step, beside its design; the captures of the train that carries it and of the one before are kept.
 CapturedChange changeOf(ScriptSession& session, std::vector<SeenTrain>& seen, double step_s, const StepEnds& ends,
                         const StepResponse& measured, std::span<const StepTrain> design) {
     const ResponseRange range = rangeOf(ends, design);
@@ -100,7 +99,7 @@ Result<CapturedChange> captureStep(ScriptSession& session, const Place& from, co
     if (auto asked = recording.begin(); !asked) return failure(asked);
     auto& seen = recording.seen();
     const Seconds timeout = 4 * profile.intervalMax + Seconds(1);
-    // Two: the interval between them is the one that the first train after the step is compared with.
+    // Two are needed: the interval between them is compared with the first train after the step.
     auto shown = recording.watch(timeout, [&] { return seen.size() >= 2; });
     if (!shown) return failure(shown);
     if (!*shown) {

@@ -1,4 +1,4 @@
-// TrainRecording.h - one oscilloscope record of every train, taken and measured while the bench goes on.
+// TrainRecording.h - one oscilloscope record of every train, taken and measured while the bench runs.
 //
 // Thread-safety: as Bench; the script's thread.
 #pragma once
@@ -47,7 +47,7 @@ public:
 private:
     Bench& bench_;
     const ScopeSettings settings_;
-    std::size_t left_ = 0;  // of the records that were asked for
+    std::size_t left_ = 0;  // records that were asked for and are still to come
     std::vector<SeenTrain> seen_;
 };
 

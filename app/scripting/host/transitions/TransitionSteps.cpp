@@ -19,12 +19,12 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// What a run has come to.
+/// The state of a run.
 struct TransitionRun {
     double load_ohm = 0, load_pct = 0, latency_s = 0;
     ChangeLimits limits{kWantedPerTrain};
     double traverse_s = 0;
-    std::vector<std::string> stepNames, names;  ///< of the steps whose latency counts; of all changes
+    std::vector<std::string> stepNames, names;  ///< the steps whose latency counts; all changes
     Json sweep;
     std::vector<CapturedChange> steps, jumps, movements;
     Json results = Json::object();
@@ -32,7 +32,7 @@ struct TransitionRun {
     LatencyJudgement latency;
 };
 
-/// What has been watched so far is judged, and stands if the run ends early.
+/// Judges what has been watched so far, and keeps it in case the run ends early.
 void judge(ScriptSession& session, TransitionRun& run) {
     std::vector<CapturedChange> all;
     for (const auto* some : {&run.steps, &run.jumps, &run.movements}) all.insert(all.end(), some->begin(), some->end());
@@ -79,7 +79,7 @@ std::string openText(const std::vector<ChangeGroup>& groups) {
         report::digitsOf(amplitude, 2), report::digitsOf(interval, 2));
 }
 
-/// What is asked for and what cannot be had, before the figures.
+/// States what is asked for and what is impossible, before the figures.
 std::string askedText(const ChangeLimits& limits) {
     return fmt::format(
         "Judged on captured trains: no train differs from the one before by more than 2 just-noticeable differences (w "
@@ -97,7 +97,7 @@ std::string askedText(const ChangeLimits& limits) {
 double least(const std::vector<double>& values) { return values.empty() ? kNaN : *std::ranges::min_element(values); }
 double most(const std::vector<double>& values) { return values.empty() ? kNaN : *std::ranges::max_element(values); }
 
-/// What a pass says: what was found, and what the wanted time would need and cannot have.
+/// The words of a pass: what was found, and what the wanted time would need and cannot have.
 Json passedText(const ChangeJudgement& changes) {
     const double largest_jnd = largest(
         changes.groups, [](const ChangeGroup& group) { return std::max(group.amplitude.jnd, group.interval.jnd); });

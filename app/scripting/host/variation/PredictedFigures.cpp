@@ -65,8 +65,8 @@ Json shareCurve(std::string label, std::vector<double> values) {
     return {{"label", std::move(label)}, {"x", std::move(x)}, {"y", std::move(y)}, {"steps", true}};
 }
 
-/// The thresholds, and the currents that the profile's smallest and largest amplitude give: those of a current source,
-/// A / |Z|, whether or not they would be withheld.
+/// The thresholds, and the currents from the profile's smallest and largest amplitude: a current source's, A / |Z|,
+/// whether or not they would be withheld.
 Json thresholdCurves(const Json& found) {
     const Json& people = found.at("people");
     Json curves = Json::array();

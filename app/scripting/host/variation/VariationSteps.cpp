@@ -14,14 +14,14 @@ namespace host::variation {
 
 namespace {
 
-/// The same participants with the amplitudes that the run chose, and with the others.
+/// The same participants with the amplitudes that the run chose, and with the other ones.
 struct Prediction {
     VariationOptions options = {};
     Json found = {}, other = {};
     Json readings = Json::array();
 };
 
-constexpr std::size_t kBenches = 4000;  // of the spread of benches
+constexpr std::size_t kBenches = 4000;  // benches drawn to find their spread
 
 constexpr AmplitudeLevels otherThan(AmplitudeLevels levels) {
     return levels == AmplitudeLevels::Personal ? AmplitudeLevels::Profile : AmplitudeLevels::Personal;
@@ -41,7 +41,7 @@ const Json& with(const Prediction& run, AmplitudeLevels levels) {
 
 double number(const Json& found, const char* key) { return numberOr(found, key); }
 
-/// "94.8 (66.7 to 99.2)", in %: the median, 5 and 95 %. One participant has no range, and none has no number.
+/// "94.8 (66.7 to 99.2)", in %: the median, 5 and 95 %. A single participant gets no range, and none gets no number.
 std::string percent(const Json& estimate) {
     const double middle = numberOr(estimate, estimate.contains("median") ? "median" : "value");
     const double low = numberOr(estimate, "low"), high = numberOr(estimate, "high");
@@ -56,7 +56,7 @@ std::string fixedRange(const Json& found) {
     return fmt::format("{} {} to {} V", papers ? "The design paper's" : "The profile's", low, high);
 }
 
-/// How many are served stands before anything else that is found.
+/// The number who are served stands before everything else that was found.
 std::vector<std::string> headline(const VariationOptions& options, const Json& fixed, const Json& personal) {
     std::vector<std::string> why;
     if (number(fixed, "participants_refused") > 0) {
@@ -96,7 +96,7 @@ std::vector<std::string> headline(const VariationOptions& options, const Json& f
     return out;
 }
 
-/// What is not everybody's result.
+/// Results that do not hold for everybody.
 std::vector<std::string> remarks(const VariationOptions& options, const Json& found) {
     std::vector<std::string> out{
         "Everything here is simulated: predicted from stated distributions, not measured on people. A condition counts "
@@ -133,7 +133,7 @@ Json rangeRow(const std::string& name, const Json& found) {
                  "clearly_separable", "accuracy"});
 }
 
-/// What a pilot wants to show, and how many answers that takes.
+/// The aims of a pilot, and how many answers each takes.
 Json aimsOf(const Json& needed) {
     const auto aim = [&needed](const std::string& text, const char* key) {
         const Json& pooled = needed["pooled"][key];
@@ -164,7 +164,7 @@ Result<Json> begin(ScriptSession& session, const Arguments& arguments) {
     return done(session.begin(arguments.object(), std::move(first)));
 }
 
-/// Where comfort ends is not known: what is served is said for the lowest, the run's and the highest answer.
+/// Nobody knows where comfort ends: what is served is told for the lowest, the run's and the highest answer.
 Result<Json> readings(ScriptSession& session, const Arguments& arguments) {
     const auto begun = session.begun<Prediction>(arguments.object());
     if (!begun) return failure(begun);
@@ -198,7 +198,7 @@ Result<Json> readings(ScriptSession& session, const Arguments& arguments) {
     return Json();
 }
 
-/// Who is served stands before anything else that was found.
+/// Who is served stands before everything else that was found.
 Result<void> write(ScriptSession& session, const Prediction& run, const std::string& said) {
     std::vector<Json> items;
     const auto text = [&items](const std::string& words) { items.push_back({{"kind", "text"}, {"text", words}}); };
