@@ -22,7 +22,7 @@ namespace {
 
 struct Spelling {
     const char* text;
-    double factor;  // to seconds, or to m/s2, N, Pa; of the definitions of the units
+    double factor;  // to seconds, or to m/s2, N, Pa, by the definitions of the units
 };
 const std::vector<Spelling> kTimes{{"s", 1}, {"ms", 1e-3}, {"us", 1e-6}, {"µs", 1e-6}, {"μs", 1e-6}, {"ns", 1e-9}};
 const std::vector<Spelling> kAccelerations{{"m/s2", 1},        {"m/s²", 1},  {"m/s^2", 1},     {"m·s⁻²", 1},
@@ -105,7 +105,7 @@ Drawn drawTable(unsigned seed) {
     const std::string newline = draw.chance(50) ? "\r\n" : "\n";
     const double rate_hz = draw.of<double>({100, 200, 1000, 2500, 4000});
 
-    // Its columns: those of the stream in any order, others among them.
+    // Its columns are those of the stream in any order, with others among them.
     struct Column {
         std::string name;
         int channel;  // -1: the time; -2: another
@@ -163,7 +163,7 @@ Drawn drawTable(unsigned seed) {
         for (const auto& column : columns) {
             if (&column != &columns.front()) row += separator;
             if (column.channel == -1) {
-                // In the file's unit, to the nanosecond.
+                // Rounded to the nanosecond, in the file's unit.
                 const auto ns = static_cast<long long>((static_cast<double>(start + r)) * 1e9 / rate_hz);
                 const int digits = static_cast<int>(std::lround(9 + std::log10(timeUnit.factor)));
                 row += number(ns, digits);
@@ -267,7 +267,7 @@ TEST(RecordingForms, StreamsOfSeveralRatesInOneTableAreEachReadAtTheirOwn) {
             forces += force ? 1 : 0;
             text += fmt::format("{:.3f},{},{}\n", i * 0.001, i, force ? fmt::format("{}", i) : "");
         }
-        // Its own stamps, between those of the acceleration: rows of the union of both.
+        // It has its own stamps, between those of the acceleration: the rows are the union of both.
         const auto recording =
             opened(text, forceStream({{"time_column", "time"}, {"time_unit", "s"}, {"columns", {"force"}}}));
         ASSERT_TRUE(recording) << recording.error().message;
@@ -337,7 +337,7 @@ TEST(RecordingForms, ACommaThatMayBeEitherIsAskedFor) {
     const auto pair = opened("t,F\n0,25\n1,5\n", forceStream({{"rate_hz", 100}, {"columns", {2}}}));
     ASSERT_TRUE(pair) << pair.error().message;
     EXPECT_THAT(pair->streams.at(0).samples.values, testing::ElementsAre(25, 5));
-    // As spreadsheets of these countries write them between commas.
+    // Spreadsheets of these countries write numbers so between commas.
     const auto quoted = opened("t,F\n\"0,00\",\"0,25\"\n\"0,01\",\"-0,5\"\n",
                                forceStream({{"time_column", "t"}, {"time_unit", "s"}, {"columns", {"F"}}}));
     ASSERT_TRUE(quoted) << quoted.error().message;

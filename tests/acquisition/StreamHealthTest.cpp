@@ -134,7 +134,7 @@ TEST(StreamHealth, LeavesAFewRepeatsToBeCounted) {
 namespace tacto::test {
 namespace {
 
-/// What a sensor with that noise, in steps, says at rest.
+/// The readings of a sensor at rest, with that noise, in steps.
 SampleBlock samples(std::mt19937& draw, double begin_s, double rate_hz, std::size_t count, double noiseInSteps) {
     SampleBlock block;
     std::normal_distribution<double> noise(0, noiseInSteps);
@@ -178,7 +178,7 @@ TEST(Standstill, IsFoundWithinTheTimeThatNoiseAllows) {
             still.feed(one);
             if (still.since()) found_s = i * 1e-3;
         }
-        // By the share of repeats that this noise has: at 0.3 steps nine in ten.
+        // The limit follows the share of repeats that this noise has: at 0.3 steps it is nine in ten.
         EXPECT_LE(found_s, noise >= 0.5 ? 0.15 : 0.4) << noise;
         EXPECT_GE(found_s, 0.09) << noise;
         EXPECT_NEAR(*still.since(), 3, 0.1);
@@ -202,7 +202,7 @@ TEST(Standstill, OfOneThatNeverMovedIsFoundToo) {
     EXPECT_TRUE(still.since());
 }
 
-/// Every sample by itself, so that each is judged.
+/// Feeds each sample by itself, so that each is judged.
 template <class Judge>
 void feedEach(Standstill& still, const SampleBlock& block, std::size_t channels, Judge judge) {
     for (std::size_t i = 0; i < block.t_s.size(); ++i) {

@@ -74,7 +74,7 @@ TEST(InTime, OnlyAnErrorThatLatenessCausesIsAMissedDeadline) {
     }
 }
 
-/// What a machine does that has no time for this process.
+/// Stands still like a machine that has no time for this process.
 void standStill() {
     const pid_t process = ::getpid();
     const pid_t waker = ::fork();
@@ -128,7 +128,7 @@ TEST(InTime, OfATestThatFailedWhileTheMachineStoodStillOnlyDeadlinesAreTriedAgai
     EXPECT_EQ(exitCodeOf("AnInvariant"), 1) << "it failed once: that is final";
 }
 
-#ifndef TACTOSCOPE_SANITIZED  // whose programs have no patient clock
+#ifndef TACTOSCOPE_SANITIZED  // sanitized programs have no patient clock
 double machine_ms() {
     std::timespec at{};
     ::syscall(SYS_clock_gettime, CLOCK_MONOTONIC, &at);
@@ -156,7 +156,7 @@ TEST(PatientClock, StandsStillWithTheMachineAndSoDoDeadlines) {
         EXPECT_FALSE(never.wait_for(lock, std::chrono::milliseconds(100), [] { return false; }));
     });
     auto sleeping = inOwnTime(slept_ms, [] { std::this_thread::sleep_for(std::chrono::milliseconds(100)); });
-    ::usleep(20'000);  // of the machine's time: all of them wait
+    ::usleep(20'000);  // 20 ms by the machine's clock: all of them wait
     const double machine = machine_ms(), own = own_ms();
     for (int i = 0; i < 3; ++i) standStill();
     EXPECT_GE(machine_ms() - machine, 180);

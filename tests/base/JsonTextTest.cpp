@@ -91,7 +91,7 @@ TEST(JsonText, IsTheOnlyReaderAndWriterOfJsonInTheProgram) {
             std::ifstream in(entry.path());
             std::string line;
             for (int number = 1; std::getline(in, line); ++number) {
-                // All that the expression finds has one of these; for every line it would take seconds.
+                // All that the expression finds has one of these; asking it for every line would take seconds.
                 if (line.find("son") == std::string::npos && line.find("dump(") == std::string::npos) continue;
                 if (std::regex_search(line, other))
                     found.push_back(fmt::format("{}:{}", entry.path().string(), number));

@@ -1,4 +1,4 @@
-// What a program finds around it: a home folder, arguments in UTF-8.
+// A program's surroundings: a home folder, arguments in UTF-8.
 #include <array>
 #include <cstdlib>
 #include <gmock/gmock.h>
@@ -61,7 +61,7 @@ TEST_F(ProgramStart, WithoutAHomeItIsThatOfTheAccount) {
     }
 }
 
-/// The C library's own decoder, which knows neither surrogates nor what is longer than it must be.
+/// The C library's own decoder, which knows neither surrogates nor characters longer than they must be.
 bool isUtf8ForTheCLibrary(std::string text) {
     const auto decoder = ::iconv_open("UTF-32LE", "UTF-8");
     std::array<char, 4096> out{};
@@ -94,7 +94,7 @@ TEST_F(ProgramStart, AnArgumentThatIsNotUtf8IsNamedWithItsBytes) {
     EXPECT_LT(refusals, 1900U);
 }
 
-// Where the user's files lie, as the environment says.
+// The user's files lie where the environment says.
 
 class DataFolder : public testing::Test {
 protected:

@@ -29,7 +29,7 @@ std::ptrdiff_t filesIn(const fs::path& folder) {
     return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
 }
 
-/// Writes in a process of its own, whose files may have `limit` bytes; `reason` gets what was said.
+/// Writes in a process of its own, with files of at most `limit` bytes; `reason` gets what was said.
 int writeWithin(rlim_t limit, const std::filesystem::path& path, const std::string& content, std::string& reason) {
     std::array<int, 2> pipe{};
     EXPECT_EQ(::pipe(pipe.data()), 0);

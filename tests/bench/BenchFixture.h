@@ -60,7 +60,7 @@ protected:
     [[nodiscard]] Result<void> arm(const std::string& load = "1 kohm") {
         return bench_->arm(ArmRequest{load, true, true});
     }
-    /// By hand at R and P.
+    /// Drives by hand at R and P.
     [[nodiscard]] Result<void> armAndDrive(double R, double P, const std::string& load = "1 kohm") {
         if (auto armed = arm(load); !armed) return armed;
         return bench_->drive(DriveSource::Manual, R, P);
@@ -75,8 +75,8 @@ protected:
     std::optional<std::chrono::sys_days> calibratedUntil_;
     std::chrono::sys_days (*today_)() = nullptr;
     std::optional<PersonSetup> person_;  ///< makes it a bench for a person
-    bool looksReal_ = false;             ///< what is opened next is taken for a device
-    /// What stands between the bench and the stimulator that is opened next.
+    bool looksReal_ = false;             ///< the next opened device is taken for a real one
+    /// Stands between the bench and the next opened stimulator.
     std::function<std::unique_ptr<Stimulator>(std::unique_ptr<Stimulator>)> wrap_;
     std::function<std::unique_ptr<TactileSensor>(std::unique_ptr<TactileSensor>)> wrapSensor_;
     std::shared_ptr<Clock> clock_;

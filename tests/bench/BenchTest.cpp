@@ -77,7 +77,7 @@ TEST_F(BenchTest, NothingUntriggeredComesUnasked) {
 TEST_F(BenchTest, APressIsFeltAtOnceWhenTheIntervalShrinks) {
     open({});
     ASSERT_TRUE(armAndDrive(0, 0));
-    ASSERT_TRUE(bench_->wait(Seconds(1)));  // one train at about 0 s, the next due at 2 s
+    ASSERT_TRUE(bench_->wait(Seconds(1)));  // one train comes at about 0 s, the next is due at 2 s
     ASSERT_EQ(bench_->telemetry().trainsDelivered, 1U);
     ASSERT_TRUE(bench_->drive(DriveSource::Manual, 0, 1));
     ASSERT_TRUE(bench_->wait(Seconds(0.05)));
@@ -226,7 +226,7 @@ TEST_F(BenchTest, TheFingerDrivesTheStimulator) {
     EXPECT_TRUE(seen.contact || seen.contactFrames > 0);
 }
 
-/// From a moment on, some channels of a stream say again what they said some samples before, under running stamps.
+/// From a moment on, some channels of a stream repeat what they said some samples before, under running stamps.
 class HangingFinger final : public TactileSensor {
 public:
     struct Hang {
@@ -419,7 +419,7 @@ TEST_F(BenchTest, ACurrentSourceGetsCurrentFromTheMeasuredImpedance) {
 
 TEST_F(BenchTest, ACaptureCarriesWhatItsOwnTrainWasTold) {
     RecordProperty("hazard", "H9");
-    profile_.encoding.amplitudeSlew_V_per_s = 20;  // every train is programmed to something else
+    profile_.encoding.amplitudeSlew_V_per_s = 20;  // every train is programmed to another amplitude
     open({});
     ASSERT_TRUE(armAndDrive(0, 1));
     ASSERT_TRUE(bench_->wait(Seconds(1)));

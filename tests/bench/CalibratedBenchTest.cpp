@@ -46,8 +46,8 @@ TEST_F(CalibratedBenchTest, TellsAWeakStimulatorMoreAndStaysWithinTheCommand) {
 
 TEST_F(CalibratedBenchTest, PhaseGapAndIntervalComeOutAsTheProfileSays) {
     RecordProperty("hazard", "H1");
-    // Each phase 0.97 times what is programmed and 4.2 us, each gap 6.4 us short; the computer's clock 0.4 % slow. So
-    // that 201 us and 106 us, which the device's step of 1 us allows, give 200 and 100.
+    // Each phase is 0.97 times as long as programmed plus 4.2 us, each gap 6.4 us short; the computer's clock is 0.4 %
+    // slow. Thus 201 us and 106 us, which the device's step of 1 us allows, give 200 and 100.
     const std::vector<std::string> off{"sim:stimulator?widthgain=0.97&widtherror=4.233us&gaperror=-6.398us",
                                        "sim:oscilloscope?timebase=1.004"};
     const auto measured = [&] {
@@ -80,7 +80,7 @@ TEST_F(CalibratedBenchTest, PhaseGapAndIntervalComeOutAsTheProfileSays) {
     EXPECT_NEAR(measureTrains(captures, "voltage")->gap_s.mean, 93.602e-6 * 1.004, 0.3e-6);
 }
 
-/// With calibrations drawn at random, what comes out is at most half a step short, and never more than the limit.
+/// With calibrations drawn at random, the output is at most half a step short, and never more than the limit.
 TEST_F(CalibratedBenchTest, ACorrectionGoesToTheNearestStep) {
     RecordProperty("hazard", "H1");
     std::mt19937 draw(13);
@@ -119,8 +119,8 @@ TEST_F(CalibratedBenchTest, ACorrectionGoesToTheNearestStep) {
 
 TEST_F(CalibratedBenchTest, AWrongCalibrationCannotPassALimit) {
     RecordProperty("hazard", "H1");
-    // It says the stimulator is weak; it is not. What is programmed must keep every limit too: 42.1 V would make 10.2
-    // mA RMS.
+    // The calibration says the stimulator is weak; it is not. The programmed value must keep every limit too: 42.1 V
+    // would make 10.2 mA RMS.
     calibration_ = weak_;
     open({}, {Role::Stimulator, Role::Oscilloscope}, false, "140 ohm");
     ASSERT_TRUE(armAndDrive(1, 1, "140 ohm"));
@@ -207,7 +207,7 @@ TEST_F(CalibratedBenchTest, OneThatEndsWhileTheBenchIsOpenPermitsNoArming) {
 
 TEST_F(CalibratedBenchTest, WhatIsReadBackIsComparedWithTheCommandAndNotWithWhatWasTold) {
     RecordProperty("hazard", "H1");
-    // It says the stimulator is weak; it is strong. 47.05 V are programmed for 40, and 49.4 come out.
+    // The calibration says the stimulator is weak; it is strong. 47.05 V are programmed for 40, and 49.4 come out.
     calibration_ = StimulatorCalibration{{0.85, 0, 10, 40}};
     open({"sim:stimulator?gain=1.05"});
     ASSERT_TRUE(armAndDrive(1, 1));

@@ -1,4 +1,4 @@
-// What a session says of each train, and of what it was judged by.
+// A session's words on each train, and on what it was judged by.
 #include <gtest/gtest.h>
 
 #include "core/session/Origin.h"

@@ -1,5 +1,5 @@
-// What came out beside what was set: a train that was not read, one that never came, and one that is more than was
-// asked for end the output; a reading belongs to one command by its time.
+// Output beside command: a train that was not read, one that never came, and one that is more than was asked for end
+// the output; a reading belongs to one command by its time.
 #include <cmath>
 #include <gmock/gmock.h>
 #include <random>
@@ -19,12 +19,12 @@ namespace {
 using namespace std::chrono_literals;
 using testing::HasSubstr;
 
-/// From its train number `from` on (check pulses count) it lies: of what it read, or of having delivered at all.
+/// From its train number `from` on (check pulses count) it lies about its readings, or about having delivered at all.
 class LyingStimulator final : public WrappedStimulator {
 public:
     struct Lie {
         int from = 0;
-        bool swallows = false;  ///< nothing is put out, and the status of the train before is given again
+        bool swallows = false;  ///< nothing is put out, and the last train's status is given again
         std::function<void(StimulatorStatus&)> said = {};
     };
     LyingStimulator(std::unique_ptr<Stimulator> inner, Lie lie, int& trains)
@@ -39,7 +39,7 @@ public:
     }
     Result<StimulatorStatus> status() override {
         auto status = WrappedStimulator::status();
-        if (status && lie_.swallows) status->amplitude.reset();  // it would tell
+        if (status && lie_.swallows) status->amplitude.reset();  // a swallowed train would show in the amplitude
         if (status && lie_.said && trains_ >= lie_.from) lie_.said(*status);
         return status;
     }
@@ -84,7 +84,7 @@ protected:
     }
     [[nodiscard]] std::string reason() const { return bench_->telemetry().reason.c_str(); }
 
-    int trains_ = 0;  // that the device was given
+    int trains_ = 0;  // how many trains the device was given
     std::mt19937 draw_{47};
 };
 
@@ -178,7 +178,7 @@ TEST_F(DeliveredTruth, ACheckPulseAtAnyTimeBeforeATrainIsNotTakenForIt) {
     RecordProperty("hazard", "H12");
     profile_.encoding.intervalMin = Seconds(0.02);
     for (int trial = 0; trial < 120; ++trial) {
-        // Without stated stamps it is told by its size where its time leaves both.
+        // Without stated stamps the size tells it where the time allows both.
         open(
             {"sim:stimulator?readback=yes", trial % 3 == 0 ? "sim:oscilloscope?accuracy=unknown" : "sim:oscilloscope"});
         ASSERT_TRUE(arm());
@@ -202,7 +202,7 @@ TEST_F(DeliveredTruth, ACheckPulseAtAnyTimeBeforeATrainIsNotTakenForIt) {
     }
 }
 
-/// Every offset between a check pulse and a train, by an oracle that counts samples.
+/// Tries every offset between a check pulse and a train, with an oracle that counts samples.
 TEST(CommandShownIn, IsTheOnlyOneWhosePulsesTheRecordMayShow) {
     std::mt19937 draw(12);
     int alone = 0, both = 0;
@@ -425,7 +425,7 @@ TEST_F(DeliveredTruth, AMassagerThatGoesOnWhenItShouldRestIsAFault) {
     }
 }
 
-/// However slowly it gathers speed and runs down.
+/// It may gather speed and run down as slowly as it likes.
 TEST_F(DeliveredTruth, ASlowMassagerIsAFaultOnlyWhereItGoesOn) {
     RecordProperty("hazard", "H2");
     int found = 0;
@@ -446,7 +446,7 @@ TEST_F(DeliveredTruth, ASlowMassagerIsAFaultOnlyWhereItGoesOn) {
             found += waited ? 0 : 1;
         else
             EXPECT_TRUE(waited) << spinUp << " s, " << strength << ", " << pressure << ": " << reason();
-    }  // One in some is not told from a slow motor that is driven again before it rests.
+    }  // Some cannot be told from a slow motor that is driven again before it rests.
     EXPECT_GE(found, 13) << "of 15";
 }
 

@@ -64,7 +64,7 @@ public:
     std::function<void()> onOff;
     bool deliverFails = false;
     bool statusFails = false;
-    Instant stillOnUntil{0};  ///< a train goes on until then
+    Instant stillOnUntil{0};  ///< a train continues until then
     bool saysWhenItEnds = true;
     std::atomic<bool> statusBlocks{false};
     ElectrodeState electrode = ElectrodeState::Ok;

@@ -84,7 +84,7 @@ TEST_F(HoldTest, ALoadThatLeavesItsRangeEndsDelivery) {
     EXPECT_NE(waited.error().message.find("20 % more or less"), std::string::npos) << waited.error().message;
 }
 
-/// A stimulator that cannot read its load back, on a bench whose oscilloscope sees it.
+/// A stimulator that cannot read its load back, on a bench with an oscilloscope that sees it.
 class SeenLoadTest : public HoldTest {
 protected:
     void deliver(Hold what, const std::string& load) {

@@ -1,4 +1,4 @@
-// Person mode on the bench: on which devices, by whose calibration, and how far a level may go.
+// Person mode on the bench: on which devices, with which calibration, and how far a level may go.
 #include <gmock/gmock.h>
 #include <limits>
 

@@ -36,7 +36,7 @@ protected:
         EXPECT_TRUE(presented) << presented.error().message;
         return presented ? std::move(*presented) : Presented{};
     }
-    /// From 0.5 mA upwards, each level presented and accepted.
+    /// Goes from 0.5 mA upwards, each level presented and accepted.
     void rampTo(double mA) {
         for (double level = 0.5; level <= mA; level += 0.5) {
             const auto presented = accepted(bench_->present(ascendingPresentation(Milliamps(level), kShortest)));

@@ -280,7 +280,7 @@ TEST_F(PresentationTest, AStopAtAnyMomentMakesItVoidAndNothingFollows) {
         wanted.notBefore = clock_->now() + 100ms;
         const auto presented = bench_->present(wanted);
         bench_->onProgress(nullptr, nullptr);
-        if (stopping.turns >= 0) break;  // it was over before
+        if (stopping.turns >= 0) break;  // it was over before it could be stopped
         ASSERT_TRUE(presented) << presented.error().message;
         EXPECT_EQ(presented->end, PresentationEnd::Stopped) << turn;
         EXPECT_FALSE(presented->reason.empty());

@@ -1,4 +1,4 @@
-// What an oscilloscope's session does when its device does what none should.
+// An oscilloscope's session when its device does what no device should.
 #include <gtest/gtest.h>
 #include <new>
 
@@ -8,7 +8,7 @@
 namespace tacto::test {
 namespace {
 
-/// One whose record does not fit into the memory that is left.
+/// An oscilloscope with a record that does not fit into the memory that is left.
 struct LargeScope final : Oscilloscope {
     [[nodiscard]] const DeviceIdentity& identity() const noexcept override { return who; }
     [[nodiscard]] const ScopeTraits& traits() const noexcept override { return what; }

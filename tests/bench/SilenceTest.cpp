@@ -60,7 +60,7 @@ protected:
         turn();
         turn();
     }
-    /// Delivering, with the next train handed over and not written.
+    /// Delivers until the next train is handed over and not written.
     void deliverUntilOneIsHandedOver() {
         arm();
         pass(1200ms);

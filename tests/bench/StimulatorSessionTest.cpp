@@ -102,7 +102,7 @@ TEST_F(StimulatorSessionTest, SwitchesOffWhenTheLoopIsSilent) {
     EXPECT_EQ(session_.silencedAfter(), 0ms);
     const int kept = device_.keptAlive;
     EXPECT_GE(kept, 1);
-    // No thread beats any more.
+    // No thread beats any longer.
     clock_.advanceTo(301ms);
     session_.serve(clock_.now());
     EXPECT_EQ(device_.offs, 1);

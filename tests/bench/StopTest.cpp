@@ -81,7 +81,7 @@ TEST_F(StopTest, OfATrainThatThenReadsTooLittleIsNoFaultAndOfOneThatReadsTooMuch
         EXPECT_FALSE(bench_->wait(Seconds(2)));
         if (stopped) {
             EXPECT_TRUE(bench_->begin(bench_->stops().mark()));
-            static_cast<void>(bench_->wait(Seconds(1)));  // what was cut off is read now
+            static_cast<void>(bench_->wait(Seconds(1)));  // the train that was cut off is read now
         }
         const auto seen = bench_->telemetry().state;
         device_->onDeliver = nullptr;

@@ -8,7 +8,7 @@
 
 namespace tacto::test {
 
-/// At rest for half a second, then in contact. 3 axes at 4 kHz, 8 taxels and force at 200 Hz.
+/// A finger at rest for half a second, then in contact. 3 axes at 4 kHz, 8 taxels and force at 200 Hz.
 class TapedFinger final : public TactileSensor {
 public:
     explicit TapedFinger(const Clock& clock) : clock_(clock) {}

@@ -1,4 +1,4 @@
-// A bench on a real unit goes on from what the unit delivered and from the fault that it was left in.
+// A bench on a real unit continues from what the unit delivered and from the fault that it was left in.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -100,7 +100,7 @@ TEST_F(UnitBench, ArmingWaitsUntilAUnitWhosePastIsNotKnownHasRested) {
     RecordProperty("hazard", "H1");
     open();
     bench_.reset();
-    std::filesystem::remove_all(folder_.path());  // as where another data folder is named
+    std::filesystem::remove_all(folder_.path());  // stands for another data folder that is named
     open();
     const Instant opened = clock_->now();
     ASSERT_TRUE(bench_->wait(Seconds(0.01)));

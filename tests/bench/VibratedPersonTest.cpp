@@ -42,7 +42,7 @@ protected:
         return presented ? std::move(*presented) : Presented{};
     }
     [[nodiscard]] PresentationEnd endOf(double intensity) { return present(intensity).end; }
-    /// From 0.05 upwards, each presented and accepted.
+    /// Goes from 0.05 upwards, each level presented and accepted.
     void rampTo(int steps) {
         for (int k = 1; k <= steps; ++k) {
             ASSERT_EQ(endOf(0.05 * k), PresentationEnd::Complete) << k;

@@ -154,7 +154,7 @@ TEST_F(CalibrationStoreFile, TheGateLearnsOfUncertaintyAndResidual) {
     ASSERT_TRUE(lines.amplitude.spread);
     EXPECT_NEAR(lines.amplitude.spread->relative, 0.006 / 0.9, 1e-12);
     EXPECT_DOUBLE_EQ(lines.amplitude.spread->absolute, 0.05);
-    // Files from before state no residual: 5 %, or U where that is more.
+    // Earlier files state no residual: 5 %, or U where that is larger.
     ASSERT_TRUE(lines.gap->spread);
     EXPECT_DOUBLE_EQ(lines.gap->spread->relative, 0.05);
     EXPECT_NEAR(lines.phaseWidth->spread->relative, 0.08, 1e-3);
@@ -169,7 +169,7 @@ TEST_F(CalibrationStoreFile, TheGateLearnsOfUncertaintyAndResidual) {
 TEST_F(CalibrationStoreFile, OneWithoutItsTimesIsReadAndHoldsForNothing) {
     RecordProperty("hazard", "H9");
     ASSERT_TRUE(store().add(sample("A1")));
-    // As the store wrote it while it kept amplitudes alone.
+    // The line as the store wrote it while it kept amplitudes alone.
     auto line = nlohmann::json::parse(textOf(path));
     for (const char* time : {"interval", "width", "gap"}) line["calibration"].erase(time);
     writeUnnoted(path, std::move(line));

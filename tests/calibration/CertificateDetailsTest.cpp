@@ -1,4 +1,4 @@
-// What a certificate says beside what the program knows: kept once, and of the order.
+// A certificate's details beside what the program knows: the laboratory's, kept once, and the order's.
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -77,7 +77,7 @@ TEST_F(CertificateStoreFile, TheLatestDateCountsWhateverWasEnteredLast) {
     EXPECT_EQ(stateOf("new", "2026-11-23"), CertificateState::Counts);
     EXPECT_EQ(stateOf("old", "2026-11-23"), CertificateState::Superseded);
     EXPECT_EQ(stateOf("next", "2026-11-23"), CertificateState::NotYet);
-    // One that ran out does not bring the older one back.
+    // A certificate that ran out does not bring the older one back.
     EXPECT_EQ(stateOf("new", "2026-12-02"), CertificateState::Expired);
     EXPECT_EQ(stateOf("old", "2026-12-02"), CertificateState::Superseded);
     EXPECT_EQ(stateOf("next", "2027-06-01"), CertificateState::Counts);

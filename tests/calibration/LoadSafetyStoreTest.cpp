@@ -53,7 +53,7 @@ protected:
         const auto kept = store().add(check);
         ASSERT_TRUE(kept) << kept.error().message;
     }
-    /// Why none counts; empty where one does.
+    /// Says why no check counts; empty where one does.
     [[nodiscard]] std::string why(const LoadSafetyNeed& need = needed()) const {
         const auto passed = store().passed(need);
         return passed ? "" : passed.error().message;
@@ -156,7 +156,7 @@ TEST_F(LoadSafetyChecks, IsOfElectrodesTrainsLimitsAndAProtocolThatCoverTheSessi
     EXPECT_THAT(why(), HasSubstr("states no electrode area; one of at most 4 cm² is expected"));
 }
 
-// What fails at the program's own tolerances may be run again with wider ones: that pass is none.
+// A check that fails at the program's own tolerances may be run again with wider ones: that is no pass.
 TEST_F(LoadSafetyChecks, OneThatAllowedMoreThanTheProgramDoesNotCount) {
     RecordProperty("hazard", "H9");
     auto wide = checkOf();

@@ -1,4 +1,4 @@
-// UnnotedLine.h - a file of one chained line, as it was written before the end of such files was noted.
+// UnnotedLine.h - a file of one chained line, written as it was before the end of such files was noted.
 //
 // Thread-safety: the test's own thread.
 #pragma once

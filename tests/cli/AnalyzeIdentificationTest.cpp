@@ -111,7 +111,7 @@ TEST(AnalyzeIdentification, SpeaksOfPeopleOnlyWhereTheTableTheOptionOrTheExportS
     const Desk desk;
     struct Case {
         const char* word;
-        const char* who;  ///< in "of such ... can tell them apart"
+        const char* who;  ///< the end of "of such ... can tell them apart"
         const char* name;
     };
     for (const auto& [word, who, name] :

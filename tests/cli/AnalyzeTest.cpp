@@ -13,7 +13,7 @@ namespace {
 struct Trial {
     double amplitude, interval;
 };
-using Trials = std::array<std::vector<Trial>, 4>;  // in the order of kConditions
+using Trials = std::array<std::vector<Trial>, 4>;  // trials in the order of kConditions
 
 /// Spread by `spread` of each value, without a random number.
 Trials trials(int each, double spread, const std::array<double, 4>& volts = {10, 10, 40, 40}) {

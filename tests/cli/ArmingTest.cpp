@@ -29,7 +29,7 @@ protected:
     [[nodiscard]] std::size_t putOut() const {
         return pty_->inspect([](auto& device, Instant now) { return device.pulses(now).size(); });
     }
-    /// What --set must be given, from the sentence that refuses.
+    /// The value that --set must be given, from the sentence that refuses.
     static std::string wanted(const std::string& said) {
         constexpr std::string_view kBefore = "confirm-arming=\"";
         const auto at = said.rfind(kBefore);
@@ -85,7 +85,7 @@ TEST_F(RunOnHardware, ATerminalIsAskedForATypedWord) {
     EXPECT_EQ(putOut(), 1U);
 }
 
-/// Its identity is an emulator's, and its address is that of any device.
+/// Its identity is an emulator's, but its address could be any device's.
 TEST_F(RunOnHardware, WhatADeviceSaysOfItselfSparesNoConfirmationAndNoRecord) {
     RecordProperty("hazard", "H4");
     auto settings = unit();

@@ -57,7 +57,7 @@ TEST_F(CertificateCli, IsEnteredListedAndWithdrawn) {
     EXPECT_DOUBLE_EQ(all[0]["timebase_u_ppm"].get<double>(), 10);
     EXPECT_EQ(all[1]["state"], "superseded");
     EXPECT_EQ(all[1]["used"], false);
-    EXPECT_TRUE(all[1]["probe_u_pct"].is_null());  // not stated is not 0
+    EXPECT_TRUE(all[1]["probe_u_pct"].is_null());  // an uncertainty that is not stated is not 0
     ASSERT_EQ(desk.run({"certificate", "withdraw", "4711"}).code, 0);
     EXPECT_EQ(list()[0]["state"], "withdrawn");
     EXPECT_EQ(list()[0]["withdrawn"], daysFromToday(0));

@@ -1,5 +1,5 @@
-// Where the programs meet the system: names of files, folders that are not there, a disk without room, a user without
-// a home, a window without a display.
+// The programs at the edges of the system: names of files, folders that are not there, a disk without room, a user
+// without a home, a window without a display.
 #include <algorithm>
 #include <array>
 #include <gmock/gmock.h>
@@ -21,13 +21,13 @@ using ::testing::StartsWith;
 
 std::string pulses() {
     std::string text = "time_s,voltage_v\n";
-    // With noise, which no format makes small.
+    // Noise is added, which no format makes small.
     for (int i = 0; i < 1000; ++i)
         text += fmt::format("{:.5f},{:.4f}\n", i * 1e-5, i / 50 % 2 * 5 + i * 7919 % 1000 * 1e-4);
     return text;
 }
 
-/// In quotes, as a shell has it.
+/// The word in quotes, as a shell needs it.
 std::string quoted(const std::string& word) { return "'" + word + "'"; }
 
 TEST(Edges, ACaptureIsWrittenUnderEveryNameThatTheFileSystemAllows) {
@@ -155,10 +155,10 @@ TEST(Edges, AWindowWithoutADisplayEndsWithASentence) {
     }
 }
 
-#ifndef __SANITIZE_ADDRESS__  // its own library would have to be preloaded first
+#ifndef __SANITIZE_ADDRESS__  // the sanitizer's own library would have to be preloaded first
 TEST(Edges, ADisplayThatDoesNotAnswerIsNotWaitedForForEver) {
     const Desk desk;
-    // As of an ssh -X whose other end stands still.
+    // The other end stands still, as it may with ssh -X.
     sockaddr_in address{};
     address.sin_family = AF_INET;
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);

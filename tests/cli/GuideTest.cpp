@@ -48,7 +48,7 @@ class Terminal {
 public:
     Terminal() { fs::create_directory_symlink(sourceDir() / "resources", desk_.path() / "resources"); }
 
-    /// What a line prints and its exit code, as the shell runs it.
+    /// The output and exit code of a line, as the shell runs it.
     [[nodiscard]] std::pair<std::string, int> run(const std::string& line) const {
         const auto program = fs::path(TACTO_CLI).parent_path().string();
         const auto script = "PATH=" + forTheShell(program) + ":$PATH; cd " + forTheShell(desk_.path().string()) +

@@ -1,4 +1,4 @@
-// What is quoted from a file or a script never moves the cursor of the terminal that shows it.
+// A quotation from a file or a script never moves the cursor of the terminal that shows it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

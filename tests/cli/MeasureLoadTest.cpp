@@ -25,7 +25,7 @@ std::string pulses(const std::string& header, double perAmpere) {
     return text;
 }
 
-/// What a data sheet would state of the instrument.
+/// Adds what a data sheet would state of the instrument.
 Words stated(Words words) {
     for (const char* key :
          {"gain_pct=0.1", "probe_pct=0", "shunt_pct=0.1", "timebase_ppm=50", "lsb_v=0.001", "lsb_a=1e-6"}) {

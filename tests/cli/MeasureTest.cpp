@@ -1,4 +1,4 @@
-// measure: files whose answer is known by construction.
+// measure: files with answers known by construction.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -14,12 +14,12 @@ namespace tacto::test {
 /// One block of the test.
 [[nodiscard]] Words shortSession();
 
-/// What happens to a session's program.
+/// The disturbance of a session's program.
 struct Disturbance {
-    long killAtSync = 0;            ///< it is killed when it makes something durable for that time; 0: never
+    long killAtSync = 0;            ///< it is killed when it makes something durable for the n-th time; 0: never
     unsigned long largestFile = 0;  ///< bytes: the disk is full once a file has them; 0: it never is
-    std::chrono::seconds clock{0};  ///< by so much the clock on the wall is ahead
-    long clockFromSync = 0;         ///< from that time on that it makes something durable; 0: from its beginning
+    std::chrono::seconds clock{0};  ///< how far ahead the clock on the wall is
+    long clockFromSync = 0;         ///< the n-th time from which this holds; 0: from its beginning
 };
 
 /// A row as someone with the keys can write it.
@@ -33,7 +33,7 @@ public:
     explicit PilotDesk(Words devices = {"sim:"}) : devices_(std::move(devices)) {}
     /// `run PROTOCOL --device sim: --out STUDY --json` with more words.
     [[nodiscard]] Ran run(const std::string& protocol, const Words& more, const std::string& study = "study") const;
-    /// The same, disturbed. The code is -9 where it was killed.
+    /// Runs it disturbed. The code is -9 where it was killed.
     [[nodiscard]] Ran runDisturbed(const Disturbance& by, const std::string& protocol, const Words& more,
                                    const std::string& study = "study") const;
     /// The code of one that is killed at its `sync`-th durable row.

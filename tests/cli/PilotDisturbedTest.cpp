@@ -1,5 +1,5 @@
-// What happens to a session beside being killed: the disk is full, the clock is moved, a part of its record is gone or
-// another's. It is refused or goes on as if nothing had happened.
+// What happens to a session besides being killed: the disk is full, the clock is moved, a part of its record is gone or
+// another's. It is refused, or continues as if nothing had happened.
 #include <filesystem>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ protected:
         EXPECT_EQ(std::ranges::count(ran.err, '\n'), 1) << ran.err;
         expectSame(before, desk.desk().files(study));
     }
-    /// But for the index that SQLite keeps beside a log.
+    /// All files but the index that SQLite keeps beside a log.
     using Files = std::map<std::string, std::string>;
     static void expectSame(const Files& before, const Files& after) {
         for (const auto& [name, bytes] : before) {
@@ -43,7 +43,7 @@ protected:
         }
         EXPECT_EQ(after.size(), before.size()) << "and there are others";
     }
-    /// A program that was killed left logs: the next one that opens the study takes them in, whatever it does then.
+    /// A killed program left logs: the next one that opens the study takes them in, whatever it does then.
     void takeIn(const std::string& study) const {
         const auto asked = desk.run(kSession, shortSession(), study);
         EXPECT_EQ(asked.code, 3) << asked.err;
@@ -72,7 +72,7 @@ TEST_F(DisturbedSession, OnADiskThatIsFullAtAnyTimeItEndsAndGoesOnOnceThereIsRoo
         SCOPED_TRACE(bytes);
         const auto study = "full at " + std::to_string(bytes);
         const auto full = desk.runDisturbed({.largestFile = bytes}, kSession, shortSession(), study);
-        if (full.code == 0) break;  // It needs no more
+        if (full.code == 0) break;  // it needs no more than this
         EXPECT_EQ(full.code, 3) << full.err;
         EXPECT_THAT(full.err, HasSubstr("tactoscope-cli: "));
         EXPECT_TRUE(full.out.empty() || !jsonOf(full)["results"].contains("confusion")) << "no result";
@@ -110,7 +110,7 @@ TEST_F(DisturbedSession, WithAClockThatWasMovedBetweenItsPartsItIsRefusedOrGoesO
 
 TEST_F(DisturbedSession, WithAClockBehindItsLastAnswerItIsRefused) {
     RecordProperty("hazard", "H8");
-    // It went on for half an hour, and nothing of it is a row of the ledger.
+    // It continued for half an hour, of which the ledger has no row.
     const auto then = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now()) + 30min;
     ASSERT_NO_FATAL_FAILURE(
         desk.writeUnfinished("study", kSession, {{"trial-begin", {{"name", "ascending 1"}}}}, then));

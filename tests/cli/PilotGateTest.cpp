@@ -44,7 +44,7 @@ protected:
         EXPECT_EQ(ran.out, "");
         EXPECT_TRUE(desk.desk().files("study") == before) << "bytes of the study were changed";
     }
-    /// The same with bytes of a file of the study replaced by others, which are put back.
+    /// Replaces bytes in a file of the study, expects the refusal, and puts them back.
     void expectRefusedWith(const char* file, const std::string& was, const std::string& is, int exit,
                            const char* says) const {
         const auto path = desk.desk().at(file);
@@ -130,7 +130,7 @@ TEST_F(PilotGates, OfTheProcedureRefuseAProfileThatIsAnotherInAnythingThatIsFelt
         expectRefused(code, 4, each.says, {"--profile", changed(each.pointer, each.value)});
     }
     expectRefused(code, 4, "the method of detection is staircase", {"--set", "method=staircase"});
-    // Bytes of the same profile in another place, and what is not felt, are no other procedure.
+    // Bytes of the same profile in another place, and parts that nobody feels, make no other procedure.
     const auto ran = desk.run("pilot-thresholds", {"--set", "participant=" + code, "--passphrase-file", passphrase,
                                                    "--profile", changed("/name", "by another path")});
     EXPECT_TRUE(ran.code == 0 || ran.code == 5) << ran.err;
@@ -157,7 +157,7 @@ TEST(PilotRehearsal, IsNotGoneOnWithUnderAnotherProfile) {
     const PilotDesk desk;
     ASSERT_EQ(desk.runKilled(120, "pilot-thresholds", {"--set", "participant=virtual:7"}), -9);
     auto other = nlohmann::json::parse(contentOf(sourceDir() / "resources/encodings/default.json"));
-    other["encoding"]["interval_max_s"] = 3;  // no level of a threshold is presented at it
+    other["encoding"]["interval_max_s"] = 3;  // no level of a threshold is presented with it
     const auto shown = [&] { return desk.desk().run({"study", "show", desk.desk().at("study"), "--json"}).out; };
     const auto before = shown();
     const auto ran = desk.run("pilot-thresholds", {"--set", "participant=virtual:7", "--set", "unfinished=resume",

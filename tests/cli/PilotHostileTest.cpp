@@ -1,6 +1,6 @@
-// Rows of a session that lie though their seals and their chain are right: made by someone who has the keys, as those
-// of a rehearsal are for everyone. A session goes on from what it can believe and else is refused in one sentence;
-// nothing is presented that its rows do not lead to.
+// Rows of a session that lie, although their seals and their chain are right: made by someone who has the keys, as
+// everyone has for a rehearsal. A session continues from what it can believe, or is refused in one sentence; it
+// presents nothing that its rows do not lead to.
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -28,14 +28,14 @@ json planned(json number, json condition = "rough-high", json phase = "test", js
 
 class HostileRows : public testing::Test {
 protected:
-    /// Goes on with an unfinished session that has these rows.
+    /// Continues an unfinished session that has these rows.
     Ran goneOnWith(const std::vector<WrittenRow>& rows, const char* protocol) {
         const auto name = "study " + std::to_string(++made_);
         desk.writeUnfinished(name, protocol, rows,
                              std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now()));
         return desk.run(protocol, shortSession() + Words{"--set", "unfinished=resume"}, name);
     }
-    /// Each is refused with that code, in one sentence.
+    /// Each of these is refused with that code, in one sentence.
     void expectRefused(std::initializer_list<std::pair<const char*, std::vector<WrittenRow>>> all, const char* protocol,
                        int code) {
         for (const auto& [what, rows] : all) {

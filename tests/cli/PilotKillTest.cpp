@@ -1,4 +1,4 @@
-// A session that is killed at any of its rows goes on as if nothing had happened: plan and answers byte for byte.
+// A session that is killed at any of its rows continues as if nothing had happened: plan and answers byte for byte.
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -71,7 +71,7 @@ std::vector<KillShard> killShards() {
 
 class PilotKill : public testing::TestWithParam<KillShard> {};
 
-/// What a session came to, without what only says how often it was begun. |Z| is measured anew when it goes on.
+/// The outcome of a session, without what only tells how often it was begun. |Z| is measured again when it continues.
 std::string cameTo(const nlohmann::json& value) {
     const auto& results = value["results"];
     auto range = results["range"];
@@ -111,15 +111,15 @@ TEST_P(PilotKill, AtEveryDurableRowGoesOnAsIfUndisturbed) {
     for (long sync = 1 + shard + every / 2;; sync += session->shards * every) {
         const auto study = "killed " + std::to_string(sync);
         const int code = desk.runKilled(sync, session->protocol, session->words, study);
-        if (code == 0) break;  // It has fewer
+        if (code == 0) break;  // it has fewer of them
         ASSERT_EQ(code, -9) << "sync " << sync;
         ++killed;
-        if (const auto kept = completeIn(desk, study)) {  // only the program's own end was left
+        if (const auto kept = completeIn(desk, study)) {  // all but the program's own end was done
             EXPECT_EQ(*kept, answers.dump()) << "sync " << sync;
             std::filesystem::remove_all(desk.desk().at(study));
             continue;
         }
-        // Before the plan is durable there is none that could hold: it is drawn from the seed.
+        // Before the plan is durable no plan could hold: it is drawn from the seed.
         const auto& words = desk.desk().named(study + "/sessions", ".tacto").empty() ? fromTheSeed : resumed;
         if (session->twice) {
             const int again = desk.runKilled(20 + sync / 3, session->protocol, words, study);

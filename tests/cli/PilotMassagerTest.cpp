@@ -1,4 +1,4 @@
-// A rehearsal with a massager, from plan to confusion matrix: strengths, no currents; killed and gone on with; what its
+// A rehearsal with a massager, from plan to confusion matrix: strengths, no currents; killed and resumed; what its
 // motor did, where a board is on it.
 #include <algorithm>
 #include <gmock/gmock.h>
@@ -16,7 +16,7 @@ using testing::Not;
 
 const Words kMassager{"sim:massager"};
 
-/// Every key of a value, at any depth.
+/// Adds every key of a value, at any depth.
 void addKeys(const json& value, std::set<std::string>& keys) {
     for (const auto& [key, member] : value.items()) {
         if (value.is_object()) keys.insert(key);
@@ -93,7 +93,7 @@ TEST(PilotMassager, KilledItGoesOnAsIfUndisturbed) {
     ASSERT_EQ(undisturbed.code, 0) << undisturbed.err;
     const auto expected = planAndAnswers(jsonOf(undisturbed));
     const auto resume = shortSession() + Words{"--set", "unfinished=resume"};
-    for (const long sync : {40L, 130L, 220L}) {  // in the ascending limits, in detection, among the trials
+    for (const long sync : {40L, 130L, 220L}) {  // in the ascending limits, in detection, and among the trials
         const auto study = "killed " + std::to_string(sync);
         ASSERT_EQ(desk.runKilled(sync, "pilot-identification", shortSession(), study), -9) << sync;
         const auto ran = desk.run("pilot-identification", resume, study);

@@ -1,5 +1,5 @@
-// What stands in the files of a study, of the user's home and of the temporary folder while a session runs, after its
-// program was killed, and after it has ended: no code, name, birth year or note, and no condition or answer.
+// The files of a study, of the user's home and of the temporary folder while a session runs, after its program was
+// killed, and after it has ended: no code, name, birth year or note, and no condition or answer.
 #include <cstdlib>
 #include <filesystem>
 #include <gmock/gmock.h>

@@ -42,7 +42,7 @@ TEST(Pilot, ARehearsalGoesFromPlanToConfusionMatrix) {
     EXPECT_EQ(hits, results["hits"]);
     EXPECT_GT(hits, 40) << "of a virtual participant with a usable range";
 
-    // The trials are those of the plan, each answered once.
+    // The trials are exactly those of the plan, each answered once.
     std::map<int, json> planned;
     for (const auto& each : results["plan"]) planned[each["number"]] = each;
     std::set<int> answered;
@@ -106,7 +106,7 @@ TEST(Pilot, ComparesStrengthsWithinTheRangeWhereItIsAskedTo) {
     }
 }
 
-/// Each key of these that is not in `object`.
+/// Every key of these that `object` lacks.
 std::string missingIn(const json& object, std::initializer_list<const char*> keys) {
     std::string missing;
     for (const char* key : keys)

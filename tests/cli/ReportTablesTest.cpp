@@ -99,7 +99,7 @@ const std::map<std::string, Words> kSettings{{"separability", {"repeats=2"}},
                                              {"sensor-calibration", {"more=", "slides=3"}},
                                              {"stimulator-calibration", {"levels=4", "repeats=2"}}};
 
-/// Those that need no participant.
+/// The shipped protocols that need no participant.
 std::vector<std::string> shippedProtocols() {
     std::vector<std::string> names;
     for (const auto& file : std::filesystem::directory_iterator(sourceDir() / "resources" / "protocols")) {

@@ -57,10 +57,10 @@ public:
     [[nodiscard]] pid_t spawn(const Words& words, posix_spawn_file_actions_t& actions, short flags = 0) const;
 
     [[nodiscard]] const std::filesystem::path& path() const { return folder_.path(); }
-    /// What the program is started with: no display, none of the tester's own settings, a home of the desk's, and these
+    /// The environment of the program: no display, none of the tester's own settings, a home of the desk's, and these
     /// libraries preloaded, divided by ':'.
     [[nodiscard]] Words environment(const std::string& preloaded = {}) const;
-    /// From here on a key is made of a passphrase at the program's own cost, not at the least one.
+    /// From here on, making a key from a passphrase costs what it costs the program, not the least possible.
     void payForPassphrases() { passphrasesAreCheap_ = false; }
     /// A path below the folder, as text.
     [[nodiscard]] std::string at(std::string_view name) const { return (path() / name).string(); }
@@ -69,7 +69,7 @@ public:
     std::string protocol(std::string_view name, std::string_view script) const;
     /// Every file below a folder of the desk, with what it holds.
     [[nodiscard]] std::map<std::string, std::string> files(std::string_view below = ".") const;
-    /// The files below a folder whose names end so, sorted.
+    /// The files below a folder whose names end like this, sorted.
     [[nodiscard]] Words named(std::string_view below, std::string_view ending) const;
 
 private:

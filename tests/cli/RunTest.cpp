@@ -66,7 +66,7 @@ TEST(RunSeparability, TheFourConditionsAreToldApartAndEverythingIsWrittenDown) {
                     0.01 * made["amplitude_v"].get<double>());
     }
 
-    // And so does the analysis of the trials as a table.
+    // The analysis of the trials as a table agrees.
     std::string table = "condition,amplitude,interval\n";
     for (const auto& trial : results["trials"])
         table += trial["condition"].get<std::string>() + "," + trial["amplitude_v"].dump() + "," +

@@ -277,7 +277,7 @@ TEST_F(ScienceModeCommand, ASignalDuringTheCheckCutsItAndNothingFollows) {
 
 TEST_F(ScienceModeCommand, AFaultStaysWithTheUnit) {
     RecordProperty("hazard", "H3");
-    const OwnSerial serial("EMU");  // what it says of itself spares it nothing
+    const OwnSerial serial("EMU");  // its own word on itself spares it nothing
     emulated_ = false;
     auto settings = on("1 kohm");
     settings.id = serial.text();
@@ -297,7 +297,7 @@ TEST_F(ScienceModeCommand, AFaultStaysWithTheUnit) {
     expectRefused(pulse("5", "1000"), 4, {"left by an earlier run", "stood still", "--reset-fault"});
     EXPECT_EQ(putOut().size(), before);
 
-    // It is left where it is met, and stays left.
+    // The state is left where it is met, and stays left.
     for (const Words& how : {Words{"--reset-fault"}, Words{}}) {
         const auto ran = pulse("5", "1000", how);
         ASSERT_EXIT_IN_TIME(ran.code, 0) << ran.err;

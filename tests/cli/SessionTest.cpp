@@ -157,7 +157,7 @@ TEST_F(Session, AReportForWhichTheDiskHasNoRoomIsNoSuccessAndKeepsTheEarlierOne)
     for (const auto* name : {"r.pdf", "r.html"}) {
         const auto path = desk.at(name);
         ASSERT_EQ(desk.run({"report", session, "--out", path}).code, 0);
-        const auto blocks = std::filesystem::file_size(path) / 512 - 1;  // all but the end
+        const auto blocks = std::filesystem::file_size(path) / 512 - 1;  // all blocks but the end
         desk.write(name, "the earlier report");
         const auto said = desk.at("said");
         const auto limited = "ulimit -f " + std::to_string(blocks) + "; exec " TACTO_CLI " report '" + session +

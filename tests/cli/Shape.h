@@ -13,7 +13,7 @@ namespace tacto::test {
 
 using Json = nlohmann::json;
 
-/// What stdout holds, which must be one JSON value and nothing else.
+/// The JSON on stdout, which must be one value and nothing else.
 [[nodiscard]] Json jsonOf(const Ran& ran);
 
 /// Exit code, nothing on stdout, and one sentence on stderr in which every one of `parts` occurs.
@@ -25,7 +25,7 @@ void expectStatistic(const Json& value, const std::string& what);
 void expectEstimate(const Json& value, const std::string& what);
 void expectKeys(const Json& value, const Words& keys, const std::string& what);
 
-/// What run separability and analyze separability both print.
+/// The output that run separability and analyze separability share.
 void expectSeparability(const Json& results);
 
 extern const Words kConditions;

@@ -171,7 +171,7 @@ TEST_F(StudyCli, AnAmendmentRenewsTheApprovalAndIsListed) {
     EXPECT_EQ(shown["approval"],
               Json({{"reference", "EC-17 A1"}, {"from", "2026-01-01"}, {"expires", "2099-12-31"}, {"valid", true}}));
     EXPECT_THAT(desk.run({"study", "show", at()}).out, HasSubstr("changed approval.expires, blocks"));
-    // The license is the study's, and no amendment is needed for what is not the protocol.
+    // The license is the study's, and needs no amendment, as it is no part of the protocol.
     ASSERT_EQ(
         desk.run({"export", at(), "--format", "bids", "--out", desk.at("bids"), "--passphrase-file", passphrase}).code,
         0);

@@ -59,7 +59,7 @@ TEST_F(StudyExport, ABidsFolderHoldsTheSessionsAnswersAndNoCode) {
         const auto analysed = jsonOf(desk_.run({"analyze", "identification", entry.path().string(), "--json"}));
         EXPECT_EQ(analysed.at("n"), run_.at("n"));
         EXPECT_EQ(analysed.at("hits"), run_.at("hits"));
-        EXPECT_TRUE(fs::exists(at("bids") / fs::relative(entry.path(), at("again"))));  // the same labels
+        EXPECT_TRUE(fs::exists(at("bids") / fs::relative(entry.path(), at("again"))));  // the labels are the same
     }
 }
 

@@ -67,7 +67,7 @@ TEST(Usage, AnUnknownProtocolIsNamedWithThoseThatExist) {
     expectRefused(desk.run({"run", "dance", "--device", "sim:"}), 2, {"dance", "live", "separability"});
 }
 
-/// What is wrong on a run's command line leaves no trace of a run.
+/// A wrong command line leaves no trace of a run.
 class BadRun : public testing::Test {
 protected:
     void expectNothingBegun(Words words, const Words& parts, int code = 2) const {

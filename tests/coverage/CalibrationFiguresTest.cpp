@@ -30,7 +30,7 @@ constexpr Asked kAsked[] = {{Quantity::Amplitude, "amplitude", 10, 40},
                             {Quantity::Gap, "gap", 100e-6, 400e-6},
                             {Quantity::Interval, "interval", 0.5, 2}};
 
-/// What the run is told of the instrument: what the captures state.
+/// The instrument as the run knows it: by what the captures state.
 InstrumentErrors statedBy(const Capture& capture, Quantity quantity) {
     InstrumentErrors out;
     if (quantity != Quantity::Amplitude) {

@@ -15,7 +15,7 @@ constexpr double kFrom_v = 20, kTo_v = 23, kFrom_s = 0.5, kTo_s = 0.55, kCompare
 const double kAmplitudeJnd = std::log(1.10), kIntervalJnd = std::log(1.16);
 
 struct Compared {
-    double amplitude_v, own_v, gain;  ///< with what the level has by itself; of the gain, relative
+    double amplitude_v, own_v, gain;  ///< the amplitude, what the level adds by itself, and the gain's relative error
     double onset_s, onset_u_s;
     double interval_s = kNaN, interval_u_s = kNaN;
 };

@@ -20,11 +20,11 @@
 
 namespace tacto::test {
 
-/// What a row promises.
+/// The promise of a row.
 struct Promise {
     double least = 0.92, most = 0.99;
     double mostWithinHalf = 0.80;  ///< share of the errors, at most, within half of U
-    std::string because{};         ///< one sentence where it is not the usual
+    std::string because{};         ///< why, in one sentence, where it is not the usual cause
 };
 
 class CoverageTable {
@@ -32,7 +32,7 @@ public:
     /// One run: U for 95 %, or the ends of an interval.
     void add(const std::string& figure, double truth, double value, double expanded);
     void add(const std::string& figure, double truth, const Estimate& estimate);
-    /// For a figure that is added, or of all that begin with `figure` and a space.
+    /// Promises for an added figure, or for all that begin with `figure` and a space.
     void promise(const std::string& figure, const Promise& promise);
     /// Fails the test for each row that breaks its promise, prints all of them, and records their counts.
     void judge(const std::string& source) const;

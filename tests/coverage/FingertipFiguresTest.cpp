@@ -17,7 +17,7 @@ namespace {
 /// Weights and local gravity, drawn within what is stated of them.
 struct Weights {
     double mass = 0.01, gravity = 0.003;
-    double truth = 1;  ///< what they weigh, over what they should
+    double truth = 1;  ///< their weight, over what it should be
 };
 
 Weights drawnWeights(Random& random) {
@@ -60,7 +60,7 @@ TEST(Coverage, KnownWeight) {
         const ForceInUse atRest{levelOf(rest, StreamKind::Force).mean, StreamUnit::Newton,
                                 meanUncertainty(rest, StreamKind::Force)};
         const auto off = weightError(reading, atRest, weights.mass, weights.gravity);
-        // What the sensor says too much of what lies on it, of what it should weigh.
+        // The excess of the sensor's reading over the weight on it, of what it should weigh.
         const double truth = gain * weights.truth - weights.truth;
         table.add("error of a known weight", truth, off.value / reference_n, off.expanded / reference_n);
     }

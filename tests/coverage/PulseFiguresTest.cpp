@@ -1,4 +1,4 @@
-// What is measured on pulses and on loads: `measure`, the known load, the load-safety check.
+// The figures of pulses and loads: `measure`, the known load, the load-safety check.
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -56,7 +56,7 @@ struct LoadFigure {
 std::vector<LoadFigure> loadFigures(const TwinTruth& truth, int pulses) {
     const double volts = truth.volts(kVolts), amps = volts / truth.ohms, width = kWidth_s + truth.width_s;
     const double second = 1 - truth.imbalance, larger = std::max(1.0, second);
-    // The square of a trapezoid is integrated: one whose width at half height is the phase's.
+    // The square of a trapezoid is integrated; its width at half height is the phase's.
     const double squares = amps * amps * (width - kRise_s / 3) * (1 + second * second);
     const double net = amps * width * std::abs(truth.imbalance);
     const double in1s = 2 * pulses, in5s = 10 * pulses;

@@ -1,4 +1,4 @@
-// What is said of a person: the detection threshold, its drift, and the Weber fraction of strength, with their
+// The figures of a person: the detection threshold, its drift, and the Weber fraction of strength, with their
 // intervals. The people are drawn from the very prior that the intervals stand on, so that they hold 95 % by Bayes'
 // rule; fewer or more means that model, posterior or quantiles are wrong. Answers are drawn from the model's formula,
 // written here once more.
@@ -24,7 +24,7 @@ TrialInterval said(Random& random, TrialInterval right, double probability) {
     return right == TrialInterval::First ? TrialInterval::Second : TrialInterval::First;
 }
 
-/// A person whose threshold lies about `median_ma`, with its slope.
+/// A person with a threshold about `median_ma`, and with its slope.
 struct Person {
     double threshold_db, slope;
     [[nodiscard]] double right(double level_ma) const {
@@ -40,7 +40,7 @@ Person drawn(Random& random, double median_ma, double sd_db) {
     double threshold = 0;
     do {
         threshold = 20 * std::log10(median_ma) + sd_db * random.normal();
-    } while (threshold < felt_db - 12 || threshold > felt_db + 9);  // what the procedure considers
+    } while (threshold < felt_db - 12 || threshold > felt_db + 9);  // the range that the procedure considers
     return {threshold, kSlopes[random.below(4)]};
 }
 

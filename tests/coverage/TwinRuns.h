@@ -1,4 +1,4 @@
-// TwinRuns.h - trains of a simulated stimulator of known truth, as a simulated oscilloscope sees them whose gain,
+// TwinRuns.h - trains of a simulated stimulator with known truth, as a simulated oscilloscope sees them; its gain,
 // offset, linearity, shunt and time base are drawn for each seed within what it states (science.md section 12).
 //
 // Thread-safety: as SimBench.
@@ -12,14 +12,14 @@
 
 namespace tacto::test {
 
-/// What the stimulator really does, drawn for each seed.
+/// The truth about the stimulator, drawn for each seed.
 struct TwinTruth {
     explicit TwinTruth(std::uint64_t seed);
     double gain, offset_v;  ///< errors of the amplitude
     double width_s, gap_s;  ///< added to both
     double imbalance;       ///< the second phase is weaker by this share
     double ohms;            ///< the load's resistance
-    double train_hz;        ///< within a train, as it is commanded: no whole number of samples from onset to onset
+    double train_hz;        ///< the commanded rate within a train: no whole number of samples from onset to onset
     [[nodiscard]] double volts(double commanded) const { return gain * commanded + offset_v; }
 };
 

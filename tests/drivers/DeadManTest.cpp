@@ -102,7 +102,7 @@ protected:
     }
 
     [[nodiscard]] bool outputOn() { return circuit_->active(clock_.now()); }
-    /// When the newest pulse ended.
+    /// The end of the newest pulse.
     [[nodiscard]] Instant lastOutput() {
         return circuit_->inspect(clock_.now(), [](const auto& pulses) { return toInstant(pulses.back().end_s); });
     }

@@ -133,7 +133,7 @@ TEST(SimulatedOscilloscope, NoiseAndResolutionAreAsStated) {
     const auto noisy = fine.capture();
     double square = 0;
     for (std::size_t i = 0; i < 1500; ++i) {
-        square += std::pow(static_cast<double>(noisy.channels[0].samples[i]), 2);  // before the trigger
+        square += std::pow(static_cast<double>(noisy.channels[0].samples[i]), 2);  // taken before the trigger
     }
     EXPECT_NEAR(std::sqrt(square / 1500), 0.05, 0.004);
 }

@@ -21,7 +21,7 @@ public:
     /// Opens one URI; failing that, the test's failure says why.
     /// Without flaws unless `uri` says otherwise: these tests look at one flaw at a time.
     void open(std::string_view uri, const std::set<Role>& wanted = {});
-    /// As open(), for what should be refused.
+    /// Opens like open(), for what should be refused.
     [[nodiscard]] Result<void> tryOpen(std::string_view uri, const std::set<Role>& wanted = {});
     void wait(Seconds duration) { clock.advanceTo(clock.now() + toInstant(duration)); }
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr Seconds kPlugTime{1000};
 
-/// What every simulated rig shares: the plug is pulled by a fault that comes due.
+/// All simulated rigs share this: the plug is pulled by a fault that comes due.
 template <class Rig>
 class SimRig : public Rig {
 public:

@@ -191,7 +191,7 @@ TEST(SimulatedStimulator, ForceOffTruncatesThePulseInProgress) {
     auto train = voltagePulse(20);
     train.pulses = 5;
     ASSERT_TRUE(bench.devices.stimulator->deliver(bench.approved(train)).has_value());
-    bench.wait(Seconds(10e-3 + 100e-6));  // in the middle of the second pulse's leading phase
+    bench.wait(Seconds(10e-3 + 100e-6));  // this is the middle of the second pulse's leading phase
     bench.devices.stimulator->forceOff();
     bench.wait(Seconds(1));
     bench.circuit().inspect(bench.clock.now(), [](const auto& pulses) {

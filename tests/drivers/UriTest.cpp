@@ -16,7 +16,7 @@ const std::set<Role> kAll{Role::Sensor, Role::Stimulator, Role::Oscilloscope, Ro
 struct BadUri {
     const char* uri;
     const char* names;     // the message names this
-    const char* accepted;  // and says this about what is
+    const char* accepted;  // what is accepted, as the refusal says it
 };
 
 class RefusedUris : public testing::TestWithParam<BadUri> {};

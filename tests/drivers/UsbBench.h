@@ -22,7 +22,7 @@ namespace tacto::test {
 class UsbBench : public testing::Test {
 protected:
     [[nodiscard]] virtual Registry registry() = 0;
-    /// Before what is plugged in goes.
+    /// This runs before the plugged-in devices go.
     void TearDown() override {
         bench_.reset();
         usb_ = {};

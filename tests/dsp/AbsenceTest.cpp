@@ -1,5 +1,5 @@
-// What is not there is said: why no frame is in contact, which stream has nothing for the frames, and which values were
-// out of all proportion.
+// The chain says what is missing: why no frame is in contact, which stream has nothing for the frames, and which values
+// were out of all proportion.
 #include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -105,7 +105,7 @@ TEST(Absence, ZeroInContactHasItsReasonAlways) {
     const auto stale = analysed({accelerationAt(1000), forceAt(1)}, {noise(0.2, 2, 1000, 1, 0, 1, 1), seldom});
     EXPECT_EQ(stale.contactFrames, 0U);
     EXPECT_THAT(stale.flags, Contains(testing::AnyOf("no frame in contact", StartsWith("force at other times"))));
-    // Nothing but numbers that are none.
+    // Holds only numbers that are none.
     auto none = noise(0, 2, 200, 1, 1, 0.1, 1);
     std::ranges::fill(none.values, std::nan(""));
     EXPECT_THAT(analysed({accelerationAt(1000), forceAt(200)}, {acceleration, none}).flags,

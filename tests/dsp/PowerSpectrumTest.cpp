@@ -17,7 +17,7 @@ std::vector<double> noise(std::size_t count) {
     return x;
 }
 
-/// By the definition, one bin at a time.
+/// Computed by the definition, one bin at a time.
 double directDensity(const std::vector<std::vector<double>>& axes, double rate, std::size_t k) {
     const std::size_t n = axes[0].size();
     double energy = 0;

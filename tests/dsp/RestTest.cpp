@@ -51,7 +51,7 @@ TEST(Rest, ProfilesLevelServesOnlyInItsUnit) {
 TEST(Rest, ProfilesLevelTellsSlidingFromResting) {
     const auto slide = lateStart();
     RoughnessSettings settings;
-    // What the sensor reads at rest, 5 Hz..1 kHz: half of white noise of 0.02 m/s2, and 0.1 N divides before it is
+    // The sensor's reading at rest, 5 Hz..1 kHz: half of white noise of 0.02 m/s2, and 0.1 N divides before it is
     // undone.
     settings.restMeanSquare = 0.02 * 0.02 * 0.5;
     const auto result = analyseRoughness(slide.streams, slide.blocks, settings);
@@ -69,7 +69,7 @@ TEST(Rest, ProfilesLevelTellsSlidingFromResting) {
 
 TEST(Rest, DeclaredBaselineComesBeforeEverything) {
     DeclaredIntervals declared;
-    declared.baseline = {3.9, 4.9};  // after the lift, on this slide's clock
+    declared.baseline = {3.9, 4.9};  // it lies after the lift, on this slide's clock
     const auto flags = flagsOf(lateStart(), {}, declared);
     EXPECT_THAT(flags, Not(Contains("baseline assumed")));
     EXPECT_THAT(flags, Not(Contains("sliding assumed")));

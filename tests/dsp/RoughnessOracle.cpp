@@ -283,8 +283,8 @@ std::vector<RoughnessFrame> oracleFrames(std::span<const StreamInfo> streams, st
         if (acceleration != nullptr) {
             f.h = s.spectral == SpectralFeature::Relative ? spectra.h[k] : spectra.hAbs[k];
             product.push_back(spectra.meanSquare[k] * pressed * pressed);
-            // Where force more than doubles within the window one number cannot undo the normalisation: both
-            // readings must say that the finger slides (hazard H7).
+            // Where force more than doubles within the window, one number cannot undo the normalisation: both readings
+            // must say that the finger slides (hazard H7).
             double smallest = pressed;
             double largest = pressed;
             for (double t = spectra.begin[k]; force != nullptr && t <= spectra.end[k]; t += 1e-4) {

@@ -12,7 +12,7 @@
 
 namespace tacto::test {
 
-/// All streams must share t = 0; `declared.baseline` is honoured; rest before contact and the assumptions too.
+/// All streams must share t = 0; `declared.baseline` is honoured, and so are rest before contact and the assumptions.
 [[nodiscard]] std::vector<RoughnessFrame> oracleFrames(std::span<const StreamInfo> streams,
                                                        std::span<const SampleBlock> blocks,
                                                        const RoughnessSettings& settings,

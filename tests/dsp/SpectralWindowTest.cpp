@@ -69,9 +69,9 @@ TEST(SpectralPeaks, AreWhereTheLinesAreHighestFirst) {
     };
     line(100.3, 1);
     line(300, 4);
-    line(305, 0.2);  // in the skirt of a larger one
+    line(305, 0.2);  // a line in the skirt of a larger one
     line(700.5, 0.5);
-    line(900, 1e-3);  // in the noise
+    line(900, 1e-3);  // a line in the noise
     const auto peaks = spectralPeaks(level, 8, 10, 5);
     ASSERT_EQ(peaks.size(), 3U);
     EXPECT_NEAR(peaks[0].bin, 300, 0.02);

@@ -1,7 +1,7 @@
 // BuiltWindow.h - bin/tactoscope as a person starts it for the first time, with an empty home, on this X server; and
 // that person's hand and eyes, with the time that they take.
 //
-// Where to click and what is written the window says itself, by the plugin of Whereabouts.cpp.
+// The window itself says where to click and what is written, through the plugin of Whereabouts.cpp.
 //
 // Thread-safety: the thread of the test.
 #pragma once
@@ -12,7 +12,7 @@
 
 namespace tacto::test {
 
-/// How long a person takes beside the machine: reading, pointing, typing.
+/// The time that a person takes beside the machine: reading, pointing, typing.
 class PersonsTime {
 public:
     static constexpr double kWordsPerSecond = 4;
@@ -36,9 +36,9 @@ public:
 
     /// False where no window comes.
     [[nodiscard]] bool start();
-    /// The answer to a question of Whereabouts.cpp; empty where there is none in 5 s.
+    /// The answer to a question of Whereabouts.cpp; empty if none comes in 5 s.
     [[nodiscard]] QString ask(const QString& question);
-    /// What is written in what has that name, with plain spaces.
+    /// The text in the widget of that name, with plain spaces.
     [[nodiscard]] QString text(const QString& name) { return ask("text " + name).replace(QChar(0x202f), ' '); }
     [[nodiscard]] bool stands(const QString& name) { return !ask("where " + name).isEmpty(); }
     /// Clicks where it stands; false where it does not.
@@ -57,7 +57,7 @@ public:
 private:
     QTemporaryDir home_;
     QProcess program_;
-    QString window_;  // its number in the X server
+    QString window_;  // the window's number in the X server
 };
 
 }  // namespace tacto::test

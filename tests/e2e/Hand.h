@@ -1,5 +1,5 @@
-// Hand.h - a hand at the mouse and the keyboard of a real X server (xdotool): what it does goes through the server and
-// Qt's platform plugin, past which window is blocked, which popup is open and what has the focus.
+// Hand.h - a hand at the mouse and the keyboard of a real X server (xdotool): its events go through the server and Qt's
+// platform plugin, past blocked windows, open popups and the focus.
 //
 // Thread-safety: the GUI thread.
 #pragma once

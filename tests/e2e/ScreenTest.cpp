@@ -124,7 +124,7 @@ TEST_F(Screen, DISABLED_AWindowManagersFrameIsOnItToo) {
     manager.start("openbox", {"--sm-disable"});
     ASSERT_TRUE(manager.waitForStarted()) << "openbox is not installed";
     const auto framed = [](const QWidget& widget) { return widget.frameGeometry() != widget.geometry(); };
-    ASSERT_IN_TIME(comesTrue([&] {  // once it frames what is shown
+    ASSERT_IN_TIME(comesTrue([&] {  // waits until it frames what is shown
         QWidget first;
         first.show();
         return QTest::qWaitForWindowExposed(&first) && comesTrue([&] { return framed(first); }, 500);

@@ -43,11 +43,11 @@
 namespace tacto::test {
 namespace {
 
-constexpr int kTries = 4;            // where the machine was late while a dialog opened
-constexpr int kStopLimit_ms = 2000;  // for a loaded machine; the time taken is recorded
+constexpr int kTries = 4;            // tries where the machine was late while a dialog opened
+constexpr int kStopLimit_ms = 2000;  // long enough for a loaded machine; the time taken is recorded
 constexpr const char* kPassphrase = "correct horse 4711";
 
-/// How often each file of app/gui, by its stem, calls the two functions that open dialogs.
+/// For each file of app/gui, by its stem, how often it calls the two functions that open dialogs.
 std::map<std::string, int> placesThatOpenDialogs() {
     static const QRegularExpression call("\\b(openDialog|askForFile)\\(");
     std::map<std::string, int> calls;
@@ -64,7 +64,7 @@ std::map<std::string, int> placesThatOpenDialogs() {
 /// Dialogs that share a place, by the name of their opening: each but the first of them.
 constexpr std::string_view kShareAPlace[] = {"Study: exportWithAbout", "Folder of a new study",
                                              "Definitions and limits"};
-/// Places that no opening of their own tries, by their file and what is asked there.
+/// Places that no opening here tries, by their file and their question.
 constexpr std::pair<const char*, const char*> kTriedByAnother[] = {
     {"CloseQuestion", "whether a run is to end: the same box as for a script that is not saved"},
     {"StudyList", "whether to go back to an older ledger: the same frame as for a participant who leaves"}};
@@ -123,7 +123,7 @@ protected:
         window.controller().drive(DriveSource::Manual, 0.5, 1);
         ASSERT_IN_TIME(comesTrue([&] { return state() == InterlockState::Delivering; }));
     }
-    /// What the hand does must end the output.
+    /// Whatever the hand does must end the output.
     void expectStop(const std::string& what, const std::function<void()>& hand) {
         ASSERT_TRUE(isLive()) << what << ": opening it stopped the output";
         QElapsedTimer since;
@@ -262,7 +262,7 @@ protected:
         lists()->selectRow(0);
     }
 
-    /// Each place of the program that opens a dialog.
+    /// Every place of the program that opens a dialog.
     [[nodiscard]] std::vector<Opening> dialogs() {
         const auto menu = [this](const char* name, const char* entry, const char* in) {
             return Opening{entry, [this, name, entry] { trigger(name, entry); }, in};
@@ -400,7 +400,7 @@ protected:
             ofParticipant("pageOfOne"),
             ofParticipant("leaveOne"),
             ofParticipant("withdrawOne"),
-            {"Close",  // asked with the output off: what follows stops anew
+            {"Close",  // asked with the output off, so that the rest stops it again
              [this] {
                  window.controller().disarm();
                  page(6);
@@ -414,7 +414,7 @@ protected:
                  }));
                  editor->code().insertPlainText("// not saved");
                  window.close();
-                 editor->leave();  // what is asked about needs no answer here
+                 editor->leave();  // this question needs no answer here
                  deliver();
              },
              "CloseQuestion"},
@@ -497,7 +497,7 @@ TEST_F(StopEverywhere, DISABLED_BehindEveryMenuAndList) {
             SCOPED_TRACE(popup.name);
             for (const bool byKey : {false, true}) {
                 ASSERT_NO_FATAL_FAILURE(deliver());
-                // By a timer: a tool button waits inside its press until its menu is closed.
+                // Done by a timer: a tool button waits inside its press until its menu is closed.
                 bool done = false;
                 QTimer look;
                 QObject::connect(&look, &QTimer::timeout, [&] {
@@ -551,7 +551,7 @@ TEST_F(StopEverywhere, DISABLED_BehindEveryMenuAndList) {
     RecordProperty("slowest_ms", int(slowest_ms));
 }
 
-/// A dock that is dropped on STOP, as a hand drops it, or put there by whatever means.
+/// A dock that is dropped on STOP, as a hand drops it, or put there by any means.
 TEST_F(StopEverywhere, DISABLED_UnderADockThatFloats) {
     page(0, 0);
     window.findChild<gui::DockColumn*>()->setCollapsed(false);
@@ -574,7 +574,7 @@ TEST_F(StopEverywhere, DISABLED_UnderADockThatFloats) {
                 window.move(window.pos() + QPoint(tries, 3 * tries));
             } else if (tries % 3 == 1) {
                 dock->move(to);
-            } else {  // by its header
+            } else {  // finds it by its header
                 const double scale = QGuiApplication::primaryScreen()->devicePixelRatio();
                 const auto at = [&](const QPoint& point) {
                     return QStringList{"mousemove", QString::number(int(point.x() * scale)),
@@ -635,7 +635,7 @@ TEST_F(StopEverywhere, DISABLED_UnderAnotherWindowOfTheProgram) {
         cover->show();
         expectStop("a popup", [this] { clickOn(*stop); });
     }
-    // In the window itself.
+    // The button stands in the window itself.
     auto* child = new QPushButton("By hand", &window);
     child->setGeometry(QRect(stop->mapTo(&window, QPoint()), stop->size()));
     child->show();
@@ -667,8 +667,8 @@ TEST_F(StopEverywhere, DISABLED_WhileTextIsDragged) {
         ASSERT_EQ(QProcess::execute("xdotool", at(0) + QStringList{"mousedown", "1"}), 0);
         letLive(50);
         expectStop(key, [&] {
-            // In the drag's own event loop only the key is pressed: a wait there would delete the window that the key
-            // closes, to which the drag is still to return.
+            // During a drag only the key is pressed: a wait there would delete the window that the key closes, to which
+            // the drag must still return.
             QTimer::singleShot(300, [key] { type(key); });
             for (const int by : {10, 20, 40}) {
                 QProcess::execute("xdotool", at(by));

@@ -21,8 +21,8 @@ namespace {
 using testing::HasSubstr;
 
 constexpr double kFiveMinutes_s = 300;
-constexpr double kPersonsShare_s = 210;  // at most: the rest is what the machine has
-constexpr int kSlack_px = 40;            // between the middles of a control and of what of it is framed
+constexpr double kPersonsShare_s = 210;  // the person's share at most: the rest is for the machine
+constexpr int kSlack_px = 40;            // between the middle of a control and the middle of its framed part
 
 class TourByHand : public testing::Test {
 protected:
@@ -35,7 +35,7 @@ protected:
         const auto at = built.ask("where " + name).split(' ');
         return at.size() == 2 ? QPoint(at[0].toInt(), at[1].toInt()) : QPoint(-1, -1);
     }
-    /// Whether the tour frames what has this name.
+    /// Whether the tour frames the widget with this name.
     [[nodiscard]] bool frames(const QString& name) {
         return comesTrue([&] {
             const auto control = middleOf(name), frame = middleOf("tourFrame");
@@ -48,7 +48,7 @@ protected:
         built.person.reads(step + " " + built.text("tourText"));
         return true;
     }
-    /// Once it stands still.
+    /// Clicks once the frame stands still.
     [[nodiscard]] bool clickOnTheFrame() {
         QPoint before(-1, -1);
         const bool still = comesTrue([&] {
@@ -116,7 +116,7 @@ TEST_F(TourByHand, DISABLED_LeadsToAMeasuredPulseAndAVerdictInFiveMinutes) {
     ASSERT_IN_TIME(clickOnTheFrame());
 
     ASSERT_IN_TIME(comesTo("See a measured pulse"));
-    // By hand: the roughest and firmest, 40 V every half second.
+    // Drives by hand: the roughest and firmest, 40 V every half second.
     ASSERT_TRUE(built.clickOn("driveByHand"));
     for (const auto* field : {"driveRoughness", "drivePressure"}) {
         ASSERT_TRUE(built.clickOn(field) && built.focus());

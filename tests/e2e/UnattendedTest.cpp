@@ -1,5 +1,5 @@
 // Output pauses where the operator cannot see STOP and reach it: minimised, on another desktop, behind a lock screen or
-// a blank one, under another program's windows, and while another program holds keyboard and mouse; and it goes on by
+// a blank one, under another program's windows, and while another program holds keyboard and mouse; and it resumes by
 // hand only. With a window manager, a bus, and another client of the X server.
 //
 // Needs a display of its own and a bus (see in-xvfb, dbus-run-session); skipped elsewhere.
@@ -97,7 +97,7 @@ private:
     std::vector<xcb_window_t> covers_;
 };
 
-/// What logind says of one session, on the bus that this test calls the system's.
+/// Plays logind for one session, on the bus that this test calls the system's.
 class FakeLogind final : public QDBusVirtualObject {
 public:
     FakeLogind() : bus_(QDBusConnection::connectToBus(qEnvironmentVariable("DBUS_SYSTEM_BUS_ADDRESS"), "logind")) {
@@ -141,7 +141,7 @@ protected:
         manager_.start("openbox", {"--sm-disable"});
         EXPECT_TRUE(manager_.waitForStarted()) << "openbox is not installed";
         const auto framed = [](const QWidget& widget) { return widget.frameGeometry() != widget.geometry(); };
-        EXPECT_IN_TIME(comesTrue([&] {  // once it frames what is shown
+        EXPECT_IN_TIME(comesTrue([&] {  // waits until it frames what is shown
             QWidget first;
             first.show();
             return QTest::qWaitForWindowExposed(&first, 1000) && comesTrue([&] { return framed(first); }, 500);
@@ -329,7 +329,7 @@ TEST_F(Unattended, DISABLED_WhoIsThereIsNotPaused) {
     window.controller().stop("the test");
 }
 
-/// Not one press is lost to the question who holds keyboard and mouse.
+/// No press is lost to the question who holds keyboard and mouse.
 TEST_F(Unattended, DISABLED_EveryPressOfStopArrives) {
     auto* stop = window.findChild<QPushButton*>("stopButton");
     int presses = 0;
@@ -378,7 +378,7 @@ TEST_F(Unattended, DISABLED_WhatLiesOverStopIsKnown) {
     }
     EXPECT_GT(covered, 20);
     EXPECT_GT(free, 20);
-    // Its own dialogs do not count: a press there is STOP's.
+    // The window's own dialogs do not count: a press there is STOP's.
     QWidget own(&window, Qt::Dialog);
     own.setGeometry(part.adjusted(-40, -40, 40, 40));
     own.show();
@@ -418,7 +418,7 @@ TEST_F(Unattended, DISABLED_ASmallStopStandsInWhereAnotherWindowLiesOverStop) {
     other.uncover();
     EXPECT_IN_TIME(comesTrue([&] { return small() == nullptr; }));
     window.controller().stop("the test");
-    // One that the operator wants stays.
+    // A small STOP that the operator wants stays.
     window.findChild<QAction*>("smallStopShown")->trigger();
     ASSERT_NO_FATAL_FAILURE(arm());
     other.cover(over);

@@ -9,8 +9,8 @@
 namespace tacto {
 namespace {
 
-/// What a SegmentResponse claims, found the slow way: fourth-order Runge-Kutta on the capacitor's voltage, the source's
-/// limits applied at every instant, the integrals accumulated with it.
+/// The claims of a SegmentResponse, found the slow way: fourth-order Runge-Kutta on the capacitor's voltage, the
+/// source's limits applied at every instant, the integrals accumulated with it.
 struct Oracle {
     Circuit z;
     DriveSegment drive;
@@ -119,13 +119,13 @@ TEST(Respond, MatchesFineIntegrationWhereLimitsAreReached) {
     const SourceLimits compliance{20, 1};
     expectMatchesOracle(kRc, {Drive::Current, 10e-3, 10e-3, 400e-6}, 0, compliance);
     expectMatchesOracle(kRc, {Drive::Current, -10e-3, -10e-3, 400e-6}, 15, compliance);
-    expectMatchesOracle(kRc, {Drive::Current, 10e-3, -10e-3, 400e-6}, 10, compliance);  // there and back
+    expectMatchesOracle(kRc, {Drive::Current, 10e-3, -10e-3, 400e-6}, 10, compliance);  // a ramp there and back
     expectMatchesOracle(kRc, {Drive::Current, 0, 20e-3, 400e-6}, 0, compliance);
     const SourceLimits current{50, 30e-3};
     expectMatchesOracle(kRc, {Drive::Voltage, 40, 40, 200e-6}, 0, current);  // 200 mA wanted
     expectMatchesOracle(kRc, {Drive::Voltage, -40, -40, 200e-6}, 39, current);
     expectMatchesOracle(kRc, {Drive::Voltage, 40, -40, 400e-6}, 0, current);
-    expectMatchesOracle(kRc, {Drive::Voltage, 0, 80, 200e-6}, 0, current);  // beyond its own range
+    expectMatchesOracle(kRc, {Drive::Voltage, 0, 80, 200e-6}, 0, current);  // a current beyond its own range
     expectMatchesOracle({100, 0, 0, false}, {Drive::Voltage, -20, 20, 1e-3}, 0, current);
 }
 
@@ -149,7 +149,7 @@ RC_GTEST_PROP(Respond, MatchesFineIntegrationForAnySourceAndLoad, ()) {
     if (*rc::gen::arbitrary<bool>()) limits.current_A = between(2e-3, 100e-3);
     const double range = std::min(limits.compliance_V, 40.0);
     const double vc0 = z.hasCapacitor() ? between(-range, range) : 0;
-    // Not so long that the oracle's steps are coarse against the fastest time constant.
+    // Short enough for the oracle's steps to be fine against the fastest time constant.
     const double fastest =
         z.hasCapacitor() ? z.seriesOhm * z.parallelOhm / (z.seriesOhm + z.parallelOhm) * z.capacitance_F : 1e-3;
     drive.duration_s = std::min(logBetween(1e-6, 2e-3), 500 * fastest);
@@ -335,7 +335,7 @@ TEST(PulseResponse, GainsNoEnergyFromAPassiveLoad) {
     for (const double level : {1.0, 20.0, 40.0}) {
         const auto pulse = biphasic(Drive::Voltage, level, 200e-6, 100e-6, Drive::HighImpedance);
         const auto totals = pulseTotals(kRcLoad, pulse, rest(Drive::Voltage, 0.1));
-        // All of it ends in the two resistors; what the series one takes is a lower bound.
+        // All of it ends in the two resistors; the heat of the series resistor is a lower bound.
         EXPECT_GT(totals.energy_J, totals.currentSquared_A2s * 200);
     }
 }

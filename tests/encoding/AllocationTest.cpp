@@ -1,4 +1,4 @@
-// What the control loop calls for every train must not allocate.
+// The functions that the control loop calls for every train must not allocate.
 #include <gtest/gtest.h>
 
 #include "core/encoding/Encoder.h"

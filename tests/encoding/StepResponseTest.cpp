@@ -116,7 +116,7 @@ TEST(TransitionMap, HoldsTheLargestStepOfEveryCell) {
     }
     EXPECT_DOUBLE_EQ(amplitude, report.gradual.amplitude.amplitude);
     EXPECT_DOUBLE_EQ(interval, report.gradual.interval.interval);
-    // Where it is said to be.
+    // The worst step lies where it is said to be.
     const auto& worst = report.gradual.amplitude;
     EXPECT_DOUBLE_EQ(map.amplitude[static_cast<std::size_t>(std::lround(worst.P * 10))]
                                   [static_cast<std::size_t>(std::lround(worst.R * 10))],

@@ -1,4 +1,4 @@
-// What a calibrated stimulator is programmed to, and what it then delivers.
+// The programmed values of a calibrated stimulator, and what it then delivers.
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
@@ -17,7 +17,7 @@ TEST(CalibrationLine, FollowsTheLineInItsRangeAndTheNearerEndsRatioBeyond) {
     EXPECT_DOUBLE_EQ(kMeasured.delivered(80), 2 * 39.4);
     EXPECT_DOUBLE_EQ(kMeasured.delivered(5), 5.0);  // 10 gives 10
     EXPECT_EQ(kMeasured.delivered(0), 0);
-    // For judging, outside its range: whichever of line and ratio is more, or less.
+    // Outside its range, judging takes whichever of line and ratio is more, or less.
     EXPECT_DOUBLE_EQ(kMeasured.atMost(5), 5.1);
     EXPECT_DOUBLE_EQ(kMeasured.atLeast(5), 5.0);
     EXPECT_DOUBLE_EQ(kMeasured.atMost(80), 2 * 39.4);

@@ -89,7 +89,7 @@ TEST(TrainSeries, ATrainPulledForwardLateIsFeltAtTheIntervalThatPassed) {
     TrainSeries series(limited());
     const auto trains = trainsOf(series, command(20, 2), command(20, 0.5), 1.9, 12);
     EXPECT_EQ(toSeconds(trains[1].onset), 1.9) << "at once";
-    // Not from the 1.49 s that it might have come after.
+    // It does not count from the 1.49 s after which it might have come.
     EXPECT_NEAR(toSeconds(trains[2].onset - trains[1].onset), 1.9 / 1.34, 0.005);
 }
 
@@ -118,7 +118,7 @@ TEST(TrainSeries, SwitchedOnAgainNothingBeginsStrongerOrMoreOftenThanItIsWanted)
     };
     EXPECT_EQ(after(command(10, 2)).amplitude, Volts(10)) << "not a step down from 40 V";
     EXPECT_EQ(after(command(10, 2)).interval, Seconds(2));
-    // Up it goes in steps, however often it is switched.
+    // It goes up in steps, however often it is switched.
     TrainSeries again(limited());
     again.want(command(10, 2), seconds(0));
     static_cast<void>(again.begin(seconds(0)));
@@ -172,7 +172,7 @@ TEST(StepPace, CountsTheTrainsAndTheTimeThatTwoDifferencesTake) {
         EXPECT_EQ(pace.trains, least.at("trains").get<int>()) << least;
         EXPECT_NEAR(pace.complete.count(), least.at("complete_s").get<double>(), 1e-9) << least;
     }
-    // However late the press: what has passed counts as the first interval.
+    // However late the press comes, the time that has passed counts as the first interval.
     for (const double since : {0.0, 0.5, 1.0, 1.4863, 1.7, 2.0}) {
         EXPECT_GT(fastestPace({Seconds(since), command(25, 2), command(25, 0.5)}, 2).complete, Seconds(3)) << since;
     }

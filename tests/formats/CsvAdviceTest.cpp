@@ -91,8 +91,8 @@ TEST(CsvAdvice, AsksForAnotherFileWhereNoOptionHelps) {
     }
 }
 
-// Nothing is advised that would read something else than what was written: a row as names, times without their unit, an
-// index as seconds.
+// It never advises what would read something else than was written: a row as names, times without their unit, an index
+// as seconds.
 TEST(CsvAdvice, NeverAdvisesWhatWouldBeRead) {
     for (const auto* text :
          {"time_ms,a\n0,1\n1,abc\n2,1\n", "X,CH1,Start,Increment,\nSequence,Volt,0,none,\n0,1,\n1,2,\n2,2,\n",
@@ -174,8 +174,7 @@ TEST(CsvAdvice, OfDamagedTablesIsHonest) {
     EXPECT_GT(withAdvice, refused / 10) << refused;
 }
 
-// What stands in a file's name and a channel's does not hide the advice, and the advice of the file's formats is the
-// same.
+// The names of a file and a channel do not hide the advice, and the advice of the file's formats is the same.
 TEST(CsvAdvice, IsTheSameForFiles) {
     const ScratchDir scratch;
     const auto path = scratch.write("a.csv", "a,b\n7,1\n9,2\n11,7\n");

@@ -1,4 +1,4 @@
-// What logic analysers write: a row where a level changes.
+// The tables of logic analysers: a row where a level changes.
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// Where a straight line from sample to sample crosses the middle.
+/// The places where a straight line from sample to sample crosses the middle.
 std::vector<double> crossings(const Capture& capture, std::size_t channel) {
     std::vector<double> times;
     const auto& samples = capture.channels[channel].samples;

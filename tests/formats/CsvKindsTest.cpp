@@ -1,5 +1,5 @@
-// What instruments and people write, drawn at random (WrittenTables.h): every number, unit and name comes back, or is
-// said to be missing.
+// Tables as instruments and people write them, drawn at random (WrittenTables.h): every number, unit and name comes
+// back, or is said to be missing.
 #include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -178,7 +178,7 @@ TEST(CsvKinds, TimesOfChannelsThatDifferAreRefusedByName) {
         ASSERT_TRUE(first) << first.error().message;
         EXPECT_NEAR(first->capture.rate_hz, 1000, 1e-6);
         const auto other = parseCapture(text, "t.csv", {.columns = {"4"}});
-        if (from == 0) {  // as even as the first
+        if (from == 0) {  // these steps are as even as the first
             ASSERT_TRUE(other) << other.error().message;
             EXPECT_NEAR(other->capture.start_s, off * 1e-3, 1e-7) << "the times of its own";
         }

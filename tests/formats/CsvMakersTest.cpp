@@ -1,4 +1,4 @@
-// What further makers' oscilloscopes and programs write. The headers are as the sources named beside them show or
+// Tables of further makers' oscilloscopes and programs. The headers are as the sources named beside them show or
 // describe them; the rows are made up.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ std::string saidOf(std::string_view text) {
     return read ? "accepted" : read.error().message;
 }
 
-/// What a table says: format, rate and start, and of each channel name, unit and samples.
+/// The expected content of a table: format, rate and start, and each channel's name, unit and samples.
 struct Expected {
     std::string format;
     double rate_hz;
@@ -64,7 +64,7 @@ TEST(CsvMakers, RigolDs1000b) {
                ",CH1,CH2,\nSecond,Volt,Volt,\n0,1,3,\n1e-3,2,4,\n");
 }
 
-// The same project's DS1102D-A.csv: X in seconds, units in the names.
+// DS1102D-A.csv of the same project: X in seconds, units in the names.
 TEST(CsvMakers, RigolDs1000d) {
     expectRead(
         {"csv-rigol", 1 / 10.01e-6, -4.688e-3, {{"CH 1", "V", {8.08F, 4.88F, 0.28F}}, {"CH 2", "V", {8.4F, 8.4F, 8}}}},
@@ -109,7 +109,7 @@ TEST(CsvMakers, SiglentWithASampleRate) {
                "-0.00007000000,-0.19400\n-0.00006999000,-0.19200\n-0.00006998000,-0.19600\n");
 }
 
-// The same project's source: saved on the instrument, two lines.
+// Made from the same project's source: saved on the instrument, two lines.
 TEST(CsvMakers, SiglentSavedOnTheInstrument) {
     expectRead({"csv-siglent", 1e6, 0, {{"CH1", "V", {1, 2}}, {"CH3", "V", {3, 4}}}},
                "Source,CH1,CH3\nSecond,Volt,Volt\n0.000000,1,3\n0.000001,2,4\n");
@@ -117,7 +117,7 @@ TEST(CsvMakers, SiglentSavedOnTheInstrument) {
                "Second,Volt,Volt\n0.000000,1,3\n0.000001,2,4\n");
 }
 
-// A collection of ADS1202CL+ files (Atten, made by Siglent): a sample interval that is not that of the rows.
+// A collection of ADS1202CL+ files (Atten, made by Siglent), with a sample interval that the rows do not have.
 TEST(CsvMakers, AttenAds1000) {
     const auto read = madeOf(
         "Record Length,3\nSample Interval,CH1:0.0000000000013 CH2:0.0000000000013\nVertical Units,CH1:V CH2:V,,\n"

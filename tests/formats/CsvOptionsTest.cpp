@@ -1,4 +1,4 @@
-// What the user knows better than the table, and the oddities that tables come with.
+// Options of a user who knows better than the table, and the oddities that tables come with.
 #include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -27,7 +27,7 @@ struct JudgedStamps {
     }
 };
 
-/// As readCsvTable() feeds them; `keptRows` of them count. With `all` every stamp is given again in any case.
+/// Fed as readCsvTable() feeds them; `keptRows` of them count. With `all` every stamp is given again in any case.
 JudgedStamps judgeStamps(const std::vector<double>& stamps, const CsvLayout& layout, std::size_t keptRows, bool all) {
     CsvTimes times(layout);
     std::vector<std::size_t> lines(stamps.size());
@@ -169,7 +169,7 @@ TEST(CsvTimes, ALongTableThatIsNotPlainlyEvenIsReadAgain) {
     EXPECT_TRUE(std::ranges::is_sorted(told)) << "progress goes back";
 }
 
-/// A format whose samples do not fit.
+/// A format with samples that do not fit.
 class TooLarge final : public CaptureFormat {
 public:
     explicit TooLarge(bool beyondAny) : beyondAny_(beyondAny) {}

@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 
 struct Lvm {
     bool commas = false;       // between columns
-    bool decimalComma = true;  // not with commas
+    bool decimalComma = true;  // decimals with a comma, unless commas separate
     std::string xColumns = "One";
     std::string dimension = "Time";
     std::size_t channels = 1;

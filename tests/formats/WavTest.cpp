@@ -140,7 +140,7 @@ TEST(Wav, HoldsOnlyWholeRates) {
                     test::refused(ErrorCode::InvalidArgument));
         EXPECT_TRUE(std::filesystem::is_empty(scratch.path()));
     }
-    capture.rate_hz = 9'999'999.9;  // what time stamps leave of 10 MHz
+    capture.rate_hz = 9'999'999.9;  // the rate that time stamps leave of 10 MHz
     EXPECT_TRUE(ownCaptureFormats()->write(scratch.path() / "c.wav", capture));
 }
 
@@ -192,7 +192,7 @@ TEST(Wav, WhatStandsBehindTheSamplesIsNotReadAndSaid) {
     EXPECT_THAT(read.warnings, SizeIs(1)) << "only the full scale";
 }
 
-/// The same file as RF64 or BW64 (EBU Tech 3306): 64-bit sizes in front, all ones in place of those of 32 bits.
+/// The file as RF64 or BW64 (EBU Tech 3306): 64-bit sizes in front, and all ones in place of the 32-bit sizes.
 std::string withLongSizes(const std::string& riff, const char* kind, const std::string& data,
                           const std::string& table) {
     auto rest = riff.substr(12);
@@ -222,7 +222,7 @@ TEST(Wav, Rf64AndBw64HoldWhatTheSameRiffHolds) {
         const auto expected = accepted(readWav(riff));
         for (const auto* kind : {"RF64", "BW64"}) {
             for (const std::string& table : {std::string(), "abcd" + little(77, 8) + "junk" + little(99, 8)}) {
-                // Behind the samples stands what is not theirs.
+                // Other data stand behind the samples.
                 const auto read =
                     accepted(readWav(withLongSizes(riff, kind, data, table) + "LIST" + little(4, 4) + "adtl"));
                 EXPECT_EQ(read.capture.rate_hz, expected.capture.rate_hz);

@@ -49,11 +49,11 @@ constexpr std::array<Spelling, 10> kSignals{{{"V", "V", 1},
                                              {"μA", "A", 1e-6},
                                              {"Amps", "A", 1}}};
 
-/// How a table writes its numbers and parts its columns.
+/// How a table writes its numbers and separates its columns.
 struct Hand {
     char separator;
     char point;
-    bool shortens = false;  ///< no zeros at the end, as spreadsheets write
+    bool shortens = false;  ///< leaves out zeros at the end, as spreadsheets do
 };
 Hand someHand(Random& random) {
     constexpr std::array<Hand, 5> kHands{
@@ -483,7 +483,7 @@ WrittenTable stampedTable(Random& random) {
     const auto zone = oneOf(kZones, random);
     const char between = chance(random, 0.5) ? 'T' : ' ';
     const bool timeOnly = zone.empty() && chance(random, 0.3);
-    // Over midnight and the end of a year where there is a date.
+    // Dates go over midnight and the end of a year.
     const auto begin = std::chrono::sys_days(std::chrono::year(2026) / 12 / 31) +
                        std::chrono::microseconds((timeOnly ? 3'600'000'000LL : 86'399'000'000LL) +
                                                  static_cast<long long>(random.below(900'000)));

@@ -41,7 +41,7 @@ struct WrittenTable {
 [[nodiscard]] WrittenTable timesForEachChannel(Random& random);
 [[nodiscard]] WrittenTable stampedTable(Random& random);
 
-/// One of these.
+/// Any of these tables.
 [[nodiscard]] WrittenTable anyWrittenTable(Random& random);
 
 /// Rate, start, channels, and a warning for each column that was left out.

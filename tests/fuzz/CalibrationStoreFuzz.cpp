@@ -1,6 +1,6 @@
 // Any JSON as a record of the store of calibrations, any file as that store, and any lines of JSON as the stores of
-// certificates and of load-safety checks: read or refused with a sentence, and nothing whose provenance is not known
-// counts as valid (hazards H9 and H10). The first byte says which.
+// certificates and of load-safety checks: each is read, or refused with a sentence, and nothing of unknown provenance
+// counts as valid (hazards H9 and H10). The first byte chooses.
 #include <cstdlib>
 #include <iterator>
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-// CaptureCheck.h - what measuring relies on in a capture that was read, whatever the format.
+// CaptureCheck.h - what measuring relies on in a capture from a file of any format.
 //
 // Thread-safety: pure function.
 #pragma once

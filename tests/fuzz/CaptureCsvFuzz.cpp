@@ -1,5 +1,4 @@
-// Whatever bytes call themselves a capture: read, or refused with a sentence whose advice reads it; and measured
-// without harm.
+// Any bytes as a capture: they are read, or refused with a sentence whose advice reads them; and measured without harm.
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>
@@ -23,7 +22,7 @@ TACTO_FUZZ(CaptureCsvFuzz, const std::uint8_t* data, std::size_t size) {
     }
     for (const auto& channel : tacto::measureCapture(reading->capture).channels) {
         if (channel.measuredPulses > channel.pulses.size()) std::abort();
-        // What is not measured must say so.
+        // An unmeasured channel must say so.
         if (channel.measuredPulses == 0 && channel.warnings.empty()) std::abort();
     }
     return 0;

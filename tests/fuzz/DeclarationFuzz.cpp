@@ -1,6 +1,6 @@
-// Whatever the process of a script says, be it taken over by the script: a value or a sentence. What is handed to
-// protocol() makes a declaration or a sentence, and every default of a declaration is one that its parameter accepts
-// (hazard H10).
+// Whatever the process of a script says, even when the script has taken it over, becomes a value or a sentence. What is
+// handed to protocol() makes a declaration or a sentence, and every default of a declaration is one that its parameter
+// accepts (hazard H10).
 #include <cstdint>
 #include <cstdlib>
 #include <nlohmann/json.hpp>

@@ -2,8 +2,8 @@
 //
 //     TACTO_FUZZ(Name, const std::uint8_t* data, std::size_t size) { ...; return 0; }
 //
-// in Name.cpp, in a namespace of its own. libFuzzer (the preset "fuzz") has a program for each; elsewhere all are in
-// one program, which finds them by name (ShortRun.cpp).
+// Each target stands in Name.cpp, in a namespace of its own. libFuzzer (the preset "fuzz") has a program for each;
+// elsewhere all are in one program, which finds them by name (ShortRun.cpp).
 //
 // Thread-safety: before main() and on its thread.
 #pragma once
@@ -19,7 +19,7 @@ namespace tacto::fuzz {
 
 using Target = int (*)(const std::uint8_t* data, std::size_t size);
 
-/// Those of this program.
+/// The targets of this program.
 [[nodiscard]] inline std::map<std::string, Target, std::less<>>& targets() {
     static std::map<std::string, Target, std::less<>> all;
     return all;

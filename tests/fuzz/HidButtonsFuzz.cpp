@@ -25,7 +25,7 @@ TACTO_FUZZ(HidButtonsFuzz, const std::uint8_t* data, std::size_t size) {
     const auto report = rest.subspan(cut);
     const auto first = buttons->read(report);
     for (const auto& change : first) {
-        if (change.button >= buttons->labels().size() || !change.down) std::abort();  // all were up
+        if (change.button >= buttons->labels().size() || !change.down) std::abort();  // all buttons were up
     }
     if (!buttons->read(report).empty()) std::abort();  // the same state once more
     for (std::size_t length = report.size(); length > 0; --length) {

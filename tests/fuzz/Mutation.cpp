@@ -7,7 +7,7 @@
 namespace tacto::fuzz {
 namespace {
 
-/// The ends of ranges: 0, 1, the largest signed and unsigned, what starts a ScienceMode frame, what stuffs it.
+/// The ends of ranges: 0, 1, the largest signed and unsigned, the start of a ScienceMode frame, and its stuffing byte.
 constexpr std::array<std::uint8_t, 10> kTelling{0x00, 0x01, 0x7F, 0x80, 0xFE, 0xFF, 0xF0, 0x0F, 0x81, 0x55};
 
 enum class Change { Flip, Replace, Insert, Delete, Truncate, Repeat, Splice, Count };

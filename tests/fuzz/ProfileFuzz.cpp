@@ -1,4 +1,4 @@
-// Any text as a profile: read or refused with a sentence; what was read is written and reads back as the same text
+// Any text as a profile is read or refused with a sentence; once read, it is written and reads back as the same text
 // (hazard H10).
 #include <cstddef>
 #include <cstdint>

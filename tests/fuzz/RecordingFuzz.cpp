@@ -1,4 +1,4 @@
-// Any text as recording.json, beside tables that are sound: opened or refused with a sentence, and never a stream that
+// Any text as recording.json, beside sound tables, is opened or refused with a sentence, and never gives a stream that
 // contradicts itself (hazard H10).
 #include <cstdlib>
 #include <string_view>

@@ -1,6 +1,6 @@
-// Any text as a table of results: trials, readings of a calibration, what a profilometer exports, answers of an
-// identification. Read or refused with a sentence that names the file; nothing is read that is infinite (hazard H10).
-// The first byte says which.
+// Any text as a table of results (trials, readings of a calibration, a profilometer's export, answers of an
+// identification) is read, or refused with a sentence that names the file; nothing infinite is read (hazard H10). The
+// first byte chooses.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>

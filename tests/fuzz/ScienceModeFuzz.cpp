@@ -39,7 +39,7 @@ void parse(std::span<const std::uint8_t> payload) {
     static_cast<void>(readStimStatusAck(payload));
     static_cast<void>(readExtendedVersionAck(payload));
     static_cast<void>(readPlainAck(sciencemode::Command::LowLevelStop, payload));
-    // What a builder makes of what was read is what was read.
+    // A builder makes the same bytes of what was read.
     if (const auto request = readChannelConfig(payload)) {
         const auto again = payloadOf(*request);
         require(again && readChannelConfig(again->view()).has_value());

@@ -17,7 +17,7 @@ namespace {
 using namespace tacto;
 using namespace tacto::sensorboard;
 
-/// Content of any bytes as a frame whose CRC is right.
+/// Any bytes as the content of a frame with a right CRC.
 std::vector<std::uint8_t> sealed(std::span<const std::uint8_t> content) {
     std::vector<std::uint8_t> frame(TSB_FRAME_MOST);
     tsb_writer writer{};
@@ -27,7 +27,7 @@ std::vector<std::uint8_t> sealed(std::span<const std::uint8_t> content) {
     return frame;
 }
 
-/// What is read is within its ranges, and what is made of it again is the same.
+/// Values are read within their ranges, and writing them again gives the same bytes.
 void parse(const Frame& frame) {
     if (const auto identity = readIdentity(frame)) {
         require(identity->streams >= 1 && identity->streams <= kMaxStreams && identity->name.size() <= 24);
@@ -79,7 +79,7 @@ void decode(std::span<const std::uint8_t> input) {
     require(rest.empty() && decoder.counts().bytes == input.size());
     const auto command = encodeCommand(sensorboard::Command::GetStatus, 9);
     std::span<const std::uint8_t> good(command);
-    // Its leading zero may end a frame of the input that is sound too.
+    // The frame's leading zero may end a frame of the input that is sound, too.
     int found = 0;
     std::uint8_t token = 0;
     while (const auto frame = decoder.take(good)) {

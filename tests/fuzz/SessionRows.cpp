@@ -1,7 +1,7 @@
-// What a row of a session file says of its samples, and the samples themselves: read or refused, whatever the bytes
-// (hazard H10). SessionFuzz reads whole files, at the speed of SQLite; this is what Tactoscope itself decodes of them.
-// The input: one byte for which kind of row; one byte, how much of the rest is the row's JSON (in 1/256); what remains
-// is its data.
+// Any row of a session file on its samples, and the samples themselves: read or refused, whatever the bytes (hazard
+// H10). SessionFuzz reads whole files, at the speed of SQLite; this is what Tactoscope itself decodes of them. The
+// input: one byte for which kind of row; one byte, how much of the rest is the row's JSON (in 1/256); what remains is
+// its data.
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -54,7 +54,7 @@ void about(std::string_view text) {
     const auto json = nlohmann::json::parse(text, nullptr, false);
     if (json.is_discarded()) return;
     require(dumpJson(json).find('\n') == std::string::npos);
-    // As text, where NaN is null and so equal to itself.
+    // Compared as text, where NaN is null and so equal to itself.
     const auto once = reproducible(aboutFrom(json));
     require(dumpJson(reproducible(aboutFrom(toJson(aboutFrom(json))))) == dumpJson(once));
     const auto stream = toJson(streamFrom(json));

@@ -58,7 +58,7 @@ struct Options {
     std::uint64_t seed = std::random_device{}();
 };
 
-/// What the running process leaves behind.
+/// The traces that the running process leaves behind.
 struct Shared {
     std::uint64_t corpus;
     std::uint64_t mutated;
@@ -204,7 +204,7 @@ int main(int argc, char** argv) {
     }
     if (child == 0) {
         runAll(corpus, *words, *options, shared);
-        std::exit(EXIT_SUCCESS);  // not _exit: leaks are looked for here
+        std::exit(EXIT_SUCCESS);  // unlike _exit, this looks for leaks
     }
     int status = 0;
     while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {

@@ -1,5 +1,5 @@
-// Whatever bytes call themselves a sigrok session (.sr): read or refused with a sentence, in memory that the input
-// bounds (hazard H10). What deflate can make of a byte is 1032 bytes.
+// Any bytes as a sigrok session (.sr) are read or refused with a sentence, in memory that the input bounds (hazard
+// H10). Deflate can make 1032 bytes of one.
 #include "drivers/sigrok/session_file/SigrokFormat.h"
 #include "tests/fuzz/CaptureCheck.h"
 #include "tests/fuzz/FuzzTarget.h"

@@ -91,7 +91,7 @@ TACTO_FUZZ(UnitRecordFuzz, const std::uint8_t* data, std::size_t size) {
         require((*opened)->whyQuiet().empty() && meter.size() == kTrainsBooked);
         require((*opened)->fault()->reason.view() == "the device said so");
     } else if ((*opened)->whyQuiet().empty()) {
-        // Only what it says of its fault was changed, and then that is not believed.
+        // Only the record of its fault was changed, and then that is not believed.
         require(meter.size() == kTrainsBooked);
         require((*opened)->fault()->reason.view().find("damaged") != std::string_view::npos);
     } else {

@@ -17,7 +17,7 @@ namespace {
 void sayWhere(int signal) {
     std::array<void*, 64> frames{};
     backtrace_symbols_fd(frames.data(), backtrace(frames.data(), int(frames.size())), STDERR_FILENO);
-    std::raise(signal);  // as if there were no handler
+    std::raise(signal);  // ends as if there were no handler
 }
 
 /// A test leaves theme and text as it likes: they are set again once its windows are gone, which takes no time then.

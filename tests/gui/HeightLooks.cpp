@@ -69,8 +69,8 @@ void addLowTitles(const QWidget& in, QStringList& low) {
     });
 }
 
-/// What its ancestors let be seen of it, in its own coordinates. `mayScroll`: one of them shows a scroll bar that leads
-/// to the rest.
+/// The part of it that its ancestors let one see, in its own coordinates. `mayScroll`: one of them shows a scroll bar
+/// that leads to the rest.
 QRect inSight(const QWidget& widget, bool& mayScroll) {
     QRect seen = widget.rect();
     QPoint to;
@@ -85,7 +85,7 @@ QRect inSight(const QWidget& widget, bool& mayScroll) {
     return seen;
 }
 
-/// Some of it is seen, and not all of its height.
+/// Some of it is seen, but not all of its height.
 bool isCutBelow(const QRect& whole, const QRect& seen) {
     const auto part = whole & seen;
     return !part.isEmpty() && part.height() + 1 < whole.height();

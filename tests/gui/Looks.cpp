@@ -185,7 +185,7 @@ QStringList paleTexts(const QWidget& in) {
     QStringList pale;
     for (const auto* widget : textsIn(in)) {
         if (!widget->isEnabled()) continue;
-        // As drawn: the ground is that of the nearest ancestor that fills its own.
+        // Takes the ground as drawn: that of the nearest ancestor that fills its own.
         const auto* ground = widget;
         while (!fills(*ground) && !ground->isWindow() && ground->parentWidget() != nullptr)
             ground = ground->parentWidget();

@@ -1,5 +1,5 @@
-// Looks.h - what can be judged of how a window looks: contrast, text that is cut, widgets that overlap, an order
-// of Tab against that of reading.
+// Looks.h - faults of a window's looks that can be judged: contrast, cut text, overlapping widgets, an order of Tab
+// against the order of reading.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -17,11 +17,11 @@ namespace tacto::test {
 
 /// WCAG 2: 1 to 21.
 [[nodiscard]] double contrast(const QColor& a, const QColor& b);
-/// How many pixels of the picture have just this colour.
+/// How many pixels of the picture have exactly this colour.
 [[nodiscard]] int pixelsOf(const QImage& picture, const QColor& colour);
 
-/// Visible labels, buttons, choices of boxes, tabs and titles of columns whose text has no room, each with its text. A
-/// label that elides by design is left out, unless it has no extent at all.
+/// Visible labels, buttons, choices of boxes, tabs and titles of columns without room for their text, each with its
+/// text. A label that elides by design is left out, unless it has no extent at all.
 [[nodiscard]] QStringList cutTexts(const QWidget& in);
 /// Visible enabled texts with a contrast below 4.5:1, by the colours of their palettes.
 [[nodiscard]] QStringList paleTexts(const QWidget& in);

@@ -29,7 +29,7 @@ bool answersTo(const QWidget& widget, const QString& text) {
 }
 
 void click(QWidget& widget) {
-    // One that reads before it confirms.
+    // This button is read before it confirms.
     if (const auto* confirm = qobject_cast<const gui::ConfirmButton*>(&widget))
         static_cast<void>(comesTrue([&] { return confirm->listens(); }));
     QTest::mouseClick(&widget, Qt::LeftButton);

@@ -37,7 +37,7 @@ public:
         const bool aslant = std::min(std::abs(turned.m11()), std::abs(turned.m12())) > 1e-3;
         if (text.isEmpty() || aslant || painter()->pen().color().alpha() == 0) return;
         auto ink = QFontMetricsF(item.font()).tightBoundingRect(text).translated(at);
-        ink.setRight(std::min(ink.right(), at.x() + item.width()));  // what another face draws may be narrower
+        ink.setRight(std::min(ink.right(), at.x() + item.width()));  // another face may draw narrower letters
         auto room = plot_;
         if (painter()->hasClipping()) room &= turned.mapRect(painter()->clipBoundingRect());
         words.push_back({text, turned.mapRect(ink), room, painter()->pen().color()});

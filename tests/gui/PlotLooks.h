@@ -14,8 +14,8 @@ namespace tacto::test {
 /// A word of a plot as it is drawn: tick label, title of an axis, legend entry, item.
 struct PlotWord {
     QString text;
-    QRectF ink;   ///< what its letters cover, in pixels of the plot
-    QRectF room;  ///< what it may cover: the plot, or what it is clipped to
+    QRectF ink;   ///< the area that its letters cover, in pixels of the plot
+    QRectF room;  ///< the area that it may cover: the plot, or its clip
     QColor colour;
 };
 /// All upright or quarter-turned words of the plot without its watermark, which lies behind them.
@@ -27,7 +27,7 @@ struct PlotWord {
 [[nodiscard]] QStringList palePlotWords(const QWidget& in);
 /// Legends within axes that lie over points or lines of their plot.
 [[nodiscard]] QStringList legendsOverData(const QWidget& in);
-/// Axes of visible plots whose title does not begin as a sentence does.
+/// Axes of visible plots with a title that does not begin with a capital.
 [[nodiscard]] QStringList smallAxisTitles(const QWidget& in);
 
 }  // namespace tacto::test

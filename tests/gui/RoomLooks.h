@@ -11,7 +11,7 @@ namespace tacto::test {
 /// Cells in sight that are narrower than their text. One column of a view may elide, the last or the one that takes the
 /// rest, where the tool tip has the whole text.
 [[nodiscard]] QStringList cutCells(const QWidget& in);
-/// Line edits, also those of spin boxes and boxes of choices, whose text or placeholder is wider than they are and does
+/// Line edits, also those of spin boxes and boxes of choices, with a text or placeholder wider than they are that does
 /// not stand in the tool tip.
 [[nodiscard]] QStringList cutFields(const QWidget& in);
 /// Pages, tables, lists and texts that are wider than their place, whether a scroll bar leads there or none does. An

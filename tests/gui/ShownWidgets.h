@@ -41,7 +41,7 @@ void forEachView(const QWidget& in, Follow follow) {
 [[nodiscard]] QString called(const QWidget& widget);
 /// "a text" in …: 12 of 17 px.
 [[nodiscard]] QString cutOf(const QString& what, const QWidget& at, int has, int needs);
-/// Without frame, margins and buttons.
+/// The room without frame, margins and buttons.
 [[nodiscard]] QSize roomForText(const QLineEdit& edit);
 
 }  // namespace tacto::test

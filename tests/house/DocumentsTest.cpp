@@ -19,7 +19,7 @@ std::string contentOf(const fs::path& file) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// All files of the tree below these folders and at its top, but for what a build makes.
+/// All files of the tree below these folders and at its top, except for what a build makes.
 std::vector<fs::path> filesBelow(std::initializer_list<const char*> folders) {
     std::vector<fs::path> files;
     const auto add = [&](const fs::directory_entry& entry) {

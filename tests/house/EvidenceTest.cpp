@@ -1,4 +1,4 @@
-// Every test that pilot-evidence.md names exists, and it names some for each section of what it is evidence for. Every
+// Every test that pilot-evidence.md names exists, and it names some for each section that it gives evidence for. Every
 // hazard of safety.md has tests, and tests record no other.
 #include <fstream>
 #include <gmock/gmock.h>
@@ -11,7 +11,7 @@
 namespace tacto {
 namespace {
 
-/// All that a text holds of this form, its groups joined by a dot.
+/// All names of this form in a text, their groups joined by a dot.
 std::set<std::string> namesIn(const std::string& text, const std::regex& form) {
     std::set<std::string> names;
     for (std::sregex_iterator at(text.begin(), text.end(), form), end; at != end; ++at)

@@ -110,7 +110,7 @@ TEST(Folders, ContributingDrawsThem) { EXPECT_EQ(drawnIn(documentText("CONTRIBUT
 
 TEST(Folders, ContributingDrawsEachAboveWhatItStandsOn) {
     const auto rows = rowsDrawnIn(documentText("CONTRIBUTING.md"));
-    std::map<std::string, std::size_t> rowOf;  // from the top
+    std::map<std::string, std::size_t> rowOf;  // rows counted from the top
     for (std::size_t row = 0; row < rows.size(); ++row)
         for (const auto& folder : rows[row].folders) rowOf[rows[row].top + '/' + folder] = row;
     const auto targets = test::targetsOfTheBuild();

@@ -18,7 +18,7 @@ struct Target {
 using Targets = std::map<std::string, Target>;
 
 [[nodiscard]] Targets readTargets(std::istream& in);
-/// Those of this build.
+/// The targets of this build.
 [[nodiscard]] Targets targetsOfTheBuild();
 
 }  // namespace tacto::test

@@ -1,5 +1,5 @@
-// Every include follows the link line: a file includes headers only of targets that its own target links, or that those
-// hand on. What a target links privately is its own affair: it hands on no right to include.
+// Every include follows the link line: a file includes headers only from targets that its own target links, or that
+// those hand on. A privately linked target is not handed on, and gives no right to include.
 #include <fstream>
 #include <gtest/gtest.h>
 #include <map>
@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 using test::readTargets;
 using test::Targets;
 
-/// Whose headers the files of `target` may include, its own among them.
+/// The targets with headers that the files of `target` may include, its own among them.
 std::set<std::string> reachOf(const Targets& targets, const std::string& target) {
     std::set<std::string> reached{target};
     auto waiting = targets.at(target).links;
@@ -30,8 +30,8 @@ std::set<std::string> reachOf(const Targets& targets, const std::string& target)
     return reached;
 }
 
-/// Which targets a file belongs to: the one that compiles the source of its name, else all that have sources in its
-/// folder, else in the folder around it.
+/// Tells which targets a file belongs to: the one that compiles the source of its name, else all that have sources in
+/// its folder, else in the folder around it.
 class Owners {
 public:
     explicit Owners(const Targets& targets) {

@@ -1,4 +1,4 @@
-// Means of captures: noise goes as it must, what repeats stays where it was, what is not known stays unknown.
+// Means of captures: noise falls as it must, repeating parts stay where they were, unknown values stay unknown.
 #include <gtest/gtest.h>
 
 #include "core/measure/CaptureAverage.h"

@@ -1,4 +1,4 @@
-// Masks: what lies inside passes, what does not fails with its place, what is not known does neither.
+// Masks: a capture inside passes, one outside fails with its place, and an unknown one does neither.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -48,7 +48,7 @@ TEST(CaptureMask, TheBandEndsWhereItSays) {
     EXPECT_EQ(high.worst->channel, "voltage");
     EXPECT_GE(high.worst->time_s, 0);
     EXPECT_LE(high.worst->time_s, 500e-6);
-    // In time: 3 µs, and the edge's own 5 % of 2 µs that the level allows.
+    // The tolerance in time is 3 µs, and 5 % of 2 µs at the edge, as the level allows.
     EXPECT_EQ(mask().check(pulse(40, 2.8e-6)).verdict, MaskVerdict::Inside);
     EXPECT_EQ(mask().check(pulse(40, -2.8e-6)).verdict, MaskVerdict::Inside);
     EXPECT_EQ(mask().check(pulse(40, 3.8e-6)).verdict, MaskVerdict::Outside);

@@ -39,12 +39,12 @@ enum class CaptureKind {
     Monophasic,  ///< up or down, with an offset
     Square,      ///< a fifth to four fifths of the time
     Unequal,     ///< pulses of different amplitudes
-    Trains,      ///< with a stated rate
-    Onsets,      ///< one clean pulse at each sample in turn about the record's middle and other fractions of it
-    Edge,        ///< one edge, or several in one direction: no pulse
+    Trains,      ///< trains with a stated rate
+    Onsets,      ///< a clean pulse at each sample in turn, about the record's middle and other fractions
+    Edge,        ///< one edge, or several in one direction, which make no pulse
     Moving,      ///< ramps, sines, triangles, sawteeth, discharges: no pulse
     Quiet,       ///< noise, a constant, hum, nothing: no pulse
-    Clipped,     ///< by a range that is stated or not
+    Clipped,     ///< cut off by a range that is stated or not
     Disturbed,   ///< one-sample spikes and missing samples
     Drifting,    ///< a slope, a slow wave or hum under the pulses
     Cut,         ///< the record begins or ends within a pulse
@@ -64,7 +64,7 @@ struct TruePhase {
     double charge = 0;
     double rise = 0;    ///< samples in which an edge passes from 0 to 1 at the slope that it has at half height
     double uneven = 0;  ///< largest less smallest value over the plateau
-    double again = 0;   ///< between two places at one end where it passes half of its plateau: ringing
+    double again = 0;   ///< two places at one end where the signal passes half of its plateau again: ringing
 };
 
 enum class Presence {
@@ -77,8 +77,8 @@ struct TruePulse {
     Presence presence = Presence::Whole;
     TruePhase leading;
     std::optional<TruePhase> second;
-    /// Ringing of the first phase reaches half of the second: where that begins, and what is whose charge, has no
-    /// definition, and is not judged.
+    /// Ringing of the first phase reaches half of the second: where that begins, and which phase has which charge, is
+    /// not defined, and is not judged.
     bool mixed = false;
     bool secondUnseen = false;  ///< cut off but for a remainder that may be ringing: a reading without it is right
     // A spike in it moves the plateau, a time, the charge by up to this.
@@ -102,10 +102,10 @@ struct CaptureDraw {
     bool noisy = false;      ///< less than 21.6 dB: PulseMeasurement.h promises nothing
     bool statesAll = false;  ///< gain, probe, resolution and time base: then each figure has its U
     bool mustWarn = false;   ///< measured or not
-    std::string text;        ///< in a few words
+    std::string text;        ///< says in a few words what it is
 };
 
-/// The same draw for the same seed, on every machine.
+/// The same seed draws the same, on every machine.
 [[nodiscard]] CaptureDraw drawCapture(CaptureKind kind, std::uint64_t seed);
 
 enum class Figure { Amplitude, Width, Interval, Gap, Charge, Imbalance };
@@ -117,8 +117,7 @@ struct CaptureJudgement {
     std::vector<std::string> wrong;  ///< a sentence each
     bool refused = false;            ///< something that was there is not among the figures
     std::string why;                 ///< the kernel's first warning
-    /// Whether the truth of the first pulse that was measured lies within U. Empty where the figure or its U was not
-    /// given.
+    /// Whether the truth of the first measured pulse lies within U. Empty where the figure or its U was not given.
     std::array<std::optional<bool>, kFigures> inside;
 };
 

@@ -8,8 +8,7 @@ namespace tacto::test {
 
 namespace {
 
-/// How far a right figure may be from what was drawn: one step, one sampling interval, six standard deviations of
-/// noise.
+/// How far a right figure may be from the drawn one: one step, one sampling interval, six standard deviations of noise.
 struct Allowed {
     double amplitude = 0;
     double time_s = 0;
@@ -226,7 +225,7 @@ private:
         return any;
     }
 
-    /// An interval runs from one train to the next that is there.
+    /// An interval runs from one train to the next existing one.
     void compareTrains() {
         const std::size_t per = draw_.perTrain;
         std::size_t pulses = 0;

@@ -32,7 +32,7 @@ private:
     Random random_;
 };
 
-/// A pulse of height 1 whose first edge is at 0. Here times are in samples.
+/// A pulse of height 1 with its first edge at 0. Here times are in samples.
 struct UnitPulse {
     std::vector<SyntheticPhase> phases;
     double lowest = -kNever, highest = kNever;  ///< what an unstated range leaves of it
@@ -58,14 +58,14 @@ public:
     explicit UnitWave(const UnitPulse& pulse) : pulse_(pulse) {
         for (const auto& phase : pulse.phases) steps_.emplace_back(phase);
     }
-    /// As it comes to the oscilloscope.
+    /// The value as it comes to the oscilloscope.
     [[nodiscard]] double before(double t) const {
         double value = 0;
         for (std::size_t k = 0; k < steps_.size(); ++k) value += valueAt(pulse_.phases[k], steps_[k], t);
         return value;
     }
     [[nodiscard]] double at(double t) const { return std::clamp(before(t), pulse_.lowest, pulse_.highest); }
-    /// Where |wave| passes `level` between the times: one of the places, where it does so more than once.
+    /// The time at which |wave| passes `level` between the two: one of them, where it does so more than once.
     [[nodiscard]] double passes(double level, int sign, double from, double to) const {
         const bool rising = sign * at(from) < level;
         for (int k = 0; k < 60; ++k) {
@@ -74,7 +74,7 @@ public:
         }
         return 0.5 * (from + to);
     }
-    /// Where it first lies below `level` on the way to `to`, by a thousandth of that way.
+    /// The time at which it first lies below `level` on the way to `to`, by a thousandth of that way.
     [[nodiscard]] double firstBelow(double level, int sign, double from, double to) const {
         const double step = (to - from) / 1000;
         double t = from;
@@ -148,7 +148,7 @@ struct Plan {
     double low = -kNever, high = kNever;  ///< in volts
     bool statesRange = false;
     std::function<double(double)> under;  ///< drift, or the whole signal where there are no pulses
-    double slope = 0;                     ///< its steepest, per sample
+    double slope = 0;                     ///< the steepest slope, per sample
     double driftHeight = 0, driftTurns = 0;
     std::vector<std::pair<std::size_t, double>> spikes;
     std::vector<std::size_t> missing;
@@ -162,7 +162,7 @@ double interestingPlace(Dice& dice, double samples) {
     return part + dice.integer(-3, 3);
 }
 
-/// Where between two samples an edge lies.
+/// The place of an edge between two samples.
 double placeWithin(Dice& dice) {
     if (dice.chance(0.5)) return dice.between(0, 1);
     return dice.chance(0.5) ? 0.5 : 0.01;
@@ -170,7 +170,7 @@ double placeWithin(Dice& dice) {
 
 void drawRecord(Dice& dice, Plan& plan) {
     plan.rate_hz = dice.logBetween(10e3, 50e6);
-    if (dice.chance(0.5)) {  // as an instrument has them
+    if (dice.chance(0.5)) {  // done as in an instrument
         const double decade = std::pow(10, std::floor(std::log10(plan.rate_hz)));
         plan.rate_hz = decade * std::array{1.0, 2.0, 2.5, 5.0}[static_cast<std::size_t>(dice.integer(0, 3))];
     }
@@ -293,7 +293,7 @@ double share(const Plan& plan) {
     return busy * static_cast<double>(plan.onsets.size()) / static_cast<double>(plan.samples);
 }
 
-/// Where two states cannot tell which of them is the baseline, StateLevels.h says: the one near zero.
+/// Where two states cannot tell which is the baseline, StateLevels.h says: the one near zero.
 void monophasicOffset(Dice& dice, Plan& plan, int sign) {
     double offset = dice.chance(0.4) ? dice.between(-0.05, 0.05) : dice.between(-3, 3);
     if (share(plan) > 0.07) {
@@ -497,7 +497,7 @@ void drawQuiet(Dice& dice, Plan& plan) {
     const double step = plan.lsb > 0 ? plan.lsb : 1e-3 * plan.amplitude;
     if (dice.chance(0.8)) plan.noise = step * dice.logBetween(0.05, 30);
     if (dice.chance(0.2)) {
-        // Fewer than 20 codes without noise are stairs, of which each is a level.
+        // Fewer than 20 codes without noise are stairs, each of which is a level.
         const double hum = step * dice.logBetween(plan.noise < 0.3 * step ? 10 : 0.5, 100),
                      turns = dice.logBetween(0.3, 60);
         const double n = static_cast<double>(plan.samples);
@@ -589,7 +589,7 @@ void drawCut(Dice& dice, Plan& plan) {
     const double n = static_cast<double>(plan.samples);
     const bool atStart = dice.chance(0.5);
     const auto& phases = plan.unit.phases;
-    // At the start it is cut within a phase: what begins in a gap is a whole pulse of the other sign to everybody.
+    // At the start it is cut within a phase: a pulse cut in its gap looks like a whole pulse of the other sign.
     const auto& phase = phases[static_cast<std::size_t>(dice.integer(0, static_cast<int>(phases.size()) - 1))];
     // What is left of it is more than ringing: over a fifth (StateLevels.h).
     const double within = phase.onset_s + phase.width_s * dice.between(0.1, 0.7);
@@ -676,7 +676,7 @@ TruePhase inRecord(const TruePhase& unit, const Plan& plan, std::size_t k) {
             unit.again / plan.rate_hz};
 }
 
-/// Whether anything stands in the way of measuring pulse k, and by how much a spike may move its figures.
+/// Whether anything hinders measuring pulse k, and how far a spike may move its figures.
 void markPulse(const Plan& plan, std::size_t k, const std::vector<TruePhase>& unit, TruePulse& pulse) {
     const auto worsen = [&](Presence to) { pulse.presence = std::max(pulse.presence, to); };
     const double n = static_cast<double>(plan.samples);
@@ -792,7 +792,7 @@ CaptureDraw drawCapture(CaptureKind kind, std::uint64_t seed) {
     const auto edges = [&] {
         drawEdges(dice, plan, 0.3);
         if (plan.unit.phases.size() == 1) return;
-        // From 50 % to 50 % slow edges may be further apart than phases of one pulse are.
+        // Slow edges may be further apart, from 50 % to 50 %, than the phases of one pulse are.
         const double gap = truthOf(plan.unit, 1).onset_s - truthOf(plan.unit, 0).end_s;
         if (gap <= 0.95e-3 * plan.rate_hz) return;
         for (auto& phase : plan.unit.phases) phase = {phase.onset_s, phase.width_s, phase.level, 1e-3};
@@ -861,7 +861,7 @@ CaptureDraw drawCapture(CaptureKind kind, std::uint64_t seed) {
                            kind == CaptureKind::Quiet;
     if (!converted) drawConverter(dice, plan);
     if (kind == CaptureKind::Clipped && plan.unit.phases.size() == 1)
-        plan.offset = 0;  // whatever is left of its height
+        plan.offset = 0;  // keeps whatever is left of its height
     if (kind == CaptureKind::Clipped) draw.mustWarn = drawClipping(dice, plan);
     if (kind == CaptureKind::Disturbed) drawDisturbances(dice, plan);
     if (kind == CaptureKind::Drifting) drawDrift(dice, plan);

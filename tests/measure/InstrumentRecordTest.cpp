@@ -9,7 +9,7 @@
 namespace tacto::test {
 namespace {
 
-/// As an instrument that states no resolution writes it: codes, as decimal text of `digits` digits below the step.
+/// Writes as an instrument does that states no resolution: codes, as decimal text of `digits` digits below the step.
 void writeCodes(CaptureChannel& channel, double step, double phase, int digits = 2) {
     const double unit = std::pow(10, std::floor(std::log10(step)) - digits);
     for (float& x : channel.samples) {
@@ -115,7 +115,7 @@ TEST(InstrumentRecords, SingleSamplesThatLeapAreLeftOutAndCounted) {
         Random random(seed, "leaping samples");
         auto capture = recordOf(biphasic(1e-3), {.rate_hz = 1e6, .samples = 5000, .noise = 0.1, .lsb = 0.05});
         auto& samples = capture.channels[0].samples;
-        // On the plateaus and in the silence; a leap on an edge cannot be told from the edge.
+        // The leaps lie on the plateaus and in the silence; on an edge a leap looks like the edge.
         for (const std::size_t at : {300U, 1030U, 1100U, 1400U, 3000U}) {
             const double leap = (2 + 90 * random.uniform()) * (random.below(2) == 0 ? 1 : -1);
             samples[at + random.below(60)] += static_cast<float>(leap);
@@ -144,10 +144,10 @@ TEST(InstrumentRecords, TheSecondPhaseOfACutPulseIsNotTakenForAPulse) {
     RecordProperty("hazard", "H9");
     for (unsigned seed = 1; seed <= 40; ++seed) {
         Random random(seed, "cut");
-        const double begin_s = 1e-3 + 200e-6 * random.uniform();  // within the leading phase
+        const double begin_s = 1e-3 + 200e-6 * random.uniform();  // the record begins within the leading phase
         const auto begins = recordOf(biphasic(1e-3), {.rate_hz = 1e6, .start_s = begin_s, .samples = 3000});
         EXPECT_EQ(measureChannel(begins, 0).measuredPulses, 0U) << seed;
-        // Within the second phase.
+        // The record ends within the second phase.
         const double length_s = 1e-3 + 310e-6 + 180e-6 * random.uniform();
         const auto samples = static_cast<std::size_t>(length_s * 1e6);
         const auto ends = recordOf(biphasic(1e-3), {.rate_hz = 1e6, .samples = samples});

@@ -13,7 +13,7 @@ constexpr double kEdge_s = 2e-6;
 
 struct Circuit {
     double series_ohm = 2000;
-    double capacitance_f = 0;  ///< in series; 0 = none
+    double capacitance_f = 0;  ///< the capacitance in series; 0 = none
     double voltageNoise = 0;
     double currentNoise = 0;
     double voltageOffset = 0;

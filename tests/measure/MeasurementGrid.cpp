@@ -12,7 +12,7 @@ constexpr double kGridWidth_s = 200e-6;
 constexpr double kGridGap_s = 100e-6;
 constexpr double kRechargeTimes = 10;
 
-/// Where the phase passes `level` upwards (or downwards) between `from` and `to`, by bisection of its formula.
+/// The time at which the phase passes `level` upwards (or downwards) in `from`..`to`, by bisection of its formula.
 double passes(const SyntheticPhase& phase, const StepResponse& step, double level, double from, double to) {
     const double sign = phase.level > 0 ? 1 : -1;
     const bool rising = sign * valueAt(phase, step, from) < level;
@@ -38,7 +38,7 @@ Record recordAt(const GridPoint& point, unsigned seed) {
     const double firstOnset_s = 2 * kGridWidth_s + random.uniform() / r.rate_hz;
     record.phases = phasesOf(point, firstOnset_s);
     const auto& last = record.phases.back();
-    // As much silence as a pulse and its tail need, and at least as much as is between pulses.
+    // There is as much silence as a pulse and its tail need, and at least as much as between pulses.
     const double end_s =
         std::max(last.onset_s + last.width_s + 4 * kGridWidth_s, point.pulses * point.interval * kGridWidth_s);
     r.samples = static_cast<std::size_t>(end_s * r.rate_hz);

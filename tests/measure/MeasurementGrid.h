@@ -35,7 +35,7 @@ struct GridPoint {
 /// Level 40, width 200 µs, gap 100 µs; the recharge is a tenth as high and ten times as long.
 [[nodiscard]] std::vector<SyntheticPhase> phasesOf(const GridPoint& point, double firstOnset_s);
 
-/// What science.md section 8 defines, computed from the phase's formula and not from samples.
+/// The figures that science.md section 8 defines, computed from the phase's formula and not from samples.
 struct PhaseTruth {
     double plateau, onset_s, end_s, charge;
 };
@@ -47,8 +47,8 @@ struct GridResult {
     MeasurementUncertainty stated;  ///< k = 1, of the last record that was measured
     double rate_hz = 0;
     int records = 0;
-    int pulses = 0;    ///< that were there
-    int missed = 0;    ///< those that were neither measured nor flagged
+    int pulses = 0;    ///< pulses that were there
+    int missed = 0;    ///< pulses that were neither measured nor flagged
     int flagged = 0;   ///< found, and said not to be measurable
     int invented = 0;  ///< measured where there was none
     int warned = 0;    ///< records with any warning

@@ -37,7 +37,7 @@ TEST(PulseFlags, AClippedPulseIsFlaggedAndNotMeasured) {
     const auto m = measureChannel(capture, 0);
     expectOnlyMiddleFlagged(m);
     EXPECT_TRUE(m.pulses[1].flags.clipped);
-    // What is not measured can still be shown where it lies: both phases of it.
+    // An unmeasured pulse can still be shown in its place: both phases of it.
     EXPECT_NEAR(m.pulses[1].seenFrom_s, 4e-3, 2e-6);
     EXPECT_NEAR(m.pulses[1].seenTo_s, 4.5e-3, 2e-6);
 }
@@ -78,7 +78,7 @@ TEST(PulseFlags, ClippingIsKnownFromTheStatedRangeAndNotFromTheRecordsOwnMaximum
     EXPECT_FALSE(stated.pulses[0].flags.flatTop);
     EXPECT_EQ(stated.measuredPulses, 0U);
 
-    channel.low = -60;  // as much room as anyone could wish
+    channel.low = -60;  // gives as much room as anyone could wish
     channel.high = 60;
     const auto roomy = measureChannel(capture, 0);
     EXPECT_EQ(roomy.measuredPulses, 1U);
@@ -107,12 +107,12 @@ TEST(PulseFlags, AClippedRecordIsRemarkedOnWhateverItsNoise) {
     for (const double noise : {0.35, 0.5, 1.0, 3.0}) {
         auto phases = biphasic(1e-3, 70);
         append(phases, biphasic(4e-3, 70));
-        for (auto& phase : phases) phase.level += phase.level > 0 ? 0.2 : 0;  // no two of them alike
+        for (auto& phase : phases) phase.level += phase.level > 0 ? 0.2 : 0;  // so that no two of them are alike
         auto capture = digitised(phases, 50, noise * lsb);
         const auto m = measureChannel(capture, 0);
         ASSERT_EQ(m.pulses.size(), 2U) << noise;
         EXPECT_TRUE(m.pulses[0].flags.flatTop && m.pulses[1].flags.flatTop) << noise;
-        // The same with room for it: nothing is said.
+        // With room for it, nothing is reported.
         auto whole = digitised(phases, 100, 2 * noise * lsb);
         for (const auto& pulse : measureChannel(whole, 0).pulses) EXPECT_FALSE(pulse.flags.flatTop) << noise;
     }
@@ -144,7 +144,7 @@ TEST(PulseFlags, FlatTopsAreRemarkedOnWhereTheyAreClippedAndHardlyElsewhere) {
                 auto capture =
                     recordOf(phases, {.noise = noise * range / kCodes, .seed = static_cast<unsigned>(k + 1)});
                 const double lsb = range / kCodes;
-                const double offset = 0.273 * k * lsb;  // where the baseline lies between its codes
+                const double offset = 0.273 * k * lsb;  // the baseline's place between its codes
                 for (float& x : capture.channels[0].samples) {
                     x = static_cast<float>(
                         std::clamp(std::round((static_cast<double>(x) + offset) / lsb), -kCodes, kCodes) * lsb);
@@ -155,14 +155,14 @@ TEST(PulseFlags, FlatTopsAreRemarkedOnWhereTheyAreClippedAndHardlyElsewhere) {
             clean += flat(50) ? 1 : 0;
             clipped += flat(25) ? 1 : 0;
         }
-        // With less noise than a third of a code a clean top and a clipped one can look the same.
+        // With noise below a third of a code, a clean top and a clipped one can look the same.
         EXPECT_LE(clean, noise < 0.3 ? kRecords / 5 : 0) << noise << " codes";
         EXPECT_GE(clipped, noise < 0.4 ? 0 : kRecords) << noise << " codes";
     }
 }
 
 TEST(PulseFlags, ACleanWaveOfTwoCodesPerLevelIsNeitherClippedNorFlat) {
-    // As a Rigol DS2072A records its own calibrator: each level dithers between two codes, the upper of which is the
+    // The record of a Rigol DS2072A's own calibrator: each level dithers between two codes; the upper one is the
     // record's maximum in half of the samples.
     Capture capture;
     capture.rate_hz = 200e3;
@@ -185,7 +185,7 @@ TEST(PulseFlags, ACleanWaveOfTwoCodesPerLevelIsNeitherClippedNorFlat) {
 TEST(PulseFlags, AnIdealOrCoarselyQuantisedPlateauIsNotCalledClipped) {
     EXPECT_EQ(measureChannel(recordOf(biphasic(1e-3)), 0).measuredPulses, 1U);
     auto capture = recordOf(biphasic(1e-3), {.noise = 0.1, .lsb = 0.39});
-    capture.channels[0].lsb = 0;  // as read from a file
+    capture.channels[0].lsb = 0;  // unknown, as when read from a file
     EXPECT_EQ(measureChannel(capture, 0).measuredPulses, 1U);
 }
 
@@ -193,7 +193,7 @@ TEST(PulseFlags, PulsesCutByTheRecordsEndsAreFlagged) {
     RecordProperty("hazard", "H9");
     auto phases = biphasic(-100e-6);  // begins before the record
     append(phases, biphasic(4e-3));
-    append(phases, biphasic(9.75e-3));  // its second phase begins after the record: 50 us before the end is gap
+    append(phases, biphasic(9.75e-3));  // the second phase begins after the record, whose last 50 us are gap
     const auto m = measureChannel(recordOf(phases, {.noise = 0.1}), 0);
     ASSERT_EQ(m.pulses.size(), 3U);
     EXPECT_TRUE(m.pulses[0].flags.truncated);

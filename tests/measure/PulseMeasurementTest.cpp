@@ -109,7 +109,7 @@ TEST(PulseMeasurement, UncertaintyAddsWhatTheChannelDeclares) {
     channel.lsb = 0.39;
     channel.gainTolerance = 0.02;
     channel.probeTolerance = 0.01;
-    channel.offsetTolerance = 0.1;  // in the baseline as well: it cancels
+    channel.offsetTolerance = 0.1;  // the baseline has the same offset, so that it cancels
     capture.timeBaseTolerance = 1e-3;
     const auto m = measureChannel(capture, 0);
     const double expected =

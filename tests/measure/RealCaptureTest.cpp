@@ -50,7 +50,7 @@ TEST(RealCaptures, ARigolCalibratorSquareWave) {
     if (!path) GTEST_SKIP() << kNoSharedData;
     const auto m = measureCapture(numbersOf(*path, 2, 2, 200e3));
     for (std::size_t c = 0; c < 2; ++c) {
-        // 13 edges, of which the seventh pulse is cut.
+        // 13 edges, where the seventh pulse is cut.
         expectNumpys(m.channels.at(c), figuresOf("real_captures").at("calibrator").at(c));
     }
 }
@@ -69,7 +69,7 @@ TEST(RealCaptures, ATektronixRecordOfASerialBus) {
     const auto& clock = m.channels.at(1);
     ASSERT_EQ(clock.samples, 100'000U);
     EXPECT_EQ(clock.quality.mean, 1U) << "37 dB need no averaging";
-    // Each begins high: the first stretch has one edge only.
+    // Each begins high, so that the first stretch has one edge only.
     const auto& numpy = figuresOf("real_captures").at("bus_clock");
     expectNumpys(clock, numpy);
     EXPECT_NEAR(clock.states.noise, numpy.at("noise").get<double>(), 0.005);

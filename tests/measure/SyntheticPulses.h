@@ -1,5 +1,5 @@
-// SyntheticPulses.h - records whose every edge is known to a fraction of a sample: pulses evaluated where the samples
-// lie, so that the truth needs no algorithm.
+// SyntheticPulses.h - records with every edge known to a fraction of a sample: pulses evaluated where the samples lie,
+// so that the truth needs no algorithm.
 //
 // A phase is the difference of two equal step responses, width_s apart: its charge is level times width and its 50 %
 // points are width_s apart whatever the edges look like, once they have settled (see MeasurementGrid.h, truthOf()).
@@ -25,13 +25,13 @@ struct SyntheticPhase {
     double edge_s = 2e-6;
     double droop = 0;      ///< fraction lost over the width, in a straight line
     double overshoot = 0;  ///< fraction, decaying with a tenth of the width
-    // At most one of these, instead of straight edges:
+    // At most one of these replaces straight edges:
     double tau_s = 0;    ///< exponential edges, as over a resistor and a capacitor side by side
     double ringing = 0;  ///< first overshoot of a damped oscillation, a fraction
     double ringingPeriod_s = 20e-6;
 };
 
-/// How a phase's edges rise: from 0 to 1, through 0.5 at time 0.
+/// The edges of a phase rise from 0 to 1, through 0.5 at time 0.
 class StepResponse {
 public:
     explicit StepResponse(const SyntheticPhase& p) : edge_s_(p.edge_s), tau_s_(p.tau_s) {
@@ -55,7 +55,7 @@ public:
         if (tau_s_ > 0) return since + delay_s_ > 0 ? 1 - std::exp(-(since + delay_s_) / tau_s_) : 0;
         return std::clamp(since / edge_s_ + 0.5, 0.0, 1.0);
     }
-    /// From the 50 % point back to where it is still 0, and on to where it differs from 1 by less than 1e-12.
+    /// The times from the 50 % point back to where it is still 0, and on to where it differs from 1 by less than 1e-12.
     [[nodiscard]] double before_s() const { return omega_ > 0 || tau_s_ > 0 ? delay_s_ : 0.5 * edge_s_; }
     [[nodiscard]] double after_s() const { return omega_ > 0 ? 28 / sigma_ : tau_s_ > 0 ? 28 * tau_s_ : 0.5 * edge_s_; }
 
@@ -89,7 +89,7 @@ struct SyntheticRecord {
     double slope_per_s = 0;  ///< drift, about the record's middle
     double hum = 0;          ///< amplitude of a sine at hum_hz
     double hum_hz = 50;
-    double hum_rad = 0;  ///< its phase at time 0
+    double hum_rad = 0;  ///< the hum's phase at time 0
     double range = 0;    ///< samples are cut to ± this, and the channel declares it; 0 = unlimited and unknown
 };
 

@@ -77,7 +77,7 @@ TEST(Trains, AnEmptyCaptureBreaksTheIntervalAcrossIt) {
 
 TEST(Trains, CapturesThatShareNoTimeBaseGiveNoInterval) {
     RecordProperty("hazard", "H9");
-    auto captures = shortCaptures({1, 1});  // both say that they were taken at 1 s
+    auto captures = shortCaptures({1, 1});  // both stamps say 1 s
     const auto m = measureTrains(captures, "voltage").value();
     EXPECT_EQ(m.trains.size(), 2U);
     EXPECT_EQ(m.interval_s.n, 0U);

@@ -1,4 +1,4 @@
-// The waveform as a whole, on signals whose truth is a formula.
+// The waveform as a whole, on signals with a formula for their truth.
 #include <gtest/gtest.h>
 
 #include "core/measure/WaveformMeasurement.h"

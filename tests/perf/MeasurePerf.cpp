@@ -1,6 +1,6 @@
 // Measuring pulses in ten million samples on one core, beside copying them and beside adding them up.
 //
-// To be met: 100 ms for pulses, for noise of full height and for 200 000 pulses in one record.
+// The goal is 100 ms for pulses, for noise of full height and for 200 000 pulses in one record.
 #include <benchmark/benchmark.h>
 #include <cmath>
 #include <cstring>

@@ -3,7 +3,7 @@
 // trains are delivered. What two rows cost by themselves is BM_SessionAcknowledgedEvent, twice; what a press costs in
 // an empty window is measured in tests/perf/window.
 //
-// To be met: 8 s a session; 20 ms to the next trial (median); 10 ms to the output (worst).
+// The goals are 8 s a session; 20 ms to the next trial (median); 10 ms to the output (worst).
 #include <QApplication>
 #include <QEventLoop>
 #include <QKeyEvent>
@@ -34,7 +34,7 @@ namespace {
 namespace fs = std::filesystem;
 using SteadyMoment = std::chrono::steady_clock::time_point;
 
-/// Where sessions are written; nothing of the user's is.
+/// A place for sessions; nothing there is the user's.
 class Place {
 public:
     Place() {
@@ -173,8 +173,8 @@ Result<void> answersAll(PilotSession& session) {
     return {};
 }
 
-/// From the answer to the row `trial-begin` of the next trial, with the row `answer` between them, both durable. The
-/// bench lets the response time pass meanwhile, in virtual time.
+/// The time from the answer to the row `trial-begin` of the next trial, with the row `answer` between them, both
+/// durable. The bench lets the response time pass meanwhile, in virtual time.
 void BM_PilotNextTrial(benchmark::State& state) {
     needWindows();
     const Place place;
@@ -209,7 +209,7 @@ BENCHMARK(BM_PilotNextTrial)
     ->UseRealTime()
     ->Iterations(3);
 
-/// When forceOff() came through last, since it was cleared.
+/// When forceOff() last came through since this was cleared.
 std::atomic<std::int64_t> pilotOffAt_ns{0};
 
 std::int64_t steady_ns() { return std::chrono::steady_clock::now().time_since_epoch().count(); }
@@ -224,7 +224,7 @@ public:
     }
 };
 
-/// In real time: the key comes from outside at a moment that the window does not choose, while trains are delivered.
+/// In real time, the key comes from outside at a moment that the window does not choose, while trains are delivered.
 void BM_PilotStopKey(benchmark::State& state) {
     needWindows();
     const Place place;

@@ -65,7 +65,7 @@ void roughnessChain(benchmark::State& state) {
 }
 BENCHMARK(roughnessChain)->Unit(benchmark::kMicrosecond);
 
-/// As the live bench feeds it: every 5 ms.
+/// Feeds it as the live bench does: every 5 ms.
 void roughnessChainLive(benchmark::State& state) {
     const auto whole = fingertip();
     const auto infos = streams();

@@ -2,7 +2,7 @@
 // QCustomPlot's own graph of the same samples and a plot with nothing in it; and building the pyramid, beside reading
 // the samples once.
 //
-// To be met: 3 ms a frame for two channels of pulses, 4 ms for noise of full height, 200 million samples/s on one core.
+// Goals: 3 ms a frame for two channels of pulses, 4 ms for noise of full height, 200 million samples/s on one core.
 #include <QApplication>
 #include <benchmark/benchmark.h>
 #include <cmath>
@@ -41,7 +41,7 @@ std::shared_ptr<const std::vector<float>> samplesOf(Signal signal) {
     return samples;
 }
 
-/// Where the k-th frame looks: panning through the record while the zoom goes from all of it to a hundredth and back.
+/// What the k-th frame shows: panning through the record while the zoom goes from all of it to a hundredth and back.
 struct Look {
     double perDivision_s, centre_s;
 };
@@ -70,7 +70,7 @@ void BM_ScopeFrame(benchmark::State& state) {
     screen.QWidget::show();
     model.show(shown);
     if (state.range(0) == kNoise) {
-        for (const auto& lane : model.lanes()) {  // each over the whole height
+        for (const auto& lane : model.lanes()) {  // each lane spans the whole height
             model.setLaneScale(lane.key, 10);
             model.setLanePosition(lane.key, 0);
         }
@@ -149,7 +149,7 @@ void BM_PyramidBuild(benchmark::State& state) {
 }
 BENCHMARK(BM_PyramidBuild)->Unit(benchmark::kMillisecond);
 
-/// The same, as samples arrive: 4096 at a time.
+/// Grows it as samples arrive: 4096 at a time.
 void BM_PyramidGrow(benchmark::State& state) {
     const auto samples = samplesOf(kNoise);
     const std::span<const float> all(*samples);

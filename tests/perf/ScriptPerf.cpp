@@ -1,5 +1,5 @@
-// What it costs that a script runs in a process of its own: a call, beside a word to and fro between two processes, and
-// its start, beside that of a program which does nothing.
+// The cost of running a script in a process of its own: a call, beside a word to and fro between two processes, and its
+// start, beside the start of a program that does nothing.
 #include <benchmark/benchmark.h>
 #include <chrono>
 #include <spawn.h>

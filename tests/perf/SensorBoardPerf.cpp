@@ -1,7 +1,7 @@
 // A sensor board's stream, 4 kHz × 3 and 9 × 200 Hz, through SensorBoard::read() every 2 ms as a session calls it:
 // frames, CRC, losses, clock, values. Beside it, the same bytes only copied, and only searched for frames.
 //
-// To be met: core_percent below 5, of one core, for the whole of read().
+// The goal is a core_percent below 5, of one core, for the whole of read().
 #include <benchmark/benchmark.h>
 #include <chrono>
 #include <cstring>
@@ -18,7 +18,7 @@ constexpr double kStream_s = 10;
 constexpr Instant kPollInterval = std::chrono::milliseconds(2);
 using Tape = std::vector<std::vector<std::uint8_t>>;  // what each look finds
 
-/// An emulated board that answers while the streams are opened, then a tape of what it goes on to send.
+/// An emulated board that answers while the streams are opened, then a tape of what it sends afterwards.
 class TapeTransport final : public Transport {
 public:
     explicit TapeTransport(VirtualClock& clock)
@@ -49,7 +49,7 @@ public:
             now += kPollInterval;
             const auto got = board_.transmit(bytes, now);
             tape.emplace_back(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(got));
-            if (got == 0) tape.back().push_back(0);  // nothing between two frames
+            if (got == 0) tape.back().push_back(0);  // there is nothing between two frames
         }
     }
 

@@ -80,7 +80,7 @@ private:
     sqlite3_stmt* insert_ = nullptr;
 };
 
-/// The same through SessionWriter: time stamps, CRC, digest, hash chain.
+/// Writes through SessionWriter: time stamps, CRC, digest, hash chain.
 class Session {
 public:
     explicit Session(bool synced)

@@ -10,7 +10,7 @@ using testing::IsEmpty;
 
 class LevelRampTest : public PilotStageTest {
 protected:
-    /// As a resumed session learns of them.
+    /// Accepts levels as a resumed session learns of them.
     void accepted(LevelRamp& ramp) {
         for (const double level : {1.0, 0.5, 1.5})
             ASSERT_TRUE(ramp.judged(level, false, fmt::format("ascending {}", level), true));

@@ -47,7 +47,7 @@ TEST_F(PilotCareTest, AStopOfTheRunWhileAStopIsTestedIsNoTestAndNothingGoesOnAft
     someone_.onAsk = [this](const PilotPrompt& prompt) {
         if (prompt.name != "stop-test") return;
         stage_->endRun();
-        bench_->stop("operator (STOP)");  // and then the participant presses, as they were asked to
+        bench_->stop("operator (STOP)");  // the participant presses next, as they were asked to
     };
     EXPECT_THAT(care.checklist(), test::refused(ErrorCode::Stopped));
     EXPECT_EQ(someone_.asked.back(), "stop-test") << "no one is asked to go on";
@@ -153,7 +153,7 @@ TEST_F(PilotCareTest, ASessionThatWasStoppedGoesOnWithNothingButItsQuestions) {
         someone_.answers = {{"erythema", "2"}, {"oedema", "0"}};
         EXPECT_FALSE(care.skin("break 3"));
     }
-    // As if it had died when it asked for the skin afterwards.
+    // Begins as if it had died when it asked for the skin afterwards.
     begin(rowsUntil(row::kSessionEnd));
     PilotSession session(*bench_, someone_, *record_, PilotSettings{}, nullptr, 2);
     session.resumesFrom("part 1", "head");

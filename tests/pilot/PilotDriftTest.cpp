@@ -1,4 +1,4 @@
-// The drift check of a session whose participant feels less and less: which levels it presents.
+// The levels that the drift check presents in a session with a participant who feels less and less.
 #include "core/pilot/PilotSession.h"
 #include "core/pilot/VirtualPilotParticipant.h"
 #include "tests/pilot/StageFixture.h"

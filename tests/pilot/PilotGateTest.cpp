@@ -11,7 +11,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A twin whose output takes its time to switch off, or whose electrodes come off by and by.
+/// A twin with an output that takes its time to switch off, or with electrodes that come off by and by.
 class WornStimulator final : public WrappedStimulator {
 public:
     WornStimulator(std::unique_ptr<Stimulator> twin, std::chrono::milliseconds offTakes, double skinLater)

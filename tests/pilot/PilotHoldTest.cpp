@@ -36,7 +36,7 @@ TEST_F(PilotHoldTest, AfterTooStrongNothingIsPresentedBeforeTheOperatorHasAnswer
         if (prompt.name != kHoldPrompt) return;
         EXPECT_FALSE(stage_->isArmed()) << "the output is off";
         EXPECT_EQ(prompt.to, PromptTo::Operator);
-        someone_.answers[kHoldPrompt] = ++asked % 2 == 1 ? "" : "KL";  // no name at first
+        someone_.answers[kHoldPrompt] = ++asked % 2 == 1 ? "" : "KL";  // the first answer names nobody
     };
     accepted(thresholds.ascendingLimits());
     const auto rowsInOrder = course();

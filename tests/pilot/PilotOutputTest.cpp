@@ -1,5 +1,5 @@
-// Breaks, pauses, a lost screen, electrodes that are seated again, an abort: the output is off, a row says so, and what
-// follows is armed anew.
+// Breaks, pauses, a lost screen, electrodes that are seated again, an abort: the output is off, a row says so, and it
+// is armed again before the rest.
 #include <thread>
 
 #include "core/pilot/PilotCare.h"
@@ -193,7 +193,7 @@ TEST_F(PilotOutputTest, ABenchThatIsPausedIsWaitedForAndTheTrialIsRepeatedHoweve
         if (screen.state != ScreenState::Feel || paused == kPauses) return;
         ++paused;
         bench_->pause();
-        resumes = std::jthread([this] {  // while it presents, or in the pause that the stage makes of it
+        resumes = std::jthread([this] {  // resumes while it presents, or in the pause that the stage makes of it
             std::this_thread::sleep_for(std::chrono::milliseconds(20));
             bench_->resume();
         });
@@ -242,7 +242,7 @@ TEST_F(PilotOutputTest, WithoutTheKeysWhileAQuestionWaitsTheOutputIsSoonOff) {
         someone_.onHindrance = elsewhere;
         for (int looks = 0; looks < 60; ++looks) someone_.waiting();
         someone_.onHindrance = {};
-        someone_.waiting();  // they were back for a moment
+        someone_.waiting();  // the participant was back for a moment
         someone_.onHindrance = elsewhere;
         for (int looks = 0; looks < 99; ++looks) someone_.waiting();
         EXPECT_NE(state(), InterlockState::Disarmed) << "9.9 s";
@@ -296,7 +296,7 @@ TEST_F(PilotOutputTest, AStopWithAFaultCounts) {
     EXPECT_EQ(record_->count(row::kParticipantStop), 1U);
 }
 
-/// Once, as a sentence, and not that it is off where it may still be on.
+/// Told once, as a sentence that does not say "off" where the output may still be on.
 TEST_F(PilotOutputTest, OfEachFaultTheOperatorReadsWhatItLeavesOfTheOutput) {
     RecordProperty("hazard", "H2");
     for (const auto* fault : {"open", "short", "unplug", "garbage", "stuck-on"}) {
@@ -342,7 +342,7 @@ TEST_F(PilotOutputTest, AnAbortWhileAStopIsHandledIsNotForgotten) {
     RecordProperty("hazard", "H2");
     someone_.stops = 1;
     bool aborted = false;
-    someone_.onShow = [&] {  // before they are asked to go on, and after the stop was noted
+    someone_.onShow = [&] {  // before they are asked to continue, and after the stop was noted
         if (someone_.shown.back().text.starts_with("Stopped.") && !std::exchange(aborted, true))
             someone_.stop(kOperatorAborts);
     };
@@ -370,7 +370,7 @@ protected:
         PilotOutputTest::SetUp();
         someone_.answers = {{"erythema", "0"}, {"oedema", "0"}};
     }
-    /// After the `n`-th measurement of the electrodes they measure `ohm`.
+    /// After the `n`-th measurement of the electrodes the load is `ohm`.
     void fitAfter(std::map<std::size_t, double> loads) {
         record_->onWritten = [this, loads = std::move(loads), done = std::size_t(0)](std::size_t) mutable {
             const auto measured = record_->count(row::kImpedance);
@@ -392,7 +392,7 @@ protected:
 
 TEST_F(SeatedElectrodesTest, TwoChecksThatDisagreeAreMadeAnewOnceTheyAreSeatedAgain) {
     RecordProperty("hazard", "H3");
-    fitAfter({{1, 1300}});  // between the two
+    fitAfter({{1, 1300}});  // between the two measurements
     PilotCare care(*stage_);
     accepted(care.checklist());
     EXPECT_THAT(bodies(row::kImpedance), SizeIs(4));

@@ -61,7 +61,7 @@ TEST_F(PilotStageTest, TheIntervalsOfADetectionTrialAreMarkedAlikeWhicheverHolds
     RecordProperty("hazard", "H9");
     struct Mark {
         int interval;
-        double after_s;  // since the first
+        double after_s;  // seconds since the first
         bool operator==(const Mark&) const = default;
     };
     std::vector<std::vector<Mark>> seen;
@@ -76,7 +76,7 @@ TEST_F(PilotStageTest, TheIntervalsOfADetectionTrialAreMarkedAlikeWhicheverHolds
             const auto& screen = someone_.shown.back();
             if (screen.state != ScreenState::Interval) return;
             const double now_s = toSeconds(clock_->now());
-            if (marks.size() <= 1) first_s = now_s;  // from interval 1 on: how long it waited before is drawn
+            if (marks.size() <= 1) first_s = now_s;  // from interval 1 on: the wait before it is drawn
             marks.push_back({screen.interval, marks.empty() ? 0 : now_s - first_s});
         };
         ASSERT_TRUE(stage_->trial(made));
@@ -188,7 +188,7 @@ TEST_F(PilotStageTest, AContactThatBouncesSwitchesOffAndIsNoneOfTheirStops) {
         EXPECT_EQ(row.body["why"], "the contact of the button that is held bounced");
     }
 
-    // Where it was not the contact it is a stop as any other, and the third ends the session.
+    // If it was not the contact, it is a stop like any other, and the third ends the session.
     someone_.onAsk = {};
     someone_.stops = 3;
     EXPECT_FALSE(stage_->trial(trial("test 2")));
@@ -199,7 +199,7 @@ TEST_F(PilotStageTest, AContactThatBouncesSwitchesOffAndIsNoneOfTheirStops) {
 TEST_F(PilotStageTest, AStopThatIsPressedIsNoBounceWhateverItsContactDoes) {
     RecordProperty("hazard", "H2");
     someone_.stops = 1;
-    someone_.bounces = true;  // of another button
+    someone_.bounces = true;  // another button bounces
     ASSERT_TRUE(stage_->trial(trial()));
     EXPECT_EQ(record_->count(row::kParticipantStop), 1U);
     EXPECT_EQ(record_->count(row::kPause), 0U);
@@ -230,7 +230,7 @@ TEST_F(PilotStageTest, RisingLevelsAreNotPresentedWhileTheParticipantDoesNotHold
     rising.held = true;
     someone_.holds = false;
     someone_.letsGo = true;
-    someone_.stops = 1;  // at the prompt that asks them to hold
+    someone_.stops = 1;  // they stop at the prompt that asks them to hold
     const auto answer = accepted(stage_->trial(rising));
     EXPECT_THAT(someone_.asked, ElementsAre("hold", "go-on", "hold", "strength"));
     EXPECT_EQ(answer.attempt, 1U) << "nothing had been presented";

@@ -23,7 +23,7 @@ public:
         if (onShow) onShow();
     }
     [[nodiscard]] Result<PilotAnswer> ask(const PilotPrompt& prompt) override {
-        // As at a desk: a stop that came between questions is the answer to the next one.
+        // At a desk it is the same: a stop that came between questions is the answer to the next one.
         if (stopped_) return fail(ErrorCode::Stopped, "stopped before it was asked");
         if (onAsk) onAsk(prompt);
         asked.push_back(prompt.name);
@@ -78,16 +78,16 @@ public:
     }
 
     std::vector<std::string> texts;
-    std::map<std::string, std::string> answers;  // by the prompt's name; else its first target
+    std::map<std::string, std::string> answers;  // by the prompt's name; otherwise its first target answers
     std::map<std::string, int> values;           // of scales
     int stops = 0;
     const char* stoppedBy = "participant";
     int stopsAtGoOn = 0;
-    int testPresses = 0;  // of `testedBy`, in tests of a STOP, before it is pressed by who is asked
+    int testPresses = 0;  // how often `testedBy` presses a STOP under test before the right one does
     const char* testedBy = "participant";
     bool holds = true;
     bool bounces = false;  // what they let go next is their button's contact
-    bool letsGo = false;   // as soon as they may
+    bool letsGo = false;   // lets go as soon as they may
 
 private:
     bool stopped_ = false;
@@ -132,7 +132,7 @@ protected:
     }
     [[nodiscard]] std::filesystem::path file() const { return dir_.path() / fmt::format("{}.tacto", part_); }
     [[nodiscard]] std::vector<SessionRow> rows() const { return SessionReader::open(file()).value().events().value(); }
-    /// All up to the first of this kind, as if the program had died there.
+    /// All rows up to the first of this kind, as if the program had died there.
     [[nodiscard]] std::vector<SessionRow> rowsUntil(const char* kind) const {
         auto all = rows();
         all.erase(std::next(std::ranges::find(all, kind, &SessionRow::name)), all.end());
@@ -149,7 +149,7 @@ protected:
         for (const auto& body : bodies(row::kAnswer)) all.push_back(body["name"]);
         return all;
     }
-    /// Those of the session's own kinds, in order.
+    /// The rows of the session's own kinds, in order.
     [[nodiscard]] std::vector<std::string> kinds() const {
         std::vector<std::string> all;
         for (const auto& each : rows()) {
@@ -159,7 +159,7 @@ protected:
         }
         return all;
     }
-    /// To see to the electrodes: six seconds. A bench that has faulted lets no time pass.
+    /// The operator takes six seconds to see to the electrodes. A bench that has faulted lets no time pass.
     void operatorTakesTime() {
         someone_.onAsk = [this](const PilotPrompt& prompt) {
             const Seconds time(6);

@@ -7,7 +7,7 @@ namespace {
 
 using testing::ElementsAre;
 
-/// The same stage with a massager, and perhaps a sensor board on its motor.
+/// The stage with a massager, and perhaps a sensor board on its motor.
 class VibratedStageTest : public PilotStageTest {
 protected:
     void SetUp() override {

@@ -44,7 +44,7 @@ QJsonObject quantity(const char* id, const char* title, const char* unit, double
             {"left", QJsonValue::Null}};
 }
 
-/// A stimulator of a customer on a real oscilloscope, whose certificate is known.
+/// A customer's stimulator on a real oscilloscope with a known certificate.
 ReportModel calibrated() {
     ReportModel model;
     model.title = "Stimulator calibration";
@@ -91,7 +91,7 @@ protected:
         EXPECT_TRUE(written) << (written ? "" : written.error().message);
         std::string all =
             path.extension() == ".pdf" ? poppler("pdftotext -layout", path) : contentOfFile(path).toStdString();
-        // As it is read: one blank for narrow ones and line breaks; no tags, but the mark of a line to write on.
+        // The text as it is read: one blank for narrow ones and line breaks; no tags but that of a line to write on.
         QString read = QString::fromStdString(all).replace(QChar(0x202f), ' ');
         if (path.extension() == ".html") {
             read.remove(QRegularExpression("<style>.*</style>", QRegularExpression::DotMatchesEverythingOption));

@@ -144,7 +144,7 @@ TEST(NumberText, AColumnHasOnePrefixForEachUnit) {
     EXPECT_EQ(shared(sentences), sentences) << "a sentence keeps its words";
 }
 
-/// Whatever is drawn, each cell says the same number as before, with the same digits, in the unit of all.
+/// Each cell says the same number as it did alone, with the same digits, in the shared unit.
 TEST(NumberText, APrefixThatIsSharedChangesNoNumber) {
     RecordProperty("hazard", "H8");
     std::mt19937_64 random(20261129);
@@ -229,7 +229,7 @@ TEST(NumberText, DecimalPointsStandOneBelowTheOther) {
     EXPECT_EQ(cells[0], "7" + point + digit + " ± 11" + point + digit + digit);
     EXPECT_EQ(cells[1], "−2.1 ± 6.65");
     EXPECT_EQ(cells[2], "–");
-    // As wide as what they stand for, in the face of the reports.
+    // The widths of the values, in the face of the reports.
     const QFontMetricsF metrics(textFont(11));
     EXPECT_NEAR(metrics.horizontalAdvance(digit), metrics.horizontalAdvance("0"), 0.01);
     EXPECT_NEAR(metrics.horizontalAdvance(point), metrics.horizontalAdvance("."), 0.01);

@@ -372,7 +372,7 @@ TEST(LimitMatrix, OneLimitFromTwoDocumentsIsOneRowThatNamesBoth) {
     EXPECT_EQ(block.rows[1].cells[1].state, State::Broken);
     EXPECT_EQ(block.rows[2].cells[1].state, State::Open) << "and no share of what was not evaluated";
     EXPECT_EQ(closestOf(block, "").rows.front().last(), "noted");
-    // Whatever a script gives under these names is no reason to end.
+    // Nothing that a script gives under these names is a reason to end.
     const nlohmann::json shapes[] = {nullptr, 1, "text", true, nlohmann::json::array({1, "a", nullptr}), {{"a", 1}}};
     for (const auto& shape : shapes) {
         EXPECT_TRUE(limitsOf(shape).rows.empty());
@@ -405,14 +405,14 @@ TEST_F(Report, WhatIsNotEvaluatedOnSeveralLoadsForOneReasonIsOneSentence) {
     ReportModel model;
     readBasis(results, model);
     ASSERT_EQ(model.basis.notEvaluated.size(), 2);
-    // Beside "Not evaluated", which is not said again.
+    // Stands beside "Not evaluated", which is not repeated.
     EXPECT_EQ(model.basis.notEvaluated[0],
               withSigns("current density into 100 ohm, 200 ohm + 10 kohm || 50 nF and in the worst case: the area is "
                         "not known"));
     EXPECT_EQ(model.basis.notEvaluated[1], withSigns("net charge into 100 ohm: it was not captured"));
 }
 
-/// How the reference of these results is judged, as the report has it.
+/// The report's judgement on the reference of these results.
 std::string referenceJudged(const QJsonObject& check) {
     ReportModel model;
     readBasis({{"kind", "stimulator-calibration"}, {"reference", check}}, model);

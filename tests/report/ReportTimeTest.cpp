@@ -1,4 +1,4 @@
-// How long a report takes. The sanitizers take their own time.
+// How long a report takes. The sanitizers take more time.
 #include <QElapsedTimer>
 #include <gtest/gtest.h>
 

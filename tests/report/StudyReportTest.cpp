@@ -234,7 +234,7 @@ TEST(StudyReport, APredictionFromThePersonsThresholdsStandsBesideTheAnswersAndJu
     const auto said = textOf(*studyReport(study));
     EXPECT_THAT(said, HasSubstr("P-7K3M, session 1: predicted from the detection threshold, and answered"));
     // At the threshold the noise of 1 JND hides one presentation in two; far above it the intervals, 9.3 JND apart, and
-    // the levels are never taken for one another.
+    // the levels are never confused.
     EXPECT_THAT(said, HasSubstr("rough-low | 0 % | 0 % | 50 % | 0 % | 50 % | 50 % | "));
     EXPECT_THAT(said, HasSubstr("smooth-high | 0 % | 100 % | 0 % | 0 % | 0 % | 100 % | "));
     EXPECT_THAT(said,
@@ -352,7 +352,7 @@ StudyRecord mixedStudy(Random& random) {
     return study;
 }
 
-/// Which kinds a text names: by the codes and events of mixedStudy().
+/// The kinds that a text names, by the codes and events of mixedStudy().
 std::set<char> kindsIn(const std::string& text) {
     std::set<char> all;
     static const std::regex named("P-([PSV])\\d{3}|event of ([PSV])");
@@ -400,7 +400,7 @@ TEST(StudyReport, NoFigureOrTableIsOfPeopleAndOfSimulatedOnesTogether) {
                 const bool marked = text.find("(simulated)") != std::string::npos;
                 EXPECT_EQ(marked, !kinds.contains('P')) << text;
             }
-            // Each kind's own flow, by the heading of its column.
+            // Each kind has its own flow, by the heading of its column.
             std::map<std::string, std::size_t> shown;
             for (const auto& block : content->blocks) {
                 const auto* table = std::get_if<TableBlock>(&block);
@@ -459,7 +459,7 @@ std::string textOfAll(const ReportContent& content) {
     return all;
 }
 
-/// The study of three with a massager, whose first participant had an accelerometer on its motor.
+/// The study of three with a massager, where the first participant had an accelerometer on its motor.
 StudyRecord vibratedStudy() {
     auto study = studyOfThree();
     study.settings.modality = Modality::Massager;

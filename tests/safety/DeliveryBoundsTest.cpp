@@ -48,8 +48,8 @@ TEST(DeliveryBounds, AreTheWiderOfBothWhereAnOldCalibrationIsLeftAside) {
 
 TEST(DeliveryBounds, ACalibrationIsNeverNarrowerThanItself) {
     RecordProperty("hazard", "H1");
-    // Whatever the line: with its U the most that may come out is at least what the source without one would be judged
-    // with at that same U.
+    // Whatever the line, the most that may come out with its U is at least what the uncalibrated source would be judged
+    // with at that U.
     for (const double gain : {0.85, 0.99993, 1.0, 1.15}) {
         for (const double u : {0.0, 0.008, 0.05}) {
             const CalibrationLine line{gain, 0, 5, 40, Spread{u, 0}};

@@ -82,7 +82,7 @@ void addConfigureCases(std::vector<GateCase>& cases) {
         }),
         "out of order");
     add(BadCalibration, bench([](auto& s) { s.calibration = StimulatorCalibration{{1, kNaN, 10, 40}}; }), "offset");
-    // Not applied, so it may be far off; but an interval that comes out as none would empty the meter.
+    // The calibration is not applied, so it may be far off; but an interval without length would empty the meter.
     add(BadCalibration, bench([](auto& s) {
             s.calibration = StimulatorCalibration{{1, 0, 10, 40}, CalibrationLine{1, -0.6, 0.5, 10}};
         }),
@@ -254,7 +254,7 @@ void addStateCases(std::vector<GateCase>& cases) {
         setup.source.accuracy.rate = Spread{0.05, 0};
         return fine && refuses(Rig(setup).ask(train, 0.5), ErrorCode::InvalidArgument, "of 0.48 s as 0.505263 s");
     });
-    // Each quantity's spread alone makes the difference: of an applied calibration, of an old one, of the source.
+    // Each quantity's spread alone makes the difference, whether from an applied calibration, an old one or the source.
     for (const auto part : {0, 1, 2, 3}) {
         static constexpr std::array kNames{"amplitude", "phase width", "gap", "interval"};
         const auto spoilt = [part](auto spread) {
@@ -298,7 +298,7 @@ void addStateCases(std::vector<GateCase>& cases) {
     add(Uncertainty, "a stated inaccuracy of the rate", [=] {
         GateSetup setup = benchSetup();
         PulseTrain train = volts(10);
-        train.pulses = 120;  // at 100 Hz: longer than a second, which holds more of them if the clock is fast
+        train.pulses = 120;  // at 100 Hz this is longer than a second, which holds more pulses if the clock is fast
         const auto exact = worstExposure(train, Seconds(2), setup.load, setup.source, kNaN);
         setup.limits = {limitsOf({rowFor(Quantity::RmsCurrent1s, exact.at(Quantity::RmsCurrent1s) * 1.01)})};
         const bool fine = Rig(setup).ask(train, 2).has_value();
@@ -548,8 +548,8 @@ PulseTrain limitTrain() {
     return train;
 }
 
-/// For each quantity: just above its limit is refused and just below approved, by a row and by a ceiling, for the
-/// request alone and for what came before it.
+/// For each quantity, just above its limit is refused and just below approved: by a row and by a ceiling, for the
+/// request alone and with what came before it.
 void addLimitCases(std::vector<GateCase>& cases) {
     for (std::size_t k = 0; k < kQuantityCount; ++k) {
         const auto q = static_cast<Quantity>(k);

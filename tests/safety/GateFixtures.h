@@ -31,7 +31,7 @@ inline LimitRow rowFor(Quantity quantity, double max, LimitAction action = Limit
 /// Refuses nothing that a test asks for.
 inline LimitSet lenient() { return limitsOf({rowFor(Quantity::PeakVoltage, 1e6)}, "lenient"); }
 
-/// Both deliver exactly what is programmed, so that limits can be met to the last digit.
+/// Both deliver exactly the programmed value, so that limits can be met to the last digit.
 inline SourceTraits voltageSource() {
     SourceTraits source;
     source.accuracy = StatedAccuracy::exact();

@@ -1,5 +1,5 @@
-// Each rule of the gate, taken out of force in turn, must make its case fail: no rule is there untested (H1).
-// Linked with tacto_safety_mutable, the same sources with removable rules; never with the product's library.
+// Each rule of the gate, taken out of force in turn, must make its case fail: every rule is tested (H1). Linked with
+// tacto_safety_mutable, the same sources with removable rules; never with the product's library.
 #include <algorithm>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -54,7 +54,7 @@ TEST(GateMutation, EveryCheckTakenAwayIsNoticed) {
     RecordProperty("checks", static_cast<int>(checks.size()));
 }
 
-/// The named rule whose entry in a table begins in `line`; empty where none does.
+/// The named rule whose entry in a table begins in `line`; empty without one.
 std::string_view ruleBegunIn(const std::string& line) {
     const auto brace = line.find_first_not_of(' ');
     if (brace == std::string::npos || line[brace] != '{') return {};
@@ -69,7 +69,7 @@ std::string_view ruleBegunIn(const std::string& line) {
 TEST(GateMutation, EveryRefusalHasItsRule) {
     RecordProperty("hazard", "H1");
     int refusals = 0;
-    std::map<std::string_view, std::string> rules;  // where each is
+    std::map<std::string_view, std::string> rules;  // where each rule stands
     for (const char* name :
          {"AcceptedLevels.cpp", "SetupRules.cpp", "TrainRules.cpp", "LimitRules.cpp", "Interlock.cpp", "SafetyGate.cpp",
           "TrainCheck.cpp", "DeliveryBounds.cpp", "Heartbeat.h"}) {

@@ -13,7 +13,7 @@ namespace tacto::test {
 
 namespace {
 
-/// The computer's time, which goes on with the clock.
+/// The computer's time, which advances with the clock.
 struct ComputerTime final : SystemTime {
     explicit ComputerTime(const Clock& ofTest) : clock(ofTest) {}
     [[nodiscard]] Instant sinceBoot() const noexcept override { return std::chrono::hours(1) + clock.now(); }
@@ -67,7 +67,7 @@ public:
 private:
     [[nodiscard]] SafetyGate& gate() const noexcept { return unit_.gate(); }
 
-    /// Nothing approved so far may come out any more.
+    /// Nothing approved so far may come out any longer.
     void voidPending(const char* after) {
         for (const Pending& p : pending_) {
             if (gate().isCurrent(p.approval)) violation(fmt::format("an approval is current after {}", after));
@@ -191,7 +191,7 @@ private:
         if (allowed.person && configured_) measure();
     }
 
-    /// What a device really does of which `known` is known as surely as `doubt` says: often all that it may be off.
+    /// What a device really does if `known` is known as surely as `doubt` says: often it is off as far as it may be.
     Flaw truly(const Flaw& known, const std::optional<Spread>& doubt, double perUnit) {
         const Spread spread = doubt.value_or(Spread{0.05, 0});
         const auto side = [&] { return dice_.chance(0.5) ? 1.0 : dice_.between(-1, 1); };
@@ -253,7 +253,7 @@ private:
         if (!done) voidPending("a bad reading of the load");
     }
 
-    /// One small pulse, as arming and an old reading ask for it.
+    /// Sends one small pulse, as arming and an old reading ask for it.
     void check() {
         // A person's |Z| is in the range by then, or the check is what finds that it is not.
         if (allowed_.person && measuredAt_ < 0) return;
@@ -384,7 +384,7 @@ private:
         double amplitude = 1.3 * aimed(train, interval);
         for (const double step : kSteps) {
             pending_.clear();
-            wait(12);  // until no window holds what was approved
+            wait(12);  // waits until no window holds what was approved
             bool approved = false;
             for (int tries = 0; tries < 40 && !approved; ++tries) {
                 amplitude *= 1 - step;
@@ -526,11 +526,11 @@ private:
     };
 
     Unit& unit_;
-    double drifts_ = 0;   // How far the load moves from train to train, of itself
-    double loses_ = 0;    // How often a train finds no contact
+    double drifts_ = 0;   // how far the load itself moves from train to train
+    double loses_ = 0;    // how often a train finds no contact
     double halving_ = 0;  // V at which the load's R_p has fallen to half; 0: it does not
     double pace_ = 1;     // True time over the computer's
-    double scale_ = 1;    // Where in the permitted range the truth lies
+    double scale_ = 1;    // where the truth lies in the permitted range
     bool configured_ = false;
     PulseTrain last_;  // approved
     std::deque<Pending> pending_;
@@ -540,7 +540,7 @@ private:
 }  // namespace
 
 namespace {
-/// From the beginning, up to the first violation; the last of them with a trace where that is wanted.
+/// Runs from the beginning to the first violation; shows the last trains with a trace where that is wanted.
 std::uint64_t run(std::uint64_t seed, std::uint64_t count, bool traced, SequenceCount& total) {
     VirtualClock clock;
     Unit unit(clock);

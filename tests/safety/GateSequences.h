@@ -1,8 +1,8 @@
 // GateSequences.h - random command sequences against the gate, refereed by IndependentBody (hazard H1).
 //
 // A sequence is a handful of commands: configure, approve, deliver (perhaps late), stop, wait, impedance readings,
-// acceptance, garbage. Whatever is delivered goes into a body whose true impedance lies somewhere in the permitted
-// range; the referee holds the limits as numbers of its own.
+// acceptance, garbage. Whatever is delivered goes into a body with a true impedance somewhere in the permitted range;
+// the referee holds the limits as numbers of its own.
 //
 // Thread-safety: the test's own thread.
 #pragma once

@@ -59,7 +59,7 @@ TEST(GateSequences, NeverDeliverAboveALimit) {
     EXPECT_GE(fraction(total.delivering), 0.30);
     EXPECT_GE(fraction(total.close), 0.10);
     EXPECT_GE(fraction(total.edges), 0.01);
-    // Every kind of limit was approached, or its check was not really tried.
+    // Every kind of limit was approached; otherwise its check was not really tried.
     for (std::size_t k = 0; k < total.near.size(); ++k)
         EXPECT_GT(total.near[k], total.sequences / 5000) << "kind " << k;
 }

@@ -82,7 +82,7 @@ IndependentBody::Flow IndependentBody::stretch(Mode mode, double level, double l
     if (mode != Mode::Current || level == 0) return linear(mode, level, length);
     const double side = level > 0 ? 1 : -1;
     const auto [rs, rp, c] = body_;
-    // When does the voltage reach compliance? It only grows on the level's side.
+    // Finds when the voltage reaches compliance. It only grows on the level's side.
     double reach = length;
     if (c <= 0) {
         reach = std::abs(level) * rs > compliance ? 0 : length;
@@ -123,7 +123,7 @@ PulseFacts IndependentBody::deliver(const PulseTrain& train, const Drain& drain,
     const Mode drive = current ? Mode::Current : Mode::Voltage;
     const Mode idle = drain.highImpedance ? Mode::Floating : Mode::Voltage;
 
-    // Since the last train the source has been idle; what flowed then belongs to that train and was put down there.
+    // Since the last train the source has been idle; current since then belongs to that train and was counted there.
     if (lastRest_ >= 0 && start > lastRest_)
         linear(lastFloating_ ? Mode::Floating : Mode::Voltage, 0, start - lastRest_);
 

@@ -20,7 +20,7 @@ struct Body {
     [[nodiscard]] Body times(double factor) const { return {rs * factor, rp * factor, c / factor}; }
 };
 
-/// How the source behaves between phases and at its end of range.
+/// The source between phases and at its end of range.
 struct Drain {
     bool highImpedance = false;
     double compliance = 1e9;  ///< compliance of a current source
@@ -52,7 +52,7 @@ public:
     PulseFacts deliver(const PulseTrain& train, const Drain& drain, double start);
     /// The most of i² in any window of `window` s that reaches into the newest train.
     [[nodiscard]] double worstI2(double window) const { return worst(window, &Stretch::i2); }
-    /// The same of energy, part of which a charged capacitor gives back. Looks at windows that begin or end where the
+    /// The worst for energy, part of which a charged capacitor gives back. Looks at windows that begin or end where the
     /// power begins, ends or turns.
     [[nodiscard]] double worstEnergy(double window) const;
     /// The net energy of everything that is kept.
@@ -85,12 +85,12 @@ private:
 
     Body body_;
     double vc_ = 0;
-    double lastRest_ = -1;  // Since when the capacitor has been left alone
+    double lastRest_ = -1;  // since when nobody has touched the capacitor
     bool lastFloating_ = false;
     double newest_ = 0;  // Start of the newest train
     std::vector<Stretch> record_;
-    std::vector<Power> power_;  // where it is not 0, in time order
-    double at_ = 0;             // where linear() stands
+    std::vector<Power> power_;  // the power where it is not 0, in time order
+    double at_ = 0;             // the position of linear()
     double mostStored_ = 0;
 };
 

@@ -217,7 +217,7 @@ TEST(Interlock, ArmingNeedsAllOfItsEvidence) {
     refused([](auto& e) { e.impedance = Ohms(std::numeric_limits<double>::infinity()); }, "inf ohm");
     refused([](auto&) {}, "at most 5 s", 5s + 1ns);
     refused([](auto& e) { e.impedanceAt = 1s; }, "at most 5 s");
-    // An impedance that was read is judged, whatever was declared.
+    // A measured impedance is judged, whatever was declared.
     refused(
         [](auto& e) {
             e.readsBack = false;

@@ -35,7 +35,7 @@ struct Person : Rig {
 TEST(PersonMode, NeedsEverythingThatIsKnownOfAPerson) {
     RecordProperty("hazard", "H4");
     EXPECT_TRUE(Rig(personSetup()).configured);
-    // One by one: GateCases.cpp. Volts never reach a person's current source:
+    // GateCases.cpp has each by itself. Volts never reach a person's current source:
     Person rig;
     EXPECT_FALSE(rig.ask(volts(1)));
 }
@@ -134,7 +134,7 @@ TEST(PersonMode, NothingExceedsTheDiscomfortLimitAfterwards) {
     EXPECT_TRUE(rig.may(2.5));
     ASSERT_TRUE(rig.gate.reportDiscomfort(Milliamps(4)));
     EXPECT_FALSE(rig.may(2.6)) << "a later, higher report does not raise it";
-    // Not by configuring again for the same participant either.
+    // Configuring again for the same participant does not help either.
     ASSERT_TRUE(rig.gate.configure(personSetup()));
     rig.measure(2000);
     EXPECT_FALSE(rig.may(2.6));
@@ -200,7 +200,7 @@ TEST(AcceptedLevels, DecimalStepsMeetTheirCeiling) {
 }
 
 namespace {
-/// A person at a massager whose levels rise by 0.1.
+/// A person at a massager with levels that rise by 0.1.
 struct Vibrated : Rig {
     Vibrated() : Rig(vibrationSetup()) { EXPECT_TRUE(configured); }
     bool may(double intensity) { return gate.approve(VibrationBurst{intensity}).has_value(); }

@@ -73,7 +73,7 @@ TEST(SafetyGate, ACalibrationDoesNotTakeItsOwnUncertaintyOut) {
     for (auto* line : {&*exact.calibration->interval, &*exact.calibration->phaseWidth, &*exact.calibration->gap})
         line->spread = Spread{};
     EXPECT_TRUE(Rig(exact).ask(programmed, 0.5)) << "what was accepted before";
-    // One whose uncertainty is unknown is judged with 5 %, as a stimulator that is not calibrated.
+    // A calibration with an unknown uncertainty is judged with 5 %, like a stimulator that is not calibrated.
     for (auto* line : {&*setup.calibration->interval, &*setup.calibration->phaseWidth, &*setup.calibration->gap})
         line->spread.reset();
     setup.calibration->amplitude.spread.reset();
@@ -154,7 +154,7 @@ TEST(SafetyGate, VoltageLimitIsExact) {
 }
 
 TEST(SafetyGate, CurrentMadeFromFortyVoltsIsApproved) {
-    // I = A / |Z| and back must not miss "at most 40 V" by its last bits, whatever |Z|.
+    // I = A / |Z| and back must not miss "at most 40 V" by its last bits, for any |Z|.
     for (double ohm = 700; ohm < 9000; ohm *= 1.0137) {
         GateSetup setup = shippedSetup(ohm);
         setup.source = currentSource();
@@ -347,7 +347,7 @@ TEST(SafetyGate, FrequencyBandsFollowTheLowestRepetition) {
     PulseTrain train = volts(10);  // 25 mA into 400 Ω
     train.rate = Hertz(500);
     Rig rig(setup);
-    // Every 2 ms: 25 mA · √(0.4/2) = 11.2 mA, allowed above 400 Hz. Every 2.6 ms (385 Hz): 9.8 mA is under 10.
+    // At 2 ms: 25 mA · √(0.4/2) = 11.2 mA, allowed above 400 Hz. At 2.6 ms (385 Hz): 9.8 mA is under 10.
     EXPECT_TRUE(rig.ask(train, 0.002));
     rig.wait(6);
     train.amplitude = Volts(11);

@@ -158,15 +158,15 @@ protected:
         return probe.magnitude(train);
     }
 
-    /// Looks for a train whose tightest limit is of one kind, so that the rarer ones are tried too.
+    /// Looks for a train with a tightest limit of one kind, so that the rarer kinds are tried, too.
     void search(Near kind, PulseTrain& train, double& interval) {
         for (int tries = 0; tries < 6; ++tries) {
             train = randomTrain();
             fills_ = false;
             const bool slow = kind == Near::Rms5s || kind == Near::Rms500 || kind == Near::Dc;
             const bool windowed = slow || kind == Near::Rms1s || kind == Near::Power;
-            if (windowed && dice_.chance(0.5)) {  // One train longer than the window
-                if (kind == Near::Rms500) {       // Only a source that hardly rests gets there
+            if (windowed && dice_.chance(0.5)) {  // one train longer than the window
+                if (kind == Near::Rms500) {       // only a source that hardly rests gets there
                     train.shape = PulseShape::SymmetricBiphasic;
                     train.interPhaseGap = Micros(0);
                     train.phaseWidth = Micros(std::round(dice_.between(20'000, 100'000)));

@@ -57,7 +57,7 @@ TEST(TrainExposure, WorstSlidingWindowHoldsWholeTrains) {
     // 0.4 s: 5 s hold 12.5 intervals, a window can touch 13 trains.
     EXPECT_NEAR(into(500, volts(40), 0.4).at(Quantity::RmsCurrent5s), std::sqrt(13 * 0.08 * 0.08 * 4e-4 / 5) * 1e3,
                 1e-9);
-    // 7 s: never more than one train.
+    // 7 s hold never more than one train.
     EXPECT_NEAR(into(500, volts(40), 7).at(Quantity::RmsCurrent5s), std::sqrt(0.08 * 0.08 * 4e-4 / 5) * 1e3, 1e-9);
     // 100 pulses at 10 Hz last 10 s: 50 of them are in any 5 s, 10 in a second.
     PulseTrain train = volts(40);
@@ -164,7 +164,7 @@ TEST(TrainExposure, ASecondMayEndWithTheCapacitorFull) {
     EXPECT_LE(e.at(Quantity::PowerDensity), 1.05 * worst) << "and not much more than that";
 }
 
-/// Any shape, with phases of 20 us to `widest`.
+/// Draws any shape, with phases of 20 us to `widest`.
 void drawPulse(PulseTrain& train, Dice& dice, Micros widest) {
     train.shape = std::array{PulseShape::SymmetricBiphasic, PulseShape::Monophasic,
                              PulseShape::AsymmetricBiphasic}[static_cast<std::size_t>(3 * dice.unit())];
@@ -178,7 +178,7 @@ struct LongTrain {
     Body body;
     PulseTrain train;
     SourceTraits source;
-    /// With a current in so many of the cases, and a capacitance in that range, F; the train's form is left open.
+    /// A train with a current in so many of the cases, and a capacitance in that range, F; its form is left open.
     static LongTrain drawn(Dice& dice, double currents, std::array<double, 2> capacitance) {
         const bool current = dice.chance(currents);
         const double rs = dice.decade(80, 2000), rp = dice.decade(1000, 50'000);
@@ -240,7 +240,7 @@ TEST(TrainExposure, NoSecondOfALongTrainHoldsMoreThanIsBooked) {
         LongTrain some = LongTrain::drawn(dice, 0.5, {5e-9, 2e-6});
         drawPulse(some.train, dice, Micros(400'000));
         const int periods = 1 + static_cast<int>(8 * dice.unit());
-        some.train.rate = Hertz(periods / (1 + dice.decade(1e-8, 1e-2)));  // they are hardly longer than a second
+        some.train.rate = Hertz(periods / (1 + dice.decade(1e-8, 1e-2)));  // the trains are hardly longer than a second
         some.train.pulses = periods + 1 + static_cast<int>(4 * dice.unit());
         if (!validate(some.train)) continue;
         const TrainSums booked = some.booked();
@@ -398,7 +398,7 @@ TEST(TrainExposure, ASecondOfRepeatedTrainsHoldsNoMoreThanIsShown) {
     truth.deliver(many, {true, 1e9}, 0);
     const double worst = std::sqrt(truth.worstI2(1)) * 1e3;
     const Load load = Load::skin(Ohms(body.rs), Ohms(body.rp), Nanofarads(body.c * 1e9));
-    for (const double rate : {100.0, 1 / interval}) {  // also of one pulse that takes the whole interval
+    for (const double rate : {100.0, 1 / interval}) {  // the second rate gives one pulse that takes the whole interval
         train.rate = Hertz(rate);
         const double shown = exposureOf(train, Seconds(interval), load, source, kNaN).at(Quantity::RmsCurrent1s);
         EXPECT_GE(shown, worst);
@@ -438,7 +438,7 @@ TEST(TrainExposure, IntoAResistorTheWorstPositionOfAWindowIsExact) {
     for (int k = 0; k < count; ++k) {
         Repeated some = Repeated::drawn(dice, {1, 1});
         some.each.body = {dice.decade(60, 20'000), 0, 0};
-        const Course truth(some.each, some.trains / 2, some.interval);  // no train differs from another
+        const Course truth(some.each, some.trains / 2, some.interval);  // all trains are alike
         const Load load = Load::resistor(Ohms(some.each.body.rs));
         const auto shown = exposureOf(some.each.train, Seconds(some.interval), load, some.each.source, 1);
         const auto single = truth.worst(some.each.train.pulseDuration().count(), 1);  // holds a pulse
@@ -472,7 +472,7 @@ TEST(TrainExposure, IntoACapacitorTheWorstPositionOfAWindowIsAnUpperBound) {
         const Repeated some = Repeated::drawn(dice, {5e-9, 2e-6});
         const Course truth(some.each, some.trains, some.interval);
         const auto shown = exposureOf(some.each.train, Seconds(some.interval), some.each.load(), some.each.source, 1);
-        const auto single = truth.worst(1 / some.each.train.rate.value(), 4);  // no pulse holds more
+        const auto single = truth.worst(1 / some.each.train.rate.value(), 4);  // no pulse holds more than this
         for (const double window : {1.0, 5.0}) {
             const auto worst = truth.worst(window, 4);
             const auto rms = shown.at(window == 1 ? Quantity::RmsCurrent1s : Quantity::RmsCurrent5s);
@@ -703,7 +703,7 @@ TEST(TrainExposure, ThePhaseWidthThatIsWorstMayLieBetweenItsBounds) {
     EXPECT_LE(rms1s(range), 1.35 * most) << "a bound that refuses too much";
 }
 
-// As skin and a stimulator that states nothing (± 5 %): the bound costs nothing there.
+// With skin and a stimulator that states nothing (± 5 %), the bound costs nothing there.
 TEST(TrainExposure, TheBoundOverARangeIsCloseWhereTheLoadRestsBetweenPulses) {
     RecordProperty("hazard", "H1");
     const Body body{500, 10'000, 50e-9};

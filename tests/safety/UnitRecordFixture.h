@@ -74,7 +74,7 @@ protected:
     }
 
     [[nodiscard]] UnitFolders folders() const { return {folder_.path(), claims_.path()}; }
-    /// As a start of the computer does.
+    /// Empties them as a start of the computer does.
     void emptyClaims() const {
         for (const auto& claim : std::filesystem::directory_iterator(claims_.path())) std::filesystem::remove(claim);
     }

@@ -23,7 +23,7 @@ TEST_F(UnitRecordFile, FourRunsInARowKeepTheLimitTogether) {
             if (one->ask()) delivered.push_back(time_.now);
             one->pass(0.05);
         }
-        time_.now += toInstant(0.3);  // until the next program runs
+        time_.now += toInstant(0.3);  // time passes until the next program runs
     }
     double worst_mA = 0;
     for (const Instant first : delivered) {
@@ -94,7 +94,7 @@ TEST_F(UnitRecordFile, AProgramThatIsKilledAfterAnApprovalHasBookedIt) {
         for (int k = 0; k < 4; ++k) {
             if (!gate.approve({volts(40), Seconds(10), clock.now()})) ::_exit(2);
         }
-        ::raise(SIGKILL);  // before any of them was delivered
+        ::raise(SIGKILL);  // killed before any of them was delivered
     }
     int status = 0;
     ASSERT_EQ(::waitpid(child, &status, 0), child);
@@ -129,7 +129,7 @@ TEST_F(UnitRecordFile, AUnitWhosePastIsNotKnownRests) {
         return std::filesystem::file_size(file());
     };
     const auto size = soundOne();
-    spoil(size / 2);  // in a slot that was never written
+    spoil(size / 2);  // spoils a slot that was never written
     expectRest("incomplete");
     soundOne();
     spoil(16);
@@ -140,7 +140,7 @@ TEST_F(UnitRecordFile, AUnitWhosePastIsNotKnownRests) {
     soundOne();
     time_.now -= std::chrono::minutes(10);
     expectRest("not come");
-    // Ended and begun again while it rests: the rest goes on.
+    // It is ended and begun again while it rests: the rest continues.
     soundOne();
     spoil(16);
     (void)run();
@@ -296,7 +296,7 @@ TEST_F(UnitClaim, OneUnitIsDrivenByOneProgram) {
 TEST_F(UnitClaim, OnlyTheLastRecordOfAUnitOnThisComputerKnowsItsPast) {
     RecordProperty("hazard", "H1");
     const ScratchDir other;
-    // The records of two accounts or data folders, both of which have long been there.
+    // The records of two accounts or data folders, which have both existed for long.
     const auto drive = [&](const std::filesystem::path& records, std::size_t expected, const char* why) {
         const VirtualClock clock;
         SafetyGate gate(clock);

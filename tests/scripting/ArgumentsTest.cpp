@@ -41,7 +41,7 @@ const std::vector<HostParameter>& passedTo(const HostFunction& function) {
     return function.passes.empty() ? function.parameters : function.passes;
 }
 
-/// The place of a parameter in `list`, whose last element is the argument that it belongs to.
+/// The place of a parameter in `list`; the last element of that is the argument to which it belongs.
 Json& placeOf(Json& list, const std::string& name) {
     Json* at = &list.back();
     for (auto from = name.find('.'); from < name.size();) {

@@ -26,7 +26,7 @@ protected:
         request.operatorDesk = &preset;
         return runProtocol(std::move(request)).value();
     }
-    /// Not even an impedance check.
+    /// Not even an impedance check was delivered.
     [[nodiscard]] bool nothingWasDelivered() {
         return dynamic_cast<RealLookingStimulator&>(*rig_.bench().devices().stimulator).delivered() == 0;
     }
@@ -125,7 +125,7 @@ TEST_F(Arming, ThatWasNotConfirmedEndsTheRunWhateverTheScriptMakesOfIt) {
 }
 
 TEST_F(Arming, AnErrorSaysWhetherALimitForbadeIt) {
-    RecordProperty("hazard", "H9");  // else a missing confirmation would count as a limit that holds
+    RecordProperty("hazard", "H9");  // otherwise a missing confirmation would count as a limit that holds
     RunBench simulated{true, "sim:stimulator?mode=voltage"};
     const auto outcome =
         simulated.run(withRun("try { bench.arm({ load: \"ten\" }); } catch (error) { log(String(error.limit)); }\n"

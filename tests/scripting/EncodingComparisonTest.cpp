@@ -24,7 +24,7 @@ ScriptOutcome compare(const Settings& settings) {
     return outcome;
 }
 
-/// From `from` to `to` along a curve, by hand.
+/// The way from `from` to `to` along a curve, computed by hand.
 double along(const std::string& curve, double x, double from, double to) {
     if (curve == "logarithmic") return from * std::pow(to / from, x);
     return from + (to - from) * (curve == "power" ? std::pow(x, 1 / 1.5) : x);

@@ -1,5 +1,5 @@
 // A script's process may crash, hang, flood or lie: the run ends with one sentence and the output off, and bench, gate
-// and session go on (hazard H10).
+// and session continue (hazard H10).
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -83,7 +83,7 @@ TEST(HostileScript, TheOutputIsOffWithinTenMillisecondsOfItsEnd) {
     std::vector<double> took_ms;
     for (int i = 0; i < 5; ++i) {
         RunBench rig(false);
-        const bool waits = i % 2 == 1;  // in a call of its own when its process goes
+        const bool waits = i % 2 == 1;  // it waits in a call of its own when its process goes
         auto request = rig.request(withRun(kDelivering + (waits ? "bench.wait(3600);" : "for (;;) bench.live();")));
         std::promise<void> armed;
         request.onLog = [&, first = true](const std::string&) mutable {
@@ -104,7 +104,7 @@ TEST(HostileScript, TheOutputIsOffWithinTenMillisecondsOfItsEnd) {
     }
     std::ranges::sort(took_ms);
 #ifdef TACTOSCOPE_SANITIZED
-    constexpr double kMax_ms = 40;  // its process is ten times as large, and the system takes it down first
+    constexpr double kMax_ms = 40;  // its process is ten times as large, and the system has to take it down first
 #else
     constexpr double kMax_ms = 10;
 #endif
@@ -194,7 +194,7 @@ TEST(HostileScript, ItsProcessHoldsNothingOfTheProgram) {
 TEST(HostileScript, AReaderThatWasEndedMeanwhileIsStartedAgain) {
     RecordProperty("hazard", "H10");
     ProtocolSource shipped = probe(withRun(""));
-    shipped.shipped = true;  // one process reads all that come with the program
+    shipped.shipped = true;  // one process reads all that is shipped
     ASSERT_TRUE(readDeclaration(shipped));
     std::ifstream children(fmt::format("/proc/self/task/{}/children", ::getpid()));
     if (!children) GTEST_SKIP() << "this system does not list a program's children";

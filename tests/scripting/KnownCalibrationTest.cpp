@@ -184,7 +184,7 @@ TEST_F(KnownCertificates, WinOverTheAddressFigureByFigure) {
     EXPECT_TRUE(stateOscilloscope(devices).used);
     const auto& stated = devices.scopeStatement;
     EXPECT_NEAR(stated.voltage.gain.value, 0.02 / 0.95, 1e-9);
-    EXPECT_FALSE(stated.voltage.linearity.known());  // who certifies a gain means all of it
+    EXPECT_FALSE(stated.voltage.linearity.known());  // a certified gain covers all of it
     EXPECT_DOUBLE_EQ(stated.current.probe.value, 0.004);
     EXPECT_EQ(stated.current.probe.by, "the device's address");
     EXPECT_FALSE(stated.timeBase.known());

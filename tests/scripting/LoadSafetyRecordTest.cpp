@@ -57,7 +57,7 @@ protected:
         return LoadSafetyStore::open(loadSafetyFile()).value().all();
     }
 
-    std::string logged_;                   // by runs that were not stopped
+    std::string logged_;                   // what runs that were not stopped have logged
     std::vector<LoadSafetyCheck> during_;  // what was kept while the run that is stopped went on
 };
 

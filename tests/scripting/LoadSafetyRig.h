@@ -1,4 +1,4 @@
-// LoadSafetyRig.h - the shipped load-safety protocol on a simulated bench whose devices are described by URIs.
+// LoadSafetyRig.h - the shipped load-safety protocol on a simulated bench with devices described by URIs.
 //
 // Thread-safety: the test's own thread.
 #pragma once

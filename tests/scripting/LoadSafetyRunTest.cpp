@@ -83,7 +83,7 @@ TEST(LoadSafetyRun, OpenShortLooseContactAndSilenceTrip) {
     EXPECT_GT(silence_s, 0.1) << "measured, and more than the silence that is waited for";
     EXPECT_LT(silence_s, 0.15);
     EXPECT_EQ(trips, 6U);
-    // How soon, as a share of the time to the next train.
+    // The time as a share of the time to the next train.
     std::size_t timed = 0;
     for (const auto& line : outcome.results["matrix"]["lines"]) {
         if (line["item"] != "trip") continue;

@@ -84,7 +84,7 @@ private:
                     ::usleep(50'000);
                 }
                 return;
-            case 16:  // and reads no answer
+            case 16:  // the reader reads no answer
                 for (int i = 0; i < 20'000; ++i)
                     say({{"call", index("bench.time")}, {"with", json::array()}, {"line", 2}});
                 return linger();

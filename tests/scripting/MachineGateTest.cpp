@@ -1,4 +1,4 @@
-// Which stimulator may be at a person today.
+// Which stimulator may be used on a person today.
 #include <cstdlib>
 #include <fstream>
 #include <functional>
@@ -42,7 +42,7 @@ private:
     DeviceIdentity identity_;
 };
 
-/// Of the stimulators here: the tests of other processes have theirs.
+/// The serial number of the stimulators here; the tests of other processes have theirs.
 const std::string& serial() {
     static const OwnSerial own("LAB");
     return own.text();
@@ -306,7 +306,7 @@ TEST_F(MachineGate, APersonsSessionBeginsBehindItAndNothingIsMadeBeforeIt) {
     accepted->reset();
     EXPECT_EQ(sessions(), 1U);
 
-    // It delivered no train, so another may begin at once, and this one is ended for it.
+    // It delivered no train, so another session may begin at once, and this one is ended for it.
     const auto next = prepare({{"unfinished", "end"}});
     ASSERT_TRUE(next) << next.error().message;
     const auto left = Study::open(at, nullptr, Study::Access::Read).value().sessions();

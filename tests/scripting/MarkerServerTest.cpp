@@ -1,4 +1,4 @@
-// Markers over TCP: each recorder gets each line in order, and what one of them does delays nothing.
+// Markers over TCP: each recorder gets each line in order, and none of them delays anything.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -76,7 +76,7 @@ TEST_F(MarkerSession, LinesAreTheRowsOfTheRecordInOrderAndSayNoMore) {
 
     const auto rows = rowsOf(folder);
     std::vector<std::string> expected{"0 0.000000000 connected"};
-    std::map<std::string, std::vector<std::string>> ofTrials;  // by condition: what came of one
+    std::map<std::string, std::vector<std::string>> ofTrials;  // what became of each trial, by condition
     std::vector<std::string> sinceBegin;
     for (const auto& row : rows) {
         if (!hasMarker(row.name)) continue;

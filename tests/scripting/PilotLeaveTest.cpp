@@ -33,7 +33,7 @@ public:
     }
     [[nodiscard]] bool holding() const noexcept override { return true; }
     [[nodiscard]] bool answersInRealTime() const noexcept override { return false; }
-    /// Whether the session heard it.
+    /// Whether the session heard the press.
     bool press() {
         const std::scoped_lock lock(mutex_);
         if (!listens_ || !stop) return false;

@@ -15,7 +15,7 @@ constexpr const char* kRead =
     "bench.arm({ load: 1000 }); bench.drive('manual', { roughness: 1, pressure: 1 });"
     "const reading = measure.pulse(bench.capture({ trains: 1 })); bench.disarm();";
 
-/// The report items of one kind, of a run whose session is closed.
+/// The report items of one kind, from a run with a closed session.
 std::vector<nlohmann::json> reported(const RunBench& rig, std::string_view kind) {
     std::vector<nlohmann::json> out;
     const auto reader = SessionReader::open(rig.folder().path() / "run.tacto").value();
@@ -133,7 +133,7 @@ struct LabRun {
     ScriptOutcome outcome;
     std::vector<std::string> asked;
     bool outputOff = false;
-    std::string drawing;  // of the first question
+    std::string drawing;  // the drawing in the first question
 };
 
 LabRun inTheLab(const std::string& protocol, const std::map<std::string, std::string>& settings) {

@@ -47,7 +47,7 @@ public:
     [[nodiscard]] Bench& bench() { return *bench_; }
     [[nodiscard]] SessionWriter& writer() { return *writer_; }
     [[nodiscard]] bool outputOff() const;
-    /// Where the bench looks real.
+    /// The technician, where the bench looks real.
     [[nodiscard]] Technician& technician() { return *technician_; }
     [[nodiscard]] const ScratchDir& folder() const { return folder_; }
     void closeBench() { bench_.reset(); }

@@ -24,7 +24,7 @@ struct Ended {
     std::string events;
 };
 
-/// While it lives the program can be given 1 GiB more and nothing beyond: then allocating fails.
+/// While it lives, the program can get 1 GiB more and nothing beyond: then allocating fails.
 class LittleMemory {
 public:
     LittleMemory() {

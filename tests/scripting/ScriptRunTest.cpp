@@ -55,7 +55,7 @@ TEST(ScriptRun, DisarmsByWhateverDoorRunIsLeft) {
     }
 }
 
-/// As live.js and massager.js watch a finger.
+/// The script watches a finger as live.js and massager.js do.
 TEST(ScriptRun, WatchesTheBenchLessOftenTheLongerItTakes) {
     for (const auto& [seconds, step] : {std::pair(2.0, 0.05), std::pair(180.0, 0.1)}) {
         RunBench rig;
@@ -94,7 +94,7 @@ TEST(ScriptRun, SameSeedGivesTheSameTrials) {
     ASSERT_EQ(first.size(), 4U);
     EXPECT_EQ(first, logOf(7));
     EXPECT_NE(first, logOf(8));
-    // Each block holds each element once.
+    // Every block holds every element once.
     for (std::size_t block = 0; block < 5; ++block) {
         std::string part = first[0].substr(4 * block, 4);
         std::sort(part.begin(), part.end());

@@ -19,7 +19,7 @@ using test::withRun;
 const std::string kArmed =
     "bench.arm({ load: 1000 }); bench.drive('manual', { roughness: 1, pressure: 1 }); bench.wait(0.6); log('here');\n";
 
-/// From stop() to the report, whatever the script does: its process is ended at once.
+/// The time from stop() to the report, whatever the script does: its process is ended at once.
 constexpr milliseconds kReported{700};
 
 /// Waits for an operator who never answers.
@@ -91,13 +91,13 @@ void expectStopped(const Stopping& stopping, int line) {
 }
 
 TEST(ScriptStop, AScriptThatDrivesAndWaitsNoMoreEndsItsOutput) {
-    testing::Test::RecordProperty("hazard", "H2");  // it computes, or what it prints to stands still
+    testing::Test::RecordProperty("hazard", "H2");  // the script computes, or what it prints to stands still
     RunBench rig(false);
     const auto begun = steady_clock::now();
     const auto outcome = rig.run(withRun(kArmed + "const until = Date.now() + 4000; while (Date.now() < until);\n"
                                                   "log(bench.live().state); bench.wait(0.1);"));
     ASSERT_TRUE(outcome.error);
-    // On a machine that stands still the loop's own watches come first, as a fault; they are tested elsewhere.
+    // If the machine stands still, the loop's own watches come first, as a fault; they are tested elsewhere.
     const auto fault = rig.bench().telemetry().fault;
     ASSERT_IN_TIME(fault != FaultCause::LoopSilent && fault != FaultCause::StatusMissing) << outcome.error->message;
     ASSERT_CODE_IN_TIME(outcome.error->code, ErrorCode::Stopped) << outcome.error->message;
@@ -192,7 +192,7 @@ TEST(ScriptStop, AStoppedScriptReachesTheBenchNoMore) {
     RecordProperty("hazard", "H10");
     auto rig = std::make_unique<RunBench>();
     std::atomic<int> logged{0};
-    // The sort goes on calling the host function when the interpreter runs no statement any more.
+    // The sort keeps calling the host function when the interpreter runs no statement any longer.
     auto request = rig->request(
         withRun("const a = []; for (let i = 0; i < 1e6; ++i) a[i] = i * 7919 % 1000003;\n" + kArmed + "a.sort(log);"));
     request.onLog = [&](const std::string&) { ++logged; };

@@ -66,7 +66,7 @@ TEST_F(ScriptTrust, TheElectrodeShrinksAndNeverGrows) {
     EXPECT_EQ(areaInForce(), 3);
     EXPECT_THAT(run("bench.setElectrodeArea(1); bench.setElectrodeArea(3); bench.setElectrodeArea(3.01);", 3),
                 HasSubstr("3.01 cm² is larger"));
-    // Not on the operator's word either: the profile is where it is changed.
+    // The operator's word does not help either: it is changed in the profile.
     EXPECT_THAT(run("bench.setElectrodeArea(p.area);", 3, {{"area", "4"}}), HasSubstr("4 cm² is larger"));
 }
 
@@ -135,7 +135,7 @@ TEST_F(ScriptTrust, AStoredProfileTakesOverTheScalesAndNothingElse) {
 
 TEST_F(ScriptTrust, AProfileComesFromSlidesThatTheProgramMeasured) {
     RecordProperty("hazard", "H9");
-    // What a script hands over beside is not looked at, and what was not measured is refused.
+    // What else a script hands over is not looked at, and an unmeasured value is refused.
     for (const auto& [forged, refusal] :
          {std::pair("steps.slide('steel');", "surface is \"steel\", one of the surfaces is expected"),
           std::pair("steps.weigh({ mass_g: 150, direction: 'up', repeat: 1 });", "one of the weights is expected"),
@@ -293,7 +293,7 @@ TEST_F(ScriptTrust, AFileIsReadOnlyWhereTheOperatorGaveIt) {
     const auto read = [](const std::string& path) { return "bench.profilometer(" + Json(path).dump() + ");"; };
     EXPECT_EQ(run(read(good.string()), {}, {{"file", good.string()}}), "");
     EXPECT_EQ(run(read(good.string()), {}, {{"file", "paper " + good.string() + "; steel 1 2"}}), "");
-    // The same words for what is there and what is not, and for a default.
+    // The words are the same for a file that exists, for one that does not, and for a default.
     for (const std::string& path : {good.string(), std::string("/no/such/file"), std::string("/etc/hostname")}) {
         EXPECT_THAT(run(read(path), {}), HasSubstr("the operator did not choose " + Json(path).dump())) << path;
         EXPECT_THAT(run(read(path), {}, {{"file", path + "x"}}), HasSubstr("the operator did not choose")) << path;

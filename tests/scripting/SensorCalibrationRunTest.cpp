@@ -77,7 +77,7 @@ TEST(SensorCalibrationRun, ItsProfileMakesRCalibratedFromThenOn) {
     EXPECT_EQ(rig.bench().profile().roughness, profile.roughness) << "in force for the rest of the run";
 }
 
-/// A twin whose force sensor says 0.8 N of 1 N and whose taxels say 2.5 counts of 1 Pa.
+/// A twin with a force sensor that says 0.8 N for 1 N, and taxels that say 2.5 counts for 1 Pa.
 constexpr const char* kWrongTwin = "sim:finger?forcegain=0.8&taxelgain=2.5&taxelunit=count";
 const Settings kWeighed{{"weights_g", "50; 200; 500"},
                         {"weight_repeats", "2"},
@@ -128,7 +128,7 @@ TEST(SensorCalibrationRun, ATwinWithWrongScalesGivesTheRightPressureAfterwardsAn
     EXPECT_NEAR(pressed.pressure_pa.mean, 0.208 * 9.80665 / 1e-4, 200);
     EXPECT_THAT(pressed.flags, testing::Not(testing::Contains("uncalibrated units")));
 
-    // In another run with the profile, and on another board.
+    // Tried in another run with the profile, and on another board.
     RunBench same(true, kWrongTwin, 1, false, kSensorBench), another(true, kWrongTwin, 2, false, kSensorBench);
     for (auto* bench : {&same, &another}) ASSERT_TRUE(bench->bench().setProfile(profile));
     EXPECT_NEAR(pressureUnder2N(same), 20'000, 200);
@@ -187,7 +187,7 @@ TEST_F(SensorProfileKept, IsAFileThatALaterOneDoesNotOverwrite) {
 
 TEST_F(SensorProfileKept, IsNotWrittenForSurfacesThatCannotBeToldApart) {
     RecordProperty("hazard", "H7");
-    // Two smooth surfaces, and taxels whose noise is far above what either does to them.
+    // Two smooth surfaces, and taxels with noise far above what either does to them.
     const auto outcome = calibrateSensor("sim:finger?taxelnoise=1000", with(kShort, {{"store", "true"},
                                                                                      {"smooth", "glass"},
                                                                                      {"smooth_ra_um", "0.01"},

@@ -11,7 +11,7 @@
 namespace tacto::test {
 namespace {
 
-// As libsigrok 0.5 and its master branch of 2026 name them (src/hardware/*/api.c and protocol.c).
+// The names in libsigrok 0.5 and its master branch of 2026 (src/hardware/*/api.c and protocol.c).
 const std::vector<std::string> kDrivenByLibsigrok{
     "Rigol VS5022",          "Rigol VS5202D",         "Rigol DS1052E",      "Rigol DS1152E-EDU",
     "Rigol DS1102D",         "Rigol DS2072",          "Rigol DS2102",       "Rigol DS2202",

@@ -86,7 +86,7 @@ bool has(const nlohmann::json& record, const std::string& path) {
     return within.is_object() && within.contains(dot == path.npos ? path : path.substr(dot + 1));
 }
 
-/// Columns of which no record of a table that is there has anything: a key that no analysis writes.
+/// Columns that are empty in every record of an existing table: a key that no analysis writes.
 std::set<std::string> emptyColumns(const nlohmann::json& results) {
     static const std::set<std::string> kWhereAsked{"reason",   "note",       "reason",      "spearman.note",
                                                    "spearman", "spearman.n", "profile.name"};

@@ -68,7 +68,7 @@ TEST(TransitionsProtocol, TheShippedProfilePassesItsOwnTestAndSaysWhatIsOutOfRea
     EXPECT_EQ(outcome.verdict, ScriptVerdict::Pass) << outcome.results["reasons"].dump(1);
     std::size_t outOfReach = 0;
     for (const auto& group : outcome.results["changes"]["groups"]) {
-        // As captured, with what the captures leave open.
+        // The captured value, with what the captures leave open.
         EXPECT_LE(group["amplitude_jnd"].get<double>() + group["amplitude_u_jnd"].get<double>(), 2) << group.dump(1);
         EXPECT_LE(group["interval_jnd"].get<double>() + group["interval_u_jnd"].get<double>(), 2) << group.dump(1);
         if (!group["completes"].get<bool>()) continue;
@@ -116,7 +116,7 @@ TEST(TransitionsProtocol, MeasuresTheSchedulersLatencyInEveryDirection) {
     for (const auto& step : steps) {
         const auto name = step["name"].get<std::string>();
         const double since = step["since_onset_s"].get<double>();
-        // By hand, not by the code under test: T is 2 s to 0.5 s, 1.25 s while texture changes.
+        // Computed by hand, not by the code under test: T is 2 s to 0.5 s, 1.25 s while texture changes.
         const double due = name == "pressure up" ? 0.5 : name == "pressure down" ? 2 : 1.25;
         const double design = std::max(0.0, due - since);
         ASSERT_TRUE(step["latency_s"].is_number()) << step.dump(1);

@@ -78,7 +78,7 @@ TEST_F(UnfinishedSessionTest, AnswersLieInOneWayForAParticipantAndInEachWayEqual
         auto& ways = waysOf[who.isVirtual()];
         ++ways[answers];
         const int n = ++enrolled[who.isVirtual()];
-        if (random.below(5) == 0) {  // their place stays theirs
+        if (random.below(5) == 0) {  // the place stays theirs
             EXPECT_TRUE(study_->withdraw(who.code));
         }
         if (n % 8 != 0) continue;

@@ -63,7 +63,7 @@ TEST(UnknownAccuracy, TheKeysOfTheAddressStateIt) {
     EXPECT_THAT(outcome.results["rests_on"].dump(), HasSubstr("No absolute reference was read"));
 }
 
-/// All that a data sheet gives, but not how good the time stamps of records are: most instruments on a line.
+/// All that a data sheet gives, except how good the time stamps of records are: true for most instruments on a line.
 constexpr const char* kUnstamped =
     "sim:oscilloscope?accuracy=unknown&gain_pct=0.5&probe_pct=0&shunt_pct=0.1&timebase_ppm=50";
 

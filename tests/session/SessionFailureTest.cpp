@@ -11,7 +11,7 @@ namespace {
 
 using test::ScratchDir;
 
-/// No file of this process may grow beyond `bytes` while this lives: what a full disk looks like to a program.
+/// While this lives, no file of this process may grow beyond `bytes`: what a full disk looks like to a program.
 class FullDisk {
 public:
     explicit FullDisk(rlim_t bytes) {

@@ -88,7 +88,7 @@ TEST_F(Labels, AreChangedOneByOneAndOnlyChangesAreWritten) {
 
 TEST_F(Labels, ThatWereChangedElsewhereMeanwhileStay) {
     ASSERT_TRUE(saveLabels(path, {}, labels));
-    const auto shown = labels;  // in two windows
+    const auto shown = labels;  // the labels as two windows show them
     auto here = shown, there = shown;
     there.operatorName = "B. Ott";
     there.tags = {"repeat"};
@@ -131,7 +131,7 @@ TEST_F(Labels, OfAReadOnlySessionAreRefusedWithTheReason) {
 }
 
 TEST_F(Labels, OfALockedSessionAreRefusedWithTheReason) {
-    const int other = ::open(path.c_str(), O_RDONLY);  // as another program holds it: locks are of an opened file
+    const int other = ::open(path.c_str(), O_RDONLY);  // opened as by another program: each open file has its own locks
     ASSERT_EQ(::flock(other, LOCK_EX), 0);
     EXPECT_THAT(refusal(labels), HasSubstr("run.tacto is locked"));
     ::close(other);

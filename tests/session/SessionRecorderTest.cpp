@@ -153,14 +153,14 @@ TEST(SessionRecorder, IdleSamplesAreCommittedByTheRecordersOwnClock) {
     SessionRecorder recorder(*writer, {.ownThread = true, .ringRecords = 16});
     const double value[] = {1};
     recorder.frame(stream, 0.5, value);
-    clock.advance(std::chrono::seconds(1));  // and nothing is recorded any more
+    clock.advance(std::chrono::seconds(1));  // nothing is recorded any more
     const SteadyClock wall;
     std::uint64_t samples = 0;
     while (samples == 0 && wall.now() < std::chrono::seconds(20)) samples = verifySession(path)->samples;
     EXPECT_EQ(samples, 1U);
 }
 
-/// Another program holds the session: the disk stands still for who writes, until busy_timeout (2 s) is over.
+/// Another program holds the session: for a writer the disk stands still, until busy_timeout (2 s) is over.
 class StalledDisk {
 public:
     explicit StalledDisk(const std::filesystem::path& path) {

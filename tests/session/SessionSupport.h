@@ -66,7 +66,7 @@ inline void writeBytes(const std::filesystem::path& path, const std::vector<char
         .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }
 
-/// Every value of every row of every table, with its type, as another program sees it; the error when it cannot.
+/// Every value of every row of every table, with its type, as another program sees it; the error where it cannot.
 inline std::string everythingIn(const std::filesystem::path& path) {
     sqlite3* database = nullptr;
     std::string all;

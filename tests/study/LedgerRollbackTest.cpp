@@ -1,5 +1,5 @@
-// A ledger that is behind the newest that this computer knows takes no change, whatever is tried on it, until it is
-// gone back to by name; and 10 000 ledgers that are cut, reordered and rolled back at every row (./dev campaign).
+// A ledger behind the newest that this computer knows takes no change, whatever is tried on it, until someone goes back
+// to it by name; and 10 000 ledgers are cut, reordered and rolled back at every row (./dev campaign).
 #include <chrono>
 #include <random>
 
@@ -162,7 +162,7 @@ TEST_F(RolledBack, ANoteThatIsLostIsFoundByTheKeyFileAndBySessions) {
         auto study = test::accepted(open());
         expectEachRefused(study, "is not in the ledger");
     }
-    // And one in which the session is booked and what lay before it is another.
+    // A ledger also fails in which the session is booked and what lay before it is different.
     fs::copy_file(whole, folder() / "ledger.tacto", fs::copy_options::overwrite_existing);
     auto forged = test::everythingIn(folder() / "ledger.tacto");
     test::forge(folder() / "ledger.tacto", "UPDATE entries SET hash=randomblob(32) WHERE name='session-begun'");
@@ -250,7 +250,7 @@ protected:
         unfinished_ = study.beginSession(request()).value().session;
         participant_ = study.participants().front().id;
     }
-    /// What needs no key to be written.
+    /// Everything that can be written without a key.
     [[nodiscard]] std::vector<std::pair<const char*, nlohmann::json>> forgeries() const {
         auto amended = rows().front().body;
         amended.erase("mac");
@@ -273,7 +273,7 @@ protected:
                   {"head", ""}}},
                 {"went-back", {{"row", 9}, {"lost", 1}, {"rows", {"left"}}, {"files", {"a.tacto"}}}}};
     }
-    /// As a ledger of before rows had a "mac": the same rows, and what notes its end says so.
+    /// Makes a ledger from before rows had a "mac": the same rows, and what notes its end says so.
     void makeOld() {
         auto old = rows();
         const auto about = SessionReader::open(ledgerFile())->about();
@@ -465,7 +465,7 @@ protected:
         }
     }
 
-    /// A ledger whose chain holds, of the same rows without one of them or with two of them exchanged.
+    /// A ledger with a valid chain that has the same rows without one of them, or with two of them exchanged.
     void recompute(std::mt19937& random) const {
         const auto ledger = folder() / "ledger.tacto";
         auto reader = SessionReader::open(ledger);

@@ -1,4 +1,4 @@
-// A session whose rows are sealed: what it shows, what its key opens, and that a change is found without the key.
+// A session with sealed rows: what it shows, what its key opens, and that a change is found without the key.
 #include <sqlite3.h>
 
 #include "core/session/Origin.h"
@@ -87,7 +87,7 @@ TEST_F(SealedSession, ShowsWithoutAKeyWhatAReviewerNeedsAndSaysThatTheRestIsSeal
           reader.capture(reader.captures()->front().seq).error().code, reader.reproducibleText().error().code})
         EXPECT_EQ(code, ErrorCode::Unsupported);
     EXPECT_EQ(summarise(path)->verdict, "sealed");
-    EXPECT_EQ(deliveredIn(reader).error().code, ErrorCode::Unsupported);  // and not: nothing
+    EXPECT_EQ(deliveredIn(reader).error().code, ErrorCode::Unsupported);  // an error, not an empty answer
 }
 
 TEST_F(SealedSession, ShowsTheLengthOfARowOrChunkToABlockAlone) {
@@ -128,7 +128,7 @@ TEST_F(SealedSession, AFlippedBitIsFoundWithoutAKey) {
     int found = 0, looked = 0;
     const auto rows = SessionReader::open(path)->events()->size();
     ASSERT_GT(rows, 0U);
-    // Within the stored seals: the nonce of each is unlike anything else in the file.
+    // The bytes lie within the stored seals: the nonce of each is unlike anything else in the file.
     sqlite3* database = nullptr;
     ASSERT_EQ(sqlite3_open(path.c_str(), &database), SQLITE_OK);
     std::vector<std::string> seals;

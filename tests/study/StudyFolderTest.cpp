@@ -16,7 +16,7 @@ namespace {
 
 class StudyFolder : public test::StudyDesk {
 protected:
-    /// Another process, for which `besides` holds too.
+    /// Asks another process, for which `besides` holds, too.
     [[nodiscard]] bool refusedInAnotherProgram(const std::function<bool()>& besides) const {
         const pid_t child = ::fork();
         if (child == 0) {
@@ -74,7 +74,7 @@ TEST_F(StudyFolder, TellsNeitherWhoNorWhatWhileASessionRunsAndAfterIt) {
         EXPECT_NE(all.find("trial-begin"), std::string::npos);
         for (const auto& word : words) EXPECT_EQ(all.find(word), std::string::npos) << word;
     }
-    // Nor do the bytes of any key, plain or as text.
+    // The bytes of no key appear either, plain or as text.
     const auto passphrase = test::somePassphrase();
     const auto keys =
         test::accepted(StudyKeys::open(keyFile(), study.settings().id, &passphrase, PassphraseCost::least()));
@@ -165,7 +165,7 @@ TEST_F(StudyFolder, AKeyFileOfAnEarlierVersionIsReadAndSaysHowFarTheLedgerGoesFr
         code = enrolled(study);
         id = study.settings().id;
     }
-    // As version 1 was: without the 80 bytes that say how far the ledger goes, bound by another word.
+    // Version 1 was like this: without the 80 bytes that say how far the ledger goes, bound by another word.
     auto json = nlohmann::json::parse(textOf(keyFile()));
     ASSERT_EQ(json["version"], 2);
     const auto salt = bytesOfBase64(json["salt"].get<std::string>()).value();

@@ -122,7 +122,7 @@ TEST_F(GateOfASession, AClockThatIsSetBackDatesNothingBack) {
         EXPECT_FALSE(study.consent(code, {"3", before, "KL"}));
         ASSERT_TRUE(study.consent(code, {"3", today, "KL"}));
         ASSERT_TRUE(study.mayBegin(request));
-        // Nor does a yes of today become one of before.
+        // Today's yes does not become an earlier one either.
         time.now -= back;
         request.exclusions.front().yes = true;
         ASSERT_TRUE(study.noteExclusions(request));
@@ -149,7 +149,7 @@ TEST_F(WithDesk, TheNextSessionWaitsForTheGap) {
 TEST_F(WithDesk, TheGapIsCountedFromTheFirstTrainAndNotFromTheChecklist) {
     RecordProperty("hazard", "H12");
     const auto begun = study.beginSession(test::someRequest(code)).value();
-    test::HandClock clock;  // as on a real bench, an event's time is that of the wall
+    test::HandClock clock;  // as on a real bench, an event's time comes from the wall clock
     auto writer = test::accepted(SessionWriter::create(begun.path, {}, clock, begun.seal));
     clock.advance(std::chrono::minutes(18));
     ASSERT_TRUE(writer->event(clock.now(), "trial-begin", {{"name", "ascending 1"}}));
@@ -224,7 +224,7 @@ TEST_F(Desk, ARecordThatWasExchangedBarsTheNextSession) {
     const auto begun = study.beginSession(test::someRequest(first)).value();
     ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Complete, record(begun)));
     ASSERT_TRUE(std::filesystem::remove(begun.path));
-    record(begun);  // the same rows, other seals
+    record(begun);  // the same rows with other seals
     EXPECT_THAT(study.beginSession(test::someRequest(second)),
                 test::refused(kGateRefused, "is not the one that the ledger notes"));
 }

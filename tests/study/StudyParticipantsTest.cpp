@@ -147,7 +147,7 @@ TEST_F(Desk, NoMoreParticipantsThanApproved) {
     const auto code = enrolled(study, 2);
     EXPECT_EQ(study.enrol({}).error().code, kGateRefused);
     ASSERT_TRUE(study.withdraw(code));
-    EXPECT_EQ(study.enrol({}).error().code, kGateRefused);  // they took part
+    EXPECT_EQ(study.enrol({}).error().code, kGateRefused);  // someone who took part is not replaced
 }
 
 TEST_F(Desk, ACodeAndASeedAreEnrolledOnce) {
@@ -162,7 +162,7 @@ TEST_F(Desk, ACodeAndASeedAreEnrolledOnce) {
     Participant twin;
     twin.virtualSeed = 5;
     EXPECT_EQ(study.enrol(twin).error().code, ErrorCode::Unsupported);
-    for (const char* same : {"P7K3D", "P-7-K3D", "p7k3-d"}) {  // who forgets a hyphen is no other person
+    for (const char* same : {"P7K3D", "P-7-K3D", "p7k3-d"}) {  // leaving out a hyphen makes nobody another person
         named.code = same;
         EXPECT_EQ(study.enrol(named).error().code, ErrorCode::Unsupported) << same;
     }

@@ -145,7 +145,7 @@ protected:
     ScratchDir scratch;
 };
 
-/// It and the one participant, as a test begins with them.
+/// The study and the one participant, as a test begins with them.
 template <typename Desk>
 class WithPerson : public Desk {
 protected:

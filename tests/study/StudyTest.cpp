@@ -118,7 +118,7 @@ TEST_F(Desk, NothingGoesOnFromARecordThatIsNotWholeAndNothingIsReadFromIt) {
         EXPECT_THAT(study.continueSession(begun.session.id, test::someRequest(code)),
                     test::refused(ErrorCode::ParseError));
         EXPECT_EQ(study.ledgerHead(), before);
-        // It can be ended; what was presented in it is not known, so the gap counts.
+        // It can be ended; what was presented in it is not known, so that the gap counts.
         ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Stopped, ""));
         EXPECT_EQ(study.beginSession(test::someRequest(code)).error().code, kGateRefused);
         time.now += std::chrono::hours(20);
@@ -142,7 +142,7 @@ TEST_F(WithDesk, ARecordThatIsGoneOrCutShortGivesNoResults) {
     const auto begun = study.beginSession(test::someRequest(code)).value();
     ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Complete, record(begun)));
     ASSERT_TRUE(study.events(begun.session));
-    // Its chain is whole in itself.
+    // The chain is whole in itself.
     test::forge(begun.path, "DELETE FROM entries WHERE seq > (SELECT min(seq) FROM entries WHERE name='answer')");
     EXPECT_EQ(study.events(begun.session).error().code, ErrorCode::ParseError);
     std::filesystem::remove(begun.path);

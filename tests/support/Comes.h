@@ -8,7 +8,7 @@
 
 namespace tacto::test {
 
-/// As long as a person would wait for it.
+/// Waits as long as a person would.
 template <class Condition>
 [[nodiscard]] bool comes(Condition condition, std::chrono::milliseconds within = std::chrono::seconds(5)) {
     const auto end = std::chrono::steady_clock::now() + within;

@@ -1,8 +1,8 @@
 // FailsInTime.h - assertions about why something fails on the machine's clock.
 //
 // A machine that stands still turns an expected error into one of three others: the answer came too late (Timeout), the
-// output is off by then (NotArmed), or what went on was ended (Stopped). Only these are a missed deadline as InTime.h
-// has it; any other error is wrong however late it comes.
+// output is off by then (NotArmed), or the work was ended (Stopped). Only these are a missed deadline as InTime.h has
+// it; any other error is wrong however late it comes.
 //
 // Thread-safety: as gtest's assertions.
 #pragma once

@@ -7,9 +7,8 @@
 // ASSERT_IN_TIME also ends the test from within a function that the test calls.
 //
 // A Result missed a deadline only if its error is one that lateness causes: no answer in time (Timeout), the output off
-// by then (NotArmed), or what went on was ended (Stopped). A silent control loop, an approval that expired and a
-// watchdog that had to stop the output are Timeout. Every other error, that of a device above all, is wrong on any
-// machine.
+// by then (NotArmed), or the work ended (Stopped). A silent control loop, an approval that expired and a watchdog that
+// had to stop the output are Timeout. Every other error, a device's above all, is wrong however late it comes.
 //
 // Thread-safety: as gtest's assertions.
 #pragma once

@@ -39,7 +39,7 @@ OtherProgram::OtherProgram(const std::filesystem::path& file, bool locked) {
     std::string program = "/bin/sleep";
     std::string long_s = "600";
     std::array<char*, 3> arguments{program.data(), long_s.data(), nullptr};
-    std::array<char*, 1> environment{nullptr};  // without what tests preload
+    std::array<char*, 1> environment{nullptr};  // without the libraries that tests preload
     const int spawned =
         posix_spawn(&process_, program.c_str(), &actions, nullptr, arguments.data(), environment.data());
     posix_spawn_file_actions_destroy(&actions);

@@ -30,7 +30,7 @@ namespace {
 using Nanoseconds = std::int64_t;
 
 constexpr Nanoseconds kMaxBetween = 8'000'000;     // twice what is usual between two beats
-constexpr Nanoseconds kAbandoned = 5'000'000'000;  // without a beat for so long, who beats is gone
+constexpr Nanoseconds kAbandoned = 5'000'000'000;  // after so long without a beat, the beating process is gone
 constexpr Nanoseconds kLook = 1'000'000;
 constexpr double kSlowest = 0.125;  // a test of 10 s is to end
 constexpr const char* kPageName = "TACTO_PATIENT_CLOCK";
@@ -38,9 +38,9 @@ constexpr const char* kPageName = "TACTO_PATIENT_CLOCK";
 /// What all of them share. Written by the test's own watch alone.
 struct Page {
     std::atomic<std::uint32_t> turn;  ///< odd while the rest is written
-    std::atomic<Nanoseconds> beat;    ///< of the machine's time
+    std::atomic<Nanoseconds> beat;    ///< by the machine's clock
     std::atomic<Nanoseconds> own;     ///< this clock's time at that beat
-    std::atomic<double> rate;         ///< as fast as the machine's time; 0: nobody beats, time passes as the machine's
+    std::atomic<double> rate;         ///< its pace over the machine's; 0: nobody beats, time passes as the machine's
 };
 std::atomic<Page*> page{nullptr};
 bool isOwner = false;
@@ -70,8 +70,8 @@ struct Now {
     double rate = 1;
     bool isHeld = false;
 
-    /// How long to wait in the machine's time before looking again whether `end` has come in this. This passes no
-    /// faster, and its rate is of a moment: who would wait as long as that has it could come much too late.
+    /// How long to wait in the machine's time before looking again whether `end` has come in this clock's. This clock
+    /// is never faster, and its rate holds for a moment: waiting for all of it could be much too long.
     [[nodiscard]] Nanoseconds until(Nanoseconds end) const {
         const Nanoseconds left = end - own;
         if (left <= 0) return 0;
@@ -94,7 +94,7 @@ Now now() {
     }
 }
 
-/// From this moment on, at another rate.
+/// Changes the rate from this moment on.
 void write(double rate) {
     const auto at = now();
     Page& shared = *page;
@@ -201,7 +201,7 @@ extern "C" int nanosleep(const std::timespec* time, std::timespec* left) {
     return ended == 0 ? 0 : -1;
 }
 
-/// Of a timer by this clock: libusb's, which looks again at the time when it is over.
+/// A timer that this clock keeps: libusb's, which looks at the time again when it is over.
 extern "C" int timerfd_settime(int timer, int flags, const itimerspec* time, itimerspec* before) {
     static auto* const set = next<int(int, int, const itimerspec*, itimerspec*)>("timerfd_settime");
     const bool isOff = time->it_value.tv_sec == 0 && time->it_value.tv_nsec == 0;
@@ -212,7 +212,7 @@ extern "C" int timerfd_settime(int timer, int flags, const itimerspec* time, iti
     return set(timer, flags, &machines, before);
 }
 
-/// Who waits longer than the machine's time looks again, as after any waking without a reason.
+/// A thread that waits longer than the machine's time looks again, as after any waking without a reason.
 extern "C" int pthread_cond_clockwait(pthread_cond_t* condition, pthread_mutex_t* mutex, clockid_t clock,
                                       const std::timespec* until) {
     static auto* const wait =

@@ -14,7 +14,7 @@ namespace tacto::test {
 /// Reports itself as real hardware.
 class RealLookingStimulator final : public PassingStimulator {
 public:
-    /// With the twin's serial number, or one that no other test claims where the whole program drives it (OwnSerial).
+    /// Has the twin's serial number, or one that no other test claims where the whole program drives it (OwnSerial).
     explicit RealLookingStimulator(std::unique_ptr<Stimulator> twin, const std::string& serial = "")
         : PassingStimulator(std::move(twin)), identity_(inner().identity()) {
         identity_.simulated = false;

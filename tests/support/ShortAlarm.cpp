@@ -1,4 +1,4 @@
-// Preloaded into a program whose alarm() a test does not want to wait for: a second passes in 20 ms.
+// Preloaded into a program with an alarm() for which a test does not want to wait: a second passes in 20 ms.
 #include <sys/time.h>
 
 extern "C" unsigned alarm(unsigned seconds) {

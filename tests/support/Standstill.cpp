@@ -36,13 +36,13 @@
 
 #include "tests/support/InTime.h"
 
-/// Of the patient clock, where that is linked (PatientClock.cpp).
+/// Comes from the patient clock where that is linked (PatientClock.cpp).
 extern "C" [[gnu::weak]] void tactoBeat();
 extern "C" [[gnu::weak]] void tactoRest();
 
 namespace {
 
-/// The machine's time, whatever clock the test has.
+/// The machine's time, whichever clock the test has.
 struct Clock {
     using duration = std::chrono::nanoseconds;
     using rep = duration::rep;
@@ -144,8 +144,8 @@ private:
     std::thread echo_;  // last: starts when all else is ready
 };
 
-// Not through the C library: umockdev stands in it under some tests, with a lock around every file that is opened, and
-// the thread sanitizer's report of a race there would wait for that lock and never end.
+// Reads without the C library: umockdev stands in it under some tests, with a lock around every file that is opened,
+// and the thread sanitizer's report of a race there would wait for that lock and never end.
 class KernelFile {
 public:
     explicit KernelFile(const std::string& path)
@@ -205,7 +205,7 @@ public:
 private:
     static constexpr Milliseconds kBetween{50};
     struct Count {
-        Milliseconds total, before;  ///< by the last look, and what the one before it added
+        Milliseconds total, before;  ///< time lost by the last look, and what the look before it had added
     };
 
     /// The stolen time of all processors.
@@ -216,7 +216,7 @@ private:
             soft >> steal;
         return Milliseconds(1e3 * steal / static_cast<double>(::sysconf(_SC_CLK_TCK)));
     }
-    /// This one and those that it started.
+    /// This process and those that it started.
     [[nodiscard]] static std::vector<std::string> processes() {
         std::vector<std::string> all{"/proc/self"};
         for (const auto& task : namesIn("/proc/self/task")) {
@@ -242,7 +242,7 @@ private:
 };
 
 /// Whether anything failed that no standstill excuses. An ASSERT_IN_TIME ends its test from within a function that the
-/// test calls, too: what failed for want of it would not be a deadline.
+/// test calls, too: a failure for want of that would not be a deadline.
 class Failures : public testing::EmptyTestEventListener {
 public:
     void OnTestPartResult(const testing::TestPartResult& part) override {
@@ -265,7 +265,7 @@ public:
     void SetUp() override {
         testing::UnitTest::GetInstance()->listeners().Append(owned_.release());
         if (tactoBeat != nullptr) tactoBeat();
-        // From here on, not from when the thread is first given a processor; and to the end.
+        // Counts from here on, not from when the thread first gets a processor; and to the end.
         thread_ = std::thread([this, last = Clock::now()]() mutable {
             const KernelLine line;
             Words words;
@@ -315,7 +315,7 @@ public:
 
 private:
     static void nap() {
-        const timespec time{0, 4'000'000};  // between two looks: short against kStill, and cheap
+        const timespec time{0, 4'000'000};  // the time between two looks: short against kStill, and cheap
         ::syscall(SYS_nanosleep, &time, nullptr);
     }
     /// A second without a standstill, or ten in all.
@@ -341,7 +341,7 @@ private:
         ::execv("/proc/self/exe", arguments.data());
     }
 
-    std::unique_ptr<Failures> owned_ = std::make_unique<Failures>();  // until gtest owns it, when tests begin
+    std::unique_ptr<Failures> owned_ = std::make_unique<Failures>();  // owned here until tests begin; then by gtest
     Failures* const failures_ = owned_.get();
     std::thread thread_;
     std::atomic<bool> ending_{false};

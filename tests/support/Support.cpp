@@ -18,8 +18,8 @@ std::optional<std::filesystem::path> sharedData(std::string_view relative) {
 }
 
 ScratchDir::ScratchDir() {
-    // Not by the process's number: a run starts more processes than there are numbers, and one that is killed leaves
-    // its folder behind.
+    // The name does not hold the process's number: a run starts more processes than there are numbers, and a killed one
+    // leaves its folder behind.
     auto path = (std::filesystem::temp_directory_path() / "tactoscope-test-XXXXXX").string();
     if (::mkdtemp(path.data()) == nullptr) throw std::system_error(errno, std::generic_category(), path);
     path_ = path;

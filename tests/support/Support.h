@@ -33,7 +33,7 @@ private:
     std::filesystem::path path_;
 };
 
-/// The serial number of a unit that no other test drives, and of which nothing is left on the computer.
+/// The serial number of a unit that no other test drives, with nothing left of it on the computer.
 class OwnSerial {
 public:
     /// Ten characters, another each time. `begins`: at most three.

@@ -9,13 +9,13 @@ namespace tacto::test {
 namespace {
 
 constexpr int kRuns = 1000;
-// The interval's own scatter is far below that of 1000 runs with fewer draws than a report takes.
+// The interval itself scatters far less than 1000 runs do, even with fewer draws than a report takes.
 constexpr std::size_t kDraws = 2000;
 
-/// In how many of the runs the interval held the truth.
+/// The number of runs in which the interval held the truth.
 struct Covered {
     std::array<int, 3> level{};  ///< lowest, middle, largest command
-    std::array<int, 3> worst{};  ///< from the worse direction's mean, which is what is judged
+    std::array<int, 3> worst{};  ///< from the worse direction's mean, which is judged
     int gain = 0;
     int offset = 0;
     int monteCarlo = 0;  ///< budgets at the largest command that were propagated
@@ -76,7 +76,7 @@ TEST(CalibrationCoverage, HoldsWhereTheOscilloscopesGainDominates) {
     twin.instrument = {.gainTolerance = 0.005, .offsetTolerance = 0.05, .resolution = 0.025};
     const auto covered = coverageOf(twin);
     expectStated(covered);
-    EXPECT_EQ(covered.monteCarlo, kRuns);  // one rectangle is most of it: k = 1.96 would be too wide
+    EXPECT_EQ(covered.monteCarlo, kRuns);  // one rectangle makes up most of it: k = 1.96 would be too wide
 }
 
 TEST(CalibrationCoverage, HoldsWhereScatterDominates) {

@@ -1,5 +1,5 @@
-// CalibrationTwin.h - a device of known gain, offset, scatter and hysteresis, read by an instrument whose errors are
-// drawn for each run from the distributions that a budget states.
+// CalibrationTwin.h - a device of known gain, offset, scatter and hysteresis, read by an instrument with errors drawn
+// for each run from the distributions that a budget states.
 //
 // Thread-safety: the test's own thread.
 #pragma once
@@ -16,7 +16,7 @@ struct CalibrationTwin {
     double gain = 1.013;
     double offset = 0.15;
     double jitter = 0.03;       ///< s of repeats at the largest command
-    bool jitterScales = false;  ///< in proportion to the command
+    bool jitterScales = false;  ///< jitters in proportion to the command
     double hysteresis = 0.08;   ///< down less up
     double low = 10;
     double high = 40;
@@ -27,7 +27,7 @@ struct CalibrationTwin {
     [[nodiscard]] double levelAt(std::size_t k) const {
         return low + (high - low) * static_cast<double>(k) / static_cast<double>(levels - 1);
     }
-    /// What it delivers, both directions taken together.
+    /// The delivered value, both directions taken together.
     [[nodiscard]] double truth(double commanded) const { return gain * commanded + offset; }
 
     [[nodiscard]] std::vector<CalibrationReading> run(std::uint64_t seed) const {

@@ -11,8 +11,8 @@ namespace {
 
 using testing::HasSubstr;
 
-/// `repeats` of each condition in an order drawn anew for every repeat, `scatter` relative; `change` is what the
-/// amplitude is multiplied by at a place of the session from 0 to 1.
+/// `repeats` of each condition in an order drawn again for every repeat, `scatter` relative; `change` multiplies the
+/// amplitude at a place of the session from 0 to 1.
 template <class Change>
 std::vector<SeparabilityTrial> session(std::mt19937& random, int repeats, double scatter, Change&& change) {
     std::normal_distribution<double> noise(0, 1);
@@ -107,7 +107,7 @@ TEST(Drift, WhatIsNotKnownIsNoPassH9) {
     EXPECT_EQ(nameOf(judgeDrift(none)->verdict), "indeterminate");
     for (std::size_t n = 1; n < 8; ++n)
         EXPECT_EQ(nameOf(judgeDrift(std::span(steady).first(n))->verdict), "indeterminate") << n;
-    // All of the last quarter was not measured: nothing is said of it.
+    // All of the last quarter was not measured: no verdict follows from it.
     auto half = steady;
     for (std::size_t i = 75; i < 100; ++i) half[i].amplitude = std::nan("");
     EXPECT_EQ(nameOf(judgeDrift(half)->verdict), "indeterminate");
@@ -118,7 +118,7 @@ TEST(Drift, AnInstrumentThatResolvesLittleShowsLittle) {
     auto coarse = session(random, 3, 0.0001, [](double) { return 1.0; });
     for (auto& trial : coarse) trial.amplitudeUncertainty = 0.05 * trial.amplitude;
     EXPECT_EQ(nameOf(judgeDrift(coarse)->verdict), "indeterminate");
-    // The same, and all of it the channel's gain, which every trial shares.
+    // Here all of it is the channel's gain, which every trial shares.
     for (auto& trial : coarse) trial.amplitudeGain = 0.05;
     EXPECT_EQ(nameOf(judgeDrift(coarse)->verdict), "pass");
 }

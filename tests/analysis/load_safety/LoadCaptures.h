@@ -19,7 +19,7 @@ struct LoadTruth {
     double gap_s = 100e-6;
     double interval_s = 0.5;
     int pulses = 1;
-    double train_hz = 100;  ///< within the train
+    double train_hz = 100;  ///< the rate within the train
     double second = 1;      ///< share of the leading phase's amplitude
     double rate_hz = 10e6;
     double gain_v = 1, gain_i = 1;      ///< the instrument's gain errors
@@ -27,11 +27,11 @@ struct LoadTruth {
     double gainTolerance = 0.005;
     double shuntTolerance = 0;
     double timeBaseTolerance = 0;
-    double timeBase = 1;     ///< what the instrument makes of a second
+    double timeBase = 1;     ///< the instrument's reading of one second
     double noise = 0;        ///< share of the range, r.m.s.
     double scatter = 0;      ///< relative, of the trains' amplitudes
     std::uint64_t seed = 1;  ///< draws noise and scatter
-    int bits = 12;           ///< for a range of 1.5 times the peak
+    int bits = 12;           ///< the bits of a range of 1.5 times the peak
 };
 
 /// `trains` captures, one per train. Edges last 100 ns, as a fast source's do.

@@ -52,13 +52,13 @@ std::array<Looked, 8> coverageOf(const LoadTruth& stated, int trains) {
     auto figures = figuresOf(stated);
     for (int run = 0; run < kCoverageRuns; ++run) {
         auto truth = drawn(stated, static_cast<std::uint64_t>(run) + 1);
-        truth.width_s += Random(truth.seed, "width").uniform() / truth.rate_hz;  // no whole number of samples
+        truth.width_s += Random(truth.seed, "width").uniform() / truth.rate_hz;  // this is no whole number of samples
         const auto captures = loadCaptures(truth, trains);
         const auto truths = figuresOf(truth);
         ExpectedTrain expected;
         expected.budget = kBudget;
         expected.budget.seed =
-            truth.seed;  // what so few draws of a t with few degrees of freedom leave open averages out
+            truth.seed;  // a few draws of a t with few degrees of freedom leave a gap that averages out
         const auto found = readLoad(captures, expected);
         if (!found) {
             ADD_FAILURE() << found.error().message;
@@ -103,7 +103,7 @@ TEST(LoadCoverage, HoldsWhereTheTrainsScatterAndAreFew) {
     truth.scatter = 0.005;
     for (const int trains : {2, 4}) {
         const auto figures = coverageOf(truth, trains);
-        // For the mean, k = 2 would hold the truth in 71 % with two trains.
+        // For the mean of two trains, k = 2 would hold the truth in 71 %.
         for (const auto& figure : {figures[0], figures[1]}) {
             EXPECT_GE(figure.covered, 930) << figure.name << " of " << trains << " trains: too narrow";
             EXPECT_LE(figure.covered, 975) << figure.name << " of " << trains << " trains: too wide";
@@ -151,7 +151,7 @@ TEST(LoadCoverage, NoViolationPassesWithAnInstrumentThatIsWrongByWhatItStates) {
             truth.width_s = violation.width_s;
             truth.interval_s = violation.interval_s;
             auto run = drawn(truth, seed);
-            // Every third at the edge of what is stated, the way that hides the violation.
+            // Every third lies at the edge of what is stated, on the side that hides the violation.
             if (seed % 3 == 0) {
                 run.gain_v = 1 - stated.gainTolerance;
                 const bool rate = std::string_view(violation.item) == "rate_over";
@@ -161,7 +161,7 @@ TEST(LoadCoverage, NoViolationPassesWithAnInstrumentThatIsWrongByWhatItStates) {
         }
         EXPECT_EQ(passed, 0) << violation.item;
     }
-    // What a wrong instrument hides may be as much as its tolerance, and not more: 3 % above with a gain 2 % low.
+    // A wrong instrument can hide as much as its tolerance, and no more: 3 % above with a gain 2 % low.
     auto far = stated;
     far.volts = 40 * 1.041;
     far.gain_v = 0.98;

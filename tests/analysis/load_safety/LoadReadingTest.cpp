@@ -13,7 +13,7 @@ LoadReading read(const LoadTruth& truth, int trains = 2) {
     return readLoad(loadCaptures(truth, trains), ExpectedTrain{1, 100}).value();
 }
 
-/// Within its own expanded uncertainty, and that uncertainty is not an excuse for anything.
+/// The truth lies within the expanded uncertainty, which excuses nothing else.
 void expectTruth(const Reading& reading, double truth, double worst, const char* what) {
     ASSERT_TRUE(reading.measured()) << what;
     EXPECT_NEAR(reading.value, truth, std::max(reading.expanded, 1e-12)) << what;
@@ -22,7 +22,7 @@ void expectTruth(const Reading& reading, double truth, double worst, const char*
 
 TEST(LoadReading, MeasuresEveryQuantityOfFortyVoltsInto500Ohm) {
     const auto found = read({});
-    // Edges of 100 ns: charge is that of the width at half height; squares lose a third of an edge per edge.
+    // With edges of 100 ns, charge follows the width at half height; squares lose a third of an edge per edge.
     const double squares = 0.08 * 0.08 * 2 * (200e-6 - 100e-9 / 3);
     expectTruth(found.amplitude_v, 40, 0.01, "amplitude");
     expectTruth(found.amplitude_ma, 80, 0.01, "current");
@@ -157,7 +157,7 @@ TEST(LoadReading, BehindAClippedSpikeTheFineRangeIsRead) {
     EXPECT_LE(found.imbalance.expanded, 0.005);
 }
 
-/// The same trains from a current source into `truth.ohms` in series with a resistor beside a capacitor.
+/// The same trains from a current source into `truth.ohms`, in series with a resistor beside a capacitor.
 std::vector<Capture> intoSkin(const LoadTruth& truth, double parallel, double farads) {
     auto captures = loadCaptures(truth);
     for (auto& capture : captures) {
@@ -188,7 +188,7 @@ TEST(LoadReading, OfACurrentSourceTheCurrentTellsThePhases) {
     expectTruth(found.amplitude_ma, 5, 0.01, "current");
     expectTruth(found.charge_uc, 1, 0.01, "phase charge");
     EXPECT_LE(found.imbalance.value, found.imbalance.expanded);
-    // At the end of the phase, as science.md section 4 means it: 3.50 kohm.
+    // The value at the end of the phase, as science.md section 4 means it: 3.50 kohm.
     const double ohms = truth.ohms + parallel * (1 - std::exp(-truth.width_s / (parallel * farads)));
     EXPECT_NEAR(ohms, 3.5e3, 10);
     expectTruth(found.amplitude_v, 5e-3 * ohms, 0.025, "voltage");

@@ -87,7 +87,7 @@ TEST_F(LoadSafetyCheck, PassesWhenEverythingIsMeasuredAndWithin) {
     const auto passed = std::count_if(found.rows.begin(), found.rows.end(),
                                       [](const SafetyRow& row) { return row.verdict == RowVerdict::Pass; });
     ASSERT_EQ(found.reasons.size(), 1U);
-    // What is said of those that passed is true of each: commands and trips have no uncertainty.
+    // A sentence on passed rows is true of each: commands and trips have no uncertainty.
     const auto those = [&found](auto wanted) {
         return std::count_if(found.rows.begin(), found.rows.end(),
                              [&](const SafetyRow& row) { return row.verdict == RowVerdict::Pass && wanted(row); });
@@ -342,7 +342,7 @@ TEST_F(LoadSafetyCheck, AWrongResistorIsFoundBeforeAnythingIsBelieved) {
     truth.ohms = 465;
     at("500 ohm").steps = {step(truth)};
     EXPECT_EQ(rowOf(judgeLoadSafety(input), "500 ohm", "load_value").verdict, RowVerdict::Fail);
-    at("500 ohm").dmm_ohm = {465, 0.5, 1};  // it is what the multimeter says
+    at("500 ohm").dmm_ohm = {465, 0.5, 1};  // this is what the multimeter says
     EXPECT_EQ(rowOf(judgeLoadSafety(input), "500 ohm", "load_value").verdict, RowVerdict::Pass);
 }
 
@@ -399,7 +399,7 @@ TEST_F(LoadSafetyCheck, StatesTheOutputsOfTheGuidance) {
     }
 }
 
-/// The check's promise: whatever lies at a limit + 2U or beyond is never passed; what lies well within always is.
+/// The check's promise: whatever lies at a limit + 2U or beyond never passes; whatever lies well within always passes.
 TEST_F(LoadSafetyCheck, MissesNoViolationFromLimitPlusTwiceTheUncertainty) {
     RecordProperty("hazard", "H9");
     const LoadSafetyInput whole = input;

@@ -43,7 +43,7 @@ TEST(AscendingLimits, FindsTheFirstLevelsFeltAndTheLowestTooStrong) {
     ASSERT_EQ(result.series.size(), 3U);
     EXPECT_EQ(result.series[0].endedBy, SeriesEnd::TooStrong);
     EXPECT_EQ(result.series[0].tooStrong, 9);
-    // What was too strong once is not presented again.
+    // A level that was too strong once is not presented again.
     for (const std::size_t series : {1U, 2U}) {
         EXPECT_EQ(result.series[series].endedBy, SeriesEnd::Ceiling);
         EXPECT_EQ(result.series[series].ceiling, LevelLimit::TooStrong);
@@ -95,7 +95,7 @@ TEST(AscendingLimits, PresentsNothingOnceInEveryFive) {
         for (const auto& asked : presented(limits, sure(3, 99))) {
             if (asked.series == 1) empty.push_back(asked.empty());
         }
-        // After as many leading ones as make every whole five have one.
+        // It fits after as many leading ones as make every whole five have one.
         bool fits = false;
         for (std::size_t lead = 1; lead <= 3; ++lead) {
             bool each = std::all_of(empty.begin(), empty.begin() + static_cast<std::ptrdiff_t>(lead),
@@ -116,7 +116,7 @@ TEST(AscendingLimits, PresentsNothingOnceInEveryFive) {
 
 TEST(AscendingLimits, AFeltEmptyPresentationRepeatsTheLastLevelAndReplacesItsAnswer) {
     const auto grid = test::gridUpTo(15);
-    // What comes does not depend on the answers before an empty one is felt.
+    // The next presentation does not depend on the answers before an empty one is felt.
     auto rehearsal = AscendingLimits::create(grid, 3).value();
     const auto order = presented(rehearsal, [](const auto&) { return StrengthWord::Nothing; });
     std::size_t empty = 1;

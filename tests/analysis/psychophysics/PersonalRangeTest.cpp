@@ -69,7 +69,7 @@ TEST(PersonalRange, NamesWhatLimitsIt) {
     auto range = rangeOf(3.1, 9, grid);
     EXPECT_EQ(range.next(), 6);
     EXPECT_EQ(range.result().limitedBy, LevelLimit::Gate);
-    // Nothing was too strong: the highest that was presented, 6 mA, is what the gate permits.
+    // Nothing was too strong: the limit is the highest level presented, 6 mA, which the gate permits.
     auto unbothered = PersonalRange::create(grid, {.detection = 2, .tooStrong = 6, .saidTooStrong = false}).value();
     EXPECT_EQ(unbothered.next(), 4.5);
     EXPECT_EQ(unbothered.result().limitedBy, LevelLimit::Gate);

@@ -33,7 +33,7 @@ TEST(PredictedFit, AgreesWithEveryTableThereIs) {
             least = std::min(least, fit.all.p);
             most = std::max(most, fit.all.p);
         }
-        // Between the share of larger G and that of at least as large a one, evenly.
+        // It lies evenly between the shares of larger G, and of G at least as large.
         EXPECT_GT(least, larger - 0.02);
         EXPECT_LT(most, larger + equal + 0.02);
         EXPECT_NEAR(least, larger, 0.02 + 0.15 * equal);
@@ -75,7 +75,7 @@ TEST(PredictedFit, IsEvenOverVirtualParticipants) {
     for (const double adaptation : {0.0, 0.3}) {
         std::vector<double> p, rows;
         for (std::uint64_t seed = 0; seed < seeds; ++seed) {
-            // As different as they come: some make hardly an error, so that most tables are alike.
+            // They differ as much as people do: some make hardly an error, so that most tables are alike.
             const auto observer = test::observerFor(drawParticipant({}, 3, seed, Micros(200)), seed, adaptation);
             const auto fit = fitOf(session(observer, observer, seed), 4, seed, 500).value();
             p.push_back(fit.all.p);

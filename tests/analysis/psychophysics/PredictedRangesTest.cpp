@@ -1,4 +1,4 @@
-// What pilot.md section 8 predicts of virtual participants: how many have a usable range and what to expect of them.
+// Predictions of pilot.md section 8 for virtual participants: how many have a usable range and what to expect of them.
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -76,7 +76,7 @@ std::optional<PersonalRangeResult> knownRange(const LevelGrid& grid, const Virtu
     return range->result();
 }
 
-/// As a session finds it.
+/// The range that a session finds.
 std::optional<PersonalRangeResult> measuredRange(const LevelGrid& grid, const VirtualObserver& observer,
                                                  std::size_t index) {
     const auto limits = test::ascend(grid, observer, index);

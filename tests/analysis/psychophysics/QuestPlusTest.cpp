@@ -109,7 +109,7 @@ TEST(QuestPlus, PresentsInEitherIntervalFiveTimesInTen) {
 
 TEST(QuestPlus, CountsTheRightAnswersOfEachInterval) {
     auto quest = QuestPlus::create(test::gridUpTo(15), felt(4), 1).value();
-    while (quest.next()) ASSERT_TRUE(quest.answer(TrialInterval::First));  // who always says the first
+    while (quest.next()) ASSERT_TRUE(quest.answer(TrialInterval::First));  // this person always says the first
     const auto shares = quest.result().intervals;
     EXPECT_EQ(shares.first.right, shares.first.trials);
     EXPECT_EQ(shares.second.right, 0U);

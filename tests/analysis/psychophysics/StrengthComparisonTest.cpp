@@ -47,7 +47,7 @@ TEST(StrengthComparison, PairsLieInTheRangeAboutItsMiddle) {
 }
 
 TEST(StrengthComparison, TheModelIsTheOneThatItSays) {
-    // Φ at 0.5, 1 and 2 standard deviations, of which √2 make one of the difference.
+    // Φ at 0.5, 1 and 2 standard deviations; √2 of them make one of the difference.
     for (const auto& [deviations, phi] :
          {std::pair(0.5, 0.6914624612740131), {1.0, 0.8413447460685429}, {2.0, 0.9772498680518208}}) {
         const StrengthPair pair{5, 5 * std::exp(deviations * std::sqrt(2) * std::log1p(0.1))};

@@ -98,7 +98,7 @@ TrialPlanSettings small(std::size_t blocks, std::size_t perCondition, std::size_
 
 TEST(TrialPlan, IsUniformAmongTheOrdersThatObey) {
     expectUniform(small(1, 2, 2), 36, "0011xx");
-    // 6 · 6 orders of two blocks but for the two whose blocks meet in a run of four.
+    // 6 · 6 orders of two blocks, without the two whose blocks meet in a run of four.
     expectUniform(small(2, 2, 0), 34, "0011");
     // 70 orders of 8 but for those with a run of four: 5 of either condition, 2 of them of both.
     expectUniform(small(1, 4, 0), 62, "00001111");

@@ -64,7 +64,7 @@ TEST(VirtualObserver, DetectsByTheFunctionThatQuestPlusAssumes) {
     EXPECT_NEAR(observer.probabilityRight(threshold, Seconds(0)), 0.5 + 0.49 * (1 - std::exp(-1)), 1e-12);
     EXPECT_NEAR(observer.probabilityRight(100, Seconds(0)), 0.99, 1e-12) << "half of the lapses are right";
     EXPECT_EQ(observer.probabilityRight(0, Seconds(0)), 0.5);
-    // Its slope there is that of the noise: d(felt)/d(ln level) = 1/(√(2π) · ln 1.1).
+    // The slope there is the slope of the noise: d(felt)/d(ln level) = 1/(√(2π) · ln 1.1).
     const double rise = (observer.probabilityRight(threshold * 1.0001, Seconds(0)) -
                          observer.probabilityRight(threshold / 1.0001, Seconds(0))) /
                         (2 * std::log(1.0001) * 0.49);

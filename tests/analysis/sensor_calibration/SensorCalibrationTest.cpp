@@ -1,4 +1,4 @@
-// Reference scales, distances and the ranking from slides whose truth is known, and sensor readings against references.
+// Reference scales, distances and the ranking from slides with known truth, and sensor readings against references.
 #include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -87,7 +87,7 @@ TEST(SensorCalibration, RefusesSurfacesThatCannotBeToldApartAndChangesNothing) {
     EXPECT_EQ(refused, 100);
 }
 
-// Its scale would be another rig's, and it would still count in R wherever it is measured.
+// Its scale would belong to another rig, and would still count in R wherever it is measured.
 TEST(SensorCalibration, AFeatureThatIsMeasuredNowAndThenIsARefusalAndOneThatNeverIsAWarning) {
     RecordProperty("hazard", "H7");
     Random random(4, "now and then");
@@ -210,7 +210,7 @@ TEST(SensorScale, ItsIntervalsHoldTheTruthIn95OfA100) {
     Random random(9, "scale coverage");
     int scale = 0, offset = 0;
     for (int run = 0; run < kRuns; ++run) {
-        // All weights of a set are off by one factor, as their tolerance has it.
+        // All weights of a set are off by one factor, as far as their tolerance allows.
         const double tolerance = 0.01, off = 1 + tolerance * (2 * random.uniform() - 1);
         const auto found = fitSensorScale(weighed(random, 250 * off, 1000, 10, 3), {tolerance}, "force").value();
         scale += std::abs(found.scale - 0.004) <= found.scaleU ? 1 : 0;

@@ -104,7 +104,7 @@ TEST(SurfaceDistance, TellsApartSurfacesAtTheThresholdInOneOf40Runs) {
         }
         return static_cast<double>(count) / kRuns;
     };
-    EXPECT_LE(accepted(0), 0.005);  // the same surface twice
+    EXPECT_LE(accepted(0), 0.005);  // these are the same surface twice
     const double atThreshold = accepted(1);
     EXPECT_GE(atThreshold, 0.0145);  // 2.5 % ± 3 standard errors
     EXPECT_LE(atThreshold, 0.0355);

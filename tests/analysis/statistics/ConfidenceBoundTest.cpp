@@ -93,8 +93,8 @@ TEST(SeparabilityBounds, JudgeThePairAndNotItsEstimate) {
     EXPECT_EQ(found.verdict, Verdict::Indeterminate);
     EXPECT_TRUE(
         says(found, "with 95 % confidence by 0.0 and 5.0 at least; whether 5 in one of them are reached is open"));
-    // What the instrument leaves open of each interval counts as much as scatter; a time base that is off, or a gain,
-    // is off for both alike and divides out.
+    // An interval's uncertainty by the instrument counts as much as scatter; a time base that is off, or a gain, is off
+    // for both alike and divides out.
     design.interval_s = {1.1, 0.5, 1.1, 0.5};
     EXPECT_EQ(judgeSeparability(stated(design, 0.05, 1e-6, 1e-5)).value().verdict, Verdict::Pass);
     EXPECT_EQ(judgeSeparability(stated(design, 0.05, 0.03, 1e-5)).value().verdict, Verdict::Indeterminate);

@@ -104,7 +104,7 @@ TEST(Prevalence, IntervalsAreTheShortestThatScipyFinds) {
     }
 }
 
-// With k = n, θ^(n+1) is 0.05 of what lies between 0.05^(n+1) and 1.
+// With k = n, θ^(n+1) is 0.05 of the way between 0.05^(n+1) and 1.
 TEST(Prevalence, OfAllIsThatOfInceAndOthers) {
     for (const std::size_t n : {1U, 4U, 12U}) {
         const double m = static_cast<double>(n + 1), cut = std::pow(0.05, m);
@@ -154,7 +154,7 @@ TEST(Prevalence, EveryCountUpToTwentyHas95PercentInNoMoreThanItNeeds) {
             EXPECT_LE(found.value, found.high) << k << " of " << n;
             EXPECT_GE(found.low, before) << k << " of " << n;
             before = found.low;
-            // As wide, and a little to either side, holds less.
+            // An interval of the same width a little to either side holds less.
             constexpr double kAside = 1e-3;
             if (found.low >= kAside) {
                 EXPECT_LE(truth.between(found.low - kAside, found.high - kAside), 0.95) << k << " of " << n;

@@ -81,7 +81,7 @@ struct Channel {
     }
 };
 
-/// Every answer but the right one is as likely, or one neighbour is given, or "none".
+/// Either every wrong answer is equally likely, or one neighbour is given, or "none".
 std::vector<Channel> channels() {
     std::vector<Channel> all;
     const auto add = [&all](const char* name, double right, std::vector<double> wrong) {
@@ -126,7 +126,7 @@ TEST(InformationTransfer, IsUnbiasedFromGuessingToAllRightAndItsIntervalHolds) {
             const double n = sessions, bias = sum / n, spread = std::sqrt(squares / n);
             const auto what = std::string(channel.name) + " " + std::to_string(channel.answers[0][0]) + " of " +
                               std::to_string(presented[0]);
-            // What is left is 0.03 bit at 80 trials, a quarter of the spread; values below 0 read 0.
+            // The rest is 0.03 bit at 80 trials, a quarter of the spread; values below 0 read 0.
             const double allowed = truth < 0.01 ? 0.02 : 0.03;
             EXPECT_LE(std::abs(bias), allowed + standardErrors * spread / std::sqrt(n)) << what;
             EXPECT_GE(held / n, 0.93 - standardErrors * std::sqrt(0.05 * 0.95 / n)) << what;

@@ -33,7 +33,7 @@ void setThresholds(VariationOptions& options, double felt, double strong) {
     population.discomfort_ma = strong;
 }
 
-/// No participant differs from the median, none lapses.
+/// A population in which nobody differs from the median, and nobody lapses.
 VariationOptions everybodyAlike() {
     auto out = options(5);
     for (auto* drawn : {&out.population.series_ohm, &out.population.parallel_ohm, &out.population.capacitance_nf,
@@ -175,7 +175,7 @@ TEST(Variation, ACancelKeepsThePeopleWhoAreDone) {
     EXPECT_GE(found.participants, 20U);
     EXPECT_LT(found.participants, 100'000U);
     EXPECT_IN_TIME(std::chrono::steady_clock::now() - begun < std::chrono::seconds(20)) << "sanitizers are slow";
-    // What is kept is a whole run with fewer people.
+    // The kept part is a whole run with fewer people.
     wanted.participants = found.participants;
     auto whole = toJson(predictVariation(wanted).value(), wanted);
     auto part = toJson(found, wanted);

@@ -9,7 +9,7 @@
 namespace tacto {
 namespace {
 
-/// Without any of the program's shortcuts: every outcome, its probability from logarithms of factorials.
+/// Computed without the program's shortcuts: every outcome, its probability from logarithms of factorials.
 double chanceOf(std::size_t k, std::size_t n, double p) {
     const auto log = [](std::size_t x) { return std::lgamma(static_cast<double>(x) + 1); };
     const double a = static_cast<double>(k), b = static_cast<double>(n - k);
@@ -61,7 +61,7 @@ TEST(VariationTrials, TheSearchFindsWhatTryingEveryNumberFinds) {
         EXPECT_EQ(found.forWidth, forWidth) << p;
         EXPECT_EQ(found.aboveChance, aboveChance) << p;
         EXPECT_EQ(found.rho, 0);
-        // No participant differs: pooled trials count like one participant's, up to whole blocks.
+        // Participants do not differ: pooled trials count like one participant's, up to whole blocks.
         ASSERT_TRUE(found.pooledForWidth.perParticipant);
         EXPECT_EQ(*found.pooledForWidth.total, 5 * *found.pooledForWidth.perParticipant);
         EXPECT_LE(*found.pooledForWidth.total, forWidth + 5 * 4);
@@ -81,12 +81,12 @@ TEST(VariationTrials, PeopleWhoDifferMakePooledTrialsCountLess) {
     ASSERT_TRUE(found.pooledForWidth.perParticipant);
     const auto m = static_cast<double>(*found.pooledForWidth.perParticipant);
     EXPECT_NEAR(found.pooledForWidth.designEffect, 1 + (m - 1) * found.rho, 1e-12);
-    // What counts reaches what one person with the mean accuracy needs, and a block less does not.
+    // The counted trials reach what one person with the mean accuracy needs, and a block less does not.
     const double mean[] = {0.7};
     const double need = static_cast<double>(*trialsNeeded(mean, {0.2, 0.25, 0.8, 1}).value().forWidth);
     EXPECT_GE(40 * m / (1 + (m - 1) * found.rho), need);
     EXPECT_LT(40 * (m - 4) / (1 + (m - 5) * found.rho), need);
-    // With fewer people than that no number of trials is enough, and the figure says with how many it would be.
+    // With fewer people no number of trials is enough, and the figure says how many people it takes.
     wanted.participants = static_cast<std::size_t>(need * found.rho);
     const auto few = trialsNeeded(accuracies, wanted).value();
     EXPECT_FALSE(few.pooledForWidth.total);

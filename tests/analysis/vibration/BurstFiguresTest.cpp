@@ -15,7 +15,7 @@ constexpr double kRate = 4000, kGravity = 9.81, kHertz = 100;
 struct Shaking {
     double amplitude = 4;     // m/s²
     double latency_s = 0.02;  // latency of every burst
-    double ramp_s = 0;        // until the amplitude is reached
+    double ramp_s = 0;        // how long it takes to reach the amplitude
     double noise = 0;         // an axis
 };
 
@@ -59,7 +59,7 @@ TEST(BurstFigures, SaysWhatTheMotorDid) {
 
 TEST(BurstFigures, SlowMotorsRiseSlowly) {
     const auto found = test::accepted(burstFigures(record({.ramp_s = 0.03}), commands()));
-    // From 5.9 ms, where t/30 ms · |sin| passes 0.1, to 27.2 ms, where it passes 0.9.
+    // The rise runs from 5.9 ms, where t/30 ms · |sin| passes 0.1, to 27.2 ms, where it passes 0.9.
     EXPECT_NEAR(found.rise_s, 0.0214, 0.001);
 }
 

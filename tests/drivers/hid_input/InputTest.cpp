@@ -13,7 +13,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// What a listener heard, in words: "down 4", "gone".
+/// A listener's record in words: "down 4", "gone".
 class Heard {
 public:
     ButtonListener listener() {
@@ -27,7 +27,7 @@ public:
         const std::scoped_lock lock(mutex_);
         return all_;
     }
-    /// Whether so much was heard within 5 s.
+    /// Whether so many were heard within 5 s.
     [[nodiscard]] bool wait(std::size_t count) const {
         std::unique_lock lock(mutex_);
         return changed_.wait_for(lock, std::chrono::seconds(5), [&] { return all_.size() >= count; });
@@ -139,7 +139,7 @@ TEST_F(HidInputTest, AnotherDeviceTakesNoPlaceOfOneThatWent) {
     pad.unplug();
     ASSERT_IN_TIME(heard.wait(1));
     other.send(padReport({1}));
-    pad.setDescriptor(pedalDescriptor());  // of the same numbers, and another one
+    pad.setDescriptor(pedalDescriptor());  // a device with the same numbers, and another descriptor
     pad.plug();
     std::this_thread::sleep_for(std::chrono::milliseconds(500));  // time in which nothing may happen
     EXPECT_THAT(heard.all(), ElementsAre("gone"));
@@ -151,7 +151,7 @@ TEST_F(HidInputTest, OneLikeItThatWasThereBesideItTakesNoPlaceOfIt) {
     auto& pad = plug(0xC216, "", padDescriptor());
     const auto opened = devices->open(devices->list().at(0), heard.listener());
     ASSERT_TRUE(opened);
-    auto& spare = plug(0xC216, "", padDescriptor());  // for the next participant
+    auto& spare = plug(0xC216, "", padDescriptor());  // a spare pad for the next participant
     pad.unplug();
     ASSERT_IN_TIME(heard.wait(1));
     std::this_thread::sleep_for(std::chrono::milliseconds(500));  // time in which nothing may happen

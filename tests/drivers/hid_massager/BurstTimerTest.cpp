@@ -89,7 +89,7 @@ TEST(BurstTimer, ABurstThatFailedOrWasOvertakenIsStopped) {
     timer.wrote(HidWrite::Stop, milliseconds(2), milliseconds(2), true);
 
     timer.askBurst(milliseconds(100));
-    timer.askStop();  // while the burst is under way
+    timer.askStop();  // the stop comes while the burst is under way
     timer.wrote(HidWrite::Burst, milliseconds(3), milliseconds(4), true);
     EXPECT_FALSE(timer.vibrating());
     expectDue(timer, HidWrite::Stop, Instant(0));

@@ -111,7 +111,7 @@ TEST(HidDescriptor, WhatLiesOrGoesBeyondTheTablesIsRefused) {
     EXPECT_THAT(refusal({0x15, 0x05, 0x25, 0x01, 0x75, 0x08, 0x95, 0x01, 0x91, 0x02}), HasSubstr("empty"));
     // 65535 controls of 65535 bits: no report is that long.
     EXPECT_THAT(refusal({0x76, 0xFF, 0xFF, 0x96, 0xFF, 0xFF, 0x91, 0x02}), HasSubstr("longer"));
-    // Each within a report's length, all together too many.
+    // Each fits into a report's length, all together are too long.
     Bytes many{0x75, 0x01, 0x96, 0xFF, 0x0F};
     for (std::uint8_t report = 1; report < 6; ++report) many.insert(many.end(), {0x85, report, 0x91, 0x02});
     EXPECT_THAT(refusal(many), HasSubstr("4096 controls"));
@@ -214,7 +214,7 @@ TEST(Haptics, ADeviceThatOnlyClicksOrSendsTooLittleIsRefused) {
 TEST(Haptics, ADescriptorWithoutAControllerSaysWhatIsMissing) {
     EXPECT_THAT(hid::findHaptics(parsed(outputDescriptor(5, 32))), refusedSaying("0E:01"));
     auto headless = hapticDescriptor();
-    // Its manual trigger under another usage.
+    // The manual trigger stands under another usage.
     for (std::size_t i = 0; i + 1 < headless.size(); ++i) {
         if (headless[i] == 0x09 && headless[i + 1] == 0x21) headless[i + 1] = 0x22;
     }

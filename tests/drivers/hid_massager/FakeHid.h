@@ -29,7 +29,7 @@ public:
     void hold(bool held);
     /// The next write takes so many bytes only.
     void takeOnly(std::size_t bytes);
-    /// All writes fail while it is so.
+    /// While it refuses, all writes fail.
     void refuse(bool refused);
     void setFeature(Bytes report);
     /// An input report that the device sends by itself.
@@ -41,7 +41,7 @@ public:
         Instant at{0};  ///< when the device took it
         Bytes bytes;
     };
-    /// All that the device took whole, in order.
+    /// All writes that the device took whole, in order.
     [[nodiscard]] std::vector<Write> writes() const;
     [[nodiscard]] Bytes last() const;
     /// Waits until the device took so many; false after 5 s.
@@ -53,7 +53,7 @@ public:
     [[nodiscard]] int attempts() const;
     [[nodiscard]] int openings() const;
     [[nodiscard]] int openNow() const;
-    /// No watchdog starts for its ports while it is so; one that runs has ended.
+    /// While it refuses, no watchdog starts for its ports; a running one has ended.
     void refuseWatch(bool refused);
     /// The watchdogs of its ports run on and do not answer.
     void silenceWatch(bool silent);

@@ -85,7 +85,7 @@ TEST_F(HidMassagerTest, WithoutAWatchdogNothingIsWrittenButTheStop) {
     ASSERT_IN_TIME(device.waitForWrites(before + 1));
     EXPECT_EQ(device.last(), kOff);
     device.refuseWatch(false);
-    EXPECT_IN_TIME(vibrate());  // with another one
+    EXPECT_IN_TIME(vibrate());  // this sends another one
 }
 
 TEST_F(HidMassagerTest, TheWatchdogIsToldThatOutputIsOnUntilTheDeviceTookItsStop) {
@@ -95,7 +95,7 @@ TEST_F(HidMassagerTest, TheWatchdogIsToldThatOutputIsOnUntilTheDeviceTookItsStop
     ASSERT_IN_TIME(vibrate(Seconds(0.3)));
     EXPECT_FALSE(device.watchRests());
     ASSERT_IN_TIME(device.waitForWrites(3));
-    EXPECT_IN_TIME(device.beats() >= 4);  // every 50 ms
+    EXPECT_IN_TIME(device.beats() >= 4);  // they come every 50 ms
     massager->forceOff();
     ASSERT_IN_TIME(device.waitForWrites(4));
     massager.reset();
@@ -115,7 +115,7 @@ TEST_F(HidMassagerTest, AWatchdogThatEndsOrFallsSilentInABurstEndsTheBurstAndItI
     device.refuseWatch(true);
     endsTheBurst(ErrorCode::Device, "Pad was stopped: its watchdog has ended");
     device.refuseWatch(false);
-    ASSERT_IN_TIME(vibrate(Seconds(1)));  // with another one
+    ASSERT_IN_TIME(vibrate(Seconds(1)));  // this sends another one
     device.silenceWatch(true);
     endsTheBurst(ErrorCode::Timeout, "Pad was stopped: its watchdog has not answered for 500 ms");
 }
@@ -187,7 +187,7 @@ TEST_F(HidMassagerTest, ForceOffNeitherAllocatesNorWaitsForAWriteThatIsUnderWay)
     massager->forceOff();
     massager->forceOff();
     EXPECT_EQ(allocationsOfThisThread(), before);
-    EXPECT_EQ(device.writes().size(), 1u);  // it did not wait for the write
+    EXPECT_EQ(device.writes().size(), 1u);  // it returned before the write was over
     device.hold(false);
     static_cast<void>(late.get());
     EXPECT_IN_TIME(device.waitForLast(kOff));
@@ -216,7 +216,7 @@ TEST_F(HidMassagerTest, ASlowDeviceIsATimeoutAndItsBurstIsStopped) {
     EXPECT_THAT(vibrate(), refused(ErrorCode::Timeout, "before"));
     device.hold(false);
     ASSERT_IN_TIME(device.waitForWrites(3));
-    EXPECT_EQ(device.writes()[1].bytes, kOn);  // the one that was held
+    EXPECT_EQ(device.writes()[1].bytes, kOn);  // the write that was held
     EXPECT_EQ(device.writes()[2].bytes, kOff);
     EXPECT_IN_TIME(vibrate());  // slow is not broken
     EXPECT_EQ(device.openings(), 1);
@@ -233,7 +233,7 @@ TEST_F(HidMassagerTest, AShortWriteIsAFaultAndStopped) {
     ASSERT_IN_TIME(device.waitForWrites(2));
     EXPECT_EQ(device.last(), kOff);
     EXPECT_IN_TIME(vibrate());
-    EXPECT_EQ(device.openings(), 2);  // after a fault it is opened again
+    EXPECT_EQ(device.openings(), 2);  // it is opened again after a fault
 }
 
 TEST_F(HidMassagerTest, ARefusedReportIsAFaultAndTheStopIsTriedUntilItIsTaken) {

@@ -33,8 +33,8 @@ constexpr std::size_t kReportLength = 48;
 
 struct Death {
     const char* name;
-    const char* word;  ///< what the host is told; empty: it is sent `signal`
-    int signal;        ///< that ends it; 0: it exits
+    const char* word;  ///< the word for the host; empty: it is sent `signal`
+    int signal;        ///< the signal that ends it; 0: it exits
 };
 constexpr std::array<Death, 5> kDeaths{{{"Kill9", "", SIGKILL},
                                         {"Abort", "abort", SIGABRT},

@@ -153,7 +153,7 @@ PulseTrain train(double v, int pulses, double rate) {
     return made;
 }
 
-/// What the emulated device plays of a train.
+/// The phases that the emulated device plays for a train.
 std::vector<EmittedPhase> played(const PulseTrain& wanted, int on = 1) {
     const auto program = programTrain(wanted, channel(on));
     EXPECT_TRUE(program) << program.error().message;
@@ -230,7 +230,7 @@ TEST(PulsePalTrain, WhatTheDeviceCannotDoIsRefusedByName) {
     offGrid.interPhaseGap = Micros(10);
     EXPECT_THAT(refusal(offGrid), HasSubstr("inter-phase gap"));
     EXPECT_THAT(refusal(train(1, 2, 60)), HasSubstr("period"));
-    EXPECT_TRUE(programTrain(train(1, 1, 60), channel(1)));  // of one pulse no rate is asked
+    EXPECT_TRUE(programTrain(train(1, 1, 60), channel(1)));  // no rate is asked of one pulse
     offGrid = train(1, 1, 100);
     offGrid.phaseWidth = Micros(50);
     EXPECT_THAT(refusal(offGrid), HasSubstr("100 us or more"));

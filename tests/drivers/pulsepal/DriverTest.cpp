@@ -40,7 +40,7 @@ TEST_F(PulsePalDriverTest, ListsAndOpensByUri) {
     for (const auto& identity : list) {
         accepted(open(identity.uri + "?channel=2"));
         EXPECT_EQ(devices.stimulator->identity().uri, identity.uri + "?channel=2");
-        // The socket is not a serial number: a calibration would count for whatever is plugged in there (H4).
+        // The socket is not a serial number: a calibration would count for any device plugged in there (H4).
         EXPECT_EQ(devices.stimulator->identity().serial, identity.serial);
     }
     EXPECT_FALSE(makePulsePalDriver(ports)->runsOnVirtualClock());

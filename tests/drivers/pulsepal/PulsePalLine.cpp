@@ -43,7 +43,7 @@ std::size_t PulsePalLine::transmit(std::span<std::uint8_t> into, Instant now) {
     return got;
 }
 
-/// Its next cycle.
+/// The device's next cycle.
 std::optional<Instant> PulsePalLine::nextTransmit(Instant now) { return now + Instant(std::chrono::microseconds(50)); }
 
 PulsePalBench::PulsePalBench(int channel) : line(std::make_shared<PulsePalLine>(clock, &clock)) {

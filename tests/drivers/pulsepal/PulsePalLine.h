@@ -20,7 +20,7 @@ public:
 
     /// The next write breaks off after so many bytes and reports a time-out.
     void breakOff(std::size_t bytes);
-    /// Its answers are this byte from now on, as many as it would send; nothing: its own.
+    /// From now on its answers consist of this byte, as many as it would send; nothing: its own answers.
     void garble(std::optional<std::uint8_t> byte);
 
     template <class Look>

@@ -23,7 +23,7 @@ class PulsePal : public testing::Test {
 protected:
     PulsePalBench bench;
     std::uint64_t commands(std::uint8_t code) {
-        bench.wait(Seconds(0.001));  // it takes one command in 50 µs
+        bench.wait(Seconds(0.001));  // the device takes one command in 50 µs
         return bench.line->inspect([&](auto& device, Instant now) {
             static_cast<void>(device.active(now));
             return device.commands(code);
@@ -114,7 +114,7 @@ TEST_F(PulsePal, ATriggerThatIsKeptDuringATrainDoesNotSurviveTheStop) {
 }
 
 TEST(PulsePalFirmware, OneAbortIsNotEnoughForAKeptTrigger) {
-    // Why the driver sends two: the emulated firmware really does this.
+    // Shows why the driver sends two: the emulated firmware really does this.
     RecordProperty("hazard", "H2");
     for (const bool twice : {false, true}) {
         VirtualClock clock;
@@ -177,7 +177,7 @@ TEST_F(PulsePal, AContinuousModeThatWasLeftOnEndsWithTheFirstStatus) {
 TEST_F(PulsePal, ForceOffAllocatesNothing) {
     RecordProperty("hazard", "H2");
     if (!countsAllocations()) GTEST_SKIP() << kNotCounted;
-    // On a transport of its own, for the emulated one keeps what is written.
+    // Uses a transport of its own, as the emulated one keeps what is written.
     struct Sink final : Transport {
         int urgent = 0;
         std::deque<std::uint8_t> answer;
@@ -240,7 +240,7 @@ TEST(PulsePalFirmware, WithoutTheRestOfACommandItFreezesWithItsOutputsAsTheyAre)
     const auto program = accepted(pulsepal::programTrain(pulseTrain(5, 100), *pulsepal::Channel::of(1)));
     for (const auto& command : program.commands) device.receive(command.view(), Instant(0));
     device.receive(pulsepal::trigger(1).view(), std::chrono::milliseconds(10));
-    // In the middle of a leading phase:
+    // This comes in the middle of a leading phase:
     device.receive(Bytes{0xD5, 0x4A, 0x02}, std::chrono::microseconds(20'100));
     EXPECT_FALSE(device.frozen(std::chrono::milliseconds(500)));
     EXPECT_TRUE(device.frozen(std::chrono::milliseconds(600)));
@@ -292,7 +292,7 @@ TEST_F(PulsePal, UnpluggedInMidTrainIsFoundByItsStatusAndThePluggedInOneServesAg
     EXPECT_FALSE(bench.deliver(pulseTrain(2)));
     EXPECT_FALSE(bench.stimulator->keepAlive());
     bench.line->plug();
-    EXPECT_FALSE(bench.deliver(pulseTrain(2)));  // not before the fault is reset
+    EXPECT_FALSE(bench.deliver(pulseTrain(2)));  // refused until the fault is reset
     ASSERT_TRUE(bench.stimulator->status());
     EXPECT_TRUE(bench.deliver(pulseTrain(2)));
     bench.wait(Seconds(0.01));

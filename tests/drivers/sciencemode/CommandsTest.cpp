@@ -26,7 +26,7 @@ Points onePoint(double us = 200, double mA = 5) {
 TEST(ScienceModePoint, EveryTimeAndCurrentComesBack) {
     RecordProperty("hazard", "H4");
     for (int us = kMinPoint_us; us <= kMaxPoint_us; ++us) {
-        // All 521 currents at the ends of each nibble, some elsewhere.
+        // Tries all 521 currents at the ends of each nibble, and some elsewhere.
         const int stride = us % 256 < 2 || us % 16 == 15 ? 1 : 29;
         for (int half = -260; half <= 260; half += stride) {
             const Point point{Micros(us), Milliamps(half / 2.0)};

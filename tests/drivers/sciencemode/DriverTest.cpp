@@ -262,7 +262,7 @@ TEST_F(ScienceModePty, StopReachesTheDevice) {
     ASSERT_TRUE(pty_->inspect([](auto& device, Instant now) { return device.repeating(now); }));
     ASSERT_IN_TIME(devices_.stimulator->status().value_or(StimulatorStatus{}).delivering);
     devices_.stimulator->forceOff();
-    const auto status = devices_.stimulator->status();  // its ack comes behind the stops
+    const auto status = devices_.stimulator->status();  // the ack of the status comes behind the stops
     ASSERT_IN_TIME(status);
     EXPECT_FALSE(status->delivering);
     EXPECT_FALSE(pty_->inspect([](auto& device, Instant now) { return device.repeating(now); }));
@@ -294,7 +294,7 @@ TEST_F(ScienceModePty, ATerminalThatAnotherProgramHasLockedIsRefusedAndThatProgr
                                                           HasSubstr("close that program"))));
     }
     ASSERT_IN_TIME(open("sciencemode:?tty=" + pty_->path()));
-    // Nor do two parts of this program share it.
+    // Two parts of this program cannot share it either.
     EXPECT_EQ(TtyTransport::open(pty_->path()).error().code, ErrorCode::Io);
 }
 

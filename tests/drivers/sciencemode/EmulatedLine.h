@@ -20,7 +20,7 @@ public:
 
     EmulatedLine(const Clock& clock, VirtualClock* movable, sciencemode::EmulatedSettings settings = {});
 
-    /// The same socket, another device.
+    /// Plugs another device into the same socket.
     void plugAnother(sciencemode::EmulatedSettings settings);
     void onWrite(std::function<void()> hook) {
         DeviceLine::onWrite([hook = std::move(hook)](std::span<const std::uint8_t>) { hook(); });

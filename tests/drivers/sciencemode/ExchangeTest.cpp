@@ -124,7 +124,7 @@ TEST_F(ScienceModeExchange, AMinuteOfGarbageCostsAMinuteAndNoMore) {
     EXPECT_EQ(asked, 1200);
     EXPECT_GT(exchange_.counts().junkBytes, 1200U * 2000U);
     line_->inspect([](auto& device, Instant) { device.talkGarbage(0); });
-    // What the garbage had begun may still cost the first answer.
+    // The half command from the garbage may still cost the first answer.
     static_cast<void>(askStatus());
     EXPECT_TRUE(askStatus().has_value());
 }

@@ -28,7 +28,7 @@ protected:
         host_.emplace(std::move(words));
         ASSERT_IN_TIME(host_->speaks()) << "the host ended without delivering";
     }
-    /// The train goes on by itself: the driver's own thread has sent some of it.
+    /// The train continues by itself: the driver's own thread has sent some of it.
     void startTrain() {
         ASSERT_NO_FATAL_FAILURE(startHost());
         ASSERT_IN_TIME(comes([&] { return pulses() >= 4; }));
@@ -71,7 +71,7 @@ TEST_F(ScienceModeKill, OutputEndsWithin2100MillisecondsOfAHangAndStaysOff) {
 }
 
 TEST_F(ScienceModeKill, ControlRunGoesOnFor10Seconds) {
-    // 200 answers, of which a busy machine makes one late: then the train is given up, and the host sends another.
+    // 200 answers are needed, and a busy machine makes one late: then the host gives up the train and sends another.
     ASSERT_NO_FATAL_FAILURE(startHost(true));
     const Instant begun = clock_.now();
     passTime(milliseconds(10'000));

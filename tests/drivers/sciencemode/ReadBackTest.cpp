@@ -1,4 +1,4 @@
-// What 128 magnitudes say about the electrodes, and what they cannot say.
+// The meaning of 128 magnitudes for the electrodes, and what they cannot tell.
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 

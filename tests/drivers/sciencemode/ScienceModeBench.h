@@ -8,7 +8,7 @@
 
 namespace tacto::test {
 
-/// On the virtual clock, unless told otherwise.
+/// Runs on the virtual clock, unless told otherwise.
 class ScienceModeBench {
 public:
     explicit ScienceModeBench(sciencemode::EmulatedSettings device = {}, sciencemode::StimulatorSettings settings = {});
@@ -34,7 +34,7 @@ private:
 
 /// A train as approved() makes it.
 [[nodiscard]] PulseTrain biphasic(double milliamps, int pulses = 1, double rate_hz = 100);
-/// What another program may have left behind: a pulse every 50 ms in mid level. For inspect().
+/// Another program may have left this behind: a pulse every 50 ms in mid level. For inspect().
 void startRepeating(sciencemode::EmulatedStimulator& device, Instant now);
 /// Whether a train failed because a thread was late: a pulse, an answer, or a delivery after its approval expired.
 [[nodiscard]] bool cameLate(const Error& error);

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kOhm = 1000;
 
-/// What the emulated stimulator puts out, on a resistor.
+/// Shows the emulated stimulator's output, on a resistor.
 class ScopeOnLine final : public Oscilloscope {
 public:
     ScopeOnLine(const Clock& clock, EmulatedLine& line, double gain, double stampTolerance_s)

@@ -57,7 +57,7 @@ TEST(ScienceModeStop, CutsThePulseThatIsBeingPutOut) {
     auto train = biphasic(5, 1, 20);
     train.phaseWidth = Micros(4000);
     auto approval = bench.approved(train);
-    // From outside, while deliver() waits for the pulse's ack.
+    // Another thread stops it, while deliver() waits for the pulse's ack.
     FrameBytes stop = stopFrames().lowLevel;
     ASSERT_TRUE(bench.stimulator->deliver(std::move(approval)).has_value());
     EXPECT_FALSE(bench.line->pulseList().front().cut);
@@ -250,7 +250,7 @@ TEST_F(ScienceModeThreads, ForceOffFromManyThreadsWhileDelivering) {
     const Instant quietUntil = clock_.now() + milliseconds(50);
     while (clock_.now() < quietUntil) std::this_thread::sleep_for(milliseconds(5));
     EXPECT_EQ(line_->pulses(), after);
-    // And it works as before.
+    // Afterwards it works as before.
     EXPECT_IN_TIME(stimulator_->deliver(approved(1, 100)));
     EXPECT_EQ(line_->pulses(), after + 1);
 }
@@ -266,7 +266,7 @@ TEST_F(ScienceModeThreads, NoPulseFollowsAStopThatNothingWasInFlightAt) {
     }
     RecordProperty("delivered", delivered);
     EXPECT_IN_TIME(delivered >= kRounds / 2) << "most were refused: there was nothing to stop";
-    // Each pulse that came after a stop of the train it belongs to has a stop of its own behind it.
+    // Each pulse after a stop of its train has a stop of its own behind it.
     const auto commands = commandsOf(line_->written());
     EXPECT_NE(commands.back(), Command::ChannelConfig);
     const auto after = line_->pulses();

@@ -33,7 +33,7 @@ public:
         while (nextPoll_ < arrived) nextPoll_ += poll_s * (1 + 0.05 * random.uniform());
         return nextPoll_;
     }
-    /// From `begin_s` to `end_s`; `look(t, board_us, arrival)` after each message.
+    /// Runs from `begin_s` to `end_s`; `look(t, board_us, arrival)` follows each message.
     template <class Look>
     void run(ClockFit& fit, double begin_s, double end_s, Look&& look) {
         double last = 0;

@@ -28,7 +28,7 @@ EmulatedBoard::Fate fateOf(SensorBoardBench& bench, std::size_t stream) {
     return bench.line->inspect([&](EmulatedBoard& board, Instant) { return board.fate(stream); });
 }
 
-/// Every stream's losses, as the board's own counts say.
+/// The losses of every stream are what the board's own counts say.
 void expectExactCounts(SensorBoardBench& bench) {
     const auto report = bench.board->report();
     for (std::size_t s = 0; s < EmulatedBoard::kStreams; ++s) {
@@ -47,13 +47,13 @@ TEST(SensorBoardFaults, LostSpoiltSwappedAndRepeatedBlocksAreCountedExactly) {
     SensorBoardBench bench(settings);
     bench.openFor(Seconds(20));
     with(bench, [](EmulatedBoard& board, Instant) { board.spoil({}); });
-    ASSERT_TRUE(bench.run(Seconds(0.2)).has_value());  // until a block follows the last one lost
+    ASSERT_TRUE(bench.run(Seconds(0.2)).has_value());  // runs until a block follows the last one that was lost
     expectExactCounts(bench);
     EXPECT_GT(fateOf(bench, 0).lost, 50U);
     EXPECT_GT(fateOf(bench, 0).late, 50U);
     EXPECT_GE(bench.board->report().line.bad(), fateOf(bench, 0).flipped);
 
-    // Every sample that is there stands where its number says; what is missing is a gap in the stamps.
+    // Every sample stands where its number says; a missing one is a gap in the stamps.
     const auto& acceleration = bench.blocks[0];
     std::int64_t missing = 0;
     for (std::size_t i = 1; i < acceleration.samples(); ++i) {

@@ -37,7 +37,7 @@ Bytes replay(const Bytes& in) {
     return out;
 }
 
-/// What a program makes of `in`.
+/// The output of a program for the input `in`.
 Bytes run(const std::string& program, const Bytes& in) {
     const ScratchDir scratch;
     const auto given = scratch.write("in", std::string(in.begin(), in.end()));

@@ -18,9 +18,9 @@ struct GoldenFrame {
     [[nodiscard]] std::uint8_t typeByte() const noexcept { return bytes[2]; }
 };
 
-/// All of them, in their order.
+/// All frames, in their order.
 [[nodiscard]] const std::vector<GoldenFrame>& goldenFrames();
-/// The one whose text begins with `text`.
+/// The frame whose text begins with `text`.
 [[nodiscard]] const std::vector<std::uint8_t>& golden(std::string_view text);
 
 }  // namespace tacto::test

@@ -1,4 +1,4 @@
-// What a board may say of itself, and what is refused in one sentence.
+// The statements that a board may make, and the ones that are refused in one sentence.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

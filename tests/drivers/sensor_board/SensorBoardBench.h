@@ -32,7 +32,7 @@ public:
     std::vector<SampleBlock> blocks;
 };
 
-/// Which step of a CountingSignal an acceleration sample shows.
+/// The step of a CountingSignal that an acceleration sample shows.
 [[nodiscard]] std::int64_t stepOf(const SampleBlock& acceleration, std::size_t sample);
 
 }  // namespace tacto::test

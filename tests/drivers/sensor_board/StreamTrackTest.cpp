@@ -99,7 +99,7 @@ TEST(SensorBoardStream, NumbersMayWrap) {
     block.index = 0xFFFFFFFCU;
     block.time_us += 1'000'000'000;
     EXPECT_EQ(track.take(block), Verdict::Next);
-    block.sequence = 1;  // one is missing
+    block.sequence = 1;  // one block is missing
     block.index = 4;
     block.time_us += 2000;
     EXPECT_EQ(track.take(block), Verdict::Next);

@@ -111,7 +111,7 @@ TEST(SensorBoard, TenMinutesWithNothingLostAndTheDriftKnownToOnePartPerMillion) 
     EXPECT_LT(report.driftUncertainty_ppm, 1);
     EXPECT_GT(report.driftSpan_s, 300);
     EXPECT_TRUE(report.board.running);
-    // What is in the host's hands is as old as the line is slow.
+    // Data in the host's hands are as old as the line is slow.
     EXPECT_GT(report.delayMost_s, 300e-6);
     EXPECT_LT(report.delayMost_s, 10e-3);
 }

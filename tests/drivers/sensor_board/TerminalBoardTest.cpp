@@ -47,7 +47,7 @@ TEST_F(SensorBoardOnTerminal, IsOpenedByThePathAndStreams) {
     settings.serial = "TSB-0003";
     BoardOnPty board(clock_, settings);
     const auto opened = open("?rate=2kHz&tty=" + board.path());
-    ASSERT_IN_TIME(opened) << opened.error().message;  // it answers within 0.3 s
+    ASSERT_IN_TIME(opened) << opened.error().message;  // the board answers within 0.3 s
     EXPECT_EQ(devices_.sensor->identity().serial, "TSB-0003");
     EXPECT_EQ(devices_.sensor->streams()[0].rate_hz, 2000);
     const auto read = readUntil([&] { return blocks_[0].samples() >= 1000; });

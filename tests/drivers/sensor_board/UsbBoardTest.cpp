@@ -106,7 +106,7 @@ TEST_F(SensorBoardOnUsb, TenSecondsOfAllStreamsLoseNothing) {
     EXPECT_IN_TIME(report.losses == 0U);
     const double uncertainty = valueOf(report, "drift_uncertainty_ppm");
     EXPECT_NEAR(valueOf(report, "drift_ppm"), 50, 3 * uncertainty);
-    // From the first of the messages that came quickest to the last of them: on a busy machine they may lie close.
+    // From the first of the quickest messages to the last of them: on a busy machine they may lie close together.
     EXPECT_IN_TIME(valueOf(report, "drift_span_s") > 1);
     EXPECT_LT(valueOf(report, "drift_span_s"), 11);
     EXPECT_IN_TIME(valueOf(report, "delay_most_s") < 0.05);

@@ -61,7 +61,7 @@ TEST(SensorBoardWire, EveryWrongBitOfEveryFrameIsNoticedAndCostsNoOtherFrame) {
             const bool delimiter = bit / 8 == spoilt.size() - 1;
             FrameDecoder decoder;
             const auto taken = takeAll(decoder, golden("STOP") + spoilt + golden("START") + golden("HELLO"));
-            // Without its delimiter it takes the next one with it.
+            // Without its delimiter the frame takes the next one with it.
             const std::size_t kept = delimiter ? 2 : 3;
             ASSERT_EQ(taken.size(), kept) << frame.text << ", bit " << bit;
             EXPECT_EQ(taken.front().type, TSB_STOP);
@@ -209,7 +209,7 @@ TEST(SensorBoardWire, WhatTheHostSendsIsWhatTheFirmwareHears) {
         tsb_receiver receiver{};
         tsb_command command{};
         int heard = 0;
-        // Whatever the line had before.
+        // The line had something before, whatever it was.
         const auto before = *rc::gen::arbitrary<Bytes>();
         for (const auto byte : before) (void)tsb_receive(&receiver, byte, &command);
         for (const auto byte : bytes) heard += tsb_receive(&receiver, byte, &command);

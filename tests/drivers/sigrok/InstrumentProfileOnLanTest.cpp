@@ -1,5 +1,5 @@
-// From the data sheet to the uncertainty: an emulated instrument names itself, its profile states its gain, and a
-// figure has no U until the probe is stated too (hazard H9).
+// The way from the data sheet to the uncertainty: an emulated instrument names itself, its profile states its gain, and
+// a figure has no U until the probe is stated, too (hazard H9).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-/// What openDevices() says of the instrument under `uri`.
+/// The instrument's statement from openDevices() under `uri`.
 Result<InstrumentStatement> statementUnder(const std::string& uri, const Clock& clock) {
     std::vector<std::unique_ptr<Driver>> drivers;
     drivers.push_back(makeSigrokDriver({}));
@@ -52,7 +52,7 @@ Capture captured(const std::string& model, const std::string& keys) {
     const auto statement = statementUnder(lan.uri() + keys, lan.bench().clock);
     EXPECT_IN_TIME(statement);
     if (!capture || !*capture || !statement) return {};
-    applyStatement(**capture, *statement);  // as Bench does
+    applyStatement(**capture, *statement);  // done as Bench does it
     return std::move(**capture);
 }
 
@@ -100,7 +100,7 @@ TEST(InstrumentProfileOnLan, AnInstrumentWithoutAProfileStatesNothing) {
                                                 "the shunt of current", "the time base"));
 }
 
-/// As a driver would name it, whatever it is.
+/// Gives it the name that a driver would give it, whatever it is.
 class NamedScope : public Oscilloscope {
 public:
     explicit NamedScope(bool simulated) { identity_.simulated = simulated; }

@@ -32,7 +32,7 @@ TEST(ScopeOnLan, SaysWhoItIsAndWhatItCan) {
 
 TEST(ScopeOnLan, APulseHasItsAmplitudeWidthAndInterval) {
     ScopeOnLan lan;
-    auto two = voltagePulse(10);  // over 1 kohm: 10 mA
+    auto two = voltagePulse(10);  // into 1 kohm, which makes 10 mA
     two.pulses = 2;
     two.rate = Hertz(400);
     lan.arm(lanSettings());

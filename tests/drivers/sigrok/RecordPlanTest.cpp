@@ -12,7 +12,7 @@ namespace {
 using namespace sigrok_driver;
 using testing::HasSubstr;
 
-/// As libsigrok 0.5.2 describes a DS2072A (sigrok-cli --show).
+/// A DS2072A as libsigrok 0.5.2 describes it (sigrok-cli --show).
 Abilities ds2072a() {
     Abilities a;
     a.driver = "rigol-ds";

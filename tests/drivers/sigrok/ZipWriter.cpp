@@ -10,7 +10,7 @@ void put(std::string& into, std::uint64_t value, int bytes) {
     for (int i = 0; i < bytes; ++i) into.push_back(static_cast<char>(value >> (8 * i) & 0xffU));
 }
 
-/// What the local header and the directory have in common, from "version needed" to the extra field's length.
+/// The part that the local header and the directory share, from "version needed" to the extra field's length.
 std::string common(const std::pair<std::string, std::string>& entry, std::size_t packed, int level) {
     std::string text;
     put(text, 20, 2);

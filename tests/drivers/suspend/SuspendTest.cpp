@@ -1,4 +1,4 @@
-// H2 end to end: a process that delivers is stopped by SIGSTOP and goes on by SIGCONT. It is a race between its
+// H2 end to end: a process that delivers is stopped by SIGSTOP and resumes by SIGCONT. It is a race between its
 // threads, so it is tried many times. No train may reach the device afterwards until the operator arms again.
 #include <charconv>
 #include <csignal>
@@ -62,7 +62,7 @@ void tryManyTimes(Host& host, OutputSince outputSince) {
     testing::Test::RecordProperty("seed", std::to_string(seed));
     Random random(seed, "suspended process");
     Tried tried;
-    // A machine that stands still by itself faults the bench before the trial: then it is none.
+    // A machine that stands still by itself faults the bench before the trial: then the trial does not count.
     for (int attempt = 0; tried.trials < wanted && attempt < 3 * wanted; ++attempt) {
         const auto gone = host.ask("go");
         ASSERT_IN_TIME(!gone.empty());
@@ -74,7 +74,7 @@ void tryManyTimes(Host& host, OutputSince outputSince) {
         const auto continued = monotonic_ns();
         host.signal(SIGCONT);
         ++tried.trials;
-        // A bench that goes on delivers within 0.5 s; one that does not says so within a few milliseconds.
+        // A bench that continues delivers within 0.5 s; one that does not says so within a few milliseconds.
         constexpr std::string_view kFaulted = "state faulted the control loop was silent for more than 100 ms";
         std::string state;
         for (int look = 0; look < 60 && state != kFaulted; ++look) {

@@ -21,7 +21,7 @@ std::string textOf(const std::filesystem::path& path) {
 
 std::filesystem::path rules() { return sourceDir() / "resources/udev/70-tactoscope.rules"; }
 
-/// The devices of lines whose first key is `key`, as "0483:5740", lower case as sysfs has them.
+/// The devices in lines with `key` as their first key, as "0483:5740", lower case as sysfs has them.
 std::set<std::string> permitted(const std::string& key, const std::string& also = "") {
     const std::regex line("^" + key + "\\{idVendor\\}==\"([0-9a-f]{4})\", " + key +
                           "\\{idProduct\\}==\"([0-9a-f]{4})\", TAG\\+=\"uaccess\"" + also);

@@ -1,4 +1,4 @@
-// Devices whose descriptors lie, as the real libusb reads them.
+// Devices with lying descriptors, as the real libusb reads them.
 #include <gmock/gmock.h>
 
 #include "tests/drivers/usb/UsbFixture.h"
@@ -17,7 +17,7 @@ protected:
     /// Plugs in a device, opens it, and returns why that failed; "" where it did not.
     [[nodiscard]] Error refusal(const UsbDescription& description, UsbFunction function) {
         const EmulatedUsbDevice device(bed, description, {}, 1);
-        // A device whose descriptors libusb cannot read at all is not even listed: one that is plugged in after it
+        // A device with descriptors that libusb cannot read at all is not even listed: one that is plugged in after it
         // tells when it would have been.
         const EmulatedUsbDevice after(bed, vendorDevice(0x1209, 2, "after"), {}, 2);
         if (!comes([&] { return context->find({0x1209, 2}).has_value(); })) return {ErrorCode::Timeout, "no hot-plug"};

@@ -18,8 +18,8 @@ namespace tacto::test {
 
 inline constexpr std::uint8_t kIn = 0x81;
 inline constexpr std::uint8_t kOut = 0x01;
-inline constexpr Seconds kLong{5};      ///< of something that comes
-inline constexpr Seconds kShort{0.05};  ///< of something that does not
+inline constexpr Seconds kLong{5};      ///< to wait for something that comes
+inline constexpr Seconds kShort{0.05};  ///< to wait for something that does not
 
 inline UsbBytes bytesOf(std::string_view text) { return {text.begin(), text.end()}; }
 inline UsbBytes echo(std::span<const std::uint8_t> bytes) { return {bytes.begin(), bytes.end()}; }

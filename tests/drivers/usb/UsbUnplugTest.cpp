@@ -5,7 +5,7 @@
 namespace tacto::test {
 namespace {
 
-/// What a waiting call may take to notice; the measured figure is under 2 ms without sanitizers.
+/// The time in which a waiting call must notice; the measured figure is under 2 ms without sanitizers.
 constexpr Seconds kNoticed{0.25};
 
 class UsbUnplug : public UsbTest {
@@ -53,7 +53,7 @@ TEST_F(UsbUnplug, AWriteInFlightReturnsAtOnce) {
     ASSERT_FALSE(after);
     EXPECT_CODE_IN_TIME(after.error().code, ErrorCode::Device);
     EXPECT_IN_TIME(immediate < kNoticed);
-    transport->writeUrgent(bytesOf("stop"));  // no device there: no harm
+    transport->writeUrgent(bytesOf("stop"));  // without a device it does no harm
 }
 
 TEST_F(UsbUnplug, WhatArrivedBeforeIsStillRead) {

@@ -25,7 +25,7 @@ TEST_F(UsbUrgent, GoesOutBehindTheWriteInFlightAndAheadOfTheNext) {
     auto writing = std::async(std::launch::async, [&] { return transport->write(bytesOf("train"), kLong); });
     ASSERT_IN_TIME(device.waitForWaiting(kOut, 1));
     transport->writeUrgent(bytesOf("stop"));
-    ASSERT_IN_TIME(device.waitForWaiting(kOut, 2));  // in the queue before the call returned
+    ASSERT_IN_TIME(device.waitForWaiting(kOut, 2));  // they stand in the queue before the call returned
     device.hold(kOut, false);
     ASSERT_IN_TIME(writing.get());
     ASSERT_IN_TIME(transport->write(bytesOf("next"), kLong));

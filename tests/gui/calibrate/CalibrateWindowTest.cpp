@@ -20,7 +20,7 @@ class CalibrateWindow : public Window {
 protected:
     [[nodiscard]] QLabel& label() { return *window.findChild<QLabel*>("calibrationAge"); }
     [[nodiscard]] std::string says() { return label().text().toStdString(); }
-    /// Whether something of the label is drawn in the warning colour, as it stands on the screen.
+    /// Whether the label draws anything in the warning colour, as it stands on the screen.
     [[nodiscard]] bool warns() {
         const auto drawn = label().grab().toImage();
         const auto amber = gui::colours().amberText;
@@ -107,7 +107,7 @@ TEST_F(CalibrateWindow, ARunTurnsTheWord) {
     EXPECT_IN_TIME(comesTrue([&] { return inSight("Sign report…"); })) << "what comes next stands below the plot";
     const auto frame = [errors] { return errors->axisRect()->rect().height(); };
     EXPECT_IN_TIME(comesTrue([&] { return frame() >= 300; })) << frame() << " px for the residuals, with it in sight";
-    // However much there is to say, and no line of it is cut.
+    // No line of it is cut, however much there is to say.
     auto* more = find<QLabel>(window, "verdictMore");
     const auto before = more->text();
     more->setText(QStringList(12, "Not evaluated: the width, whose uncertainty is not known.").join('\n'));

@@ -110,7 +110,7 @@ TEST_F(Calibrate, FromNeverToCalibratedAndChecked) {
     EXPECT_THAT(more, Not(HasSubstr("is not calibrated")));
     letLive(20);  // drawn with the next event
     shot(workspace, "calibrate_done");
-    // What chooses the plot stands in the row of tabs, with the plot alone.
+    // The widget that chooses the plot stands in the row of tabs, with the plot alone.
     const auto* kind = workspace.findChild<QWidget*>("tabRow")->findChild<QComboBox*>();
     EXPECT_TRUE(kind->isVisible());
     EXPECT_LT(kind->mapTo(&workspace, QPoint(0, kind->height())).y(), errors->mapTo(&workspace, QPoint()).y() - 60);
@@ -125,7 +125,7 @@ TEST_F(Calibrate, FromNeverToCalibratedAndChecked) {
     letLive(20);
     shot(workspace, "calibrate_done_dark");
 
-    // Then the short run, which stores nothing.
+    // Next comes the short run, which stores nothing.
     ended = nullptr;
     ASSERT_IN_TIME(comesTrue([this] { return button("checkButton")->isEnabled(); }));
     click(the<QPushButton>("Run check"));
@@ -210,7 +210,7 @@ TEST_F(Calibrate, AWrongLoadStoresNothing) {
     shot(workspace, "calibrate_wrong_load");
 }
 
-/// Before anything measures its text, as the program does it.
+/// Set before anything measures its text, as the program does it.
 class LargeText {
 protected:
     LargeText() { gui::applyTextSize(200); }
@@ -221,7 +221,7 @@ class CalibrateInLargeText : private LargeText, public Calibrate {};
 TEST_F(CalibrateInLargeText, FitsALargeWindow) {
     store(calibration(12, 365));
     show({1600, 1000});
-    letLive(50);  // laid out anew
+    letLive(50);  // the page is laid out again
     EXPECT_LE(workspace.width(), 1600);
     shot(workspace, "calibrate_200");
 }

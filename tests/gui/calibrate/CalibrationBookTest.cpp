@@ -1,4 +1,4 @@
-// What the window takes from the store of calibrations: what counts, what does not, and why.
+// The calibrations that the window takes from the store: which count, which do not, and why.
 #include <fstream>
 #include <gmock/gmock.h>
 

@@ -40,7 +40,7 @@ protected:
     [[nodiscard]] CalibrationPlot& errors() { return *view.findChild<CalibrationPlot*>("calibrationErrors"); }
     [[nodiscard]] CalibrationPlot& measured() { return *view.findChild<CalibrationPlot*>("calibrationMeasured"); }
     [[nodiscard]] std::string says() { return view.findChild<QLabel*>("calibrationSays")->text().toStdString(); }
-    /// Five repeats of three levels, both ways; one of them far off.
+    /// Five repeats of three levels, both ways, with one of them far off.
     void sweep() {
         for (int repeat = 0; repeat < 5; ++repeat) {
             for (const double volts : {10.0, 25.0, 40.0}) {

@@ -258,7 +258,7 @@ TEST_F(Controller, NoRunBeginsBetweenTheEndOfOneAndWhatTellsIt) {
     std::uint64_t second = 0;
     QObject::connect(&controller, &BenchController::changed, [&] {
         if (controller.activity() != Activity::Closed || second != 0) return;
-        // As soon as the window can: a click that waited until no run was going on.
+        // Runs as soon as the window can: a click that waited until no run was going on.
         QMetaObject::invokeMethod(
             &controller, [&] { second = controller.run(order); }, Qt::QueuedConnection);
     });

@@ -77,7 +77,7 @@ protected:
         request.operatorConfirmed = true;
         controller->arm(request);
     }
-    /// Opens a bench whose thread is held in a call of the stimulator until `barrier` is let go.
+    /// Opens a bench with a thread that is held in a call of the stimulator until `barrier` is let go.
     void openHeld(const std::shared_ptr<Barrier>& barrier) {
         const auto hold = std::make_shared<std::atomic<bool>>(false);
         watch->onCall = [barrier, hold, own = std::this_thread::get_id()](int) {
@@ -154,7 +154,7 @@ TEST_F(ControllerStop, TheWindowThatClosesWhileDevicesOpenEndsTheOpening) {
 }
 
 TEST_F(ControllerStop, AtAnyCallFromOpeningToTheEndIsFollowedByNoTrain) {
-    // From the first question to the opened device, between prepare and start, to the end of the run.
+    // Counts from the first question to the opened device, between prepare and start, to the end of the run.
     int calls = 1'000;
     for (int at = 1; at <= calls; ++at) {
         watch->calls = 0;
@@ -173,7 +173,7 @@ TEST_F(ControllerStop, AtAnyCallFromOpeningToTheEndIsFollowedByNoTrain) {
             calls = at;
             break;
         }
-        // The call that was under way goes on; a train in it is switched off behind it.
+        // The call that was under way continues; a train in it is switched off behind it.
         EXPECT_LE(watch->trains, trainsAtStop + 1) << "stopped at call " << at;
         EXPECT_GE(watch->offs, 1);
         EXPECT_EQ(ended->result.verdict(), "stopped") << "stopped at call " << at;

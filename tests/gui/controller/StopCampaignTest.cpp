@@ -1,5 +1,5 @@
 // Stops at random moments of a run, from the click on Run to the end of closing: after the stop has returned no train
-// begins, whatever was going on. It is a race, so it is tried many times (H2).
+// begins, whatever was happening. It is a race, so it is tried many times (H2).
 #include <gtest/gtest.h>
 #include <random>
 #include <thread>
@@ -37,7 +37,7 @@ RunOrder delivering(const BenchController& controller, DeviceUri uri) {
 }
 
 /// Each trial runs and is stopped after a random time. `heard` waits until the device has heard of it, where that takes
-/// time; `output` counts what the device was given, or put out, so far.
+/// time; `output` counts what the device was given, or has put out, so far.
 void stopAtRandomMoments(BenchController& controller, const DeviceUri& uri, const std::function<void()>& heard,
                          const std::function<int()>& output) {
     testing::Test::RecordProperty("hazard", "H2");
@@ -63,7 +63,7 @@ void stopAtRandomMoments(BenchController& controller, const DeviceUri& uri, cons
         ended.reset();
         const auto moment = std::chrono::duration_cast<std::chrono::nanoseconds>(whole * 1.1 * random.uniform());
         controller.run(order);
-        // On a thread of its own, as the window's thread must go on; stop() may be called from any.
+        // Runs on a thread of its own, as the window's thread must continue; stop() may be called from any thread.
         int before = 0;
         std::thread hand([&] {
             std::this_thread::sleep_for(moment);

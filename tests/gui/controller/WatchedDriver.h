@@ -15,7 +15,7 @@ namespace tacto::test {
 
 /// Shared by the test, the driver and its stimulator. The hooks are set before the controller is told anything.
 struct Watch {
-    std::atomic<int> calls{0};  ///< of the stimulator, forceOff() apart
+    std::atomic<int> calls{0};  ///< calls of the stimulator other than forceOff()
     std::atomic<int> trains{0};
     std::atomic<int> offs{0};
     std::function<void(const OpenContext&)> onOpen;  ///< the stimulator is open, and open() has not returned

@@ -26,7 +26,7 @@ protected:
         });
         live.resize(1180, 800);
         drive.show();
-        live.show();  // the one that is active
+        live.show();  // this is the active one
         frame.start(33);
     }
     [[nodiscard]] bool opens() {
@@ -45,7 +45,7 @@ protected:
         ArmRequest request;
         request.operatorConfirmed = true;
         controller.arm(request);
-        // Where something drives already, the first train follows at once.
+        // If something drives already, the first train follows at once.
         return comesTrue([this] {
             const auto state = controller.telemetry().state;
             return state == InterlockState::Armed || state == InterlockState::Delivering;

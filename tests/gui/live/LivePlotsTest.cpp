@@ -1,4 +1,4 @@
-// What the live plots remember, and the pictures from samples that the test knows: columns, gaps, old data,
+// The memory of the live plots, and the pictures from samples that the test knows: columns, gaps, old data,
 // frequencies.
 #include <QTest>
 #include <cmath>
@@ -269,7 +269,7 @@ TEST_F(Plots, WhileAFaultHoldsTheOutputOffTheTrainsAreShadedAndNoneIsCalledNotDe
     telemetry.at = toInstant(5);
     history.take(tap, telemetry);
     ask(5.5);
-    ask(4.98);  // the one that the fault took: its line says so
+    ask(4.98);  // the train that the fault took: its line says so
     telemetry.at = toInstant(6);
     history.take(tap, telemetry);
     t_s = 6;
@@ -294,7 +294,7 @@ TEST_F(Plots, EveryTraceIsNamedInANarrowWindowToo) {
     draw();
     for (const auto* name : {"x", "y", "z", "roughness R", "pressure P", "commanded", "delivered"})
         EXPECT_TRUE(written().contains(name)) << name << ": " << written().join('|').toStdString();
-    for (const int width : {390, 310}) {  // in a window of 1024 pixels with the docks open, and in less
+    for (const int width : {390, 310}) {  // the first fits a window of 1024 pixels with open docks, the second less
         plots.resize(width, 700);
         draw();
         const auto all = written();
@@ -318,7 +318,7 @@ TEST_F(Plots, WhatConfirmsTheTrainsIsNamedInANarrowWindowToo) {
     plots.addScopeReading(1, 19.9);
     const std::pair<const char*, const char*> keys[] = {
         {"commanded", "asked"}, {"delivered", "given"}, {"read back", "read"}, {"oscilloscope", "scope"}};
-    for (const int width : {900, 390}) {  // in a window of 1024 pixels with the docks open
+    for (const int width : {900, 390}) {  // the second fits a window of 1024 pixels with open docks
         plots.resize(width, 700);
         draw();
         const auto all = written();

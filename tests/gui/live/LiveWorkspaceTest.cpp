@@ -135,7 +135,7 @@ TEST_F(LiveBench, FromOffByHandBeginsAtNothingWhateverTheFingertipFelt) {
     EXPECT_EQ(controller.lastDrive().source, DriveSource::Manual);
     EXPECT_EQ(controller.lastDrive().roughness, 0);
     EXPECT_EQ(controller.lastDrive().pressure, 0);
-    // What a person sets is what By hand begins with the next time; the fingertip's values are not.
+    // By hand begins the next time with what a person has set; the fingertip's values are not kept.
     roughness->setFocus();
     for (int i = 0; i < 2; ++i) QTest::keyClick(roughness, Qt::Key_PageUp);
     click(*find<QPushButton>(drive, "Fingertip"));
@@ -159,7 +159,7 @@ TEST_F(LiveBench, ByHandGoesOnWithWhatTheFingertipDelivers) {
     click(*hand);
     ASSERT_IN_TIME(comesTrue([this] { return controller.telemetry().driving == DriveSource::Manual; }));
     EXPECT_GT(controller.telemetry().amplitude_v, 15) << "it does not jump";
-    // Lifted, the fingertip delivers nothing, and there is nothing to go on with.
+    // While lifted, the fingertip delivers nothing, and there is nothing to continue.
     click(*find<QPushButton>(drive, "Fingertip"));
     controller.present("", 0, 0);
     ASSERT_IN_TIME(comesTrue([this] {
@@ -363,7 +363,7 @@ TEST_F(LiveBench, ASavedPictureIsOfTheMomentAndSaysWhatItShows) {
     for (const auto& said : {QString("Touch · simulated"), QString(" UTC"), QString("SIM-1"), QString("Force (N)"),
                              QString("SIMULATED"), QString("last 10")})
         EXPECT_TRUE(drawing.contains(said)) << said.toStdString();
-    // Words that have no room go on in another line; a minus comes from another face.
+    // Words without room continue in another line; a minus comes from another face.
     for (const auto& part : before.split(" · ") + scales.split(" · ").filter(QRegularExpression("^[^−]*$")))
         EXPECT_TRUE(drawing.contains(part)) << part.toStdString() << ", though the bench went on";
     int alone = 0;
@@ -378,7 +378,7 @@ TEST_F(LiveBench, OldSamplesAreSaidAndMarked) {
     ASSERT_IN_TIME(comesTrue([this] { return textOf(live, "sensorHealth").contains("Old: the newest sample is"); }))
         << textOf(live, "sensorHealth").toStdString();
     EXPECT_IN_TIME(comesTrue([this] { return live.plots().stale(StreamKind::Acceleration); }));
-    // Each part is redrawn at a pace of its own.
+    // Each part is redrawn at its own pace.
     EXPECT_IN_TIME(comesTrue([this] { return live.findChild<gui::TaxelMap*>()->stale(); }));
     EXPECT_IN_TIME(comesTrue([this] { return !live.findChild<gui::TactilePlane*>()->point(); }));
     shot(live, "live_stale");
@@ -516,7 +516,7 @@ TEST_F(DriveThatWas, IsNamedAfterAStopAndStartsNothing) {
     EXPECT_EQ(controller.telemetry().driving, DriveSource::Off);
 }
 
-/// Why the fingertip drives no train is what is known of it, not more.
+/// The reason why the fingertip drives no train is what is known of it, not more.
 TEST_F(LiveBench, TheDriveSaysOfTheFingertipWhatIsKnown) {
     RecordProperty("hazard", "H7");
     ASSERT_IN_TIME(openSimulated());

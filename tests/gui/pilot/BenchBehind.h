@@ -1,5 +1,5 @@
-// BenchBehind.h - what is behind a participant's window in a test: a simulated bench with a session's record on it,
-// where time passes at once, and a person at the window of whom the test knows what they feel.
+// BenchBehind.h - the bench behind a participant's window in a test: a simulated bench with a session's record on it,
+// where time passes at once, and a person at the window about whom the test knows what they feel.
 //
 // Thread-safety: BenchBehind as its parts; Feeling as PilotParticipant, felt() from any thread.
 #pragma once
@@ -14,7 +14,7 @@
 
 namespace tacto::test {
 
-/// No test of its own.
+/// This has no test of its own.
 class BenchBehind final : public PersonFixture {
 public:
     BenchBehind() {
@@ -65,12 +65,12 @@ public:
     [[nodiscard]] std::optional<Hindrance> hindrance() const override { return desk_.hindrance(); }
     [[nodiscard]] bool hasScreen() const noexcept override { return desk_.hasScreen(); }
     [[nodiscard]] bool answersInRealTime() const noexcept override { return true; }
-    /// The last; nothing felt where there is none.
+    /// The last presentation; nothing felt before there is one.
     [[nodiscard]] FeltPresentation felt() const {
         const std::scoped_lock lock(mutex_);
         return all_.empty() ? FeltPresentation() : all_.back();
     }
-    /// In their order.
+    /// All presentations in their order.
     [[nodiscard]] std::vector<FeltPresentation> all() const {
         const std::scoped_lock lock(mutex_);
         return all_;

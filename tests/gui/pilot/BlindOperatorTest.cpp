@@ -1,6 +1,6 @@
-// What the operator who is blind has before them is the same for every condition and level: a classifier that knows all
-// texts and pixels of 200 trials, by time, does no better than chance. The same classifier on what an operator who is
-// not blind sees tells them apart, so it would find a difference.
+// A blind operator sees the same for every condition and level: a classifier that knows all texts and pixels of 200
+// trials, by time, does no better than chance. The same classifier on what an operator who is not blind sees tells them
+// apart, so that it would find a difference.
 #include <QAbstractButton>
 #include <QLabel>
 #include <QRegularExpression>
@@ -36,7 +36,7 @@ struct SeenTrial {
     std::vector<Frame> frames;
 };
 
-/// All that a widget says: its texts, also those of its tip and for a screen reader, and whether it can be pressed.
+/// All that a widget says: its texts, with those of its tip and for a screen reader, and whether it can be pressed.
 QString textOf(const QWidget& widget) {
     auto text = widget.toolTip() + '|' + widget.accessibleName() + '|' + widget.accessibleDescription() +
                 (widget.isEnabled() ? '+' : '-') + (widget.isVisible() ? '+' : '-');
@@ -47,8 +47,7 @@ QString textOf(const QWidget& widget) {
 
 std::size_t saidBy(const QWidget& widget) { return qHash(textOf(widget)); }
 
-/// How often the trial that is most alike, of all others, is of the same class; where several are, one of them is
-/// drawn.
+/// How often the most similar of all other trials is of the same class; of several alike, one is drawn.
 double shareRight(const std::vector<SeenTrial>& trials, const std::vector<int>& classes, Random& random) {
     const auto apart = [](const SeenTrial& a, const SeenTrial& b) {
         std::size_t n = 0;
@@ -74,7 +73,7 @@ double shareRight(const std::vector<SeenTrial>& trials, const std::vector<int>& 
     return double(right) / double(trials.size());
 }
 
-/// What guessing by the frequency of the classes comes to, and four standard deviations more.
+/// The score of guessing by the frequency of the classes, and four standard deviations more.
 double mostByChance(const std::vector<int>& classes) {
     std::map<int, double> counts;
     for (const int each : classes) ++counts[each];

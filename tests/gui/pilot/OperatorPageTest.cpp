@@ -41,7 +41,7 @@ protected:
     void runTo(int trial) {
         Telemetry telemetry;
         for (int i = 1; i <= trial; ++i) {
-            telemetry.impedance_ohm = 1e6;  // of a train: it would tell which
+            telemetry.impedance_ohm = 1e6;  // the impedance during a train would tell which train it is
             auto screen = testScreen(ScreenState::Feel, i);
             screen.impedance_ohm = 3400 + 6 * i + (i % 3) * 12;
             page.show(screen);

@@ -1,4 +1,4 @@
-// Where the session's thread and the windows meet: it waits, they answer, a stop ends the wait.
+// Here the session's thread and the windows meet: it waits, they answer, a stop ends the wait.
 #include <future>
 #include <gtest/gtest.h>
 
@@ -117,7 +117,7 @@ TEST_F(Desk, AStopBetweenTwoQuestionsEndsTheNextOne) {
     ASSERT_FALSE(said);
     EXPECT_EQ(said.error().code, ErrorCode::Stopped);
     EXPECT_TRUE(desk.stopBy("participant"));
-    desk.show({});  // the session knows of it, and has gone on
+    desk.show({});  // the session knows of it, and has continued
     ask(goOnPrompt("Go on?", PromptTo::Operator));
     desk.answerAsOperator(asked, with("go-on"));
     EXPECT_TRUE(answer.get());

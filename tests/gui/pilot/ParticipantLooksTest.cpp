@@ -22,7 +22,7 @@ protected:
     void answerBy(Qt::Key pressed) {
         key(pressed);
         EXPECT_TRUE(answered());
-        letLive(160);  // no key counts as held
+        letLive(160);  // long enough for no key to count as held
     }
 };
 
@@ -42,7 +42,7 @@ TEST_F(ParticipantLooks, EveryPhaseHasTheSamePixelsForEveryCondition) {
                                                                    {"smooth-high", feel(6.5, 2)},
                                                                    {"smooth-low", feel(4, 2)},
                                                                    {"catch", {}}};
-    // Once before it counts: letters of 92 px are drawn anew the first time, and differ in their edges then.
+    // Shown once before it counts: letters of 92 px are drawn anew the first time, and then differ in their edges.
     desk.show(testScreen(ScreenState::Dot));
     ASSERT_NO_FATAL_FAILURE(ask(prompt));
     answerBy(Qt::Key_1);

@@ -35,7 +35,7 @@ TEST_F(Seated, EachKeyOfEachSetAnswersItsTarget) {
 }
 
 TEST_F(Seated, KeysStandWhereTheTargetsDo) {
-    ASSERT_NO_FATAL_FAILURE(ask(conditionPrompt(kFour)));  // in whatever order the study has them
+    ASSERT_NO_FATAL_FAILURE(ask(conditionPrompt(kFour)));  // the targets stand in whatever order the study has them
     const auto& firm = target("smooth-high");
     const auto& light = target("smooth-low");
     EXPECT_EQ(firm.x(), light.x());
@@ -86,7 +86,7 @@ TEST_F(Seated, WhatComesBeforeTheTargetsIsEarlyAndNoAnswer) {
     QCoreApplication::processEvents();
     key(Qt::Key_3);
     QTest::mouseClick(const_cast<gui::ParticipantField*>(&window.field()), Qt::LeftButton);
-    key(Qt::Key_F7);  // no answer's key
+    key(Qt::Key_F7);  // no answer has this key
     ASSERT_NO_FATAL_FAILURE(ask(conditionPrompt(kFour)));
     letLive(50);
     EXPECT_FALSE(isAnswered());
@@ -105,7 +105,7 @@ TEST_F(Seated, AKeyHeldFromBeforeIsNoAnswer) {
     ASSERT_NO_FATAL_FAILURE(ask(conditionPrompt(kFour)));
     QKeyEvent marked(QEvent::KeyPress, Qt::Key_2, Qt::NoModifier, "2", true);
     QApplication::sendEvent(&window, &marked);
-    QKeyEvent unmarked(QEvent::KeyPress, Qt::Key_2, Qt::NoModifier, "2", false);  // as X sends some
+    QKeyEvent unmarked(QEvent::KeyPress, Qt::Key_2, Qt::NoModifier, "2", false);  // X sends some like this
     QApplication::sendEvent(&window, &unmarked);
     letLive(30);
     EXPECT_FALSE(isAnswered());
@@ -277,7 +277,7 @@ TEST_F(Seated, AKeyThatTheOperatorStillHoldsSaysSo) {
         QKeyEvent event(QEvent::KeyPress, Qt::Key_Escape, Qt::NoModifier, QString(), repeats);
         QApplication::sendEvent(&operators, &event);
     }
-    said.erase(std::unique(said.begin(), said.end()), said.end());  // one press is heard several times
+    said.erase(std::unique(said.begin(), said.end()), said.end());  // a single press is heard several times
     EXPECT_EQ(said, (std::vector<std::string>{"operator (Esc)", "operator (Esc, held)"}));
 }
 

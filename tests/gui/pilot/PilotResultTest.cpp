@@ -1,4 +1,4 @@
-// What a session came to, as the window says it.
+// The outcome of a session, in the window's words.
 #include <QRegularExpression>
 #include <QTableWidget>
 #include <QTest>
@@ -115,7 +115,7 @@ RunResult endedBy(ErrorCode code, const char* why, nlohmann::json results = null
     return run;
 }
 
-/// Every page that there is: of each kind of result and each end.
+/// Every page that there is: for each kind of result and each end.
 std::vector<std::pair<const char*, RunResult>> allPages() {
     auto massager = someResults();
     massager["modality"] = "massager";
@@ -156,7 +156,7 @@ TEST(PilotResult, EveryPageIsShownAfterEveryOther) {
     int width = 900;
     const auto look = [&](const std::pair<const char*, RunResult>& page, bool ofStudy) {
         view.show(page.second, "/home/lab/study-1", ofStudy);
-        view.resize(width = width == 900 ? 700 : 900, 700);  // it lays the page out again
+        view.resize(width = width == 900 ? 700 : 900, 700);  // the new size makes it lay the page out again
         QCoreApplication::sendPostedEvents();
         view.grab();
         const auto& labels = memberAt(page.second.outcome.results, "labels");

@@ -23,7 +23,7 @@ public:
         const std::scoped_lock lock(mutex_);
         plugged_ = std::move(plugged);
     }
-    /// Nothing happens where no program has it open. `button`: from 1.
+    /// Nothing happens unless a program has it open. `button`: from 1.
     void press(const std::string& name, std::size_t button, bool down = true,
                std::chrono::steady_clock::time_point at = std::chrono::steady_clock::now()) const {
         const std::scoped_lock lock(mutex_);

@@ -95,7 +95,7 @@ TEST_F(RehearsalInTheWindow, AVirtualParticipantComesToAResult) {
     EXPECT_TRUE(matrix->isVisible());
     EXPECT_EQ(matrix->rowCount(), 4);
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "study" / "study.json"));
-    static_cast<void>(comesTrue([this] { return faultsOf(window).empty(); }, 2'000));  // what it says now is laid out
+    static_cast<void>(comesTrue([this] { return faultsOf(window).empty(); }, 2'000));  // its present words are laid out
     EXPECT_EQ(faultsOf(window), "");
     shot(window, "pilot-virtual-result");
     LargeBesideDocks(*this).fits("pilot-result", "confusion");
@@ -211,14 +211,14 @@ TEST_F(RehearsalInTheWindow, BothStopsAreTestedAndTheSessionIsEndedByTheOperator
     EXPECT_GE(red->height(), 100) << "seen, and hit by a hand";
     const auto at = red->mapTo(theirs, red->rect().center());
     EXPECT_EQ(theirs->childAt(at), red);
-    letLive(100);  // another press than the participant's
+    letLive(100);  // so that it counts as another press than the participant's
     ASSERT_IN_TIME(testsIt()) << asked();
     QTest::mousePress(theirs->windowHandle(), Qt::LeftButton, {}, at);
     ASSERT_IN_TIME(comesTrue([&] { return !pilot->running() || find<QPushButton>(*strip, "0") != nullptr; }, 20'000))
         << asked();
     ASSERT_TRUE(pilot->running()) << "a test of STOP ends no session: " << headline();
     letLive(150);
-    window.controller().stop("operator (Esc, held)");  // the press of the test, which goes on
+    window.controller().stop("operator (Esc, held)");  // the press of the test, which continues
     letLive(150);
     ASSERT_TRUE(pilot->running()) << "a key that is held counts once: " << headline();
     // Here nothing is armed that the control loop has to look after while pictures are made.
@@ -229,7 +229,7 @@ TEST_F(RehearsalInTheWindow, BothStopsAreTestedAndTheSessionIsEndedByTheOperator
     ASSERT_IN_TIME(comesTrue(
         [&] { return !runs() || (strip->isVisible() && find<QPushButton>(*strip, "0") != nullptr); }, 20'000));
     ASSERT_IN_TIME(runs()) << headline();
-    letLive(150);  // another press than that of the test
+    letLive(150);  // so that it counts as another press than the test's
     window.controller().stop("operator (STOP)");
     ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 20'000));
     EXPECT_EQ(pilot->participantWindow(), nullptr);
@@ -264,14 +264,14 @@ TEST_F(RehearsalInTheWindow, AnAbortIsNoTestOfTheOperatorsStop) {
     EXPECT_EQ(note->body["reason"], "fire alarm");
 }
 
-/// One whose stimulator fails in words that name a train.
+/// A stimulator that fails in words that name a train.
 class FaultWhileBlind : public RehearsalInTheWindow {
 protected:
     FaultWhileBlind()
         : RehearsalInTheWindow([plug = plugged] {
               return unpluggableRegistry(plug, "12.34 mA was read back in pulse 7 of 98765, and 4.567 mA was sent");
           }) {}
-    /// Every text of every widget of all windows, those of tips and of screen readers too, and the log of messages.
+    /// Every text of every widget of all windows, including tips and texts for screen readers, and the log of messages.
     [[nodiscard]] std::string allTexts() const {
         QStringList all;
         for (const auto* top : QApplication::topLevelWidgets()) {
@@ -313,7 +313,7 @@ TEST_F(FaultWhileBlind, NoTextInAnyWindowNamesANumberOfItsTrain) {
             });
         };
         ASSERT_IN_TIME(comes("Fault: ")) << said;
-        QTest::keyClick(theirs->windowHandle(), Qt::Key_Escape);  // their test is over
+        QTest::keyClick(theirs->windowHandle(), Qt::Key_Escape);  // this ends their test
         ASSERT_IN_TIME(comes("See to the electrodes")) << said;
         EXPECT_NE(said.find("was read back in pulse"), std::string::npos) << "it says what happened";
         for (const char* number : {"12.34", "98765", "4.567"})
@@ -334,7 +334,7 @@ TEST_F(RehearsalInTheWindow, AScreenThatGoesIsAPauseUntilTheWindowIsSeatedAgain)
     auto* theirs = pilot->participantWindow();
     ASSERT_IN_TIME(comesTrue([&] { return theirs->asking(); }, 20'000));
     ASSERT_NE(theirs->title().indexOf("STOP"), -1);
-    for (auto* each : pilot->findChildren<gui::ScreenChoice*>()) emit each->lost("HDMI-1");  // one is the session's
+    for (auto* each : pilot->findChildren<gui::ScreenChoice*>()) emit each->lost("HDMI-1");  // one is the session's own
     EXPECT_FALSE(theirs->isVisible()) << "it would lie over the operator's";
     auto* asks = pilot->findChild<gui::OperatorAsk*>("operatorAsk");
     ASSERT_NE(asks, nullptr);
@@ -423,18 +423,18 @@ TEST_F(RehearsalInTheWindow, AStopByTheirPadIsTheirsAndOneThatIsUnpluggedIsABrea
     ASSERT_IN_TIME(comesTrue(tests, 20'000));
 
     letLive(150);
-    std::async(std::launch::async, [&] { plugged->press("pad", 6); }).get();  // and now it is tested
+    std::async(std::launch::async, [&] { plugged->press("pad", 6); }).get();  // this press is its test
     const auto tested = [&] {
         const auto all = rows();
         return all && std::ranges::count(*all, std::string(row::kStopTest), &SessionRow::name) == 1;
     };
-    bool seen = false;  // while the window's thread is held: no event of it is looked at
+    bool seen = false;  // whether it was seen while the window's thread was held and looked at no event
     for (int i = 0; i < 500 && !(seen = tested()); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     EXPECT_IN_TIME(seen) << "a STOP waits for no window";
     const QPointer strip = theirs->findChild<gui::OperatorStrip*>();
     ASSERT_IN_TIME(comesTrue([&] { return strip->isVisible() && strip->question().open(); }, 20'000));
     letLive(150);
-    plugged->press("pedal", 1);  // and the operator's
+    plugged->press("pedal", 1);  // the operator's press
     ASSERT_IN_TIME(comesTrue([&] { return !pilot->running() || find<QPushButton>(*strip, "0") != nullptr; }, 20'000));
     ASSERT_TRUE(pilot->running()) << headline();
     letLive(150);

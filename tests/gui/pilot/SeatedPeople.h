@@ -51,7 +51,7 @@ protected:
         if (answer.valid()) answer.wait();
         window.hide();
     }
-    /// As the session's thread does it; the targets are there when it returns.
+    /// Asks as the session's thread does; the targets are there when it returns.
     void ask(const PilotPrompt& prompt) {
         answer = std::async(std::launch::async, [this, prompt] { return desk.ask(prompt); });
         ASSERT_IN_TIME(comesTrue([this] { return window.asking(); }));

@@ -19,7 +19,7 @@
 namespace tacto::test {
 namespace {
 
-/// Both people, as they would sit there.
+/// Both people, seated as they would be.
 class SeatedSession : public Seated {
 protected:
     SeatedSession() {
@@ -27,7 +27,7 @@ protected:
         page.setVisible(true);
         EXPECT_IN_TIME(QTest::qWaitForWindowExposed(&page));
         giveKeys();
-        onePress = std::chrono::seconds(2);  // they press STOP once: in its test
+        onePress = std::chrono::seconds(2);  // they press STOP once, in its test
         QObject::connect(&desk, &gui::ParticipantDesk::asked, &page, [this](const PilotPrompt& prompt, quint64 id) {
             asked = prompt;
             page.ask(prompt, id);
@@ -64,7 +64,7 @@ protected:
     }
     [[nodiscard]] bool isOf(PromptTo to) const { return asked.to == to || asked.to == PromptTo::Both; }
 
-    /// What this person says of what they felt: not always what it was, in a pattern that gives every answer.
+    /// This person's report of what they felt: not always the truth, in a pattern that gives every answer.
     void answerAsParticipant() {
         const auto felt = people.felt();
         if (asked.name == "stop-test") return key(Qt::Key_Escape);
@@ -114,7 +114,7 @@ protected:
         }
         ADD_FAILURE() << "the operator has no answer to: " << asked.text;
     }
-    /// As it was named in familiarisation.
+    /// The name that it had in familiarisation.
     [[nodiscard]] std::string conditionOf(const FeltPresentation& felt) const {
         if (felt.level <= 0) return "none";
         for (const auto& each : people.all()) {
@@ -248,7 +248,7 @@ TEST_F(SeatedSession, TheParticipantsScreenIsTheSameInATrialWhateverIsPresented)
             return ready();
         }));
         look();
-        letLive(160);  // no key counts as held
+        letLive(160);  // long enough for no key to count as held
         const auto said = running.get();
         EXPECT_TRUE(said) << said.error().message;
         return shown;

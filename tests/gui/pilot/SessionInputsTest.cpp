@@ -58,7 +58,7 @@ protected:
         plugged->press(name, button, false);
         letLive(20);
     }
-    /// As the session's window does it.
+    /// Reacts as the session's window does.
     [[nodiscard]] gui::InputsAtOnce atOnce() {
         gui::InputsAtOnce all;
         all.stop = [this](PromptTo whose) {
@@ -96,7 +96,7 @@ TEST_F(SeatedWithPad, BeforeTheTargetsItIsEarlyAndHeldFromBeforeItIsNoAnswer) {
     ASSERT_TRUE(answered());
     desk.show(testScreen(ScreenState::Feel));
     QCoreApplication::processEvents();
-    plugged->press("theirs", 3);  // and stays down
+    plugged->press("theirs", 3);  // the button stays down
     letLive(20);
     ASSERT_NO_FATAL_FAILURE(ask(conditionPrompt(kFour)));
     letLive(300);
@@ -290,7 +290,7 @@ TEST_F(SeatedWithPad, TheBounceOfAHeldContactSwitchesOffAndIsNoStopOfTheirs) {
         EXPECT_FALSE(desk.letGoWasBounce()) << back_ms;
         move(false, 50);
     }
-    // Another STOP beside it.
+    // Shows another STOP beside it.
     desk.show(testScreen(ScreenState::Rest));
     QCoreApplication::processEvents();
     ASSERT_NO_FATAL_FAILURE(hold());
@@ -415,7 +415,7 @@ protected:
         at.push_back(std::chrono::steady_clock::now());
         changed.notify_all();
     }
-    /// Without an event of this thread, which is the window's.
+    /// Waits without an event of this thread, which is the window's.
     [[nodiscard]] bool heldUntil(const std::function<bool()>& heard) {
         std::unique_lock lock(mutex);
         return changed.wait_for(lock, std::chrono::seconds(5), heard);
@@ -453,7 +453,7 @@ TEST_F(OwnThread, LettingGoAndUnpluggingDoNotWaitForTheWindowEither) {
     ASSERT_IN_TIME(heldUntil([&] { return releases.size() == 1; }));
     pad().send(padReport({5}));
     ASSERT_IN_TIME(heldUntil([&] { return stops.size() == 1; }));
-    pad().unplug();  // while STOP is held
+    pad().unplug();  // it is unplugged while STOP is held
     ASSERT_IN_TIME(heldUntil([&] { return !lost.empty(); }));
     EXPECT_EQ(lost, "the participant's Pad is unplugged");
     EXPECT_EQ(stops.size(), 1U);
@@ -486,7 +486,7 @@ protected:
         ASSERT_IN_TIME(QTest::qWaitForWindowExposed(&rows));
     }
     [[nodiscard]] QComboBox* box(const QString& name) { return rows.findChild<QComboBox*>(name); }
-    /// As a person does it.
+    /// Chooses as a person does it.
     static void choose(QComboBox& box, int index) {
         box.setCurrentIndex(index);
         emit box.activated(index);

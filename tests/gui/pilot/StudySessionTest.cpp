@@ -1,4 +1,4 @@
-// Sessions of a study in the whole window: what is begun, what is refused with nothing made, what goes on.
+// Sessions of a study in the whole window: what begins, what is refused with nothing made, what continues.
 #include <QLineEdit>
 #include <QRadioButton>
 #include <QTableWidget>
@@ -234,7 +234,7 @@ TEST_F(StudyInTheWindow, APersonConfirmsTheirCodeAndTheSessionRunsOnTheMassagerT
 
     ASSERT_IN_TIME(comesTrue(
         [this] {
-            if (!pilot->running()) begin();  // not while the study is being opened again
+            if (!pilot->running()) begin();  // unless the study is being opened again
             return pilot->running();
         },
         20'000));

@@ -60,7 +60,7 @@ protected:
         ASSERT_GE(index, 0) << protocol.toStdString();
         chooser.setCurrentIndex(index);
     }
-    /// Into a field, on the page of whichever step has it.
+    /// Types into a field, on the page of whichever step has it.
     void type(const QString& field, const QString& text) {
         const auto seen = [&] { return find<QLineEdit>(*workspace, field) != nullptr; };
         constexpr int kLaidOut_ms = 100, kRounds = 25;

@@ -183,7 +183,7 @@ TEST_F(Workspace, CannotRunWhatALimitWouldRefuse) {
     open("separability");
     ASSERT_IN_TIME(ready()) << says("runObstacle").toStdString();
     type("load", "50");
-    // At once, by the key: the table may still show the load of a moment ago.
+    // Runs it at once, by the key: the table may still show the load of a moment ago.
     QTest::keyClick(&the<QLineEdit>("load"), Qt::Key_F5);
     EXPECT_FALSE(workspace->running());
     auto& run = the<QPushButton>("runButton");
@@ -470,7 +470,7 @@ function run(p) {
     ASSERT_IN_TIME(ready()) << says("runObstacle").toStdString();
     workspace->goTo(gui::kWiring);
     auto& realtime = the<QCheckBox>("realtime");
-    QTest::mouseClick(&realtime, Qt::LeftButton, {}, QPoint(8, realtime.height() / 2));  // its box, not its row
+    QTest::mouseClick(&realtime, Qt::LeftButton, {}, QPoint(8, realtime.height() / 2));  // its box, and not its row
     ASSERT_TRUE(realtime.isChecked());
     click(the<QPushButton>("runButton"));
     ASSERT_IN_TIME(comesTrue([this] { return controller.telemetry().trainsDelivered > 0 || ended; }));

@@ -24,7 +24,7 @@ protected:
         QPainter painter(&writer);
         for (int page = 1; page <= 3; ++page) {
             if (page > 1) writer.newPage();
-            // Each has its mark at another height.
+            // Each page has its mark at another height.
             painter.fillRect(QRect(0, page * writer.height() / 5, writer.width(), writer.height() / 20), Qt::black);
         }
     }

@@ -21,7 +21,7 @@ using gui::NextStep;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// What a reader sees of the tables: headers, cells, words.
+/// The texts of the tables that a reader sees: headers, cells, words.
 std::vector<QString> textsIn(const gui::ResultTables& tables) {
     std::vector<QString> texts;
     for (const auto* table : tables.findChildren<QTableWidget*>()) {
@@ -45,7 +45,7 @@ class Results : public Lab, public testing::WithParamInterface<const char*> {};
 TEST_P(Results, ShowNoKeyAndNeedNoScrollingSideways) {
     open("", {1150, 600});  // the workspace in a window of 1280 x 720
     choose(GetParam());
-    type("devices", "sim:");  // the form is there
+    type("devices", "sim:");  // by now the form is there
     const std::pair<const char*, const char*> quick[] = {{"area", "4"},   {"steps", "2"},   {"warm_up_s", "0"},
                                                          {"levels", "3"}, {"repeats", "2"}, {"participants", "20"}};
     for (const auto& [field, text] : quick) {

@@ -132,7 +132,7 @@ TEST_F(SafetyCheck, LoadsAreRowsThatTurnToVerdictsAndAMatrixOfLimits) {
     EXPECT_TRUE(outputs->item(1, 3)->text().endsWith("mA")) << outputs->item(1, 3)->text().toStdString();
     EXPECT_THAT(says("strongestOutput").toStdString(), HasSubstr("mA at its peak"));
     EXPECT_LE(matrix.horizontalHeader()->length(), matrix.viewport()->width());
-    // The tracing is that of the chosen cell's load.
+    // The tracing belongs to the chosen cell's load.
     const auto choose = [&](const char* load) {
         int column = 1;
         while (column < matrix.columnCount() && matrix.horizontalHeaderItem(column)->toolTip() != load) ++column;

@@ -1,4 +1,4 @@
-// How long a run still takes, of the steps that it counts.
+// How much longer a run takes, from the steps that it counts.
 #include <gtest/gtest.h>
 
 #include "app/gui/runner/RunPanel.h"

@@ -31,7 +31,7 @@ protected:
     void draw() {
         for (int i = 0; i < 2; ++i) plane.replot(QCustomPlot::rpImmediateRefresh);
     }
-    /// Where the words of a condition stand.
+    /// The place of a condition's words.
     [[nodiscard]] QRectF boxOf(const QString& condition) const {
         for (int i = 0; i < plane.itemCount(); ++i) {
             auto* words = qobject_cast<QCPItemText*>(plane.item(i));

@@ -12,7 +12,7 @@
 namespace tacto::test {
 namespace {
 
-/// What the command line says of the shipped profile's strongest command.
+/// The command line's output on the shipped profile's strongest command.
 nlohmann::json encoded(const std::string& ohms) {
     QProcess cli;
     cli.start(

@@ -1,5 +1,5 @@
-// What is made of captures before they are drawn: calculated traces, time 0 at the crossing of the trigger level,
-// and which of them are on the screen and behind it.
+// The work on captures before they are drawn: calculated traces, time 0 at the crossing of the trigger level, and which
+// of them are on the screen and behind it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -59,8 +59,8 @@ using gui::triggeredAtCrossing;
 
 constexpr double kSample_s = 500e-9;
 
-/// One steep pulse (an edge of 200 ns on samples 500 ns apart) whose onset lies `late` of a sample after one of them;
-/// the oscilloscope states its trigger there.
+/// One steep pulse (an edge of 200 ns on samples 500 ns apart) with an onset `late` of a sample after one of them; the
+/// oscilloscope states its trigger there.
 std::shared_ptr<const Capture> steepPulse(double late, double level = 40) {
     const double onset_s = 1e-3 + late * kSample_s;
     std::vector<SyntheticPhase> phases;

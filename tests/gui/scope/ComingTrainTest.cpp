@@ -21,7 +21,7 @@ protected:
         controller.stop("test");
         ASSERT_IN_TIME(comes([this] { return scope.model().held(); }));
     }
-    /// What the bench tells between arming and the first train.
+    /// The bench's telemetry between arming and the first train.
     Telemetry telling(InterlockState state, DriveSource driving) const {
         auto telemetry = controller.telemetry();
         telemetry.state = state;

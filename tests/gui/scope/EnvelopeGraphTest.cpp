@@ -41,7 +41,7 @@ protected:
         }
         return {first, last};
     }
-    /// Every column against the samples that belong to it and the one before.
+    /// Checks every column against the samples that belong to it, and the one before.
     void expectExtremes(const std::vector<float>& samples) {
         const auto image = drawn(samples);
         const auto area = plot.axisRect()->rect();

@@ -1,4 +1,4 @@
-// What the oscilloscope reads of its captures: the readings chosen, their statistics, and the table of them.
+// The oscilloscope's readings of its captures: the chosen ones, their statistics, and the table of them.
 #include <QMenu>
 #include <QScrollBar>
 #include <QSettings>
@@ -262,7 +262,7 @@ TEST(ChosenReadings, AreAddedRemovedAndRemembered) {
 }
 
 TEST(ChosenReadings, TheListStaysOpenUntilItsLastRowClosesIt) {
-    RecordProperty("hazard", "H2");  // else Esc is the natural way out, and Esc stops the output
+    RecordProperty("hazard", "H2");  // otherwise Esc would be the natural way out, and Esc stops the output
     gui::ChosenReadings chosen;
     QWidget window;
     window.show();

@@ -52,7 +52,7 @@ protected:
         scope.show(std::make_shared<const Capture>(twoPulses()));
         ASSERT_IN_TIME(comes([this] { return scope.model().shown() != nullptr; }));
     }
-    /// As the window does at 30 Hz.
+    /// Looks as the window does, at 30 Hz.
     bool comes(const std::function<bool()>& isSo) {
         return comesTrue([&] {
             scope.refresh(controller.telemetry());
@@ -64,7 +64,7 @@ protected:
         return shown && !shown->capture->untriggered;
     }
     std::string status() { return scope.findChild<QLabel*>("scopeStatus")->text().toStdString(); }
-    /// Some label says so.
+    /// Whether any label says so.
     bool says(const QString& words) {
         const auto labels = scope.findChildren<QLabel*>();
         return std::any_of(labels.begin(), labels.end(),
@@ -72,7 +72,7 @@ protected:
     }
     void draw() { scope.screen().replot(QCustomPlot::rpImmediateRefresh); }
 
-    /// At a first start the screen has the room: here everything else is switched on, too.
+    /// At a first start the screen has all the room: here everything else is switched on, too.
     struct EverythingShown {
         EverythingShown() {
             QSettings().clear();

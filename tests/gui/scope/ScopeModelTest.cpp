@@ -1,4 +1,4 @@
-// What the oscilloscope shows, by itself: no widget is made here.
+// The oscilloscope's content by itself: no widget is made here.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -52,7 +52,7 @@ TEST_F(Model, ATimeBaseKeepsTheTriggerWhereItStandsOnTheScreen) {
         EXPECT_NEAR(share(), before, 0.01) << base_s;
     }
     EXPECT_EQ(model.restingTime_s(), 0) << "so do + and -";
-    // Where it is not in view, the middle stays.
+    // Where it is out of view, the middle stays.
     model.setTimePerDivision(100e-6);
     model.setTimeCentre(4.2e-3);
     model.setTimePerDivision(10e-6);

@@ -1,4 +1,4 @@
-// The oscilloscope's screen, driven by mouse and keys on captures whose truth is known.
+// The oscilloscope's screen, driven by mouse and keys on captures with known truth.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -179,7 +179,7 @@ TEST_F(Screen, TimeCursorsSnapToEdgesAndReadWhatIsBetween) {
         drag(screen, atTime(screen, place, 3), atTime(screen, to_s, 3));
     };
     grab(0, 0.02e-3);  // two pixels off the first onset
-    grab(1, 3.98e-3);  // and off the second pulse's
+    grab(1, 3.98e-3);  // two pixels off the second pulse's
     const auto read = model.readout();
     EXPECT_NEAR(read.dx_s(), 4e-3, 1e-7);
     EXPECT_NEAR(1 / read.dx_s(), 250, 0.01);
@@ -213,7 +213,7 @@ TEST_F(Screen, CursorsReadEveryLaneInFlagsBeyondThePulse) {
     EXPECT_THAT(screen.overlay().flags[0].rows[0].text.toStdString(), HasSubstr("40."));
     model.setLaneShown(amps, false);
     EXPECT_EQ(screen.overlay().flags[0].rows.size(), 1U);
-    // At the screen's edge and crossed they stay on it and off each other.
+    // At the screen's edge, and when crossed, they stay on the screen and apart.
     model.dragTimeCursor(0, model.viewport().right_s(), 0);
     model.dragTimeCursor(1, model.viewport().left_s, 0);
     draw();
@@ -353,7 +353,7 @@ TEST_F(Screen, LevelCursorsSnapToWhereTheSignalRests) {
     const double y2 = read.y2;
     QTest::keyClick(&screen, Qt::Key_Up);
     EXPECT_GT(model.readout().y2, y2);
-    // On the current they stand where they stood and read amperes.
+    // On the current they stay in place and read amperes.
     model.setActiveLane(amps);
     EXPECT_EQ(model.readout().unit, "A");
 }
@@ -370,7 +370,7 @@ TEST_F(Screen, BetweenTwoEdgesTheMouseReadsWidthAndInterval) {
         << "the rest between pulses";
     hoverAt(screen, atTime(screen, -0.5e-3, 0.2));
     EXPECT_FALSE(screen.overlay().hover);
-    // By arrows a cursor reads the same: back over the edges of the first pulse, then into its leading phase.
+    // Moved by arrows, a cursor reads the same: back over the edges of the first pulse, then into its leading phase.
     model.setTimeCursors(true);
     QTest::keyClick(&screen, Qt::Key_1);
     for (int i = 0; i < 4; ++i) QTest::keyClick(&screen, Qt::Key_Left, Qt::ControlModifier);

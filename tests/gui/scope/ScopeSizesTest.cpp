@@ -15,7 +15,7 @@
 namespace tacto::test {
 namespace {
 
-/// What is on the screen of a window of 1024x640 and 1440x900 with its docks, at every size of text.
+/// The screen of a window of 1024x640 and 1440x900 with its docks, at every size of text.
 class ScopeSizes : public Scope, public testing::WithParamInterface<std::tuple<QSize, int>> {
 protected:
     ScopeSizes() : before_(QApplication::font()) { writeAt(before_.pointSizeF() * std::get<1>(GetParam()) / 100); }
@@ -33,7 +33,7 @@ protected:
     }
 
 private:
-    /// As the window does when another size of text is chosen: a style sheet would keep the fonts it met.
+    /// Writes in another size as the window does: a style sheet would keep the fonts it met.
     void writeAt(double points) {
         auto font = before_;
         font.setPointSizeF(points);
@@ -67,7 +67,7 @@ TEST_P(ScopeSizes, NothingIsCutOrFoldedAway) {
     const auto* cells = scope.findChild<QTableWidget*>("measurements");
     for (int row = 0; row < cells->rowCount(); ++row) {
         for (int c = 0; c < cells->columnCount(); ++c) {
-            if (cells->isColumnHidden(c)) continue;  // its tip has it
+            if (cells->isColumnHidden(c)) continue;  // the tool tip has what a hidden column would show
             const auto* item = cells->item(row, c);
             EXPECT_GE(cells->columnWidth(c) - 4, QFontMetrics(item->font()).horizontalAdvance(item->text()))
                 << item->text().toStdString();
@@ -104,7 +104,7 @@ TEST_F(Scope, TheControlsColumnGoesWhereThereIsNoRoomAndComesWhenAskedFor) {
     showTwoPulses();
     auto* button = find<QToolButton>(scope, "Controls");
     auto* controls = scope.findChild<QScrollArea*>("scopeControls");
-    // Without room it stands in the More menu, which clicks it.
+    // Without room the button is in the More menu, which clicks it.
     const auto ask = [&] { button->isVisible() ? click(*button) : button->click(); };
     EXPECT_TRUE(controls->isVisible());
     scope.resize(420, 480);

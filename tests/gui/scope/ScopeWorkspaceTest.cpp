@@ -103,7 +103,7 @@ TEST_F(Scope, DraggingTheTriggerChangesItsLevelInNormal) {
     const double perDivision = scope.model().viewport().lanes.at("channel/voltage").perDivision;
     drag(screen, at(screen, 9.95, height), at(screen, 9.95, height + 0.3));
     EXPECT_NEAR(scope.settings().triggerLevel - before, 0.3 * perDivision, 0.05 * perDivision);
-    // In Auto it follows the command: there is nothing to drag.
+    // In Auto the level follows the command: there is nothing to drag.
     QTest::keyClick(&screen, Qt::Key_A);
     scope.refresh(controller.telemetry());
     EXPECT_TRUE(screen.overlay().trigger->held);
@@ -243,7 +243,7 @@ TEST_F(Scope, TheListOfTimeBasesMarksThePresentOneAndEndsWhereSamplesHaveNoShape
     }
     EXPECT_EQ(marked, QStringList("500\u202fµs/div"));
     EXPECT_EQ(refused, QStringList("100\u202fns/div")) << "samples 500 ns apart";
-    scope.model().setTimePerDivision(150e-6);  // between two steps: tool and view say the one that the grid has
+    scope.model().setTimePerDivision(150e-6);  // between two steps, tool and view show the grid's step
     EXPECT_EQ(find<QToolButton>(scope, "Time base tool")->text(), "200\u202fµs/div");
     EXPECT_EQ(find<QComboBox>(scope, "Time base")->currentText(), "200\u202fµs/div");
 }
@@ -258,7 +258,7 @@ TEST_F(Scope, CursorsReadInFlagsAndForThoseWhoDoNotSeeThem) {
     EXPECT_EQ(screen.overlay().flags.size(), 2U);
     EXPECT_EQ(screen.overlay().levelTexts.size(), 2U);
     EXPECT_THAT(read(), testing::AllOf(HasSubstr("1/Δ"), HasSubstr("y₂")));
-    // By keys: t₁ to the first onset, t₂ to the second pulse's.
+    // The keys put t₁ on the first onset, and t₂ on the second pulse's.
     QTest::keyClick(&screen, Qt::Key_1);
     for (int i = 0; i < 4; ++i) QTest::keyClick(&screen, Qt::Key_Left, Qt::ControlModifier);
     QTest::keyClick(&screen, Qt::Key_2);
@@ -399,7 +399,7 @@ TEST_F(Scope, EveryStepOfTheWorkHasAKey) {
     for (auto* dialog : QApplication::topLevelWidgets()) {
         if (dialog != &scope && dialog->isVisible()) dialog->close();
     }
-    // In a field they are letters.
+    // In a field these keys are letters.
     auto* level = find<gui::QuantitySpin>(scope, "Mask: Voltage ±");
     level->setFocus();
     const bool running = scope.running();

@@ -30,7 +30,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Whether its watermark is seen.
+/// Whether the plot's watermark is seen.
 bool saysSimulated(const QCustomPlot& plot) {
     for (int i = 0; i < plot.itemCount(); ++i)
         if (plot.item(i)->objectName() == "watermark") return plot.item(i)->visible();
@@ -69,12 +69,12 @@ protected:
         workspace_->show();
         return *workspace_;
     }
-    /// With the session chosen.
+    /// The workspace with the session chosen.
     gui::SessionsWorkspace& opened() {
         EXPECT_TRUE(show().openSession(QString::fromStdString(session.string())));
         return *workspace_;
     }
-    /// Once it can be pressed.
+    /// Presses it once it can be pressed.
     void press(const char* name) {
         auto* button = find<QPushButton>(*workspace_, name);
         ASSERT_NE(button, nullptr) << name;
@@ -213,7 +213,7 @@ TEST(Background, NewWorkWaitsForTheOldAndTheWindowForNeither) {
             return {};
         },
         [&](const Result<void>&) { second = true; });
-    let = true;  // not reached if start() waited
+    let = true;  // never reached if start() waited
     ASSERT_IN_TIME(comesTrue([&] { return second; }));
     EXPECT_EQ(order, (std::vector<std::string>{"first", "second"}));
     EXPECT_FALSE(first) << "its result is not wanted any more";

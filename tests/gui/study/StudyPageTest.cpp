@@ -171,7 +171,7 @@ TEST_F(StudyPageTest, AnOlderLedgerIsRefusedAndGoneBackToByItsWordAndThePassphra
     EXPECT_TRUE(study.study()->enrol(another));
 }
 
-/// A virtual participant's study, whose only session was begun some days ago and has ended.
+/// A virtual participant's study, with one session that began some days ago and has ended.
 class StudyWithASession : public StudyInThePage {
 protected:
     /// Makes it and opens it in the window; the value is the session's id.
@@ -345,7 +345,7 @@ TEST_F(StudyWithASession, TheDayAfterIsRefusedOnTheSameDay) {
 class StudyOfThisUser : public StudyInThePage {
 protected:
     StudyOfThisUser() : StudyInThePage(false) {}
-    /// A report by the command line's program, into a file of that name.
+    /// The command line's program writes a report into a file of that name.
     void report(const char* action, const QString& name) {
         ASSERT_NO_FATAL_FAILURE(make());
         ASSERT_NO_FATAL_FAILURE(open());

@@ -56,7 +56,7 @@ TEST(FileChooser, OpensNoneOfTheFilesThatItLists) {
 
     QWidget asking;
     asking.show();
-    for (const auto& shown : {folder.path(), QString()}) {  // and once more, where the last one ended
+    for (const auto& shown : {folder.path(), QString()}) {  // the second round begins where the first ended
         gui::FileQuestion question;
         question.title = "Open";
         question.folder = shown;

@@ -39,7 +39,7 @@ protected:
 INSTANTIATE_TEST_SUITE_P(Both, InTheme, testing::Values(Theme::Light, Theme::Dark),
                          [](const auto& theme) { return theme.param == Theme::Dark ? "Dark" : "Light"; });
 
-/// A hue that a person calls red, as that of STOP: vermilion (#D55E00) and purple (#CC79A7) are none.
+/// A hue that a person calls red, like STOP's; vermilion (#D55E00) and purple (#CC79A7) are none.
 bool isRed(const QColor& colour) {
     return colour.hsvSaturationF() > 0.4 && (colour.hsvHue() >= 345 || (colour.hsvHue() >= 0 && colour.hsvHue() <= 12));
 }
@@ -228,7 +228,7 @@ TEST_P(InTheme, TextHasAContrastOfFourAndAHalf) {
     const auto& c = gui::colours();
     for (const auto& words : {c.text, c.quiet, c.amberText, c.fault, c.passText, c.currentText})
         EXPECT_GE(contrast(words, c.base), 4.5) << words.name().toStdString();
-    // What delegates paint: cells near and beyond their limit, those within it, chosen rows.
+    // The colours of delegates: cells near and beyond their limit, those within it, chosen rows.
     const std::pair<QColor, QColor> cells[] = {
         {c.text, c.passCell}, {c.passText, c.passCell}, {c.text, c.amberCell}, {c.amberText, c.amberCell},
         {c.failText, c.fail}, {c.amberInk, c.amber},    {c.text, c.selection}};

@@ -45,10 +45,10 @@ protected:
             }
             return editor != nullptr;
         }));
-        QTest::keyClicks(&editor->code(), "//mine");  // no Space: it stops wherever no text is written
+        QTest::keyClicks(&editor->code(), "//mine");  // not Space, which stops wherever no text is written
         return editor;
     }
-    /// A run that takes as long as it takes, delivering.
+    /// A run that delivers for as long as it likes.
     void runSlowly() {
         visit(3);
         QPushButton* run = nullptr;

@@ -1,4 +1,4 @@
-// The rules of the design that hold for whatever is shown: the grid, the sizes of text, icons, one of each control.
+// The rules of the design that hold for everything shown: the grid, the sizes of text, icons, one of each control.
 #include <QAbstractItemView>
 #include <QAbstractSpinBox>
 #include <QComboBox>
@@ -26,7 +26,7 @@ namespace {
 class DesignRules : public Window {
 protected:
     ~DesignRules() override { QSettings().clear(); }
-    /// Each workspace, and the oscilloscope; where it is live with every dock.
+    /// Follows each workspace, and the oscilloscope; the live one with every dock.
     template <class Follow>
     void onEachPage(Follow follow) {
         for (int page = 0; page < 8; ++page) {
@@ -113,7 +113,7 @@ TEST_F(DesignRules, APageHasOneFilledButtonAtMost) {
     const auto check = [this](int page) {
         QStringList filled;
         for (auto* button : shown<QPushButton>()) {
-            if (button->property("role") == "segment") continue;  // what is chosen of several: no action
+            if (button->property("role") == "segment") continue;  // this chooses one of several and is no action
             // Beside its words.
             const auto ground = button->grab().toImage().pixelColor(QPoint(6, button->height() / 2));
             if (button->isEnabled() && ground == gui::colours().primary) filled << button->text();

@@ -1,4 +1,4 @@
-// The bars of the exposure table are those of the numbers beside them.
+// The bars of the exposure table match the numbers beside them.
 #include <QPaintEvent>
 #include <QTest>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace tacto::test {
 namespace {
 
-/// What of a widget was painted.
+/// The painted part of a widget.
 class Painted final : public QObject {
 public:
     QRegion region;
@@ -88,7 +88,7 @@ TEST(ExposureTable, LimitSetsStandUnderTheirTitles) {
     EXPECT_EQ(table.item(0, 0)->text().toStdString(), "The paper's own limits");
     EXPECT_TRUE(table.item(1, 0)->toolTip().endsWith("limit of The paper's own limits"));
     EXPECT_EQ(table.item(2, 0)->text().toStdString(), "The encoding profile");
-    table.resize(300, 300);  // written anew, narrow
+    table.resize(300, 300);  // the table is written again, narrow
     EXPECT_EQ(table.item(0, 0)->text().toStdString(), "The paper's own limits");
 }
 

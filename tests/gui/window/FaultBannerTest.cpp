@@ -1,4 +1,4 @@
-// What the banner of a fault says: when, what, what was delivered, and what it may not claim.
+// The words on the banner of a fault: when, what, what was delivered, and what it may not claim.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

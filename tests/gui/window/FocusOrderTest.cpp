@@ -1,4 +1,4 @@
-// Without a mouse, where results are: Tab goes from STOP through each page once, in the order of reading.
+// Where results are, without a mouse: Tab goes from STOP through each page once, in the order of reading.
 #include <QComboBox>
 #include <QDockWidget>
 #include <QLineEdit>
@@ -39,7 +39,7 @@ protected:
         const auto reached = tabFrom(*window.findChild<QPushButton*>("stopButton"),
                                      [&order](const QWidget& at) { order.push_back(&at); });
         expectAllReached(window, reached);
-        // It begins where the window does: STOP is the last of its bar.
+        // The order begins where the window does: STOP is the last in its bar.
         const auto first = std::ranges::find(order, window.findChild<QPushButton*>("armButton"));
         if (first != order.end()) std::ranges::rotate(order, first);
         std::vector<const QWidget*> parts{window.findChild<QWidget*>("safetyBar"), &page(), window.statusBar()};
@@ -62,7 +62,7 @@ protected:
         }
         EXPECT_TRUE(std::ranges::any_of(order, [this](auto* at) { return page().isAncestorOf(at); }));
     }
-    /// Each view of a result.
+    /// Reads each view of a result.
     void expectResultReadInOrder(const std::string& name) {
         expectReadInOrder(name);
         for (const auto* view : {"Tables", "Log"}) {

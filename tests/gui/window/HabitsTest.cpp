@@ -1,5 +1,5 @@
-// What one expects of every good program: drop files on it, find them again, help at hand, and that it looks
-// tomorrow as it was left today.
+// The habits of every good program: files can be dropped on it and found again, help is at hand, and it looks tomorrow
+// as it was left today.
 #include <QComboBox>
 #include <QDockWidget>
 #include <QDropEvent>
@@ -173,7 +173,7 @@ TEST_F(Habits, F1OpensTheGuideAtTheWorkspaceInFront) {
     EXPECT_FALSE(back->isEnabled());
     contents->click();
     EXPECT_EQ(pageOf(*guide), "index.md");
-    // Every page is reached by a link of the contents, and has a heading.
+    // A link of the contents leads to every page, which has a heading.
     std::set<QString> linked;
     for (auto block = browser->document()->begin(); block.isValid(); block = block.next())
         for (auto part = block.begin(); !part.atEnd(); ++part)

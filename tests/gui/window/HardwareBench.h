@@ -43,7 +43,7 @@ private:
     const std::shared_ptr<Plugs> plugs_;
 };
 
-/// What is plugged in.
+/// The devices that are plugged in.
 struct Hardware {
     [[nodiscard]] Registry registry() const {
         std::vector<std::unique_ptr<Driver>> drivers;

@@ -57,7 +57,7 @@ TEST_F(HardwareWindow, ANameHasAsManyLinesAsItNeeds) {
     const QFontMetrics metrics(row(kStimulator).font(0));
     const auto high = [this] { return tree().visualItemRect(&row(kStimulator)).height(); };
     for (const QString name : {"Pad", "Vibrating pad of the second laboratory, number 2"}) {
-        // As another width of the dock does. The name may bring a scroll bar, and the column is narrower then.
+        // The dock gets another width. The name may bring a scroll bar, and the column is narrower then.
         QRect lines;
         EXPECT_IN_TIME(comesTrue([&] {
             row(kStimulator).setText(0, name);
@@ -90,7 +90,7 @@ TEST_F(HardwareWindow, OneThatMayNotBeOpenedSaysWhatHelpsAndCannotBeTicked) {
 }
 
 TEST_F(HardwareWindow, OneThatDoesNotAnswerIsABannerAndNoBench) {
-    stimulator->unplug();  // it is still listed: the list is a second old at most
+    stimulator->unplug();  // the list still has it, being up to a second old
     tick(kStimulator);
     click(*window.findChild<QPushButton*>("openBench"));
     ASSERT_IN_TIME(comesTrue([this] { return !banner().isEmpty(); }));

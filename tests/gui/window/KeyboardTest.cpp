@@ -1,5 +1,5 @@
-// Without a mouse: Tab reaches every control of the window and of its dialogs and comes round, the focus is seen, and
-// Shift+F1 explains what has it.
+// Without a mouse, Tab reaches every control of the window and of its dialogs and comes round, the focus is seen, and
+// Shift+F1 explains the focused control.
 #include <QDialog>
 #include <QLineEdit>
 #include <QMenu>
@@ -136,11 +136,11 @@ TEST_F(Keyboard, TabReachesEveryControlOfADialogAndComesRound) {
     }
 }
 
-/// On a closed bench, where nothing moves by itself.
+/// The bench is closed, so that nothing moves by itself.
 TEST_F(Keyboard, TheFocusIsSeen) {
     ASSERT_NO_FATAL_FAILURE(activate(window));
     stopButton().setFocus();
-    QTest::keyClick(&stopButton(), Qt::Key_Tab);  // before the first Tab Qt takes the mouse for what is used
+    QTest::keyClick(&stopButton(), Qt::Key_Tab);  // before the first Tab, Qt assumes that the mouse is used
     for (int workspace = 0; workspace < kWorkspaces; ++workspace) {
         SCOPED_TRACE(workspace);
         show(workspace);

@@ -30,7 +30,7 @@ protected:
         QTest::mouseClick(table.viewport(), Qt::LeftButton, modifiers,
                           table.visualRect(table.model()->index(row, 0)).center());
     }
-    /// Each of the pages in both themes and sizes of text, `frame` as large as a small screen has room for it.
+    /// Shows each of the pages in both themes and sizes of text; `frame` is as large as a small screen allows.
     void walk(QTabWidget& pages, QWidget& frame, const QSize& size, const QString& name) {
         for (const int percent : {100, 200}) {
             gui::applyTextSize(percent);

@@ -1,4 +1,4 @@
-// Where things stand in the window, and that data get the room: plots, docks, the rail, F11, keys and their focus.
+// The places of things in the window, and that data get the room: plots, docks, the rail, F11, keys and their focus.
 #include <QAbstractSpinBox>
 #include <QDockWidget>
 #include <QLineEdit>
@@ -68,7 +68,7 @@ protected:
 TEST_F(Layout, F11LeavesSafetyBarAndPlotAlone) {
     RecordProperty("hazard", "H2");
     open();
-    visit(0);  // with its docks
+    visit(0);  // opens the page with its docks
     const auto* stop = window.findChild<QPushButton*>("stopButton");
     const auto before = window.centralWidget()->size();
     key(Qt::Key_F11);
@@ -186,7 +186,7 @@ TEST_F(Layout, WithThePlotAloneASessionOfAPilotHasNoPath) {
     click(*begin);
     const auto* path = page().findChild<QWidget*>("path");
     ASSERT_IN_TIME(comesTrue([&] { return path->isVisible(); }));
-    // One that is stopped while its bench opens has no result.
+    // A run that is stopped while its bench opens has no result.
     ASSERT_IN_TIME(comesTrue([this] { return window.controller().activity() == gui::Activity::Running; }));
     letLive(300);
     key(Qt::Key_F11);
@@ -366,7 +366,7 @@ TEST_F(Layout, InLargeTextADockThatIsOpenedMakesTheWindowNoWiderThanASmallScreen
 
 TEST_F(Layout, InLargeTextTheNearestLimitStandsBesideTheState) {
     RecordProperty("hazard", "H9");
-    // Laid out anew before anything is delivered: beside other work that takes longer than the control loop may be
+    // The layout is done before anything is delivered: beside other work it takes longer than the control loop may be
     // silent.
     gui::applyTextSize(200);
     window.resize(1280, 720);
@@ -521,7 +521,7 @@ TEST_F(Layout, AFaultSaysCauseOutputAndNextStepAndMovesNothing) {
     ASSERT_NO_FATAL_FAILURE(open());
     arm();
     deliver();
-    letLive(200);  // all that comes with a delivery stands where it will
+    letLive(200);  // by then all that comes with a delivery has its place
     const auto stopAt = window.findChild<QPushButton*>("stopButton")->geometry();
     const auto resetAt = window.findChild<QPushButton*>("armButton")->geometry();
     const auto pagesAt = window.centralWidget()->geometry();
@@ -539,7 +539,7 @@ class LayoutUnderANotice : public Layout {
 protected:
     using Places = std::map<const QWidget*, QRect>;
     LayoutUnderANotice() : notice(*window.findChild<QFrame*>("banner")) { RecordProperty("hazard", "H12"); }
-    /// Where the page and all that is in it stand, docks, bars, STOP and "Arm…".
+    /// The places of the page and of all that is in it, docks, bars, STOP and "Arm…".
     [[nodiscard]] Places places() {
         Places all;
         const auto add = [&](const QWidget& each) {
@@ -560,7 +560,7 @@ protected:
         }));
         return before;
     }
-    /// What has another place than before, by name.
+    /// The widgets that have moved, by name.
     [[nodiscard]] std::string movedSince(const Places& before) {
         std::string moved;
         const auto now = atRest();
@@ -582,7 +582,7 @@ protected:
             EXPECT_FALSE(covered.intersects(QRect(each->mapTo(&window, QPoint()), each->size()))) << widgetName(*each);
         }
     }
-    /// Another load than the one that is connected: refused once it is measured.
+    /// The load is another one than the connected one: refused once it is measured.
     void armOnAnotherLoad(Places& before) {
         click(*window.findChild<QPushButton*>("armButton"));
         auto* second = window.findChild<QPushButton*>("armOutput");

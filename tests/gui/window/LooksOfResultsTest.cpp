@@ -64,7 +64,7 @@ protected:
         ASSERT_IN_TIME(comesTrue([&] { return (line = find<QLineEdit>(window, field)) != nullptr; })) << field;
         line->setText(text);
     }
-    /// As a person does it in the drive's dock.
+    /// Drives as a person does, in the drive's dock.
     void driveByHand(double roughness, double pressure) {
         click(*find<QPushButton>(window, "By hand"));
         find<QDoubleSpinBox>(window, "Roughness R")->setValue(roughness);
@@ -72,7 +72,7 @@ protected:
         ASSERT_IN_TIME(comesTrueWhileOn([this] { return state() == InterlockState::Delivering; }))
             << banner().toStdString();
     }
-    /// Not once the output is off: a machine that stands still trips the loop, and nothing comes any more.
+    /// Gives up once the output is off: a machine that stands still trips the loop, and nothing comes any longer.
     [[nodiscard]] bool comesTrueWhileOn(const std::function<bool()>& isSo, int limit_ms = 10'000) {
         const auto isOff = [this] { return state() == InterlockState::Faulted || state() == InterlockState::Disarmed; };
         return comesTrue([&] { return isSo() || isOff(); }, limit_ms) && !isOff();
@@ -111,7 +111,7 @@ TEST_F(ResultsInTheWindow, ASafetyCheckLooksRight) {
     visit(2);
     ASSERT_NO_FATAL_FAILURE(type("area", "4"));
     ASSERT_NO_FATAL_FAILURE(runsToItsEnd());
-    // Not the last of the faults that the check provoked, nor the bench that it closed.
+    // The message is neither about the last fault that the check provoked, nor about the bench that it closed.
     EXPECT_EQ(lastMessage(), "Safety check finished: pass. Output is off.");
     EXPECT_TRUE(recorded().startsWith("Recorded to load-safety-")) << recorded().toStdString();
     looksRight("result-safety");
@@ -134,7 +134,7 @@ TEST_F(ResultsInTheWindow, InLargeTextASafetyCheckAndItsReportAreReadWhole) {
     };
     gui::applyTextSize(200);
     isWhole("safety-result");
-    LargeBesideDocks(*this).fits("safety-result", "limitMatrix");  // which scrolls by itself there
+    LargeBesideDocks(*this).fits("safety-result", "limitMatrix");  // the matrix scrolls by itself there
     click(*find<QPushButton>(window, "Tables"));
     const auto numbersCut = [this] { return cutCells(window).filter("no tool tip"); };
     EXPECT_IN_TIME(comesTrue([&] { return numbersCut().isEmpty(); })) << numbersCut().join('\n').toStdString();
@@ -243,7 +243,7 @@ TEST_F(ResultsInTheWindow, TheArmDialogLooksRight) {
 
 TEST_F(ResultsInTheWindow, TheDialogOfFaultsLooksRightAndDoesWhatTheReadmePromises) {
     RecordProperty("hazard", "H4");
-    visit(0);  // with its docks
+    visit(0);  // opens the page with its docks
     ASSERT_IN_TIME(comesTrue([this] { return find<QPushButton>(window, "Faults…") != nullptr; }));
     click(*find<QPushButton>(window, "Faults…"));
     auto* dialog = window.findChild<gui::SimulatedBenchDialog*>();
@@ -256,7 +256,7 @@ TEST_F(ResultsInTheWindow, TheDialogOfFaultsLooksRightAndDoesWhatTheReadmePromis
     ASSERT_NE(faults, nullptr);
     faults->setCurrentText("electrode lifts (open)");
     for (auto* after : dialog->findChildren<QDoubleSpinBox*>())
-        if (after->suffix().trimmed() == "s") after->setValue(4);  // of the thirty seconds
+        if (after->suffix().trimmed() == "s") after->setValue(4);  // the spin box with the thirty seconds
     click(*find<QPushButton>(*dialog, "Open"));
     ASSERT_IN_TIME(comesTrue([this] { return window.controller().activity() == gui::Activity::Live; }));
     arm();
@@ -270,7 +270,7 @@ TEST_F(ResultsInTheWindow, InLargeTextTheDialogsOfTheBenchFitASmallScreen) {
     gui::applyTextSize(200);
     window.resize(1280, 720);
     letLive(100);
-    // Where they stand on a screen of that size: tests/e2e.
+    // Where they stand on a screen of that size is tested in tests/e2e.
     const auto fits = [](QWidget& dialog) {
         static_cast<void>(comesTrue([&] { return dialog.isVisible() && faultsOf(dialog).empty(); }, 3000));
         EXPECT_EQ(faultsOf(dialog), "");
@@ -317,7 +317,7 @@ TEST_F(ResultsInTheWindow, TheDrivePanelLooksRight) {
     }
 }
 
-/// What the README shows (./dev readme-pictures).
+/// The pictures of the README (./dev readme-pictures).
 TEST_F(ResultsInTheWindow, TheReadmesPicturesLookRight) {
     open();
     auto* tabs = window.findChild<gui::TabbedPage*>("livePage");

@@ -1,4 +1,4 @@
-// What the design promises of the whole window: it is legible, says what is simulated, keeps its messages, and is red
+// The design's promises for the whole window: it is legible, says what is simulated, keeps its messages, and is red
 // where STOP and faults are.
 #include <QDialog>
 #include <QDockWidget>
@@ -87,7 +87,7 @@ protected:
             if (dock->isVisible() && !dock->folded()) open.push_back(dock);
         return open;
     }
-    /// With the oscilloscope in sight, until it has `captures` of them.
+    /// Delivers with the oscilloscope in sight, until it has `captures` of them.
     void deliverToTheScope(int captures) {
         open();
         arm();
@@ -134,7 +134,7 @@ TEST_F(DocksOfTheWindow, TheOscilloscopeLooksRightWithWhatItReads) {
         for (const auto size : sizesIn(theme, {QSize(1280, 720), QSize(1920, 1080)})) {
             window.resize(size);
             letLive(200);
-            // Docks share the column anew in turns of the event loop, as many as their contents change.
+            // Docks share the column again in turns of the event loop, as many as their contents change.
             static_cast<void>(comesTrue([&] { return faultsOf(window).empty(); }));
             shot(window, QString("scope-%1-%2").arg(theme == gui::Theme::Dark ? "dark" : "light").arg(size.width()));
             EXPECT_EQ(faultsOf(window), "");
@@ -179,7 +179,7 @@ TEST_F(DocksOfTheWindow, TheOscilloscopesPanelsLookRight) {
     }
 }
 
-/// Its list of sessions is empty: the word of one that ended in a fault is red by right.
+/// The list of sessions is empty: the word for one that ended in a fault is rightly red.
 class WindowWithoutSessions : private OwnDataHome, public Window {};
 
 TEST_F(WindowWithoutSessions, NothingIsRedButStop) {

@@ -139,7 +139,7 @@ TEST_F(Window, AKeyHeldSinceTheFirstStepDoesNotTakeTheSecond) {
     open();
     auto* first = window.findChild<QPushButton*>("armButton");
     first->setFocus();
-    // As X sends a held key: presses and releases, most of them not marked as repeated.
+    // X sends a held key so: presses and releases, most of them not marked as repeated.
     const auto press = [](QWidget* widget) {
         QKeyEvent down(QEvent::KeyPress, Qt::Key_Return, Qt::NoModifier, "\r");
         QCoreApplication::sendEvent(widget, &down);
@@ -153,7 +153,7 @@ TEST_F(Window, AKeyHeldSinceTheFirstStepDoesNotTakeTheSecond) {
     auto* second = window.findChild<QPushButton*>("armOutput");
     ASSERT_IN_TIME(comesTrue([&] { return second->isVisible(); }));
     second->setFocus();
-    letLive(gui::ConfirmButton::kDebounce_ms + 160);  // until a held key repeats
+    letLive(gui::ConfirmButton::kDebounce_ms + 160);  // long enough for a held key to repeat
     for (int i = 0; i < 10; ++i) {
         repeat(second);
         letLive(30);
@@ -301,7 +301,7 @@ TEST(WindowsStart, AWorkspaceIsMadeWhenItIsFirstShown) {
     }
     window.showWorkspace(6);
     window.close();
-    // As it was left; and a window that closes before it was ever shown has its questions too.
+    // The window is as it was left; and a window that closes before it was ever shown has its questions, too.
     gui::MainWindow again(simulatedRegistry);
     EXPECT_EQ(again.workspace(), 6);
     EXPECT_EQ(again.findChildren<gui::ProtocolWorkspace*>().size(), 1);
@@ -336,7 +336,7 @@ TEST(WindowsStart, AFrameThatComesLateFitsTheScreenToo) {
     letLive(100);
     ASSERT_EQ(window.geometry(), screen);
     ASSERT_EQ(window.frameGeometry(), screen) << "no frame yet";
-    // As a window manager does that was busy: a frame around the window, and the window moved into it.
+    // A busy window manager does the same: a frame around the window, and the window moved into it.
     window.windowHandle()->setFlag(Qt::FramelessWindowHint, false);
     window.windowHandle()->setPosition(screen.topLeft() + QPoint(4, 4));
     ASSERT_IN_TIME(comesTrue([&] { return window.frameGeometry() != window.geometry(); })) << "there is a frame";

@@ -1,4 +1,4 @@
-// What was measured stands beside what was set, and is amber where it is not that.
+// A measured value stands beside the one that was set, and is amber where they differ.
 #include <QImage>
 #include <gmock/gmock.h>
 
@@ -50,7 +50,7 @@ TEST(MeasuredRow, StandsBesideWhatWasSetAndIsAmberWhereItIsNotThat) {
             EXPECT_THAT(bar.shownText().toStdString(), HasSubstr("⚠ 23.0"));
             EXPECT_TRUE(hasColour(bar.grab().toImage(), gui::colours().amber));
             shot(bar, QString("measured_%1_%2").arg(theme == gui::Theme::Light ? "light" : "dark").arg(int(shape)));
-            // Where only one of them has room it is the one that matters.
+            // Where there is room for only one of them, it is the one that matters.
             bar.resize(110, bar.height());
             EXPECT_TRUE(bar.shownText().startsWith("⚠ 23.0")) << bar.shownText().toStdString();
         }

@@ -21,7 +21,7 @@
 namespace tacto::test {
 namespace {
 
-/// Everything that is read in the program's windows now, but for the log, whose lines have their time.
+/// Everything that can be read in the program's windows now, except the log, whose lines have their time.
 std::vector<std::string> textsInSight() {
     std::vector<std::string> all;
     for (auto* top : QApplication::topLevelWidgets()) {
@@ -100,7 +100,7 @@ TEST_F(Notices, WhatARunEndedWithIsSaidOfThen) {
     EXPECT_NE(inSightWith("was switched off"), "") << "the result says it of its run";
 }
 
-/// However it is told that a run ended so: never that the output is off.
+/// However a run ends so, no message says that the output is off.
 TEST_F(Notices, ARunThatLeavesAStimulatorStuckOnSaysSo) {
     RecordProperty("hazard", "H2");
     auto* line = window.findChild<QToolButton*>("lastMessage");
@@ -139,7 +139,7 @@ TEST(WordsOfTheOutput, OfAStimulatorThatIsStuckOnNeitherSayThatItIsOffNorBlameTh
         }
         EXPECT_TRUE(banner.text().contains("its own switch")) << banner.text().toStdString();
     }
-    // Every other cause: it is off.
+    // With every other cause the output is off.
     for (int cause = 0; cause < kFaultCauseCount; ++cause) {
         if (FaultCause(cause) == FaultCause::StuckOn) continue;
         telemetry.fault = FaultCause(cause);
@@ -203,7 +203,7 @@ TEST_F(Notices, AFingertipWithoutReadingsIsSaidWhereTheStateStands) {
     EXPECT_NE(inSightWith("gives no readings: no train"), "") << "in the dock of the drive";
 }
 
-/// In the bar and in the dock: whatever is judged, one name stands beside one limit.
+/// In the bar and in the dock, one name stands beside one limit, whatever is judged.
 TEST(NamesOfLimits, EachHasOneLimit) {
     testing::Test::RecordProperty("hazard", "H12");
     std::map<QString, std::pair<Quantity, JudgedAt>> named;
@@ -222,7 +222,7 @@ TEST_F(Notices, ALimitIsNamedAboveAsInTheDock) {
     ASSERT_NO_FATAL_FAILURE(open());
     ASSERT_NO_FATAL_FAILURE(arm());
     static const QRegularExpression limit(QString::fromUtf8(R"(of\s([^,]+))"));
-    std::map<std::string, std::set<std::string>> limits;  // by the name that stands beside them
+    std::map<std::string, std::set<std::string>> limits;  // the limits by the name that stands beside them
     std::mt19937 random(47);
     for (int i = 0; i < 8; ++i) {
         window.controller().drive(DriveSource::Manual, std::uniform_real_distribution(0.0, 1.0)(random), 1);

@@ -1,4 +1,4 @@
-// What is written in the plots of the window, at each size: the watermark whole, nothing twice.
+// The texts in the plots of the window, at each size: the watermark whole, nothing twice.
 #include <QSettings>
 #include <QStackedWidget>
 #include <gmock/gmock.h>
@@ -10,7 +10,7 @@
 namespace tacto::test {
 namespace {
 
-/// What the watermark changes of the plot's picture: it is clipped at the axes, so a cropped one reaches their edges.
+/// The area that the watermark changes in the plot's picture; it is clipped at the axes, so a cropped one reaches them.
 QRect inkOf(QCustomPlot& plot, QCPItemText& mark) {
     const bool before = mark.visible();
     const auto picture = [&](bool visible) {
@@ -70,7 +70,7 @@ TEST_F(PlotTexts, AWatermarkStandsWhollyInsideItsPlotAtEachSize) {
                 ++seen;
                 const QRect room = mark->clipAxisRect()->rect().adjusted(1, 1, -1, -1);
                 QRect ink = inkOf(*plot, *mark);
-                // What moved between the two pictures counts as well: a word that is cut is so in each pair.
+                // Other changes between the two pictures count as well: a word that is cut is so in each pair.
                 for (int again = 0; again < 3 && !room.contains(ink); ++again) ink = inkOf(*plot, *mark);
                 EXPECT_FALSE(ink.isEmpty()) << where << ": " << plot->accessibleName().toStdString();
                 EXPECT_TRUE(room.contains(ink)) << where << ": " << plot->accessibleName().toStdString() << ", cropped";

@@ -1,4 +1,4 @@
-// What the safety bar shows and does, in each state.
+// The content and actions of the safety bar, in each state.
 #include <QTest>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -93,7 +93,7 @@ TEST(LimitBar, InADockNoRowIsCutAtTheUsualWidth) {
             const auto quantity = static_cast<Quantity>(i);
             for (const auto judged : {JudgedAt::LoadRange, JudgedAt::Ohm500}) {
                 for (const double limit : {0.25, 1.0, 10.0, 80.0, 300.0}) {
-                    // Not evaluated, small, and at a limit.
+                    // Tried unevaluated, small, and at a limit.
                     for (const double share : {std::nan(""), 1e-6, 0.0123, 0.745, 0.9987, 1.5}) {
                         auto shown = row(quantity, share * limit, limit, unitOf(quantity).data());
                         shown.judged = judged;
@@ -366,7 +366,7 @@ TEST_F(Bar, ADoubleClickOnPauseLeavesItPaused) {
     controller.drive(DriveSource::Manual, 0.5, 1);
     const auto is = [this](InterlockState state) {
         return comesTrue([this, state] {
-            const auto now = controller.telemetry();  // once: what the bar shows is what is asked for
+            const auto now = controller.telemetry();  // read once: what the bar shows is what is asked for
             bar.refresh(now);
             return now.state == state;
         });
@@ -419,7 +419,7 @@ TEST_F(Bar, APressMeantForDisarmDoesNotResetTheFaultThatCameFirst) {
     ASSERT_TRUE(armed({"sim:stimulator?fault=unplug@1s", "sim:"}));
     controller.drive(DriveSource::Manual, 0.5, 1);
     ASSERT_IN_TIME(comesTrue([this] { return controller.telemetry().state == InterlockState::Faulted; }));
-    QStringList refused;  // what is unplugged cannot be reset
+    QStringList refused;  // an unplugged device cannot be reset
     QObject::connect(&controller, &gui::BenchController::failed, [&](const QString& what) {
         if (what.contains("ot reset")) refused << what;
     });

@@ -45,7 +45,7 @@ void block(int how) {
     pthread_sigmask(how, &set, nullptr);
 }
 
-/// What the process does whose window is signalled.
+/// The work of the process whose window gets the signal.
 void deliverUntilSignalled() {
     std::string session;
     {
@@ -85,7 +85,7 @@ TEST(SignalClose, ASignalEndsTheOutputAndClosesTheWindowAndItsSession) {
             environment.remove(gtest);
         other.setProcessEnvironment(environment);
         other.setProcessChannelMode(QProcess::MergedChannels);
-        other.setChildProcessModifier([] { block(SIG_BLOCK); });  // as before the first thread in main()
+        other.setChildProcessModifier([] { block(SIG_BLOCK); });  // blocked as before the first thread in main()
         other.start(QCoreApplication::applicationFilePath(),
                     {"--gtest_filter=SignalClose.ASignalEndsTheOutputAndClosesTheWindowAndItsSession"});
         ASSERT_TRUE(other.waitForStarted());
@@ -107,7 +107,7 @@ TEST(SignalClose, WhatTheWindowOpensTakesSignalsAsUsual) {
     ASSERT_TRUE(QProcess::startDetached(
         "/bin/sh", {"-c", QString("grep SigBlk /proc/self/status > %1.part; mv %1.part %1").arg(path.c_str())}));
     ASSERT_IN_TIME(comesTrue([&] { return std::filesystem::exists(path); }));
-    block(SIG_UNBLOCK);  // of this thread, for the tests after it
+    block(SIG_UNBLOCK);  // for this thread, for the sake of the tests after it
     std::ifstream stream(path);
     std::string name;
     std::uint64_t mask = 0;

@@ -16,7 +16,7 @@ namespace tacto::test {
 
 struct Stalls {
     static constexpr double kBeat_ms = 5;
-    static constexpr double kNoticed_ms = 50;  ///< from here on a person feels it
+    static constexpr double kNoticed_ms = 50;  ///< from here on a person notices it
     double longest_ms = 0;
     std::size_t noticed = 0;  ///< gaps above kNoticed_ms
     std::size_t beats = 0;

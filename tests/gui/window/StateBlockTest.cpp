@@ -110,7 +110,7 @@ TEST_F(StateOnTheBar, ItsWordIsReadFromTwoMetresInEverySizeStateAndTheme) {
                     const QFontMetrics metrics(word().font());
                     EXPECT_GE(word().font().pointSizeF(), 28 - 1e-6);
                     EXPECT_GE(word().width(), metrics.horizontalAdvance(word().text())) << "it is cut";
-                    // As it is drawn, in the sheet's font too, on the block's own ground.
+                    // Measured as it is drawn, in the sheet's font too, on the block's own ground.
                     EXPECT_GE(heightOfInk(word().grab().toImage(), style.ink), 0.9 * metrics.capHeight());
                     EXPECT_GE(contrast(style.ink, style.ground), 4.5);
                     shot(bar, QString("state-%1-%2-%3-%4")
@@ -124,7 +124,7 @@ TEST_F(StateOnTheBar, ItsWordIsReadFromTwoMetresInEverySizeStateAndTheme) {
     }
 }
 
-/// Nothing is said to follow while every train is refused, from whatever they are driven.
+/// While every train is refused, no message says that another one follows, whatever drives them.
 TEST_F(StateOnTheBar, NoTrainIsSaidToFollowWhileALimitRefusesThem) {
     RecordProperty("hazard", "H12");
     std::mt19937 draw(47);

@@ -30,7 +30,7 @@ protected:
         for (QWidget* widget : std::initializer_list<QWidget*>{&button, &check, &line, &spin})
             widget->setParent(nullptr);
     }
-    /// As a keyboard does it: to the window, which hands it to the focus.
+    /// Presses as a keyboard does: in the window, which hands it to the focus.
     void press(Qt::Key key, QWidget& focus, const QString& text = {}) {
         focus.setFocus();
         QTest::sendKeyEvent(QTest::Click, focus.window()->windowHandle(), key, text, Qt::NoModifier);
@@ -55,7 +55,7 @@ TEST_F(Keys, EscAndPauseStopFromEveryFocus) {
     }
 }
 
-/// Whatever is held beside it. Of Pause with Ctrl an X server makes another symbol, for which Qt has none of its keys.
+/// Works whatever is held beside it. Pause with Ctrl is another symbol in an X server, and Qt has no key for it.
 TEST_F(Keys, EscAndPauseStopWithEveryModifier) {
     const Qt::KeyboardModifier each[] = {Qt::ShiftModifier, Qt::ControlModifier, Qt::AltModifier, Qt::MetaModifier,
                                          Qt::KeypadModifier};
@@ -111,7 +111,7 @@ TEST_F(Keys, ReturnPressesTheFocusedButton) {
 TEST_F(Keys, AHeldReturnIsOnePress) {
     RecordProperty("hazard", "H12");
     for (int i = 0; i < 10; ++i) {
-        press(Qt::Key_Return, button);  // not marked as repeated, as X sends most of them
+        press(Qt::Key_Return, button);  // not marked as repeated: X sends most of them so
         letLive(30);
     }
     EXPECT_EQ(clicks, 1);

@@ -20,8 +20,8 @@
 
 namespace tacto::test {
 
-/// What a person works: buttons and fields that Tab should reach by themselves. Radio buttons are reached as a group;
-/// a box's own field has its focus.
+/// The controls that a person works: buttons and fields that Tab should reach by themselves. Radio buttons are reached
+/// as a group; a box's own field has its focus.
 inline std::vector<QWidget*> controlsOf(const QWidget& in) {
     std::vector<QWidget*> controls;
     for (auto* control : in.findChildren<QWidget*>()) {

@@ -162,7 +162,7 @@ TEST_F(TourOfTheWindow, GoesBackAndStaysThere) {
     EXPECT_FALSE(find<QPushButton>(tour(), "Back")->isEnabled());
 }
 
-/// Who stops on the way, or goes back to what needs the output, is told how it is had again.
+/// Whoever stops on the way, or goes back to a step that needs the output, is told how to get it again.
 TEST_F(TourOfTheWindow, SaysThatTheOutputIsOffWhereAStepNeedsIt) {
     RecordProperty("hazard", "H12");
     ASSERT_NO_FATAL_FAILURE(open());
@@ -192,7 +192,7 @@ TEST_F(TourOfTheWindow, IsLeftAndResumed) {
     EXPECT_EQ(frame(), nullptr);
     window.beginTour();
     EXPECT_EQ(title(), "Put a surface under the finger");
-    QSettings().setValue("tourStep", 99);  // of a version with more steps
+    QSettings().setValue("tourStep", 99);  // as a version with more steps left it
     window.beginTour();
     EXPECT_EQ(title(), "First, how to stop");
     QSettings().setValue("tourStep", 3);  // arming
@@ -238,8 +238,8 @@ TEST_F(TourOfTheWindow, LooksRightInEverySizeAndTheme) {
                     letLive(80);
                     const auto& bar = named<QWidget>("safetyBar");
                     const auto covers = [&](const QRect& what) { return tour().geometry().intersects(what); };
-                    // The page that a step opens is laid out first; then the panel finds its place. A step that is
-                    // done goes on by itself after longer than this.
+                    // The page that a step opens is laid out first; then the panel finds its place. A completed step
+                    // leads on by itself after longer than this.
                     const auto stands = [&] { return frame() != nullptr && !covers(frame()->geometry()); };
                     static_cast<void>(comesTrue(stands, 1000));
                     EXPECT_TRUE(stands()) << "no control is framed, or the panel hides it at " << percent << " %";
@@ -253,7 +253,7 @@ TEST_F(TourOfTheWindow, LooksRightInEverySizeAndTheme) {
                                 .arg(step + 1)
                                 .toUtf8()
                                 .constData());
-                    // On a busy machine a step that is done has gone on by itself.
+                    // On a busy machine a completed step has moved on by itself.
                     if (title() == now) press(find<QPushButton>(tour(), "Next") != nullptr ? "Next" : "Done");
                 }
             }

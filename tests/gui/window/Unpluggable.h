@@ -40,7 +40,7 @@ private:
     const std::string says_;
 };
 
-/// As simulatedRegistry(); a stimulator that is out fails with what it `says`.
+/// Like simulatedRegistry(); a stimulator that is out fails with what it `says`.
 [[nodiscard]] inline Registry unpluggableRegistry(const Plug& plug,
                                                   const std::string& says = "the simulated stimulator is unplugged") {
     std::vector<std::unique_ptr<Driver>> drivers;

@@ -19,7 +19,7 @@
 namespace tacto::test {
 namespace {
 
-/// As the mouse turns it: through the window, which gives the focus by policy and finds the widget.
+/// Turns as the mouse does: through the window, which gives the focus by policy and finds the widget.
 void turn(const QWidget& widget, int notches) {
     auto& top = *widget.window();
     const auto at = widget.mapTo(&top, widget.rect().center());
@@ -29,7 +29,7 @@ void turn(const QWidget& widget, int notches) {
     qApp->notify(top.windowHandle(), &event);
 }
 
-/// What is set, whatever sets it.
+/// The present value, whoever set it.
 QString settingOf(const QWidget& widget) {
     if (const auto* list = qobject_cast<const QComboBox*>(&widget))
         return QString("%1 %2").arg(list->currentIndex()).arg(list->currentText());

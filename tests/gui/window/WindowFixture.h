@@ -27,7 +27,7 @@ namespace tacto::test {
 class Window : public testing::Test {
 protected:
     Window() : Window(nullptr) {}
-    /// nullptr: the simulated bench, whose stimulator unplug() takes away.
+    /// nullptr: the simulated bench, with the stimulator that unplug() takes away.
     explicit Window(std::function<Registry()> makeRegistry)
         : window(makeRegistry ? std::move(makeRegistry) : [plug = plug_] { return unpluggableRegistry(plug); }) {
         window.resize(1440, 900);
@@ -62,7 +62,7 @@ protected:
         ASSERT_IN_TIME(comesTrue([this] { return window.controller().activity() == gui::Activity::Live; }));
         letLive(80);  // the next frame enables the buttons
     }
-    /// In the midst of delivery, as `drive` says, until the bench has faulted and says why.
+    /// Unplugs in the midst of delivery, as `drive` says, until the bench has faulted and says why.
     void unplugWhile(double roughness, double pressure) {
         arm();
         window.controller().drive(DriveSource::Manual, roughness, pressure);
@@ -80,7 +80,7 @@ protected:
                    !says.contains("Fix the cause");
         })) << banner().toStdString();
     }
-    /// Both steps, as a person takes them.
+    /// Takes both steps, as a person does.
     void arm() {
         auto* first = window.findChild<QPushButton*>("armButton");
         ASSERT_IN_TIME(comesTrue([&] { return first->isEnabled() && first->text().contains("…"); }));
@@ -112,7 +112,7 @@ protected:
         ASSERT_IN_TIME(comesTrue([&] { return *over; }, 120'000));
         ASSERT_IN_TIME(comesTrue([&] { return find<QLabel>(window, "verdict") != nullptr; }));
     }
-    /// What is visible and asks for much of a small window's width, a line each.
+    /// The visible widgets that ask for much of a small window's width, a line each.
     [[nodiscard]] std::string wide() const {
         std::string all;
         for (const auto* each : window.findChildren<QWidget*>())
@@ -139,7 +139,7 @@ protected:
         LargeBesideDocks(const LargeBesideDocks&) = delete;
         LargeBesideDocks& operator=(const LargeBesideDocks&) = delete;
 
-        /// Nothing of what is shown is cut sideways. `scrolls`: the one table that has a scroll bar of its own there.
+        /// Nothing shown is cut sideways. `scrolls`: the one table that has a scroll bar of its own there.
         void fits(const QString& name, const char* scrolls = nullptr) const {
             auto& shown = of_.window;
             const auto faults = [&] {

@@ -3,7 +3,7 @@
 //
 //   perf_stream [SECONDS]
 //
-// To be met: nothing lost, and ten times what it costs a thread to wake as often.
+// The goal: nothing is lost, and it costs at most ten times what a thread costs that wakes as often.
 #include <array>
 #include <cmath>
 #include <cstdio>

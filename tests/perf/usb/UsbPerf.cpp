@@ -84,7 +84,7 @@ void latency(Stimulator& device, const UsbBulkTransport& transport, SafetyGate& 
         static_cast<void>(device.status());
     }
     auto& wire = const_cast<UsbBulkTransport&>(transport);
-    const std::array<std::uint8_t, 24> bytes{};  // no frame: the device drops them
+    const std::array<std::uint8_t, 24> bytes{};  // this is no frame: the device drops the bytes
     for (int i = 0; i < kTrains; ++i) {
         const auto begin = Steady::now();
         if (!wire.write(bytes, Seconds(1))) return;
@@ -117,7 +117,7 @@ void keepAlive(Stimulator& device, SafetyGate& gate, const Clock& clock) {
     auto request = requestFor(clock.now());
     request.train.pulses = 600;
     request.train.rate = Hertz(50);
-    request.interval = Seconds(14);  // its clock may be 5 % off
+    request.interval = Seconds(14);  // the clock of the device may be 5 % off
     auto approved = gate.approve(request);
     const auto begun = approved ? device.deliver(std::move(*approved)) : Result<void>(failure(approved));
     const auto end = Steady::now() + kUnderLoad;

@@ -69,7 +69,7 @@ public:
                          "tcp", "-noreset"},
                         ready[1]);
         close(ready[1]);
-        // To the end of the line: a server whose number is no longer read ends.
+        // Reads to the end of the line: a server ends whose number nobody reads any longer.
         std::string digits;
         for (char digit = 0; read(ready[0], &digit, 1) == 1 && digit != '\n';) digits += digit;
         close(ready[0]);

@@ -2,7 +2,7 @@
 // process (the simulated bench and its recording included) over some seconds of wall time, beside a plot with nothing
 // in it that is redrawn as often.
 //
-// To be met: two channels at three times the empty plot's cost, and as many pictures. The limit is 25 % of one core.
+// The goal: two channels at three times the empty plot's cost, and as many pictures. The limit is 25 % of one core.
 #include <QTabWidget>
 #include <fmt/format.h>
 #include <qcustomplot.h>
@@ -45,7 +45,7 @@ Cost costOf(const std::function<void()>& frame, const std::size_t& drawn) {
     const std::chrono::duration<double> step(1 / kFrames_hz);
     std::chrono::duration<double> due(0);
     const auto began = now();
-    // Due times stand on a grid of sixtieths, whatever a frame takes; what is missed is not made up for.
+    // Due times stand on a grid of sixtieths, whatever a frame takes; missed ones are not made up for.
     const auto next = [&] {
         const std::chrono::duration<double> passed = now() - began;
         due = std::max(due + step, passed);

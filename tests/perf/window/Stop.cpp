@@ -3,7 +3,7 @@
 // The event is put into the window's queue by another thread at a moment that the window does not choose, so that
 // waiting for a picture that is being drawn counts. The baseline is the same click in a window that draws nothing.
 //
-// To be met: nineteen of twenty within fifteen times the baseline's nineteen of twenty. The limit is 10 ms.
+// The goal: nineteen of twenty within fifteen times the baseline's nineteen of twenty. The limit is 10 ms.
 #include <QCoreApplication>
 #include <QDialog>
 #include <QKeyEvent>
@@ -29,7 +29,7 @@ constexpr int kRounds = 100;
 constexpr double kMaxTimes = 15;
 constexpr double kMaxStop_ms = 10;
 
-/// When forceOff() came through last, since it was cleared.
+/// When forceOff() last came through since this was cleared.
 std::atomic<std::int64_t> offAt_ns{0};
 
 std::int64_t now_ns() { return std::chrono::steady_clock::now().time_since_epoch().count(); }
@@ -88,7 +88,7 @@ double answerTime_ms(double wait_ms, QWindow& to, Events events, const std::atom
     return came ? 1e-6 * static_cast<double>(done_ns - postedAt_ns) : std::nan("");
 }
 
-/// At a moment that no picture is in step with.
+/// A moment that is in step with no picture.
 double anyMoment_ms(Random& random) { return 40 + 40 * random.uniform(); }
 
 struct Taken {

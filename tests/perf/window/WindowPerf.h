@@ -1,4 +1,4 @@
-// WindowPerf.h - what the parts of perf_window share: lines of one table, each figure beside its goal and its baseline.
+// WindowPerf.h - shared by the parts of perf_window: lines of one table, each figure beside its goal and its baseline.
 //
 // Thread-safety: the GUI thread, but for secondsOf().
 #pragma once
@@ -13,9 +13,9 @@ namespace tacto::perf {
 
 /// A heading and what stands in the columns below it.
 void heading(const char* what, const char* columns);
-/// One line. `figures` are formatted already; `remark` says goal and baseline ratio.
+/// Prints one line. `figures` are formatted already; `remark` says goal and baseline ratio.
 void line(const std::string& what, const std::string& figures, const std::string& remark = {});
-/// Tells what could not be measured, and why; the program goes on and ends with an error.
+/// Tells what could not be measured, and why; the program continues and ends with an error.
 void notMeasured(const std::string& what, const std::string& why);
 [[nodiscard]] bool everythingWasMeasured() noexcept;
 

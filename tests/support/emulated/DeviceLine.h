@@ -1,8 +1,8 @@
 // DeviceLine.h - an emulated device at the other end of a Transport, in this process: what the lines of all emulators
 // share. A line of one adds how its device takes and gives bytes.
 //
-// On a virtual clock a read that waits moves the clock, so it must be the clock's only mover meanwhile; on a steady one
-// it waits. The line outlives its transports: what was put out can be judged after the driver has closed.
+// On a virtual clock a waiting read moves the clock, so it must be the clock's only mover meanwhile; on a steady clock
+// it waits. The line outlives its transports: the output can be judged after the driver has closed.
 //
 // Thread-safety: every public function from any thread.
 #pragma once
@@ -32,7 +32,7 @@ public:
     [[nodiscard]] Result<std::unique_ptr<Transport>> connect();
     [[nodiscard]] Connect connector();
     void unplug();
-    /// Transports from before are of no more use.
+    /// Earlier transports are of no more use.
     void plug();
     [[nodiscard]] bool plugged() const;
     /// Bytes of every write() and writeUrgent() so far, one entry a transfer.
@@ -48,7 +48,7 @@ protected:
     [[nodiscard]] virtual Result<void> receive(std::span<const std::uint8_t> bytes, Instant now) = 0;
     virtual void receiveUrgent(std::span<const std::uint8_t> bytes, Instant now) noexcept = 0;
     [[nodiscard]] virtual std::size_t transmit(std::span<std::uint8_t> into, Instant now) = 0;
-    /// When it may have bytes for the host; nothing: not before something is written.
+    /// The time when it may have bytes for the host; nothing: not before something is written.
     [[nodiscard]] virtual std::optional<Instant> nextTransmit(Instant now) = 0;
     /// What came meanwhile is heard before anything else happens.
     virtual void catchUp(Instant) {}

@@ -54,7 +54,7 @@ public:
 
 private:
     struct Emulation;
-    std::shared_ptr<Emulation> emulation_;  // also umockdev's, as long as a client has the node open
+    std::shared_ptr<Emulation> emulation_;  // umockdev owns it, too, as long as a client has the node open
 };
 
 }  // namespace tacto::test

@@ -2,9 +2,9 @@
 // Bytes in, bytes out: what the host writes goes to `onBytes`, whose answer goes back to the host; what a device says
 // by itself is send(). Faults happen on the test's command.
 //
-// It behaves as the kernel and the bus do: packets end transfers, an interface must be claimed before its endpoints
-// are used, a kernel driver must have let go before, a stall stays until it is cleared, an unplugged device is a new
-// one with another address when it comes back.
+// It behaves as the kernel and the bus do: packets end transfers, an interface must be claimed before its endpoints are
+// used, a kernel driver must have let go before, a stall stays until it is cleared, and an unplugged device that comes
+// back is a new one with another address.
 //
 // Thread-safety: all members any thread. `onBytes` and `onRequest` are called by whichever thread moves the bytes
 // (umockdev's, mostly), each one call at a time, with nothing locked; they must not wait for the host, and what
@@ -57,14 +57,14 @@ public:
 
     void unplug();
     void plug();
-    /// Where it is plugged in: "1-1".
+    /// The socket it is plugged into: "1-1".
     [[nodiscard]] std::string socket() const;
     /// Its folder in /sys, for devices below it.
     [[nodiscard]] std::string sysfs() const;
 
     /// The device says something by itself. `end`: with an empty packet after a full last one, as a good device does.
     void send(std::uint8_t endpoint, std::span<const std::uint8_t> bytes, bool end = false);
-    /// One packet, however large it is: a device that lies about its lengths.
+    /// One packet, however large it is: for a device that lies about its lengths.
     void sendPacket(std::uint8_t endpoint, std::span<const std::uint8_t> packet);
 
     /// Stalls the endpoint until the host clears it.
@@ -73,7 +73,7 @@ public:
     void hold(std::uint8_t endpoint, bool held);
     /// The next OUT transfer is taken in part.
     void takeOnly(std::uint8_t endpoint, std::size_t bytes);
-    /// Whether users other than root may open it.
+    /// Lets users other than root open it, or not.
     void permit(bool permitted);
     /// Claims an interface as another program would.
     void claimElsewhere(std::uint8_t interface);
@@ -91,7 +91,7 @@ public:
     [[nodiscard]] std::vector<UsbBytes> waitForReceived(std::size_t transfers) const;
     /// Class and vendor requests that the device got, in order.
     [[nodiscard]] std::vector<UsbSetup> requests() const;
-    /// The same, after waiting until there are so many; fewer after 5 s.
+    /// Waits until there are so many requests, and returns them; fewer after 5 s.
     [[nodiscard]] std::vector<UsbSetup> waitForRequests(std::size_t count) const;
     /// Whether the kernel's driver holds its interfaces now.
     [[nodiscard]] bool kernelDriverBound() const;
@@ -100,7 +100,7 @@ public:
 
 private:
     struct Emulation;
-    std::shared_ptr<Emulation> emulation_;  // also umockdev's, as long as a client has the node open
+    std::shared_ptr<Emulation> emulation_;  // umockdev owns it, too, as long as a client has the node open
 };
 
 }  // namespace tacto::test

@@ -17,7 +17,7 @@ public:
     HidrawNode(const HidrawNode&) = delete;
     HidrawNode& operator=(const HidrawNode&) = delete;
 
-    /// False where no more reports fit (64): the kernel too keeps 64 and drops.
+    /// False where no more reports fit (64): the kernel, too, keeps 64 and drops the rest.
     [[nodiscard]] bool put(std::span<const std::uint8_t> report) noexcept;
     /// Throws away what the program has not read.
     void drain() noexcept;

@@ -1,4 +1,4 @@
-// Published.h - a test's thread and umockdev's hand objects to each other through GLib, whose locks the thread
+// Published.h - a test's thread and umockdev's hand objects to each other through GLib, with locks that the thread
 // sanitizer cannot see; it does see this.
 //
 // Thread-safety: any thread.
@@ -12,7 +12,7 @@ namespace tacto::test {
 
 inline std::atomic<unsigned> publications{0};
 
-/// One side is done with an object and lets the other have it.
+/// Called when one side is done with an object and lets the other have it.
 inline void publish() noexcept { publications.fetch_add(1, std::memory_order_acq_rel); }
 
 /// The other side takes it over.

@@ -237,7 +237,7 @@ EmulatedUsbDevice::Emulation::Answer EmulatedUsbDevice::Emulation::bulkNow(std::
 }
 
 void EmulatedUsbDevice::Emulation::pump(std::unique_lock<std::mutex>& lock) {
-    if (pumping) return;  // the pumping caller goes on until nothing moves
+    if (pumping) return;  // the pumping caller continues until nothing moves
     pumping = true;
     while (auto transfer = wire.advance()) {
         received.push_back(transfer->bytes);

@@ -62,7 +62,7 @@ struct EmulatedUsbDevice::Emulation {
     const UsbBehaviour behaviour;
     const std::string socket;
     const std::string sysfs;
-    std::string terminal;  // its folder in /sys; empty: none. The test's thread only
+    std::string terminal;  // the terminal's folder in /sys; empty: none. Used by the test's thread only
 
     mutable std::mutex mutex;  // guards all below
     mutable std::condition_variable changed;

@@ -1,7 +1,7 @@
 // UsbTestbed.h - a USB bus without hardware, for the process that makes it and those that it starts: umockdev answers
 // their system calls on /sys, /dev and udev. Made first in a test, before libusb or hidapi starts.
 //
-// Only in a program started through with-emulated-usb; elsewhere the constructor throws and says so.
+// Works only in a program started through with-emulated-usb; elsewhere the constructor throws and says so.
 // Thread-safety: the test's own thread.
 #pragma once
 
@@ -21,7 +21,7 @@ public:
     UsbTestbed& operator=(const UsbTestbed&) = delete;
 
     [[nodiscard]] _UMockdevTestbed* get() const noexcept { return testbed_; }
-    /// Where the emulated /sys and /dev really are.
+    /// The real place of the emulated /sys and /dev.
     [[nodiscard]] std::filesystem::path root() const;
     /// The next device address on the bus; a real bus too gives another one at each plug-in.
     [[nodiscard]] std::uint8_t nextAddress() noexcept { return ++address_; }

@@ -87,7 +87,7 @@ void UsbWire::disconnect() {
     }
 }
 
-/// IN: packets into waiting URBs.
+/// On IN endpoints, puts packets into waiting URBs.
 void UsbWire::fill(Endpoint& endpoint) {
     while (!endpoint.waiting.empty() && !endpoint.packets.empty()) {
         Urb& urb = endpoint.waiting.front();

@@ -44,7 +44,7 @@ public:
     void queuePacket(std::uint8_t endpoint, std::span<const std::uint8_t> packet);
 
     void setHalted(std::uint8_t endpoint, bool halted);
-    /// Whether the endpoint answers nothing (NAK): transfers wait until it is let go.
+    /// While held, the endpoint answers nothing (NAK): transfers wait until it is let go.
     void setHeld(std::uint8_t endpoint, bool held);
     /// The next OUT transfer ends after so many bytes.
     void takeOnly(std::uint8_t endpoint, std::size_t bytes);
@@ -60,7 +60,7 @@ public:
     [[nodiscard]] bool discard(std::uintptr_t clientAddress);
     /// Ends one that needs no waiting, as a control transfer does. `actual` as usbfs counts.
     void finish(Urb urb, int status, std::size_t actual);
-    /// All that waits ends with -ESHUTDOWN.
+    /// Everything that waits ends with -ESHUTDOWN.
     void disconnect();
 
     /// Moves packets into waiting URBs, and OUT transfers to the device: the next of those, or nothing.

@@ -108,7 +108,7 @@ void EmulatedPulsePal::advance(Instant now) {
             // The interrupt routine itself waits for the byte: no cycle passes, and no output changes.
             if (handle()) {
                 waiting_.reset();
-                // Its time is counted in cycles, of which none passed: trains go on where they stood.
+                // Its time is counted in cycles, of which none has passed: trains continue where they stood.
                 for (auto& output : outputs_) {
                     output.next += last - cycle_;
                     output.end += last - cycle_;

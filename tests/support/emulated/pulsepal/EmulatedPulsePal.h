@@ -25,7 +25,7 @@ namespace tacto::pulsepal {
 struct EmittedPhase {
     int channel = 1;
     Instant begin{0};
-    Instant end{0};  ///< not yet known while it lasts: Instant::max()
+    Instant end{0};  ///< its end is not yet known while it lasts: Instant::max()
     Volts volts{0};
 };
 
@@ -43,8 +43,8 @@ public:
     [[nodiscard]] std::size_t transmit(std::span<std::uint8_t> into, Instant now);
 
     void clickJoystick(Instant now);
-    /// As if "continuous" were chosen in its menu: the channel's parameters play until they are aborted, and whatever
-    /// is triggered later as well.
+    /// As if "continuous" were chosen in its menu: the channel's parameters play until they are aborted, and so does
+    /// whatever is triggered later.
     void setContinuous(int channel, bool on, Instant now);
     /// The mains go: parameters, bytes and trains are forgotten.
     void powerCycle(Instant now);
@@ -56,7 +56,7 @@ public:
     [[nodiscard]] bool frozen(Instant now);
     /// Bytes that it has received and not yet carried out.
     [[nodiscard]] std::size_t pending(Instant now);
-    /// As stored; nothing for a number that is none.
+    /// The stored value; nothing for a number without a parameter.
     [[nodiscard]] std::optional<std::uint32_t> stored(Parameter parameter, int channel) const;
     /// How many commands of this code it has carried out.
     [[nodiscard]] std::uint64_t commands(std::uint8_t code) const noexcept { return counts_[code]; }
@@ -91,7 +91,7 @@ private:
     const std::uint32_t firmware_;
     bool ready_ = false;
     bool frozen_ = false;
-    std::optional<Instant> waiting_;  // since when for the rest of a command
+    std::optional<Instant> waiting_;  // since when it has waited for the rest of a command
     std::uint64_t cycle_ = 0;         // the next one
     std::deque<std::uint8_t> in_, out_;
     std::array<Output, kChannels> outputs_;

@@ -7,7 +7,7 @@ namespace tacto::sciencemode {
 namespace {
 
 constexpr int kNoCurrent = 300;        // what 0 mA is on the wire
-constexpr std::size_t kIdBytes = 10;   // of an identity
+constexpr std::size_t kIdBytes = 10;   // bytes of an identity
 constexpr std::size_t kHashBytes = 6;  // four bytes, its kind, whether it is valid
 
 /// Points from the front of `bytes`, which is moved past them.
@@ -20,7 +20,7 @@ std::optional<Points> takePoints(std::span<const std::uint8_t>& bytes, std::size
         if (point.time.count() < kMinPoint_us || !(std::abs(point.current.value()) <= kMaxCurrent_mA)) {
             return std::nullopt;
         }
-        static_cast<void>(points.add(point));  // at most 16 are asked for
+        static_cast<void>(points.add(point));  // it asks for at most 16
     }
     return points;
 }

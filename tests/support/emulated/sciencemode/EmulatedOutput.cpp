@@ -15,14 +15,14 @@ DriveSegment segmentOf(const Point& point) noexcept {
     return {drive, level, level, Seconds(point.time).count()};
 }
 
-/// Which part of a pulse each point is: those before the first pause lead, what runs against them recharges.
+/// The part of a pulse that each point belongs to: points before the first pause lead, opposite points recharge.
 PulsePart partOf(const Points& points, std::size_t index) noexcept {
     const double level = points.items[index].current.value();
     const double lead = points.items[0].current.value();
     if (level == 0) return PulsePart::Gap;
     if (level != lead) return PulsePart::SecondPhase;
     for (std::size_t i = 0; i < index; ++i) {
-        if (points.items[i].current.value() != lead) return PulsePart::Rest;  // of a further pulse of the train
+        if (points.items[i].current.value() != lead) return PulsePart::Rest;  // a further pulse of the train
     }
     return PulsePart::LeadingPhase;
 }

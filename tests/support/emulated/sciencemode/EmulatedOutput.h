@@ -14,7 +14,7 @@ namespace tacto::sciencemode {
 /// One pulse that the device put out.
 struct EmittedPulse {
     Instant onset{0};
-    Instant end{0};   ///< of its last point, or when it was cut
+    Instant end{0};   ///< when its last point ended, or when it was cut
     int channel = 0;  ///< 0 to 7: 4 × connector + channel
     bool midLevel = false;
     bool cut = false;
@@ -28,7 +28,7 @@ public:
 
     EmulatedOutput(const Load& load, Volts compliance) : load_(load), compliance_(compliance) {}
 
-    /// From now on, this load; its capacitor starts empty.
+    /// From now on, this load is connected; its capacitor starts empty.
     void fit(const Load& load, Instant now);
     /// Puts out one pulse at `onset`. `into`, unless null, gets what the device measures meanwhile; `stepIsTotal`:
     /// its sample time counts all 128 samples.
@@ -45,7 +45,7 @@ private:
     Load load_;
     const Volts compliance_;
     Instant fitted_{0};
-    double capacitor_V_ = 0;  // at the end of the newest pulse
+    double capacitor_V_ = 0;  // its voltage at the end of the newest pulse
     std::deque<EmittedPulse> pulses_;
 };
 

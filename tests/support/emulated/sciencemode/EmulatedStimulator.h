@@ -28,11 +28,11 @@ struct EmulatedSettings {
     Version protocol{4, 0, 0};
     Load load = Load::resistor(Ohms(1000));
     Volts compliance{150};
-    Seconds latency{500e-6};  ///< from a request (or the end of its pulse) to the ack
+    Seconds latency{500e-6};  ///< the time from a request (or the end of its pulse) to the ack
     bool sampleTimeIsTotal = false;
 };
 
-/// How an ack goes wrong.
+/// The ways in which an ack fails.
 enum class AckFault {
     Drop,         ///< never sent
     Delay,        ///< sent after EmulatedStimulator::kLate
@@ -40,7 +40,7 @@ enum class AckFault {
     Junk,         ///< bytes that look like a frame's beginning before it
     WrongLength,  ///< the frame's length field lies
     WrongCrc,
-    WrongNumber,   ///< another packet number
+    WrongNumber,   ///< answers with another packet number
     WrongCommand,  ///< the ack of another command
     Truncated,     ///< a payload a byte too short, in a sound frame
     WrongChannel,  ///< LL_CHANNEL_CONFIG: as if another channel had been used
@@ -96,7 +96,7 @@ private:
     const EmulatedSettings settings_;
     EmulatedOutput output_;
     FrameDecoder decoder_;
-    std::deque<Outgoing> outgoing_;  // by due time
+    std::deque<Outgoing> outgoing_;  // answers by due time
     std::deque<AckFault> faults_;
     std::size_t garbage_ = 0;
     std::array<std::uint64_t, 128> requests_{};

@@ -33,7 +33,7 @@ public:
     std::array<double, 3> acceleration() const override { return finger_.acceleration(); }
     std::array<double, kTaxels> pressures_Pa() const override;
     double force_N() const override { return finger_.force_N(); }
-    /// To present surfaces; present() is any thread's.
+    /// The finger on which to present surfaces; present() may be called on any thread.
     [[nodiscard]] sim::Finger& finger() noexcept { return finger_; }
 
 private:

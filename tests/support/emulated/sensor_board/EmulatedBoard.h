@@ -3,8 +3,8 @@
 // EmulatedBoardLine, a pseudo-terminal or an emulated USB node carries its bytes.
 //
 // Its clock runs apart from the host's; its line loses, doubles, swaps and spoils blocks; it falls silent, talks
-// garbage, begins again. All of it follows from the seed and from when it is asked, and is counted, so that a test
-// knows exactly what must be missing.
+// garbage, starts over. All of it follows from the seed and from when it is asked, and is counted, so that a test knows
+// exactly what must be missing.
 //
 // Three streams: 0 acceleration (3 × int16), 1 taxels (8 × int16), 2 force (1 × int16, or int32).
 //
@@ -29,8 +29,8 @@ namespace tacto::sensorboard {
 struct LineFlaws {
     double drop = 0;       ///< not sent
     double duplicate = 0;  ///< sent twice
-    double swap = 0;       ///< sent behind the one that follows
-    double flip = 0;       ///< one bit is wrong, the delimiter's apart
+    double swap = 0;       ///< sent behind the following one
+    double flip = 0;       ///< the chance that one bit is wrong, the delimiter's apart
 };
 
 struct EmulatedBoardSettings {
@@ -45,12 +45,12 @@ struct EmulatedBoardSettings {
     bool wideForce = false;                ///< force as int32
     std::optional<std::uint8_t> unit;      ///< unit of acceleration, in place of the right one
     std::optional<std::uint8_t> done;      ///< the command that each DONE names, in place of the right one
-    double drift_ppm = 0;                  ///< how much faster than the host's its clock runs
-    std::uint64_t powerUp_us = 1'234'567;  ///< its clock when it is made
+    double drift_ppm = 0;                  ///< how much faster its clock runs than the host's
+    std::uint64_t powerUp_us = 1'234'567;  ///< what its clock says when it is made
     Seconds latency{300e-6};               ///< delay of a frame on its way, at least
     Seconds jitter{0};                     ///< mean of an exponential delay on top
     LineFlaws flaws;
-    std::size_t bufferBytes = 65536;  ///< beyond these, new blocks are thrown away
+    std::size_t bufferBytes = 65536;  ///< with more bytes, new blocks are thrown away
     std::uint64_t seed = 1;
 };
 
@@ -64,8 +64,8 @@ public:
         std::uint64_t samples = 0;  ///< in them
         std::uint64_t lost = 0;     ///< blocks that will not arrive whole and in their turn
         std::uint64_t lostSamples = 0;
-        std::uint64_t late = 0;     ///< that arrive a second time, or behind a later one
-        std::uint64_t flipped = 0;  ///< that arrive with a wrong bit; among the lost
+        std::uint64_t late = 0;     ///< frames that arrive a second time, or behind a later one
+        std::uint64_t flipped = 0;  ///< frames that arrive with a wrong bit; they count as lost
     };
 
     EmulatedBoard(std::unique_ptr<BoardSignal> signal, EmulatedBoardSettings settings, Instant now);
@@ -77,11 +77,11 @@ public:
     /// When the next bytes for the host are due, if it can be told.
     [[nodiscard]] std::optional<Instant> nextTransmit() const noexcept;
 
-    /// Samples go on being taken, and nothing is sent any more.
+    /// Samples are still taken, and nothing is sent any longer.
     void fallSilent() noexcept { silent_ = true; }
-    /// Every frame is replaced by noise, from now on or no longer.
+    /// Replaces every frame by noise, from now on or no longer.
     void talkGarbage(bool on) noexcept { garbage_ = on; }
-    /// From now on the line does this to blocks.
+    /// From now on the line treats blocks in this way.
     void spoil(const LineFlaws& flaws) noexcept { flaws_ = flaws; }
     /// The next block of `stream` is not sent.
     void dropNext(std::size_t stream) noexcept { dropNext_[stream] = true; }
@@ -93,7 +93,7 @@ public:
 
     [[nodiscard]] const Fate& fate(std::size_t stream) const noexcept { return streams_[stream].fate; }
     [[nodiscard]] bool running() const noexcept { return running_; }
-    /// Its own clock.
+    /// The time on its own clock.
     [[nodiscard]] std::uint64_t time_us(Instant now) const noexcept;
     [[nodiscard]] BoardSignal& signal() noexcept { return *signal_; }
     [[nodiscard]] const tsb_configuration& configuration(std::size_t stream) const noexcept {

@@ -14,7 +14,7 @@ namespace tacto::sensorboard {
 
 class EmulatedBoardLine final : public test::DeviceLine, public SensorBoardPorts {
 public:
-    /// Without a `signal`, the simulated finger.
+    /// Without a `signal` it has the simulated finger.
     EmulatedBoardLine(const Clock& clock, VirtualClock* movable, EmulatedBoardSettings settings = {},
                       std::unique_ptr<BoardSignal> signal = nullptr);
 

@@ -20,7 +20,7 @@
 
 namespace tacto::sigrok_driver {
 
-/// What is at the two inputs, in V.
+/// The voltages at the two inputs, in V.
 class ScopeInput {
 public:
     virtual ~ScopeInput() = default;
@@ -43,7 +43,7 @@ public:
 
     /// Whether it waits for a trigger.
     [[nodiscard]] bool waiting();
-    /// Records read out: those of which the last channel that is on was asked for.
+    /// Records read out completely, to the last channel that is on.
     [[nodiscard]] std::uint64_t readOut() const noexcept { return readOut_; }
 
 private:
@@ -77,14 +77,14 @@ private:
     sim::FastNoise noise_;
     std::array<Channel, 2> channels_;
     double timebase_s_ = 1e-3;
-    double offset_s_ = 0;  // from the trigger to the middle of the screen
+    double offset_s_ = 0;  // the time from the trigger to the middle of the screen
     int source_ = 0;
     bool rising_ = true;
     double level_V_ = 0;
     State state_ = State::Running;
     double searchFrom_s_ = 0;
     std::optional<double> trigger_s_;  // trigger of the record that is taken, or was
-    bool complete_ = false;            // that record has come to its end
+    bool complete_ = false;            // the record has come to its end
     std::size_t depth_ = kMemory;
     bool memory_ = false;  // :WAV:MODE RAW
     int read_ = 0;         // :WAV:SOUR

@@ -23,10 +23,10 @@ enum class ScopeFault {
     None,
     HangUp,     ///< the connection ends in the middle of the block
     Silence,    ///< half of the block, then nothing ever
-    Garbage,    ///< no block at all, but bytes
+    Garbage,    ///< bytes that are no block at all
     LongBlock,  ///< the header promises more than is sent
-    Endless,    ///< a whole megabyte where a record was asked for, announced as such
-    Trickle,    ///< the same, in pieces of a kilobyte with a pause after each
+    Endless,    ///< announces and sends a whole megabyte where a record was asked for
+    Trickle,    ///< a block in pieces of a kilobyte, with a pause after each
 };
 
 class EmulatedScopeServer {
@@ -39,7 +39,7 @@ public:
 
     [[nodiscard]] std::uint16_t port() const noexcept { return port_; }
     void setFault(ScopeFault fault) noexcept { fault_ = fault; }
-    /// Answers nothing any more, whatever is asked.
+    /// Answers nothing any longer, whatever is asked.
     void fallSilent() noexcept { silent_ = true; }
     /// The plug is pulled: the conversation ends and no other begins.
     void unplug() noexcept;
