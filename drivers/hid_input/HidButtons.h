@@ -39,10 +39,10 @@ public:
         bool down = false;
         bool operator==(const Change&) const = default;
     };
-    /// What the report changes, in the order of the buttons. `report` is as read: with its number in front where
-    /// reports are numbered. One that is shorter than its descriptor says, or of no known number, changes nothing.
+    /// The changes in the report, in the order of the buttons. `report` is as read: with its number in front where
+    /// reports are numbered. A report that is shorter than its descriptor says, or of no known number, changes nothing.
     [[nodiscard]] std::vector<Change> read(std::span<const std::uint8_t> report);
-    /// All are up: the device was plugged in again.
+    /// All buttons count as up: the device was plugged in again.
     void forget();
 
 private:
@@ -53,7 +53,7 @@ private:
     };
     struct Length {
         std::uint8_t report = 0;
-        std::size_t bytes = 0;  ///< with its number's byte
+        std::size_t bytes = 0;  ///< the report's length with the byte of its number
     };
     std::vector<std::string> labels_;
     std::vector<Bit> bits_;

@@ -18,7 +18,7 @@ namespace tacto::hid {
 enum class HidWrite {
     Nothing,
     Burst,   ///< the burst that was asked for
-    Repeat,  ///< the one that runs, again: keep-alive
+    Repeat,  ///< the running burst, again: keep-alive
     Stop,
 };
 
@@ -37,11 +37,11 @@ public:
 
     /// A burst is wanted, in place of one that runs. A stop that is due goes first. Not while a write is under way.
     void askBurst(Instant duration) noexcept;
-    /// A burst that was asked for and not written is wanted no more.
+    /// A burst that was asked for and not written is no longer wanted.
     void dropBurst() noexcept { asked_.reset(); }
     /// Off at once; forgets the burst, asked for or running.
     void askStop() noexcept;
-    /// What next() said was written, from `began` to `ended`.
+    /// Tells that the report from next() was written, from `began` to `ended`.
     void wrote(HidWrite what, Instant began, Instant ended, bool taken) noexcept;
 
     /// A burst was taken, and no stop since.
@@ -55,10 +55,10 @@ private:
     const Instant keepAlive_;  // 0: none
     const Instant shortest_;
     std::optional<Instant> asked_;   // duration of the burst that is wanted
-    std::optional<Instant> end_;     // of the burst that runs
-    Instant repeatAt_{0};            // while one runs
+    std::optional<Instant> end_;     // the end of the running burst
+    Instant repeatAt_{0};            // when to repeat while a burst runs
     std::optional<Instant> stopAt_;  // a stop is due then
-    bool echo_ = false;              // and repeats one that the device may have missed
+    bool echo_ = false;              // the device may have missed a command: it is repeated
     std::optional<Instant> last_;    // the last write ended then
 };
 

@@ -20,10 +20,10 @@ constexpr Usage kCutoffTime = usageOf(kHapticsPage, 0x28);
 
 constexpr std::int64_t kStopOrdinal = 2;
 constexpr std::uint16_t kFirstOwnOrdinal = 3;
-constexpr std::int64_t kStopWaveform = 0x1002;  // and 0x1001, none
+constexpr std::int64_t kStopWaveform = 0x1002;  // the waveform that stops; 0x1001 is "none"
 constexpr std::int64_t kBuzzContinuous = 0x1004;
 constexpr std::int64_t kRumbleContinuous = 0x1005;
-constexpr std::int64_t kFirstInkContinuous = 0x100B;  // to 0x1011: a pen's, which last too
+constexpr std::int64_t kFirstInkContinuous = 0x100B;  // up to 0x1011 a pen's waveforms, which last, too
 constexpr std::int64_t kLastInkContinuous = 0x1011;
 constexpr Seconds kMillisecond{0.001};
 constexpr std::int64_t kMaxPlay_ms = 1000;  // as the longest burst
@@ -112,7 +112,7 @@ Result<VibrationReports> hapticReports(const HapticControls& controls, std::span
     }
     const HapticControls::Entry* lasting = nullptr;
     const HapticControls::Entry* finite = nullptr;
-    Seconds playTime{0};  // of the finite one
+    Seconds playTime{0};  // how long the finite effect plays
     std::vector<std::string> present;
     for (const auto& entry : controls.waveforms) {
         const auto waveform = valueOf(plain(entry.waveform), list);

@@ -1,8 +1,8 @@
 // Haptics.h - a device that says by itself how it vibrates: the Haptics page (0x0E) of its report descriptor.
 //
-// Which waveform an ordinal stands for is in a feature report, read from the device. Ordinals 1 (none) and 2 (stop) are
-// implicit, the device's own begin at 3 (HID Usage Tables 1.4, section 17; hid-vibration.md). Names differ
-// between headers, so only the numbers count.
+// A feature report, read from the device, tells which waveform an ordinal stands for. Ordinals 1 (none) and 2 (stop)
+// are implicit, the device's own begin at 3 (HID Usage Tables 1.4, section 17; hid-vibration.md). Names differ between
+// headers, so only the numbers count.
 //
 // A burst that the device ends by itself is preferred, because it ends even if this program dies (H2):
 //   1. a waveform that lasts, 0x1004 (buzz) or 0x1005 (rumble), with a cutoff time (0E:28, ms) in the output report;
@@ -21,10 +21,10 @@
 
 namespace tacto::hid {
 
-/// Where the controls of one SimpleHapticController stand.
+/// The places of one SimpleHapticController's controls.
 struct HapticControls {
     std::uint8_t report = 0;  ///< number of the output report
-    std::size_t length = 0;   ///< of it, its number's byte included
+    std::size_t length = 0;   ///< its length, the byte of its number included
     HidField trigger;         ///< ManualTrigger: takes an ordinal
     HidField intensity;
     std::optional<HidField> repeatCount;

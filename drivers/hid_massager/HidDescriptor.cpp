@@ -151,7 +151,7 @@ private:
                 return addUsages(first, full(value, size));
             }
             default:
-                return {};  // units, strings, designators and what is reserved change no position
+                return {};  // units, strings, designators and reserved items change no position
         }
     }
 

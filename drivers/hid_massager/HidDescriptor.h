@@ -38,12 +38,12 @@ struct HidCollection {
     std::uint16_t parent = kNoCollection;  ///< index, or kNoCollection
 };
 
-/// One control; padding is none.
+/// One control; padding is not one.
 struct HidField {
     ReportKind kind = ReportKind::Input;
-    std::uint8_t report = 0;  ///< its number; 0 where reports have none
-    Usage usage = 0;          ///< 0 in an array, whose values are usages themselves
-    std::uint32_t bit = 0;    ///< of the report, its number's byte included
+    std::uint8_t report = 0;  ///< the report's number; 0 where reports have none
+    Usage usage = 0;          ///< 0 in an array, where the values are usages themselves
+    std::uint32_t bit = 0;    ///< the bit within the report, the byte of its number included
     std::uint8_t bits = 0;    ///< 1 to 32
     std::int64_t min = 0;     ///< logical
     std::int64_t max = 0;     ///< logical; ≥ min
@@ -55,7 +55,7 @@ struct HidDescriptor {
     struct Report {
         ReportKind kind = ReportKind::Input;
         std::uint8_t number = 0;
-        std::uint32_t bits = 0;  ///< without its number
+        std::uint32_t bits = 0;  ///< the bits, without the report's number
     };
     std::vector<HidCollection> collections;
     std::vector<HidField> fields;
@@ -63,7 +63,7 @@ struct HidDescriptor {
 
     /// Bytes of a report with its number's byte, as hidapi writes it; nothing where there is no such report.
     [[nodiscard]] std::optional<std::size_t> lengthOf(ReportKind kind, std::uint8_t number) const noexcept;
-    /// Whether `collection` is, or stands inside, one of this usage.
+    /// Whether `collection` has this usage, or stands inside a collection that has it.
     [[nodiscard]] bool isInside(std::uint16_t collection, Usage usage) const noexcept;
     /// The innermost collection of this usage around `collection`, itself included; kNoCollection where none is.
     [[nodiscard]] std::uint16_t enclosing(std::uint16_t collection, Usage usage) const noexcept;

@@ -16,7 +16,7 @@ namespace tacto::hid {
 
 namespace {
 
-/// What a URI asks for.
+/// The wishes in a URI.
 struct Wanted {
     DeviceUri uri;
     std::optional<std::uint16_t> vendor, product;
@@ -56,9 +56,9 @@ struct Candidate {
     std::string label, obstacle;
     std::uint16_t vendor = 0, product = 0;
     std::optional<HidDeviceInfo> hid;
-    const MassagerTemplate* byTemplate = nullptr;  // else by its Haptics page
+    const MassagerTemplate* byTemplate = nullptr;  // null: driven by its Haptics page
     std::optional<UsbDeviceInfo> usb;              // a Trance Vibrator
-    bool byPlace = false;                          // its serial number does not tell it from another candidate
+    bool byPlace = false;                          // told apart by its place, as another has the same serial number
 
     [[nodiscard]] const std::string& place() const { return hid ? hid->path : usb->path; }
     template <class Info>
@@ -169,7 +169,7 @@ private:
             }
             if (one.byTemplate != nullptr) {
                 const auto usage = one.byTemplate->usage;
-                if (usage && info.usage != 0 && *usage != info.usage) continue;  // another collection of it
+                if (usage && info.usage != 0 && *usage != info.usage) continue;  // another collection of this device
             } else {
                 const auto descriptor = parts_.backend->descriptor(info);
                 if (!descriptor) continue;
@@ -190,7 +190,7 @@ private:
         if (!parts_.usb) return;
         if (wanted != nullptr && wanted->vendor &&
             (*wanted->vendor != kTranceVendor || *wanted->product != kTranceProduct)) {
-            return;  // nor is USB started for it
+            return;  // USB is not started for it either
         }
         const auto context = parts_.usb();
         if (!context) return;

@@ -28,7 +28,7 @@ namespace tacto::hid {
 struct HidDriverParts {
     std::shared_ptr<const HidBackend> backend;
     std::filesystem::path templates;  ///< the folder resources/massagers
-    UsbProvider usb = {};             ///< for the Trance Vibrator; empty: none
+    UsbProvider usb = {};             ///< opens the Trance Vibrator; empty: none
 };
 
 /// The real devices of this computer.

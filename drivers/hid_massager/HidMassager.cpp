@@ -10,7 +10,7 @@ namespace tacto::hid {
 
 namespace {
 
-/// Without a watchdog that answers there is no output. `what` befell the device for it.
+/// Without a watchdog that answers there is no output. `what` then happened to the device.
 Error unwatched(std::string_view device, std::string_view what, WatchdogState watchdog) {
     if (watchdog == WatchdogState::Ended)
         return {ErrorCode::Device, fmt::format("{} {}: its watchdog has ended", device, what)};
@@ -59,7 +59,7 @@ Result<void> HidMassager::connect() {
         const std::scoped_lock urgent(urgent_);
         old = std::move(port_);
     }
-    old.reset();  // before the same device is opened again
+    old.reset();  // released before the same device is opened again
     auto port = open_();
     if (!port) return failure(port);
     {
@@ -214,7 +214,7 @@ void HidMassager::serveOne(HidWrite what, std::unique_lock<std::mutex>& lock) no
     if (sent && what == HidWrite::Stop && watchdog_) watchdog_->rest();
     if (!sent) {
         if (sent.error().code != ErrorCode::Timeout) raise(sent.error());
-        timer_.dropBurst();  // also one that waits behind a stop that failed
+        timer_.dropBurst();  // this also drops one that waits behind a stop that failed
     }
     if (isBurst || !sent) finish(std::move(sent));
     changed_.notify_all();
@@ -268,7 +268,7 @@ void HidMassager::run() {
         if (quitting_) continue;
         const Instant now = clock_.now();
         const Instant beatAt = keepBeating(now);
-        const auto due = timer_.next();  // again: something may have been asked since serve()
+        const auto due = timer_.next();  // asked again: there may be something new since serve()
         if (writing_ || due.what == HidWrite::Nothing) {
             changed_.wait(lock);
         } else if (const Instant next = std::min(due.at, beatAt); next > now) {

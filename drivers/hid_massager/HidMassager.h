@@ -13,8 +13,8 @@
 // for longer than Watchdog::kSilence is over: it is not repeated, the device is stopped again, and the next vibrate()
 // says so.
 //
-// After a fault the next vibrate() opens the device again, by identity; what failed unasked (a stop, a
-// repetition) is the error of the vibrate() after it, once.
+// After a fault the next vibrate() opens the device again, by identity; an earlier failure that nobody waited for (a
+// stop, a repetition) is the error of the vibrate() after it, once.
 //
 // Thread-safety: as Massager; forceOff() waits for no write. On a VirtualClock there is no thread and the owner calls
 // serve(); it is called nowhere else.
@@ -95,11 +95,11 @@ private:
 
     std::unique_ptr<Watchdog> watchdog_;  // touched by who may write to the port, as writing_ says
 
-    mutable std::mutex state_;  // all below; held for copies only, never for a write
+    mutable std::mutex state_;  // guards all below; held for copies only, never for a write
     std::condition_variable changed_;
     BurstTimer timer_;
     std::vector<std::uint8_t> burst_;    // the report of the newest burst
-    std::vector<std::uint8_t> sending_;  // what is being written
+    std::vector<std::uint8_t> sending_;  // the report being written
     std::optional<Job> job_;
     bool writing_ = false;
     std::optional<Error> fault_;  // the device is to be opened again

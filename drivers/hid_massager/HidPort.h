@@ -25,8 +25,8 @@ public:
     /// refused); Timeout where the system gave up waiting.
     [[nodiscard]] virtual Result<std::size_t> write(std::span<const std::uint8_t> report) = 0;
 
-    /// Fetches the feature report whose number is in byte 0 of `report`; returns its bytes, that one included.
-    /// Errors: Device; Unsupported where there are no feature reports.
+    /// Fetches the feature report with the number in byte 0 of `report`; returns its bytes, byte 0 included. Errors:
+    /// Device; Unsupported where there are no feature reports.
     [[nodiscard]] virtual Result<std::size_t> feature(std::span<std::uint8_t> report) = 0;
 
     /// Waits for an input report, at most so long; returns its bytes, cut to the size of `report`, as the device sent

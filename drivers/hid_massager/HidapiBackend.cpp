@@ -88,7 +88,7 @@ public:
         return found;
     }
 
-    /// As the kernel read it from the device.
+    /// The descriptor that the kernel read from the device.
     Result<std::vector<std::uint8_t>> descriptor(const HidDeviceInfo& info) const override {
         const auto file = std::filesystem::path("/sys/class/hidraw") / std::filesystem::path(info.path).filename() /
                           "device" / "report_descriptor";
@@ -97,7 +97,7 @@ public:
             return fail(ErrorCode::NotFound, "{}: the system shows no report descriptor at {}", info.label(),
                         file.string());
         }
-        std::vector<std::uint8_t> bytes(kMaxDescriptor + 1);  // one more, so that too long is seen
+        std::vector<std::uint8_t> bytes(kMaxDescriptor + 1);  // one byte more, so that a longer one is seen
         in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
         if (in.bad()) return fail(ErrorCode::Io, "{}: its report descriptor cannot be read", info.label());
         bytes.resize(static_cast<std::size_t>(in.gcount()));
@@ -115,7 +115,7 @@ public:
     }
 
 private:
-    mutable std::mutex hidapi_;  // it keeps its last error in a global
+    mutable std::mutex hidapi_;  // hidapi keeps its last error in a global
 };
 
 }  // namespace
@@ -128,7 +128,7 @@ std::string HidDeviceInfo::label() const {
 
 std::string HidDeviceInfo::obstacle() const {
     if (permitted) return {};
-    // Whether the shipped rules name it or not: with its number the command is right for every device.
+    // The command is right for every device, as it has the device's number, whether the shipped rules name it or not.
     const auto number = fmt::format("{:04x}:{:04x}", vendor, product);
     return fmt::format("{} is there, but this user may not open it: {}", label(), permissionAdvice(number));
 }

@@ -24,9 +24,9 @@ struct TemplateDevice {
 struct MassagerTemplate {
     std::string key;  ///< the file's name without ".json": what a URI's `template=` names
     std::string title;
-    std::string source;  ///< where its figures are from
+    std::string source;  ///< the source of its figures
     std::vector<TemplateDevice> devices;
-    std::optional<Usage> usage;        ///< of the top-level collection; nothing: any that the device has
+    std::optional<Usage> usage;        ///< the top-level collection's usage; nothing: any that the device has
     std::uint8_t report = 0;           ///< number of the output report; 0 where the device has none
     std::vector<std::size_t> lengths;  ///< accepted, the number's byte included; the device's own descriptor chooses
     struct Constant {
@@ -55,8 +55,8 @@ inline constexpr std::size_t kMaxTemplate = 65536;  ///< bytes
 /// Errors: NotFound, Io; as parseMassagerTemplate().
 [[nodiscard]] Result<MassagerTemplate> loadMassagerTemplate(const std::filesystem::path& file);
 
-/// Every *.json of the folder, by name. Errors: NotFound (the folder); as above; ParseError where two describe the same
-/// device, for then which one it gets would be chance.
+/// Reads every *.json in the folder, by name. Errors: NotFound (the folder); as above; ParseError where two describe
+/// the same device, as chance would then decide which one it gets.
 [[nodiscard]] Result<std::vector<MassagerTemplate>> loadMassagerTemplates(const std::filesystem::path& folder);
 
 }  // namespace tacto::hid

@@ -21,7 +21,7 @@ std::optional<T> hexIn(std::string_view text) {
     return text.size() == 2 * sizeof(T) ? parseWhole<T>(text, 16) : std::nullopt;
 }
 
-/// As USB identities are printed on the device and by lsusb.
+/// Written as on the device and by lsusb.
 ValueKind<std::uint16_t> hex16Kind() {
     return codedKind<std::uint16_t>(
         "a text of four hexadecimal digits, as \"054C\",",

@@ -1,7 +1,7 @@
 // TrancePort.h - the ASCII Trance Vibrator (0B49:064F): no HID device, but one that vibrates by one control request,
 // bmRequestType 0x43, bRequest 1, wValue = speed 0 to 255 (resources/design/wire/hid-vibration.md).
 //
-// To HidMassager it is a device with one report of two bytes: 0, speed.
+// HidMassager sees a device with one report of two bytes: 0, speed.
 //
 // Thread-safety: as HidPort.
 #pragma once

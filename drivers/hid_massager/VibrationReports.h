@@ -1,6 +1,6 @@
-// VibrationReports.h - what is written to a massager: the report that makes it vibrate and the one that stops it, as
-// bytes. Made from a template file or from a device's own Haptics page; used by the driver and by "show bytes", so
-// that what is shown is what is sent.
+// VibrationReports.h - the reports for a massager: one that makes it vibrate and one that stops it, as bytes. Made from
+// a template file or from a device's own Haptics page; used by the driver and by "show bytes", so that it shows what is
+// sent.
 //
 // Byte 0 of every report is its number (0 where the device has none), as hidapi takes it.
 //
@@ -20,8 +20,8 @@
 
 namespace tacto::hid {
 
-/// What a value in a report drives. Intensity is all of a device's vibration; weak and strong are a gamepad's small,
-/// fast motor and its large, slow one. Each follows the burst's intensity over its own range.
+/// The motor that a value in a report drives. Intensity is all of a device's vibration; weak and strong are a gamepad's
+/// small, fast motor and its large, slow one. Each follows the burst's intensity over its own range.
 enum class VibrationRole { Intensity, Weak, Strong };
 inline constexpr Word<VibrationRole> kVibrationRoles[] = {
     {"intensity", VibrationRole::Intensity}, {"weak", VibrationRole::Weak}, {"strong", VibrationRole::Strong}};
@@ -44,7 +44,7 @@ struct ReportField {
 /// A number by which the device ends a burst by itself: how many of the device's units the burst lasts.
 struct DurationField {
     ReportField at;          ///< accepts min to max; its role is not used
-    Seconds unit{0.001};     ///< one millisecond, or one play of the device's own waveform
+    Seconds unit{0.001};     ///< one millisecond, or how long the device's own waveform plays once
     std::int64_t first = 0;  ///< units that the device plays at value 0: a count of repetitions begins after the first
     friend bool operator==(const DurationField&, const DurationField&) = default;
 };
@@ -56,7 +56,7 @@ struct VibrationReports {
     /// Makes a burst finite; nothing: the device vibrates until it is stopped.
     std::optional<DurationField> ends = std::nullopt;
     Seconds keepAlive{0};      ///< repeat the report this often while vibrating; 0: not needed
-    Seconds shortestWrite{0};  ///< between two writes
+    Seconds shortestWrite{0};  ///< least time between two writes
     friend bool operator==(const VibrationReports&, const VibrationReports&) = default;
 };
 
@@ -75,7 +75,7 @@ inline constexpr Seconds kMinKeepAlive{0.005};
 [[nodiscard]] Result<void> writeStart(const VibrationReports& reports, double intensity, Seconds duration,
                                       std::span<std::uint8_t> into);
 
-/// The same in new bytes: "show bytes".
+/// The start report in new bytes: "show bytes".
 [[nodiscard]] Result<std::vector<std::uint8_t>> startBytes(const VibrationReports& reports, double intensity,
                                                            Seconds duration = Seconds(0.1));
 
@@ -84,7 +84,7 @@ inline constexpr Seconds kMinKeepAlive{0.005};
 /// Writes `value`, which its bits can hold, into a report that contains it.
 void setValue(const ReportField& field, std::int64_t value, std::span<std::uint8_t> report) noexcept;
 
-/// "02 03 00 7F 7F".
+/// Writes bytes as "02 03 00 7F 7F".
 [[nodiscard]] std::string hexOf(std::span<const std::uint8_t> bytes);
 
 }  // namespace tacto::hid

@@ -17,20 +17,20 @@ namespace tacto::hid {
 
 enum class WatchdogState {
     Watching,
-    Silent,  ///< it has left beats unanswered for kUnansweredLimit: it, or the computer, stands still
-    Ended,   ///< its process is gone
+    Silent,  ///< left beats unanswered for kUnansweredLimit: its process, or the computer, stands still
+    Ended,   ///< the process is gone
 };
 
 class Watchdog {
 public:
-    static constexpr Instant kSilence = kWatchdogSilence;            ///< with output on; the stop follows it
+    static constexpr Instant kSilence = kWatchdogSilence;            ///< silence allowed with output on, then a stop
     static constexpr Instant kBeat = std::chrono::milliseconds(50);  ///< how often a caller beats meanwhile
     static constexpr Instant kUnansweredLimit =
         std::chrono::milliseconds(500);  ///< how long it may leave beats unanswered
 
     virtual ~Watchdog() = default;
 
-    /// Output is about to begin, or goes on. Never waits. Unless Watching is returned there must be no output.
+    /// Output is about to begin, or continues. Never waits. Unless Watching is returned there must be no output.
     [[nodiscard]] virtual WatchdogState beat() noexcept = 0;
     /// The device took its stop: silence is allowed until the next beat(). Never waits.
     virtual void rest() noexcept = 0;

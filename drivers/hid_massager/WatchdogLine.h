@@ -8,7 +8,7 @@
 
 namespace tacto::hid {
 
-/// With output on, the stop follows so long a silence of the program.
+/// With output on, the stop follows after so long a silence of the program.
 inline constexpr std::chrono::milliseconds kWatchdogSilence{200};
 
 inline constexpr int kWatchdogSocket = 3;  ///< the watchdog's end is this file descriptor
@@ -16,7 +16,7 @@ inline constexpr int kWatchdogSocket = 3;  ///< the watchdog's end is this file 
 enum class WatchdogWord : char {
     Ready = 'r',   ///< watchdog: the device's node is open
     Failed = 'f',  ///< watchdog: it could not be opened; the error's number follows as an int
-    Beat = 'b',    ///< program: output begins or goes on; the watchdog answers with the same
+    Beat = 'b',    ///< program: output begins or continues; the watchdog answers with the same
     Rest = 'o',    ///< program: the device took its stop
     Leave = 'q',   ///< program: ends in order, with the output off
 };

@@ -38,7 +38,7 @@ int spawn(const std::filesystem::path& program, const StopWay& way, int end, pid
     posix_spawn_file_actions_t files;
     posix_spawn_file_actions_init(&files);
     posix_spawn_file_actions_adddup2(&files, end, kWatchdogSocket);
-    // It outlives this program, and must not keep a pipe open whose reader waits for this program's end.
+    // The watchdog outlives this program, and must not keep a pipe open whose reader waits for this program's end.
     for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
         posix_spawn_file_actions_addopen(&files, standard, "/dev/null", O_RDWR, 0);
     }
@@ -104,7 +104,7 @@ WatchdogProcess::~WatchdogProcess() {
     const char leave = static_cast<char>(WatchdogWord::Leave);
     if (resting_) static_cast<void>(send(line_, &leave, 1, MSG_NOSIGNAL | MSG_DONTWAIT));
     shutdown(line_, SHUT_WR);
-    // Its end of the line closes with it; answers to beats may come before.
+    // The watchdog ends when its line closes; answers to beats may come before.
     const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(kEnd_ms);
     for (;;) {
         const auto left =
@@ -131,7 +131,7 @@ WatchdogState WatchdogProcess::beat() noexcept {
     resting_ = false;
     if (now - *unanswered_ > kUnansweredLimit) return WatchdogState::Silent;
     if (send(line_, &word, 1, MSG_NOSIGNAL | MSG_DONTWAIT) == 1) return WatchdogState::Watching;
-    const bool full = errno == EAGAIN || errno == EWOULDBLOCK || errno == ENOBUFS;  // it takes nothing out
+    const bool full = errno == EAGAIN || errno == EWOULDBLOCK || errno == ENOBUFS;  // it is full, and takes nothing out
     return full ? WatchdogState::Silent : WatchdogState::Ended;
 }
 

@@ -15,14 +15,14 @@ namespace tacto::hid {
 
 class WatchdogProcess final : public Watchdog {
 public:
-    /// Where it is expected.
+    /// Where the program is expected.
     [[nodiscard]] static std::filesystem::path programPath();
 
     /// Starts it; it has the device's node open when this returns, which takes 1 s at most. Errors: NotFound (no such
     /// program), Io (it does not start, or may not open the node), each saying that the massager is not driven.
     [[nodiscard]] static Result<std::unique_ptr<Watchdog>> start(const StopWay& way,
                                                                  const std::filesystem::path& program = programPath());
-    /// Waits until the process has ended, 1 s at most: one that cannot deliver its stop goes on trying by itself.
+    /// Waits until the process has ended, 1 s at most: one that cannot deliver its stop keeps trying by itself.
     ~WatchdogProcess() override;
     WatchdogProcess(const WatchdogProcess&) = delete;
     WatchdogProcess& operator=(const WatchdogProcess&) = delete;

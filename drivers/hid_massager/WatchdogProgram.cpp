@@ -3,7 +3,7 @@
 // by itself.
 //
 // It has a session of its own and ignores what a terminal sends, so that Ctrl-C and Ctrl-Z reach only the program. The
-// device's node is opened at the start and so stays the same device. All memory is taken before the first beat.
+// device's node is opened at the start and stays the same device. All memory is taken before the first beat.
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -138,7 +138,7 @@ int main(int argumentCount, char** arguments) {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGTSTP, SIGTTIN, SIGTTOU, SIGUSR1, SIGUSR2}) {
         std::signal(signal, SIG_IGN);
     }
-    // What the program had open must not stay open after its death.
+    // Closes the program's files, which must not stay open after its death.
     close_range(kWatchdogSocket + 1, ~0U, 0);
     auto way = StopWay::read(argumentCount - 1, arguments + 1);
     if (!way || fcntl(kWatchdogSocket, F_GETFD) < 0) {
@@ -151,7 +151,7 @@ int main(int argumentCount, char** arguments) {
         tell(WatchdogWord::Failed, errno);
         return 1;
     }
-    mlockall(MCL_CURRENT | MCL_FUTURE);  // where it is allowed: it must run when memory is short
+    mlockall(MCL_CURRENT | MCL_FUTURE);  // if permitted, as it must run when memory is short
     tell(WatchdogWord::Ready);
     return watch(device);
 }

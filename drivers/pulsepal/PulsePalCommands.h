@@ -38,7 +38,7 @@ class Channel {
 public:
     [[nodiscard]] static Result<Channel> of(int number);
     [[nodiscard]] std::uint8_t number() const noexcept { return number_; }
-    /// Its bit in a trigger's mask.
+    /// The channel's bit in a trigger's mask.
     [[nodiscard]] std::uint8_t mask() const noexcept { return static_cast<std::uint8_t>(1U << (number_ - 1)); }
 
 private:
@@ -77,7 +77,7 @@ private:
     constexpr explicit VoltageCode(std::uint16_t code) : code_(code) {}
     std::uint16_t code_;
 };
-/// What a code puts out; 0 V for 32768, the maker's zero, which is 0.15 mV off.
+/// The output for a code; 0 V for 32768, the maker's zero, which is 0.15 mV off.
 [[nodiscard]] Volts voltsOf(std::uint16_t code) noexcept;
 
 /// The parameters' numbers on the wire.
@@ -99,7 +99,7 @@ enum class Parameter : std::uint8_t {
     CustomTarget = 15,
     CustomLoop = 16,
     RestingVoltage = 17,
-    TriggerMode = 128,  ///< its "channel" is a trigger input, 1 or 2
+    TriggerMode = 128,  ///< here the "channel" is a trigger input, 1 or 2
 };
 /// Bytes of its value: 1, 2 or 4; 0 for a number that is not a parameter.
 [[nodiscard]] std::size_t sizeOf(Parameter parameter) noexcept;
@@ -141,7 +141,7 @@ enum class Duration : std::uint8_t {
 /// Six characters for its display, padded with blanks.
 [[nodiscard]] CommandBytes clientName(std::string_view name) noexcept;
 
-/// What it answers to a parameter.
+/// The device's answer to a parameter.
 inline constexpr std::uint8_t kDone = 0x01;
 
 struct Handshake {

@@ -10,9 +10,9 @@ namespace tacto::pulsepal {
 
 namespace {
 
-/// From the trigger's last byte to the onset: it is scheduled for the cycle after the next, and two more are spare.
+/// From the trigger's last byte to the onset: the device schedules it for the cycle after the next; two more are spare.
 constexpr Instant kTriggerDelay = std::chrono::microseconds(200);
-/// How slow the device's clock may run while ours still predicts a train's end: 100 ppm twice (two crystals).
+/// How slow the device's clock may run and still let ours predict a train's end: 100 ppm twice (two crystals).
 constexpr double kClockError = 200e-6;
 /// A device that says nothing for so long has answered all that another program asked before us: it takes a command
 /// every 50 µs, and a USB frame is 1 ms.

@@ -7,9 +7,9 @@
 // The device reports nothing of its output: that a train runs is known from the clock alone, and while one does the
 // wire is left alone, for serial traffic shifts its pulses.
 //
-// Its three traps (pulsepal2.md): a command is one transfer, for a half of one freezes the outputs; an
-// abort is sent twice, for a trigger before the first survives it; DTR must be set, or replies are lost: that is the
-// opener's (UsbBulkOptions::dataTerminalReady).
+// The device has three traps (pulsepal2.md): a command is one transfer, as half of one freezes the outputs; an abort is
+// sent twice, as a trigger before the first survives it; DTR must be set, or replies are lost: the opener does that
+// (UsbBulkOptions::dataTerminalReady).
 //
 // A device that was unplugged, or that answered wrongly, is looked for again, by identity, when its status is asked
 // for: that is what a reset of the fault does.
@@ -31,8 +31,8 @@ namespace tacto::pulsepal {
 
 class PulsePalStimulator final : public Stimulator {
 public:
-    static constexpr Seconds kTimeout{0.045};  ///< for one exchange; status() has 50 ms
-    /// For what open() asks: longer than the 0.5 s for which the firmware waits for the rest of a command.
+    static constexpr Seconds kTimeout{0.045};  ///< the longest that one exchange may take; status() has 50 ms
+    /// For the questions of open(): longer than the 0.5 s for which the firmware waits for the rest of a command.
     static constexpr Seconds kGreetingTimeout{0.6};
 
     /// Connects, ends what the device was doing, asks what it is and turns all four channels off. `uri` is what opens
@@ -52,7 +52,7 @@ public:
     /// another is in progress. A train that forceOff() overtakes is not begun, or cut, which is not an error.
     [[nodiscard]] Result<void> deliver(ApprovedTrain&& train) override;
     [[nodiscard]] Result<StimulatorStatus> status() override;
-    [[nodiscard]] Result<void> keepAlive() override;  ///< there is no dead-man; Device while the device is lost
+    [[nodiscard]] Result<void> keepAlive() override;  ///< there is no dead-man; error Device while the device is lost
     void forceOff() noexcept override;
 
 private:

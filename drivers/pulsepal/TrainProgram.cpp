@@ -74,7 +74,7 @@ Result<TrainProgram> programTrain(const PulseTrain& train, Channel channel) {
     if (!width2) return unsupported(width2);
 
     const std::uint64_t pulse = std::uint64_t{width1->count()} + gap->count() + width2->count();
-    std::uint64_t period = pulse + kMinPauseCycles;  // of a single pulse no rate is asked
+    std::uint64_t period = pulse + kMinPauseCycles;  // no rate is asked of a single pulse
     if (train.pulses > 1) {
         const auto asked = Cycles::of(Seconds(1 / train.rate.value()), "period");
         if (!asked) return unsupported(asked);

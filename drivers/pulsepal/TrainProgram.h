@@ -12,12 +12,12 @@
 
 namespace tacto::pulsepal {
 
-/// What Pulse Pal 2 can put out. A voltage source without read-back: never for a person (the gate refuses it).
+/// The output range of Pulse Pal 2. A voltage source without read-back: never for a person (the gate refuses it).
 [[nodiscard]] SourceTraits sourceTraits() noexcept;
 
 struct TrainProgram {
-    std::vector<CommandBytes> commands;    ///< all parameters of the channel; each is acknowledged
-    Cycles duration = Cycles::exactly(0);  ///< of the whole train, as programmed
+    std::vector<CommandBytes> commands;    ///< all parameters of the channel, each of which is acknowledged
+    Cycles duration = Cycles::exactly(0);  ///< how long the whole train lasts, as programmed
 };
 
 /// Errors: as validate(); Unsupported naming what the device cannot do: a train in mA, more than ± 10 V, a time off its

@@ -69,7 +69,7 @@ public:
     }
 
 private:
-    /// Where |signal| first rises through the level; NaN where it never does.
+    /// The time at which |signal| first rises through the level; NaN where it never does.
     static double triggerOf(const Capture& capture, const ScopeSettings& settings) {
         const std::string_view unit = settings.triggerOnCurrent ? "A" : "V";
         const auto channel = std::ranges::find(capture.channels, unit, &CaptureChannel::unit);
@@ -83,7 +83,7 @@ private:
         return std::numeric_limits<double>::quiet_NaN();
     }
 
-    std::vector<Capture> captures_;  ///< those before next_ were given away
+    std::vector<Capture> captures_;  ///< captures; those before next_ were given away
     const DeviceIdentity identity_;
     const StatedOrigin origin_;
     const Clock& clock_;
@@ -125,7 +125,7 @@ public:
             return uri.refuse(ErrorCode::NotFound, "{} holds no capture; files {} were expected", uri.path,
                               fmt::join(formats_->suffixes(), ", "));
         }
-        // One that is simulated makes the instrument so; one that says nothing leaves its origin unknown.
+        // A simulated capture makes the instrument simulated; one that says nothing leaves its origin unknown.
         std::optional<bool> simulated = false;
         for (const auto& file : files) {
             const auto stated = statedSimulated(file);

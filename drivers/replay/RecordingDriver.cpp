@@ -44,7 +44,7 @@ public:
         for (std::size_t s = 0; s < infos_.size(); ++s) {
             const auto& samples = recording_.streams[s].samples;
             const std::size_t channels = infos_[s].channels;
-            // In the order recorded: a stamp that steps back comes with the sample before it.
+            // Goes in the order recorded: a stamp that steps back comes with the sample before it.
             for (auto& i = next_[s]; i < samples.samples() && sessionTime(samples.t_s[i]) <= now; ++i) {
                 blocks[s].t_s.push_back(sessionTime(samples.t_s[i]));
                 const auto* row = samples.values.data() + i * channels;

@@ -28,7 +28,7 @@ enum class ResultCode : std::uint8_t {
     Busy = 21,
     LowCurrent = 28,
 };
-/// What went wrong, half a sentence for refusal().
+/// The cause of the failure, half a sentence for refusal().
 [[nodiscard]] std::string_view meaningOf(ResultCode code) noexcept;
 /// The error for an ack whose result is not Ok, code Device: "the stimulator refused LL_INIT: ...".
 [[nodiscard]] tl::unexpected<Error> refusal(Command command, ResultCode code);
@@ -42,7 +42,7 @@ struct ChannelConfigAck {
     int channel = 0;
     int connector = 0;
     Measurement measurement = Measurement::None;
-    std::uint16_t sampleTime_us = 0;                ///< what it counts is unverified: see ReadBack.h
+    std::uint16_t sampleTime_us = 0;                ///< it is not verified what this counts: see ReadBack.h
     bool measured = false;                          ///< samples follow
     std::array<std::uint16_t, kSamples> samples{};  ///< magnitudes in 0.01 mA or 0.01 V; the sign is lost
 };
@@ -53,7 +53,7 @@ struct StimStatusAck {
     std::uint8_t highVoltage = 0;
 };
 
-/// How the identity of an emulated device begins. It makes nothing simulated: the address does. Where that says so and
+/// The beginning of an emulated device's identity. It makes nothing simulated: the address does. Where that says so and
 /// another identity answers, the device is not opened (H4).
 inline constexpr std::string_view kEmulatedId = "EMU";
 

@@ -13,7 +13,7 @@
 
 namespace tacto::sciencemode {
 
-/// How long an ack may take, from the end of the pulse where the request starts one.
+/// How long an ack may take, counted from the end of the pulse where the request starts one.
 inline constexpr Seconds kAnswerTime{0.05};
 
 struct ExchangeCounts {
@@ -35,7 +35,7 @@ struct StopFrames {
 
 class Exchange {
 public:
-    /// Both outlive the exchange.
+    /// Both arguments outlive the exchange.
     Exchange(Transport& transport, const Clock& clock) : transport_(transport), clock_(clock) {}
 
     /// Sends a request; its ack is the next that receive() gives. Errors: as Transport::write().

@@ -30,12 +30,12 @@ inline constexpr std::uint8_t kMaxNumber = 63;
 
 /// A frame ready to be sent.
 struct FrameBytes {
-    std::array<std::uint8_t, kMaxFrame> bytes;  // Not cleared: only the first `size` mean anything
+    std::array<std::uint8_t, kMaxFrame> bytes;  // not cleared: only the first `size` bytes mean anything
     std::size_t size = 0;
     [[nodiscard]] std::span<const std::uint8_t> view() const noexcept { return {bytes.data(), size}; }
 };
 
-/// What a frame carries. `payload` points into the caller's bytes.
+/// The content of a frame. `payload` points into the caller's bytes.
 struct Packet {
     std::uint16_t command = 0;
     std::uint8_t number = 0;

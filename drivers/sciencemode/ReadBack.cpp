@@ -41,7 +41,7 @@ void judgeBalance(const ChannelConfigAck& ack, const PulsePlan& plan, double ste
     const auto second = chargeIn(ack, step_us, secondAt, secondAt + plan.second.count());
     if (!first || !second || !(*first > 0) || !(*second > 0)) return;
     const double imbalance = std::abs(*first - *second) / std::max(*first, *second);
-    // Each phase has two edges, each known to one step, and a plateau known to one unit.
+    // Each phase has two edges, known to one step each, and a plateau known to one unit.
     const auto relative = [&](double width_us, double charge) {
         const double plateau = charge / width_us;
         return std::hypot(std::sqrt(2.0) * step_us / width_us, kSampleUnit / plateau) / std::sqrt(12.0);

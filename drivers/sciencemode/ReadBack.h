@@ -23,9 +23,9 @@ namespace tacto::sciencemode {
 inline constexpr double kSampleUnit = 0.01;  ///< V or mA: the last digit of a sample
 inline constexpr Ohms kTouching{20};         ///< below it the electrodes touch: less than any skin or bench load
 inline constexpr double kAtCompliance =
-    0.95;  ///< of the compliance; from there on the source found no path for its current
+    0.95;  ///< share of the compliance; from there on the source found no path for its current
 
-/// What the device sampled during a pulse. Magnitudes: it sends no sign, so both phases look alike.
+/// The device's samples during a pulse. They are magnitudes: it sends no sign, so that both phases look alike.
 struct SampledPulse {
     Measurement measurement = Measurement::Voltage;  ///< Voltage: V; Current: mA
     Micros step{0};
@@ -37,9 +37,9 @@ struct PulseReading {
     ElectrodeState electrode = ElectrodeState::NotMeasured;
     std::optional<Milliamps> amplitude;  ///< at the end of the leading phase
     std::optional<Ohms> impedance;
-    std::optional<double> imbalance;             ///< at least this; absent where magnitudes prove none
+    std::optional<double> imbalance;             ///< at least so large; absent where magnitudes prove none
     std::optional<double> imbalanceUncertainty;  ///< 95 %: where the samples meet the edges
-    std::optional<SampledPulse> samples;         ///< what all this was read from
+    std::optional<SampledPulse> samples;         ///< the samples from which all this was read
 };
 
 /// The step between samples, or nothing when the ack states none.

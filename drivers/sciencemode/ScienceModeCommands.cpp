@@ -7,8 +7,8 @@
 namespace tacto::sciencemode {
 namespace {
 
-constexpr int kZeroCurrent = 300;        // what 0 mA is on the wire
-constexpr double kStepTolerance = 1e-6;  // of a step: the representation of decimal steps in binary
+constexpr int kZeroCurrent = 300;        // the code for 0 mA on the wire
+constexpr double kStepTolerance = 1e-6;  // share of a step: covers decimal steps that binary cannot hold
 
 /// `value` in steps, when it lies on one.
 std::optional<long> stepsOf(double value, double step) noexcept {

@@ -62,7 +62,7 @@ struct Points {
 };
 
 struct Payload {
-    std::array<std::uint8_t, kMaxPayload> bytes;  // Not cleared: only the first `size` mean anything
+    std::array<std::uint8_t, kMaxPayload> bytes;  // not cleared: only the first `size` bytes mean anything
     std::size_t size = 0;
     [[nodiscard]] std::span<const std::uint8_t> view() const noexcept { return {bytes.data(), size}; }
     void push(unsigned byte) noexcept { bytes[size++] = static_cast<std::uint8_t>(byte & 0xFFU); }

@@ -76,9 +76,9 @@ std::vector<TransportPort> thatAnswer(const std::vector<TransportPort>& all, Tra
     return answering;
 }
 
-/// What `attempt(port, identity)` makes of the port where it succeeds. `identity` is the one that the device must have;
-/// empty: any. Errors: InvalidArgument where several stimulators are meant (H4); NotFound where there is no port; else
-/// the first attempt's, in a sentence of its own.
+/// The result of `attempt(port, identity)` on the port where it succeeds. `identity` is the one that the device must
+/// have; empty: any. Errors: InvalidArgument where several stimulators are meant (H4); NotFound where there is no port;
+/// else the first attempt's, in a sentence of its own.
 template <class Attempt>
 auto theOneThatAnswers(const DeviceUri& uri, TransportPorts* ports, const Clock& clock, Attempt attempt)
     -> decltype(attempt(TransportPort{}, std::string_view{})) {

@@ -12,7 +12,7 @@ namespace {
 /// A pulse this much of a period late moves those after it, so that none follows too fast.
 constexpr double kGridSlack = 0.1;
 
-/// No pulse follows one that found no electrode, or none that is known: what the train says of it stays.
+/// No further pulse follows one whose electrode was open or unknown: what the train says of it stays.
 bool endsTrain(const PulseReading& reading, const SourceTraits& traits) noexcept {
     return reading.electrode == ElectrodeState::Open || reading.electrode == ElectrodeState::Short ||
            (traits.readsBack && !reading.impedance);
@@ -93,7 +93,7 @@ Result<Identification> ScienceModeStimulator::connect() {
     if (found) {
         gone_ = false;
     } else {
-        disconnect();  // not even a stop is for it
+        disconnect();  // this unit gets nothing, not even a stop
     }
     return found;
 }
@@ -303,10 +303,10 @@ void ScienceModeStimulator::firePlayed(Instant now) {
     Play play;
     {
         const std::scoped_lock state(state_);
-        if (!playing() || now < play_->due) return;  // another train by now
+        if (!playing() || now < play_->due) return;  // by now another train is playing
         play = *play_;
     }
-    // Each pulse is judged on its own interval: those before it have slipped, and moved it. A computer that slept is
+    // Each pulse is judged on its own interval, as slipped pulses before it have moved it. A computer that slept is
     // late.
     const Instant late = now - play.due + (clock_.asleep() - play.asleep);
     PulseReading reading;
@@ -321,7 +321,7 @@ void ScienceModeStimulator::firePlayed(Instant now) {
         fired = firePulse(play.plan, play.request, play.offs, reading, written);
     }
     if (!fired) {
-        // No caller waits for this answer, so no other would switch off.
+        // No caller waits for this answer, so that nobody else would switch off.
         forceOff();
         lowLevelOffs_ = kNotInitialised;
     }

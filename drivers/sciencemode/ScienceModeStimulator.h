@@ -32,14 +32,14 @@ namespace tacto::sciencemode {
 struct StimulatorSettings {
     int channel = 0;    ///< 0 to 3
     int connector = 0;  ///< 0 yellow, 1 green
-    /// Whether firmware honours a fixed level is unverified, so the compliance stated to the gate stays 150 V.
+    /// It is not verified whether firmware honours a fixed level, so the compliance stated to the gate stays 150 V.
     HighVoltage highVoltage = HighVoltage::Default;
     Measurement measurement = Measurement::Voltage;  ///< Voltage gives |Z|, Current the amplitude
     /// The operator's word, in the address: what answers is an emulator, and what it gives is simulated (H4, H9).
     bool emulated = false;
 };
 
-/// What a device says it is.
+/// A device's words about itself.
 struct Identification {
     std::string id;
     Version firmware;
@@ -83,7 +83,7 @@ public:
     Instant serve(Instant now) noexcept;
 
     [[nodiscard]] ExchangeCounts counts();
-    /// What the newest low-level pulse reported, including its samples; nothing measured before the first. Any thread.
+    /// The report of the newest low-level pulse, including its samples; nothing measured before the first. Any thread.
     [[nodiscard]] PulseReading lastReading() const {
         const std::scoped_lock state(state_);
         return reading_;
@@ -98,16 +98,16 @@ private:
         int sent = 0;
         Instant period{0};
         Instant asleep{0};  ///< Clock::asleep() at the first pulse
-        Instant due{0};     ///< of the next; a pulse that slipped moves those after it
+        Instant due{0};     ///< when the next is due; a pulse that slipped moves those after it
         std::uint64_t offs = 0;
     };
     enum class Sent { Answered, Stopped };  ///< Stopped: forceOff() came between
 
     ScienceModeStimulator(Connect connect, const StimulatorSettings& settings, const Clock& clock);
 
-    // With io_ held:
+    // These need io_ held:
     void disconnect();
-    [[nodiscard]] Result<Identification> connect();  // and asks who is there, nothing else
+    [[nodiscard]] Result<Identification> connect();  // asks who is there, and nothing else
     void endEverything();
     /// A request with a plain ack. A stop since `offs` is repeated behind it.
     [[nodiscard]] Result<void> command(Command command, const Payload& payload, std::uint64_t offs);
@@ -121,8 +121,8 @@ private:
     [[nodiscard]] bool stoppedSince(std::uint64_t offs) const noexcept {
         return offs_.load(std::memory_order_acquire) != offs;
     }
-    [[nodiscard]] bool playing() const noexcept;                // with state_ held
-    [[nodiscard]] StimulatorStatus snapshot(Instant at) const;  // with state_ held
+    [[nodiscard]] bool playing() const noexcept;                // needs state_ held
+    [[nodiscard]] StimulatorStatus snapshot(Instant at) const;  // needs state_ held
     void firePlayed(Instant now);
     void sendStop() noexcept;
     void run();
@@ -143,7 +143,7 @@ private:
 
     std::atomic<std::uint64_t> offs_{0};  // forceOff() calls
 
-    mutable std::mutex state_;  // all below; held for copies only
+    mutable std::mutex state_;  // guards all below; held for copies only
     std::optional<Play> play_;
     PulseReading reading_;
     std::optional<Error> ended_;  // why the last train ended early

@@ -112,7 +112,7 @@ Result<void> TtyTransport::write(std::span<const std::uint8_t> bytes, Seconds ti
         }
         sendUrgent();
     }
-    writeUrgent({});  // one that came while the lock was being released
+    writeUrgent({});  // sends an urgent message that came while the lock was being released
     return outcome;
 }
 

@@ -39,7 +39,7 @@ private:
     };
     TtyTransport(int terminal, std::string path) : terminal_(terminal), path_(std::move(path)) {}
     [[nodiscard]] bool takeUrgent(Message& into) noexcept;
-    void sendUrgent() noexcept;  // with line_ held
+    void sendUrgent() noexcept;  // needs line_ held
 
     const int terminal_;
     const std::string path_;

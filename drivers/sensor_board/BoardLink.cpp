@@ -9,7 +9,7 @@ namespace tacto::sensorboard {
 
 namespace {
 constexpr Seconds kWriteTime{0.5};
-constexpr unsigned kTokens = 250;  // those above are stopUnheard()'s
+constexpr unsigned kTokens = 250;  // the numbers above are stopUnheard()'s
 constexpr Word<Command> kCommandWords[] = {{"HELLO", Command::Hello},
                                            {"GET_CONFIGURATION", Command::GetConfiguration},
                                            {"SET_CONFIGURATION", Command::SetConfiguration},

@@ -39,19 +39,19 @@ public:
     /// Errors: Timeout where no valid frame came; Device where only noise did, the board refused, or the line failed.
     [[nodiscard]] Result<Frame> ask(Command command, Reply answer, std::span<const std::uint8_t> payload = {});
 
-    /// The same for a command that is answered by DONE. Errors: as ask(); Device for one that names another command.
+    /// Sends a command that is answered by DONE. Errors: as ask(); Device for an answer that names another command.
     [[nodiscard]] Result<void> order(Command command);
 
     /// The next frame of what has been read; nothing when that is used up: see fill().
     [[nodiscard]] std::optional<Frame> next() noexcept { return decoder_.take(pending_); }
-    /// From now on a thread reads; ask() must not be called any more. Nothing on a virtual clock.
+    /// From now on a thread reads; ask() must not be called any longer. Does nothing on a virtual clock.
     void listen();
     /// Reads what has arrived; false when there is nothing. `timeout` 0 does not wait; ignored while a thread listens,
     /// when nothing waits. Errors: Device.
     [[nodiscard]] Result<bool> fill(Seconds timeout);
     /// When fill() last got something, on the session's clock.
     [[nodiscard]] Instant arrival() const noexcept { return arrival_; }
-    /// How much earlier that may have come.
+    /// How much earlier it may have come.
     [[nodiscard]] Seconds doubt() const noexcept { return doubt_; }
     /// When ask() last sent something.
     [[nodiscard]] Instant sent() const noexcept { return sent_; }
@@ -64,14 +64,14 @@ public:
     [[nodiscard]] std::uint64_t dropped() const noexcept;
 
 private:
-    /// What one read of the thread brought: a full-speed packet or a few.
+    /// The bytes of one read of the thread: a full-speed packet or a few.
     struct Chunk {
         Instant arrival;
         std::uint32_t size;
         std::array<std::uint8_t, 500> bytes;
     };
     static constexpr std::size_t kChunks = 512;     ///< seconds of a board's stream
-    static constexpr Seconds kListenTimeout{0.05};  ///< at a time
+    static constexpr Seconds kListenTimeout{0.05};  ///< the longest wait at a time
 
     void run() noexcept;
     [[nodiscard]] Result<bool> take();
@@ -85,10 +85,10 @@ private:
     Instant arrival_{0};
     Instant looked_{0};
     Seconds doubt_{0};
-    std::unique_ptr<SpscRing<Chunk>> ring_;  // while a thread listens
+    std::unique_ptr<SpscRing<Chunk>> ring_;  // there while a thread listens
     std::atomic<bool> ending_{false};
     std::atomic<bool> broken_{false};
-    std::string broke_;  // why; written once, before broken_ is set
+    std::string broke_;  // why it broke; written once, before broken_ is set
     std::thread thread_;
     Instant sent_{0};
     std::uint8_t token_ = 0;

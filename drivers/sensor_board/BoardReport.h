@@ -9,7 +9,7 @@
 
 namespace tacto::sensorboard {
 
-/// `now` with what was counted before the board was opened again. Its clock's figures are those of `now`.
+/// `now` with the counts from before the board was opened again. The clock's figures come from `now`.
 [[nodiscard]] SensorBoardReport together(const SensorBoardReport& before, const SensorBoardReport& now) noexcept;
 
 /// Samples, blocks and bytes that are missing or were not used, of all streams and both ends.

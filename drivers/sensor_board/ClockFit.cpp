@@ -7,10 +7,10 @@
 namespace tacto::sensorboard {
 
 namespace {
-constexpr std::size_t kRecent = 15;  // windows, half a minute, whose shortest delay gives the offset
+constexpr std::size_t kRecent = 15;  // windows, half a minute: their shortest delay gives the offset
 constexpr int kHalvings = 3;
 constexpr std::size_t kMinKept = 4;   // points that the halvings leave
-constexpr double kRamp_s = 8e-3;      // over which a shift is spread: a usual block of acceleration
+constexpr double kRamp_s = 8e-3;      // the time over which a shift is spread: a usual block of acceleration
 constexpr double kSettle_s = 1;       // time in which a correction is meant to be caught up
 constexpr double kMaxDoubt_s = 5e-3;  // a host that was busy for longer says nothing of how often it looks
 constexpr double kDoubtOver = 64;     // messages: some 0.2 s
@@ -145,7 +145,7 @@ void ClockFit::shiftBack(double x, double early) noexcept {
     const double begin = x - kRamp_s;
     if (knots_[newest_].x > begin && knotCount_ > 1) {
         knots_[newest_] = {begin, correctionAt(begin)};
-        // Time between knots stays in order, whatever was there.
+        // Times at knots stay in order, whatever came before.
         const Knot& before = knots_[(newest_ + kKnots - 1) % kKnots];
         if (before.x >= begin) knots_[newest_].x = (before.x + x) / 2;
     } else {
@@ -164,11 +164,11 @@ void ClockFit::follow(double x, double y) {
     const Knot last = knots_[newest_];
     if (x >= last.x + kKnotEvery_s) {
         const double line = base_ - margin() + slope_ * x;
-        // After a long silence there is nothing to keep even.
+        // After a long silence nothing has to be kept even.
         const bool resumed = x - last.x > kSettle_s;
         const Knot reached{x, resumed ? line : last.correction + rate_ * (x - last.x)};
         pushKnot(reached);
-        // On the line's own slope, plus what brings the mapping onto the line.
+        // The line's own slope, plus what brings the mapping onto the line.
         const double behind = line - reached.correction;
         rate_ = std::clamp(slope_ + behind / kSettle_s, slope_ - kMaxSlew, slope_ + kMaxSlew);
     }

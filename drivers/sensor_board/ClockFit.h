@@ -1,8 +1,8 @@
 // ClockFit.h - the board's time on the session's clock, and by how much the two run apart.
 //
-// What the host sees of a moment of the board is when its message arrived: the moment plus a delay that is never
-// negative, mostly short and now and then very long (a host that was busy). So the true line lies under all points,
-// and the lowest ones tell of it.
+// The host sees a moment of the board only when its message arrives: the moment plus a delay that is never negative,
+// mostly short and now and then very long (a busy host). So the true line lies under all points, and the lowest ones
+// tell of it.
 //
 // Method: the lowest point of every 2 s of board time, and of every 0.25 s of the first four (as in Paxson, "On
 // calibrating measurements of packet transit times", SIGMETRICS 1998), over the last 10 minutes; of these the half
@@ -36,9 +36,9 @@
 namespace tacto::sensorboard {
 
 struct ClockReport {
-    /// How much faster than the host's clock the board's runs, parts per million; nothing before it is known.
+    /// How much faster the board's clock runs than the host's, parts per million; nothing before it is known.
     std::optional<double> drift_ppm;
-    std::optional<double> uncertainty_ppm;  ///< of the drift: ± this
+    std::optional<double> uncertainty_ppm;  ///< the drift is known to ± this
     double span_s = 0;                      ///< board time that the estimate stands on
     std::uint64_t steps = 0;                ///< times that the mapping was shifted back at once by 0.1 ms or more
     double largestStep_s = 0;
@@ -55,7 +55,7 @@ public:
     /// Session time of a moment of the board, seconds. Meaningful after the first observe(); asked for moments not much
     /// later than the last one observed and at most a second or so before it.
     [[nodiscard]] double toSession(double device_us) const noexcept;
-    /// By how much `device_us`, as mapped, is later than its own message's arrival: above 0 only where the board's time
+    /// How much later `device_us`, as mapped, is than its own message's arrival: above 0 only where the board's time
     /// jumped, or a message was quicker than any before. Meaningful after the first observe().
     [[nodiscard]] double early_s(std::uint64_t device_us, Instant arrival) const noexcept;
     /// Puts the mapping where it belongs by what has been observed, at once. For before the first sample.
@@ -67,7 +67,7 @@ public:
     static constexpr double kFirstWindow_s = 0.25;
     static constexpr std::size_t kFirstWindows = 16;
     static constexpr std::size_t kWindows = 300;   ///< 10 minutes, nearly
-    static constexpr std::size_t kMinWindows = 8;  ///< before there is a drift
+    static constexpr std::size_t kMinWindows = 8;  ///< needed before there is a drift
     static constexpr double kMaxSlew = 0.005;
     static constexpr double kMargin_s = 0.5e-3;
 
@@ -103,10 +103,10 @@ private:
     std::vector<Point> kept_;     // fit()'s own
     std::vector<Point> wider_;    // fit()'s own: one halving before
     std::vector<double> misses_;  // fit()'s own
-    Point lowest_{};              // of the window that is open
+    Point lowest_{};              // the lowest point of the open window
     double windowEnds_ = 0;
     double doubt_s_ = 0;  // smoothed
-    double slope_ = 0;    // of y over x; minus the drift, nearly
+    double slope_ = 0;    // slope of y over x; nearly the negative drift
     double base_ = 0;     // y of the line at x = 0
 
     static constexpr std::size_t kKnots = 32;
@@ -114,7 +114,7 @@ private:
     std::array<Knot, kKnots> knots_{};  // a ring, newest at newest_; corrections between them are interpolated
     std::size_t newest_ = 0;
     std::size_t knotCount_ = 0;
-    double rate_ = 0;  // of the correction, beyond the newest knot
+    double rate_ = 0;  // how fast the correction grows beyond the newest knot
     ClockReport report_;
 };
 

@@ -21,7 +21,7 @@ public:
     [[nodiscard]] std::uint32_t u32() noexcept { return static_cast<std::uint32_t>(little(4)); }
     [[nodiscard]] std::uint64_t u64() noexcept { return little(8); }
     [[nodiscard]] double f32() noexcept { return static_cast<double>(std::bit_cast<float>(u32())); }
-    /// Text in `size` bytes, up to its first zero; what is not printable ASCII becomes "?".
+    /// Text in `size` bytes, up to its first zero; bytes other than printable ASCII become "?".
     [[nodiscard]] std::string text(std::size_t size) {
         std::string found;
         bool ended = false;

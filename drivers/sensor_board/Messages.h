@@ -17,12 +17,12 @@ namespace tacto::sensorboard {
 inline constexpr std::size_t kMaxStreams = 8;
 inline constexpr std::size_t kMaxColumns = 16;
 
-/// How the serial number of an emulated board begins (PROTOCOL.md, section 4). It makes nothing simulated: the address
+/// The beginning of an emulated board's serial number (PROTOCOL.md, section 4). It makes nothing simulated: the address
 /// does. Where that says so and another serial number answers, the board is not opened.
 inline constexpr std::string_view kEmulatedSerial = "EMU-";
 
 struct BoardIdentity {
-    int lowestVersion = 0;  ///< of the protocol, that the board speaks
+    int lowestVersion = 0;  ///< the oldest version of the protocol that the board speaks
     int highestVersion = 0;
     std::size_t streams = 0;
     std::string name;
@@ -35,7 +35,7 @@ enum class SampleFormat : std::uint8_t { Int16 = 1, Int32 = 2 };
     return format == SampleFormat::Int16 ? 2 : 4;
 }
 
-/// What turns a raw number into a value: scale * raw + offset.
+/// Turns a raw number into a value: scale * raw + offset.
 struct Column {
     double scale = 1;
     double offset = 0;
@@ -58,7 +58,7 @@ struct StreamCalibration {
     bool calibrated = false;
     std::string date;                 ///< "2026-11-20"; empty where the board has none
     std::string reference;            ///< certificate or procedure
-    std::vector<double> uncertainty;  ///< of each column's scale, relative, standard (k = 1)
+    std::vector<double> uncertainty;  ///< for each column's scale, relative, standard (k = 1)
 };
 
 struct BoardStatus {
@@ -87,7 +87,7 @@ struct Refusal {
     [[nodiscard]] std::string text() const;
 };
 
-/// The token of an answer; 0 for what was not asked for.
+/// The token of an answer; 0 for an unasked one.
 [[nodiscard]] std::uint8_t tokenOf(const Frame& frame) noexcept;
 
 /// Errors of each: ParseError naming the field, its value and what was expected.

@@ -2,7 +2,7 @@
 // was unplugged.
 //
 // The board that comes back must be the same one, set as before: its streams do not change under a session that records
-// them. Its reports go on counting.
+// them. Its reports keep counting.
 //
 // Thread-safety: as TactileSensor; deviceReport() from any thread.
 #pragma once
@@ -34,7 +34,7 @@ private:
     const std::vector<StreamInfo> streams_;
     const Open open_;
     std::unique_ptr<SensorBoard> board_;  // null after a reconnect() that failed
-    SensorBoardReport before_;            // of the openings before
+    SensorBoardReport before_;            // what earlier openings reported
     Latest<SensorBoardReport> report_;
 };
 

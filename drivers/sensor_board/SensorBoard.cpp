@@ -146,7 +146,7 @@ Result<std::unique_ptr<SensorBoard>> SensorBoard::open(std::unique_ptr<Transport
     auto ready = board->identify(settings);
     if (ready) ready = board->measureDelay();
     if (ready) {
-        // Until it is acknowledged it may have been heard all the same.
+        // Before it is acknowledged the board may have heard it all the same.
         board->began_ = true;
         ready = board->link_.order(Command::Start);
     }
@@ -183,7 +183,7 @@ Result<void> SensorBoard::identify(const SensorBoardSettings& settings) {
     }
     identity_ = {settings.uri, Role::Sensor,  who->name.empty() ? "sensor board" : who->name,
                  who->serial,  who->firmware, settings.emulated};
-    // One that a program left running is stopped first: configurations are set in silence.
+    // A board that a program left running is stopped first: configurations are set in silence.
     if (const auto stopped = link_.order(Command::Stop); !stopped) return stopped;
     return configure(settings, who->streams);
 }

@@ -25,7 +25,7 @@
 
 namespace tacto {
 
-/// What a board and its line have been like since open().
+/// The state of a board and its line since open().
 struct SensorBoardReport {
     std::array<sensorboard::StreamCounts, sensorboard::kMaxStreams> streams;  ///< by SensorBoard::streams()
     sensorboard::LineCounts line;
@@ -33,7 +33,7 @@ struct SensorBoardReport {
     std::uint64_t dropped = 0;       ///< bytes that the host did not read in time, about
     std::uint64_t foreign = 0;       ///< valid frames of another version, of no known stream, or not well formed
     bool driftKnown = false;
-    double drift_ppm = 0;  ///< how much faster than the session's clock the board's runs
+    double drift_ppm = 0;  ///< how much faster the board's clock runs than the session's
     double driftUncertainty_ppm = 0;
     double driftSpan_s = 0;  ///< board time that the drift stands on
     double delayMost_s = 0;  ///< shortest round trip seen at open: stamps are late by no more, about
@@ -41,10 +41,10 @@ struct SensorBoardReport {
 };
 
 struct SensorBoardSettings {
-    std::string uri = "sensor:";     ///< for its identity
+    std::string uri = "sensor:";     ///< the URI in its identity
     std::string serial = {};         ///< the board that it must be; empty: any
     double accelerationRate_hz = 0;  ///< 0: as the board is configured
-    double slowRate_hz = 0;          ///< of taxels and force; 0: as the board is configured
+    double slowRate_hz = 0;          ///< rate of taxels and force; 0: as the board is configured
     bool emulated = false;           ///< the operator's word, in the address: what it gives is simulated
 };
 
@@ -70,14 +70,14 @@ public:
     [[nodiscard]] std::span<const StreamInfo> streams() const noexcept override { return infos_; }
     [[nodiscard]] Result<void> read(std::span<SampleBlock> blocks) override;
 
-    /// As read back from the board, one per stream. Constant while open.
+    /// The calibrations read back from the board, one per stream. Constant while open.
     [[nodiscard]] const std::vector<sensorboard::StreamCalibration>& calibrations() const noexcept {
         return calibrations_;
     }
     [[nodiscard]] const sensorboard::StreamConfiguration& configuration(std::size_t stream) const noexcept {
         return tracks_[stream].configuration();
     }
-    /// As of the last read(). Any thread.
+    /// The report at the last read(). Any thread.
     [[nodiscard]] SensorBoardReport report() const noexcept { return report_.read(); }
 
 private:

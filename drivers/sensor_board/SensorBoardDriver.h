@@ -26,10 +26,10 @@ inline constexpr std::uint16_t kSensorBoardVendor = 0x1209;
 inline constexpr std::uint16_t kSensorBoardProduct = 0x0001;
 inline constexpr const char* kSensorBoardName = "Tactoscope sensor board";
 
-/// Where boards are looked for: USB in programs (UsbSensorBoards.h), anything in tests.
+/// Looks for boards: on USB in programs (UsbSensorBoards.h), anywhere in tests.
 class SensorBoardPorts : public TransportPorts {
 public:
-    /// For `tty=`. Errors: Unsupported where these ports know no terminals; as the transport's own.
+    /// Opens the terminal of `tty=`. Errors: Unsupported where these ports know no terminals; as the transport's own.
     [[nodiscard]] virtual Result<std::unique_ptr<Transport>> openTerminal(const std::string& path) = 0;
 };
 

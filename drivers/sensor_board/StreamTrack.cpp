@@ -68,7 +68,7 @@ StreamTrack::Verdict StreamTrack::take(const DataBlock& block) noexcept {
 
 void StreamTrack::append(const DataBlock& block, const ClockFit& clock, SampleBlock& into) const {
     const auto columns = configuration_.columns.size();
-    // Between two moments so close the mapping is a line.
+    // Between two moments so close together the mapping is a line.
     const double first = clock.toSession(static_cast<double>(block.time_us));
     const double span_us = (block.count - 1) * (block.interval_ns * 1e-3);
     const double last = clock.toSession(static_cast<double>(block.time_us) + span_us);

@@ -13,13 +13,13 @@
 
 namespace tacto::sensorboard {
 
-/// Since the start of the stream. Counts only grow.
+/// Counted since the start of the stream. Counts only grow.
 struct StreamCounts {
     std::uint64_t blocks = 0;  ///< used
     std::uint64_t samples = 0;
     std::uint64_t gaps = 0;         ///< places where something is missing
-    std::uint64_t lostBlocks = 0;   ///< on the line or in the board's full buffer
-    std::uint64_t lostSamples = 0;  ///< in lost blocks, and those that the board could not fetch
+    std::uint64_t lostBlocks = 0;   ///< lost on the line or in the board's full buffer
+    std::uint64_t lostSamples = 0;  ///< in lost blocks, or never fetched by the board
     std::uint64_t late = 0;         ///< blocks that came again or behind later ones: not used
     std::uint64_t unsound = 0;      ///< blocks that contradict the configuration or the block before: not used
 
@@ -62,7 +62,7 @@ private:
     bool begun_ = false;
     std::uint32_t nextSequence_ = 0;
     std::uint32_t nextIndex_ = 0;
-    std::uint64_t last_us_ = 0;  // of the last sample
+    std::uint64_t last_us_ = 0;  // the last sample's time
     std::uint64_t lateInARow_ = 0;
     StreamCounts counts_;
 };

@@ -14,7 +14,7 @@ namespace tacto {
 /// Opens a terminal for `tty=`; may be null.
 using OpenTerminal = std::function<Result<std::unique_ptr<Transport>>(const std::string& path)>;
 
-/// Where USB does not start (a container) only `tty=` opens anything.
+/// Where USB does not start (a container), only `tty=` opens anything.
 [[nodiscard]] std::shared_ptr<SensorBoardPorts> makeUsbSensorBoards(UsbProvider usb, OpenTerminal openTerminal);
 
 }  // namespace tacto

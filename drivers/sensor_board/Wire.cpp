@@ -61,7 +61,7 @@ std::optional<Frame> FrameDecoder::finish() noexcept {
 }
 
 std::optional<std::size_t> FrameDecoder::unstuff() noexcept {
-    // What is stuffed holds no zero: take() stops at them. Content never outgrows it.
+    // Stuffed bytes hold no zero: take() stops at them. Content never outgrows it.
     std::size_t from = 0, to = 0;
     while (from < held_) {
         const std::size_t code = stuffed_[from];
@@ -81,7 +81,7 @@ std::vector<std::uint8_t> encodeCommand(Command command, std::uint8_t token, std
     putU32(content, crcOf(content));
 
     std::vector<std::uint8_t> sent{0};
-    std::size_t code = sent.size();  // where the length of the group goes
+    std::size_t code = sent.size();  // where the length of the group will stand
     sent.push_back(1);
     for (const auto byte : content) {
         if (byte != 0) {

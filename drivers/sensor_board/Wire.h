@@ -43,7 +43,7 @@ enum class Reply : std::uint8_t {
     Data = 0x50,
 };
 
-/// A frame whose CRC was right. `payload` points into the decoder, until its next call.
+/// A frame with a right CRC. `payload` points into the decoder, until its next call.
 struct Frame {
     std::uint8_t version = 0;
     std::uint8_t type = 0;
@@ -54,13 +54,13 @@ struct Frame {
     }
 };
 
-/// What a line has brought. Counts only grow.
+/// The counts of a line. They only grow.
 struct LineCounts {
     std::uint64_t bytes = 0;
-    std::uint64_t frames = 0;     ///< with the right CRC
+    std::uint64_t frames = 0;     ///< frames whose CRC was right
     std::uint64_t badCrc = 0;     ///< whole, and wrong
-    std::uint64_t malformed = 0;  ///< not COBS, or too short
-    std::uint64_t tooLong = 0;    ///< no delimiter where one must be
+    std::uint64_t malformed = 0;  ///< frames that were not COBS, or too short
+    std::uint64_t tooLong = 0;    ///< no delimiter where there must be one
 
     [[nodiscard]] std::uint64_t bad() const noexcept { return badCrc + malformed + tooLong; }
 };

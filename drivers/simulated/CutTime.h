@@ -19,7 +19,7 @@ public:
                !at_.compare_exchange_weak(known, at.count(), std::memory_order_acq_rel, std::memory_order_acquire)) {
         }
     }
-    /// What is delivered from now on was not cut yet.
+    /// Trains from now on were not cut yet.
     void forget() noexcept { at_.store(kNever.count(), std::memory_order_release); }
     [[nodiscard]] Instant at() const noexcept { return Instant(at_.load(std::memory_order_acquire)); }
 

@@ -9,7 +9,7 @@ namespace tacto::sim {
 
 namespace {
 
-/// All `fault=` parameters.
+/// The faults of all `fault=` parameters.
 FaultSchedule faultsIn(UriParameters& from, std::initializer_list<Fault> accepted) {
     FaultSchedule schedule;
     for (const auto value : from.each("fault")) {
@@ -18,10 +18,10 @@ FaultSchedule faultsIn(UriParameters& from, std::initializer_list<Fault> accepte
     return schedule;
 }
 
-/// What it delivers is what is programmed, as far as it states; nothing where it is out of order by what it was given.
+/// It delivers the programmed value, as far as it states; nothing where it is out of order by its flaws.
 KnownLines statedBy(const SourceTraits& traits) {
     constexpr double kShortest_s = 1e-3, kLongest_s = 100;  // intervals
-    constexpr double kMinShareOfMax = 1e-3;                 // of a source without a grid
+    constexpr double kMinShareOfMax = 1e-3;                 // for a source without a grid
     const auto& stated = traits.accuracy;
     const double least = traits.amplitudeStep > 0 ? traits.amplitudeStep : kMinShareOfMax * traits.amplitudeMax;
     if (!stated.amplitude || !stated.phaseWidth || !stated.gap || !stated.interval) return std::nullopt;
@@ -102,7 +102,7 @@ Result<StimulatorAndLoad> readStimulator(const DeviceUri& uri, std::uint64_t see
     const bool drawn = from.choice("flaws", "drawn", {"drawn", "none"}) == "drawn";
     if (drawn) settings = drawnFlaws(settings);
     const StimulatorSettings before = settings;
-    // What is asked for by name stands in place of what was drawn.
+    // Named values replace drawn ones.
     settings.gain = from.quantity("gain", "", settings.gain, 0.1, 10);
     settings.offset = from.quantity("offset", unit, settings.offset, current ? -0.01 : -10, current ? 0.01 : 10);
     settings.droop = from.quantity("droop", "", settings.droop, 0, 0.5);
@@ -162,7 +162,7 @@ Result<ScopeAndFlaws> readOscilloscope(const DeviceUri& uri, std::uint64_t seed)
     stated.shunt = from.quantity("shunttolerance", "", stated.shunt, 0, 0.5);
     stated.timeBase = from.quantity("timebasetolerance", "", stated.timeBase, 0, 0.1);
     if (from.choice("flaws", "drawn", {"drawn", "none"}) == "drawn") flaws = drawnFlaws(flaws, seed);
-    // What is asked for by name stands in place of what was drawn.
+    // Named values replace drawn ones.
     flaws.noise = from.quantity("noise", "", flaws.noise, 0, 0.1);
     flaws.gain = from.quantity("gain", "", flaws.gain, 0.5, 2);
     flaws.offset = from.quantity("offset", "V", 0, -10, 10);

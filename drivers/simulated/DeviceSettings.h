@@ -23,7 +23,7 @@ struct FingerAndSensor {
 };
 struct StimulatorAndLoad {
     StimulatorSettings stimulator;
-    std::optional<Load> load;  ///< as `load=` says
+    std::optional<Load> load;  ///< the load that `load=` says
 };
 struct ScopeAndFlaws {
     ScopeTraits traits;

@@ -35,7 +35,7 @@ public:
 
     /// Mean 0, standard deviation 1.
     [[nodiscard]] double normal() noexcept {
-        // All four 16-bit fields of a word at once: fold to two 17-bit sums, then to one 18-bit sum.
+        // Adds all four 16-bit fields of a word at once: folds to two 17-bit sums, then to one 18-bit sum.
         const std::uint64_t word = bits();
         const std::uint64_t pairs = (word & 0x0000FFFF0000FFFFU) + ((word >> 16U) & 0x0000FFFF0000FFFFU);
         const auto sum = static_cast<std::int64_t>((pairs & 0xFFFFFFFFU) + (pairs >> 32U));

@@ -18,7 +18,7 @@ namespace tacto::sim {
 
 enum class Fault {
     Unplug,   ///< every call fails with Device; a sensor sends nothing more
-    Stale,    ///< no new data, no error
+    Stale,    ///< no new data come, and no error
     Dropout,  ///< packets are lost
     Nan,      ///< values are not numbers
     Garbage,  ///< replies fail their check

@@ -61,7 +61,7 @@ std::optional<double> FilteredTrace::risesThrough(double level, double after_s) 
     for (const auto& piece : pieces_) {
         if (piece.end_s <= after_s) continue;
         const double from = std::max(after_s, piece.start_s);
-        // Where one exponential or the other bends the piece, and evenly over the rest of it.
+        // The places where one exponential or the other bends the piece, and even steps over the rest of it.
         constexpr double kBends[] = {0.25, 0.5, 1, 2, 4, 8};
         double points[24];
         std::size_t count = 0;

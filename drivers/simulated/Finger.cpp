@@ -19,7 +19,7 @@ constexpr double kTremorContact = 0.6;  // the surface steadies it
 constexpr double kDrag = 0.9;           // m/s² r.m.s. at 1 N, 50 mm/s, friction 0.7
 constexpr double kDragFriction = 0.7;
 constexpr double kDragCorner = 80;      // Hz
-constexpr double kRelief = 0.17;        // of the skin's motion reaches the accelerometer
+constexpr double kRelief = 0.17;        // share of the skin's motion that reaches the accelerometer
 constexpr double kFlicker = 0.75;       // m/s² per unit white force at 1 N, 50 mm/s
 constexpr double kNominalSpeed = 0.05;  // m/s
 constexpr std::array<double, 3> kDragAxis{1.0, 0.8, 0.8};
@@ -30,7 +30,7 @@ constexpr std::array<double, 3> kTremorAxis{0.6, 0.5, 0.6};
 // The array is equalised at 1 N, so only what remains of the dome's shape is left in its readings.
 constexpr double kPitch = 2.5e-3;
 constexpr double kRadius1N = 6e-3;
-constexpr double kSmallestRadius = 0.75;  // of kRadius1N: the pad covers the array at first touch
+constexpr double kSmallestRadius = 0.75;  // share of kRadius1N: the pad covers the array at first touch
 constexpr double kDome = 0.02;
 constexpr double kContactArea = 1e-4;  // m²
 }  // namespace
@@ -120,7 +120,7 @@ Result<void> Finger::present(std::string_view material, MillimetresPerSecond spe
     }
     const double at = toSeconds(now);
     const double earliest = opened_ + kFirstContact.count();
-    // What was planned up to now still happens in ticks that were not read yet; what comes later does not.
+    // Motions planned up to now still happen in ticks that were not read yet; later ones do not.
     while (!presented_ && settings_.lift.count() > 0 && !targets_.empty() && targets_.back().from_s <= at) {
         planStroke(targets_.back().from_s + settings_.lift.count());
     }

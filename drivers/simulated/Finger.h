@@ -38,7 +38,7 @@ struct FingerSettings {
     Seconds stroke{4};     ///< contact time of one stroke; then the finger lifts
     Seconds lift{1};       ///< time in the air between strokes; 0 = never lifts
     double tremor = 1;     ///< 1 = physiological, 0 = a robot
-    Hertz resonance{250};  ///< of the skin
+    Hertz resonance{250};  ///< the skin's resonance
     double damping = 0.3;
     Millimetres gratingPeriod{0};  ///< 0 = the material's own
     Micrometres gratingDepth{0};
@@ -51,14 +51,14 @@ public:
     static constexpr std::size_t kTaxels = 8;
     /// Rest in the air after `opened`, so that baselines can be taken.
     static constexpr Seconds kFirstContact{0.5};
-    /// From one material to the next: off the old one, over, and down.
+    /// The time from one material to the next: off the old one, over, and down.
     static constexpr Seconds kChange{0.25};
 
     /// The first tick is at `opened`. `settings.material` must be known.
     Finger(const FingerSettings& settings, Instant opened);
 
-    /// As SurfacePresenter::present(), called at `now`; ends the strokes of the settings. Targets change for ticks
-    /// after `now`. An unknown material or impossible value is refused and changes nothing.
+    /// Presents like SurfacePresenter::present(), called at `now`; ends the strokes of the settings. Targets change for
+    /// ticks after `now`. An unknown material or impossible value is refused and changes nothing.
     [[nodiscard]] Result<void> present(std::string_view material, MillimetresPerSecond speed, Newtons force,
                                        Instant now);
 

@@ -15,8 +15,8 @@ struct Material {
     std::string_view name;
     Micrometres ra{0};                 ///< arithmetic mean roughness, of the relief without the grating
     Micrometres rz{0};                 ///< mean peak-to-valley over five sampling lengths, grating included
-    Micrometres correlationLength{0};  ///< of the height, exponential: exp(-|x| / length)
-    Micrometres asperitySpacing{0};    ///< between the summits that bear load
+    Micrometres correlationLength{0};  ///< how the height correlates, exponential: exp(-|x| / length)
+    Micrometres asperitySpacing{0};    ///< distance of the summits that bear load
     double friction = 0;               ///< skin on it, coefficient
     Millimetres gratingPeriod{0};      ///< 0 = no grating
     Micrometres gratingDepth{0};       ///< peak to valley, sinusoidal

@@ -34,7 +34,7 @@ public:
     void start(Instant at, double command, Instant end);
     /// Ends the newest command.
     void cut(Instant now) noexcept { cut_.cut(now); }
-    /// What is felt at a moment of the last kRemembered commands; nothing before them.
+    /// The motion at a moment of the last kRemembered commands; nothing before them.
     [[nodiscard]] Vibration at(Instant moment) const;
 
     static constexpr std::size_t kRemembered = 64;
@@ -56,7 +56,7 @@ private:
     const MotorSettings settings_;
     mutable std::mutex mutex_;
     std::deque<Command> commands_;  // guarded by mutex_; the newest last
-    CutTime cut_;                   // of the newest
+    CutTime cut_;                   // the newest cut
 };
 
 }  // namespace tacto::sim

@@ -34,7 +34,7 @@ struct DrivenPulse {
     static constexpr std::size_t kMaxSteps = 12;
     std::array<Step, kMaxSteps> steps{};
     std::size_t count = 0;
-    DriveSegment rest;  ///< what the source does afterwards; its duration is ignored
+    DriveSegment rest;  ///< the source's state afterwards; its duration is ignored
     void add(const DriveSegment& drive, PulsePart part) noexcept {
         if (drive.duration_s > 0 && count < kMaxSteps) steps[count++] = {drive, part};
     }
@@ -46,7 +46,7 @@ struct DrivenTrain {
     double onset_s = 0;
     int pulses = 1;
     double period_s = 0.01;  ///< between pulses
-    double sourceOhm = 0;    ///< of a voltage source: its level sags by what the load's d.c. resistance draws
+    double sourceOhm = 0;    ///< a voltage source's: its level sags by what the load's d.c. resistance draws
     SourceLimits limits;
 };
 
@@ -54,7 +54,7 @@ struct DrivenTrain {
 struct PlayedPulse {
     std::uint64_t number = 0;  ///< counts from 1 over the circuit's life
     double onset_s = 0;
-    double end_s = 0;                   ///< of the drive
+    double end_s = 0;                   ///< when the drive ends
     std::vector<ResponsePiece> pieces;  ///< start_s from onset_s; the last ones are the tail after end_s
     PulseTotals totals;                 ///< tail included
     bool cut = false;
@@ -65,7 +65,7 @@ public:
     static constexpr std::size_t kKept = 512;
     static constexpr double kTail_s = 0.5;
 
-    /// From `now` on, this load; its capacitor starts empty. What is playing goes on into it at its next pulse.
+    /// Fits this load from `now` on; its capacitor starts empty. What is playing continues into it at its next pulse.
     void fit(const Load& load, Instant now);
     [[nodiscard]] Load load() const;
     /// Open, Short and StuckOn act on the circuit; the others are the stimulator's own.
@@ -94,13 +94,13 @@ public:
 
 private:
     static constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    /// What a pulse was made from, to make it again shorter.
+    /// The recipe of a pulse, for making it again shorter.
     struct Recipe {
         DrivenPulse pulse;
         SourceLimits limits;
         Circuit circuit;
-        double startVoltage = 0;      ///< of the capacitor, at onset
-        double capacitorVoltage = 0;  ///< where the drive ended
+        double startVoltage = 0;      ///< the capacitor's voltage at onset
+        double capacitorVoltage = 0;  ///< the capacitor's voltage where the drive ended
     };
 
     void advance(double now_s);
@@ -112,19 +112,19 @@ private:
 
     mutable std::mutex mutex_;
     CutTime cut_;
-    // All below guarded by mutex_.
+    // Guarded by mutex_, like all below.
     double allowedUntil_ = kInfinity;
     Load load_;
     double fitted_s_ = 0;
     FaultSchedule faults_;
     std::optional<DrivenTrain> train_;
-    int pulse_ = 0;  // of the train, next to play
+    int pulse_ = 0;  // the train's pulse that plays next
     double trainOnset_ = 0;
     std::uint64_t trains_ = 0;
     std::deque<PlayedPulse> pulses_;
     std::uint64_t played_ = 0;
     Recipe last_;
-    bool loadChanged_ = false;  // since the newest pulse
+    bool loadChanged_ = false;  // the load changed since the newest pulse
 };
 
 }  // namespace tacto::sim

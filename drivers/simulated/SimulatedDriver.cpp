@@ -90,7 +90,7 @@ private:
                                    DeviceSet& into) {
         std::array<DeviceUri, 4> parts;
         for (const auto& [key, value] : uri.parameters) {
-            if (key == "flaws") {  // of all that have any
+            if (key == "flaws") {  // the flaws of every device that has any
                 for (std::size_t i = 0; i < parts.size(); ++i) {
                     if (kinds()[i].role == Role::Stimulator || kinds()[i].role == Role::Oscilloscope) {
                         parts[i].parameters.emplace_back(key, value);
@@ -154,7 +154,7 @@ private:
         const auto read = readFinger(uri, world->seed());
         if (!read) return failure(read);
         auto finger = std::make_shared<Finger>(read->finger, world->clock().now());
-        if (read->sensor.onMotor) {  // it touches nothing, and nothing can be put under it
+        if (read->sensor.onMotor) {  // a fingertip on a motor touches nothing, and nothing can be put under it
             const auto lifted = finger->present("", MillimetresPerSecond(0), Newtons(0), world->clock().now());
             if (!lifted) return failure(lifted);
         } else {

@@ -1,4 +1,4 @@
-// SimulatedMassager.h - a massager whose motor a simulated accelerometer may be fastened to.
+// SimulatedMassager.h - a massager with a motor to which a simulated accelerometer may be fastened.
 //
 // Thread-safety: as Massager; forceOff() is lock-free.
 #pragma once
@@ -14,13 +14,13 @@ namespace tacto::sim {
 
 struct MassagerSettings {
     MotorSettings motor;
-    double step = 0;  ///< of intensities; 0: it takes any
+    double step = 0;  ///< step between intensities; 0: it takes any
     FaultSchedule faults;
 };
 
 class SimulatedMassager final : public Massager, public WorldMember {
 public:
-    /// Its motor becomes the world's.
+    /// The world takes its motor for its own.
     SimulatedMassager(DeviceIdentity identity, std::shared_ptr<World> world, const MassagerSettings& settings);
     ~SimulatedMassager() override { forceOff(); }
     SimulatedMassager(const SimulatedMassager&) = delete;
@@ -32,7 +32,7 @@ public:
     void forceOff() noexcept override { motor_->cut(world_->clock().now()); }
     [[nodiscard]] const std::shared_ptr<World>& world() const noexcept override { return world_; }
 
-    /// What a hand on it would feel. Any thread.
+    /// The motion that a hand on it would feel. Any thread.
     [[nodiscard]] Motor::Vibration vibrationAt(Instant moment) const { return motor_->at(moment); }
 
 private:

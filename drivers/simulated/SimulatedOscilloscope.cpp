@@ -104,7 +104,7 @@ Result<void> SimulatedOscilloscope::forceTrigger() {
 std::optional<double> SimulatedOscilloscope::findTrigger(const std::deque<PlayedPulse>& pulses) const {
     const auto channel = settings_.triggerOnCurrent ? FilteredTrace::Channel::Current : FilteredTrace::Channel::Voltage;
     const double bandwidth = traits_.bandwidth.value();
-    // One pulse at a time, so that a long wait with many pulses costs no more than the next trigger.
+    // Takes one pulse at a time, so that a long wait with many pulses costs no more than the next trigger.
     for (std::size_t i = 0; i < pulses.size(); ++i) {
         const double next = i + 1 < pulses.size() ? pulses[i + 1].onset_s : pulses[i].end_s + 1;
         if (next <= searchFrom_s_) continue;
@@ -122,7 +122,7 @@ Result<std::optional<Capture>> SimulatedOscilloscope::poll() {
     return world_->circuit().inspect(now, [&](const std::deque<PlayedPulse>& pulses) -> std::optional<Capture> {
         const double length = static_cast<double>(settings_.samples) * step_s();
         if (!trigger_s_) trigger_s_ = findTrigger(pulses);
-        // What comes first takes the record; a trigger within a record that is under way is passed over.
+        // The first of the two takes the record; a trigger within a running record is passed over.
         const bool untriggered = forced_s_ && (!trigger_s_ || *forced_s_ < *trigger_s_);
         const auto middle_s = untriggered ? forced_s_ : trigger_s_;
         if (!middle_s || *middle_s + (1 - settings_.preTrigger) * length > toSeconds(now)) return std::nullopt;
@@ -149,7 +149,7 @@ Capture SimulatedOscilloscope::render(const std::deque<PlayedPulse>& pulses, dou
     capture.trigger_s = untriggered ? kNaN : stated;
     if (flaws_.stated.states) {
         capture.timeBaseTolerance = flaws_.stated.timeBase;
-        capture.stampTolerance_s = 0;  // all records are of one clock
+        capture.stampTolerance_s = 0;  // all records have one clock
         capture.gainShared = true;
     }
     capture.untriggered = untriggered;

@@ -20,24 +20,24 @@
 
 namespace tacto::sim {
 
-/// What the twin's data sheet states: half-widths. Its flaws are drawn within them (science.md section 12).
+/// The statements in the twin's data sheet: half-widths. Its flaws are drawn within them (science.md section 12).
 struct ScopeStatement {
     bool states = true;         ///< false: nothing of what follows (`accuracy=unknown`)
     double gain = 0.005;        ///< relative; both channels have the same reference, so one gain error
-    double offset = 0.001;      ///< of the range
-    double linearity = 0.0005;  ///< of the range
+    double offset = 0.001;      ///< share of the range
+    double linearity = 0.0005;  ///< share of the range
     double shunt = 0.001;       ///< relative
     double timeBase = 10e-6;    ///< relative
 };
 
 struct ScopeFlaws {
     double noise = 1e-4;                        ///< r.m.s., of the range
-    double gain = 1, offset = 0;                ///< of the voltage channel; offset in V
+    double gain = 1, offset = 0;                ///< the voltage channel's gain and offset; the offset in V
     double currentGain = 1, currentOffset = 0;  ///< offset in A
-    double rangeOffset = 0;                     ///< of the range, of both channels
-    double bow = 0;                             ///< of the range: the largest departure from the straight line
-    double currentBow = 0;                      ///< the same of the current channel
-    /// What it states of a time since it was armed, to that time; a computer whose clock is off the other way.
+    double rangeOffset = 0;                     ///< both channels' offset, as a share of the range
+    double bow = 0;                             ///< largest departure from the straight line, as a share of the range
+    double currentBow = 0;                      ///< largest departure from the straight line of the current channel
+    /// What it states of a time since it was armed, over that time; a computer's clock is off the other way.
     double timeBase = 1;
     ScopeStatement stated;
     FaultSchedule faults;
@@ -63,10 +63,10 @@ public:
 
 private:
     [[nodiscard]] Result<void> answers(Instant now) const;
-    /// From one sample to the next, true.
+    /// The true time from one sample to the next.
     [[nodiscard]] double step_s() const noexcept { return 1 / settings_.sampleRate.value() / flaws_.timeBase; }
     [[nodiscard]] std::optional<double> findTrigger(const std::deque<PlayedPulse>& pulses) const;
-    /// What the instrument makes of a time since it was armed, and back.
+    /// The instrument's reading of a time since it was armed, and back.
     [[nodiscard]] double stated_s(double true_s) const noexcept {
         return armed_s_ + (true_s - armed_s_) * flaws_.timeBase;
     }

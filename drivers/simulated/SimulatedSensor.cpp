@@ -8,8 +8,8 @@
 namespace tacto::sim {
 
 namespace {
-constexpr double kFaultyDropouts = 0.3;   // of the packets, while the fault "dropout" lasts
-constexpr double kForceDrift_N_s = 0.05;  // while the fault "drift" lasts
+constexpr double kFaultyDropouts = 0.3;   // share of packets lost while the fault "dropout" lasts
+constexpr double kForceDrift_N_s = 0.05;  // newtons per second while the fault "drift" lasts
 constexpr double kPressureDrift_Pa_s = 500;
 constexpr double kTaxelOffset_Pa = 200;  // largest zero offset of a taxel
 

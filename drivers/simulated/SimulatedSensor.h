@@ -30,9 +30,9 @@ struct SensorSettings {
     double taxelStep_Pa = 1;
     double forceNoise_N = 0.002;
     double forceStep_N = 0.001;
-    double taxelGain = 1;  ///< what a taxel and the force sensor say of 1 Pa and 1 N: a scale that is wrong
+    double taxelGain = 1;  ///< readings of a taxel and the force sensor for 1 Pa and 1 N: a wrong scale
     double forceGain = 1;
-    bool taxelsInCounts = false;  ///< and whether taxels claim to be in Pa at all
+    bool taxelsInCounts = false;  ///< the taxels deliver counts, and may not even claim Pa
     double dropouts = 0;          ///< fraction of 10 ms packets that are lost
     bool onMotor = false;         ///< fastened to the world's motor in place of a fingertip
     FaultSchedule faults;
@@ -52,7 +52,7 @@ public:
     /// Ticks of the finger per acceleration sample, for a rate below 4 kHz.
     [[nodiscard]] static int ticksPerSample(double rate_hz) noexcept;
     static constexpr Seconds kPacket{0.01};
-    static constexpr Seconds kLateness{0.2};  ///< of the fault "late"
+    static constexpr Seconds kLateness{0.2};  ///< how late the fault "late" makes it
 
 private:
     void sampleFast(SampleBlock& block);
@@ -79,7 +79,7 @@ private:
     std::array<double, 3> lastAcceleration_{};
     std::array<double, Finger::kTaxels> lastPressures_{};
     double lastForce_ = 0;
-    // Faults at the tick being sampled
+    // the faults at the sampled tick
     bool silent_ = false, stuck_ = false, nan_ = false;
     double drifting_s_ = 0;
 };

@@ -20,35 +20,35 @@ namespace tacto::sim {
 
 struct StimulatorSettings {
     SourceTraits traits;
-    KnownLines calibration;  ///< as it states it; nothing: it does not know
+    KnownLines calibration;  ///< its own statement; nothing: it does not know
     double gain = 1;
     double offset = 0;             ///< V or A added to the magnitude of every phase
     double imbalance = 0;          ///< the second phase is weaker by this fraction
-    double widthGain = 1;          ///< of both phases
+    double widthGain = 1;          ///< the gain of both phases' width
     Seconds widthError{0};         ///< added to each phase
     Seconds gapError{0};           ///< added to the gap, where there is one
-    double droop = 0;              ///< of each phase, from its beginning to its end
-    double overshoot = 0;          ///< of each phase's first kOvershoot
+    double droop = 0;              ///< how far each phase sags from its beginning to its end
+    double overshoot = 0;          ///< added in each phase's first kOvershoot
     double coldGain = 0;           ///< relative, when it is opened; gone with the time constant kWarmUp
-    double sourceOhm = 0;          ///< of a voltage source
+    double sourceOhm = 0;          ///< a voltage source's
     Seconds rise{100e-9};          ///< 0 to 100 % of an edge
     Seconds latency{200e-6};       ///< from the command to the onset
-    Seconds jitter{2e-6};          ///< of the onset, s.d.
+    Seconds jitter{2e-6};          ///< the onset's, s.d.
     double readBackNoise = 0.002;  ///< relative, s.d.
     FaultSchedule faults;
     std::uint64_t seed = 1;
 };
 
-/// What the twin's data sheet states; its flaws are drawn within it (science.md section 12).
+/// The statements in the twin's data sheet; its flaws are drawn within them (science.md section 12).
 struct StimulatorStatement {
     double gain = 0.005;       ///< relative
-    double offset_v = 0.02;    ///< of a voltage source
-    double offset_ma = 0.005;  ///< of a current source
+    double offset_v = 0.02;    ///< a voltage source's
+    double offset_ma = 0.005;  ///< a current source's
     double coldGain = 0.002;   ///< relative
     double droop = 0.003;      ///< relative
     double overshoot = 0.01;   ///< relative
-    double sourceOhm = 2;      ///< of a voltage source
-    Seconds timing{20e-9};     ///< of a phase and of the gap
+    double sourceOhm = 2;      ///< a voltage source's
+    Seconds timing{20e-9};     ///< for a phase and for the gap
 };
 
 /// `settings` with flaws drawn from its seed; their accuracy is stated in its traits.
@@ -56,8 +56,8 @@ struct StimulatorStatement {
 
 class SimulatedStimulator final : public Stimulator, public StatesCalibration, public WorldMember {
 public:
-    static constexpr Seconds kLateness{0.06};        ///< of the fault "late": longer than anyone waits
-    static constexpr double kDriftPerSecond = 0.02;  ///< of gain while the fault "drift" lasts, up to kMaxDrift
+    static constexpr Seconds kLateness{0.06};        ///< how late the fault "late" makes it: longer than anyone waits
+    static constexpr double kDriftPerSecond = 0.02;  ///< gain per second while the fault "drift" lasts, up to kMaxDrift
     static constexpr double kMaxDrift = 0.5;
     static constexpr Seconds kOvershoot{3e-6};
     static constexpr Seconds kWarmUp{120};
@@ -78,7 +78,7 @@ public:
     [[nodiscard]] const KnownLines& statedCalibration() const noexcept override { return settings_.calibration; }
     [[nodiscard]] const std::shared_ptr<World>& world() const noexcept override { return world_; }
 
-    /// What this source makes of `train` at `now`, before any load: pure but for drift.
+    /// The pulse that this source makes of `train` at `now`, before any load: pure, apart from drift.
     [[nodiscard]] DrivenPulse drivenPulse(const PulseTrain& train, Instant now) const;
 
 private:

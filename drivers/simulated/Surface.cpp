@@ -11,13 +11,13 @@ namespace tacto::sim {
 namespace {
 // How skin meets a surface. Lengths in metres.
 constexpr double kPatch = 2e-3;            // a fingerprint ridge's contact along the path: asperities average over it
-constexpr double kCoherent = 0.5;          // of a grating's motion is left by the patch, several ridges wide
+constexpr double kCoherent = 0.5;          // share of a grating's motion that the patch leaves, several ridges wide
 constexpr double kFollow = 100e-6;         // the pulp bridges relief deeper than this
 constexpr double kCorneum = 2e-6;          // the stratum corneum conforms to finer relief than this
 constexpr double kTaxelCompliance = 8e-6;  // relief finer than this presses evenly
 constexpr double kRidge = 60e-6;           // contact of one asperity with a ridge: low-pass in space
 constexpr double kTaxelSide = 5e-3;
-constexpr double kBearingFraction = 0.05;  // of the summits carry the load
+constexpr double kBearingFraction = 0.05;  // share of the summits that carry the load
 constexpr double kMaxUneven = 0.75;        // a taxel's pressure never falls to nothing while the finger presses
 
 double metres(Micrometres length) { return length.value() * 1e-6; }

@@ -13,7 +13,7 @@ namespace tacto {
 
 struct FileHolder {
     pid_t process = 0;
-    std::string name;  ///< of the program, as ps shows it; 15 characters at most
+    std::string name;  ///< the program's name, as ps shows it; 15 characters at most
 };
 
 /// Other processes that have `file` open, by process number. Processes of other users are seen by root only, and what

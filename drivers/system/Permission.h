@@ -14,10 +14,10 @@ namespace tacto {
 
 enum class Login {
     Seat,    ///< at the computer itself
-    Ssh,     ///< from another one
+    Ssh,     ///< logged in from another computer
     Unknown  ///< neither shows: a service, a container
 };
-/// By XDG_SEAT, the display's variables and SSH_CONNECTION.
+/// Found by XDG_SEAT, the display's variables and SSH_CONNECTION.
 [[nodiscard]] Login thisLogin();
 
 /// "run \"./dev install-rules\" once, then plug the device in again." `device` is "1234:5678" for one that may not be

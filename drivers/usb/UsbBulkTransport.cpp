@@ -54,7 +54,7 @@ Result<void> setUpSerial(UsbDevice& device, std::uint8_t interface, const UsbBul
 
 }  // namespace
 
-/// In order of destruction, last first: the boxes end their transfers, then the device is closed.
+/// In the order of destruction, last first: the boxes end their transfers, then the device is closed.
 struct UsbBulkTransport::Parts {
     Parts(std::shared_ptr<UsbDevice> opened, const UsbBulkPair& found, const UsbBulkOptions& options)
         : device(std::move(opened)),

@@ -5,7 +5,7 @@
 // the device is unplugged every waiting call returns Device within milliseconds, bytes that arrived before are still
 // read, and the transport stays useless: open a new one for the device that comes back (UsbContext::find()).
 //
-// After a stall, or a transfer that broke off, the call that met it returns Device and has cleared the endpoint.
+// After a stall, or a transfer that broke off, the call that noticed it returns Device and has cleared the endpoint.
 // Destruction lets an urgent message leave (0.1 s at most), ends all transfers, drops DTR and closes.
 //
 // Thread-safety: as Transport; destruction and read() and write() one thread, never libusb's event thread.
@@ -26,7 +26,7 @@ struct UsbBulkOptions {
     bool dataTerminalReady = true;
     /// CDC: bit/s for SET_LINE_CODING, 8 bits, no parity, 1 stop bit. A device that knows no line coding may refuse it.
     std::uint32_t bitRate = 115200;
-    /// IN transfers in flight at once, 1 to 64, one packet each.
+    /// How many IN transfers are in flight at once, 1 to 64, one packet each.
     std::size_t inTransfers = 8;
     /// Bytes kept for a reader that is late, 1 to 16 MiB.
     std::size_t ringBytes = 65536;

@@ -30,7 +30,7 @@ struct UsbContext::Callbacks {
                 return 0;  // reported twice: registering lists what is there while it may also arrive
             }
         } catch (...) {
-            return 0;  // no memory for one more entry: the device stays unlisted until it is plugged in again
+            return 0;  // there is no memory for one more entry: the device stays unlisted until it is plugged in again
         }
         if (gone != nullptr) libusb_unref_device(gone);
         return 0;

@@ -1,6 +1,6 @@
 // UsbContext.h - libusb, running: one context with an event thread of its own, and the list of what is plugged in.
 //
-// Every transfer's callback runs on the event thread; none of them calls into a driver or a program.
+// Every transfer's callback runs on the event thread; no callback calls into a driver or a program.
 //
 // Ownership: shared; open devices hold it, so that it ends after the last of them. It must not be let go on the event
 // thread; nothing of this library does.
@@ -31,8 +31,8 @@ public:
     UsbContext(const UsbContext&) = delete;
     UsbContext& operator=(const UsbContext&) = delete;
 
-    /// All that is plugged in, in order of socket, also what may not be opened. Permission is looked up again by each
-    /// call: it can change without plugging.
+    /// Every device that is plugged in, in order of socket, including those that may not be opened. Permission is
+    /// looked up again by each call: it can change without plugging.
     [[nodiscard]] std::vector<UsbDeviceInfo> devices() const;
 
     /// The one device of this identity, in this socket ("1-4.2") where one is named. Errors: NotFound; InvalidArgument
@@ -40,12 +40,12 @@ public:
     /// helps.
     [[nodiscard]] Result<UsbDeviceInfo> find(const UsbIdentity& wanted, std::string_view socket = {}) const;
 
-    /// For UsbDevice: opens a listed device, if it was not unplugged meanwhile. The caller closes it, never on the
-    /// event thread. Errors: NotFound; Io (not permitted, or the system refused).
+    /// Opens a listed device for UsbDevice, if it was not unplugged meanwhile. The caller closes it, never on the event
+    /// thread. Errors: NotFound; Io (not permitted, or the system refused).
     [[nodiscard]] Result<libusb_device_handle*> openHandle(const UsbDeviceInfo& info) const;
 
 private:
-    struct Callbacks;  // what libusb calls
+    struct Callbacks;  // the functions that libusb calls
     UsbContext() = default;
     void runEvents() noexcept;
     /// References to all that is plugged in, each to be given back with libusb_unref_device().

@@ -39,8 +39,8 @@ Result<std::shared_ptr<UsbDevice>> UsbDevice::open(std::shared_ptr<UsbContext> c
 }
 
 UsbDevice::~UsbDevice() {
-    // A serial port's kernel driver takes both its interfaces at once: all are released before any is given back. Given
-    // back is also what had no driver when it was claimed: a program that was killed may have left it so.
+    // A serial port's kernel driver takes both its interfaces at once: all are released before any is given back. Even
+    // one that had no driver when it was claimed is given back, as a killed program may have left it so.
     for (const auto interface : claimed_) libusb_release_interface(handle_, interface);
     for (const auto interface : claimed_) libusb_attach_kernel_driver(handle_, interface);
     libusb_close(handle_);

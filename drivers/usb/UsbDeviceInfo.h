@@ -26,8 +26,8 @@ struct UsbDeviceInfo {
     std::string name;    ///< as the device says; empty where it does not
     std::string path;    ///< bus and ports, as "1-4.2": the socket it is in
     std::uint8_t bus = 0;
-    std::uint8_t address = 0;  ///< on its bus; another one after each plug-in
-    bool permitted = false;    ///< whether this user may open it, when the list was made
+    std::uint8_t address = 0;  ///< the address on its bus; another one after each plug-in
+    bool permitted = false;    ///< this user could open it when the list was made
 
     [[nodiscard]] UsbIdentity identity() const { return {vendor, product, serial}; }
     [[nodiscard]] bool is(const UsbIdentity& wanted) const noexcept;

@@ -29,8 +29,8 @@ public:
 
     /// Puts all transfers under way. Errors: Device; Io.
     [[nodiscard]] Result<void> start();
-    /// As Transport::read(). After a failed transfer the endpoint is cleared and started again, and the failure is
-    /// reported once. Tends the outbox while it waits.
+    /// Reads like Transport::read(). After a failed transfer the endpoint is cleared and started again, and the failure
+    /// is reported once. Tends the outbox while it waits.
     [[nodiscard]] Result<std::size_t> read(std::span<std::uint8_t> into, Seconds timeout);
     [[nodiscard]] std::uint64_t dropped() const noexcept;
     /// Ends all transfers.
@@ -54,7 +54,7 @@ private:
     UsbOutbox& outbox_;
     const std::uint8_t endpoint_;
 
-    // All below: guarded by the line's lock.
+    // The line's lock guards all below.
     std::vector<Slot> slots_;  // never resized after construction
     ByteRing arrived_;
     int failure_ = 0;  // the status of the first transfer that failed; 0: none

@@ -38,7 +38,7 @@ using UsbTransferPtr = std::unique_ptr<libusb_transfer, FreeTransfer>;
 /// Now plus `timeout`; nothing for one that is not 0 to 3600 s.
 [[nodiscard]] std::optional<std::chrono::steady_clock::time_point> deadlineAfter(Seconds timeout) noexcept;
 
-/// What a refused time-out is answered with.
+/// The range in the answer to a refused time-out.
 inline constexpr const char* kTimeoutRange = "0 to 3600 s was expected";
 
 }  // namespace tacto

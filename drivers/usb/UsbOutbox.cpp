@@ -35,7 +35,7 @@ struct UsbOutbox::Callbacks {
             self.nextLength_ = self.urgentLength_;
         }
         ended(self, transfer->status);
-        // After an error a retry belongs to the device's own thread, or the two of them would spin.
+        // After an error the device's own thread retries, or the two of them would spin.
         const bool fine = transfer->status == LIBUSB_TRANSFER_COMPLETED;
         if (fine && self.nextLength_ != 0) self.submitUrgent();
     }
@@ -62,7 +62,7 @@ UsbOutbox::~UsbOutbox() { close(); }
 
 void UsbOutbox::fill(libusb_transfer* transfer, std::span<std::uint8_t> buffer, bool urgent) noexcept {
     const auto callback = urgent ? &Callbacks::urgentSent : &Callbacks::sent;
-    // No time-out of libusb's: the waiting caller cancels.
+    // There is no time-out of libusb's: the waiting caller cancels.
     if (endpoint_ == 0) {
         libusb_fill_control_transfer(transfer, device_.handle(), buffer.data(), callback, this, 0);
     } else {

@@ -44,7 +44,7 @@ public:
     /// When the last send() had been handed to libusb as a whole.
     [[nodiscard]] std::chrono::steady_clock::time_point submittedAt() const noexcept;
 
-    /// With the line's lock held: clears a stall and sends an urgent message that waits for it. Lets the lock go
+    /// Called with the line's lock held: clears a stall and sends an urgent message that waits for it. Lets the lock go
     /// meanwhile. Once per call of a driver, so that a device that always stalls cannot keep it.
     void tend(std::unique_lock<std::mutex>& lock);
     [[nodiscard]] bool wantsTending() const noexcept;
@@ -61,17 +61,17 @@ private:
     UsbLine& line_;
     const std::uint8_t endpoint_;
 
-    // All below: guarded by the line's lock.
+    // The line's lock guards all below.
     UsbTransferPtr sending_;
-    std::vector<std::uint8_t> sent_;  // what sending_ refers to
+    std::vector<std::uint8_t> sent_;  // the bytes that sending_ refers to
     bool sendingNow_ = false;
     int sendingStatus_ = 0;
     std::size_t sendingTaken_ = 0;
     std::chrono::steady_clock::time_point submittedAt_{};
 
     UsbTransferPtr urgent_;
-    std::array<std::uint8_t, Transport::kMaxUrgent> urgentBytes_{};  // what urgent_ refers to
-    std::array<std::uint8_t, Transport::kMaxUrgent> next_{};         // what goes out after it
+    std::array<std::uint8_t, Transport::kMaxUrgent> urgentBytes_{};  // the bytes that urgent_ refers to
+    std::array<std::uint8_t, Transport::kMaxUrgent> next_{};         // the message that goes out after it
     std::size_t urgentLength_ = 0;
     std::size_t nextLength_ = 0;  // 0: nothing waits
     bool urgentNow_ = false;

@@ -19,8 +19,8 @@ struct UsbProduct {
     std::string name = {};  ///< the product string that it must have; empty: any
 };
 
-/// Where USB does not start (a container) there are none. A device without the function that `options`
-/// names is tried as a vendor-specific one.
+/// Where USB does not start (a container) there are no ports. A device without the function that `options` names is
+/// tried as a vendor-specific one.
 [[nodiscard]] std::shared_ptr<TransportPorts> makeUsbPorts(UsbProvider usb, std::vector<UsbProduct> products,
                                                            UsbBulkOptions options);
 

@@ -96,7 +96,7 @@ Result<std::optional<RawRecord>> Acquisition::takeFrame(const RecordPlan& plan, 
                     sigrokLog().last.empty() ? "" : fmt::format(" ({})", sigrokLog().last));
     }
     raw.rate_hz = static_cast<double>(raw.voltage.size()) / plan.screen_s;
-    // Where the driver knows the rate it is right; the one of a record from memory it does not know.
+    // Where the driver knows the rate, that is right; for a record from memory it does not know it.
     if (const double told = plan.record > 0 ? 0 : instrument->rate(); told > 0) raw.rate_hz = told;
     return std::optional<RawRecord>(std::move(raw));
 }
@@ -111,14 +111,14 @@ Result<void> Acquisition::acquireStream(const RecordPlan& plan, std::uint64_t nu
     };
     sink.frameBegin = [] {};
     sink.frameEnd = [] {};
-    // Not with each packet: samples come in bursts, and only with the last of a burst is it known when they were taken.
+    // Not done with each packet: samples come in bursts, and only the last of a burst tells when they were taken.
     sink.stop = [&] {
         if (queue.takeForced()) trigger.force();
         while (queue.wanted(number)) {
             auto found = trigger.next();
             if (!found) throw std::runtime_error(found.error().message);
             if (!*found) return false;
-            if (!queue.hasRoom()) continue;  // a stream does not wait: what is not fetched is not kept
+            if (!queue.hasRoom()) continue;  // a stream does not wait: unfetched samples are lost
             queue.push(number, std::move(**found));
         }
         return true;

@@ -6,7 +6,7 @@ namespace tacto::sigrok_driver {
 
 namespace {
 
-/// What the device lists for `key`, or nothing.
+/// The device's list for `key`, or nothing.
 std::optional<Glib::VariantContainerBase> listOf(const sigrok::Configurable& on,
                                                  const sigrok::ConfigKey* key) noexcept {
     const auto list = guarded("list", [&]() -> std::optional<Glib::VariantContainerBase> {

@@ -1,6 +1,6 @@
 // ConfigValues.h - libsigrok's configuration keys as plain values.
 //
-// Every read gives what is not there as an empty list or nothing: a device that does not answer a question does not
+// Every read gives an empty list or nothing for what is not there: a device that does not answer a question does not
 // offer that setting.
 //
 // Thread-safety: the instrument's thread.

@@ -9,7 +9,7 @@ namespace tacto::sigrok_driver {
 
 namespace {
 
-constexpr unsigned kComplaints = 3;  // with one less, a single lost answer would end it
+constexpr unsigned kComplaints = 3;  // with one less, a single lost answer would end the connection
 constexpr unsigned kBeat_ms = 20;
 
 using Key = sigrok::ConfigKey;

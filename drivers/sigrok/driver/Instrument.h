@@ -1,7 +1,7 @@
 // Instrument.h - one open libsigrok device: found by its driver, queried, configured and run.
 //
-// All of it happens on the thread that opened it (SigrokThread), the sink's calls too; the destructor as well, which
-// closes the device.
+// All of it, the sink's calls included, happens on the thread that opened it (SigrokThread); so does the destructor,
+// which closes the device.
 //
 // Thread-safety: the thread that opened it.
 #pragma once
@@ -22,7 +22,7 @@ namespace tacto::sigrok_driver {
 
 class Instrument {
 public:
-    /// What a session gives. An exception from either ends the session and comes back as run()'s error.
+    /// Takes what a session gives. An exception from either ends the session and comes back as run()'s error.
     struct Sink {
         /// `samples` of channel `channel` (index into Abilities::channels), in V; the resolution in V, 0 unknown.
         std::function<void(std::size_t channel, std::span<const float> samples, double resolution)> samples;
@@ -56,7 +56,7 @@ public:
 
 private:
     explicit Instrument(std::shared_ptr<SigrokLibrary> library) : library_(std::move(library)) {}
-    struct Beat;  // what the session's loop calls every 20 ms
+    struct Beat;  // called by the session's loop every 20 ms
     void readAbilities(const std::string& driver);
     void receive(const std::shared_ptr<sigrok::Packet>& packet);
     [[nodiscard]] sigrok::Configurable& settingsOf(std::size_t channel) const;
@@ -65,9 +65,9 @@ private:
     std::shared_ptr<sigrok::HardwareDevice> device_;
     std::shared_ptr<sigrok::Session> session_;
     std::vector<std::shared_ptr<sigrok::Channel>> channels_;     ///< the analog ones, as in abilities_
-    std::vector<std::shared_ptr<sigrok::ChannelGroup>> groups_;  ///< of each, or null
+    std::vector<std::shared_ptr<sigrok::ChannelGroup>> groups_;  ///< each channel's group, or null
     Abilities abilities_;
-    // While run() runs:
+    // Set while run() runs:
     const Sink* sink_ = nullptr;
     std::optional<Error> error_;
     unsigned complaints_ = 0;  ///< sigrokLog().errors when the last sample came

@@ -12,7 +12,7 @@ namespace {
 // libsigrok's rigol-ds driver waits 3 s for a trigger in one go, asking all the time; its largest pause is 1 s.
 constexpr Seconds kLoopTimeout(5);
 constexpr Seconds kSilence(3);
-constexpr Seconds kLoopTimeoutUnseen(10);  // without a relay that sees the bytes: a long read looks like no read
+constexpr Seconds kLoopTimeoutUnseen(10);  // used where no relay sees the bytes: a long read looks like no read
 constexpr Seconds kOpenTimeout(9);
 constexpr Seconds kArmTimeout(6);  // an earlier wait for a trigger may have 3 s to go
 
@@ -97,7 +97,7 @@ private:
         return settings;
     }
 
-    const std::unique_ptr<TcpRelay> relay_;  // null where the connection is not a bare TCP one
+    const std::unique_ptr<TcpRelay> relay_;  // null where the connection is not bare TCP
     std::unique_ptr<SigrokThread> thread_;
     const std::shared_ptr<Acquisition> acquisition_;
     const DeviceIdentity identity_;

@@ -1,4 +1,4 @@
-// Abilities.h - what a libsigrok device lets one set, as plain values. What is not in here is not offered.
+// Abilities.h - the settings that a libsigrok device offers, as plain values. Everything else is not offered.
 #pragma once
 
 #include <cstddef>
@@ -33,9 +33,9 @@ struct Abilities {
     bool triggerSlope = false, triggerLevel = false, triggerPosition = false;
     bool frameLimit = false, sampleLimit = false;
     std::vector<std::string> dataSources;   ///< "Live", "Memory", ...; empty: cannot be set
-    double rateMin_hz = 0, rateMax_hz = 0;  ///< where the sampling rate can be set
+    double rateMin_hz = 0, rateMax_hz = 0;  ///< where the sampling rate can be set freely
     double rateStep_hz = 0;                 ///< 0: only those listed
-    std::vector<double> rates_hz;           ///< where it is one of a list
+    std::vector<double> rates_hz;           ///< the rates, where they are a list
     /// Samples of a whole record from all channels together; 0 unknown. See RecordPlan.h.
     std::size_t memory = 0;
 

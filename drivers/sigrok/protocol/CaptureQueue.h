@@ -28,7 +28,7 @@ public:
     std::uint64_t arm();
     void disarm() noexcept { armed_ = 0; }
     [[nodiscard]] bool armed() const noexcept { return armed_ != 0; }
-    /// Whether arming `number` is still in force. Says too that the loop turns.
+    /// Whether arming `number` is still in force. Also notes that the loop turns.
     [[nodiscard]] bool wanted(std::uint64_t number) noexcept;
 
     /// The instrument waits for triggers now.
@@ -46,7 +46,7 @@ public:
 
     [[nodiscard]] std::optional<Error> error() const;
     [[nodiscard]] std::optional<Capture> pop();
-    /// How long the instrument's thread has not been heard of.
+    /// How long nothing has been heard of the instrument's thread.
     [[nodiscard]] Seconds sinceTurn() const noexcept;
 
     /// ForcedTrigger: asks for a record without a trigger, and takes the request.

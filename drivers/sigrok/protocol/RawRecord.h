@@ -14,11 +14,11 @@ struct RawRecord {
     double end_s = 0;            ///< session time of the end of the last sample
     std::vector<float> voltage;  ///< V
     std::vector<float> current;  ///< V across the shunt; empty without a current channel
-    double resolution = 0;       ///< what the driver says its digits are worth, V; 0 unknown
+    double resolution = 0;       ///< the resolution that the driver states, V; 0 unknown
 };
 
-/// Where a signal goes through `level` (up where it is positive, down where it is negative), nearest to `near`, in
-/// samples with the fraction between two; nothing where it never does.
+/// The place where a signal goes through `level` (up where it is positive, down where it is negative), nearest to
+/// `near`, in samples with the fraction between two; nothing where it never does.
 [[nodiscard]] std::optional<double> crossing(const std::vector<float>& samples, double level, double near);
 
 /// The size of the converter's steps: the smallest difference of two values when all are multiples of it and there are

@@ -9,10 +9,10 @@ namespace tacto::sigrok_driver {
 namespace {
 
 constexpr double kFastest_hz = 500e6;             // see the header
-constexpr double kDivisionsUp = 4;                // of a screen of eight, from its middle
+constexpr double kDivisionsUp = 4;                // divisions above the middle, on a screen of eight
 constexpr double kSmallestScale_V = 1e-3;         // libsigrok sends three decimals
 constexpr double kSmallestLevel_V = 1e-3;         // likewise
-constexpr std::size_t kStreamDepth = 10'000'000;  // what is kept of a stream: 80 MB for two channels
+constexpr std::size_t kStreamDepth = 10'000'000;  // the part of a stream that is kept: 80 MB for two channels
 
 bool offers(const std::vector<std::string>& list, std::string_view one) {
     return std::ranges::find(list, one) != list.end();

@@ -23,7 +23,7 @@
 
 namespace tacto::sigrok_driver {
 
-/// Which channels are used, and for what.
+/// The channels in use, and their purposes.
 struct Wiring {
     std::size_t voltage = 0;             ///< index into Abilities::channels
     std::optional<std::size_t> current;  ///< likewise
@@ -41,11 +41,11 @@ struct RecordPlan {
     std::optional<Fraction> voltageScale, currentScale;  ///< volts per division
     std::string triggerSource;
     double triggerPosition = 0;  ///< as libsigrok's driver takes it
-    double triggerAt_s = 0;      ///< from the record's start to where the trigger is expected
+    double triggerAt_s = 0;      ///< from the record's start to the expected trigger
     double screen_s = 0;         ///< divisions * timebase
     std::size_t record = 0;      ///< samples of each channel in a record; 0 unknown until the first
     // Both:
-    double triggerLevel_V = 0;  ///< at the trigger channel's probe, signed
+    double triggerLevel_V = 0;  ///< signed, at the trigger channel's probe
 };
 
 /// Samples of the memory of this Rigol or Agilent model; 0 for one that is not known.

@@ -28,7 +28,7 @@ namespace tacto::sigrok_driver {
 
 struct ScopeUri {
     std::string driver;                                        ///< libsigrok's name, as "rigol-ds"
-    std::vector<std::pair<std::string, std::string>> options;  ///< of the scan, as "conn"
+    std::vector<std::pair<std::string, std::string>> options;  ///< options of the scan, as "conn"
     std::optional<std::string> voltage;
     std::optional<std::string> current;
     Ohms shunt{0};  ///< above 0 where `current` is given

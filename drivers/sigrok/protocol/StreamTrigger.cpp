@@ -78,7 +78,7 @@ Result<std::optional<Capture>> StreamTrigger::next() {
 }
 
 void StreamTrigger::dropTo(std::size_t index) {
-    // In large pieces: each drop moves what stays.
+    // Dropped in large pieces, as each drop moves what stays.
     if (index < std::max<std::size_t>(plan_.settings.samples, 65'536)) return;
     const auto erase = [&](std::vector<float>& from) {
         from.erase(from.begin(), from.begin() + static_cast<std::ptrdiff_t>(std::min(index, from.size())));

@@ -37,10 +37,10 @@ private:
     std::vector<float> voltage_, current_;
     double resolution_ = 0;
     std::uint64_t dropped_ = 0;          // samples before voltage_[0] since the stream began
-    std::optional<double> beginning_s_;  // of the stream's first sample; the earliest that any packet allows
+    std::optional<double> beginning_s_;  // when the stream's first sample was taken, at the earliest by any packet
     std::size_t searched_ = 0;           // up to here no trigger begins
     std::size_t free_ = 0;               // records begin here at the earliest: none overlaps the one before
-    double lastEnd_s_ = 0;               // of the record before
+    double lastEnd_s_ = 0;               // when the record before ended
     bool forced_ = false;
 };
 

@@ -21,7 +21,7 @@ public:
                                 const ReadWatch& watch) const override;
     bool canWrite() const noexcept override { return true; }
     /// Errors: those of checkWritable(); InvalidArgument for a rate that is not a whole number of Hz (to a millionth of
-    /// itself); Io with what libsigrok says. The file that is there is replaced only once all is written.
+    /// itself); Io with what libsigrok says. An existing file is replaced only once all is written.
     Result<void> write(const std::filesystem::path& path, const Capture& capture) const override;
 };
 

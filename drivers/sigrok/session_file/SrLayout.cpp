@@ -86,7 +86,7 @@ public:
         return fail(ErrorCode::ParseError, "{}: {}", name_, fmt::format(text, std::forward<Args>(args)...));
     }
     [[nodiscard]] bool has(std::string_view name) const { return entries_.contains(name); }
-    /// All in one entry of this name, or in several, numbered from 1.
+    /// The pieces stand in one entry of this name, or in several, numbered from 1.
     [[nodiscard]] std::vector<SrPiece> piecesOf(const std::string& base) const {
         std::vector<SrPiece> pieces;
         const auto take = [&](const std::string& name) {
@@ -99,7 +99,7 @@ public:
         }
         return pieces;
     }
-    /// The text of an entry that is there. Errors: ParseError where it is damaged or larger than `most`.
+    /// The text of an existing entry. Errors: ParseError where it is damaged or larger than `most`.
     [[nodiscard]] Result<std::string> unpack(std::string_view name, std::uint64_t most) const {
         const auto& entry = entries_.find(name)->second;
         if (entry.size > most || entry.comp_size > most) {

@@ -30,11 +30,11 @@ struct SrLayout {
     std::size_t logicChannels = 0;
     std::size_t unitSize = 0;  ///< bytes of a logic sample
     std::vector<SrPiece> logic;
-    std::vector<std::vector<SrPiece>> analog;  ///< of each channel
-    std::uint64_t bytes = 0;                   ///< of all samples
-    /// As the metadata has it; empty where it is not stated. libsigrok reads a minus sign as a huge rate.
+    std::vector<std::vector<SrPiece>> analog;  ///< the pieces of each channel
+    std::uint64_t bytes = 0;                   ///< bytes of all samples
+    /// The text in the metadata; empty where it is not stated. libsigrok reads a minus sign as a huge rate.
     std::string samplerate;
-    bool samplerateIsSensible = true;  ///< not stated, or a frequency of 0 or above
+    bool samplerateIsSensible = true;  ///< the rate is not stated, or is a frequency of 0 or above
 
     [[nodiscard]] static std::uint64_t sum(const std::vector<SrPiece>& pieces) noexcept;
 };

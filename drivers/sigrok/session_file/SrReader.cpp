@@ -209,7 +209,7 @@ private:
     std::optional<Error> error_;
 };
 
-/// Channels of unequal length are those of an interrupted acquisition.
+/// Channels of unequal length come from an interrupted acquisition.
 void evenOut(CaptureReading& reading, const std::string& file) {
     auto& channels = reading.capture.channels;
     const auto size = [](const CaptureChannel& one) { return one.samples.size(); };

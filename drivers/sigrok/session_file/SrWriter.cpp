@@ -67,7 +67,7 @@ void writeSession(const SigrokLibrary& library, const std::string& file, const C
     (void)output->receive(context->create_end_packet());
 }
 
-/// What the system said, of a sentence of libsigrok's about an error of libzip's about it; else the whole.
+/// The system's words, in a sentence of libsigrok's about an error of libzip's about it; else the whole.
 std::string systemReasonIn(const std::string& sentence) {
     for (const int reason : {ENOSPC, EDQUOT, EFBIG, EROFS, EACCES, EIO}) {
         auto said = std::generic_category().message(reason);

@@ -52,7 +52,7 @@ Error currentError(std::string_view what, unsigned before) noexcept {
     std::string text;
     try {
         throw;
-    } catch (const Glib::Exception& error) {  // no std::exception in this glibmm
+    } catch (const Glib::Exception& error) {  // this glibmm's is no std::exception
         text = error.what();
     } catch (const std::exception& error) {
         text = error.what();

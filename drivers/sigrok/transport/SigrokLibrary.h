@@ -1,7 +1,7 @@
 // SigrokLibrary.h - libsigrok, started: the one context of the process, and what it complains about.
 //
-// One per process: libsigrok's drivers are process-wide variables, and ending a second context would
-// clean up the devices of the first. It lives as long as it is held.
+// There is one per process: libsigrok's drivers are process-wide variables, and ending a second context would clean up
+// the devices of the first. It lives as long as it is held.
 //
 // libsigrok's calls throw, sigrok::Error for a code and Glib::Error besides; what escapes from one of its C callbacks
 // would end the program. guarded() turns all of it into a Result.
@@ -23,9 +23,9 @@
 
 namespace tacto::sigrok_driver {
 
-/// What libsigrok logged as errors on the calling thread; it logs on the thread that called it.
+/// The errors that libsigrok logged on the calling thread; it logs on the thread that called it.
 struct SigrokLog {
-    unsigned errors = 0;  ///< since the thread began
+    unsigned errors = 0;  ///< errors since the thread began
     std::string last;     ///< the newest, without the prefix
 };
 [[nodiscard]] SigrokLog& sigrokLog() noexcept;
@@ -53,7 +53,7 @@ public:
 private:
     explicit SigrokLibrary(std::shared_ptr<sigrok::Context> context) : context_(std::move(context)) {}
 
-    // No timed mutex: the thread sanitizer does not know how the standard library locks one.
+    // This is no timed mutex: the thread sanitizer does not know how the standard library locks one.
     std::mutex mutex_;
     std::condition_variable freed_;
     bool taken_ = false;  // guarded by mutex_

@@ -24,7 +24,7 @@ struct SigrokThread::State {
         sigemptyset(&broken);
         sigaddset(&broken, SIGPIPE);
         ::pthread_sigmask(SIG_BLOCK, &broken, nullptr);
-        // Without one of its own a session would take the process's main context, which is the window's.
+        // Without a context of its own, a session would take the process's main context, which is the window's.
         GMainContext* const own = g_main_context_new();
         g_main_context_push_thread_default(own);
         std::unique_lock lock(mutex);

@@ -27,7 +27,7 @@ public:
 
     /// Runs `job` after those before it. What it uses it must own: it may run after this object is gone.
     void post(Job job);
-    /// The same, and waits. Errors: the job's; Timeout when it has not come back after `timeout` (it still runs).
+    /// Runs the job and waits. Errors: the job's; Timeout when it has not come back after `timeout` (it still runs).
     [[nodiscard]] Result<void> run(std::function<Result<void>()> job, Seconds timeout, std::string_view what);
     /// Whether nothing runs or waits, at the latest after `timeout`.
     [[nodiscard]] bool idle(Seconds timeout) const;

@@ -229,7 +229,7 @@ void TcpRelay::carry() noexcept {
     while (!cut_) {
         pollfd waiting[4] = {
             {wake_, POLLIN, 0}, {listener_, POLLIN, 0}, {upstream_, POLLIN, 0}, {downstream_, POLLIN, 0}};
-        if (downstream_ >= 0) waiting[1].fd = -1;  // one conversation at a time, as instruments have it
+        if (downstream_ >= 0) waiting[1].fd = -1;  // only one conversation at a time, as with instruments
         ::poll(waiting, 4, -1);
         if (cut_) break;
         if (waiting[2].revents != 0) {
@@ -244,7 +244,7 @@ void TcpRelay::carry() noexcept {
         } else if (waiting[1].revents != 0) {
             downstream_ = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
             if (downstream_ < 0) continue;
-            if (!isOurOwn(downstream_)) {  // any program of this computer may try; the instrument is not for it
+            if (!isOurOwn(downstream_)) {  // any program of this computer may try; none but ours reaches the instrument
                 reset(std::exchange(downstream_, -1));
                 continue;
             }

@@ -34,8 +34,8 @@ public:
     TcpRelay(const TcpRelay&) = delete;
     TcpRelay& operator=(const TcpRelay&) = delete;
 
-    /// Where libsigrok connects to on 127.0.0.1. A connection from another process is closed at once, and nothing of it
-    /// reaches the instrument.
+    /// The port on 127.0.0.1 to which libsigrok connects. A connection from another process is closed at once, and
+    /// nothing of it reaches the instrument.
     [[nodiscard]] std::uint16_t port() const noexcept { return port_; }
     /// How long the instrument has said nothing.
     [[nodiscard]] Seconds silence() const noexcept;
@@ -60,7 +60,7 @@ private:
     Seconds timeout_{3};
     int upstream_;                                   // the instrument; -1 while not connected. The thread's.
     int downstream_ = -1;                            // libsigrok. The thread's.
-    std::chrono::steady_clock::time_point asked_{};  // after the trigger. The thread's.
+    std::chrono::steady_clock::time_point asked_{};  // when it was asked, after the trigger; only its thread uses it
     const int listener_;                             // closed by the thread when it ends
     const std::uint16_t port_;
     const int wake_;  // eventfd
