@@ -19,14 +19,14 @@ class CalibrateWorkspace final : public QWidget {
 public:
     CalibrateWorkspace(BenchController& controller, CalibrationBook& book, QWidget* parent = nullptr);
     [[nodiscard]] ProtocolWorkspace& runner() noexcept { return *runner_; }
-    /// The stimulator's and the sensor's.
+    /// The calibrations of the stimulator and of the sensor.
     [[nodiscard]] std::array<ProtocolWorkspace*, 2> runners() const noexcept { return {runner_, sensor_}; }
-    /// Without the row of tabs; their keys work.
+    /// Hides the row of tabs; their keys still work.
     void showPlotOnly(bool only);
 
 private:
     enum Tab { kGuided, kFingertip, kOverTime };
-    /// How the stored calibration stands, and those before it.
+    /// The standing of the stored calibration, and the calibrations before it.
     [[nodiscard]] QWidget* buildStored(QWidget* in);
     void prepare(const QString& mode);
     void showReady();

@@ -115,7 +115,7 @@ QString standingText(const CalibrationStanding& standing) {
                        : QObject::tr("calibrated %1 ago, until %2").arg(daysText(standing.age_d), until);
         }
         case CalibrationState::Expired:
-            // One that is dated in the future does not count either.
+            // A calibration dated in the future does not count either.
             return standing.left_d >= 0 ? QObject::tr("not calibrated")
                                         : QObject::tr("calibration expired %1 ago").arg(daysText(-standing.left_d));
         case CalibrationState::Unreadable:

@@ -49,7 +49,7 @@ public:
     [[nodiscard]] std::optional<StimulatorId> connected() const;
     /// The last one that was open, now or before.
     [[nodiscard]] const std::optional<StimulatorId>& last() const { return last_; }
-    /// Those that are or were open, plugged in (hardware) or in the store, in this order, each once.
+    /// The stimulators that are or were open, are plugged in (hardware) or are in the store, in this order, each once.
     [[nodiscard]] std::vector<StimulatorId> known() const;
     [[nodiscard]] CalibrationStanding standing(const StimulatorId& stimulator) const;
     /// All calibrations of a serial, the newest first.
@@ -70,7 +70,7 @@ private:
 
 /// "calibrated 12 d ago, until 2027-03-01", "not calibrated", "calibration expired 3 d ago".
 [[nodiscard]] QString standingText(const CalibrationStanding& standing);
-/// What it means for the output, and what to do.
+/// What that means for the output, and what to do.
 [[nodiscard]] QString standingTip(const CalibrationStanding& standing);
 
 }  // namespace tacto::gui

@@ -120,7 +120,7 @@ std::optional<StimulatorId> CalibrationCard::shown() const {
 }
 
 void CalibrationCard::fill() {
-    // What is opened comes to the front; else the operator's choice stays.
+    // An opened file comes to the front; else the operator's choice stays.
     auto wanted = shown();
     if (book_.last() != lastOpen_ || !wanted) wanted = book_.last();
     lastOpen_ = book_.last();
@@ -176,7 +176,7 @@ void CalibrationCard::setReady(bool ready) {
 }
 
 void CalibrationCard::colour() {
-    // As a sheet: a label's own palette is lost when the theme's sheet changes.
+    // This is set by a sheet: a label's own palette is lost when the theme's sheet changes.
     const auto& ink = counts_ ? colours().passText : warns_ ? colours().amberText : colours().text;
     const auto sheet = QString("QLabel { color: %1; }").arg(ink.name());
     if (word_->styleSheet() != sheet) word_->setStyleSheet(sheet);

@@ -17,7 +17,7 @@ public:
     explicit CalibrationCard(CalibrationBook& book, QWidget* parent = nullptr);
     /// The stimulator that is shown; nothing where none is known.
     [[nodiscard]] std::optional<StimulatorId> shown() const;
-    /// While a run goes on, or nothing can run, none can be started.
+    /// While a run goes on, or nothing can run, no run can be started.
     void setReady(bool ready);
 
 signals:

@@ -16,7 +16,7 @@ class CalibrationHistory final : public QWidget {
     Q_OBJECT
 public:
     explicit CalibrationHistory(QWidget* parent = nullptr);
-    /// Nothing: no stimulator is known.
+    /// `of`: nothing where no stimulator is known.
     void list(const CalibrationBook& book, const std::optional<StimulatorId>& stimulator);
 
 private:

@@ -14,7 +14,7 @@ namespace {
 constexpr double kMargin = 0.06;
 constexpr int kTicks = 5;
 constexpr int kEdge = 4, kEdgeAbove = 1;         // pixels around the axes
-constexpr int kBelowTicks = 2, kBelowTitle = 0;  // around the title below: a small window spares few
+constexpr int kBelowTicks = 2, kBelowTitle = 0;  // around the title below: a small window has few to spare
 constexpr int kMinChars = 24;
 constexpr int kMinLines = 10;
 constexpr int kLegendColumns = 2;
@@ -86,7 +86,7 @@ void CalibrationPlot::build() {
                                           : tr("Each reading appears here\nagainst its command."));
 }
 
-/// In the corner that the band leaves: a level at the left edge has the smallest tolerance.
+/// The legend lies in the corner that the band leaves: a level at the left edge has the smallest tolerance.
 void CalibrationPlot::addLegend() {
     axisRect()->insetLayout()->setInsetAlignment(0, Qt::AlignTop | Qt::AlignLeft);
     legend->setFillOrder(QCPLayoutGrid::foColumnsFirst);
@@ -140,7 +140,7 @@ void CalibrationPlot::show(const CalibrationReadings& of) {
     const AxisUnit across = axisUnit(x.magnitude(), of.unit), upward = axisUnit(y.magnitude(), of.unit);
     xAxis->setRange(rangeOf(x, across.factor));
     if (kind_ == Kind::Errors) {
-        // The band goes on to the plot's edges.
+        // The band continues to the plot's edges.
         for (const double edge : {xAxis->range().lower, xAxis->range().upper}) {
             const double band = bandAt(of, edge / across.factor);
             y.include(band);
@@ -192,7 +192,7 @@ void CalibrationPlot::drawBand(const CalibrationReadings& of, const AxisUnit& ac
     if (!(of.tolerance_pct > 0)) return;
     const auto range = xAxis->range();
     QVector<double> at{range.lower, range.upper};
-    if (range.contains(0)) at.insert(1, 0);  // it is narrowest there
+    if (range.contains(0)) at.insert(1, 0);  // the band is narrowest at zero
     for (const double command : at) {
         const double band = bandAt(of, command / across.factor) * upward.factor;
         bandTop_->addData(command, band);

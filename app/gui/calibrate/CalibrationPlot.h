@@ -26,7 +26,7 @@ public:
     [[nodiscard]] int drawnMarked() const { return marked_->dataCount(); }
     [[nodiscard]] int drawnMeans() const { return means_->dataCount(); }
     [[nodiscard]] bool hasBand() const { return bandTop_->dataCount() > 0; }
-    /// From where to where it is drawn, in the unit of the axis.
+    /// Where the band begins and ends, in the unit of the axis.
     [[nodiscard]] QCPRange bandReach() const {
         return {bandTop_->data()->at(0)->key, bandTop_->data()->at(bandTop_->dataCount() - 1)->key};
     }

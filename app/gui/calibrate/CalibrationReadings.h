@@ -26,12 +26,12 @@ struct ToleranceUse {
     [[nodiscard]] double share() const { return (std::abs(error) + expanded) / tolerance; }
 };
 
-/// One quantity's: "amplitude", "interval", "width" or "gap".
+/// The readings of one quantity: "amplitude", "interval", "width" or "gap".
 struct CalibrationReadings {
     std::string quantity;
     QString unit;                              ///< "V", "mA" or "s"
     double tolerance_pct = 0;                  ///< share of the command at each level; 0: none known
-    std::vector<CalibrationReading> readings;  ///< as they came, outliers marked
+    std::vector<CalibrationReading> readings;  ///< in the order in which they came, outliers marked
     std::optional<Calibration> fit;            ///< nothing before two levels were met
     double gainExpanded = NAN;                 ///< U of fit->gain; not a number before the result
     double offsetExpanded = NAN;               ///< U of fit->offset

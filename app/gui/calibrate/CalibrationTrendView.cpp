@@ -16,7 +16,7 @@ constexpr int kLaneTicks = 3;
 constexpr double kPad = 0.15;  // share of a lane's span, above and below
 constexpr double kDay_s = 86400;
 constexpr int kDayPadding = 12;  // days, where there is one calibration only
-constexpr int kMaxJumps = 2;     // in words; the plot marks all
+constexpr int kMaxJumps = 2;     // jumps told in words; the plot marks all
 constexpr int kMinLines = 16;
 
 double secondsOf(CalibrationDate day) {

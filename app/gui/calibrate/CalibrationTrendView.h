@@ -17,7 +17,7 @@ class CalibrationTrendView final : public QWidget {
     Q_OBJECT
 public:
     explicit CalibrationTrendView(QWidget* parent = nullptr);
-    /// All that was stored of one stimulator, in that order.
+    /// All calibrations that were stored of one stimulator, in their order.
     void show(std::vector<StoredCalibration> stored);
     /// Points of the quantity that is shown.
     [[nodiscard]] const std::vector<TrendPoint>& points() const { return points_; }

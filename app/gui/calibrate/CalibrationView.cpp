@@ -72,7 +72,7 @@ QWidget* CalibrationView::buildHead() {
            "reading against its command, with the fitted line."));
     row->addWidget(kind_);
     addTools(*row);
-    kind_->hide();  // until the plot is there
+    kind_->hide();  // hidden until the plot is there
     return head;
 }
 
@@ -246,7 +246,7 @@ void CalibrationView::arrange() {
     }
 }
 
-/// Alike, or as their words want it where those fit in no other way: a verdict keeps its word.
+/// Shares it evenly, or by the words where they fit in no other way: a verdict keeps its word.
 void CalibrationView::shareWidth(int columns) {
     const int count = int(cards_.size());
     std::vector<int> wanted(std::size_t(count), 0);

@@ -24,11 +24,11 @@ public:
     explicit CalibrationView(QWidget* parent = nullptr);
     /// `parameters`: of the protocol; its tolerances are drawn.
     void begin(const nlohmann::json& parameters);
-    /// A reading, as record.trial() was given it; a trial that is none is passed over.
+    /// Adds a reading, as record.trial() was given it; skips a trial that is no reading.
     void add(const nlohmann::json& trial);
     /// Draws what came since.
     void draw();
-    /// The run's results, whose marks and uncertainties are the last word. What they leave out stays as it came.
+    /// Takes the run's results, whose marks and uncertainties are the last word. What they leave out stays as it came.
     void end(const nlohmann::json& results);
     void setSimulated(bool simulated);
     [[nodiscard]] std::size_t readings() const;

@@ -57,7 +57,7 @@ CertificateDialog::CertificateDialog(BenchController& controller, QWidget* paren
     says_->setObjectName("certificateSays");
     says_->setWordWrap(true);
     says_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-    frame->addWidget(says_);  // in sight, as the button that it speaks of
+    frame->addWidget(says_);  // in sight, like the button that it speaks of
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
     enter_ = buttons->addButton(tr("&Enter certificate"), QDialogButtonBox::ActionRole);
     enter_->setObjectName("enterCertificate");
@@ -79,7 +79,7 @@ CertificateDialog::CertificateDialog(BenchController& controller, QWidget* paren
     }
     list();
     judge();
-    // As high as all of it, where the screen is: below that the page scrolls.
+    // The dialog is as high as all of it, where the screen is: below that the page scrolls.
     resize(scaledPx(kWide), sizeHint().height() - page->sizeHint().height() + all->sizeHint().height());
 }
 
@@ -243,10 +243,10 @@ enum CertificateColumn {
     kCertificateColumns = kFirstU + 4
 };
 
-/// What goes first where there is no room for every column; the tool tip of a row tells all of it.
+/// These columns go first where there is no room for all; the tool tip of a row tells all of it.
 constexpr std::array kDroppedFirst{int(kLab),    kFirstU + 3, kFirstU + 2, int(kDate),
                                    int(kDevice), kFirstU + 1, int(kFirstU)};
-constexpr int kMaxRows = 8;  // in sight; more scroll
+constexpr int kMaxRows = 8;  // rows in sight; the rest scrolls
 constexpr int kIndexRole = Qt::UserRole;
 constexpr int kStandsRole = Qt::UserRole + 1;  // not withdrawn
 
@@ -290,7 +290,7 @@ CertificateTable::CertificateTable(QWidget* parent) : QTableWidget(0, kCertifica
     setTextSize(*horizontalHeader(), TextSize::Small);
     // Two lines: a title and its unit.
     horizontalHeader()->setMinimumHeight(2 * QFontMetrics(textFont(TextSize::Small)).lineSpacing() + scaledPx(8));
-    // As high as its rows are, and no higher than a few.
+    // The list is as high as its rows, but no higher than a few.
     setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Maximum);
     setMaximumHeight(kMaxRows * verticalHeader()->defaultSectionSize());
@@ -302,7 +302,7 @@ CertificateTable::CertificateTable(QWidget* parent) : QTableWidget(0, kCertifica
     setWordWrap(false);
     setTabKeyNavigation(false);
     setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
-    horizontalHeader()->setStretchLastSection(true);  // its lines reach the edge
+    horizontalHeader()->setStretchLastSection(true);  // the lines of the table reach its edge
 }
 
 void CertificateTable::show(const CertificateStore& store, CalibrationDate today) {
@@ -329,8 +329,8 @@ void CertificateTable::show(const CertificateStore& store, CalibrationDate today
         for (int column = 0; column < kCertificateColumns; ++column) {
             auto* item = new QTableWidgetItem(cells[column]);
             item->setTextAlignment(alignmentOf(column));
-            // What is not used is greyed, and its state says so in words. The window's grey: under the program's style
-            // sheet a table's palette has another.
+            // An unused certificate is greyed, and its state says so in words. This is the window's grey: under the
+            // program's style sheet a table's palette has another.
             if (state != CertificateState::Counts)
                 item->setForeground(window()->palette().brush(QPalette::PlaceholderText));
             item->setToolTip(whole.join('\n'));

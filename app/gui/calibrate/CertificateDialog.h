@@ -1,8 +1,8 @@
 // CertificateDialog.h - the calibration certificates of the lab's oscilloscopes: which one is in use, which expired,
 // and a form to enter another.
 //
-// What is entered is checked while it is typed, by the store's own rules, and can be withdrawn but not changed. A bench
-// that is open keeps what it was opened with.
+// Entries are checked while they are typed, by the store's own rules, and can be withdrawn but not changed. An open
+// bench keeps the values with which it was opened.
 #pragma once
 
 #include <QDialog>
@@ -48,7 +48,7 @@ protected:
 
 private:
     [[nodiscard]] QWidget* buildForm();
-    /// As written in the form. Errors: InvalidArgument, one sentence.
+    /// The certificate as written in the form. Errors: InvalidArgument, one sentence.
     [[nodiscard]] Result<Certificate> written() const;
     void judge();
     void enter();

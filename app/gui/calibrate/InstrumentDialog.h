@@ -1,7 +1,7 @@
 // InstrumentDialog.h - the laboratory's oscilloscopes, shunts and probes: saved once by name, chosen in place.
 //
-// What is chosen is put together as the address of the oscilloscope. An instrument whose certificate expired says so
-// and its figures are left out: unknown is not zero (hazard H9).
+// The choices make up the address of the oscilloscope. An instrument whose certificate expired says so and its figures
+// are left out: unknown is not zero (hazard H9).
 #pragma once
 
 #include <QComboBox>
@@ -32,7 +32,7 @@ private:
     void compose();
     [[nodiscard]] ChosenInstruments picked() const;
     [[nodiscard]] InstrumentKind formKind() const;
-    /// As written in the form. Errors: InvalidArgument, one sentence.
+    /// The instrument as written in the form. Errors: InvalidArgument, one sentence.
     [[nodiscard]] Result<InstrumentPreset> written() const;
     void showFields();
     void judge();

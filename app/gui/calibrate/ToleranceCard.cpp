@@ -161,8 +161,8 @@ void ToleranceCard::paintLarge(QPainter& painter) const {
     }
 }
 
-/// At the right of `head`. Returns the width that it takes: the word only where it leaves `wanted` to what stands left
-/// (wordedWidth()), for the verdict above and the tool tip have the word too.
+/// Stands at the right of `head`. Returns the width that it takes: the word is drawn only where it leaves `wanted` to
+/// what stands left (wordedWidth()), since the verdict above and the tool tip have the word too.
 int ToleranceCard::paintVerdict(QPainter& painter, const QRect& head, int wanted) const {
     if (verdict_.isEmpty()) return 0;
     const auto style = verdictStyle(verdict_);

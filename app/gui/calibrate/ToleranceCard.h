@@ -18,7 +18,7 @@ public:
     enum class Shape { Large, TwoLines, OneLine };
     void setShape(Shape shape);
     [[nodiscard]] int heightOf(Shape shape) const;
-    /// From this width on a line has title, share, and the verdict as shape and word.
+    /// The width from which a line has title, share, and the verdict as shape and word.
     [[nodiscard]] int wordedWidth() const;
     [[nodiscard]] QSize sizeHint() const override;
     [[nodiscard]] QSize minimumSizeHint() const override;

@@ -15,7 +15,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kDrawingChars = 60, kMinDrawingChars = 42;  // its width, and the least at which its words are read
+constexpr int kDrawingChars = 60, kMinDrawingChars = 42;  // the drawing's width, and the least at which words read well
 
 /// The drawing of a report in the theme's colours and the window's type.
 QByteArray inTheme(QByteArray svg) {
@@ -30,7 +30,7 @@ QByteArray inTheme(QByteArray svg) {
     return svg.replace("DejaVu Sans", QApplication::font().family().toUtf8());
 }
 
-/// As wide as its place lets it be.
+/// A drawing as wide as its place lets it be.
 class WiringDrawing final : public QLabel {
 public:
     WiringDrawing(const QByteArray& svg, QWidget* parent) : QLabel(parent), renderer_(inTheme(svg)) {
@@ -83,7 +83,7 @@ WiringPage::WiringPage(QWidget* parent) : QScrollArea(parent) {
     const auto file = drawingFile("wiring");
     if (file) {
         QFile svg(QString::fromStdString(file->string()));
-        static_cast<void>(svg.open(QIODevice::ReadOnly));  // it is there: see drawingFile()
+        static_cast<void>(svg.open(QIODevice::ReadOnly));  // the file is there: see drawingFile()
         auto* drawing = new WiringDrawing(svg.readAll(), page);
         drawing->setObjectName("wiringDrawing");
         drawing->setAccessibleName(
