@@ -9,7 +9,7 @@
 
 namespace tacto::gui {
 
-// A socket is looked at that often; plugging in is not a thing of milliseconds.
+// Sockets are looked at so often; plugging in takes longer than milliseconds.
 constexpr std::chrono::milliseconds kWatchInterval(1000);
 
 BenchController::BenchController(MakeRegistry makeRegistry, QObject* parent, std::function<QDate()> today)
@@ -80,7 +80,7 @@ void BenchController::arm(const ArmRequest& request, StopMark asked) {
         if (bench.telemetry().paused) bench.disarm();  // so that resuming lets no train out
         bench.resume();                                // a pause from before this arming is over
         const auto armed = bench.arm(request);
-        if (!armed) bench.disarm();                                                   // also what was armed before
+        if (!armed) bench.disarm();                                                   // also what was armed earlier
         if (auto again = live_->repeatCapture(); !again) scopeFailed(again.error());  // arming may have used it
         if (!armed) return armed;
         tell([this] { emit this->armed(); });
@@ -177,7 +177,7 @@ void BenchController::stopScope() {
     });
 }
 
-/// What is handed to the bench's thread. At once another run is kept from beginning beside it.
+/// Hands the order to the bench's thread. From now on no other run can begin beside it.
 RunOrder BenchController::begun(const RunOrder& order, StopMark asked) {
     if (activity_ == Activity::Live) closedByRun_ = lastLive_;
     profile_ = order.profile;
@@ -191,7 +191,7 @@ RunOrder BenchController::begun(const RunOrder& order, StopMark asked) {
     return marked;
 }
 
-/// How a run is started and ended, and what it is meanwhile.
+/// A run as it is started and ended, and its state meanwhile.
 struct BenchController::Prepared {
     std::shared_ptr<void> owner;
     ProtocolRun* run = nullptr;
@@ -349,7 +349,7 @@ void BenchController::runOnThread(const RunOrder& order, std::uint64_t number, c
     }
     auto& run = *prepared->run;
     published_.publish(&run.bench());                // from here on a stop reaches it
-    published_.forgetStops();                        // what came before is start()'s to see: the order is older than it
+    published_.forgetStops();                        // earlier stops are for start() to see: the order is older than it
     const auto bench = describeBench(run.opened());  // asks the devices: not beside the script that uses them
     RunRequest hooks;
     hooks.operatorDesk = &operator_;
@@ -373,7 +373,7 @@ void BenchController::runOnThread(const RunOrder& order, std::uint64_t number, c
     finished->result = prepared->finish();
     finished->html = run.files().report(".html");
     finished->pdf = run.files().report(".pdf");
-    *prepared = {};  // before its end is signalled: a study that it held can be opened then
+    *prepared = {};  // released before its end is signalled: a study that it held can be opened then
     end();
 }
 

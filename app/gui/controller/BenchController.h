@@ -42,7 +42,7 @@ enum class Activity {
     Closing,
 };
 
-/// How `by` of a stop ends for a key of the operator's that is held: it was pressed before.
+/// The end of a stop's `by` where the operator's key is held: it was pressed before.
 inline constexpr const char* kStillHeld = ", held)";
 
 /// A pilot session and its two people.
@@ -54,17 +54,17 @@ struct PilotSeats {
     bool codeConfirmed = false;
     std::vector<ExclusionAnswer> exclusions = {};
     std::optional<MarkerAddress> markers = {};  ///< nothing: none are sent
-    /// On the bench's thread, before anything is asked, with the session's clock and how often the participant stopped
-    /// in its earlier parts. May be empty.
+    /// Called on the bench's thread, before anything is asked, with the session's clock and the number of the
+    /// participant's stops in earlier parts. May be empty.
     std::function<void(std::shared_ptr<const Clock> clock, int stops)> begun = {};
-    /// Whether a stop was taken as the session's own, and so ends no script: a test of the operator's STOP. The output
+    /// Whether the session took a stop as its own, which then ends no script: a test of the operator's STOP. The output
     /// is off when it returns true. Any thread; may be empty.
     std::function<bool(const char* by)> takesStop = {};
 };
 
 /// A run's end, with the reports that were written about it.
 struct FinishedRun {
-    std::uint64_t number = 0;  ///< as run() returned it
+    std::uint64_t number = 0;  ///< the number that run() returned
     RunOrder order;
     RunResult result;
     std::filesystem::path html, pdf;        ///< empty when not written
@@ -84,42 +84,42 @@ public:
     [[nodiscard]] std::shared_ptr<const OpenBench> open() const { return open_; }
     /// Disconnected without a bench.
     [[nodiscard]] Telemetry telemetry() const { return published_.telemetry(); }
-    /// What the open device of that role reports on itself: losses, clock drift. Nothing where there is none.
+    /// The open device's own report in that role: losses, clock drift. Nothing where it has none.
     [[nodiscard]] std::optional<DeviceReport> deviceReport(Role role) const { return published_.deviceReport(role); }
     /// The samples, frames and trains of the open bench. Null without one; one reader, LiveHistory.
     [[nodiscard]] std::shared_ptr<BenchTap> tap() const { return tap_; }
     /// The profile in force: of the open bench, else the one of the last order or the shipped one.
     [[nodiscard]] const Profile& profile() const noexcept { return profile_; }
     [[nodiscard]] const ShippedLimits& limits() const noexcept { return limits_; }
-    /// Who works here today, on which sample: in every session that is begun.
+    /// Who works here today, and on which sample: stands in every session that begins.
     [[nodiscard]] DayNotes& day() noexcept { return day_; }
     /// A run of that script, with the profile, the limits and the notes of the day as they are now.
     [[nodiscard]] RunOrder orderOf(ProtocolSource script, ProtocolDeclaration declaration,
                                    ProtocolSettings settings) const;
-    /// What is present.
+    /// Watches which devices are present.
     [[nodiscard]] DeviceWatch& watch() noexcept { return watch_; }
     /// Whether these are simulated devices and recordings only: nothing that can put out a current.
     /// Errors: as Registry::allVirtual().
     [[nodiscard]] Result<bool> allVirtual(const std::vector<DeviceUri>& uris) const;
 
-    /// Not on a new day before its notes were asked for: DayNotes::asksFirst().
+    /// Opens nothing on a new day before its notes were asked for: DayNotes::asksFirst().
     void openLive(const LiveOrder& order);
     void close();
     /// The bench that a run closed, with nothing opened or closed since: openAgain() opens the same devices.
     [[nodiscard]] bool closedByRun() const noexcept { return closedByRun_.has_value(); }
     void openAgain();
-    /// What the operator is shown and confirms before this load is armed: `request.confirmed`. Empty without a bench.
+    /// The text that the operator reads and confirms before this load is armed: `request.confirmed`. Empty: no bench.
     [[nodiscard]] std::string confirmationOf(const Load& load) const;
-    /// Two deliberate steps are the window's; `request.operatorConfirmed` says they were taken. Whatever fails leaves
+    /// The window takes two deliberate steps; `request.operatorConfirmed` says they were taken. Whatever fails leaves
     /// the bench disarmed.
     void arm(const ArmRequest& request, StopMark asked);
     void arm(const ArmRequest& request) { arm(request, mark()); }
     /// The impedance check by itself, confirmed as arming is; it always ends disarmed. checked() reports what it found.
     void checkImpedance(const ArmRequest& request, StopMark asked);
     void checkImpedance(const ArmRequest& request) { checkImpedance(request, mark()); }
-    /// At once, past what waits to be done; ends a running protocol.
+    /// Disarms at once, ahead of what waits to be done; ends a running protocol.
     void disarm();
-    /// For an order of two steps: taken at the first, so that a stop before the second voids it.
+    /// A mark for an order of two steps: taken at the first, so that a stop before the second voids it.
     [[nodiscard]] StopMark mark() const noexcept { return stops_->mark(); }
     [[nodiscard]] bool stoppedSince(StopMark asked) const noexcept { return stops_->movedSince(asked); }
     /// Outputs off before this returns; any thread. Ends a running protocol too, and the opening of devices as soon as
@@ -134,9 +134,9 @@ public:
     [[nodiscard]] bool markMoment(Instant at, const QString& word);
     void resetFault();
     void drive(DriveSource source, double roughness = 0, double pressure = 0);
-    /// As it was last ordered here; whether the bench still follows it, telemetry says.
+    /// The drive that was last ordered here; telemetry says whether the bench still follows it.
     [[nodiscard]] const DriveCommand& lastDrive() const noexcept { return lastDrive_; }
-    /// What "By hand" would ask for, as a person set it last on this bench; its source counts for nothing, and it
+    /// The command that "By hand" would ask for, as a person last set it on this bench; its source is ignored, and it
     /// orders nothing.
     void setHand(const DriveCommand& hand) { hand_ = hand; }
     [[nodiscard]] const DriveCommand& hand() const noexcept { return hand_; }
@@ -156,7 +156,7 @@ public:
     /// this controller has.
     std::uint64_t run(const RunOrder& order, StopMark asked);
     std::uint64_t run(const RunOrder& order) { return run(order, mark()); }
-    /// The same for a session of a study.
+    /// Runs a session of a study, as runProtocol() runs a protocol.
     std::uint64_t runPilot(const RunOrder& order, const PilotSeats& seats, StopMark asked);
     [[nodiscard]] RunFeed takeRunFeed() { return feed_.take(); }
     [[nodiscard]] WindowOperator& windowOperator() noexcept { return operator_; }
@@ -209,8 +209,8 @@ private:
     std::shared_ptr<BenchTap> tap_;
     Profile profile_;
     DriveCommand lastDrive_, hand_;
-    std::uint64_t lastRun_ = 0;             ///< the number of it
-    std::optional<LiveOrder> lastLive_;     ///< what the open bench was asked for
+    std::uint64_t lastRun_ = 0;             ///< the number of that run
+    std::optional<LiveOrder> lastLive_;     ///< the order for the open bench
     std::optional<LiveOrder> closedByRun_;  ///< see closedByRun()
     ShippedLimits limits_;
 

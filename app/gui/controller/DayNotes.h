@@ -18,20 +18,20 @@ public:
     /// `today` is asked whenever it matters; empty: the computer's.
     explicit DayNotes(QObject* parent = nullptr, std::function<QDate()> today = {});
 
-    /// As entered today; empty where nothing was.
+    /// The notes as entered today; empty where nothing was.
     [[nodiscard]] RunNotes notes() const;
     /// Keeps them until the day is over, beyond the end of the program.
     void set(const RunNotes& notes);
     /// Whether the question was answered or put off today.
     [[nodiscard]] bool asked() const;
     void noteAsked();
-    /// For what puts the day's notes into a session, before it begins. True where the program has been open since
-    /// another day and today was not asked: wanted() asks, and what was ordered is not begun. It is ordered again after
-    /// the answer.
+    /// Whether the day's notes have to be asked for before a session. True where the program has been open since
+    /// another day and was not asked today: wanted() asks, and what was ordered does not begin. It is ordered again
+    /// after the answer.
     [[nodiscard]] bool asksFirst();
-    /// Why what was ordered is not begun then.
+    /// Why what was ordered does not begin on a new day.
     [[nodiscard]] static QString wantedText() { return tr("A new day: enter operator and sample, then start again."); }
-    /// As entered on the last day before, to be offered. Empty where nothing is known.
+    /// The notes of the last day before, to be offered. Empty where nothing is known.
     [[nodiscard]] RunNotes before() const;
     /// "A. Weber · sample S-014"; empty where neither was entered.
     [[nodiscard]] QString words() const;

@@ -20,7 +20,7 @@ public:
     DeviceWatch(std::function<Registry()> makeRegistry, std::chrono::milliseconds period, QObject* parent = nullptr);
     ~DeviceWatch() override;
 
-    /// As last looked; empty before the first look is over.
+    /// The devices at the last look; empty before the first look is over.
     [[nodiscard]] const std::vector<DeviceIdentity>& devices() const noexcept { return devices_; }
     /// Looks again now.
     void look();

@@ -20,7 +20,7 @@ namespace tacto::gui {
 /// What to open for looking, driving by hand and replaying.
 struct LiveOrder {
     std::vector<DeviceUri> uris;
-    /// What the bench must have; sim: fills those of them that no other device does.
+    /// What the bench must have; sim: fills the roles that no other device fills.
     std::set<Role> needed{Role::Sensor, Role::Stimulator, Role::Oscilloscope};
     Profile profile;
     double speed = 1;  ///< times real time; devices that can live on the virtual clock only
@@ -36,7 +36,7 @@ struct OpenBench {
     std::optional<DeviceIdentity> output;  ///< what arming arms: the stimulator, else the massager
     std::optional<SourceTraits> source;
     std::optional<ScopeTraits> scope;
-    bool paced = false;        ///< on the virtual clock: `speed` means something
+    bool paced = false;        ///< runs on the virtual clock, where `speed` means something
     bool surfaces = false;     ///< the rig presents surfaces by itself
     bool untriggered = false;  ///< the oscilloscope can take a record without a trigger
     [[nodiscard]] bool simulated() const { return about.simulated; }
@@ -62,7 +62,7 @@ public:
     [[nodiscard]] Bench& bench() noexcept { return *opened_->bench; }
     [[nodiscard]] const std::shared_ptr<const OpenBench>& about() const noexcept { return about_; }
     [[nodiscard]] const std::shared_ptr<BenchTap>& tap() const noexcept { return opened_->tap; }
-    /// What the operator should know about these devices with this profile, a sentence each.
+    /// Warnings for the operator about these devices with this profile, a sentence each.
     [[nodiscard]] const std::vector<std::string>& warnings() const noexcept { return opened_->warnings; }
 
     /// Looks after the bench; on the virtual clock, lets `speed` times the real time pass.

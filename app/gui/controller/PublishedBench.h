@@ -41,7 +41,7 @@ private:
     Bench* bench_ = nullptr;                      // guarded
     ScriptRun* script_ = nullptr;                 // guarded
     std::optional<std::string> unheardStop_;      // guarded: the last stop that no script heard
-    std::function<bool(const char*)> takesStop_;  // guarded: of the session that runs
+    std::function<bool(const char*)> takesStop_;  // guarded: the running session's
 };
 
 }  // namespace tacto::gui

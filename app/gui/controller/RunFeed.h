@@ -13,7 +13,7 @@
 
 namespace tacto::gui {
 
-/// Since the window last looked.
+/// What came since the window last looked.
 struct RunFeed {
     std::optional<ScriptProgress> progress;
     std::vector<std::string> log;

@@ -1,4 +1,4 @@
-// TaskThread.h - the bench's thread, and whether that of the window still runs.
+// TaskThread.h - the bench's thread, and a watch on whether the window's thread still runs.
 //
 // Thread-safety: post() and runs() any thread; the rest their owner.
 #pragma once
@@ -38,8 +38,8 @@ private:
     std::thread thread_;                       // last: starts when all else is ready
 };
 
-/// Whether the window's thread still runs: one that hangs shows no STOP and hears no Esc, so what
-/// it ordered is then unattended (hazard H2).
+/// Watches whether the window's thread still runs: a window that hangs shows no STOP and hears no Esc, so that the
+/// output is then unattended (hazard H2).
 class WindowHeartbeat final : public QObject {
     Q_OBJECT
 public:
