@@ -24,7 +24,7 @@ private:
     QLabel* refusal_;
 };
 
-/// Is what the fingertip shows fresh, what was lost, and the flags of R, in words; `stale` marks what is not to be
+/// The fingertip's state in words: is it fresh, what was lost, and the flags of R; `stale` marks what is not to be
 /// trusted.
 struct HealthWords {
     QString text;

@@ -136,7 +136,7 @@ void DrivePanel::begin() {
     asked_.reset();
     last_ = DriveSource::Off;
     off_->setChecked(true);
-    // Another bench begins anew: what was set by hand belongs to the one before.
+    // Another bench starts anew: what was set by hand belongs to the one before.
     if (const auto bench = controller_.tap(); bench != bench_.lock() || !bench) {
         bench_ = bench;
         was_.reset();
@@ -150,7 +150,7 @@ void DrivePanel::showHand() {
         if (const double hand = controller_.hand().*index->its; index->box->value() != hand) showIndex(*index, hand);
 }
 
-/// Without asking anything of the bench.
+/// Shows the index without asking anything of the bench.
 void DrivePanel::showIndex(const Index& index, double value) {
     const QSignalBlocker quietSlider(index.slider), quietBox(index.box);
     index.slider->setValue(int(std::lround(value * kSteps)));
@@ -161,12 +161,12 @@ DriveSource DrivePanel::chosen() const {
     return byHand_->isChecked() ? DriveSource::Manual : finger_->isChecked() ? DriveSource::Sensor : DriveSource::Off;
 }
 
-/// By hand begins with what was set by hand. Only from a fingertip that has a train due now it goes on with that train,
-/// so that nothing jumps.
+/// "By hand" begins with what was set by hand. Only if a fingertip has a train due now does it continue that train, so
+/// that nothing jumps.
 void DrivePanel::choose() {
     const auto now = controller_.telemetry();
     const bool delivers = now.state == InterlockState::Armed || now.state == InterlockState::Delivering;
-    const bool wasFinger = last_ == DriveSource::Sensor;  // what was asked last, where the bench has not answered
+    const bool wasFinger = last_ == DriveSource::Sensor;  // the last asked source, where the bench has not answered
     const bool takesOver =
         wasFinger && now.driving == DriveSource::Sensor && delivers && !now.paused && std::isfinite(now.amplitude_v);
     if (byHand_->isChecked() && now.driving != DriveSource::Manual && !takesOver) showHand();
@@ -204,7 +204,7 @@ QString DrivePanel::trainText(double amplitude_v, double interval_s) const {
     return tr("%1 every %2").arg(quantityText(amplitude_v, "V", 3), every);
 }
 
-/// What a click on "By hand" would ask for.
+/// The words for what a click on "By hand" would ask for.
 QString DrivePanel::offWords() const {
     const auto nothing = was_ ? wasWords() : tr("Nothing drives the output.");
     if (controller_.activity() != Activity::Live) return nothing;
@@ -259,8 +259,8 @@ QString DrivePanel::words(const Telemetry& telemetry) const {
     return tr("No train is due.");
 }
 
-/// While the fingertip drives, the sliders show what it feels and take no hand; while nothing does, what By hand would
-/// begin with.
+/// While the fingertip drives, the sliders show what it feels and cannot be moved; while nothing drives, they show what
+/// "By hand" would begin with.
 void DrivePanel::followFinger(const Telemetry& telemetry) {
     const bool finger = finger_->isChecked() && controller_.activity() == Activity::Live;
     for (const auto& [index, value] : {std::pair(&roughness_, telemetry.roughness), {&pressure_, telemetry.pressure}}) {
@@ -278,7 +278,7 @@ void DrivePanel::refresh(const Telemetry& telemetry) {
                              .value_or(DriveCommand{telemetry.driving, telemetry.roughness, telemetry.pressure});
         const bool known = std::isfinite(now.roughness) && std::isfinite(now.pressure);
         const bool another = !was_ || was_->source != telemetry.driving;
-        if (telemetry.driving != DriveSource::Off && (known || another)) was_ = now;  // the last that is known about it
+        if (telemetry.driving != DriveSource::Off && (known || another)) was_ = now;  // what is still known about it
     }
     followFinger(telemetry);
     const auto output = outputText(telemetry);

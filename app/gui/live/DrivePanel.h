@@ -1,9 +1,9 @@
 // DrivePanel.h - what drives the output: nothing, two sliders, or the fingertip.
 //
 // What is chosen here is what the bench does: the bench turns driving off with every stop, disarm and fault, and the
-// panel follows it. Only a person's hand on a control asks anything of the bench. By hand begins with what was set by
-// hand on this bench, at first R = 0 and P = 0; it goes on with the fingertip's values only while those are delivered.
-// When the bench has turned driving off, the panel says what drove it, and starts nothing of it by itself.
+// panel follows it. Only a person's hand on a control asks anything of the bench. "By hand" begins with what was set by
+// hand on this bench, at first R = 0 and P = 0; it continues with the fingertip's values only while those are
+// delivered. When the bench has turned driving off, the panel says what drove it, and starts nothing by itself.
 #pragma once
 
 #include <QButtonGroup>
@@ -24,7 +24,7 @@ class DrivePanel final : public QWidget {
     Q_OBJECT
 public:
     explicit DrivePanel(BenchController& controller, QWidget* parent = nullptr);
-    /// Another bench, or none.
+    /// Begins with another bench, or with none.
     void begin();
     void refresh(const Telemetry& telemetry);
     [[nodiscard]] DriveSource chosen() const;
@@ -63,10 +63,10 @@ private:
     QPushButton* byHand_;
     QPushButton* finger_;
     Index roughness_{.its = &DriveCommand::roughness}, pressure_{.its = &DriveCommand::pressure};
-    std::weak_ptr<BenchTap> bench_;  // the one that they were set on
+    std::weak_ptr<BenchTap> bench_;  // the bench on which they were set
     QLabel* output_;
     QLabel* says_;
-    std::optional<DriveSource> asked_;  // what the bench was asked for and has not answered yet
+    std::optional<DriveSource> asked_;  // the source that the bench was asked for and has not answered yet
     QElapsedTimer askedAt_;
     std::optional<DriveCommand> was_;      // drove last on this bench
     DriveSource last_ = DriveSource::Off;  // asked last, or what the bench turned to after that

@@ -50,7 +50,7 @@ public:
     [[nodiscard]] std::array<Piece, 2> pieces(std::size_t first, std::size_t end) const noexcept;
     /// Time of the newest; not to be asked of an empty one.
     [[nodiscard]] double newest() const noexcept { return time(count_ - 1); }
-    /// The first sample at or after `t_s`; size() when there is none.
+    /// The first sample at or after `t_s`; size() when all are earlier.
     [[nodiscard]] std::size_t firstFrom(double t_s) const noexcept;
 
 private:
@@ -76,7 +76,7 @@ public:
     enum Command : std::size_t { kAmplitude_v, kInterval_s, kImpedance_ohm, kCommandColumns };
 
     LiveHistory();
-    /// Another bench is open: forgets everything. `streams` as its sensor names them.
+    /// Forgets everything, as another bench is open. `streams` as its sensor names them.
     void begin(const std::vector<StreamInfo>& streams);
     /// Takes what came since the last call; `clock`: the time of day.
     void take(BenchTap& tap, const Telemetry& telemetry, QTime clock = QTime::currentTime());
@@ -99,7 +99,7 @@ public:
         double at_s = 0;
         double until_s = std::numeric_limits<double>::infinity();  ///< its reset
         FixedText<200> why;
-        QTime clock;  ///< as it was seen
+        QTime clock;  ///< the clock as it was seen
     };
     [[nodiscard]] const std::optional<Fault>& fault() const noexcept { return fault_; }
     /// Samples left out of the picture because the window looked too rarely; the recording has them.

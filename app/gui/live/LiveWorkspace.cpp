@@ -48,8 +48,7 @@ bool isReplay(const OpenBench& bench) {
                        [](const auto& device) { return device.uri.starts_with("recording:"); });
 }
 
-/// What scrolls only where its parts do not fit at their least height: words that wrap would ask for what all of them
-/// like to have.
+/// A column that scrolls only where its parts do not fit at their least height: words that wrap would ask for more.
 class LeastColumn final : public QWidget {
 public:
     /// `follow`: called when its parts need another room.
@@ -83,7 +82,7 @@ LiveWorkspace::LiveWorkspace(BenchController& controller, QWidget* parent) : QWi
     layout->insertWidget(0, tools_);
     connect(&controller_, &BenchController::changed, this, &LiveWorkspace::begin);
     connect(&controller_, &BenchController::captured, this, [this](const std::shared_ptr<const Capture>& capture) {
-        if (capture && !capture->untriggered) readCapture(*capture);  // one that shows a train, not just the signal
+        if (capture && !capture->untriggered) readCapture(*capture);  // a capture that shows a train, not just a signal
     });
     connect(&controller_, &BenchController::marked, this, [this](double at_s, const QString& word) {
         history_.addMark({at_s, word.toStdString()});
@@ -183,7 +182,7 @@ void LiveWorkspace::fit() {
     const bool beside = room >= strips_->minimumWidth() + split_->handleWidth() + narrowest;
     split_->setOrientation(beside ? Qt::Horizontal : Qt::Vertical);
     side_->setMinimumHeight(beside ? 0 : std::max(0, side->heightForWidth(room)));
-    freeze_->setText(beside ? tr("Free&ze") : QString());  // its icon and its tip say it where a word has no room
+    freeze_->setText(beside ? tr("Free&ze") : QString());  // where a word has no room, the icon and the tip say it
 }
 
 void LiveWorkspace::buildTools() {
@@ -300,7 +299,7 @@ void LiveWorkspace::refresh(const Telemetry& telemetry, bool visible) {
     if (isDue(sinceSide_, kSideEvery_ms)) showSide(telemetry);
 }
 
-/// With R and P as set by hand, while that drives.
+/// The telemetry with R and P as set by hand, while the hand drives.
 Telemetry LiveWorkspace::asDriven(Telemetry telemetry) const {
     if (const auto ordered = orderedByHand(controller_, telemetry)) {
         telemetry.roughness = ordered->roughness;
@@ -414,7 +413,7 @@ void LiveWorkspace::replayAgain() {
     LiveOrder order;
     order.seed = open->about.seed;
     order.speed = rig_->speed();
-    std::set<std::string> seen;  // one "sim:" stands for several devices
+    std::set<std::string> seen;  // devices seen already: one "sim:" stands for several
     for (const auto& device : open->about.devices) {
         const auto uri = DeviceUri::parse(device.uri);
         if (uri && seen.insert(device.uri).second) order.uris.push_back(*uri);

@@ -45,7 +45,7 @@ public:
 
 signals:
     void refusedRecording(const QString& why);
-    /// This moment is to be marked in the recording.
+    /// Asks to mark this moment in the recording.
     void markWanted();
     /// The plots without what is around them, or back.
     void plotOnlyWanted();

@@ -46,7 +46,7 @@ private:
     void chooseTarget();
 
     BenchController& controller_;
-    nlohmann::json document_;  ///< what the form began with; keeps what the form does not show
+    nlohmann::json document_;  ///< the document with which the form began; keeps what the form does not show
     QLineEdit* name_;
     ProfileTabs* tabs_;
     QLabel* says_;

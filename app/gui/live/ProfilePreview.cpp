@@ -96,7 +96,7 @@ void ProfilePreview::showPulse() {
     const double duration = train.pulseDuration().count();
     const double margin = 0.15 * duration;
     const double step = (duration + 2 * margin) / double(kWavePoints);
-    // One pulse of the train: the next would begin beyond the picture, or within it and say something else.
+    // Draws one pulse of the train: the next would begin beyond the picture, or within it and say something else.
     auto single = train;
     single.pulses = 1;
     std::vector<double> level(kWavePoints);

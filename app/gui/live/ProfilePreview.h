@@ -15,9 +15,9 @@ public:
     explicit ProfilePreview(QWidget* parent = nullptr);
     /// A profile that passed validate(); charge is shown for `smallestLoad` until an impedance is measured.
     void show(const EncodingProfile& profile, Ohms smallestLoad);
-    /// Where touch stands; NaN where it is absent.
+    /// The point of touch; NaN where nothing touches.
     void setPoint(double roughness, double pressure);
-    /// As measured; NaN: not.
+    /// Sets the measured impedance; NaN: not measured.
     void setImpedance(double ohm);
     /// The pulse in numbers at the largest amplitude: charge per phase, imbalance, duration.
     [[nodiscard]] QString facts() const;

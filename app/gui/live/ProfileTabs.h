@@ -18,14 +18,14 @@ enum class ProfileTab { Encoding, Pulse, Touch, Load };
 inline constexpr int kProfileTabs = 4;
 [[nodiscard]] QString titleOf(ProfileTab tab);
 
-/// A field as people read it: where it stands in the form, its label, what it does. Units, ranges and choices are those
-/// of the core's table (profileFields() of core/bench/Profile.h), which alone judges.
+/// A field as people read it: its place in the form, its label, and what it does. Units, ranges and choices come from
+/// the core's table (profileFields() of core/bench/Profile.h), which alone judges.
 struct ProfileField {
     ProfileTab tab;
     const char* key;
     const char* label;
     const char* tip;
-    std::vector<const char*> words{};   ///< for the words of the file, in their order; empty for a number
+    std::vector<const char*> words{};   ///< the file's words in their order, put for people; empty for a number
     const char* accepts = nullptr;      ///< shown in place of the range
     const char* needs = nullptr;        ///< key of the choice that gives it meaning...
     const char* needsValue = nullptr;   ///< ...when it is this, or with '!' in front when it is not
@@ -38,7 +38,7 @@ struct ProfileField {
 };
 
 [[nodiscard]] const std::vector<ProfileField>& profileForm();
-/// The field that a refusal is about: the one that it names first. Null when it names none.
+/// The field that a refusal is about, which is the one that it names first. Null when it names none.
 [[nodiscard]] const ProfileField* fieldIn(const QString& refusal);
 /// A refusal of the core with the form's names in place of the file's keys: "“Smallest amplitude” 45 V is not below …".
 [[nodiscard]] QString inFormWords(QString refusal);

@@ -95,7 +95,7 @@ void RigPanel::begin(double speed, bool recording) {
     paceLabel_->setText(recording ? tr("Replay spee&d") : tr("Ti&me runs at"));
     again_->setVisible(false);
     const QSignalBlocker quietMaterial(material_), quietPace(paceBox_), quietSpeed(speed_), quietForce(force_);
-    // Until the user chooses, the finger does what its device was opened with; there is no way back to that.
+    // Until the user chooses, the finger does what its device was opened with; that cannot be chosen again.
     if (material_->itemData(0).isValid()) material_->insertItem(0, tr("its own strokes"));
     material_->setCurrentIndex(0);
     speed_->setValue(50);

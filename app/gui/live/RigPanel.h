@@ -15,7 +15,7 @@ class RigPanel final : public QWidget {
     Q_OBJECT
 public:
     explicit RigPanel(BenchController& controller, QWidget* parent = nullptr);
-    /// Another bench, or none. `speed` is what its time runs at; `recording` whether one is replayed.
+    /// Begins with another bench, or with none. `speed` is what its time runs at; `recording` whether one is replayed.
     void begin(double speed, bool recording);
     void refresh(const Telemetry& telemetry);
     [[nodiscard]] double speed() const { return paceBox_->currentData().toDouble(); }

@@ -21,7 +21,7 @@ public:
     void setScale(double scale) { scale_ = scale; }
     /// A dashed trace, for one that shares its strip with a solid one. The dashes move with the data.
     void setDashed(bool dashed) { dashed_ = dashed; }
-    /// Smallest and largest value in the time; nothing when there is none.
+    /// Smallest and largest value in the time; nothing without a value.
     [[nodiscard]] std::optional<QCPRange> extent(const QCPRange& time) const;
 
     double selectTest(const QPointF&, bool, QVariant* = nullptr) const override { return -1; }

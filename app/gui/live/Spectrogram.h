@@ -17,7 +17,7 @@ namespace tacto::gui {
 class Spectrogram {
 public:
     explicit Spectrogram(QCPAxisRect& axes);
-    /// Another stream, or none (null): forgets everything.
+    /// Begins another stream, or none (null): forgets everything.
     void begin(const StreamInfo* stream);
     /// Transforms what is new, and lays the picture over `window`, at most `columns` wide.
     void update(const Series& series, const QCPRange& window, int columns);
@@ -25,9 +25,9 @@ public:
     [[nodiscard]] double top_hz() const noexcept { return top_hz_; }
     /// Windows transformed since begin().
     [[nodiscard]] std::int64_t transformed() const noexcept { return transformed_; }
-    /// What the darkest and the brightest colour stand for.
+    /// The values of the darkest and the brightest colour.
     [[nodiscard]] QString scaleText() const;
-    /// Power density at a place of the picture, dB; NaN where there is none.
+    /// Power density at a place of the picture, dB; NaN outside of it.
     [[nodiscard]] double densityAt_db(double t_s, double hz) const noexcept;
 
 private:
@@ -38,7 +38,7 @@ private:
 
     QCPColorMap* map_;
     std::unique_ptr<PowerSpectrum> transform_;
-    bool absolute_ = false;  // in m/s²: the colours stand for the same numbers always
+    bool absolute_ = false;  // in m/s²: the same colour always stands for the same number
     double rate_hz_ = 0;
     double top_hz_ = 0;
     std::size_t axes_ = 0;
@@ -49,7 +49,7 @@ private:
     Index next_ = 0;
     std::int64_t transformed_ = 0;
     std::vector<float> db_;      // the ring: kColumns × rows_
-    std::vector<Index> holds_;   // which column stands in a slot; -1 none
+    std::vector<Index> holds_;   // the column that stands in each slot; -1: none
     std::vector<double> input_;  // axes_ × length_
     std::vector<const double*> axisInput_;
 };

@@ -54,7 +54,7 @@ void placeAcross(QCPItemPosition& position, QCPAxisRect& axes) {
 
 Strip::Strip(QCustomPlot& plot, int row, const QString& title, const StripAxis& axis)
     : axes_(new QCPAxisRect(&plot)), title_(title), axis_(axis), ticker_(new StripTicker(axis.ticks)) {
-    plot.plotLayout()->addElement(row, 0, axes_);  // before its items: they look for it there
+    plot.plotLayout()->addElement(row, 0, axes_);  // added before its items: they look for it there
     axes_->setMinimumSize(50, 24);
     axes_->setRangeDrag(Qt::Horizontal);
     axes_->setRangeZoom(Qt::Horizontal);
@@ -74,7 +74,7 @@ Strip::Strip(QCustomPlot& plot, int row, const QString& title, const StripAxis& 
     fault_ = new QCPItemLine(&plot);
     for (auto* end : {fault_->start, fault_->end}) placeAcross(*end, *axes_);
     fault_->setClipAxisRect(axes_);
-    fault_->setLayer("axes");  // over what it ended
+    fault_->setLayer("axes");  // the fault's line lies over what the fault ended
     fault_->setVisible(false);
     caption_ = new StripCaption(*axes_);
 }
@@ -121,7 +121,7 @@ void Strip::markFault(double at_s) {
 }
 
 void Strip::thinTicks() {
-    constexpr double kLines = 1.15;  // from number to number
+    constexpr double kLines = 1.15;  // the distance from number to number, in lines
     const int room = static_cast<int>(axes_->height() / (kLines * QFontMetrics(values().tickLabelFont()).height()));
     ticker_->setRoom(room);
     values().setTickLabels(room > 0);
@@ -163,14 +163,14 @@ void Strip::hatch(const Series* series, double now_s) {
 
 namespace {
 constexpr double kBefore_px = 2, kBetween_px = 14, kSample_px = 18, kToSample_px = 5, kUnder_px = 2;
-constexpr double kNear_px = 8, kShort_px = 12;  // between keys, and of a sample, where room is short
+constexpr double kNear_px = 8, kShort_px = 12;  // between keys, and the length of a sample, where room is short
 constexpr int kKeysFrom = 132;                  // so that they stand below each other; a longer title moves its own
 }  // namespace
 
 StripCaption::StripCaption(QCPAxisRect& below) : QCPAbstractItem(below.parentPlot()), below_(below) {
     setLayer("legend");
     setClipAxisRect(&below);
-    setClipToAxisRect(false);  // it stands above the strip, clear of its trace
+    setClipToAxisRect(false);  // the text stands above the strip, clear of its trace
 }
 
 void StripCaption::dress() {

@@ -20,7 +20,7 @@ class StripCaption final : public QCPAbstractItem {
 public:
     /// Owned by the plot of `below`, as every item is.
     explicit StripCaption(QCPAxisRect& below);
-    /// In the current theme and text size.
+    /// Draws in the current theme and text size.
     void dress();
     [[nodiscard]] int lineHeight() const;
 
@@ -30,7 +30,7 @@ public:
     [[nodiscard]] QString value() const { return value_.text.text(); }
     /// An empty key takes no room. `brief` stands for it where there is no room for all keys.
     void setKey(std::size_t index, const QString& text, const QString& brief = {});
-    /// What is drawn beside the key: a piece of the line, and the mark in its middle.
+    /// Draws a sample beside the key: a piece of the line, and the mark in its middle.
     void setSample(std::size_t index, const QPen& line, const QCPScatterStyle& mark = QCPScatterStyle::ssNone);
 
     double selectTest(const QPointF&, bool, QVariant* = nullptr) const override { return -1; }
@@ -48,7 +48,7 @@ private:
         QPen line{Qt::NoPen};
         QCPScatterStyle mark{QCPScatterStyle::ssNone};
     };
-    /// How the keys are set: from where, with how much of each.
+    /// The spacing of the keys: where they begin, and how much each part gets.
     struct Setting {
         double from, sample, between;
         bool brief;
@@ -70,12 +70,12 @@ private:
     std::vector<Key> keys_;
 };
 
-/// What of the value axis is fixed.
+/// The fixed properties of the value axis.
 struct StripAxis {
-    double least = 0;  ///< it never shows a smaller span
+    double least = 0;  ///< the smallest span that it shows
     bool fromZero = false;
     int ticks = 3;        ///< at most
-    bool filled = false;  ///< by what it shows: its watermark is an outline in front
+    bool filled = false;  ///< filled by what it shows: its watermark is an outline in front
 };
 
 /// The range that `wanted` needs in whole steps; the one `before` stays as long as it fits and is not too wide.
@@ -84,7 +84,7 @@ struct StripAxis {
 /// `position` is at a time of the strip, and at a share of its height from the top.
 void placeAcross(QCPItemPosition& position, QCPAxisRect& axes);
 
-/// Steps of 1, 2, 5, as many as there is room for: numbers of a low strip do not lie on each other.
+/// Steps of 1, 2, 5, with as many numbers as fit: those of a low strip do not overlap.
 class StripTicker final : public QCPAxisTicker {
 public:
     explicit StripTicker(int most) : most_(most) {}
@@ -101,7 +101,7 @@ private:
 
 class Strip {
 public:
-    /// In `row` of the plot's layout; what is made here is the plot's.
+    /// Takes `row` of the plot's layout; the plot owns what is made here.
     Strip(QCustomPlot& plot, int row, const QString& title, const StripAxis& axis);
 
     [[nodiscard]] QCPAxisRect& axes() const { return *axes_; }
@@ -120,11 +120,11 @@ public:
 
     /// Takes its room, or none where it is not present.
     void layOut();
-    /// In the current theme and text size.
+    /// Draws in the current theme and text size.
     void dress();
     /// A line at the instant of a fault; NaN: none.
     void markFault(double at_s);
-    /// No more numbers at the value axis than have room.
+    /// Leaves out numbers at the value axis that have no room.
     void thinTicks();
     /// The value axis, to what the graphs show of `time`.
     void fit(std::span<RollingGraph* const> graphs, const QCPRange& time);

@@ -12,10 +12,10 @@ namespace tacto::gui {
 
 namespace {
 
-/// From top to bottom.
+/// The strips from top to bottom.
 enum StripIndex : std::size_t { kAcceleration, kForce, kTaxels, kSpectrum, kIndices, kTrains, kStripCount };
 
-/// What a strip of samples shows; the spectrum is the acceleration's.
+/// The stream that a strip of samples shows; the spectrum shows the acceleration's.
 constexpr StreamKind streamOf(StripIndex strip) noexcept {
     return strip == kForce ? StreamKind::Force : strip == kTaxels ? StreamKind::Taxels : StreamKind::Acceleration;
 }
@@ -24,7 +24,7 @@ constexpr std::size_t kMaxTaxels = TapSample::kMaxChannels;
 constexpr double kGapSteps = 2.5;  // steps of a stream: beyond them a sample is missing
 constexpr double kFrameGap_s = 0.1;
 constexpr int kTextEvery = 4;  // pictures: as fast as one reads
-// How much of the height each strip gets.
+// The share of the height that each strip gets.
 constexpr double kHeights[] = {1.1, 0.6, 0.6, 1.1, 0.9, 1.7};
 
 /// Ticks in seconds before an instant: they stand still while the traces move.
@@ -142,7 +142,7 @@ void StripPlots::attach() {
     pressure_->show(&shown().frames(), LiveHistory::kPressure, kFrameGap_s);
 }
 
-/// In the current theme and text size.
+/// Draws in the current theme and text size.
 void StripPlots::dress() {
     const auto& c = colours();
     stylePlot(*this);
@@ -224,7 +224,7 @@ const Strip& StripPlots::stripOf(StreamKind kind) const {
 
 void StripPlots::redraw() {
     if (frozen_) return;
-    // In whole pixels: a column keeps its samples while it moves, and the trace does not shimmer.
+    // In whole pixels, so that a column keeps its samples while it moves, and the trace does not shimmer.
     const double pixel = window_s_ / std::max(1, strips_.back().axes().width());
     const double now = std::floor(history_.now_s() / pixel) * pixel;
     ticker_->setTickOrigin(now);
@@ -258,8 +258,8 @@ void StripPlots::shareTime(const QCPRange& time) {
     if (frozen_) emit viewChanged();
 }
 
-/// In every lane the instant, in the trains' also the time of day and the cause, on the side where it has room; and
-/// that the output is off, where the shade has no room for these words.
+/// Marks the instant in every lane; in the trains' lane also the time of day and the cause, on the side where there is
+/// room, and that the output is off, where the shade has no room for these words.
 void StripPlots::markFault(const QCPRange& time) {
     const auto& fault = shown().fault();
     const bool seen = fault && time.contains(fault->at_s);

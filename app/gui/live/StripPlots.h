@@ -1,9 +1,9 @@
 // StripPlots.h - everything over one time axis: acceleration, force, taxels, spectrum, R and P, the encoded train and
-// what was measured of it. A strip whose stream the sensor does not have is left out.
+// its measurement. A strip whose stream the sensor does not have is left out.
 //
-// Where a stream has stopped coming its strip is hatched from the last sample on; where samples are missing the trace
-// is broken. A fault is a line at its instant in every strip. A frozen picture is drawn from a copy: it can be looked
-// at for as long as one likes.
+// Where a stream has stopped, its strip is hatched from the last sample on; where samples are missing the trace is
+// broken. A fault is a line at its instant in every strip. A frozen picture is drawn from a copy: it can be looked at
+// for as long as one likes.
 #pragma once
 
 #include <deque>
@@ -23,12 +23,12 @@ class StripPlots final : public QCustomPlot {
     Q_OBJECT
 public:
     explicit StripPlots(const LiveHistory& history, QWidget* parent = nullptr);
-    /// Another bench. What is simulated has the watermark: a recording's touch is not, the trains it makes may be.
-    /// `commandUnit` is the source's own, V or mA.
+    /// Begins with another bench. What is simulated has the watermark: a recording's touch has none, but the trains it
+    /// makes may have it. `commandUnit` is the source's own, V or mA.
     void begin(bool simulatedTouch, bool simulatedSource, const QString& commandUnit);
     void setWindow(double seconds);
     [[nodiscard]] double window() const { return window_s_; }
-    /// The picture stands still and can be dragged and zoomed in time; the bench goes on.
+    /// The picture stands still and can be dragged and zoomed in time; the bench keeps running.
     void setFrozen(bool frozen);
     [[nodiscard]] bool frozen() const { return frozen_ != nullptr; }
     /// A frozen picture: all of it again, or the view before the last drag or zoom.
@@ -51,11 +51,11 @@ public:
     [[nodiscard]] const Spectrogram& spectrogram() const { return *spectrogram_; }
     [[nodiscard]] const TrainGraphs& trains() const { return *trains_; }
     [[nodiscard]] const MarkLines& marks() const { return marks_; }
-    /// What stands at the instant of a fault; empty where none is seen.
+    /// The text at the instant of a fault; empty where none is seen.
     [[nodiscard]] QString faultSaid() const { return fault_->visible() ? fault_->text() : QString(); }
 
 signals:
-    /// Another part of a frozen picture is shown, or it is frozen no more.
+    /// Another part of a frozen picture is shown, or it is not frozen any longer.
     void viewChanged();
 
 private:
@@ -70,9 +70,9 @@ private:
     void shareTime(const QCPRange& range);
 
     const LiveHistory& history_;
-    std::unique_ptr<LiveHistory> frozen_;  // while the picture stands still
+    std::unique_ptr<LiveHistory> frozen_;  // the history as it was when the picture was frozen
     QDateTime frozenAt_;
-    QCPRange whole_;               // its whole range
+    QCPRange whole_;               // the whole range of the axis
     std::vector<QCPRange> views_;  // before each drag and zoom of it, the latest last
     double window_s_ = 10;
     bool sharing_ = false;
@@ -85,7 +85,7 @@ private:
     std::unique_ptr<Spectrogram> spectrogram_;
     std::unique_ptr<TrainGraphs> trains_;
     MarkLines marks_{*this};
-    QCPItemText* fault_ = nullptr;  // its cause; owned by the plot
+    QCPItemText* fault_ = nullptr;  // why there is a fault; owned by the plot
 };
 
 }  // namespace tacto::gui

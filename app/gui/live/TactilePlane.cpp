@@ -49,7 +49,7 @@ TactilePlane::TactilePlane(QWidget* parent) : QCustomPlot(parent) {
     onLookChange(*this, [this] { colour(); });
 }
 
-/// Never much higher than wide: both of its axes are 0 to 1.
+/// The plane is never much higher than wide: both of its axes run from 0 to 1.
 void TactilePlane::resizeEvent(QResizeEvent* event) {
     // First: while it is being shown, a height that is bounded here tells of no further resizing.
     setMaximumHeight(std::max(minimumHeight(), int(width() * kHighest)));
@@ -60,7 +60,7 @@ void TactilePlane::resizeEvent(QResizeEvent* event) {
 void TactilePlane::makeRoomForNames() {
     const QFontMetrics words(textFont(TextSize::Small));
     double besideR = kBesideR, besideP = kBesideP;
-    // What the axis needs on both sides of 0 to 1, for `share` of it to lie beyond a point at `at`.
+    // The room that the axis needs on both sides of 0 to 1, for `share` of it to lie beyond a point at `at`.
     const auto beyond = [](double share, double at) {
         return (share - std::min(at, 1 - at)) / std::max(0.1, 1 - 2 * share);
     };

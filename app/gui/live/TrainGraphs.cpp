@@ -9,7 +9,7 @@ namespace tacto::gui {
 
 namespace {
 
-/// A train that was due so shortly before a fault was seen is the one that the fault took: its line says so.
+/// A train that was due so shortly before a fault was seen was cut by that fault: its line says so.
 constexpr double kFaultTakes_s = 0.25;
 constexpr int kAroundWords = 8;  // pixels
 
@@ -160,7 +160,7 @@ void TrainGraphs::caption() const {
     auto& keys = strip_.caption();
     keys.setKey(0, QObject::tr("commanded"), QObject::tr("asked"));
     keys.setKey(1, QObject::tr("delivered"), QObject::tr("given"));
-    // What went wrong before what confirms: the last ones go first where even the brief words have no room.
+    // Failures come before confirmations: the last ones are left out where even the brief words have no room.
     keys.setKey(2, failedAt_.isEmpty() ? QString() : QObject::tr("not delivered"), QObject::tr("not given"));
     keys.setKey(3, measuredAt_.isEmpty() ? QString() : QObject::tr("read back"), QObject::tr("read"));
     keys.setKey(4, scoped_->data()->isEmpty() ? QString() : QObject::tr("oscilloscope"), QObject::tr("scope"));

@@ -20,9 +20,9 @@ public:
     void begin();
     /// An amplitude that the oscilloscope measured, in the source's unit.
     void addScopeReading(double t_s, double amplitude);
-    /// In the strip's unit: volts, or what they come to in milliamps through the impedance of the time.
+    /// Draws in the strip's unit: volts, or the milliamps that they become through the impedance of the time.
     void draw(const LiveHistory& history, const QCPRange& time);
-    /// In the current theme.
+    /// Takes the colours of the current theme.
     void colour();
     void caption() const;
 
@@ -33,7 +33,7 @@ public:
     [[nodiscard]] std::vector<double> scopeReadings() const;
     /// Onsets of the trains drawn as not delivered.
     [[nodiscard]] QVector<double> shownFailures() const { return failedAt_; }
-    /// What is shaded as off, in seconds; nothing where no fault is in sight.
+    /// The shaded time without output, in seconds; nothing where no fault is in sight.
     [[nodiscard]] std::optional<QCPRange> shownOff() const;
     /// Whether the words stand in what is shaded: they have room there.
     [[nodiscard]] bool saysOff() const { return offSays_->visible(); }
