@@ -24,16 +24,16 @@ class AnswerKeys {
 public:
     AnswerKeys() = default;
     AnswerKeys(KeySet set, const PilotPrompt& prompt);
-    /// What is written on the target, from 0; empty where it has no key.
+    /// The text on the target, counted from 0; empty where it has no key.
     [[nodiscard]] QString text(int target) const;
     /// The target that this Qt::Key answers; nothing for every other key.
     [[nodiscard]] std::optional<int> targetOf(int key) const;
 
 private:
-    std::vector<int> keys_;  ///< of each target
+    std::vector<int> keys_;  ///< the key of each target
 };
 
-/// How many targets the prompt shows: its own, or one for each value of a scale, one to hold.
+/// How many targets the prompt shows: its own, or one for each value of a scale, or one to hold.
 [[nodiscard]] int targetCount(const PilotPrompt& prompt);
 
 /// Keys and buttons that went down while no target was there: while still held they do not answer.

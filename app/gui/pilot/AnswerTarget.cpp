@@ -12,9 +12,9 @@ namespace tacto::gui {
 namespace {
 
 constexpr double kRadius = 8, kKeyRadius = 4, kEdge = 2;
-constexpr double kIconShare = 1.75;  // of the words' size
+constexpr double kIconShare = 1.75;  // the icon's size over the words' size
 constexpr double kPadShare = 0.9;
-constexpr double kBetweenCaps = 0.4;  // of the key's size
+constexpr double kBetweenCaps = 0.4;  // the gap between key caps over a key's size
 constexpr int kMinText_px = 11;
 
 }  // namespace
@@ -64,8 +64,8 @@ int AnswerTarget::capWide(const QString& of) const {
     return of.isEmpty() ? 0 : std::max(int(keyPx() * 1.6), QFontMetrics(font).horizontalAdvance(of) + keyPx() / 2);
 }
 
-/// What the words leave free on a side, with the margin; 0 where there is neither. Below words that stand in the middle
-/// the key is at the right and the button at the left, so that the words stay as large as with the key alone.
+/// The room that the words leave on a side, with the margin; 0 where there is none. Below words that stand in the
+/// middle the key is at the right and the button at the left, so that the words stay as large as with the key alone.
 int AnswerTarget::capsWide() const {
     if (key_.isEmpty() && button_.isEmpty()) return 0;
     const int margin = keyPx() * 7 / 10;
@@ -109,7 +109,7 @@ QSize AnswerTarget::minimumSizeHint() const {
 bool AnswerTarget::event(QEvent* event) {
     if (event->type() == QEvent::TouchBegin) {
         emit wentDown(timeOf(*static_cast<QTouchEvent*>(event)));
-        event->accept();  // no press of a mouse is made of it
+        event->accept();  // so that the mouse makes no press of it
         return true;
     }
     if (event->type() == QEvent::TouchEnd || event->type() == QEvent::TouchCancel) {

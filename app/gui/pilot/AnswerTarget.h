@@ -19,7 +19,7 @@ public:
     /// Words below their icons, or to the right of them.
     enum class Shape { Stacked, Row };
     explicit AnswerTarget(QWidget* parent);
-    /// `key` and `button` may be empty. Sizes are those of setType().
+    /// `key` and `button` may be empty. setType() sets the sizes.
     void setContent(const QString& words, const QStringList& icons, const QString& key, const QString& button,
                     Shape shape);
     [[nodiscard]] const QString& button() const { return button_; }
@@ -31,7 +31,7 @@ public:
     /// other.
     void limitWords(int px);
     [[nodiscard]] int wordsPx() const { return std::min(fittingPx(), most_px_); }
-    /// As small as the words may get.
+    /// The smallest size that the words may get.
     [[nodiscard]] QSize minimumSizeHint() const override;
     [[nodiscard]] QSize sizeHint() const override { return minimumSizeHint(); }
 

@@ -15,39 +15,39 @@ namespace tacto::gui {
 struct ButtonUse {
     enum class Does { Nothing, Stop, Hold, Answer };
     Does does = Does::Nothing;
-    int answer = 0;  ///< of Answer: the target's number on the screen, from 1
+    int answer = 0;  ///< for Answer: the target's number on the screen, from 1
 
     bool operator==(const ButtonUse&) const = default;
 };
 
-inline constexpr int kMaxAnswers = 6;  ///< of a question that buttons answer
+inline constexpr int kMaxAnswers = 6;  ///< answers to a question that buttons can give
 
-/// What the buttons of a device do, by their number, until the operator says otherwise: one pedal is STOP, of two the
-/// first holds, of up to five the last is STOP, and of more the fifth and the sixth are, the shoulder buttons of a game
-/// pad; the two after them hold.
+/// The usual use of a device's buttons, by their number, until the operator says otherwise: one pedal is STOP; of two
+/// the first holds; of up to five the last is STOP; of more the fifth and sixth are STOP, the shoulder buttons of a
+/// game pad, and the two after them hold.
 [[nodiscard]] std::vector<ButtonUse> usualUses(std::size_t buttons);
 
 /// A device and its person for one session.
 struct SeatedDevice {
     ButtonDeviceInfo device;
     PromptTo whose = PromptTo::Participant;  ///< Participant or Operator
-    std::vector<ButtonUse> uses;             ///< of each button
+    std::vector<ButtonUse> uses;             ///< one for each button
     /// Answers 1 to n are all on the device.
     [[nodiscard]] int answers() const;
 };
 
-/// What is written on the targets that a device of the participant's reaches: the numbers of its buttons.
+/// The text on the targets that the participant's device reaches: the numbers of its buttons.
 struct ButtonLabels {
-    QStringList answers;  ///< of answer 1 to n, all of which it reaches
+    QStringList answers;  ///< the buttons for answer 1 to n; together they reach every answer
     QString hold;         ///< empty where none holds
-    QStringList stops;    ///< of the first device with one; a device of one button is a pedal, and has no number
+    QStringList stops;    ///< on the first device with a STOP; a device with one button is a pedal, and has no number
 };
-/// The labels are those of the participant's device that reaches the most answers; what holds may be on another.
+/// The labels belong to the participant's device with the most answers; the button that holds may be on another.
 [[nodiscard]] ButtonLabels labelsOf(const std::vector<SeatedDevice>& seats);
 
-/// Which target of a question the participant's buttons answer, and what is written on it.
-/// Buttons answer a question only where they reach all its targets: those that they do not reach would be chosen less.
-/// They answer no scale and no question with several answers.
+/// The target that each of the participant's buttons answers, and what is written on it. Buttons answer a question only
+/// where they reach all its targets: targets that they do not reach would be chosen less. They answer no scale and no
+/// question with several answers.
 struct AnswerButtons {
     int reached = 0;  ///< answers 1 to this have a button
     ButtonLabels labels;

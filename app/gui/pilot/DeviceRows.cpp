@@ -23,7 +23,7 @@ void fill(QComboBox& box, const std::vector<DeviceIdentity>& present, Role role)
     }
 }
 
-/// What was chosen, while it is still offered; nothing takes its place.
+/// Keeps the earlier choice while it is still offered; nothing takes its place.
 void chooseAgain(QComboBox& box, const QVariant& before) {
     const int at = before.isValid() ? box.findData(before) : -1;
     auto* items = qobject_cast<QStandardItemModel*>(box.model());

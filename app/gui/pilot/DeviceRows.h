@@ -1,8 +1,8 @@
 // DeviceRows.h - rows of a form: the device that a session delivers with, of those that are plugged in, and with a
 // massager the sensor board on its motor.
 //
-// What may deliver follows the gates of a study (pilot.md, section 3): the simulated bench for a virtual participant
-// and in a rehearsal; a device for a person, in a rehearsal a massager alone.
+// The gates of a study (pilot.md, section 3) decide what may deliver: the simulated bench for a virtual participant and
+// in a rehearsal; a device for a person, in a rehearsal a massager alone.
 #pragma once
 
 #include <QComboBox>

@@ -1,6 +1,6 @@
 // ImpedanceTrend.h - impedance over a session: a point a trial, with the band that it may move in and the blocks.
 //
-// One point a trial and no more, so that the number of trains cannot be read from it.
+// Each trial is one point and no more, so that the number of trains cannot be read from it.
 #pragma once
 
 #include <QLabel>
@@ -18,7 +18,7 @@ public:
     /// Axes for a test of so many trials and blocks.
     void setPlan(int trials, int blocks);
     void setSimulated(bool simulated);
-    /// What was read back last in that trial, from 1; the first sets the band. NaN is left out.
+    /// Notes the last reading in that trial, from 1; the first one sets the band. NaN is left out.
     void note(int trial, double ohm);
 
 private:

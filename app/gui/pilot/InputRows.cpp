@@ -192,7 +192,7 @@ QWidget* InputRows::build(Row& row) {
     return row.widget;
 }
 
-/// Where it is as in the last session, that; where one of its model was used there, a button that makes it so.
+/// A device that is as in the last session is shown so; where one of its model was used there, a button takes it over.
 void InputRows::buildBefore(Row& row, QVBoxLayout& column) {
     if (!row.before || !row.there || !row.trouble.isEmpty()) return;
     const bool same = row.assigned && row.seat.whose == row.before->whose && row.seat.uses == row.before->uses;
@@ -300,14 +300,14 @@ constexpr QChar kFieldEnd('\t');
 
 QString keyOf(const QString& place) { return "pilot/inputs/" + place; }
 
-/// Its identity, its person and what each button does: "046d:c216 17\tparticipant\t3 1\t1 0".
+/// A device's identity, its person and what each button does: "046d:c216 17\tparticipant\t3 1\t1 0".
 QString lineOf(const SeatedDevice& seat) {
     QStringList fields{qtext(seat.device.identity), qtext(std::string(nameOf(seat.whose)))};
     for (const auto& use : seat.uses) fields << QString("%1 %2").arg(int(use.does)).arg(use.answer);
     return fields.join(kFieldEnd);
 }
 
-/// Nothing for a text that does not say it.
+/// Nothing where the text is not such a line.
 std::optional<ButtonUse> useFrom(const QString& text) {
     const auto numbers = text.split(' ');
     if (numbers.size() != 2) return std::nullopt;

@@ -1,10 +1,10 @@
 // InputRows.h - rows of a form: the game pads and foot switches that are plugged in, whom each is assigned to, and what
 // each of its buttons does. A button that is pressed lights up, so the operator sees that it works and which it is.
 //
-// What a device was in the last session of the same study is shown and taken where its serial number tells it from
-// others; where it states none it is offered, since any of its model may be the one.
+// A device keeps the use that it had in the last session of the same study, if its serial number tells it from others;
+// without a serial number the use is only offered, since it may be another of its model.
 //
-// While they are shown the devices are looked for and opened, but never those of a session that runs.
+// While the rows are shown, devices are looked for and opened, but never those of a running session.
 #pragma once
 
 #include <QComboBox>
@@ -32,7 +32,7 @@ public:
     [[nodiscard]] const std::shared_ptr<const ButtonDevices>& devices() const { return open_.devices(); }
     /// The study's id, or kRehearsals. What was chosen before is forgotten.
     void setPlace(const QString& place);
-    /// Those that are assigned to a person and do something.
+    /// The devices that are assigned to a person and do something.
     [[nodiscard]] std::vector<SeatedDevice> seats() const;
     /// Why a session cannot begin with these, a sentence; empty where it can.
     [[nodiscard]] QString missing() const;
@@ -49,7 +49,7 @@ private:
         SeatedDevice seat;
         bool assigned = false;
         bool there = true;
-        std::optional<SeatedDevice> before{};  ///< how it, or one of its model, was seated in the last session
+        std::optional<SeatedDevice> before{};  ///< how this device, or one of its model, was seated in the last session
         QString trouble;                       ///< why it cannot be opened
         QWidget* widget = nullptr;
         std::vector<QLabel*> lamps{};
@@ -75,9 +75,9 @@ private:
     QVBoxLayout* column_;
 };
 
-/// Which game pads and foot switches were whose in the last session of a study, and what their
-/// buttons did. It stands in the user's settings, by the devices' identities; nothing of a person is kept.
-/// `place`: the study's id, or kRehearsals. What was remembered of it before is forgotten.
+/// Remembers whose the game pads and foot switches were in the last session of a study, and what their buttons did. It
+/// stands in the user's settings, by the devices' identities; nothing of a person is kept. `place`: the study's id, or
+/// kRehearsals. What was remembered of it before is forgotten.
 void rememberInputs(const QString& place, const std::vector<SeatedDevice>& seats);
 /// How this device was seated; nothing where it was not used there, or has other buttons by now. A device without a
 /// serial number (ButtonDeviceInfo::hasSerial) is taken for any other of its model.

@@ -16,7 +16,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr int kOperatorPad = 16, kLow = 420;  // below this height the plot gives way to question and notes
-constexpr double kTrial_s = 9;                // one trial of the test, as the design counts it
+constexpr double kTrial_s = 9;                // seconds that one trial of the test takes, as the design counts it
 
 QString phaseName(const std::string& phase) {
     if (phase == "ascending") return QObject::tr("Rising levels");
@@ -79,7 +79,7 @@ OperatorPage::OperatorPage(QWidget* parent)
     keys->setToolTip(tr("Brings the participant’s window to the front."));
     connect(keys, &QPushButton::clicked, this, &OperatorPage::keysWanted);
     row->addWidget(keys);
-    // It comes and goes with the keys, often as a button below it is about to be pressed: its room is always kept.
+    // The line comes and goes with the keys, often when a button below it is about to be pressed: its room is kept.
     auto kept = obstacle_->sizePolicy();
     kept.setRetainSizeWhenHidden(true);
     obstacle_->setSizePolicy(kept);

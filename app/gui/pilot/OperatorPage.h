@@ -25,16 +25,16 @@ public:
     explicit OperatorPage(QWidget* parent = nullptr);
     void begin(const PilotStart& start);
     void show(const PilotScreen& screen);
-    /// To either of the two.
+    /// Asks either of the two people.
     void ask(const PilotPrompt& prompt, quint64 id);
     void closeQuestion(quint64 id);
     void refresh(const Telemetry& telemetry);
-    /// What keeps the next presentation from starting; empty for nothing.
+    /// Sets the reason why the next presentation cannot start; empty for none.
     void setObstacle(const QString& why);
     void setBreakDue(bool due);
     /// Progress of a session whose screens are not shown: a virtual participant's.
     void setProgress(const QString& what, int done, int total);
-    /// What it is about now, as it heads the page.
+    /// The present part of the session, as it heads the page.
     [[nodiscard]] QString where() const { return where_->text(); }
     [[nodiscard]] OperatorAsk& question() { return *ask_; }
     [[nodiscard]] SessionNotes& notes() { return *notes_; }
@@ -44,7 +44,7 @@ signals:
     void breakAfterTrialWanted(bool due);
     void breakNowWanted();
     void abortWanted();
-    void keysWanted();  ///< for the participant's window
+    void keysWanted();  ///< asks for the keys of the participant's window
 
 protected:
     void resizeEvent(QResizeEvent* event) override;

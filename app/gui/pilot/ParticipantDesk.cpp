@@ -233,11 +233,11 @@ bool ParticipantDesk::testsStopOf(PromptTo whose) const {
 
 bool ParticipantDesk::stopBy(const char* by) {
     {
-        // Until the end of the press: the screen that follows it clears `stopped_`, not one before.
+        // Held until the end of the press: the screen that follows it clears `stopped_`, not one before.
         const std::scoped_lock whole(stopMutex_);
         if (!listens_) return false;
         stop(by);
-        heldButton_ = kNoButton;  // it is off already: letting go does not stop again
+        heldButton_ = kNoButton;  // the output is off already: letting go does not stop it again
         const std::scoped_lock lock(mutex_);
         stopped_ = true;
     }

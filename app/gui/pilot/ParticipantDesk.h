@@ -32,7 +32,7 @@ class ParticipantDesk final : public QObject, public PilotParticipant {
 public:
     explicit ParticipantDesk(QObject* parent = nullptr);
 
-    /// Before a session, with its clock, by which it says when targets appear; on a virtual one, or without any, they
+    /// Called before a session with its clock, which says when targets appear; on a virtual clock, or without any, they
     /// appear at once. Any thread, while no session has the desk.
     void begin(std::shared_ptr<const Clock> clock);
 
@@ -48,23 +48,23 @@ public:
     [[nodiscard]] bool hasScreen() const noexcept override;
     [[nodiscard]] bool answersInRealTime() const noexcept override { return true; }
 
-    /// What is in the way of a presentation, half a sentence; empty: nothing.
+    /// Sets what stands in the way of a presentation, half a sentence; empty: nothing.
     void setObstacle(const QString& why);
-    /// The operator wants a break: no presentation starts until they want it no more, and the output is off. `why` is
-    /// what the record says of it.
+    /// The operator wants a break: no presentation starts until they end it, and the output is off. `why` stands in the
+    /// record.
     void setBreak(bool wanted, const std::string& why = kOperatorsBreak);
     [[nodiscard]] bool breakWanted() const;
     /// The screen is gone: a question that waits for it ends with Device, and so does the next.
     void setScreenThere(bool there);
     /// The targets of question `id` are on the participant's screen since `at`.
     void targetsShown(quint64 id, SteadyTime at);
-    /// Nothing happens where `id` is not open any more, or that person has answered already.
+    /// Nothing happens where `id` is not open any longer, or where that person has answered already.
     void answerAsParticipant(quint64 id, PilotAnswer answer, SteadyTime pressed);
     void answerAsOperator(quint64 id, PilotAnswer answer);
     /// A press before the targets; `key` is what it would have been, or empty.
     void noteEarly(const std::string& key);
-    /// `button`: the code of the one that is held; by a key, the mouse or a finger none. False where that button has
-    /// come up meanwhile, which its device says sooner than the window hears of it: nothing is held then.
+    /// `button`: the code of the held one; none for a key, the mouse or a finger. False where that button has come up
+    /// meanwhile, which its device tells sooner than the window hears of it: then nothing is held.
     bool setHolding(bool holding, std::optional<int> button = std::nullopt);
     /// The button of that code came up. True where it was what is held, which ends that. Any thread.
     [[nodiscard]] bool letGoOf(int button) noexcept;
@@ -75,7 +75,7 @@ public:
     /// Output off, and the question that waits ends with Stopped; where none waits, the next one, unless the session
     /// shows something before. False where no session listens. Any thread.
     bool stopBy(const char* by);
-    /// Whether that person's STOP is what the open question waits for: a test of it, which ends no session.
+    /// Whether the open question waits for that person's STOP: a test of it, which ends no session.
     [[nodiscard]] bool testsStopOf(PromptTo whose) const;
 
 signals:
@@ -83,7 +83,7 @@ signals:
     void asked(const tacto::PilotPrompt& prompt, quint64 id);
     void closed(quint64 id);  ///< answered, out of time, stopped or cancelled
     void obstacleChanged(const QString& why);
-    void bounced();  ///< what was a stop is none
+    void bounced();  ///< the press that was taken for a stop is none
 
 private:
     [[nodiscard]] bool answered() const;
@@ -102,19 +102,19 @@ private:
     bool break_ = false;
     std::string breakWhy_;
     bool cancelled_ = false;
-    bool stopped_ = false;  ///< by a person; ends one question
+    bool stopped_ = false;  ///< a person stopped it; that ends one question
     bool there_ = true;
     std::set<int> down_;         ///< buttons that hold, as their devices say
     std::optional<int> cameUp_;  ///< the button that holds that came up last
     SteadyTime cameUpAt_{};
-    bool downAgain_ = false;  ///< and went down again within kBounces
+    bool downAgain_ = false;  ///< the button went down again within kBounces
 
     std::mutex stopMutex_;  // held for moments: while `stop` is called, and to end
     bool listens_ = false;  // guarded by stopMutex_
     static constexpr int kNoButton = -1;
     std::atomic<bool> holding_{false};
-    std::atomic<int> heldButton_{kNoButton};  ///< until it comes up or a stop comes
-    std::atomic<int> letGo_{kNoButton};       ///< that was held last
+    std::atomic<int> heldButton_{kNoButton};  ///< the button that is held, until it comes up or a stop comes
+    std::atomic<int> letGo_{kNoButton};       ///< the button that was held last and has come up
 };
 
 }  // namespace tacto::gui

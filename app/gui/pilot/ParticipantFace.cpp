@@ -125,7 +125,7 @@ void ParticipantFace::openStrip(bool open) {
     if (strip_ == nullptr) return;
     strip_->setVisible(open);
     if (open) strip_->raise();
-    arrange();  // also where it is open already: it may ask something that needs more room
+    arrange();  // arranged even where it is open already: it may ask something that needs more room
 }
 
 void ParticipantFace::say(const QString& title, const QString& below) {
@@ -144,7 +144,7 @@ void ParticipantFace::put(const QString& title, const QString& below) {
     arrange();
 }
 
-/// The words and the field of what goes on.
+/// The words and the field of the present question.
 void ParticipantFace::show(const ParticipantView& view) {
     asked_ = view.asked;
     const auto& screen = view.screen;
@@ -219,8 +219,8 @@ void ParticipantFace::show(const ParticipantView& view) {
 
 /// The picture's lengths at the size of the window.
 struct ParticipantFace::Picture {
-    double scale;  ///< of the picture
-    double text;   ///< of its text
+    double scale;  ///< the picture's scale
+    double text;   ///< the text's scale
     int margin, column;
     int stopLeft, stopTop, right;
     int bottom;  ///< above the strip
@@ -245,7 +245,7 @@ ParticipantFace::Picture ParticipantFace::picture() const {
     return at;
 }
 
-/// From the head: the question; from the foot: the time bar, and what is held. The targets have the rest.
+/// From the top comes the question; from the bottom the time bar and the held target. The other targets have the rest.
 void ParticipantFace::arrange() {
     const auto at = picture();
     if (stripOpen()) strip_->setGeometry(0, at.bottom, width(), height() - at.bottom);  // as high as what it asks needs
@@ -269,7 +269,7 @@ void ParticipantFace::arrange() {
     placeEnds(at, std::min(fieldTop + rows * pixelsOf(60, *this) + rows * at.px(kGap), fieldBottom));
 }
 
-/// How far the session is, and the note at the right.
+/// Shows how far the session is, and the note at the right.
 void ParticipantFace::placeHead(const Picture& at) {
     const auto head = withPixels(at.type(kHead_px));
     const QFontMetrics metrics(head);
@@ -303,10 +303,10 @@ int ParticipantFace::rowsOfTargets() const {
     return (count + columns - 1) / columns;
 }
 
-/// Where the targets begin, which need `wanted` pixels and come first: the second line goes, then the question gets
-/// smaller.
+/// Returns where the targets begin. They need `wanted` pixels and come first: the second line is left out, then the
+/// question gets smaller.
 int ParticipantFace::placeQuestion(const Picture& at, int fieldBottom, int wanted) {
-    bool hasBelow = at.text < kLargeText * at.scale;  // with large text the targets take the room first
+    bool hasBelow = at.text < kLargeText * at.scale;  // with large text the targets get their room first
     for (int title_px = at.type(kTitle_px);;) {
         title_->setFont(withPixels(title_px, QFont::Bold));
         const int titleHigh = title_->heightForWidth(at.column);
@@ -325,7 +325,7 @@ int ParticipantFace::placeQuestion(const Picture& at, int fieldBottom, int wante
     }
 }
 
-/// What the ends of a scale mean, below its targets.
+/// Places the words at the ends of a scale, below its targets.
 void ParticipantFace::placeEnds(const Picture& at, int top) {
     const bool ends = !leastWord_->text().isEmpty() || !mostWord_->text().isEmpty();
     leastWord_->setVisible(ends);

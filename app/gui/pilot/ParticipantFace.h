@@ -1,8 +1,8 @@
 // ParticipantFace.h - what stands on the participant's screen, and where: progress, the question, the answers, STOP,
 // the time to answer. It shows what it is given and knows nothing else.
 //
-// At 1440 x 900 as the design's picture. Elsewhere the targets get their 20 mm first: the second line goes, then the
-// question gets smaller; STOP keeps its place.
+// At 1440 x 900 it looks like the design's picture. In other sizes the targets get their 20 mm first: the second line
+// is left out, then the question gets smaller; STOP keeps its place.
 #pragma once
 
 #include <QLabel>
@@ -29,10 +29,10 @@ class ShareBars;
 
 struct ParticipantView {
     const PilotScreen& screen;
-    std::optional<PilotPrompt> asked;  ///< with its targets as they stand
+    std::optional<PilotPrompt> asked;  ///< the question, with its targets as they stand
     const AnswerKeys& keys;
     QString holdKey;
-    QStringList buttons{};  ///< that answer it, one for each target; or none
+    QStringList buttons{};  ///< the buttons that answer it, one for each target; or none
     QString holdButton{};
     bool stopped = false;
     bool pause = false;  ///< the operator's break
@@ -49,14 +49,14 @@ public:
     void setStopButtons(const QStringList& buttons);
     void setStopsLeft(int left);
     void setTimeLeft(double share);
-    /// At the lower edge while it is open. Takes the widget.
+    /// The strip lies at the lower edge while it is open. Takes the widget.
     void setStrip(QWidget* strip);
     [[nodiscard]] bool hasStrip() const { return strip_ != nullptr; }
     [[nodiscard]] bool stripOpen() const;
     void openStrip(bool open);
     [[nodiscard]] QString title() const;
     [[nodiscard]] ParticipantField& field() { return *field_; }
-    /// What is held while levels rise: there from the question on until it is hidden.
+    /// The target that is held while levels rise: there from the question on until it is hidden.
     [[nodiscard]] AnswerTarget& hold() { return *hold_; }
     [[nodiscard]] QLineEdit& line() { return *line_; }
 
@@ -107,7 +107,7 @@ private:
     std::vector<double> shares_;
 };
 
-/// How full each block's bar is: finished blocks are full, the present one in proportion to its trials. `trial` counts
+/// How full the bar of each block is: finished blocks are full, the present one by its trials so far. `trial` counts
 /// all `trials` from 1; all blocks have the same length.
 [[nodiscard]] std::vector<double> blockShares(int block, int blocks, int trial, int trials);
 

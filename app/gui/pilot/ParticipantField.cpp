@@ -44,7 +44,7 @@ ParticipantField::ParticipantField(QWidget* parent) : QWidget(parent) {}
 void ParticipantField::drop() {
     for (auto* target : targets_) {
         target->hide();
-        target->deleteLater();  // perhaps from its own press
+        target->deleteLater();  // its own press may have caused this
     }
     targets_.clear();
 }

@@ -19,9 +19,9 @@ constexpr double kTarget_mm = 20;
 /// Logical pixels of a length on this screen; of 96 to an inch where the screen does not say its size.
 [[nodiscard]] int pixelsOf(double mm, const QWidget& on);
 
-/// What is drawn beside a condition's words; nothing for a condition of another name.
+/// The icons beside a condition's words; none for a condition of another name.
 [[nodiscard]] QStringList iconsOf(const std::string& key);
-/// In how many columns so many targets stand, unless they are a scale.
+/// The number of columns in which so many targets stand, unless they are a scale.
 [[nodiscard]] int fieldColumns(int count);
 
 class ParticipantField final : public QWidget {

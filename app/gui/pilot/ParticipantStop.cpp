@@ -31,7 +31,7 @@ ParticipantStop::ParticipantStop(std::function<void()> stop, QWidget* parent)
     setText(tr("STOP"));
     sayIt();
     setFocusPolicy(Qt::NoFocus);
-    setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Expanding);  // in a row it is as high as the row
+    setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Expanding);  // in a row it grows to the row's height
     setAttribute(Qt::WA_AcceptTouchEvents);
 }
 

@@ -16,9 +16,9 @@ public:
     void setType(int word_px, int lines_px);
     /// Buttons of a pad, or a pedal, that stop as the keys do: see ButtonLabels::stops.
     void setButtons(const QStringList& buttons);
-    /// How many of theirs are left before the session ends.
+    /// How many stops the participant has left before the session ends.
     void setLeft(int left);
-    /// The operator's on the participant's screen, whose keys are the participant's.
+    /// Makes it the operator's on the participant's screen, whose keys are the participant's.
     void setOperators();
 
 protected:
@@ -27,7 +27,7 @@ protected:
     void paintEvent(QPaintEvent* event) override;
 
 private:
-    /// What the picture depends on: size, ratio of pixels, ground, and the words with their sizes.
+    /// All that the picture depends on: size, ratio of pixels, ground, and the words with their sizes.
     using Looks = std::tuple<QSize, double, QRgb, QString, int, int>;
     void press();
     void sayIt();
@@ -38,7 +38,7 @@ private:
     bool operators_ = false;
     int word_px_ = 92;
     int lines_px_ = 20;
-    QPixmap drawn_;  // kept, for the same pixels in each paint: Qt draws edges of large letters not always alike
+    QPixmap drawn_;  // kept for the same pixels in each paint: Qt does not always draw the edges of large letters alike
     Looks drawnFor_{};
 };
 

@@ -145,7 +145,7 @@ void ParticipantWindow::showScreen(const PilotScreen& screen) {
     asking_ = false;
     if (screen.state == ScreenState::Rest) face_->hold().hide();
     showState();
-    repaint();  // when it changes is the session's: not with the next frame
+    repaint();  // the session says when it changes, not the next frame
     emit changed();
 }
 
@@ -174,7 +174,7 @@ void ParticipantWindow::ask(const PilotPrompt& prompt, quint64 id) {
 void ParticipantWindow::noteShown() {
     if (!asking_ || std::exchange(shown_, true)) return;
     desk_.targetsShown(id_, std::chrono::steady_clock::now());
-    if (prompt_.kind == PromptKind::Hold && desk_.holding()) return pressHold();  // from the series before
+    if (prompt_.kind == PromptKind::Hold && desk_.holding()) return pressHold();  // held since the series before
     emit changed();
 }
 
@@ -262,7 +262,7 @@ void ParticipantWindow::noteEarly(std::optional<int> target) {
     desk_.noteEarly(known ? prompt_.targets[std::size_t(*target)].key : std::string());
 }
 
-/// Whether a press is one for the question: neither early nor held from before.
+/// Whether a press answers the question: it is not early, and not held from before.
 bool ParticipantWindow::takesPress(int code, SteadyTime at, bool repeated, std::optional<int> would) {
     const bool held = pressed_.isHeld(code, at, repeated);
     if (!asking_) {
@@ -288,7 +288,7 @@ void ParticipantWindow::moveButton(int code, const ButtonUse& use, bool down, St
     switch (use.does) {
         case ButtonUse::Does::Nothing:
             return;
-        case ButtonUse::Does::Stop:  // its device's thread has stopped (SessionInputs.h)
+        case ButtonUse::Does::Stop:  // the device's thread has stopped already (SessionInputs.h)
             return noteStop();
         case ButtonUse::Does::Hold:
             if (face_->hold().isHidden()) return;
@@ -351,7 +351,7 @@ void ParticipantWindow::paintEvent(QPaintEvent* event) {
         Qt::QueuedConnection);
 }
 
-/// What is in the way of a presentation.
+/// Finds what stands in the way of a presentation.
 void ParticipantWindow::judge() {
     QString why;
     const int least = pixelsOf(kTarget_mm, *this);
@@ -376,7 +376,7 @@ void ParticipantWindow::tick() {
 }
 
 void ParticipantWindow::closeEvent(QCloseEvent* event) {
-    event->ignore();  // it closes with the session
+    event->ignore();  // the window closes with the session
     emit closeWanted();
     noteStop();
 }
@@ -385,7 +385,7 @@ void ParticipantWindow::changeEvent(QEvent* event) {
     QWidget::changeEvent(event);
     if (event->type() != QEvent::ActivationChange) return;
     if (!isActiveWindow() && heldKey_ != 0 && heldKey_ < kFirstButton)
-        letGo();  // its release would go to another window
+        letGo();  // the release of a held key would go to another window
     if (!isActiveWindow()) pressed_.clear();
     judge();
 }

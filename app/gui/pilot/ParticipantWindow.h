@@ -38,18 +38,18 @@ public:
     void setButtonLabels(const ButtonLabels& labels);
     /// Half a sentence: a device of either person is unplugged, so no presentation starts; empty: all are there.
     void setInputGone(const QString& why);
-    /// At the right above: "rehearsal · simulated".
+    /// Shows a note at the upper right: "rehearsal · simulated".
     void setNote(const QString& note);
     /// Full screen there, on top, with the keys.
     void showOn(QScreen& screen);
     void takeKeys();
-    /// What the operator works here on a single screen; it takes the lower edge while it is open. Takes the widget.
+    /// Sets the operator's strip for a single screen; it takes the lower edge while it is open. Takes the widget.
     void setStrip(QWidget* strip);
     [[nodiscard]] bool stripOpen() const;
     void openStrip(bool open);
     /// A stop of the output by anyone: the targets go at once.
     void noteStop();
-    /// How many of their stops are left before the session ends: said where they press it.
+    /// How many of the participant's stops are left before the session ends; said where they press it.
     void setStopsLeft(int left);
     /// The operator's break: what the screen says between two trials meanwhile.
     void showBreak(bool on);
@@ -61,7 +61,7 @@ public:
     [[nodiscard]] QString says() const;
 
 signals:
-    void changed();      ///< what it shows
+    void changed();      ///< the text has changed
     void closeWanted();  ///< the session pauses with its output off, and the window stays
 
 protected:

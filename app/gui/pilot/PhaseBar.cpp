@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::array kPhases{QT_TRANSLATE_NOOP("PhaseBar", "get ready"), QT_TRANSLATE_NOOP("PhaseBar", "trains"),
                              QT_TRANSLATE_NOOP("PhaseBar", "answer"), QT_TRANSLATE_NOOP("PhaseBar", "rest")};
-constexpr std::array kParts{0.127, 0.311, 0.408, 0.154};  // of the width, as the picture has them
+constexpr std::array kParts{0.127, 0.311, 0.408, 0.154};  // shares of the width, as the picture has them
 constexpr int kPhaseHigh = 32, kBelow = 10, kShareHigh = 6, kBetween = 8, kPad = 12;
 
 /// The phases' shares of `room`; one too narrow for its words takes from those that have more than theirs.

@@ -25,7 +25,7 @@ QString textIn(const nlohmann::json& record, const std::string& path) {
     return at.is_string() ? qtext(at.get_ref<const std::string&>()) : QString();
 }
 
-/// Whether the result is one with a massager, whose levels are strengths.
+/// Whether the result comes from a massager, whose levels are strengths.
 bool isMassager(const nlohmann::json& results) {
     return textIn(results, "modality") == qtext(nameOf(Modality::Massager));
 }
@@ -50,7 +50,7 @@ QString orBeyond(const nlohmann::json& results, const char* atEdge) {
     return memberAt(results, atEdge) == true ? QObject::tr(", or beyond") : QString();
 }
 
-/// On whom and what the figures rest, where that is not a person on real devices.
+/// The people and devices that the figures rest on, where that is not a person on real devices.
 QString basisWords(const RunResult& result) {
     if (memberAt(result.outcome.results, "participant").is_object()) {
         switch (basisIn(result.outcome.results)) {

@@ -15,9 +15,9 @@
 
 namespace tacto::gui {
 
-/// "P-7K3M told the four apart in 68 of 80 trials (85 %, 95 % interval 76 to 91 %, chance 25 %) between 4.0 and 6.5 mA,
-/// 14 to 22 V at 3.4 kΩ.": the headline that the results of pilot-identification hold; a sentence of its own for those
-/// of pilot-thresholds; empty where they are of another kind.
+/// The headline in the results of pilot-identification: "P-7K3M told the four apart in 68 of 80 trials (85 %, 95 %
+/// interval 76 to 91 %, chance 25 %) between 4.0 and 6.5 mA, 14 to 22 V at 3.4 kΩ."; a sentence of its own for
+/// pilot-thresholds; empty for results of another kind.
 [[nodiscard]] QString resultSentence(const nlohmann::json& results);
 
 class PilotResult final : public QWidget {

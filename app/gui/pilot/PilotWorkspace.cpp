@@ -207,7 +207,7 @@ void PilotWorkspace::beginOfStudy() {
     if (const auto trouble = session_->begin(start, start_->screens()); !trouble.isEmpty()) sayWhereItBegan(trouble);
 }
 
-/// Nothing was begun: the page from which it was to begin says why.
+/// Nothing has begun: the page on which it was to begin says why.
 void PilotWorkspace::sayWhereItBegan(const QString& why) {
     if (ofStudy_) {
         study_.takeBack();

@@ -32,12 +32,12 @@ public:
     [[nodiscard]] bool running() const { return session_->running(); }
     /// Whether conditions, levels and trains are hidden from the operator now, in the whole window.
     [[nodiscard]] bool blind() const { return running() && session_->start().blind; }
-    /// For the safety bar of a blind session: "Participant’s STOP: not pressed", and what else there is to say of it.
+    /// The safety bar's words in a blind session: "Participant’s STOP: not pressed", and what else there is to say.
     [[nodiscard]] QString stopWords() const;
     /// Pause and Resume of the safety bar: a break at once, and its end.
     void pauseSession(bool pause) { pause ? session_->breakNow() : session_->wantBreak(false); }
     [[nodiscard]] bool sessionPaused() const { return session_->breakWanted(); }
-    /// Without the path of the session.
+    /// Hides the path of the session.
     void showPlotOnly(bool only);
     /// A stop by the participant's keys; false where no session of a person runs.
     bool stopAsParticipant(const char* by) { return session_->stopAsParticipant(by); }
@@ -66,7 +66,7 @@ private:
 
     OpenStudy study_;
     bool plotOnly_ = false;
-    bool ofStudy_ = false;   ///< the session that runs, or whose result is shown
+    bool ofStudy_ = false;   ///< the running session, or the one whose result is shown
     bool reopened_ = false;  ///< the result that is shown was read from its record
     SessionPath* path_;
     PageStack* pages_;

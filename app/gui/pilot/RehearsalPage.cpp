@@ -24,14 +24,14 @@ QString newFolder() {
     return documents.filePath("Tactoscope/rehearsal-" + QDateTime::currentDateTime().toString("yyyyMMdd-HHmmss"));
 }
 
-/// The modality of the rehearsal there; nothing where there is none yet.
+/// The modality of the rehearsal in that folder; nothing before there is one.
 std::optional<Modality> modalityIn(const QString& folder) {
     if (folder.isEmpty() || !Study::isThere(folder.toStdString())) return std::nullopt;
     const auto study = Study::open(folder.toStdString(), nullptr, Study::Access::Read);
     return study && study->isRehearsal() ? std::optional(study->settings().modality) : std::nullopt;
 }
 
-/// What was interrupted of that virtual participant in the rehearsal there.
+/// The interrupted session of that virtual participant in the rehearsal there.
 std::optional<Unfinished> unfinishedIn(const QString& folder, const std::string& participant) {
     if (folder.isEmpty() || !Study::isThere(folder.toStdString())) return std::nullopt;
     const auto study = Study::open(folder.toStdString(), nullptr, Study::Access::Read);
@@ -89,7 +89,7 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     look();
 }
 
-/// Where it lies and what was interrupted there, who answers, and how fast, what is run, and on what.
+/// The fields: where it lies and what was interrupted there, who answers, and how fast, what is run, and on what.
 std::vector<FormField> RehearsalPage::fields() const {
     std::vector<FormField> all{
         ownField(tr("Folder"), folder_),

@@ -27,9 +27,9 @@ public:
     }
     /// A sentence in the way; empty for none.
     void say(const QString& what);
-    /// Looks again whether there is something to go on with.
+    /// Looks again whether a session can be resumed.
     void look();
-    /// The same in a new folder.
+    /// Starts over in a new folder.
     void renew();
 
 signals:
@@ -45,7 +45,7 @@ private:
     FieldForm* form_ = nullptr;
     FolderRow* folder_;
     UnfinishedOffer* offer_;
-    std::optional<Modality> modality_;  ///< of the rehearsal that is there already
+    std::optional<Modality> modality_;  ///< the modality of a rehearsal that exists already
     QString seen_;                      ///< the seed that was looked for
     std::unique_ptr<SeatRows> seats_;
     TroubleLine* trouble_;

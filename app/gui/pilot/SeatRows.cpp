@@ -18,7 +18,7 @@ constexpr const char* kWholeSession = "pilot-identification";
 
 QString rememberedMarkers() { return QSettings().value(kMarkersKey, kNoMarkers).toString(); }
 
-/// Nothing where none are wanted.
+/// Nothing where no markers are wanted.
 std::optional<Result<MarkerAddress>> markersFrom(const FieldForm& form) {
     const auto text = form.text("markers");
     if (text.isEmpty() || text == kNoMarkers) return std::nullopt;

@@ -14,15 +14,15 @@ class QScreen;
 
 namespace tacto::gui {
 
-/// What a session runs, and how it finds the level that is just felt.
+/// The procedure of a session, and how it finds the level that is just felt.
 [[nodiscard]] std::vector<FormField> procedureFields();
-/// Where an interrupted session goes on, its own.
+/// Shows the settings of an interrupted session that goes on.
 void followOffer(FieldForm& form, const UnfinishedOffer& offer);
-/// Else thresholds alone.
+/// False where it finds thresholds alone.
 [[nodiscard]] bool isWholeSession(const FieldForm& form);
 
-/// Which screen is the participant's: by its name, remembered, and watched.
-/// Where there is one screen the participant's window covers it.
+/// Chooses the participant's screen: by its name, remembered, and watched. On a single screen the participant's window
+/// covers the operator's.
 class ScreenChoice final : public QComboBox {
     Q_OBJECT
 public:
@@ -32,7 +32,7 @@ public:
     /// The chosen one; where it is gone another is chosen, as at first. Null without any screen.
     [[nodiscard]] QScreen* seat();
     [[nodiscard]] QString chosenName() const { return currentData().toString(); }
-    /// Whether the operator's window has one of its own beside it.
+    /// Whether there is just one screen, so that the operator's window has none of its own.
     [[nodiscard]] static bool isOnly();
 
 signals:
@@ -49,20 +49,20 @@ public:
     /// fields() are to be shown in `form`, which takes what they hold, before anything else is called.
     explicit SeatRows(FieldForm& form);
     [[nodiscard]] std::vector<FormField> fields() const;
-    /// Once they are shown.
+    /// Called once they are shown.
     void connectFields();
     [[nodiscard]] ScreenChoice& screens() const { return *screen_; }
     [[nodiscard]] InputRows& inputs() const { return *inputs_; }
     void writeTo(PilotStart& start) const;
     /// Why a session cannot begin with the form as it is, a sentence; empty where it can.
     [[nodiscard]] QString missing(bool person) const;
-    /// What is remembered of `place` (InputRows.h), and the markers' port: chosen before is forgotten.
+    /// Recalls what is remembered of `place` (InputRows.h), and the markers' port: earlier choices are forgotten.
     void recall(const QString& place);
     /// Screen, keys and buttons are a person's. `realTime`: of a virtual participant's session.
     void showFor(bool person, bool realTime = false);
     /// A blind study's sessions are blind: that is part of its approval.
     void setBlind(bool study);
-    /// What that means, to be placed below the form.
+    /// The explanation of these, to be placed below the form.
     [[nodiscard]] QLabel* about() const { return about_; }
 
 private:

@@ -97,7 +97,7 @@ void SessionConduct::connectInputs() {
     });
     connect(&inputs_, &SessionInputs::lost, this, [this] {
         if (window_) window_->setInputGone(inputs_.gone());
-        if (confirming_ || !running_) return;  // nothing is on, and no presentation starts
+        if (confirming_ || !running_) return;  // nothing is delivered, and no presentation starts
         setBreak(true, inputs_.gone().toStdString());
         if (window_) window_->noteStop();
     });
@@ -106,7 +106,7 @@ void SessionConduct::connectInputs() {
     });
 }
 
-/// On the devices' threads: the output, whatever the window's thread does meanwhile.
+/// What the devices' threads do at once: the output goes off, whatever the window's thread does meanwhile.
 InputsAtOnce SessionConduct::atOnce() {
     const auto participant = [this](const char* by) {
         const auto stop = switchOff(by);
@@ -129,7 +129,7 @@ InputsAtOnce SessionConduct::atOnce() {
         if (confirming_) return;
         desk_.setBreak(true, which);
         if (!desk_.stopBy(kOperatorPauses)) controller_.stop(kOperatorPauses);
-        desk_.setHolding(false);  // no stop by the participant
+        desk_.setHolding(false);  // this is no stop by the participant
     };
     return all;
 }
@@ -200,7 +200,7 @@ void SessionConduct::openWindow() {
     if (auto* screen = screens_->chosen()) window_->showOn(*screen);
 }
 
-/// Before anything else, on the participant's own screen: no study is opened and nothing is made before.
+/// Asked before anything else, on the participant's own screen: until then no study is opened and nothing is made.
 void SessionConduct::confirmCode() {
     confirming_ = true;
     desk_.begin(nullptr);
@@ -279,7 +279,7 @@ std::optional<HeardStop> SessionConduct::switchOff(const char* by) {
     return HeardStop{true, true};
 }
 
-/// What the windows show of it.
+/// Shows it in the windows.
 void SessionConduct::noteStop(const HeardStop& stop) {
     if (window_) window_->noteStop();
     if (!stop.tested) ++participantStops_;
@@ -300,7 +300,7 @@ void SessionConduct::ask(const PilotPrompt& prompt, quint64 id) {
     if (strip_ != nullptr) strip_->setWhere(page_.where());
     emit asked(prompt);
     if (prompt.to == PromptTo::Participant) return;
-    // On the only screen the question comes up where the operator can reach it.
+    // On a single screen the question comes up where the operator can reach it.
     if (window_ && window_->isVisible() && ScreenChoice::isOnly() && strip_ != nullptr) {
         strip_->question().ask(prompt, id);
         window_->openStrip(true);
@@ -311,7 +311,7 @@ void SessionConduct::ask(const PilotPrompt& prompt, quint64 id) {
 
 void SessionConduct::refresh(const Telemetry& telemetry) {
     if (!running_) return;
-    const auto feed = controller_.takeRunFeed();  // its trials name conditions: they are dropped
+    const auto feed = controller_.takeRunFeed();  // trials are dropped, as they name conditions
     if (feed.progress && !start_.person)
         emit progressed(qtext(feed.progress->label), int(feed.progress->done), int(feed.progress->total));
     page_.refresh(telemetry);
@@ -349,7 +349,7 @@ void SessionConduct::giveKeys() {
     if (window_) window_->takeKeys();
 }
 
-/// A session that has begun pauses and goes on once the window is seated again; one that has not ends.
+/// A session that has begun pauses and continues once the window is seated again; a session that has not begun ends.
 void SessionConduct::pauseFor(const char* why) {
     if (!running_ || !start_.person) return;
     if (!desk_.stopBy(why)) controller_.stop(why);
@@ -362,7 +362,7 @@ void SessionConduct::screenLost(const QString& name) {
     if (!running_ || !start_.person) return;
     pauseFor(kScreenWent);
     desk_.setScreenThere(false);
-    if (window_) window_->hide();  // it would lie over the operator's
+    if (window_) window_->hide();  // the participant's window would lie over the operator's
     page_.setObstacle(tr("the participant’s screen “%1” is gone").arg(name));
 }
 
@@ -384,7 +384,7 @@ void SessionConduct::leaveSeats() {
     strip_ = nullptr;
     if (!window_) return;
     window_->hide();
-    window_.release()->deleteLater();  // perhaps from its own press
+    window_.release()->deleteLater();  // its own press may be the one that is heard
 }
 
 void SessionConduct::refuse(const QString& why) {
@@ -440,9 +440,9 @@ std::optional<HeardStop> SessionStops::participantPressed(const char* by) {
 bool SessionStops::isTested(const char* by) {
     if (std::string_view(by).ends_with(kStillHeld)) return heldTested_.load();
     if (!isPressOfStop(by)) return false;
-    // What the press tested is off already, and a question comes next.
+    // The press tested a STOP, which has switched off already, and a question comes next.
     if (std::chrono::steady_clock::now() - testedAt_.load() < kOnePress) return true;
-    // In the test of the participant's it is a press of the wrong one: asked again, and no stop of the session.
+    // In the test of the participant's STOP this press is of the wrong one: it asks again, and stops no session.
     const bool tests = desk_.testsStopOf(PromptTo::Operator) || desk_.testsStopOf(PromptTo::Participant);
     heldTested_ = tests && desk_.stopBy(by);
     if (heldTested_) testedAt_ = std::chrono::steady_clock::now();

@@ -25,26 +25,26 @@
 
 namespace tacto::gui {
 
-/// What a press of STOP is in a session of a person: a stop, the test of one, or one that is heard
-/// again. StopKeys hears one press several times, and a contact bounces.
+/// A press of STOP in a person's session: a stop, the test of one, or a press that is heard again. StopKeys hears one
+/// press several times, and a contact bounces.
 struct HeardStop {
-    bool heard = false;   ///< by a session
-    bool tested = false;  ///< their STOP, or the operator's: no stop of the session
+    bool heard = false;   ///< a session has heard it
+    bool tested = false;  ///< a press that tested one of the two STOPs, and does not stop the session
 };
 
 class SessionStops {
 public:
-    /// Both outlive it.
+    /// `desk` and `controller` outlive it.
     SessionStops(ParticipantDesk& desk, BenchController& controller) : desk_(desk), controller_(controller) {}
 
     void begin();
     /// Switches off and says what it was; nothing where one press is heard again.
     [[nodiscard]] std::optional<HeardStop> participantPressed(const char* by);
-    /// Not the one before, heard again. Nothing can be on again so soon: that takes their "go on".
+    /// Whether this is another press, not the last one heard again: output needs their "go on" to be on again.
     [[nodiscard]] bool isAnotherPress(const char* by);
-    /// By then a press is over; what is repainted after it may have taken longer than it does.
+    /// By then a press is over; the repainting after it may have taken longer.
     void shown() { stoppedAt_ = std::chrono::steady_clock::now(); }
-    /// Whether a stop from elsewhere, the operator's, is the test of one: then the output is off, and that is all.
+    /// Whether a stop from elsewhere, the operator's, is a test of their STOP: it switches the output off, no more.
     [[nodiscard]] bool isTested(const char* by);
     /// The operator answered: a key that is still held by now stops what comes next.
     void answered() { heldTested_ = false; }
@@ -52,9 +52,9 @@ public:
 private:
     ParticipantDesk& desk_;
     BenchController& controller_;
-    std::atomic<SteadyTime> stoppedAt_{};  ///< by the participant
+    std::atomic<SteadyTime> stoppedAt_{};  ///< when the participant stopped
     std::atomic<SteadyTime> testedAt_{};   ///< the operator's STOP
-    std::atomic<bool> heldTested_{false};  ///< by a key of theirs that may be held still
+    std::atomic<bool> heldTested_{false};  ///< the tested STOP is one of their keys that may be held still
 };
 
 class OperatorAsk;
@@ -67,17 +67,17 @@ class SessionNotes;
 class SessionConduct final : public QObject {
     Q_OBJECT
 public:
-    /// Both outlive it.
+    /// All that is given here outlives it.
     SessionConduct(BenchController& controller, OperatorPage& page, QObject* parent = nullptr);
     ~SessionConduct() override;
 
-    /// Why it cannot begin, a sentence; empty where it does. begun() comes from within; ended() or refused() follows.
-    /// `screens` says where the participant's window is, as long as it runs.
+    /// Returns one sentence that says why it cannot begin; empty where it begins. begun() comes from within; ended() or
+    /// refused() follows. `screens` says where the participant's window is, as long as it runs.
     [[nodiscard]] QString begin(const PilotStart& start, ScreenChoice& screens);
     [[nodiscard]] bool running() const { return running_; }
     [[nodiscard]] const PilotStart& start() const { return start_; }
     [[nodiscard]] const PilotScreen& screen() const { return screen_; }
-    /// In all parts of the session.
+    /// Counts the stops in all parts of the session.
     [[nodiscard]] int participantStops() const { return participantStops_; }
     [[nodiscard]] int faults() const { return faults_; }
     /// Null while no person sits at one.
@@ -88,7 +88,7 @@ public:
     void refresh(const Telemetry& telemetry);
     /// A stop by the participant's keys; false where no session of a person runs.
     bool stopAsParticipant(const char* by);
-    /// From the next trial on, until they want it no more.
+    /// Asks for a break from the next trial on, until it is not wanted any longer.
     void wantBreak(bool due);
     [[nodiscard]] bool breakWanted() const { return desk_.breakWanted(); }
     /// The trial under way is void: it is repeated after the break.
@@ -100,7 +100,7 @@ signals:
     void asked(const tacto::PilotPrompt& prompt);
     void changed();                                             ///< stops, faults, what the participant's window shows
     void attentionWanted();                                     ///< the operator is asked something
-    void progressed(const QString& what, int done, int total);  ///< of a virtual participant
+    void progressed(const QString& what, int done, int total);  ///< how far a virtual participant has come
     void refused(const QString& why);                           ///< nothing was begun
     void ended(std::shared_ptr<const tacto::gui::FinishedRun> run);
     void runningChanged();

@@ -16,7 +16,7 @@ QString unpluggedText(const SeatedDevice& seat) {
                                                : SessionInputs::tr("the operator's %1 is unplugged").arg(name);
 }
 
-/// What a device of that seat tells `atOnce`, on its own thread.
+/// Tells `atOnce` what a device of that seat does, on its own thread.
 ButtonListener listenerOf(const SeatedDevice& seat, int firstCode, const InputsAtOnce& atOnce) {
     ButtonListener listener;
     listener.moved = [seat, firstCode, atOnce](const ButtonPress& press) {
@@ -124,7 +124,7 @@ Result<void> OpenButtons::open(const ButtonDeviceInfo& info, const ButtonListene
     if (open_.contains(info.identity)) return {};
     if (!devices_) return fail(ErrorCode::NotFound, "{} ({}) is not plugged in any more.", info.name, info.identity);
     const auto number = ++number_;
-    // On the device's thread: what it says is handed over, and never waited for.
+    // Called on the device's thread: what it says is handed over, and nobody waits for it.
     ButtonListener listener;
     listener.moved = [this, number, identity = info.identity, first = atOnce.moved](const ButtonPress& press) {
         if (first) first(press);

@@ -1,8 +1,8 @@
 // SessionInputs.h - the game pads and foot switches of a session: each press goes to the one person whom its device is
 // assigned to, and one that is unplugged is told.
 //
-// No other device is open, so none answers. What switches the output off is told on the device's own thread: it waits
-// neither for the window's thread nor for what that paints. The signals follow, for what the windows show.
+// No other device is open, so none answers. The output is switched off on the device's own thread, which waits neither
+// for the window's thread nor for its painting. The signals follow, for what the windows show.
 #pragma once
 
 #include <QObject>
@@ -32,7 +32,7 @@ public:
     /// `atOnce` is called on the device's own thread, before the signals are, and not after close().
     /// Errors: as ButtonDevices::open(). One that is open stays so.
     [[nodiscard]] Result<void> open(const ButtonDeviceInfo& info, const ButtonListener& atOnce = {});
-    /// All, or the one of this identity.
+    /// Closes all devices, or the one with this identity.
     void close();
     void close(const std::string& identity);
 
@@ -42,7 +42,7 @@ signals:
 
 private:
     struct Open {
-        quint64 number = 0;  ///< what an earlier one of this identity said is late
+        quint64 number = 0;  ///< late messages come from an earlier number of this identity
         std::unique_ptr<ButtonDevice> device;
     };
     [[nodiscard]] bool isOpen(const std::string& identity, quint64 number) const;
@@ -54,7 +54,7 @@ private:
 /// Called on a device's own thread, each before the signal of the same event; none may block. `code` as in
 /// SessionInputs::participantMoved.
 struct InputsAtOnce {
-    std::function<void(PromptTo whose)> stop;  ///< that person's STOP went down
+    std::function<void(PromptTo whose)> stop;  ///< called when that person's STOP went down
     std::function<void(int code)> letGo;       ///< a button of the participant's that holds came up
     /// A button of the participant's that holds came up, after letGo, or went down.
     std::function<void(int code, bool down, SteadyTime at)> heldMoved;

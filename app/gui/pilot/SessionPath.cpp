@@ -20,7 +20,7 @@ constexpr std::array<int, 3> kTested = {kTraining, kTest, kRatings};  // what a 
 
 using State = StepList::State;
 
-/// Where a phase, or what the operator is asked in none, stands on the path; `now`: the step so far.
+/// Where a phase stands on the path, or a question of the operator outside the phases; `now`: the step so far.
 std::optional<int> stepOf(const std::string& name, int now) {
     if (name == "checklist" || name == "code") return kChecklist;
     if (name == "stop-test") return kStopTest;

@@ -11,7 +11,7 @@ namespace tacto::gui {
 
 class StepList;
 
-inline constexpr int kUsualBlocks = 5;  // of the test
+inline constexpr int kUsualBlocks = 5;  // blocks in the test
 
 /// The step that the question named `prompt` begins where the phase does not tell it: before the first trains, and
 /// after the test. Empty for any other question. `massager`: there are no electrodes.
@@ -25,14 +25,14 @@ class SessionPath final : public QWidget {
 public:
     explicit SessionPath(QWidget* parent = nullptr);
     void setTitle(const QString& title, const QString& below);
-    /// `blocks` of the test, 0: thresholds alone; `counts`: the time left is that of people; `massager`: there are no
+    /// `blocks` in the test, 0: thresholds alone; `counts`: the time left is for people; `massager`: there are no
     /// electrodes.
     void begin(int blocks, bool counts, bool massager);
     void show(const PilotScreen& screen);
     void asked(const PilotPrompt& prompt);
     /// The test is under way, though its screens are not shown.
     void reachTest();
-    /// Nothing is under way any more.
+    /// Nothing is under way any longer.
     void end(SessionEnd how);
     /// Nothing has begun.
     void clear();

@@ -53,8 +53,8 @@ private:
     std::vector<Fact> facts_;
 };
 
-/// What the participant's screen shows at this moment, small: where targets are, or the dot. The same
-/// drawing for every condition.
+/// A small picture of the participant's screen at this moment: where targets are, or the dot. The same drawing for
+/// every condition.
 class TheirScreen final : public QWidget {
     Q_OBJECT
 public:

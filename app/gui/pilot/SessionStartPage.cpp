@@ -66,7 +66,7 @@ SessionStartPage::SessionStartPage(const DeviceWatch& watch, QWidget* parent)
     connect(offer_, &UnfinishedOffer::changed, this, &SessionStartPage::judge);
 }
 
-/// What is run, on what, and how both people sit.
+/// The form: what is run, on which devices, and how both people sit.
 QLayout* SessionStartPage::buildForm(QWidget& parent, const DeviceWatch& watch) {
     form_ = new FieldForm(&parent, FieldForm::Labels::Beside);
     devices_ = new DeviceRows(*form_, watch);

@@ -29,7 +29,7 @@ public:
     explicit SessionStartPage(const DeviceWatch& watch, QWidget* parent = nullptr);
     /// Afresh for a session of `participant`.
     void prepare(const Study& study, const Participant& participant);
-    /// All but the study's folder and passphrase.
+    /// All of it but the study's folder and passphrase.
     [[nodiscard]] PilotStart start() const;
     [[nodiscard]] ScreenChoice& screens() const { return seats_->screens(); }
     void setButtonDevices(std::shared_ptr<const ButtonDevices> devices) {
@@ -48,7 +48,7 @@ private:
     void judge();
 
     std::string code_;
-    QString title_;  ///< of the study
+    QString title_;  ///< the study's title
     QString study_;  ///< its id
     bool virtual_ = false;
     bool rehearsal_ = false;
@@ -72,7 +72,7 @@ class ExclusionChecklist final : public QWidget {
 public:
     explicit ExclusionChecklist(QWidget* parent = nullptr);
     void clear();
-    /// Those that are answered, in order.
+    /// The questions that are answered, in order.
     [[nodiscard]] std::vector<ExclusionAnswer> answers() const;
     [[nodiscard]] bool whole() const { return answers().size() == groups_.size(); }
 

@@ -103,7 +103,7 @@ void UnfinishedOffer::resizeEvent(QResizeEvent* event) {
     fit();
 }
 
-/// All lines of the sentence, in a page that scrolls too.
+/// Shows all lines of the sentence, in a page that scrolls too.
 void UnfinishedOffer::fit() { says_->setMinimumHeight(std::max(0, says_->heightForWidth(says_->width()))); }
 
 std::string UnfinishedOffer::chosen() const {

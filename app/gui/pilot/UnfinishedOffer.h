@@ -19,19 +19,19 @@ struct Unfinished {
     std::string protocol;
     int answered = 0;  ///< answers on disk
     QDateTime brokenOff;
-    bool mayGoOn = true;    ///< it was not too long ago
+    bool mayGoOn = true;    ///< it was not too long ago to go on
     bool complete = false;  ///< the program was ended before the study knew: nothing is left to ask
-    QString trouble{};      ///< why its record cannot be gone on with, where that cannot be read or was changed
+    QString trouble{};      ///< why it cannot be resumed, where its record cannot be read or was changed
     bool operator==(const Unfinished&) const = default;
 };
-/// The participant's; nothing where there is none. Errors: Unsupported without the study's key.
+/// The participant's unfinished session; nothing without one. Errors: Unsupported without the study's key.
 [[nodiscard]] Result<std::optional<Unfinished>> unfinishedOf(const Study& study, const Participant& participant);
 
 class UnfinishedOffer final : public QFrame {
     Q_OBJECT
 public:
     explicit UnfinishedOffer(QWidget* parent = nullptr);
-    /// Nothing: hides itself.
+    /// Hides itself where there is nothing to offer.
     void offer(const std::optional<Unfinished>& unfinished);
     [[nodiscard]] bool asks() const { return offered_.has_value(); }
     /// "resume" or "end", as the protocol's setting; empty where nothing is offered or chosen.
