@@ -18,7 +18,7 @@ public:
     }
     void withdraw() { order_.reset(); }
     [[nodiscard]] bool waits() const { return order_.has_value(); }
-    /// While it waits.
+    /// The order, while it waits.
     [[nodiscard]] const RunOrder& order() const { return *order_; }
     /// The first step is void after a stop, and does not wait forever.
     [[nodiscard]] bool isVoid(const BenchController& controller) const {

@@ -71,7 +71,7 @@ void CaptureStrip::show(const std::shared_ptr<const Capture>& capture, const QSt
         graph->setData(x, y, true);
         graph->rescaleKeyAxis();
         graph->rescaleValueAxis();
-        // On a resistance both have one shape: the current is drawn smaller, so that neither hides the other.
+        // On a resistance both traces have one shape: the current is drawn smaller, so that neither hides the other.
         graph->valueAxis()->scaleRange(graph == current_ ? kCurrentReach : kVoltageReach);
     }
     colour();
@@ -92,7 +92,7 @@ void CaptureStrip::colour() {
 }
 
 void CaptureStrip::thinTicks() {
-    constexpr int kMaxTicks = 5, kApart = 3;  // what is readable may come to half as many again
+    constexpr int kMaxTicks = 5, kApart = 3;  // a readable span may become half as large again
     const QFontMetrics metrics(xAxis->tickLabelFont());
     const int digits = metrics.horizontalAdvance(QString::number(xAxis->range().upper, 'f', 0));
     const int widest = std::max(metrics.horizontalAdvance("−00000"), digits);
@@ -104,7 +104,7 @@ void CaptureStrip::thinTicks() {
 }
 
 void CaptureStrip::resizeEvent(QResizeEvent* event) {
-    thinTicks();  // before it draws
+    thinTicks();  // must come before it draws
     QCustomPlot::resizeEvent(event);
 }
 

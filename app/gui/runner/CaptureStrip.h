@@ -27,7 +27,7 @@ protected:
 
 private:
     void colour();
-    /// No more numbers than have room.
+    /// Leaves out numbers that have no room.
     void thinTicks();
     QCPGraph* voltage_ = nullptr;
     QCPGraph* current_ = nullptr;

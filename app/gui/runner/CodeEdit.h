@@ -15,7 +15,7 @@ class ScriptHighlighter final : public QSyntaxHighlighter {
     Q_OBJECT
 public:
     explicit ScriptHighlighter(QTextDocument* document);
-    /// After a change of theme.
+    /// Takes the new colours after a change of theme.
     void recolour();
 
 protected:
@@ -51,7 +51,7 @@ private:
     QWidget* margin_;
     ScriptHighlighter* highlighter_;
     int marked_ = 0;
-    QList<QTextCursor> found_;  // what markWords() found
+    QList<QTextCursor> found_;  // the places that markWords() found
 };
 
 }  // namespace tacto::gui

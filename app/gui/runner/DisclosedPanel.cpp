@@ -23,7 +23,7 @@ namespace {
 constexpr int kGap = 8, kBetween = 16;
 constexpr int kMinWave = 140;
 
-/// A record for each output, with its value on each load: those of one output stand in a row.
+/// A record for each output, with its value on each load: values of one output stand in a row.
 struct OutputsByLoad {
     nlohmann::json rows = nlohmann::json::array();
     std::vector<std::string> loads;
@@ -124,7 +124,7 @@ void DisclosedPanel::take(const std::shared_ptr<const Capture>& capture) {
     const double amps = peakIn(*capture, "A");
     const QString unit = amps >= 0 ? "A" : "V";
     const double peak = amps >= 0 ? amps : peakIn(*capture, "V");
-    // One with a current counts more than all without: what a load lets through is what is judged.
+    // An output with a current counts more than all without: a check judges what a load lets through.
     if (!(peak > strongest_) && !(unit == "A" && unit_ == "V")) return;
     if (unit == "V" && unit_ == "A") return;
     strongest_ = peak;

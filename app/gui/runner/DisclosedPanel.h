@@ -21,7 +21,7 @@ class DisclosedPanel final : public QWidget {
     Q_OBJECT
 public:
     explicit DisclosedPanel(QWidget* parent = nullptr);
-    /// Before a run.
+    /// Empties the panel before a run.
     void clear();
     /// Keeps the capture with the highest peak, of current where it is measured, else of voltage.
     void take(const std::shared_ptr<const Capture>& capture);
@@ -31,9 +31,9 @@ public:
     /// The outputs beside the tracing, below it, or nowhere where there is no room for both.
     enum class Outputs { Beside, Below, Nowhere };
     void showOutputs(Outputs outputs);
-    /// From this height on a tracing can be read.
+    /// The height from which a tracing can be read.
     [[nodiscard]] int leastHeight() const;
-    /// In place of the strongest output, under `title`.
+    /// Replaces the strongest output by the tracing, under `title`.
     void showTracing(const std::shared_ptr<const Capture>& capture, const QString& title);
     [[nodiscard]] CaptureStrip& tracing() const { return *wave_; }
 

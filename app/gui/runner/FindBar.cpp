@@ -64,7 +64,7 @@ void FindBar::close() {
     code_.setFocus();
 }
 
-/// While the words are typed: the first match from where the present one begins.
+/// Searches while the words are typed: the first match from where the present one begins.
 void FindBar::search() {
     auto cursor = code_.textCursor();
     cursor.setPosition(cursor.selectionStart());

@@ -1,6 +1,6 @@
 // FindBar.h - finds words in a script: every match is marked, one is current, and the search goes round at the ends.
 //
-// Case does not count. Ctrl+F opens it with what is selected; F3 and Return go on, with Shift back.
+// Case does not matter. Ctrl+F opens it with the selected text; F3 and Return search on, with Shift backwards.
 #pragma once
 
 #include <QLabel>
@@ -19,7 +19,7 @@ public:
     FindBar(CodeEdit& code, QWidget* parent);
     void begin();
     void close();
-    /// To the next match from the cursor, or the one before.
+    /// Goes to the next match from the cursor, or to the one before.
     void go(bool forward);
 
 protected:

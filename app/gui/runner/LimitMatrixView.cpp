@@ -32,7 +32,7 @@ QString wordsOf(const json& value) {
     return value.is_string() ? visible(QString::fromStdString(value.get<std::string>())) : QString();
 }
 
-/// The limit's title, below it the limit, whose it is and its verdict.
+/// Draws the limit's title, and below it the limit, its owner and its verdict.
 class LimitDelegate final : public QStyledItemDelegate {
 public:
     using QStyledItemDelegate::QStyledItemDelegate;
@@ -86,7 +86,7 @@ QFontMetrics cellMetrics() { return QFontMetrics(textFont(TextSize::Small, QFont
 /// Shape and share beside each other.
 int besideWidth(const QString& share) { return scaledPx(kIconSize) + 4 + cellMetrics().horizontalAdvance(share); }
 
-/// In two lines where it is too long for a column: "100", below it "kΩ".
+/// The header in two lines where it is too long for a column: "100", and "kΩ" below it.
 QString headerText(const QString& load, int columnWidth) {
     auto text = load;
     const QFontMetrics metrics(textFont(TextSize::Small));
@@ -94,7 +94,7 @@ QString headerText(const QString& load, int columnWidth) {
     return text.replace(' ', '\n').replace(QChar(0x00a0), '\n');
 }
 
-/// In two lines.
+/// The least width of a header in two lines.
 int leastHeaderWidth(const QStringList& loads) {
     const QFontMetrics metrics(textFont(TextSize::Small));
     int widest = 0;
@@ -284,7 +284,7 @@ void LimitMatrixView::setFillsHeight(bool fills) {
     if (std::exchange(fillsHeight_, fills) != fills) fitColumns();
 }
 
-/// Where not all rows have room, those in sight fill it: none is cut at the lower edge.
+/// Where there is no room for all rows, those in sight fill it: none is cut at the lower edge.
 void LimitMatrixView::fitRows() {
     const int room = height() - heightOf(0), least = scaledPx(kRow);
     const int inSight = std::clamp(room / least, 1, std::max(1, rowCount()));
@@ -299,7 +299,7 @@ void LimitMatrixView::fitRows() {
 void LimitMatrixView::fitColumns() {
     horizontalHeader()->setFixedHeight(2 * QFontMetrics(textFont(TextSize::Small)).height() + kPad);
     fitRows();
-    setMaximumHeight(fillsHeight_ ? QWIDGETSIZE_MAX : heightOf(rowCount()));  // what is left below is the tracing's
+    setMaximumHeight(fillsHeight_ ? QWIDGETSIZE_MAX : heightOf(rowCount()));  // the tracing gets the rest below
     if (columnCount() < 2) return;
     auto* header = horizontalHeader();
     const int loads = columnCount() - 1;

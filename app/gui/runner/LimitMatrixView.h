@@ -1,5 +1,5 @@
 // LimitMatrixView.h - limits x loads: every limit once, the nearest to its limit first, and on each load how much of it
-// is used, uncertainty included. A cell is colour, shape and share; what was not evaluated is hatched. A chosen cell
+// is used, uncertainty included. A cell has colour, shape and share; what was not evaluated is hatched. A chosen cell
 // drives the tracing.
 #pragma once
 
@@ -28,9 +28,9 @@ public:
     [[nodiscard]] bool empty() const { return rowCount() == 0; }
     /// Its picture shows all limits, those too that are scrolled out of sight.
     [[nodiscard]] Still picture(PictureCaption caption) const;
-    /// With its header and that many limits in sight.
+    /// The height of the header and of that many limits.
     [[nodiscard]] int heightOf(int rows) const;
-    /// Its rows share all the height that it is given; else it is no higher than they need.
+    /// The rows share all the height that is given; else the view is no higher than they need.
     void setFillsHeight(bool fills);
     static constexpr int kHinted = 6;  ///< a page that hints at more would be higher than its window
     [[nodiscard]] QSize sizeHint() const override { return {QTableWidget::sizeHint().width(), heightOf(kHinted)}; }
@@ -50,12 +50,12 @@ private:
     void choose(int row, int column);
     nlohmann::json shown_;
     bool fillsHeight_ = false;
-    std::vector<QString> loads_;     // as people write them
-    std::vector<QString> loadKeys_;  // as the results do
+    std::vector<QString> loads_;     // the loads as people write them
+    std::vector<QString> loadKeys_;  // the loads as the results name them
     QStringList headings_;           // the columns' headings, each in one line
 };
 
-// How to read a cell of the limits x loads, beside them: each kind of cell with its shape and words.
+// The legend beside the limits and loads: each kind of cell with its shape and words.
 
 class CellLegend final : public QWidget {
     Q_OBJECT

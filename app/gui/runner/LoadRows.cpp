@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kVerdictRole = Qt::UserRole;
 constexpr int kCountRole = Qt::UserRole + 1;
-constexpr int kNameRole = Qt::UserRole + 2;  // as parseLoad() reads it
+constexpr int kNameRole = Qt::UserRole + 2;  // the text that parseLoad() reads
 
 QString number(const nlohmann::json& values, const char* key, const char* unit) {
     return quantityText(numberOr(values, key), unit);

@@ -15,7 +15,7 @@ public:
     /// A command that was measured (type "command") or what a load has come to (type "load", with its verdict); any
     /// other trial is passed over.
     void add(const nlohmann::json& trial);
-    /// The run's results, whose verdicts are the last word; null for a run without any. What was not reached says so.
+    /// Takes the run's results, whose verdicts are the last word; null for none. Loads that were not reached say so.
     void end(const nlohmann::json& results);
     /// "✔ pass", as it stands there; empty for a load ("500 ohm") that is not listed.
     [[nodiscard]] QString verdictOf(const QString& load) const;

@@ -80,7 +80,7 @@ NextStepBar::NextStepBar(QWidget* parent) : QWidget(parent) {
 }
 
 void NextStepBar::show(const std::vector<NextStep>& steps) {
-    // Later: one of them may be what was clicked.
+    // Deleted later: one of them may have been clicked.
     for (const auto& each : buttons_) each.button->hide(), each.button->deleteLater();
     buttons_.clear();
     for (const auto step : steps) {
@@ -99,7 +99,7 @@ void NextStepBar::show(const std::vector<NextStep>& steps) {
     tabInPlace(*this);
 }
 
-/// Their widths follow the style and the size of text.
+/// The widths of the buttons follow the style and the size of text.
 void NextStepBar::measure() {
     for (auto& each : buttons_) {
         each.button->setIcon({});

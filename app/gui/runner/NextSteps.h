@@ -1,4 +1,4 @@
-// NextSteps.h - what comes after a result: one thing that goes on, and what else makes sense.
+// NextSteps.h - what comes after a result: one step that leads on, and others that make sense.
 //
 // Thread-safety: the GUI thread; nextStepsAfter() is pure.
 #pragma once
@@ -20,13 +20,13 @@ enum class NextStep {
     Live,           ///< its workspace
     Sign,           ///< the report, to be signed
     Session,        ///< everything that was recorded
-    ChangeSettings  ///< and run again
+    ChangeSettings  ///< change the settings and run again
 };
 
-/// The first one is what goes on from here. Nothing that would need a session where the run left none.
+/// The first step leads on from here. Leaves out steps that would need a session where the run left none.
 [[nodiscard]] std::vector<NextStep> nextStepsAfter(const FinishedRun& run);
 
-/// As buttons in a row, the first one filled. Where the row is too narrow for their icons they have none, and stand
+/// Buttons in a row, the first one filled. Where the row is too narrow for their icons they have none, and stand
 /// closer; where it is too narrow for that they stand in several rows.
 class NextStepBar final : public QWidget {
     Q_OBJECT
@@ -49,7 +49,7 @@ private:
         int bare, whole;  ///< widths without and with it
     };
     void measure();
-    /// All in one row.
+    /// The width with all buttons in one row.
     [[nodiscard]] int across(int Button::*width, int apart) const;
     void fit();
     /// Each button's place in rows of the present width. Returns their height.

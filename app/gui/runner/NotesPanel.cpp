@@ -32,7 +32,7 @@ NotesPanel::NotesPanel(DayNotes& day, QWidget* parent) : QGroupBox(tr("For the r
     load();
 }
 
-/// What still stands here from another day is not entered along with it.
+/// A note that still stands here from another day is not entered along with it.
 void NotesPanel::takeUp(const QLineEdit& edited) {
     if (!day_.asked()) {
         for (const auto& field : fields_) {
@@ -51,7 +51,7 @@ void NotesPanel::load() {
     const auto now = day_.notes();
     for (const auto& [edit, text] : fields_) {
         const auto stored = QString::fromStdString(now.*text);
-        // Not under the hand that types: a blank at the end would go.
+        // Never changes the field in which someone types: a blank at the end would be lost.
         if (edit->text().simplified() != stored) edit->setText(stored);
     }
 }

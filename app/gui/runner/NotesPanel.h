@@ -1,5 +1,5 @@
-// NotesPanel.h - what the report says beside what is measured: operator, sample, reviewer, ambient conditions. Every
-// such panel shows and changes the same notes, those of the day.
+// NotesPanel.h - what the report says beside the measurements: operator, sample, reviewer, ambient conditions. Every
+// such panel shows and changes the same notes of the day.
 #pragma once
 
 #include <QGroupBox>

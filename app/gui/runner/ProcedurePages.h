@@ -17,7 +17,7 @@ class WiringPage;
 class WiringPanel;
 class WorstPage;
 
-/// In their order. Run and result are one page, without and with the verdict.
+/// The steps in their order. Run and result are one page, without and with the verdict.
 enum Step { kWiring, kReference, kSettings, kRun, kResult, kSign };
 
 class ProcedurePages final : public PageStack {

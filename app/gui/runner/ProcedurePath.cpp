@@ -158,7 +158,7 @@ void ProcedurePath::showLegend(bool legend) {
     fitLegend();
 }
 
-/// Between the steps and what runs them. It stands in no layout, so that it never makes the page higher.
+/// The legend stands between the steps and the Run button, in no layout, so that it never makes the page higher.
 void ProcedurePath::fitLegend() {
     const int top = steps_->geometry().bottom() + 1 + kPathPad / 2, high = legend_->sizeHint().height();
     const bool fits = !across_ && panel_->geometry().top() - top >= high;

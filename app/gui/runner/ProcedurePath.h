@@ -26,14 +26,14 @@ public:
 
     /// A row where a column would take more than a third of `room`, its owner's width. Returns whether it is one.
     bool fit(int room);
-    /// Another procedure was read: nothing of it has run.
+    /// Another procedure was read, of which nothing has run.
     void showNoRun(bool hasReference);
     /// The steps before the run. A tick says that a step was seen, or that the run used it.
     void showSetup(FieldForm& form, const QString& devices, bool declared, bool begun, const std::set<Step>& seen);
     void showRun();
     /// The result can be gone to. `early`: the run was stopped or failed.
     void showEnd(bool early, std::optional<Seconds> benchTime);
-    /// How to read the limits x loads, where there is room below the steps.
+    /// Shows how to read the limits and loads, where there is room below the steps.
     void showLegend(bool legend);
 
 protected:

@@ -84,7 +84,7 @@ void PromptPanel::close() {
     trouble_ = nullptr;
 }
 
-/// On white in both themes: it is a drawing on paper.
+/// The ground is white in both themes: it is a drawing on paper.
 QWidget* PromptPanel::buildDrawing(const OperatorQuestion& question) {
     if (question.drawing.empty()) return nullptr;
     const auto file = drawingFile(question.drawing);
@@ -117,7 +117,7 @@ QWidget* PromptPanel::buildChoices(const OperatorQuestion& question) {
         if (first_ == nullptr) first_ = button;
     };
     if (!question.confirms.empty()) {
-        // Not the button that has the focus: a key that is held down must not arm.
+        // This button must not have the focus: a key that is held down must not arm.
         add(tr("Arm output"), QString::fromStdString(question.confirms),
             tr("Confirms exactly what the sentence says."));
         first_->setObjectName("confirmArming");

@@ -63,7 +63,7 @@ void ProtocolHead::setAcross(bool across) {
     layout_->setDirection(across ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
     layout_->setSpacing(across ? kBeside : kBelow);
     layout_->setStretchFactor(line_, across ? 1 : 0);
-    if (chooser_ != nullptr) {  // beside the title it is as wide as its words, in a column as wide as that is
+    if (chooser_ != nullptr) {  // as wide as its words beside the title, and as wide as the column in a column
         chooser_->setSizeAdjustPolicy(across ? QComboBox::AdjustToContents
                                              : QComboBox::AdjustToMinimumContentsLengthWithIcon);
         chooser_->setSizePolicy(across ? QSizePolicy::Minimum : QSizePolicy::Preferred, QSizePolicy::Fixed);
@@ -72,7 +72,7 @@ void ProtocolHead::setAcross(bool across) {
 }
 
 void ProtocolHead::showWords() {
-    title_->setVisible(!across_ && chooser_ == nullptr);  // which names it
+    title_->setVisible(!across_ && chooser_ == nullptr);  // the chooser names it then
     purpose_->setVisible(!across_ && !purpose_->text().isEmpty());
     line_->setText(title_->text());
     line_->setToolTip(
@@ -80,7 +80,7 @@ void ProtocolHead::showWords() {
     fitLine();
 }
 
-/// Where it would be a few letters the title goes: rail and tab say what this is.
+/// Where only a few letters of it fit, the title is left out: rail and tab say what this is.
 void ProtocolHead::fitLine() {
     int taken = buttons_->sizeHint().width() + kBeside;
     if (chooser_ != nullptr) taken += chooser_->sizeHint().width() + kBeside;

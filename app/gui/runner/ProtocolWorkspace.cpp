@@ -62,7 +62,7 @@ ProtocolWorkspace::ProtocolWorkspace(BenchController& controller, const QString&
     connect(runs, &QShortcut::activated, this, &ProtocolWorkspace::runAsked);
     connect(&controller_, &BenchController::finished, this, &ProtocolWorkspace::ended);
     connect(&controller_, &BenchController::changed, this, [this] {
-        if (asked_.waits()) withdraw();  // it was asked of the profile and the bench as they were
+        if (asked_.waits()) withdraw();  // the answer held for the profile and the bench as they were when asked
         previewLater_.start();
         const auto open = controller_.open();
         showBench();
@@ -214,14 +214,14 @@ void ProtocolWorkspace::showSetup() {
                      seen_);
 }
 
-/// What was asked was about other settings, or another profile.
+/// The question was about other settings, or another profile.
 void ProtocolWorkspace::withdraw() {
     asked_.withdraw();
     panel_->withdrawQuestion();
 }
 
-/// A run whose strongest command the gate refuses would end there, with nothing to show for it; so would one whose
-/// verdict wants an answer that it does not have.
+/// A run whose strongest command the gate refuses would end there, with nothing to show for it; so would a run whose
+/// verdict needs an answer that is missing.
 void ProtocolWorkspace::setObstacle(const QString& why, bool byProfile) {
     obstacle_ = why;
     byProfile_ = byProfile;
@@ -260,7 +260,7 @@ void ProtocolWorkspace::runAsked() {
         return;
     }
     if (controller_.day().asksFirst()) return panel_->say(DayNotes::wantedText());
-    preview();  // previews these settings, not those of a moment ago
+    preview();  // previews these settings, not earlier ones
     if (!obstacle_.isEmpty()) {
         if (const auto part = pages_->form().goToRefused()) showStep(*part ? kReference : kSettings);
         return;
@@ -275,7 +275,7 @@ void ProtocolWorkspace::runAsked() {
                          .arg(QString::fromStdString(declaredLoad(asked_.order().settings.parameters))));
 }
 
-/// Also one that is just ending: what it still says is not this page's.
+/// True also while another run is just ending: what it still says is not this page's.
 bool ProtocolWorkspace::anotherRuns() const {
     return controller_.activity() != Activity::Closed && controller_.activity() != Activity::Live;
 }

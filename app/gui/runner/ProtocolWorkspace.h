@@ -39,13 +39,13 @@ public:
     void set(const std::string& parameter, const QString& text);
     /// The editor, where it holds changes that are not saved; null otherwise.
     [[nodiscard]] ScriptEditor* unsavedScript() const;
-    /// Without the path, unless something stands there that is in the way of a run, or asked.
+    /// Hides the path, unless something in it stands in the way of a run, or is asked.
     void showPlotOnly(bool only);
-    /// What chooses the plot of a calibration: RunViews::plotKind().
+    /// The widget that chooses the plot of a calibration: RunViews::plotKind().
     [[nodiscard]] QWidget& plotKind();
-    /// As the Run button.
+    /// Does what the Run button does.
     void runAsked();
-    /// As a click on the step.
+    /// Does what a click on the step does.
     void goTo(Step step);
 
 signals:
@@ -57,7 +57,7 @@ signals:
     void attentionWanted();
     /// The newest train of the running protocol.
     void captured(std::shared_ptr<const tacto::Capture> capture);
-    /// What another part of the window does.
+    /// Asks another part of the window to do it.
     void profileChangeWanted();
     void sessionWanted(const QString& path);
     void safetyCheckWanted();
@@ -97,17 +97,17 @@ private:
     const QString fixed_;  ///< the one protocol, or empty
     ProtocolSource source_;
     std::optional<ProtocolDeclaration> declaration_;
-    QString obstacle_;        // why it may not run: a limit that it would break, a question without an answer
-    bool byProfile_ = false;  // another profile would end that
+    QString obstacle_;        // why it may not run: a limit that it would break, or a question without an answer
+    bool byProfile_ = false;  // whether another profile would remove the obstacle
     AskedRun asked_;          // waits for the second step
     std::shared_ptr<const FinishedRun> last_;
     bool running_ = false;
-    std::set<Step> seen_;  // since this protocol was chosen
+    std::set<Step> seen_;  // the steps seen since this protocol was chosen
     bool plotOnly_ = false;
     std::uint64_t run_ = 0;  ///< its number
 
     QBoxLayout* layout_;
-    QFrame* edge_ = nullptr;  // between the path and the page
+    QFrame* edge_ = nullptr;  // the line between the path and the page
     ProcedurePath* path_ = nullptr;
     ProtocolHead* head_ = nullptr;  // head, steps and panel are the path's
     StepList* steps_ = nullptr;

@@ -46,7 +46,7 @@ void ReportMaker::cancel() {
     if (process_.state() == QProcess::NotRunning) return;
     cancelled_ = true;
     process_.kill();
-    process_.waitForFinished(1000);  // at once; failed() comes from here
+    process_.waitForFinished(1000);  // waits a moment; failed() comes from here
 }
 
 void ReportMaker::next() {

@@ -43,7 +43,7 @@ private:
     QString out_;
     int writer_ = 0;  ///< the process that writes it
     QString assurance_;
-    bool cancelled_ = false;  // by the person, who needs no error
+    bool cancelled_ = false;  // the person cancelled it, and needs no error
 };
 
 }  // namespace tacto::gui

@@ -10,7 +10,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kDots_perInch = 300;  // for the pictures of pages that go to the printer
+constexpr int kDots_perInch = 300;  // for pictures of the pages that go to the printer
 constexpr double kPoints_perInch = 72;
 
 struct Range {
@@ -22,7 +22,7 @@ Range rangeOf(const QPrinter& printer, int pages) {
     return {std::min(printer.fromPage(), pages) - 1, std::clamp(printer.toPage(), printer.fromPage(), pages) - 1};
 }
 
-/// As large as the paper takes it without changing its shape.
+/// The page as large as the paper takes it without changing its shape.
 QRectF onPaper(const QSizeF& page, const QRectF& paper) {
     const auto size = page.scaled(paper.size(), Qt::KeepAspectRatio);
     return {QPointF((paper.width() - size.width()) / 2, (paper.height() - size.height()) / 2), size};

@@ -16,8 +16,8 @@ class ReportPrinter final : public QObject {
     Q_OBJECT
 public:
     explicit ReportPrinter(QObject* parent = nullptr);
-    ~ReportPrinter() override;  ///< gives up the pages that are not drawn yet, and waits for the one that is
-    /// An entry for each printer, which prints all pages there; or a sentence that there is none.
+    ~ReportPrinter() override;  ///< gives up the pages that are not drawn yet, and waits for the present one
+    /// Adds an entry for each printer, which prints all pages there; or a sentence that there is none.
     void offer(QMenu& menu, const QString& pdf);
     /// The pages that `printer` is set to, of the report in `pdf`. After what is being printed.
     void print(const QString& pdf, const std::shared_ptr<QPrinter>& printer);

@@ -97,7 +97,7 @@ QWidget* ReportView::buildZoom(QWidget* parent) {
     return holder;
 }
 
-/// From the width that it has now.
+/// Zooms from the width that it has now.
 void ReportView::zoom(double factor) {
     double now = view_->zoomFactor();
     if (view_->zoomMode() == QPdfView::ZoomMode::FitToWidth) {

@@ -17,7 +17,7 @@ namespace tacto::gui {
 
 namespace {
 
-/// What a script's error says first, and where it stands in the script after that: "The load is open. (check.js:12)".
+/// A script's error, with its place in the script at the end: "The load is open. (check.js:12)".
 QString whyAndWhere(const QString& error, const QString& meaning) {
     static const QRegularExpression place(R"(^(?:\S*/)?([^/\s]+\.js:\d+): )");
     const auto found = place.match(error);
@@ -140,7 +140,7 @@ void ResultHead::giveRoom() {
     area_->setFixedHeight(needed > most ? wholeLines(wide, most) : std::max(needed, below ? 1 : block));
 }
 
-/// As much of that height as shows no part of a line.
+/// The largest part of that height that cuts no line.
 int ResultHead::wholeLines(int wide, int most) const {
     const int strong = why_->fontMetrics().lineSpacing(), plain = more_->fontMetrics().lineSpacing();
     const int first = why_->heightForWidth(wide);

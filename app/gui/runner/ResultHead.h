@@ -19,7 +19,7 @@ public:
     void show(const FinishedRun& run);
     /// "PASS", as it stands there.
     [[nodiscard]] QString word() const { return word_; }
-    /// Why, and what it rests on: a line each.
+    /// The reasons for the verdict and what it rests on, a line each.
     [[nodiscard]] QStringList reasons() const { return (why_->text() + '\n' + more_->text()).split('\n'); }
     /// Whether reasons may be much higher than the verdict's word: in a low window the plot below needs the room.
     void setRoomy(bool roomy);

@@ -155,13 +155,13 @@ void RunPanel::setAcross(bool across) {
     showButtons();
 }
 
-/// In a line there is room for one of them.
+/// There is room for one of them in a line.
 void RunPanel::sayHowFar(const QString& format, const QString& left) {
     howLong_ = left;
     sayLeft();
     bar_->setFormat(across_ && running_ ? tr("%1 · %2").arg(format, left) : format);
     const int needed = bar_->fontMetrics().horizontalAdvance(bar_->format() + "00");
-    bar_->setMinimumWidth(across_ ? std::max(needed, bar_->minimumWidth()) : 0);  // it does not jump
+    bar_->setMinimumWidth(across_ ? std::max(needed, bar_->minimumWidth()) : 0);  // the width of the bar does not jump
 }
 
 void RunPanel::sayLeft() {

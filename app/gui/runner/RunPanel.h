@@ -19,16 +19,16 @@ namespace tacto::gui {
 class TimeLeft {
 public:
     void begin() { *this = {}; }
-    /// `now_s`: seconds since the run began. Anew when another list of steps begins.
+    /// `now_s`: seconds since the run began. Starts over when another list of steps begins.
     void note(const ScriptProgress& progress, bool paused, double now_s);
-    /// Nothing before one step is through, or with none to come.
+    /// Nothing before the first step is through, or when no step is to come.
     [[nodiscard]] std::optional<double> seconds() const;
 
 private:
     std::string label_;
     std::size_t firstDone_ = 0, done_ = 0, total_ = 0;
     double seenAt_s_ = -1;
-    double worked_s_ = 0;        // since the first report of this list, without pauses
+    double worked_s_ = 0;        // seconds of work since the first report of this list, without pauses
     double workedAtStep_s_ = 0;  // when the newest step was through
 };
 
@@ -36,10 +36,10 @@ class RunPanel final : public QWidget {
     Q_OBJECT
 public:
     explicit RunPanel(QWidget* parent = nullptr);
-    /// Whether there is something to run. `obstacle`: the sentence that says why it may not run; empty: it may. The
-    /// profile may be what is in the way: then it can be changed from here.
+    /// Whether there is something to run. `obstacle`: the sentence that says why it may not run; empty: it may. Where
+    /// the profile is in the way, it can be changed from here.
     void setReady(bool ready, const QString& obstacle = {}, bool byProfile = false);
-    /// Run is what goes on; once a result is shown something else is, and Run is there to run again.
+    /// Run is the leading button; once a result is shown another one leads, and Run stays for running again.
     void setLeading(bool leading);
     /// A sentence in the way of the run; empty for none. `line` of the script that it is about; 0 for none.
     void say(const QString& what, int line = 0);
@@ -47,15 +47,15 @@ public:
     void askToArm(const QString& what);
     void withdrawQuestion();
     void begin();
-    /// At each refresh while a run is on. `progress` may be null: nothing new. `waiting`: for an answer.
+    /// Called at each refresh while a run is on. `progress` may be null: nothing new. `waiting`: for an answer.
     void show(const ScriptProgress* progress, bool paused, bool waiting);
-    /// `benchTime`: of a simulated bench, whose time is its own.
+    /// `benchTime`: the time of a simulated bench, which is its own.
     void end(bool early, std::optional<Seconds> benchTime = {});
     /// A run closes the bench that is open; afterwards it can be opened again.
     void setBench(bool open, bool closedByRun);
-    /// Its controls in one line, for a path that is a row; words() then stands wherever its owner puts it.
+    /// Puts the controls into one line, for a path that is a row; the owner then places words().
     void setAcross(bool across);
-    /// What is in the way, what is asked, and the buttons that belong to it.
+    /// The obstacle, the question, and the buttons that belong to them.
     [[nodiscard]] QWidget& words() noexcept { return *words_; }
     /// Whether words() has something to say.
     [[nodiscard]] bool speaks() const;

@@ -26,7 +26,7 @@ constexpr int kBesideChars = 115;         // the waveform stands beside the plot
 constexpr int kDisclosedFromChars = 120;  // the outputs stand beside the tracing from this width on
 constexpr int kTracedFromChars = 165;     // from this width on the tracing stands beside the limits
 constexpr double kTracingShare = 0.18;    // share of the height below the limits, which keep 80 % of the column
-constexpr int kRoomyLines = 34;           // with fewer lines of height the bar below is as low as its buttons let it
+constexpr int kRoomyLines = 34;           // with fewer lines of height, the bar below is as low as its buttons allow
 constexpr int kPageGap = 4, kViewSide = 16, kViewTop = 4, kBarPad = 12, kBarPadLow = 4;
 
 TrialPlane::Features featuresOf(RunViews::Plot plot) {
@@ -145,7 +145,7 @@ QWidget* RunViews::buildBar() {
     return holder;
 }
 
-/// As in Touch and on the oscilloscope; a calibration has them beside its title, where its plot is chosen.
+/// The tools of Touch and the oscilloscope; a calibration has them beside its title, where its plot is chosen.
 void RunViews::addPictureTools(QBoxLayout& row) {
     toolRow_ = new QWidget(viewRow_);
     auto* tools = new ToolRow(toolRow_);
@@ -218,8 +218,8 @@ void RunViews::showResult(bool result) {
     arrange();
 }
 
-/// Where the limits keep most of the page: beside them in a wide window, below them in a high one, else in its own
-/// view.
+/// Where the limits keep most of the page, the tracing stands beside them in a wide window, below them in a high one,
+/// else in its own view.
 void RunViews::placeTracing(bool judged) {
     disclosed_->setVisible(judged);
     if (!judged) return;
@@ -250,7 +250,7 @@ void RunViews::arrange() {
     const int pad = tall ? kBarPad : kBarPadLow;
     body_->setContentsMargins(kViewSide, kViewTop, kViewSide, tall ? kViewTop * 2 : kViewTop);
     bar_->setContentsMargins(kViewSide, pad, kViewSide, pad);
-    head_->setRoomy(tall || plot_ != Plot::Calibration);  // its residuals want 300 px
+    head_->setRoomy(tall || plot_ != Plot::Calibration);  // the residuals of a calibration need 300 px
     const bool judged = showsLimits();
     plane_->setVisible(plot_ == Plot::Trials || plot_ == Plot::Slides);
     calibration_->setVisible(plot_ == Plot::Calibration);

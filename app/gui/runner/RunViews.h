@@ -1,5 +1,5 @@
-// RunViews.h - what a run shows: its main plot while it goes on; at its end the verdict above the plot, the tables and
-// the log behind it, and what comes next below.
+// RunViews.h - what a run shows: its main plot while it runs; at its end the verdict above the plot, the tables and the
+// log behind it, and the next steps below.
 #pragma once
 
 #include <QButtonGroup>
@@ -37,22 +37,22 @@ public:
 
     explicit RunViews(QWidget* parent = nullptr);
     void showPlot(Plot plot);
-    /// With the result's head and what comes next, or without.
+    /// Shows or hides the result's head and what comes next.
     void showResult(bool result);
     void showView(View view);
 
     /// Empty, for a run of the protocol of that title with these parameters.
     void begin(Plot plot, const QString& title, const nlohmann::json& parameters);
-    /// What the run is on, for its pictures and watermarks.
+    /// The devices of the run, for its pictures and watermarks.
     void setDevices(const std::vector<SessionDevice>& devices, bool simulated);
     void take(const RunFeed& feed);
-    /// Results may have any shape: where they do not have the one that a view shows, the sentence says so; else empty.
+    /// Results may have any shape: the sentence says where they lack the shape that a view shows; else it is empty.
     [[nodiscard]] QString end(const FinishedRun& run);
     /// "PASS"; empty before the end.
     [[nodiscard]] QString word() const;
     /// Whether limits were judged on loads.
     [[nodiscard]] bool showsLimits() const;
-    /// What chooses the plot of a calibration: CalibrationView::plotKind().
+    /// The widget that chooses the plot of a calibration: CalibrationView::plotKind().
     [[nodiscard]] QWidget& plotKind();
 
 signals:
@@ -83,7 +83,7 @@ private:
     Plot plot_ = Plot::Trials;
     QString title_;                  // the protocol's title
     QString devices_;                // their names
-    bool simulated_ = false;         // what they are
+    bool simulated_ = false;         // whether the devices are simulated
     QDateTime ended_;                // invalid while it runs
     std::filesystem::path session_;  // the session of the run that ended
     bool showsResult_ = false;
@@ -92,17 +92,17 @@ private:
     QStackedWidget* views_ = nullptr;
     QBoxLayout* plots_ = nullptr;
     TrialPlane* plane_ = nullptr;
-    LoadRows* loads_ = nullptr;            // in the plane's place where a protocol measures loads
-    QSplitter* judged_ = nullptr;          // what they come to
+    LoadRows* loads_ = nullptr;            // takes the plane's place where a protocol measures loads
+    QSplitter* judged_ = nullptr;          // the limits and their results
     LimitMatrixView* matrix_ = nullptr;    // limits by loads,
     DisclosedPanel* disclosed_ = nullptr;  // outputs to disclose, beside or below the limits where there is room
     Tracing tracing_ = Tracing::Below;
-    CalibrationView* calibration_ = nullptr;  // in place of all this where a protocol calibrates
+    CalibrationView* calibration_ = nullptr;  // takes the place of all this where a protocol calibrates
     QLabel* none_ = nullptr;
     CaptureStrip* wave_ = nullptr;
     ResultTables* tables_ = nullptr;
     QPlainTextEdit* log_ = nullptr;
-    QBoxLayout* bar_ = nullptr;  // what comes next, and which view
+    QBoxLayout* bar_ = nullptr;  // the next steps, and the choice of a view
     NextStepBar* next_ = nullptr;
     QWidget* viewRow_ = nullptr;
     QWidget* toolRow_ = nullptr;

@@ -309,7 +309,7 @@ void ScriptEditor::saveAndLeave(std::function<void()> then) {
     save();
 }
 
-/// What was to follow once it is saved does not.
+/// Drops the action that was to follow the saving.
 void ScriptEditor::stay() {
     runWhenSaved_ = leaveWhenSaved_ = false;
     left_ = {};

@@ -1,7 +1,7 @@
 // ScriptEditor.h - the lab's own protocols: write, check, save, run; the host's reference beside it.
 //
-// A shipped protocol opens read-only, to be saved as a copy of the lab's own. What is not saved is not lost by closing:
-// the editor asks, in place.
+// A shipped protocol opens read-only, to be saved as a copy of the lab's own. Closing does not lose unsaved text: the
+// editor asks, in place.
 //
 // Thread-safety: the GUI thread; a check runs on a thread of its own.
 #pragma once

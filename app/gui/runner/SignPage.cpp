@@ -125,7 +125,7 @@ void SignPage::addStateTo(QHBoxLayout& row) {
     drawing_->setRange(0, 0);
     drawing_->setTextVisible(false);
     drawing_->setAccessibleName(tr("Drawing the report"));
-    // Where there is little room it is short: a report that is being drawn must not make the page wider.
+    // Where there is little room this text is short: a report that is being drawn must not make the page wider.
     drawing_->setMinimumWidth(fontMetrics().averageCharWidth() * 4);
     drawing_->setMaximumWidth(fontMetrics().averageCharWidth() * 14);
     cancel_ = new QPushButton(tr("Cancel the report"), this);
@@ -179,7 +179,7 @@ void SignPage::clear() {
 void SignPage::show(const FinishedRun& run) {
     clear();
     const auto session = QString::fromStdString(run.result.session.string());
-    if (session.isEmpty()) return;  // it never began
+    if (session.isEmpty()) return;  // the session never began
     showNotes(&run.order.notes);
     if (!run.pdf.empty()) maker_.make(session, QString::fromStdString(run.pdf.string()));
     if (!run.html.empty()) maker_.make(session, QString::fromStdString(run.html.string()));

@@ -22,7 +22,7 @@ class SignPage final : public QWidget {
     Q_OBJECT
 public:
     explicit SignPage(QWidget* parent = nullptr);
-    /// Before a run: no report, and what is being drawn is given up.
+    /// Clears the page before a run: there is no report, and none is being drawn any longer.
     void clear();
     /// Has the reports of the run drawn.
     void show(const FinishedRun& run);
@@ -40,7 +40,7 @@ signals:
 private:
     [[nodiscard]] QWidget* buildWords();
     void fitWords(bool beside);
-    /// "Written…", "Drawing…", or why there is none.
+    /// "Written…", "Drawing…", or why there is no report.
     [[nodiscard]] QString state() const;
     void addStateTo(QHBoxLayout& row);
     void showNotes(const RunNotes* notes);
@@ -56,7 +56,7 @@ private:
     QLabel* says_ = nullptr;
     ReportMaker maker_;
     bool taken_ = false;
-    QString fault_;    // why the first report that failed did
+    QString fault_;    // why the first failed report failed
     QString printed_;  // how far the printer is; empty: nothing was printed
 };
 

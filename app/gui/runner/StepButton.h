@@ -19,11 +19,11 @@ public:
     [[nodiscard]] StepList::State state() const { return state_; }
     void setNote(const QString& note);
     void setOutOfReach(const QString& why);
-    /// Without the note, where the window is low.
+    /// Leaves out the note, where the window is low.
     void setLow(bool low);
     /// Beside the others in place of below them; `named`: with its name.
     void setAcross(bool across, bool named);
-    /// In a row, with its name or with its shape alone.
+    /// The width in a row, with the name or with the shape alone.
     [[nodiscard]] int widthAcross(bool named) const;
     [[nodiscard]] QSize sizeHint() const override;
     [[nodiscard]] QSize minimumSizeHint() const override { return sizeHint(); }

@@ -28,11 +28,11 @@ public:
     void setName(int step, const QString& name);
     /// A procedure may lack a step.
     void setStepVisible(int step, bool visible);
-    /// The step whose page is shown.
+    /// Sets the step whose page is shown.
     void setShown(int step);
     [[nodiscard]] int shown() const { return shown_; }
     void focusShown();
-    /// Again when the window's height is another one: in a low one steps have no notes.
+    /// Fits the steps again when the window's height changes: in a low window they have no notes.
     void fit();
     void setAcross(bool across);
     [[nodiscard]] QSize sizeHint() const override;
@@ -46,7 +46,7 @@ protected:
 
 private:
     enum class Names { None, OfShown, All };
-    /// All steps in a row.
+    /// The width of all steps in a row.
     [[nodiscard]] int widthAcross(Names names) const;
     [[nodiscard]] bool named(std::size_t step, Names names) const;
     void placeAcross();

@@ -9,7 +9,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr double kPoint = 8;  // pixels
-// With these, title and frame are as far apart as those of a CaptureStrip, the legend's empty line between them.
+// With these, title and frame are as far apart as in a CaptureStrip, whose legend has an empty line between them.
 constexpr int kBetweenRows = 1, kAboveFrame = 3, kAroundFrame = 15;
 
 }  // namespace
@@ -193,7 +193,7 @@ void TrialPlane::nameClusters() {
     if (legend->visible() == (!all && !conditions_.empty())) return;
     legend->setVisible(!all && !conditions_.empty());
     fitLegend(*this);
-    replot(QCustomPlot::rpQueuedReplot);  // its row is another
+    replot(QCustomPlot::rpQueuedReplot);  // the row to draw is another one now
 }
 
 }  // namespace tacto::gui

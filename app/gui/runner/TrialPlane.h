@@ -18,7 +18,7 @@ public:
 
     explicit TrialPlane(QWidget* parent = nullptr);
     void begin(bool simulated, Features features = Features::Trains);
-    /// A title above it, as high as that of a CaptureStrip beside it: their frames begin on one line.
+    /// Adds a title as high as the title of a CaptureStrip beside it: their frames begin on one line.
     void addTitle();
     void setSimulated(bool simulated) { showWatermark(*watermark_, simulated); }
     /// A trial as record.trial() was given it; one without both features is counted and not drawn. A slide of a

@@ -118,7 +118,7 @@ QWidget* WiringPanel::buildOutput() {
     return holder;
 }
 
-/// In the place of the oscilloscope that is named already.
+/// Names the oscilloscope in place of the one that is named already.
 void WiringPanel::useOscilloscope(const QString& address) {
     QStringList all{address};
     const auto before = devicesOf(devices());

@@ -61,7 +61,7 @@ QWidget* WorstPage::buildChooser() {
     chooser_->setAccessibleName(tr("Limit set"));
     chooser_->setToolTip(tr("Selects the limit set to show. All limit sets always apply."));
     chooser_->addItem(tr("All limits"));
-    const auto least = [this] { chooser_->setMinimumWidth(scaledPx(kMinChooser)); };  // not its longest title's
+    const auto least = [this] { chooser_->setMinimumWidth(scaledPx(kMinChooser)); };  // its longest title may be wider
     least();
     onFontChange(*chooser_, least);
     connect(chooser_, &QComboBox::currentIndexChanged, this, &WorstPage::filter);

@@ -41,8 +41,8 @@ private:
     QLabel* says_;
 };
 
-// What the strongest command of a profile would do, before anything is armed: every limit with the value
-// it would be held against, worst case over 80 to 120 % of the declared load.
+// The strongest command of a profile before anything is armed: every limit with the value that it would be held
+// against, worst case over 80 to 120 % of the declared load.
 
 struct WorstCase {
     std::vector<ExposureRow> rows;
