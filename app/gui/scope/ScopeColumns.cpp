@@ -90,7 +90,7 @@ bool ScopeColumns::eventFilter(QObject* watched, QEvent* event) {
     return QWidget::eventFilter(watched, event);
 }
 
-/// A line that the screen has instead where the tools leave enough room beside them.
+/// A line that stands on the screen if the tools leave enough room beside them.
 void ScopeColumns::placeStatus() {
     constexpr int kWide = 1340;  // tools, lanes, trigger and captures
     auto& row = *static_cast<QBoxLayout*>(head_->layout());

@@ -34,7 +34,7 @@ public:
     /// Shows or hides the controls; here also where they take room from the screen.
     void askForControls(bool on);
 
-    /// As at the first start: the screen has all the room.
+    /// Goes back to the first start: the screen has all the room.
     void reset();
     void save(QSettings& settings) const;
     void restore(QSettings& settings);

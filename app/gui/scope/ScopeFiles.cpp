@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kMaxCopied = 200'000;  ///< samples a channel, as text on the clipboard
 
-/// On the session's time base.
+/// The part in view, on the session's time base.
 std::pair<double, double> visible(const ScopeModel& model) {
     return {model.viewport().left_s + model.zero_s(), model.viewport().right_s() + model.zero_s()};
 }

@@ -39,7 +39,7 @@ signals:
     void told(const QString& done, const QString& problem);
 
 private:
-    /// What is shown when it is asked is saved when it is answered.
+    /// Saves the picture as it was when the dialog asked, even if the answer comes later.
     void askSave(const QString& filter, const QString& ending);
     void saveAs(const QString& path, const ScopeStill& still);
     [[nodiscard]] ScopeStill still() const { return stillOf(model_, *screen_, caption_()); }

@@ -229,7 +229,7 @@ void ScopeWorkspace::connectBench() {
     });
 }
 
-/// Without the column at the right, which goes where there is no room for it: large text must not make the window
+/// Without the column at the right, which is hidden where there is no room for it: large text must not make the window
 /// larger than its screen.
 QSize ScopeWorkspace::minimumSizeHint() const {
     return {screen_->minimumWidth() + fontMetrics().averageCharWidth() * 4, fontMetrics().height() * 16};
@@ -300,7 +300,7 @@ ScopeSettings ScopeWorkspace::settings() const { return controls_->acquisition()
 
 void ScopeWorkspace::setWatched(bool watched) {
     watched_ = watched;
-    // What runs goes on running. And a dock says that it is hidden while the window, and the controller with it, goes.
+    // Keeps running where it is watched. A dock says that it is hidden while the window, and the controller, goes.
     if (watched) benchChanged();
 }
 
@@ -414,7 +414,7 @@ void ScopeWorkspace::sayCursors() {
     screen_->setAccessibleDescription(text.isEmpty() ? screen_->whatsThis() : text);
 }
 
-/// In roll captures stand side by side: a mean of them has no place.
+/// In roll mode captures stand side by side: a mean of them has no place.
 void ScopeWorkspace::average() {
     const int captures = model_.roll() ? 1 : controls_->view().average();
     pipe_.setAverage(static_cast<std::size_t>(captures));

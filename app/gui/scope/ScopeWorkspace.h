@@ -3,7 +3,7 @@
 // Takes the captures of the open bench while it runs, opens captures from files, and shows what others hand it. "Hold"
 // keeps the picture and touches no output: only STOP does that.
 //
-// What the user chose (mode, trigger, record, scales, panels) is remembered from one start to the next.
+// The user's choices (mode, trigger, record, scales, panels) are remembered from one start to the next.
 #pragma once
 
 #include <QWidget>
@@ -36,11 +36,11 @@ public:
     explicit ScopeWorkspace(BenchController& controller, QWidget* parent = nullptr);
     ~ScopeWorkspace() override;
 
-    /// At 30 Hz while this is visible; also while it is not, where setWatched().
+    /// Called at 30 Hz while this is visible, and also while it is not, after setWatched().
     void refresh(const Telemetry& telemetry);
     /// Panels and columns as at the first start.
     void resetLayout();
-    /// Another view shows what captureShown() reports, so captures are taken although this is not visible.
+    /// Another view shows what captureShown() reports, so that captures are taken although this view is hidden.
     void setWatched(bool watched);
     /// Reads a capture file in the background and shows it; what goes wrong is said here. False when there is no such
     /// file. The bench's captures are on hold from then on.
@@ -64,7 +64,7 @@ public:
     /// Which readings are shown, here and wherever else: a MeasurementSummary follows them.
     [[nodiscard]] ChosenReadings& readings() noexcept { return readings_; }
     [[nodiscard]] QSize minimumSizeHint() const override;
-    /// What the next capture is asked with.
+    /// The settings of the next capture.
     [[nodiscard]] ScopeSettings settings() const;
 
 public slots:
@@ -131,7 +131,7 @@ private:
     SpectrumPanel* spectrum_;
     MeasurementTable* table_;
     QStackedWidget* stack_;
-    TroubleLine* notOpened_ = nullptr;  ///< why the last file was not, where nothing is shown
+    TroubleLine* notOpened_ = nullptr;  ///< why the last file was not opened, where nothing is shown
     ScopeColumns* columns_ = nullptr;
 };
 

@@ -8,7 +8,7 @@ namespace tacto::gui {
 
 namespace {
 
-/// From the last train of the capture before to the first of this; nothing where a pulse between is not known.
+/// The interval from the previous capture's last train to this one's first; nothing where a pulse between is not known.
 std::optional<double> intervalAcross(double lastOnset_s, const ChannelMeasurement& measured) {
     if (std::isnan(lastOnset_s) || measured.trains.empty()) return std::nullopt;
     if (!measured.pulses.front().flags.measured()) return std::nullopt;
@@ -63,7 +63,7 @@ void CaptureStatistics::clear() {
     programmed_ = kNotMeasured;
 }
 
-/// A train may come as it was asked for before: what was programmed for it tells.
+/// A train may come as it was asked for earlier: its programmed values tell.
 bool CaptureStatistics::begins(const ShownCapture& shown) const {
     constexpr double kSameCommand = 1e-6;  // relative
     constexpr double kSameOutput = 0.02;   // a current follows the impedance

@@ -30,7 +30,7 @@ class RunningStatistics {
 public:
     void add(double value) noexcept;
     void setLast(double value) noexcept { last_ = value; }
-    /// The newest capture tells only that it is no more than this.
+    /// The newest capture tells only that the reading is no more than this.
     void setUpperBound(std::optional<double> bound) noexcept { bound_ = bound; }
     [[nodiscard]] const std::optional<double>& upperBound() const noexcept { return bound_; }
     [[nodiscard]] double last() const noexcept { return last_; }
@@ -47,7 +47,7 @@ private:
     std::optional<double> bound_;
 };
 
-/// As it stands in a cell; the number of readings without a unit. The last may be an upper bound.
+/// The text in a cell; the number of readings without a unit. The last may be an upper bound.
 [[nodiscard]] QString statisticText(Reading reading, Statistic statistic, const RunningStatistics& its,
                                     const QString& channelUnit);
 
@@ -65,7 +65,7 @@ public:
     /// Statistics of channels that come or go restart, and all of them where another drive was asked for: another
     /// amplitude or interval by hand, or the fingertip in place of the hand.
     void add(const ShownCapture& shown);
-    /// What comes next does not follow on what came last: no interval runs across.
+    /// The next capture does not follow the last one: no interval runs across.
     void breakOff();
     void clear();
     [[nodiscard]] const std::vector<Channel>& channels() const noexcept { return channels_; }
@@ -79,8 +79,8 @@ private:
     std::vector<Channel> channels_;
     std::size_t captures_ = 0;
     QDateTime since_;
-    std::optional<AskedDrive> asked_;   ///< what those counted were asked for
-    double programmed_ = kNotMeasured;  ///< the first of them, as it was programmed
+    std::optional<AskedDrive> asked_;   ///< the drive that was asked for when these were counted
+    double programmed_ = kNotMeasured;  ///< the first one's, as it was programmed
 };
 
 }  // namespace tacto::gui

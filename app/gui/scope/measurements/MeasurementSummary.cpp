@@ -181,7 +181,7 @@ void MeasurementSummary::lay() {
         for (const auto reading : chosen_->all()) layRow(reading);
     }
     rows_->setVisible(!channels.empty());
-    tabAfter(*note_, *rows_);  // they stand above the buttons
+    tabAfter(*note_, *rows_);  // the rows stand above the buttons
     restyle();
     fill();
 }
@@ -307,7 +307,7 @@ void MeasurementSummary::restyle() {
     for (auto* label : quiet_) setTone(*label, Tone::Quiet);
     const auto numbers = digits(textFont(TextSize::Small));
     impedanceName_->setMinimumHeight(scaledPx(kRowHeight));
-    // As wide as what may come: figures that jump cannot be read. Three and more share the width that there is.
+    // Wide enough for every value: figures that jump cannot be read. Three and more share the width that there is.
     const int wide = QFontMetrics(numbers).horizontalAdvance(QString("00.00\u202fmA"));
     for (const auto& figure : figures_) figure.label->setMinimumWidth(below() ? 0 : wide);
 }

@@ -36,7 +36,7 @@ public:
 
     /// Shows what is chosen there, and chooses there. `chosen` outlives this.
     void follow(ChosenReadings& chosen);
-    /// Age and the impedance check's |Z|, which stands in where the capture gives none. Cheap.
+    /// The age and |Z| of the impedance check, which stands in where the capture gives none. Cheap.
     void refresh(const Telemetry& telemetry);
     /// A capture that has not been measured yet. Some are left out when they come too fast.
     void measure(std::shared_ptr<const Capture> capture);

@@ -24,7 +24,7 @@ namespace {
 
 constexpr int kPerChannel = static_cast<int>(kStatistics.size());
 constexpr int kMinRows = 2;
-/// What gives way where there is no room, together and one after the other.
+/// The statistics that give way where there is no room, together and one after the other.
 const std::vector<std::vector<Statistic>> kGiveWay{
     {Statistic::Count}, {Statistic::Min, Statistic::Max}, {Statistic::Sd}, {Statistic::Mean}};
 
@@ -190,14 +190,14 @@ void MeasurementTable::fitColumns() {
     };
     for (const auto& group : kGiveWay) hide(group, false);
     const auto margins = layout()->contentsMargins();
-    // With its edge, and with the bar of more rows than are in sight.
+    // The width with its edge, and with the scroll bar where there are more rows than are in sight.
     const int room = width() - margins.left() - margins.right() - 2 -
                      style()->pixelMetric(QStyle::PM_ScrollBarExtent, nullptr, table_->verticalScrollBar());
     for (const auto& group : kGiveWay) {
         if (table_->horizontalHeader()->length() <= room) break;
         hide(group, true);
     }
-    // It may be squeezed to these: the screen goes first.
+    // The table may be squeezed to these columns: the screen goes first.
     const auto& header = *table_->horizontalHeader();
     table_->setMinimumHeight(std::max(header.height(), header.sizeHint().height()) +
                              kMinRows * table_->verticalHeader()->defaultSectionSize() + 4);

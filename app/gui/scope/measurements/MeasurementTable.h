@@ -21,7 +21,7 @@ public:
     /// `chosen` outlives this.
     explicit MeasurementTable(ChosenReadings& chosen, QWidget* parent = nullptr);
 
-    /// One more capture.
+    /// Adds one more capture.
     void add(const ShownPtr& shown);
     /// The newest record was not triggered: it is not counted, and that is said until the next capture. `held`: the
     /// screen does not show it, but the last train.
@@ -50,7 +50,7 @@ private:
 
     ChosenReadings& chosen_;
     CaptureStatistics statistics_;
-    ShownPtr newest_;  // that was counted
+    ShownPtr newest_;  // the newest capture that was counted
     bool passedOver_ = false;
     bool held_ = false;
     QTableWidget* table_;

@@ -16,7 +16,7 @@ namespace tacto::gui {
 
 namespace {
 
-// Where it is read: a phase or the pulse around it, the waveform, the load.
+// The place of a reading: a phase or the pulse around it, the waveform, the load.
 struct OfLeading {
     double PhaseMeasurement::*its;
     bool magnitude = false;
@@ -37,7 +37,7 @@ struct ReadingRow {
 
 #define WORDS(text) QT_TRANSLATE_NOOP("QObject", text)
 
-/// In Reading's order.
+/// The rows in Reading's order.
 const std::array<ReadingRow, kReadings> kDescribed{{
     {"amplitude", WORDS("Amplitude"),
      WORDS("Mean height of the leading phase above the baseline, from 30 to 90 % of its width."), "",
@@ -112,7 +112,7 @@ const double* ofWaveform(Reading reading, const WaveformMeasurement& waveform) {
     return its != nullptr ? &(waveform.**its) : nullptr;
 }
 
-/// What takes the voltage and the current together.
+/// Whether the reading needs the voltage and the current together.
 bool isOfLoad(Reading reading) { return std::holds_alternative<double PulseLoad::*>(described(reading).source); }
 
 bool isCharge(Reading reading) { return std::string_view(described(reading).unit) == "C"; }

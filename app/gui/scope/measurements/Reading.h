@@ -49,15 +49,15 @@ inline constexpr std::size_t kReadings = static_cast<std::size_t>(Reading::Pulse
 struct ReadingName {
     QString key;        ///< "amplitude": as it is stored
     QString title;      ///< "Amplitude"
-    QString explained;  ///< one or two sentences for a tool tip
+    QString explained;  ///< says in one or two sentences what it is, for a tool tip
     QString unit;       ///< "s", "%", "Hz", "C", "J"; empty: the channel's own
 };
 [[nodiscard]] ReadingName nameOf(Reading reading);
 [[nodiscard]] std::optional<Reading> readingOfKey(const QString& key);
 
-/// All of the channel's in one capture: one per measured pulse, per train for the interval, one of the waveform. Net
-/// charge and energy are the current channel's, where the capture has one voltage and one current. Edges that the
-/// samples do not resolve are left out.
+/// All readings of the channel in one capture: one per measured pulse, per train for the interval, one for the
+/// waveform. Net charge and energy belong to the current channel, where the capture has one voltage and one current.
+/// Edges that the samples do not resolve are left out.
 [[nodiscard]] std::vector<double> readingsOf(Reading reading, const ShownCapture& shown, std::size_t channel);
 /// Two sample intervals, where the rise or the fall of every pulse is shorter than that: the samples do not resolve it,
 /// and it lies below.
@@ -66,7 +66,7 @@ struct ReadingName {
 [[nodiscard]] QString upperBoundText(double bound_s);
 /// "40.02 V", "0.05 %"; "–" for NaN, and for the charge of a channel that is not a current.
 [[nodiscard]] QString readingText(Reading reading, double value, const QString& channelUnit, int digits = 4);
-/// Why there is none, or only an upper bound, in a sentence or two.
+/// Why there is no reading, or only an upper bound, in a sentence or two.
 [[nodiscard]] QString whyMissing(Reading reading, const ShownCapture& shown, std::size_t channel);
 
 /// Which readings are shown, chosen freely and remembered; one choice for the table and the dock.
@@ -74,7 +74,7 @@ class ChosenReadings final : public QObject {
     Q_OBJECT
 public:
     ChosenReadings();
-    /// In Reading's order.
+    /// The readings, in Reading's order.
     [[nodiscard]] const std::vector<Reading>& all() const noexcept { return chosen_; }
     [[nodiscard]] bool has(Reading reading) const;
     void choose(Reading reading, bool on);

@@ -38,7 +38,7 @@ void numberInPowers(QCPAxis& axis, int subTicks) {
     axis.setNumberPrecision(0);
 }
 
-/// Its name, and what it is good for.
+/// The window's name, and what it is good for.
 std::pair<QString, QString> wordsOf(SpectralWindow window) {
     switch (window) {
         case SpectralWindow::Rectangular:
@@ -195,7 +195,7 @@ void SpectrumPanel::findPeaks(const QString& unit) {
     for (const auto& peak : spectralPeaks(spectrum_.rms, 2 * mainLobe(window()), kPeakOverMedian, kMaxPeaks)) {
         spectrum_.peaks.push_back({(peak.bin + 1) * width, peak.level});  // the first line is bin 1
     }
-    // As its mark names it; without a peak it is the highest line.
+    // The line that its mark names; without a peak the highest line.
     const auto line = std::max_element(spectrum_.rms.begin(), spectrum_.rms.end()) - spectrum_.rms.begin();
     const auto at = static_cast<std::size_t>(line);
     const auto top =
@@ -217,13 +217,13 @@ void SpectrumPanel::setFrequencyAxis() {
         axis.setNumberFormat("gb");
         axis.setNumberPrecision(6);
     }
-    shownTop_hz_ = 0;  // what was zoomed into is of the other axis
+    shownTop_hz_ = 0;  // the zoom belongs to the other axis
 }
 
 void SpectrumPanel::draw() {
     note_->setText(spectrum_.note);
     note_->setToolTip(spectrum_.note);
-    // Where there are more lines than pixels, the highest in each pixel: a peak must not fall between two.
+    // Where there are more lines than pixels, each pixel shows the highest: a peak must not fall between two.
     const auto count = spectrum_.hz.size();
     const double columns = std::max(200, plot_->width());
     const auto next = [&](std::size_t at) {
@@ -268,7 +268,7 @@ void SpectrumPanel::draw() {
     plot_->replot(QCustomPlot::rpQueuedReplot);
 }
 
-/// With room for the peaks' names above the highest.
+/// Leaves room for the peaks' names above the highest.
 void SpectrumPanel::fitLevels() {
     if (!(highest_ > 0)) return;
     const double name = QFontMetrics(textFont(TextSize::Small)).height() + 8;

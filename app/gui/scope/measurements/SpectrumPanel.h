@@ -32,9 +32,9 @@ struct Spectrum {
     std::vector<double> hz;
     std::vector<double> rms;
     std::vector<Peak> peaks;  ///< highest first
-    std::size_t samples = 0;  ///< that were transformed
+    std::size_t samples = 0;  ///< how many samples were transformed
     double bandwidth_hz = 0;  ///< equivalent noise bandwidth of a line
-    QString note;             ///< why there is none, or of which part it is
+    QString note;             ///< why there is none, or which part of the samples it covers
 };
 
 class SpectrumPanel final : public QWidget {
@@ -84,7 +84,7 @@ private:
     QCPGraph* graph_;
     QCPItemText* watermark_;
     QCPGraph* peaks_;
-    std::vector<QCPItemText*> names_;  // as many as there may be; owned by the plot
+    std::vector<QCPItemText*> names_;  // enough for all peaks; owned by the plot
     Spectrum spectrum_;
     QString unit_;
     std::unique_ptr<PowerSpectrum> transform_;  // kept while length, window and rate stay
@@ -92,7 +92,7 @@ private:
     double transformRate_hz_ = 0;
     SpectralWindow transformWindow_ = SpectralWindow::Hann;
     double shownTop_hz_ = 0;
-    double levelFactor_ = 1;  ///< from unit_ to that of the level axis
+    double levelFactor_ = 1;  ///< factor from unit_ to the unit of the level axis
     double highest_ = 0;      ///< level on that axis
     QColor colour_;
 };

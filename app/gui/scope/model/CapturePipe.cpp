@@ -18,7 +18,7 @@ constexpr int kMaxPending = 8;
 
 struct Opened {
     ShownPtr shown;
-    QString why;  ///< it could not be
+    QString why;  ///< why it could not be measured
 };
 
 }  // namespace
@@ -91,7 +91,7 @@ void CapturePipe::open(const QString& path) {
             auto its = std::const_pointer_cast<ShownCapture>(
                 prepareCapture(std::make_shared<const Capture>(std::move(read->capture)), math));
             its->source = QFileInfo(path).fileName();
-            // Says what is not evident: which instrument's table it was taken for.
+            // The source says what is not evident: which instrument's table it was taken for.
             if (read->formatId != "csv") its->source += " (" + QString::fromStdString(read->formatName) + ")";
             its->warnings.insert(its->warnings.begin(), read->warnings.begin(), read->warnings.end());
             shown = its;

@@ -36,26 +36,26 @@ public:
     explicit CapturePipe(QObject* parent = nullptr);
     ~CapturePipe() override;  ///< waits for the work at hand
 
-    /// How many of the bench's captures are averaged from now on; 1: none. Another number restarts the mean.
+    /// How many of the bench's captures are averaged from now on; 1: no averaging. Another number restarts the mean.
     void setAverage(std::size_t captures);
     /// Judges the bench's captures from now on; null: none is.
     void setMask(std::shared_ptr<const CaptureMask> mask) { mask_ = std::move(mask); }
-    /// What the bench's captures are triggered with: they are shown from where they cross its level. Nothing: from
-    /// where the oscilloscope states.
+    /// Sets the trigger of the bench's captures: they are shown from where they cross its level. Nothing: from where
+    /// the oscilloscope states.
     void setTrigger(const std::optional<ScopeSettings>& settings) { trigger_ = settings; }
-    /// What is asked of the output while the captures come that are taken from now on.
+    /// Sets what is asked of the output while the next captures are taken.
     void setAsked(const std::optional<AskedDrive>& asked) { asked_ = asked; }
-    /// What comes next does not follow on what came last: the oscilloscope was set again.
+    /// The next capture does not follow the last one: the oscilloscope was set again.
     void breakOff() { gap_ = true; }
-    /// Another bench or another load: nothing of the one before goes into a mean, and its captures that are on their
-    /// way do not come.
+    /// Begins with another bench or another load: nothing from before goes into a mean, and captures that are on their
+    /// way are dropped.
     void beginAnew();
     void setMathOptions(const MathOptions& math) { mathOptions_ = math; }
     void take(std::shared_ptr<const Capture> capture, const QString& source = {});
     void open(const QString& path);
-    /// A file that is being read is read no further, and not shown.
+    /// Stops reading the file that is being read, and does not show it.
     void cancelOpen();
-    /// The same capture with the present math.
+    /// Measures the same capture with the present math.
     void recalculate(const ShownPtr& shown);
 
     /// saveData() in the background; ends with saved() or failed().
@@ -74,7 +74,7 @@ signals:
     void failed(const QString& what);
 
 private:
-    void tellRead(double part);  // on the thread that reads
+    void tellRead(double part);  // called on the thread that reads
 
     MathOptions mathOptions_;
     std::shared_ptr<const CaptureMask> mask_;

@@ -1,5 +1,5 @@
-// Remembered.h - values read back from the settings file, which a person may have edited or a crash cut short: what is
-// not there, not of its kind or out of range is nothing, and the reader's default stays.
+// Remembered.h - values read back from the settings file, which a person may have edited or a crash cut short: a value
+// that is missing, of another kind or out of range is nothing, and the reader's default stays.
 //
 // Thread-safety: as QSettings, the GUI thread.
 #pragma once
@@ -17,7 +17,7 @@ namespace tacto::gui {
 /// "true" or "false"; anything else is nothing, not true.
 [[nodiscard]] std::optional<bool> rememberedFlag(const QSettings& settings, const QString& key);
 
-/// What the user chose to see of the bench's captures, kept from one start to the next; nothing: the whole is shown.
+/// The user's choice of view for the bench's captures, kept from one start to the next; nothing: all of it is shown.
 struct ChosenView {
     struct Time {
         double left_s = 0, perDivision_s = 0;
@@ -27,7 +27,7 @@ struct ChosenView {
 };
 
 void saveView(QSettings& settings, const ChosenView& chosen);
-/// What is not there, or was not written by saveView(), is left out.
+/// Leaves out what is missing, or was not written by saveView().
 [[nodiscard]] ChosenView restoredView(QSettings& settings);
 
 }  // namespace tacto::gui

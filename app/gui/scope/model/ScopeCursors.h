@@ -24,7 +24,7 @@ struct CursorReadout {
     [[nodiscard]] double dy() const noexcept { return y2 - y1; }
 };
 
-/// What a lane reads at the two cursors across time, between samples by straight line.
+/// The readings of a lane at the two cursors across time, between samples by straight line.
 struct CursorValue {
     struct At {
         double value = kNotMeasured;
@@ -36,7 +36,7 @@ struct CursorValue {
 
 /// Times as exact as samples of `rate_hz` know them; 0: not known.
 [[nodiscard]] double knownTime(double time_s, double rate_hz);
-/// "17.5 V": a level that a cursor reads, alike in flags, on the clipboard and in a picture's caption.
+/// "17.5 V": a level that a cursor reads, written the same in flags, on the clipboard and in a picture's caption.
 [[nodiscard]] QString levelText(double level, const QString& unit);
 /// "Δ 200.0 µs · 1/Δ 5.000 kHz".
 [[nodiscard]] QString spanText(const CursorReadout& readout, double rate_hz);
@@ -50,7 +50,7 @@ public:
 
     /// Seconds on the axis.
     [[nodiscard]] const std::optional<Pair>& time_s() const noexcept { return time_s_; }
-    /// In the active lane's unit.
+    /// The levels, in the active lane's unit.
     [[nodiscard]] const std::optional<Pair>& level() const noexcept { return level_; }
     /// 0 and 1: time; 2 and 3: level; kNone.
     [[nodiscard]] int focused() const noexcept { return focused_; }
@@ -82,20 +82,20 @@ class ScopeTrigger {
 public:
     /// Empty: no level is shown.
     [[nodiscard]] const QString& lane() const noexcept { return lane_; }
-    /// In the lane's unit.
+    /// The level, in the lane's unit.
     [[nodiscard]] double level() const noexcept { return level_; }
     /// The level follows the command and cannot be dragged.
     [[nodiscard]] bool held() const noexcept { return held_; }
     /// Where the moment was dragged to, in seconds on the axis.
     [[nodiscard]] const std::optional<double>& moment_s() const noexcept { return moment_s_; }
-    /// What is said while it is dragged.
+    /// The text shown while it is dragged.
     [[nodiscard]] const QString& text() const noexcept { return text_; }
 
     /// Returns whether anything is another. A level that is being dragged stays: the hand on it knows better.
     bool set(const QString& lane, double level, bool held);
     /// The share of the record before the trigger; nothing: the record cannot be set.
     void setFraction(std::optional<double> fraction) { fraction_ = fraction; }
-    /// False where it cannot be dragged; so below.
+    /// False where it cannot be dragged; this holds below, too.
     bool dragLevel(double height, const LaneScale& scale, const QString& unit);
     bool dragMoment(double time_s, double length_s);
     void forgetMoment() { moment_s_.reset(); }

@@ -15,7 +15,7 @@ constexpr double kRollPerDivision_s = 1;  ///< at least
 
 double ScopeFrame::rollLeft(const Scene& scene, double perDivision_s) {
     const double left = onGrid(scene.shown->end_s() - perDivision_s * kDivisionsAcross, perDivision_s);
-    return std::max(left, std::min(0.0, scene.shown->capture->start_s));  // before a session there is no time
+    return std::max(left, std::min(0.0, scene.shown->capture->start_s));  // before a session there are no times
 }
 
 void ScopeFrame::begin(const Scene& scene) {

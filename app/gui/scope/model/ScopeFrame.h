@@ -13,7 +13,7 @@ namespace tacto::gui {
 
 class ScopeFrame {
 public:
-    /// What there is to be shown; for the length of a call.
+    /// Everything that can be shown; for the length of a call.
     struct Scene {
         const ShownPtr& shown;  ///< may be null
         const std::deque<ShownPtr>& older;
@@ -23,17 +23,17 @@ public:
     };
 
     [[nodiscard]] const Viewport& view() const noexcept { return view_; }
-    /// In roll mode the newest capture ends the screen: where the screen begins then. There must be a capture.
+    /// In roll mode the newest capture ends the screen; this is where the screen begins then. There must be a capture.
     [[nodiscard]] static double rollLeft(const Scene& scene, double perDivision_s);
 
-    /// The first capture of its kind: fitted, then as it was chosen for the bench.
+    /// The first capture of its kind: fitted, then shown as it was chosen for the bench.
     void begin(const Scene& scene);
-    /// One more capture after `before`: a view of the whole record goes on to show the whole record when its length or
-    /// pre-trigger changes, one of a pulse to show it when its width or place does.
+    /// One more capture after `before`: a view of the whole record keeps showing the whole record when its length or
+    /// pre-trigger changes, a view of a pulse keeps showing the pulse when its width or place changes.
     void follow(const Scene& scene, const ShownCapture& before);
     /// A new lane begins with a scale of its own that shows it; what is there keeps its place.
     void addLanes(const Scene& scene);
-    void changeMode(const Scene& scene);  ///< to roll mode, or out of it
+    void changeMode(const Scene& scene);  ///< changes to roll mode, or back
     void forgetHistory() { history_ = {}; }
 
     /// The pulse nearest to the trigger in the middle third, every lane as large as it can be; asked again, the whole
@@ -44,16 +44,16 @@ public:
 
     /// Becomes the view, after remembering the present one under `kind`. Returns whether it is another.
     bool go(const Scene& scene, const Viewport& next, const QString& kind);
-    /// The same without remembering.
+    /// Changes the view without remembering it.
     void become(const Scene& scene, const Viewport& next);
     void remember() { history_.remember(view_, {}); }
     bool undo(const Scene& scene);
     [[nodiscard]] bool canUndo() const noexcept { return !history_.empty(); }
 
-    /// For the bench's first capture, instead of a fit.
+    /// The view for the bench's first capture, instead of a fitted one.
     void setChosen(ChosenView chosen) { chosen_ = std::move(chosen); }
     [[nodiscard]] ChosenView chosen(const Scene& scene) const;
-    /// Another source comes: the bench's view is kept for when it is back.
+    /// Another source comes: the bench's view is kept until it is back.
     void keepChosen(const Scene& scene) { chosen_ = chosen(scene); }
 
 private:
@@ -67,7 +67,7 @@ private:
     Viewport view_;
     ChosenView chosen_;
     ViewHistory history_;
-    /// What of time the next captures are shown with.
+    /// The part of time that the next captures show.
     enum class TimeView { Whole, Pulse, Chosen };
     TimeView timeView_ = TimeView::Whole;
     bool untouched_ = true;  ///< the scales are a fit and were not changed: they grow with the signal

@@ -8,12 +8,12 @@ namespace tacto::gui {
 
 namespace {
 
-/// On the axis where time 0 is the trigger.
+/// The trace on the axis whose 0 is the trigger.
 TraceSpan fromTrigger(const TracePtr& trace) { return {trace, trace ? trace->start_s - trace->zero_s : 0}; }
 
 constexpr double kPairZero = 1.5;  // divisions
 
-/// What of the quantity it shows; nothing for a reference, and where the capture lacks it.
+/// The shown range of its quantity; nothing for a reference, and where the capture lacks it.
 std::optional<std::pair<double, double>> rangeOf(const ScopeLane& lane, const ShownCapture& newest) {
     const auto trace = lane.reference() ? nullptr : newest.trace(lane.key);
     if (!trace) return std::nullopt;

@@ -15,7 +15,7 @@ namespace tacto::gui {
 struct ScopeLane {
     QString key;
     QString title;
-    QString letter;  ///< on its handle
+    QString letter;  ///< the letter on its handle
     QString unit;
     QString follows;  ///< the lane that a reference was stored from; it is drawn with that lane's scale
     TracePtr stored;  ///< a reference's trace
@@ -40,8 +40,8 @@ public:
     bool take(const ShownCapture& shown);
     /// None but the references.
     void clear();
-    /// Which records each lane shows. In roll mode one after the other on the session's time; else the newest, each
-    /// from its trigger, and the `persistence` before it behind.
+    /// Sets which records each lane shows. In roll mode they follow each other on the session's time; else the newest
+    /// stands alone, from its trigger, with the `persistence` before it behind.
     void fill(const ShownPtr& newest, const std::deque<ShownPtr>& older, bool roll, int persistence);
     /// Adds a reference with the trace of `source`. Returns its key.
     QString store(const QString& source, const Trace& trace);

@@ -23,14 +23,14 @@ public:
     static constexpr int kMaxBehind = ShownCaptures::kMaxBehind;
     using QObject::QObject;
 
-    /// All of it as it is now; nothing that is shown later changes that.
+    /// A copy of all of it as it is now; what is shown later does not change it.
     [[nodiscard]] std::unique_ptr<ScopeModel> still() const;
 
     /// The newest capture. The first one, and one with other channels, is fitted.
     void show(ShownPtr shown);
-    /// Nothing is shown any more, as before the first capture; references stay.
+    /// Shows nothing any longer, as before the first capture; references stay.
     void clear();
-    /// The same captures with other calculations.
+    /// Shows the same captures with other calculations.
     void replaceMath(ShownPtr shown);
     [[nodiscard]] const ShownPtr& shown() const noexcept { return captures_.newest(); }
     /// Captures before the newest that stay, faded.
@@ -43,7 +43,7 @@ public:
     void setHeld(bool held);
     /// The train that follows first from an armed output; nothing: none is known.
     void setComing(const std::optional<ComingTrain>& coming);
-    /// It is drawn over the bench's last train, on the time from the trigger; nothing where that is not shown.
+    /// The coming train, drawn over the bench's last one, on the time from the trigger; nothing where that is hidden.
     [[nodiscard]] std::optional<ComingTrain> coming() const;
     /// Time 0 of the axis on the session's time base.
     [[nodiscard]] double zero_s() const noexcept { return roll() || !shown() ? 0 : shown()->zero_s; }
@@ -57,7 +57,7 @@ public:
     [[nodiscard]] TracePtr trace(const QString& lane) const;
     [[nodiscard]] const QString& activeLane() const noexcept { return active_; }
     void setActiveLane(const QString& lane);
-    /// Makes the lane active whose trace is nearest, within `reach` divisions.
+    /// Activates the lane whose trace is nearest, within `reach` divisions.
     void pickLane(double from_s, double to_s, double height, double reach);
     void setLaneShown(const QString& lane, bool shown);
     void setLaneScale(const QString& lane, double perDivision);
@@ -67,7 +67,7 @@ public:
     void removeReference(const QString& key);
 
     [[nodiscard]] const Viewport& viewport() const noexcept { return frame_.view(); }
-    /// What another time base leaves where it stands on the screen: the trigger; where it is not in view, the middle.
+    /// The time that stays in place under another time base: the trigger; where that is not in view, the middle.
     [[nodiscard]] double restingTime_s() const;
     void setTimePerDivision(double perDivision_s);
     /// Below this the samples shown have no shape: a zoom and a time base end there.
@@ -94,13 +94,13 @@ public:
     void setTimeCursors(bool on);
     void setLevelCursors(bool on);
     void focusCursor(int cursor);
-    /// To a time or height, or to an edge or level of rest nearer than `reach`.
+    /// Drags it to a time or height, or to an edge or level of rest nearer than `reach`.
     void dragTimeCursor(int which, double time_s, double reach_s);
     void dragLevelCursor(int which, double height, double reach);
     /// Moves the focused cursor, if it is one across time (level). Returns whether it is.
     bool nudgeTimeCursor(double by_s);
     bool nudgeLevelCursor(double byHeight);
-    /// To the next edge: `direction` is 1 or -1.
+    /// Jumps to the next edge: `direction` is 1 or -1.
     bool jumpTimeCursor(double direction);
     [[nodiscard]] CursorReadout readout() const;
     /// The values at the time cursors in each lane shown, references excluded; empty without time cursors.
@@ -112,9 +112,9 @@ public:
     /// Marks of the bench's session.
     void addMark(MomentMark mark);
     void clearMarks();
-    /// Those that the axis reaches, with their time on it; none where a file is shown.
+    /// The marks that the axis reaches, with their time on it; none where a file is shown.
     [[nodiscard]] std::vector<MomentMark> marksOnAxis() const;
-    /// As ScopeMarks::beside() of the one that is shown; empty in roll mode.
+    /// ScopeMarks::beside() for the capture that is shown; empty in roll mode.
     [[nodiscard]] QString markBeside() const;
 
     [[nodiscard]] const ScopeTrigger& trigger() const noexcept { return trigger_; }
@@ -126,7 +126,7 @@ public:
 
 signals:
     void tracesChanged();  ///< lanes or what they show; viewChanged() follows
-    void lanesChanged();   ///< there are others, or they are shown otherwise
+    void lanesChanged();   ///< the lanes are other ones, or are shown differently
     void viewChanged();    ///< scales, positions, time
     void activeLaneChanged();
     void cursorsChanged();
@@ -137,10 +137,10 @@ signals:
 
 private:
     [[nodiscard]] const ScopeLane* active() const { return lanes_.find(active_); }
-    [[nodiscard]] bool takeLanes();  ///< whether they are others than before
+    [[nodiscard]] bool takeLanes();  ///< whether the lanes are other ones than before
     void chooseActive();
     void fillLanes();
-    /// Not a file, which has a time of its own.
+    /// False for a file, which has a time of its own.
     [[nodiscard]] bool showsBench() const { return shown() && shown()->source.isEmpty(); }
     void tellTraces(bool lanesToo);
     [[nodiscard]] ScopeFrame::Scene scene() const {

@@ -27,10 +27,10 @@ public:
     /// Leaving roll mode, and entering it with nothing shown, drops what is too old.
     void setRoll(bool roll);
 
-    /// Whether `next` would follow the newest: both are the bench's. Anything else begins anew.
+    /// Whether `next` would follow the newest: both come from the bench. Anything else starts over.
     [[nodiscard]] bool isFollowedBy(const ShownCapture& next) const;
     void show(ShownPtr next);
-    /// The same capture with other calculations.
+    /// Replaces it by the same capture with other calculations.
     void replaceNewest(ShownPtr same) { newest_ = std::move(same); }
     void clear();
 
@@ -56,10 +56,10 @@ public:
     /// The newest kMaxKept stay.
     void add(MomentMark mark);
     void clear() { marks_.clear(); }
-    /// Those between `left_s` and `right_s` on an axis whose 0 is `zero_s`, with their time on it.
+    /// The marks between `left_s` and `right_s` on an axis whose 0 is `zero_s`, with their time on it.
     [[nodiscard]] std::vector<MomentMark> between(double left_s, double right_s, double zero_s) const;
-    /// The newest mark as a note on `shown`, where no capture holds it: it came between `before`, the capture before
-    /// (null: there is none), and this one, or after this one. Else empty.
+    /// The newest mark as a note on `shown`, where no capture holds it: it came between `before`, the previous capture
+    /// (null: none), and this one, or after this one. Else empty.
     [[nodiscard]] QString beside(const ShownCapture& shown, const ShownCapture* before) const;
 
 private:

@@ -176,7 +176,7 @@ TracePtr chargeTrace(const Trace& amps) {
 TracePtr differenceTrace(const Trace& a, const Trace& b) {
     std::vector<float> difference(a.size(), kMissing);
     const auto last = static_cast<double>(b.size()) - 1;
-    // In two records with their own triggers, samples that belong together are equally far from them.
+    // Two records with their own triggers are aligned by them: matching samples are equally far from the trigger.
     const double offset = ((a.start_s - a.zero_s) - (b.start_s - b.zero_s)) * b.rate_hz;
     const double step = b.rate_hz / a.rate_hz;
     for (std::size_t i = 0; i < difference.size(); ++i) {

@@ -50,12 +50,12 @@ struct Trace {
     double high = 0;
     std::vector<PhaseEdges> edges;  ///< edges of the measured pulses, in time order
     std::vector<PulseMark> marks;   ///< marks of the pulses that were not measured
-    std::vector<double> levels;     ///< where it rests, for level cursors
+    std::vector<double> levels;     ///< the levels at which it rests, for level cursors
 
     [[nodiscard]] std::size_t size() const noexcept { return samples ? samples->size() : 0; }
     [[nodiscard]] double end_s() const noexcept { return start_s + static_cast<double>(size()) / rate_hz; }
-    /// At a time on the session's time base, between samples by straight line as it is drawn; NaN outside the record
-    /// and beside a missing sample. Whatever reads a level at a time reads it here.
+    /// The value at a time on the session's time base, between samples by straight line as it is drawn; NaN outside the
+    /// record and beside a missing sample. Every level at a time is read here.
     [[nodiscard]] double valueAt(double t_s) const noexcept;
 };
 using TracePtr = std::shared_ptr<const Trace>;
@@ -67,7 +67,7 @@ struct TraceSpan {
     [[nodiscard]] double length_s() const noexcept { return static_cast<double>(trace->size()) / trace->rate_hz; }
 };
 
-/// What to calculate beside the channels.
+/// The calculations beside the channels.
 struct MathOptions {
     bool power = false;   ///< first channel in V times first in A
     bool charge = false;  ///< whether it is the charge of the first channel in A
@@ -76,7 +76,7 @@ struct MathOptions {
     TracePtr reference;
 };
 
-/// What was asked of the output when a capture came.
+/// The order for the output when a capture came.
 struct AskedDrive {
     bool byHand = true;  ///< false: the fingertip drives, and amplitude and interval follow the touch
     double amplitude_v = 0;
@@ -85,20 +85,20 @@ struct AskedDrive {
 
 struct ShownCapture {
     std::shared_ptr<const Capture> capture;
-    std::size_t averaged = 0;                     ///< captures that it is the mean of; 0: as it was taken
+    std::size_t averaged = 0;                     ///< of how many captures it is the mean; 0: as it was taken
     QString source;                               ///< "" for the bench's own, else the file's name
     QDateTime taken;                              ///< when it came from the bench; else not valid
-    std::optional<AskedDrive> asked;              ///< what a bench that delivers was asked for
+    std::optional<AskedDrive> asked;              ///< the order for a bench that delivers
     double zero_s = 0;                            ///< trigger, or the record's begin where there was none
     std::vector<TracePtr> traces;                 ///< channels in the capture's order, then what was calculated
     std::vector<ChannelMeasurement> measurement;  ///< one for each channel
     std::vector<WaveformMeasurement> waveforms;   ///< one for each channel
     std::vector<PulseLoad> loads;                 ///< one for each pulse of the current below
-    std::optional<std::size_t> loadCurrent;       ///< that channel; nothing unless there are one V and one A
-    std::optional<MaskCheck> mask;                ///< as it was taken, before any averaging; nothing: no mask
+    std::optional<std::size_t> loadCurrent;       ///< the current's channel; nothing unless there are one V and one A
+    std::optional<MaskCheck> mask;                ///< judged as it was taken, before any averaging; nothing: no mask
     std::shared_ptr<const CaptureMask> judgedBy;  ///< the mask of that check
     bool follows = true;                          ///< no capture was left out between the one before it and this
-    std::vector<std::string> warnings;            ///< what the measurement warned of
+    std::vector<std::string> warnings;            ///< the measurement's warnings
 
     [[nodiscard]] TracePtr trace(const QString& key) const;
     [[nodiscard]] double end_s() const noexcept;
@@ -142,8 +142,8 @@ struct EdgeReading {
 
 /// The edge nearest to `time_s`, if one is nearer than `reach_s`; else `time_s`.
 [[nodiscard]] double snappedToEdge(const std::vector<TraceSpan>& spans, double time_s, double reach_s);
-/// The first edge after `time_s` (`direction` 1) or before it (-1); `time_s` where there is none. An edge nearer than
-/// `least_s` is the one that the cursor stands on.
+/// The first edge after `time_s` (`direction` 1) or before it (-1); `time_s` without one. A cursor stands on an edge
+/// that is nearer than `least_s`.
 [[nodiscard]] double nextEdge(const std::vector<TraceSpan>& spans, double time_s, double direction, double least_s);
 /// From the onset to the end of the pulse whose onset is nearest to `time_s`.
 [[nodiscard]] std::optional<std::pair<double, double>> pulseNear(const std::vector<TraceSpan>& spans, double time_s);

@@ -38,7 +38,7 @@ Viewport withTimeBase(Viewport view, double perDivision_s, double anchor_s) {
 }
 
 Viewport zoomedInTime(const Viewport& view, int steps, double anchor_s, double least_s) {
-    // What is narrower already, because the record before had more samples, is not made wider by a zoom into it.
+    // A view that is narrower already, because the last record had more samples, is not widened by a zoom into it.
     const double shortest_s = std::max(kShortest_s, std::min(least_s, view.perDivision_s));
     return withTimeBase(view, stepWithin(stepAlong(view.perDivision_s, steps), shortest_s, kLongest_s), anchor_s);
 }

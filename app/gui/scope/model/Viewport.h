@@ -48,9 +48,9 @@ struct Viewport {
 /// `steps` along the ladder, not below `least_s` a division; what stands at `anchor_s` stays there. Steps above 0 show
 /// more time.
 [[nodiscard]] Viewport zoomedInTime(const Viewport& view, int steps, double anchor_s, double least_s = 0);
-/// Another time base; what stands at `anchor_s` stays there.
+/// Sets another time base; what stands at `anchor_s` stays there.
 [[nodiscard]] Viewport withTimeBase(Viewport view, double perDivision_s, double anchor_s);
-/// from..to and nothing else, from edge to edge; more around its middle where that is below `least_s` a division.
+/// Shows from..to and nothing else, from edge to edge; more around its middle where that is below `least_s` a division.
 [[nodiscard]] Viewport spanningTime(Viewport view, double from_s, double to_s, double least_s = 0);
 /// A pulse in the middle third, the time base in two digits.
 [[nodiscard]] Viewport framingPulse(Viewport view, double from_s, double to_s);
@@ -67,7 +67,7 @@ struct Viewport {
 /// apart two lanes of the same course never cross.
 [[nodiscard]] LaneScale aroundZero(double low, double high, double position);
 
-/// As fittingLevels() for a lane that is to be looked at: its zero on half a division, so that the axis has round
+/// Like fittingLevels(), for a lane that is to be looked at: its zero on half a division, so that the axis has round
 /// numbers, and all of it inside the screen, even if it has to leave the middle.
 [[nodiscard]] LaneScale restingLevels(double low, double high, double middle, double height);
 

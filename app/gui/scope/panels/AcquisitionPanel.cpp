@@ -20,8 +20,8 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr double kUsualSamples = 20'000;  ///< what Auto aims at in a short record
-constexpr double kUsualRate_hz = 500e3;   ///< in a long record: 100 samples in a phase of 200 µs
+constexpr double kUsualSamples = 20'000;  ///< the number of samples that Auto aims at in a short record
+constexpr double kUsualRate_hz = 500e3;   ///< rate in a long record: 100 samples in a phase of 200 µs
 constexpr double kLowestRate_hz = 1000;
 constexpr double kLowestLevel = 1e-6;
 constexpr double kMaxVolts = 200;

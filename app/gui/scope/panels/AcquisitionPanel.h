@@ -24,7 +24,7 @@ public:
 
     /// Settings of the oscilloscope that is open; without one the last stay.
     void setTraits(const ScopeTraits& traits);
-    /// As set here, within what the oscilloscope can do.
+    /// The settings chosen here, within what the oscilloscope can do.
     [[nodiscard]] ScopeSettings settings() const;
     [[nodiscard]] bool triggersOnCurrent() const;
     /// V or A.
@@ -34,7 +34,7 @@ public:
     void setLevelHeld(bool held);
 
     void save(QSettings& settings) const;
-    /// What is not there or not possible stays as it is. Says nothing by changed().
+    /// Values that are missing or not possible stay as they are. Does not send changed().
     void restore(const QSettings& settings);
 
 signals:

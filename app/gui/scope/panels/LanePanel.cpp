@@ -57,7 +57,7 @@ LanePanel::LanePanel(ScopeModel& model, ScopeScreen& screen, QWidget* parent)
 
 void LanePanel::build() {
     const auto& lanes = model_.lanes();
-    // The same lanes in other colours or shown otherwise need no new widgets (and keep the focus).
+    // The same lanes in other colours need no new widgets (and keep the focus).
     const bool same = lanes.size() == rows_.size() && std::all_of(lanes.begin(), lanes.end(), [&](const ScopeLane& l) {
                           return rows_.contains(l.key);
                       });
@@ -69,7 +69,7 @@ void LanePanel::build() {
         rows_.clear();
         int row = 0;
         for (const auto& l : lanes) addRow(l, row++);
-        // They come late, but the tab key is to find them between the screen and the button below them.
+        // The widgets are made late, but the tab key must find them between the screen and the button below them.
         QWidget* before = &screen_;
         for (const auto& l : lanes) {
             const auto& its = rows_[l.key];

@@ -21,7 +21,7 @@ struct ScopeLane;
 class LanePanel final : public QWidget {
     Q_OBJECT
 public:
-    /// Both outlive this.
+    /// `model` and `screen` outlive this.
     LanePanel(ScopeModel& model, ScopeScreen& screen, QWidget* parent);
 
 private:

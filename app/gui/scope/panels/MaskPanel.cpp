@@ -109,7 +109,7 @@ void MaskPanel::remove() {
     resetCounts();
 }
 
-/// A new test with the same band: a capture that is on its way is judged by the one before, and not counted.
+/// A new test with the same band: a capture that is on its way is judged by the old test, and not counted.
 void MaskPanel::resetCounts() {
     if (mask_) {
         mask_ = std::make_shared<const CaptureMask>(*mask_);

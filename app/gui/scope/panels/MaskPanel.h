@@ -30,11 +30,11 @@ public:
     /// A capture that was judged, or was not.
     void take(const ShownPtr& shown);
     [[nodiscard]] const MaskCounts& counts() const noexcept { return counts_; }
-    /// The first capture outside; null while there is none.
+    /// The first capture outside; null before there is one.
     [[nodiscard]] const ShownPtr& firstOutside() const noexcept { return first_; }
     /// "Mask: 24 of 24 captures inside"; empty without a mask.
     [[nodiscard]] QString said() const;
-    /// What stands over the traces after a capture outside; else empty.
+    /// The alarm over the traces after a capture outside; else empty.
     [[nodiscard]] QString alarm() const;
     void canMake(bool can) { make_->setEnabled(can); }
 

@@ -15,7 +15,7 @@ namespace {
 constexpr int kDecimals = 12;  // digits of the value that is held
 constexpr int kDigits = 4;     // significant digits of it that are shown
 
-/// No user sets a level to a millionth, or reads one.
+/// No user sets or reads a level to a millionth.
 double asShown(double value) { return QString::number(value, 'g', kDigits).toDouble(); }
 
 }  // namespace
@@ -103,7 +103,7 @@ namespace {
 
 constexpr QChar kMinus(0x2212);
 
-/// As Qt reads it.
+/// The text as Qt reads it.
 QString hyphened(QString text) { return text.replace(kMinus, '-'); }
 
 }  // namespace

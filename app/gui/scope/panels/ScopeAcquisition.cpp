@@ -14,9 +14,9 @@ namespace {
 constexpr double kLevelShare = 0.2;          ///< share of the commanded amplitude, in Auto
 constexpr double kFollowFrom = 1.3;          ///< the level is moved only when it would change by more than this factor
 constexpr qint64 kFollowEvery_ms = 300;      ///< the least time between two requests: each gives up the one under way
-constexpr qint64 kNoTriggerAfter_ms = 1500;  ///< without a trigger this long it is said
-constexpr Seconds kFreeRunAfter{0.4};        ///< without a trigger, while nothing is delivered that could be one
-constexpr double kFreeRunIntervals = 1.25;   ///< while something is: of the longest interval between two trains
+constexpr qint64 kNoTriggerAfter_ms = 1500;  ///< how long no trigger may come before that is said
+constexpr Seconds kFreeRunAfter{0.4};        ///< how long to wait without a trigger, while no train can be one
+constexpr double kFreeRunIntervals = 1.25;   ///< while trains come: over the longest interval between two of them
 
 bool sameSettings(const ScopeSettings& a, const ScopeSettings& b) {
     return a.sampleRate == b.sampleRate && a.samples == b.samples && a.preTrigger == b.preTrigger &&
@@ -44,7 +44,7 @@ bool ScopeAcquisition::benchChanged(bool seen) {
         return true;
     }
     const bool over = failed_;
-    if (running_ || failed_) wanted_ = true;  // goes on with the next bench
+    if (running_ || failed_) wanted_ = true;  // continues with the next bench
     failed_ = running_ = false;
     return over;
 }
@@ -91,7 +91,7 @@ std::optional<Seconds> ScopeAcquisition::untriggeredAfter() const {
     return kFreeRunIntervals * controller_.profile().encoding.intervalMax;
 }
 
-/// The bench goes on, and so does the output: it is only no longer seen.
+/// The bench and the output continue: they are only not seen any longer.
 void ScopeAcquisition::fail(const QString& why) {
     running_ = false;
     wanted_ = false;  // asking again is no use before the user has looked at it
@@ -111,7 +111,7 @@ void ScopeAcquisition::fail(const QString& why) {
 void ScopeAcquisition::followAmplitude() {
     if (!levelFollows()) return;
     double level = kLevelShare * telemetry_.amplitude_v;
-    // On the current channel the commanded voltage says something only with the impedance.
+    // On the current channel the commanded voltage is of use only with the impedance.
     if (panel_.triggersOnCurrent()) level /= telemetry_.impedance_ohm;
     if (!std::isfinite(level) || !(level > 0)) return;
     const double now = requested_.triggerLevel;

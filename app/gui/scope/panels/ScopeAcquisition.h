@@ -17,14 +17,14 @@ class AcquisitionPanel;
 enum class ScopeMode {
     Auto,    ///< the level follows the commanded amplitude; untriggered when no trigger comes
     Normal,  ///< the level is the user's
-    Single,  ///< one capture, then hold
+    Single,  ///< take one capture, then hold
     Roll,    ///< captures one after the other on the session's time
 };
 
 class ScopeAcquisition final : public QObject {
     Q_OBJECT
 public:
-    /// Both outlive this.
+    /// Both arguments outlive this.
     ScopeAcquisition(BenchController& controller, AcquisitionPanel& panel);
 
     [[nodiscard]] ScopeMode mode() const noexcept { return mode_; }
@@ -32,10 +32,10 @@ public:
     void setMode(ScopeMode mode);
     /// The level is not the user's to set.
     [[nodiscard]] bool levelFollows() const noexcept { return mode_ == ScopeMode::Auto || mode_ == ScopeMode::Roll; }
-    /// As telemetry said last: trains are on their way, also between two of them.
+    /// Whether telemetry last said so: trains are on their way, also between two of them.
     [[nodiscard]] bool delivering() const noexcept { return telemetry_.state == InterlockState::Delivering; }
     [[nodiscard]] bool running() const noexcept { return running_; }
-    /// A bench is open, and it has an oscilloscope that no protocol uses.
+    /// Whether a bench is open with an oscilloscope that no protocol uses.
     [[nodiscard]] bool possible() const;
     void run();
     void hold();
@@ -47,9 +47,9 @@ public:
     void refresh(const Telemetry& telemetry);
     /// A capture of the bench was measured. False: it was under way when the picture was held, and is not shown.
     bool take(const ShownCapture& shown);
-    /// What the running capture was asked with.
+    /// The settings of the running capture.
     [[nodiscard]] const ScopeSettings& requestedSettings() const noexcept { return requested_; }
-    /// What it does, in a sentence, while `shown` is on the screen.
+    /// Its state in a sentence, while `shown` is on the screen.
     [[nodiscard]] QString statusText(const ShownCapture* shown, std::uint64_t skipped) const;
 
 signals:
@@ -80,18 +80,17 @@ private:
     int taken_ = 0;
 };
 
-/// Which captures come to the screen: the bench's, from the session that is open, or those of a file; and the bench's
-/// last train, which stays while the output is off.
+/// nobody asked for it any more
 class ScopeFeed {
 public:
     enum class Taken {
         Nothing,   ///< it was not asked for any more
-        Held,      ///< what is shown stays: in its place this would say nothing
-        Shown,     ///< one more of its source
+        Held,      ///< the shown capture stays: this one would say nothing
+        Shown,     ///< one more of its source is shown
         ShownAnew  ///< the first of another source: what was counted is over
     };
 
-    /// Both outlive it.
+    /// Both arguments outlive it.
     ScopeFeed(ScopeModel& model, ScopeAcquisition& acquisition) : model_(model), acquisition_(acquisition) {}
 
     /// The bench's session is `session`; empty: none is open. Returns whether captures of another one come from now on:

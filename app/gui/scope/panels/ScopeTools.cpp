@@ -103,7 +103,7 @@ ScopeTools::ScopeTools(QMenu* files, QWidget* parent)
     pictures_->plotOnly().raise();  // the last of them for Tab, which goes by this order (TabbedPage.h)
 }
 
-/// Its icon and its tip say it where a word would put other tools away.
+/// Where a word would push out other tools, the icon and the tip say it.
 void ScopeTools::resizeEvent(QResizeEvent* event) {
     QWidget::resizeEvent(event);
     const bool worded = single_->toolButtonStyle() == Qt::ToolButtonTextBesideIcon;
@@ -166,7 +166,7 @@ void ScopeTools::showTimeBase(double perDivision_s, double least_s) {
     base_s_ = stepNotBelow(perDivision_s);
     leastBase_s_ = least_s;
     markTimeBase();
-    // What lies between two lines of the grid, which stand at round numbers.
+    // The step between two lines of the grid, which stand at round numbers.
     base_->setText(tr("%1/div").arg(settingText(base_s_, "s")));
     base_->setAccessibleName(tr("Time base tool"));
     base_->setMinimumWidth(base_->fontMetrics().horizontalAdvance("000 µs/div") + scaledPx(24));

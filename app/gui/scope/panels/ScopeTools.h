@@ -22,14 +22,14 @@ class ScopeTools final : public QWidget {
 public:
     /// `files` is the menu of the button that saves.
     ScopeTools(QMenu* files, QWidget* parent);
-    /// What a click on these does is the owner's.
+    /// The owner decides what a click on these does.
     [[nodiscard]] QPushButton& run() const { return *run_; }
     [[nodiscard]] QToolButton& tool(ScopeTool which) const { return *tools_.at(which); }
     /// Save opens `files`; what Copy and Plot only do is the owner's.
     [[nodiscard]] PictureTools& pictures() const { return *pictures_; }
     void showMode(ScopeMode mode);
     void showRunning(bool running, bool possible);
-    /// Those below `least_s` cannot be chosen.
+    /// Steps below `least_s` cannot be chosen.
     void showTimeBase(double perDivision_s, double least_s);
 
 signals:

@@ -61,7 +61,7 @@ ViewPanel::ViewPanel(ScopeModel& model, QWidget* parent)
     }
     say(difference_, tr("Difference"), tr("One channel minus another, or minus a stored reference of the same unit."));
     spectrum_->setToolTip(tr("The spectrum of what a lane shows on the screen, below it."));
-    // No wider than its words: a click beside them is not meant for it.
+    // The box is no wider than its words: a click beside them is not meant for it.
     for (auto* box : {power_, charge_, spectrum_}) box->setSizePolicy(QSizePolicy::Maximum, QSizePolicy::Fixed);
     auto* form = new QFormLayout(this);
     form->setContentsMargins(0, 0, 0, 0);

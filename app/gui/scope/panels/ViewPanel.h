@@ -30,7 +30,7 @@ public:
     [[nodiscard]] int lastAverage() const noexcept { return lastAverage_; }
 
     void save(QSettings& settings) const;
-    /// What is not there or not possible stays as it is.
+    /// Values that are missing or not possible stay as they are.
     void restore(const QSettings& settings);
 
 signals:

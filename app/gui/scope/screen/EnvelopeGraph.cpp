@@ -74,7 +74,7 @@ void EnvelopeGraph::draw(QCPPainter* painter) {
     clips_.clear();
     painter->setAntialiasing(false);
     QPen pen(mPen.color(), 1);
-    // At 200 % a pen of one is two pixels wide, which Qt draws as polygons: a hairline and doubled flats look alike.
+    // At 200 % a pen of width one is two pixels wide, which Qt draws as polygons; doubled flat hairlines look the same.
     if (screen.thickness > 1) pen.setCosmetic(true);
     if (painter->modes().testFlag(QCPPainter::pmVectorized)) pen.setWidthF(0.75);
     for (const auto& span : spans_) {
@@ -124,7 +124,7 @@ void EnvelopeGraph::fillTall(QCPPainter& painter, const Screen& screen) {
     tops_.assign(columns, kNone);
     bottoms_.assign(columns, -1);
     int top = height, bottom = -1;
-    // One vertical a column goes into the image; flat lines and what shares a column with another stay lines.
+    // Each column has one vertical in the image; flat lines, and lines that share a column, stay lines.
     lines_.removeIf([&](const QLineF& line) {
         const int x = device(line.x1() - screen.area.left());
         if (line.x1() != line.x2() || x < 0 || x >= width) return false;
@@ -179,7 +179,7 @@ void EnvelopeGraph::drawColumns(const TraceSpan& span, const Screen& screen) {
             if (from >= n) break;
             continue;
         }
-        // From the column before's last sample, so that an edge between two columns is drawn.
+        // Begins at the last sample of the column before, so that an edge between two columns is drawn.
         const auto seen = trace.pyramid.over(from > 0 ? from - 1 : 0, to);
         const bool missing = seen.gap && trace.pyramid.over(from, to).gap;
         from = to;

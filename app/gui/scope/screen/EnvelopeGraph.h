@@ -54,7 +54,7 @@ public:
     void setMarked(bool marked) { marked_ = marked; }
     void setClipColour(const QColor& colour) { clipColour_ = colour; }
 
-    /// What the last drawing showed, for those who cannot see it: columns with missing and with clipped samples.
+    /// The gaps of the last drawing, for those who cannot see it: columns with missing and with clipped samples.
     [[nodiscard]] int gapColumns() const noexcept { return gapColumns_; }
     [[nodiscard]] int clippedColumns() const noexcept { return clippedColumns_; }
     [[nodiscard]] bool drewSamples() const noexcept { return drewSamples_; }

@@ -18,7 +18,7 @@ double RoundTicker::stepOver(const QCPRange& range) const {
     return stepNotBelow(std::max(range.size() / divisions_, least_) * perCoordinate_);
 }
 
-/// As many decimals as the step has: all numbers of a row end alike.
+/// Writes as many decimals as the step has, so that all numbers of a row end alike.
 QString RoundTicker::written(double quantity, double step) const {
     constexpr int kMaxDecimals = 15;
     const double shownStep = step * factor_;

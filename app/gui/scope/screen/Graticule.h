@@ -16,13 +16,13 @@ public:
     /// `divisions`: as many steps fit the axis at most.
     explicit RoundTicker(int divisions) : divisions_(divisions) {}
     void setQuantity(double position, double perCoordinate, double factor);
-    /// No two numbers are nearer to each other, in coordinates.
+    /// Numbers are at least so far apart, in coordinates.
     void setLeast(double coordinates) { least_ = coordinates; }
     void setBlank(bool blank) { blank_ = blank; }
-    /// Only what lies around low..high gets a number, to the next step beyond either: two lanes share the height. Where
-    /// nothing of that is in view, all of it. Nothing: all.
+    /// Only what lies around low..high gets numbers, to the next step beyond either, as two lanes share the height.
+    /// Where nothing of that is in view, or for nothing, everything gets numbers.
     void setNumbered(std::optional<std::pair<double, double>> numbered) { numbered_ = numbered; }
-    /// In the quantity's own unit.
+    /// The step, in the quantity's own unit.
     [[nodiscard]] double stepOver(const QCPRange& range) const;
     /// The wider of the two numbers at the ends, as it would be written.
     [[nodiscard]] QString widestIn(const QCPRange& range) const;
@@ -46,7 +46,7 @@ class RecordGround final : public QCPLayerable {
     Q_OBJECT
 public:
     explicit RecordGround(QCPAxis* keyAxis);
-    /// From and to on the key axis, in time order. With none, nothing is hatched: an empty plot is just empty.
+    /// Each record's beginning and end on the key axis, in time order. Without records nothing is hatched.
     void setRecords(std::vector<std::pair<double, double>> records) { records_ = std::move(records); }
     void setColour(const QColor& colour) { colour_ = colour; }
 

@@ -9,7 +9,7 @@ namespace tacto::gui {
 
 /// The colour in which a lane is drawn, in the current theme.
 [[nodiscard]] QColor laneColour(const ScopeModel& model, const ScopeLane& lane);
-/// The same for words and numbers: at least 4.5:1 on the screen's ground.
+/// The lane's colour for words and numbers: at least 4.5:1 on the screen's ground.
 [[nodiscard]] QColor laneInk(const ScopeModel& model, const ScopeLane& lane);
 
 class LaneLegend final : public QLabel {

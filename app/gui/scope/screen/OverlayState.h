@@ -23,14 +23,14 @@ struct OverlayState {
         QColor colour;
         double height = 0;
         bool active = false;
-        bool right = false;  ///< its handle is at the right edge
+        bool right = false;  ///< its handle stands at the right edge
     };
     struct Trigger {
         std::optional<double> height;  ///< nothing: its channel is not shown
         std::optional<double> moment_s;
         QColor colour;
         bool held = false;  ///< the level follows the command and cannot be dragged
-        QString text;       ///< while it is dragged
+        QString text;       ///< the text shown while it is dragged
     };
     struct Mark {
         double from_s = 0, to_s = 0;
@@ -42,8 +42,8 @@ struct OverlayState {
         double from_s = 0, to_s = 0;
         double low = 0, high = 0;
     };
-    /// What a cursor reads; it stands where it hides least of the traces: beyond what the two
-    /// cursors enclose, unless there is much more room between them.
+    /// A cursor's reading; it stands where it hides least of the traces: outside the two cursors, unless there is much
+    /// more room between them.
     struct Flag {
         struct Row {
             QString letter;  ///< the lane's letter
@@ -54,7 +54,7 @@ struct OverlayState {
         QString position;  ///< "200.0 µs"
         std::vector<Row> rows;
     };
-    /// The train that comes next, or would by hand, in one lane.
+    /// The next train, or the one that a hand would ask for, in one lane.
     struct Coming {
         std::vector<QPointF> line;  ///< times and heights
         QString text;               ///< "next train 30.7 V" or "by hand: 30.7 V", over the first phase
@@ -68,18 +68,18 @@ struct OverlayState {
     QString timeSpan;                   ///< between them
     std::vector<Drawn> drawn;           ///< the lanes shown, with time cursors
     std::vector<double> levelCursors;   ///< two or none, heights
-    std::vector<QString> levelTexts;    ///< what the level cursors say: "y₁ 40.0 V"
+    std::vector<QString> levelTexts;    ///< the level cursors' texts: "y₁ 40.0 V"
     QString levelSpan;                  ///< between them
     int focusedCursor = -1;             ///< 0, 1: time; 2, 3: level
     std::optional<QRectF> box;          ///< pixels
     std::optional<EdgeReading> hover;
     std::vector<Mark> marks;          ///< in time order
-    std::vector<MomentMark> moments;  ///< on the axis
+    std::vector<MomentMark> moments;  ///< marks on the time axis
     QStringList notes;                ///< about the whole record: "not triggered", "averaged 16"
-    QString alarm;                    ///< what a failed mask test says, until it is acknowledged
+    QString alarm;                    ///< the message of a failed mask test, until it is acknowledged
 };
 
-/// All but what belongs to one screen: the box of a zoom and an alarm. In the current theme.
+/// All but what belongs to one screen: the box of a zoom, and an alarm. Uses the current theme.
 [[nodiscard]] OverlayState overlayOf(const ScopeModel& model);
 
 }  // namespace tacto::gui

@@ -162,7 +162,7 @@ void ScopeGestures::dragGrip(const QPointF& pixel) {
 void ScopeGestures::turn(const QWheelEvent& event) {
     const auto turned = event.angleDelta().y() != 0 ? event.angleDelta().y() : event.angleDelta().x();
     if (turned == 0 || !model_.shown()) return;
-    const int steps = turned > 0 ? -1 : 1;  // towards the picture shows less of it
+    const int steps = turned > 0 ? -1 : 1;  // dragging towards the picture shows less of it
     if (event.modifiers().testFlag(Qt::ControlModifier)) {
         model_.zoomLevel(steps, screen_.heightAt(event.position().y()), "level wheel");
     } else if (event.modifiers().testFlag(Qt::ShiftModifier)) {

@@ -16,7 +16,7 @@ namespace tacto::gui {
 class ScopeGestures final : public QObject {
     Q_OBJECT
 public:
-    /// Both outlive this.
+    /// Both arguments outlive this.
     ScopeGestures(ScopeModel& model, ScopeScreen& screen);
     /// The next drag draws a box that becomes the whole screen.
     void setBoxZoom(bool on);
@@ -28,7 +28,7 @@ protected:
     bool eventFilter(QObject* watched, QEvent* event) override;
 
 private:
-    /// What the pressed mouse does.
+    /// The effect of dragging with the mouse.
     enum class Drag { None, Undecided, Pan, Box, Grip };
 
     void press(const QMouseEvent& event);

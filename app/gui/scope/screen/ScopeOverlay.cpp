@@ -27,7 +27,7 @@ Pennant ScopeOverlay::lanePennant(int lane) const {
     return plane_.pennant(its.right ? Qt::RightEdge : Qt::LeftEdge, plane_.y(its.height), its.letter);
 }
 
-/// At its level; inwards of a lane's handle that stands there.
+/// The pennant stands at the trigger's level; further in where a lane's handle stands there.
 Pennant ScopeOverlay::triggerPennant() const {
     auto its = plane_.pennant(Qt::RightEdge, plane_.y(*state.trigger->height), "T");
     for (int lane = 0; lane < static_cast<int>(state.lanes.size()); ++lane) {
@@ -84,7 +84,7 @@ GripAt ScopeOverlay::at(const QPointF& pixel) const {
 }
 
 void ScopeOverlay::draw(QCPPainter* painter) {
-    if (plane_.area().isEmpty()) return;  // not laid out yet
+    if (plane_.area().isEmpty()) return;  // the plane is not laid out yet
     painter->setFont(plane_.font());
     drawMarks(*painter);
     drawMoments(*painter);
@@ -175,7 +175,7 @@ void ScopeOverlay::drawMarks(QCPPainter& painter) const {
     }
 }
 
-/// As in the live plots: a dashed line, the word at its top on a ground of ink.
+/// They look as in the live plots: a dashed line, with the word at its top on a ground of ink.
 void ScopeOverlay::drawMoments(QCPPainter& painter) const {
     const auto a = plane_.area();
     const auto& c = colours();
@@ -192,7 +192,7 @@ void ScopeOverlay::drawMoments(QCPPainter& painter) const {
     }
 }
 
-/// In the corner, one below the other: the middle belongs to the signal, the edges to handles.
+/// The notes stand in the corner, one below the other: the middle belongs to the signal, the edges to handles.
 void ScopeOverlay::drawNotes(QCPPainter& painter) const {
     const QFontMetricsF metrics(plane_.font());
     const auto a = plane_.area();
@@ -242,7 +242,7 @@ constexpr double kComingWidth = 2;  // pixels
 
 QFont comingFont() { return textFont(TextSize::Small, QFont::DemiBold); }
 
-/// Where its words stand, inside the plot.
+/// Where the words of the coming train stand, inside the plot.
 QRectF wordsBox(const OverlayState::Coming& coming, const ScopePlane& plane) {
     const QFontMetricsF metrics(comingFont());
     const auto a = plane.area();

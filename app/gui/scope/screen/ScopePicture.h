@@ -28,19 +28,19 @@ class ScopeScreen;
 /// Title, date, the devices of the bench or the file's name, scales, then `more`. `bench` may be null.
 [[nodiscard]] PictureCaption captionOf(const ScopeModel& model, const SessionAbout* bench, const QStringList& more);
 
-/// What is on the screen at a moment: it is saved as it was then, however long a dialog asks for the file's name.
+/// The screen at a moment: it is saved as it was then, however long a dialog asks for the file's name.
 struct ScopeStill {
     std::shared_ptr<const ScopeModel> model;
     std::shared_ptr<const CaptureMask> mask;
     QString alarm;
     QSize size;  ///< the screen's size
     PictureCaption caption;
-    QDateTime taken;  ///< when the capture came from the bench, or this was made of a file's
+    QDateTime taken;  ///< when the capture came from the bench, or when this was made from a file's
 };
 [[nodiscard]] ScopeStill stillOf(const ScopeModel& model, const ScopeScreen& screen, const PictureCaption& caption);
 
-/// By the path's ending: .png (twice the screen's resolution), .svg or .pdf, as large as the screen and its caption.
-/// Returns what went wrong, as a sentence.
+/// Saves by the path's ending: .png (twice the screen's resolution), .svg or .pdf, as large as the screen and its
+/// caption. Returns one sentence that says what went wrong.
 [[nodiscard]] std::optional<QString> saveScopePicture(const ScopeStill& still, const QString& path);
 [[nodiscard]] QImage scopePicture(const ScopeStill& still);
 

@@ -30,7 +30,7 @@ public:
     void drawLine(QCPPainter& painter, const QLineF& line, const QColor& colour, Qt::PenStyle style) const;
     void drawPennant(QCPPainter& painter, const Pennant& pennant, const QString& text, const QColor& colour,
                      bool filled) const;
-    /// What words over the traces stand on.
+    /// The ground below words over the traces.
     [[nodiscard]] static QColor ground();
     void drawTag(QCPPainter& painter, const QPointF& centre, const QString& text, const QColor& colour) const;
 

@@ -12,7 +12,7 @@ namespace tacto::gui {
 
 namespace {
 
-/// What it shows, in its unit.
+/// The shown range, in its unit.
 std::optional<std::pair<double, double>> shownRange(const ScopeLane& lane) {
     const auto its = lane.envelope();
     if (its.empty()) return std::nullopt;
@@ -35,7 +35,7 @@ ScopeScreen::ScopeScreen(const ScopeModel& model, QWidget* parent)
       leftTicker_(new RoundTicker(kDivisionsUp)),
       rightTicker_(new RoundTicker(kDivisionsUp)) {
     setAccessibleName(tr("Oscilloscope screen"));
-    // Not a tool tip: it would lie over the traces wherever the mouse rests.
+    // This is no tool tip: one would lie over the traces wherever the mouse rests.
     setWhatsThis(
         tr("Wheel: time. Ctrl+wheel: level of the active lane. Drag: pan. Shift+drag: zoom into a box. Double "
            "click or Home: fit to the pulse, once more to the whole record. Ctrl+Z: back. Arrows: nudge the focused "
@@ -215,7 +215,7 @@ void ScopeScreen::applyAxes() {
     xAxis->setRange(view.left_s, view.right_s());
     const auto time = axisUnit(view.width_s() / 2, "s");
     timeTicker_->setQuantity(0, 1, time.factor);
-    // From the widget's size: the axes' own is that of the last drawing.
+    // Computed from the widget's size: the axes' own size is that of the last drawing.
     const auto edges = axisRect()->minimumMargins();
     const QFontMetrics small(xAxis->tickLabelFont());
     const double perPixel = view.width_s() / std::max(1, width() - edges.left() - edges.right());

@@ -12,15 +12,15 @@ namespace tacto::gui {
 
 class TimeFlags {
 public:
-    /// Both outlive it.
+    /// Both arguments outlive it.
     TimeFlags(const ScopePlane& plane, const OverlayState& state) : plane_(plane), state_(state) {}
 
-    /// In the order of the cursors; empty without them.
+    /// The boxes in the order of the cursors; empty without them.
     [[nodiscard]] std::vector<QRectF> boxes() const;
     void draw(QCPPainter& painter) const;
 
 private:
-    /// What the traces cover, in pixels.
+    /// The pixels that the traces cover.
     [[nodiscard]] std::vector<QRectF> drawnBoxes() const;
     /// Where the words between the time cursors stand.
     [[nodiscard]] QRectF spanBox(const std::vector<QRectF>& drawn) const;
