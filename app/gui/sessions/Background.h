@@ -16,7 +16,7 @@
 
 namespace tacto::gui {
 
-/// What the work may ask and tell while it runs.
+/// The questions and messages that the work may have while it runs.
 struct WorkPort {
     std::shared_ptr<std::atomic<bool>> cancelled;
     std::function<void(int done, int total)> progress;
@@ -32,7 +32,7 @@ public:
     /// Cancels earlier work and begins when that has ended, without making the caller wait. `then` gets the result,
     /// unless other work was started meanwhile.
     void start(Work work, std::function<void(Result<void>)> then);
-    /// The same for work that makes a value: `then` gets Result<Value>.
+    /// Does work that makes a value: `then` gets Result<Value>.
     template <class Make, class Then>
     void take(Make make, Then then) {
         using Value = typename std::invoke_result_t<Make&, const WorkPort&>::value_type;

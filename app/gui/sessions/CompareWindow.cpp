@@ -74,7 +74,7 @@ CompareWindow::CompareWindow(std::shared_ptr<const ReadSession> first, std::shar
     addPlotMenu(*plane_, "trials");
     putLegendAbove(*plane_);
     wrapLegend(*plane_);
-    plane_->setMinimumWidth(fontMetrics().averageCharWidth() * kPlotChars);  // its legend wraps
+    plane_->setMinimumWidth(fontMetrics().averageCharWidth() * kPlotChars);  // the legend wraps within this width
     plane_->xAxis->setLabel(tr("Interval (s)"));
     plane_->yAxis->setLabel(tr("Amplitude (V)"));
     tabs->addTab(plane_, tr("&Trials"));
@@ -158,7 +158,7 @@ void CompareWindow::drawTrials() {
     plane_->yAxis->scaleRange(1.2);
 }
 
-/// In the current theme and size of text, as all that is coloured below.
+/// Takes the current theme and size of text, as does all that is coloured below.
 void CompareWindow::colour() {
     colourTrials();
     colourStreams();
@@ -214,7 +214,7 @@ void CompareWindow::drawStream() {
         });
 }
 
-/// Both from their own beginning; the difference below, where the second has a sample at the same time.
+/// Draws both from their own beginning, and the difference below them, where the second has a sample at the same time.
 void CompareWindow::overlay(const SampleBlock& a, const SampleBlock& b, const Drawn& drawn) {
     streams_->clearGraphs();
     const auto shown = [&](std::vector<double> t, const std::vector<double>& values, const QString& name) {

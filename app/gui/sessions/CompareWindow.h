@@ -49,7 +49,7 @@ private:
     QCPItemText* noTrials_ = nullptr;  ///< says so; null where there are some
     QCustomPlot* streams_;
     QComboBox* stream_;
-    std::vector<Drawn> drawn_;          // as stream_ lists them
+    std::vector<Drawn> drawn_;          // in the order of stream_
     std::array<double, 2> begins_s_{};  // when the streams that are drawn begin, each on its own time base
     std::unique_ptr<MarkLines> marks_;
     Background background_;

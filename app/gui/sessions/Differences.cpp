@@ -18,7 +18,7 @@ constexpr int kMaxPerPart = 120;   // sentences: more are not read
 
 QString tr(const char* text) { return QObject::tr(text); }
 
-/// Both numbers with as many digits as tell them apart, four at least.
+/// Both numbers, with as many digits as tell them apart, but at least four.
 std::pair<QString, QString> apart(double first, double second, const QString& unit) {
     for (int digits = 4; digits < 8; ++digits) {
         const std::pair both{quantityText(first, unit, digits), quantityText(second, unit, digits)};
@@ -55,7 +55,7 @@ public:
 private:
     void add(const QString& sentence) { all_ << Difference{about_, sentence}; }
 
-    /// No more than can be read from each part.
+    /// Keeps no more than can be read from each part.
     void keep(int found) {
         const auto shorten = [&](int from, int to) {
             const int left = to - from - kMaxPerPart;
@@ -167,12 +167,12 @@ private:
         QString unit;
         nlohmann::json value;
     };
-    /// Every plain value below `at` by its place, named as in tables; lists of plain numbers are curves, and left out.
+    /// Every plain value below `at` by its place, named as in tables; lists of plain numbers are curves, left out.
     static void leavesOf(const nlohmann::json& at, const std::string& place, const QString& name,
                          std::map<std::string, Leaf>& into) {
         int index = 0;
         for (const auto& [key, value] : at.items()) {
-            if (key == "trials" || key == "people") continue;  // one by one they say nothing here
+            if (key == "trials" || key == "people") continue;  // single trials and people say nothing here
             if (at.is_array() && !value.is_object()) continue;
             const auto column = columnName(qtext(key));
             const auto own = at.is_array() ? textOr(value, "name") : std::string();

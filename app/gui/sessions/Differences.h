@@ -16,7 +16,7 @@ struct Difference {
     About about = About::Found;
     QString sentence;
 };
-/// What was found first, then what was used. Empty where nothing differs.
+/// Differences in what was found come first, then in what was used. Empty where nothing differs.
 [[nodiscard]] QList<Difference> differencesOf(const ReadSession& first, const ReadSession& second);
 
 }  // namespace tacto::gui

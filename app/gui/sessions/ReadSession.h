@@ -18,7 +18,7 @@
 
 namespace tacto::gui {
 
-/// What a session without trials and figures is drawn from: what the fingertip felt and what was delivered.
+/// The data to draw for a session without trials and figures: what the fingertip felt and what was delivered.
 struct SessionCourse {
     std::vector<double> frame_s, roughness, pressure;
     std::vector<double> train_s, amplitude;
@@ -35,17 +35,17 @@ struct ReadSession {
     bool elsewhere = false;  ///< another program is recording it
     std::string head;
     Instant length{0};
-    std::vector<std::string> marks;  ///< as sessionMarks() gives them
+    std::vector<std::string> marks;  ///< the marks from sessionMarks()
     std::vector<SessionVerdict> verdicts;
     std::vector<SessionTrial> trials;
     std::vector<SessionRow> events;
     std::vector<SessionRow> log;
     std::vector<SessionStreamInfo> streams;
     std::vector<SessionCaptureInfo> captures;
-    std::map<std::string, nlohmann::json> settings;  ///< by name: "label", "unit", "shown" of a choice
+    std::map<std::string, nlohmann::json> settings;  ///< values by name: "label", "unit", or words shown for a choice
     std::optional<Figure> figure;                    ///< the first of its report that is not a plane of trials
     QString caption;                                 ///< the figure's caption
-    bool planeOfTrials = false;                      ///< its report draws the trials' amplitude over their interval
+    bool planeOfTrials = false;                      ///< draws the trials' amplitude over their interval
     SessionCourse course;                            ///< filled in where there is no figure and no plane
     std::uint64_t trains = 0;                        ///< delivered, impedance checks apart
     double most = 0;                                 ///< largest amplitude, in `unit`

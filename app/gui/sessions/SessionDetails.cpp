@@ -64,7 +64,7 @@ QString settingWords(const json& value, const QString& unit) {
     return parts.isEmpty() ? QString("–") : parts.join(", ");
 }
 
-/// As the list of sessions has it.
+/// The words that the list of sessions has.
 QString beganWords(const std::string& wallStart) {
     const auto began = QDateTime::fromString(qtext(wallStart), Qt::ISODate).toLocalTime();
     return began.isValid() ? beganText(began) : QString("–");
@@ -83,7 +83,7 @@ std::map<QString, AxisUnit> axisUnitsOf(const SessionStream& stream, const Sampl
     return units;
 }
 
-/// What its columns of the stream's own unit are; its name stands above, among the streams.
+/// The quantity of the columns in the stream's own unit; its name stands above, among the streams.
 QString quantityOf(const SessionStream& stream) { return qtext(stream.unit.empty() ? stream.name : stream.kind); }
 
 std::string shownUnitText(const std::string& unit) { return unit.empty() ? std::string("–") : writtenUnit(unit); }
@@ -147,10 +147,10 @@ SessionDetails::SessionDetails(const ShippedLimits& limits, QWidget* parent) : Q
     say(tr("Choose a session at the left."));
 }
 
-/// All of them in sight where there is room, by what is in sight: see fitPanes() of the workspace.
+/// Shows all of them where there is room, judged by what is in sight: see fitPanes() of the workspace.
 void SessionDetails::fitTabs() { tabBar()->setUsesScrollButtons(widthInSight(*this) < tabBar()->sizeHint().width()); }
 
-/// Theme and size of text.
+/// Shows all tabs where there is room, judged by what is in sight: see fitPanes() of the workspace.
 void SessionDetails::fitLook() {
     fitTabs();
     for (auto* table : {trials_, streams_, captures_}) fitRecordTable(*table);
@@ -161,7 +161,7 @@ void SessionDetails::fitLook() {
     plot_->replot(QCustomPlot::rpQueuedReplot);
 }
 
-/// All of the streams in sight where they leave the plot the larger part, else as many as have room in half.
+/// Shows all streams where they leave the plot the larger part, else as many as fit into half of it.
 void SessionDetails::fitStreams() {
     const int row = streams_->verticalHeader()->defaultSectionSize();
     const int head = streams_->horizontalHeader()->height() + 2 * streams_->frameWidth();
@@ -188,7 +188,7 @@ void SessionDetails::say(const QString& why) {
     setCurrentIndex(0);
 }
 
-/// The first where none is chosen, once the page is looked at: to read one takes time.
+/// Chooses the first if none is chosen, once the page is looked at: reading one takes time.
 void SessionDetails::chooseStream() {
     if (currentWidget() == split_ && streams_->rowCount() > 0 && streams_->currentRow() < 0)
         streams_->setCurrentCell(0, 0);
@@ -305,7 +305,7 @@ void SessionDetails::show(std::shared_ptr<const ReadSession> session) {
          captures);
     if (captures_->rowCount() > 0) captures_->setCurrentCell(0, 0);
     fitStreams();
-    // After what read the session has ended: it reads one thing at a time.
+    // Waits until the reader of the session has ended: it reads one thing at a time.
     QTimer::singleShot(0, this, [this, again] {
         if (again >= 0 && again < streams_->rowCount()) streams_->setCurrentCell(again, 0);
         chooseStream();

@@ -24,7 +24,7 @@ public:
     explicit SessionDetails(const ShippedLimits& limits, QWidget* parent = nullptr);
     void show(std::shared_ptr<const ReadSession> session);
     void say(const QString& why);
-    /// The capture of the chosen row; nothing when there is none.
+    /// The capture of the chosen row; nothing without one.
     [[nodiscard]] std::optional<std::int64_t> chosenCapture() const;
     /// Draws the samples of a stream, read beside the window.
     void showStream(const SessionStreamInfo& info, const SampleBlock& samples);
@@ -57,7 +57,7 @@ private:
     QTextBrowser* about_;
     QTableWidget* trials_;
     QSplitter* split_;          ///< the streams above the chosen one
-    bool splitByHand_ = false;  ///< their heights were dragged
+    bool splitByHand_ = false;  ///< the user dragged their heights
     QTableWidget* streams_;
     QCustomPlot* plot_;
     QCPItemText* watermark_ = nullptr;

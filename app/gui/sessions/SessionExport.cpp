@@ -18,8 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-/// A new folder, made in a folder of its own beside the target: nothing that was there before is touched, and what is
-/// not kept goes away.
+/// A new folder, made in a folder of its own beside the target: nothing that was there before is touched, and an unkept
+/// folder is removed.
 class Draft {
 public:
     explicit Draft(fs::path target)
@@ -48,7 +48,7 @@ public:
         }
         fs::rename(path_, target_, error);
         if (!error) return {};
-        fs::remove(target_, ignored);  // not when something is in it
+        fs::remove(target_, ignored);  // stays when something is in it
         return fail(ErrorCode::Io, "{} could not be written: {}", target_.string(), error.message());
     }
 
@@ -149,7 +149,7 @@ Result<void> writeTrials(const SessionReader& reader, const fs::path& path) {
     return file.close();
 }
 
-/// What every file of the export must be read with.
+/// Writes the marks that every file of the export must be read with.
 Result<void> writeMarks(const SessionReader& reader, const fs::path& path) {
     const auto marks = sessionMarks(reader);
     if (!marks) return failure(marks);

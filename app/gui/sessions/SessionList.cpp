@@ -21,13 +21,13 @@ constexpr int kRow = 32;
 constexpr int kMinRows = 4;  // rows in sight, the titles' row included
 constexpr int kListIcon = 16;
 constexpr int kSeenAfter_ms = 150;
-constexpr int kMeasuredRows = 60;  // for the widths of columns
+constexpr int kMeasuredRows = 60;  // rows looked at to choose the widths of columns
 constexpr int kRoomyChars = 88;    // from this width on all columns are shown
 constexpr int kWordyChars = 84;    // from this width on the search says where it searches
 constexpr int kGap = 8, kSide = 16;
 constexpr int kEdge = 2;  // lines of the sheet around a table that has no place yet
 constexpr int kChosenBar = 4;
-constexpr int kLead = 9;  // with the shape's own edges: where search and titles begin
+constexpr int kLead = 9;  // where search and titles begin, counted with the shape's own edges
 
 /// The chosen row has a bar at its left edge.
 class VerdictDelegate final : public QStyledItemDelegate {
@@ -154,7 +154,7 @@ void SessionList::buildTable() {
             if (scrolls && !table_->isColumnHidden(SessionModel::kSample)) fitColumns();
         },
         Qt::QueuedConnection);
-    afterLookChange(*this, [this] { fitColumns(); });  // when the header has its text's size
+    afterLookChange(*this, [this] { fitColumns(); });  // called when the header has its text's size
 }
 
 void SessionList::rescan(const std::filesystem::path& recording) {
@@ -226,7 +226,7 @@ void SessionList::fitColumns() {
         table_->setColumnWidth(SessionModel::kProcedure, header->sectionSize(SessionModel::kProcedure) - over);
 }
 
-/// What a display of the chosen ones depends on. Not the labels: they are changed there.
+/// All that a display of the chosen sessions depends on, except the labels: they are changed there.
 std::vector<std::pair<std::filesystem::path, SessionSummary>> SessionList::chosenNow() const {
     std::vector<std::pair<std::filesystem::path, SessionSummary>> now;
     for (const auto* entry : selected()) {
@@ -258,7 +258,7 @@ void SessionList::confirm(const std::filesystem::path& file) {
     confirmSeen();
 }
 
-/// What is seen is what the sessions say, and not what an index remembers of them.
+/// Checks the listed sessions themselves, as an index may remember them wrongly.
 void SessionList::confirmSeen() {
     const int first = table_->rowAt(0);
     if (first < 0) return;
@@ -294,7 +294,7 @@ void SessionList::filter() {
     const auto chosen = chosenPaths();
     arranging_ = true;
     model_->setFilter(wanted);
-    choose(chosen);  // what is not seen is not acted on
+    choose(chosen);  // an unseen session is not acted on
     arranging_ = false;
     say();
     if (chosenPaths() != chosen) emit selectionChanged();

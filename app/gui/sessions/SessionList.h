@@ -27,9 +27,9 @@ public:
     void add(const std::filesystem::path& file);
     /// Reads this one again, from the session.
     void confirm(const std::filesystem::path& file);
-    /// In the table's order.
+    /// The selected sessions, in the table's order.
     [[nodiscard]] std::vector<const SessionEntry*> selected() const;
-    /// The one that is chosen; null for none or several.
+    /// The chosen session; null for none or several.
     [[nodiscard]] const SessionEntry* current() const;
     [[nodiscard]] const Background& scan() const noexcept { return scan_; }
 
@@ -58,7 +58,7 @@ private:
     std::filesystem::path wanted_;               ///< to choose once it is listed
     std::filesystem::path recording_;            ///< being written
     std::filesystem::path shownRecording_;       ///< as the rows show it
-    bool arranging_ = false;                     ///< the selection changes with the rows, and not by a hand
+    bool arranging_ = false;                     ///< the selection changes with the rows, not by the user
     Background scan_, confirm_;
     QTimer seen_;
     QLineEdit* search_ = nullptr;

@@ -25,7 +25,7 @@ struct SessionEntry {
     std::filesystem::path path;
     SessionSummary summary;
     QDateTime began;
-    qint64 began_ms = 0;  ///< the same since 1970, to sort by
+    qint64 began_ms = 0;  ///< the same moment, in ms since 1970, for sorting
     qint64 bytes = 0;
     bool elsewhere;    ///< another program is recording it
     QString problem;   ///< why it cannot be read; empty when it can
@@ -35,12 +35,12 @@ struct SessionEntry {
 /// *.tacto of a folder, newest first by name of the file; folders inside are looked into once.
 [[nodiscard]] std::vector<std::filesystem::path> sessionFiles(const std::filesystem::path& folder);
 
-/// What was read from sessions before, for all windows of this user: in the folder of caches.
+/// The cache of sessions read earlier, for all windows of this user: in the folder of caches.
 [[nodiscard]] SessionIndex userSessionIndex();
 
-/// Which sessions are shown.
+/// Chooses which sessions are shown.
 struct SessionFilter {
-    QString words;                    ///< each must be found
+    QString words;                    ///< words that must all be found
     QString ending;                   ///< the word of the column Verdict; empty: any
     std::optional<int> withinDays{};  ///< 0: today
     [[nodiscard]] bool empty() const { return words.trimmed().isEmpty() && ending.isEmpty() && !withinDays; }

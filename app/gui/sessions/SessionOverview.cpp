@@ -24,7 +24,7 @@ constexpr int kShownMoments = 500;
 constexpr int kMinMoments = 3;  // lines
 constexpr int kMinNote = 16;    // characters
 constexpr int kWhyLines = 2;
-constexpr int kLowPage = 560;      // on lower pages the reason is one line
+constexpr int kLowPage = 560;      // on a page lower than this the reason is one line
 constexpr double kWrapped = 0.85;  // share of a line's width that is used where words wrap
 
 SessionEntry entryOf(const ReadSession& session) {
@@ -192,7 +192,7 @@ void SessionOverview::showHead() {
     why_->setToolTip(why.join('\n'));
 }
 
-/// The plot below keeps its room, however long the reason is; the tool tip has all of it.
+/// The plot below keeps its room, however long the reason is; the tool tip has the whole reason.
 void SessionOverview::fitWhy() {
     const bool low = height() < scaledPx(kLowPage);
     const int room = low ? why_->width() - 4 : int(kWhyLines * kWrapped * why_->width());
@@ -251,7 +251,7 @@ void SessionOverview::save() {
     const auto labels = entered();
     if (labels == kept_) return;
     const auto before = std::exchange(kept_, labels);
-    refused_.clear();  // what was refused is tried again
+    refused_.clear();  // tries again what was refused
     ++pending_;
     saySaved(tr("Saving…"), false);
     saves_.start(
@@ -270,7 +270,7 @@ void SessionOverview::saved(const SessionLabels& before, const SessionLabels& ed
         takeEdit(edited, before, kept_);  // the next Return tries again
         refused_ = sentence(done.error());
     } else if (pending_ == 0) {
-        auto shown = entered();  // what was changed elsewhere comes, what is being typed stays
+        auto shown = entered();  // takes over changes from elsewhere, but keeps what is being typed
         takeEdit(kept_, *done, shown);
         takeEdit(kept_, entered(), shown);
         kept_ = *done;

@@ -53,7 +53,7 @@ private:
     [[nodiscard]] SessionLabels entered() const;
 
     std::shared_ptr<const ReadSession> session_;
-    SessionLabels kept_;  ///< as they are in the session, or on their way into it
+    SessionLabels kept_;  ///< the labels in the session, or on their way into it
     QString refused_;     ///< why an edit that still stands in the fields is not in the session
     int pending_ = 0;     ///< edits of this session on their way
     SideWork saves_;      ///< edits follow each other; its end waits: what was typed is kept
@@ -62,7 +62,7 @@ private:
     QLabel* icon_ = nullptr;
     QLabel* title_ = nullptr;
     QLabel* why_ = nullptr;
-    QString whole_;  ///< what why_ says, before it is elided
+    QString whole_;  ///< the text of why_, before it is elided
     QLineEdit* operator_ = nullptr;
     QLineEdit* sample_ = nullptr;
     QLineEdit* tags_ = nullptr;

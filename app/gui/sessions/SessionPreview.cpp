@@ -51,7 +51,7 @@ void SheetView::paintEvent(QPaintEvent* /*event*/) {
     QCPPainter painter(this);
     painter.setRenderHint(QPainter::Antialiasing);
     const QRectF paper(0, 0, size.width() * scale, size.height() * scale);
-    painter.fillRect(paper, Qt::white);  // as it is printed
+    painter.fillRect(paper, Qt::white);  // white, as in print
     painter.scale(scale, scale);
     sheet_->paint(painter);
 }

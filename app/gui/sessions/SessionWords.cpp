@@ -20,7 +20,7 @@ constexpr int kShortValues = 60;  // characters that may follow an event's own w
 
 QString words(const char* text) { return QObject::tr(text); }
 
-/// What stands for the kinds of events; others are their own words.
+/// The words for the kinds of events; other kinds are their own words.
 const std::map<std::string, const char*>& titles() {
     static const std::map<std::string, const char*> all{
         {"fault", QT_TR_NOOP("Fault")},
@@ -97,7 +97,7 @@ nlohmann::json numbersOf(const nlohmann::json& body) {
     return numbers;
 }
 
-/// What the event itself says in words.
+/// The event's own words.
 QString ownWords(const nlohmann::json& body) {
     for (const char* key : {"text", "message", "reason", "why"})
         if (const auto own = textOr(body, key); !own.empty()) return qtext(own);

@@ -20,7 +20,7 @@ namespace tacto::gui {
 /// "1 kΩ, 10.0 V" of "1 kohm, 10.0 V": loads and conditions as people write them.
 [[nodiscard]] QString conditionText(const std::string& condition);
 
-/// How a session ended, as a word, an icon and its colour.
+/// The end of a session as a word, an icon and its colour.
 struct SessionEnding {
     QString word;
     QString icon;
@@ -36,7 +36,7 @@ struct SessionMoment {
     QString text;     ///< a sentence
     bool mark = false;
 };
-/// In order, from how it began to how it ended; what is repeated at once stands once, with its count.
+/// What happened, in order, from the beginning to the end; what follows itself stands once, with its count.
 [[nodiscard]] QList<SessionMoment> whatHappened(const ReadSession& session);
 /// One event as a sentence: no ids, no JSON.
 [[nodiscard]] QString eventSentence(const SessionRow& event);

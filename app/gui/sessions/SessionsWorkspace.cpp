@@ -81,8 +81,8 @@ SessionsWorkspace::SessionsWorkspace(BenchController& controller, QWidget* paren
     onFontChange(*this, [this] { fitPanes(); });
 }
 
-/// By what is in sight: a page that scrolls is as wide as its parts ask for. Where the panes have no room beside each
-/// other the session stands below the list.
+/// Fitted to what is in sight: a page that scrolls is as wide as its parts ask for. Where the panes have no room beside
+/// each other, the session stands below the list.
 void SessionsWorkspace::fitPanes() {
     const int room = widthInSight(*this);
     actions_.dress(room);
@@ -94,7 +94,7 @@ void SessionsWorkspace::resizeEvent(QResizeEvent* event) {
     fitPanes();
 }
 
-/// A pane of the page: what it shows, and below it what can be done with that.
+/// A pane of the page: its content, and below it the actions for that.
 void SessionsWorkspace::layOut(QWidget& pane, QWidget& shown, QWidget& actions) {
     auto* column = new QVBoxLayout(&pane);
     column->setContentsMargins(0, 0, 0, 0);
@@ -146,7 +146,7 @@ QWidget* SessionsWorkspace::buildSessionActions() {
 QWidget* SessionsWorkspace::buildNews() {
     auto* holder = new QWidget(this);
     auto* below = new QHBoxLayout(holder);
-    below->setContentsMargins(kListMargin, 0, kListMargin, 0);  // without news no height
+    below->setContentsMargins(kListMargin, 0, kListMargin, 0);  // takes no height where there is no news
     says_ = new QLabel(holder);
     says_->setObjectName("sessionsSay");
     says_->setWordWrap(true);
@@ -281,7 +281,7 @@ void SessionsWorkspace::askExport() {
     question.wants = FileQuestion::Wants::NewFile;
     question.folder = qtext(entry->path.parent_path().string());
     question.name = qtext(entry->path.stem().string()) + "-csv";
-    // This one, even if another is selected when the folder is chosen.
+    // Keeps this session, even if another is selected when the folder is chosen.
     const auto session = entry->path;
     askForFile(*this, question, [this, session](const QString& folder) { exportSession(session, folder); });
 }

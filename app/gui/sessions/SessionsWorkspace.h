@@ -21,8 +21,8 @@
 
 namespace tacto::gui {
 
-/// What can be done with a session, as buttons: each says why it cannot act, and where there is little
-/// room they are icons, so that the panes beside each other fit.
+/// Buttons for what can be done with a session: each says why it cannot act, and where there is little room they are
+/// icons, so that the panes beside each other fit.
 class ActionButtons {
 public:
     /// Adds a button to `row`, which owns it as a child of its widget.
