@@ -12,9 +12,9 @@ namespace tacto::gui {
 
 namespace {
 
-/// What a session came to, read again from its files with the study's key: verdict, reasons and results as the session
-/// recorded them, and whether it was simulated; the rest is empty. Errors: kGateRefused for a session that is not
-/// complete; NotFound where its files hold no result; as Study::part().
+/// The outcome of a session, read again from its files with the study's key: verdict, reasons and results as the
+/// session recorded them, and whether it was simulated; the rest is empty. Errors: kGateRefused for a session that is
+/// not complete; NotFound where its files hold no result; as Study::part().
 Result<RunResult> recordedResult(const Study& study, const StudySession& session) {
     if (session.state != StudySessionState::Complete)
         return fail(kGateRefused, "session {} is {}; only a complete one has a result", session.number,
@@ -24,7 +24,7 @@ Result<RunResult> recordedResult(const Study& study, const StudySession& session
     for (const auto& part : session.parts) {
         const auto file = study.part(part.file);
         if (!file) return failure(file);
-        if (!*file) continue;  // booked, and never begun
+        if (!*file) continue;  // booked, but never begun
         auto verdicts = (*file)->verdicts();
         if (!verdicts) return failure(verdicts);
         const auto& about = (*file)->about();

@@ -1,7 +1,7 @@
 // OpenStudy.h - the study that the window has open: opened and made beside the window, since a passphrase takes a
 // second, changed at once, and lent to a session while that runs.
 //
-// While it is open no other program changes it. The passphrase lies in locked memory and in no setting.
+// While it is open no other program changes it. The passphrase lies in locked memory, and in no setting.
 #pragma once
 
 #include <QObject>
@@ -29,7 +29,7 @@ public:
     [[nodiscard]] QString folder() const { return folder_; }
     [[nodiscard]] const std::shared_ptr<const Secret>& passphrase() const noexcept { return passphrase_; }
 
-    /// Its title, and whether it needs a passphrase. Errors: as Study::open().
+    /// The study's title, and whether it needs a passphrase. Errors: as Study::open().
     struct Look {
         QString title;
         bool sealed = true;
@@ -38,15 +38,15 @@ public:
     /// `passphrase` null: a rehearsal. opened() or refused() follows.
     void open(const QString& folder, std::shared_ptr<const Secret> passphrase);
     void create(const QString& folder, const StudySettings& settings, std::shared_ptr<const Secret> passphrase);
-    /// What open() is at comes to nothing: neither opened() nor refused() follows.
+    /// Gives up an opening that is under way: neither opened() nor refused() follows.
     void giveUpOpening();
     void close();
-    /// For a session, which opens it by itself; takeBack() opens it again.
+    /// Lends it to a session, which opens it by itself; takeBack() opens it again.
     void lend();
     void takeBack();
     /// exported() or refused() follows.
     void exportBids(const QString& place, const BidsWith& with = {});
-    /// What the session `id` came to, beside the window. resultRead() or refused() follows.
+    /// Reads the result of session `id`, beside the window. resultRead() or refused() follows.
     void readResult(const QString& id);
     /// The profile that its sessions are run with: an approval is for it. The shipped one until it is set.
     void setProfile(std::function<Profile()> profile) { profile_ = std::move(profile); }
@@ -55,7 +55,7 @@ public:
     void noteChange() { emit changed(); }
 
 signals:
-    void changed();  ///< what study() is or says
+    void changed();  ///< study() or its content has changed
     void opened();
     void refused(const QString& why);
     void exported(const QString& place);
@@ -70,7 +70,7 @@ private:
     QString folder_;
     std::shared_ptr<const Secret> passphrase_;
     std::optional<Study> study_;
-    Background work_;  // last: it ends before what it works on
+    Background work_;  // stands last, so that it ends before what it works on
 };
 
 }  // namespace tacto::gui

@@ -31,7 +31,7 @@ int PageTable::chosenRow() const {
     return rows.isEmpty() ? -1 : rows.front().row();
 }
 
-/// In the style and size of text that it has where it stands.
+/// Lays out in the style and size of text that it has where it stands.
 void PageTable::layOut() {
     if (columnCount() == 0) return;
     ensurePolished();

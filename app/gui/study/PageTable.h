@@ -8,9 +8,9 @@ namespace tacto::gui {
 
 class PageTable final : public QTableWidget {
 public:
-    /// `pad`: from an edge of the page to the table. `chosen`: a row at a time can be.
+    /// `pad`: from an edge of the page to the table. `chosen`: rows can be chosen, one at a time.
     PageTable(const char* name, const QString& title, QWidget& page, int pad, bool chosen);
-    /// In place of what it shows.
+    /// Replaces what it shows.
     void show(const std::vector<ResultColumn>& columns, const nlohmann::json& records);
     /// -1 for none.
     [[nodiscard]] int chosenRow() const;

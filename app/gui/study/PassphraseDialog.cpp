@@ -192,7 +192,7 @@ void PassphraseEdit::inputMethodEvent(QInputMethodEvent* event) {
     event->accept();
 }
 
-/// It gets the keys, and that is all: the end is the only place in it.
+/// A click gives it the keys, and does nothing else: the end is the only place in it.
 void PassphraseEdit::mousePressEvent(QMouseEvent* event) {
     setFocus(Qt::MouseFocusReason);
     event->accept();

@@ -49,15 +49,15 @@ class PassphraseDialog final : public QDialog {
 public:
     enum class Purpose { Open, New };
     PassphraseDialog(Purpose purpose, const QString& study, QWidget* parent);
-    /// What was typed; null before.
+    /// The typed passphrase; null before.
     [[nodiscard]] std::shared_ptr<const Secret> passphrase() const { return passphrase_; }
-    /// It did not open: says so, wiped, and asks again.
+    /// The study did not open: says so, wiped, and asks again.
     void refuse(const QString& why);
     /// Cancel. A study that is being made is made, so not meanwhile.
     void reject() override;
 
 signals:
-    /// While it is looked at, which takes a second, nothing but Cancel can be pressed.
+    /// While the passphrase is tried, which takes a second, only Cancel can be pressed.
     void given();
     void givenUp();  ///< cancelled while a study is being opened
 

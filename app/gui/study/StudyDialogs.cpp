@@ -42,7 +42,7 @@ public:
         column_->addWidget(heading(title, this));
         if (!explains.isEmpty()) column_->addWidget(explanation(explains, this));
     }
-    /// What is asked goes in here, before finish().
+    /// The column for the questions, filled before finish().
     [[nodiscard]] QVBoxLayout& column() { return *column_; }
     QLabel* say(const QString& what, const char* name) {
         auto* label = new QLabel(what, this);
@@ -68,10 +68,10 @@ public:
         scrolls_ = true;
         resize(scaledPx(kDialogWide) + 80, kDialogHigh);
     }
-    /// The line and the buttons, of which none is the default. `nothing`: what is said once the study is not open any
-    /// more. Where `act` succeeds the dialog tells the others and closes.
+    /// Adds the line and the buttons, none of which is the default. `nothing`: what is said once the study is closed.
+    /// Where `act` succeeds, the dialog tells the others and closes.
     void finish(QPushButton* button, const char* name, const QString& nothing, Act act) {
-        if (!scrolls_) column_->addStretch(1);  // what is asked stays together below the heading
+        if (!scrolls_) column_->addStretch(1);  // keeps the questions together below the heading
         column_->addWidget(trouble_);
         auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
         buttons->addButton(button, QDialogButtonBox::ActionRole);
@@ -90,7 +90,7 @@ public:
         primary->setDefault(byReturn);
     }
     [[nodiscard]] OpenStudy& opened() const { return study_; }
-    /// The study as it was when the dialog was opened; null where none is.
+    /// The study as it was when the dialog was opened; null without one.
     [[nodiscard]] const Study* study() const { return study_.study(); }
     void clearTrouble() { trouble_->say({}); }
     /// A success of `act` leaves it open.
@@ -164,7 +164,7 @@ FormField aboutField(const char* name, const QString& label, std::span<const std
                        tr("Only where the approval asks for it. It is sealed, and exported only on request."));
 }
 
-/// What was noticed since the session, and whether it is related to it.
+/// Side effects since the session, and whether they are related to it.
 struct SideEffectRows {
     struct Item {
         QComboBox* severity;

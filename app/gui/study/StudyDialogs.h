@@ -19,14 +19,14 @@ namespace tacto::gui {
 /// typed once more and says what it cannot reach.
 enum class EndOfPart { Leave, Withdraw };
 [[nodiscard]] QDialog* endPartDialog(OpenStudy& study, EndOfPart how, const QString& code, QWidget* parent);
-/// Notes an adverse event of a session; it survives a withdrawal. `code`: whose last session is chosen first; may be
-/// empty.
+/// Notes an adverse event of a session; it survives a withdrawal. `code`: the person whose last session is chosen
+/// first; may be empty.
 [[nodiscard]] QDialog* adverseEventDialog(OpenStudy& study, const QString& code, QWidget* parent);
 /// Notes what a participant reports on a day after a session: side effects, redness, swelling.
 [[nodiscard]] QDialog* nextDayDialog(OpenStudy& study, const QString& code, QWidget* parent);
 /// Changes a study's settings under an amendment of the committee, which has a reference of its own.
 [[nodiscard]] QDialog* amendDialog(OpenStudy& study, QWidget* parent);
-/// Goes on with a study's ledger that is not the newest that this computer knows: says what is lost, and takes the
+/// Continues with a study's ledger that is not the newest that this computer knows: says what is lost, and takes the
 /// passphrase once more and the word that names the loss.
 [[nodiscard]] QDialog* goBackDialog(OpenStudy& study, QWidget* parent);
 

@@ -123,7 +123,7 @@ nlohmann::json& memberOf(nlohmann::json& record, std::string_view key) {
     return dot == std::string_view::npos ? outer : outer[std::string(key.substr(dot + 1))];
 }
 
-/// What the form begins with. A study whose approval names no procedure names one with its amendment.
+/// The settings with which the form begins. A study whose approval names no procedure names one with its amendment.
 StudySettings shownIn(const std::optional<StudySettings>& amended) {
     auto settings = amended.value_or(StudySettings{});
     if (!settings.procedure) settings.procedure.emplace();
@@ -187,14 +187,14 @@ const std::vector<StudyFormField>& studyForm() {
 }
 
 StudyForm::StudyForm(QWidget* parent) : QWidget(parent) {
-    // One column where two have no room for their words.
+    // Has one column where two have no room for their words.
     auto* both = new TurningRow([] { return scaledPx(kTwoFormColumns) + 1; }, this);
     both->setContentsMargins(0, 0, 0, 0);
     both->setSpacing(scaledPx(32));
     QVBoxLayout* columns[] = {new QVBoxLayout, new QVBoxLayout};
     for (auto* column : columns) {
         both->addLayout(column, 1);
-        column->setSpacing(scaledPx(8));  // not the row's
+        column->setSpacing(scaledPx(8));  // unlike the row's spacing
     }
     for (int g = 0; g < kStudyGroups; ++g) {
         auto* column = columns[g < 2 ? 0 : 1];

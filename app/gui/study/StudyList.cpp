@@ -151,7 +151,7 @@ QWidget* StudyList::buildParticipants() {
     return holder;
 }
 
-/// What can be done with the participant who is chosen in the table.
+/// The actions for the participant who is chosen in the table.
 QWidget* StudyList::buildOfOne() {
     auto* holder = new QWidget(this);
     auto* row = rowIn(*holder, 8);
@@ -311,7 +311,7 @@ void StudyList::makeReport(const QString& title, const QString& name, const QStr
     });
 }
 
-/// One that names people is noted before it is written; the committee's names none.
+/// A report that names people is noted before it is written; the committee's names none.
 bool StudyList::noteReport(const QString& out, const QStringList& more) {
     if (more.contains("committee")) return true;
     auto* study = study_.study();

@@ -15,7 +15,7 @@
 
 namespace tacto::gui {
 
-/// As RecordColumns.h shows them: {code, who, group, state, consent, sessions}; without those who withdrew.
+/// The rows as RecordColumns.h shows them: {code, who, group, state, consent, sessions}; without those who withdrew.
 [[nodiscard]] nlohmann::json participantRows(const Study& study);
 class PageTable;
 class StudySessions;
@@ -27,7 +27,7 @@ public:
     explicit StudyList(OpenStudy& study, QWidget* parent = nullptr);
     /// A sentence in the way; empty for none.
     void say(const QString& what, bool trouble = true);
-    /// Why no session can begin; nothing where one can.
+    /// Says why no session can begin; says nothing where one can.
     void sayWhatHinders();
     /// Empty where none is.
     [[nodiscard]] QString chosen() const;
@@ -52,7 +52,7 @@ private:
 
     OpenStudy& study_;
     ReportMaker reports_;
-    QString code_;  ///< of the participant that is chosen
+    QString code_;  ///< the chosen participant's code
     QLabel* title_;
     QLabel* facts_;
     QLabel* trouble_;
@@ -61,7 +61,7 @@ private:
     StudySessions* sessions_;
     std::vector<QPushButton*> ofOne_;  ///< need a participant
     std::vector<QPushButton*> all_;    ///< need the study
-    QAction* goBack_ = nullptr;        ///< in sight where the ledger is not the newest known
+    QAction* goBack_ = nullptr;        ///< shown where the ledger is not the newest known
     QWidget* ofOneRow_ = nullptr;
 };
 
@@ -84,8 +84,8 @@ private:
     void judge();
     /// Null where none is chosen.
     [[nodiscard]] const StudySession* chosen() const;
-    std::vector<StudySession> sessions_;  ///< in the order of the rows
-    std::string id_;                      ///< of the one that is chosen
+    std::vector<StudySession> sessions_;  ///< the sessions in the order of the rows
+    std::string id_;                      ///< the chosen one's id
     bool readable_ = false;
     PageTable* table_;
     QPushButton* result_ = nullptr;

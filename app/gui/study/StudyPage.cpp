@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kFormWide = 900;
 
-/// It closes once the study is open, and asks again where that is refused.
+/// The dialog closes once the study is open, and asks again where it is refused.
 PassphraseDialog* asksFor(OpenStudy& study, PassphraseDialog::Purpose purpose, const QString& title, QWidget* parent) {
     auto* asks = new PassphraseDialog(purpose, title, parent);
     QObject::connect(&study, &OpenStudy::opened, asks, &QDialog::accept);

@@ -44,13 +44,13 @@ private:
     QPointer<PassphraseDialog> asks_;
 };
 
-/// What a new study needs before it is made: its folder, its settings, and then a passphrase.
+/// The page with all that a new study needs: its folder, its settings, and then a passphrase.
 class NewStudyPage final : public QWidget {
     Q_OBJECT
 public:
     /// `study` outlives it.
     explicit NewStudyPage(OpenStudy& study, QWidget* parent = nullptr);
-    /// As a new one.
+    /// Empties the page, as for a new study.
     void clear();
 
 signals:
