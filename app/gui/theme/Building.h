@@ -35,7 +35,7 @@ inline QLabel* strongLabel(const QString& text, QWidget* parent) {
     setTextSize(*made, TextSize::Body, true);
     return made;
 }
-/// No key but its own presses it.
+/// A button that no key but its own presses.
 inline QPushButton* pageButton(const QString& text, const char* name, const QString& tip, QWidget* parent) {
     auto* made = new QPushButton(text, parent);
     made->setObjectName(name);

@@ -22,7 +22,7 @@ struct Colours {
     QColor edge;       ///< the edge of fields and buttons
     QColor text;
     QColor quiet;        ///< secondary text
-    QColor primary;      ///< the one button that goes on: ink, so that blue keeps its meaning
+    QColor primary;      ///< the one button that leads on: ink, so that blue keeps its meaning
     QColor primaryText;  ///< on it
     QColor voltage;
     QColor current;

@@ -36,8 +36,8 @@ public:
     /// kDebounce_ms, and a press that is under way does nothing. Otherwise it takes every press at once, as what stops,
     /// pauses or disarms must. The same meaning again changes nothing.
     void setMeaning(const QString& text, bool confirms);
-    /// Whether a press that was made at `pressed` is meant for what it does now. Those that act on clicked() where the
-    /// meaning changes ask this too: keys and screen readers press without the mouse.
+    /// Whether a press made at `pressed` is meant for what the button does now. Code that acts on clicked() where the
+    /// meaning changes asks this too: keys and screen readers press without the mouse.
     [[nodiscard]] bool listens(SteadyTime pressed = std::chrono::steady_clock::now()) const;
 
 protected:
@@ -49,7 +49,7 @@ protected:
 
 private:
     std::optional<SteadyTime> seen_;  // first painted with this meaning
-    QString meaning_;                 // what setMeaning() said
+    QString meaning_;                 // the text that setMeaning() got
     bool confirms_ = true;
 };
 

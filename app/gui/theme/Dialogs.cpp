@@ -25,7 +25,7 @@ namespace {
 
 using Wants = FileQuestion::Wants;
 
-/// By what a file is called. Qt's own provider opens each one to see what it is, and a process that closes any
+/// Chooses icons by a file's name. Qt's own provider opens each one to see what it is, and a process that closes any
 /// descriptor of a file loses its locks on it: those by which SQLite keeps other programs from the index of a session
 /// that is being recorded (hazard H8).
 class UnopenedFiles final : public QFileIconProvider {
@@ -41,7 +41,7 @@ public:
 /// Qt's own file dialog without the questions that it asks in modal boxes: those stand in its last line.
 class FileChooser final : public QFileDialog {
 public:
-    // It begins in a folder that holds folders alone: what it lists before it has a provider of its own, it opens.
+    // The dialog begins in a folder of folders alone: it opens what it lists before it has a provider of its own.
     FileChooser(QWidget* parent, const FileQuestion& question) : QFileDialog(parent, question.title, QDir::rootPath()) {
         static UnopenedFiles files;
         setIconProvider(&files);
@@ -57,7 +57,7 @@ public:
         setDirectory(!question.folder.isEmpty() ? question.folder : lastFolder());
         if (!question.suffix.isEmpty()) setDefaultSuffix(question.suffix);
         if (!question.name.isEmpty()) selectFile(question.name);
-        // It chooses. Deleting files is not its work, and would ask in a box of its own.
+        // The dialog only chooses. Deleting files is not its work, and would ask in a box of its own.
         for (auto* view : findChildren<QAbstractItemView*>()) view->setContextMenuPolicy(Qt::NoContextMenu);
         if (auto* list = findChild<QTreeView*>("treeView"); list != nullptr) {
             // Names have the room; what kind a file is says its name.
@@ -137,7 +137,7 @@ QDialog* openTwin(const QDialog& dialog) {
 /// Room for the frame that a window manager puts above a window, and beside it.
 constexpr int kTitleBar = 30, kFrame = 4;
 
-/// With all that is in it in sight.
+/// The height that shows all its content.
 int neededHeight(const QWidget& dialog, int width) {
     const auto* layout = dialog.layout();
     if (layout == nullptr) return dialog.minimumHeight();
@@ -166,7 +166,7 @@ void place(QWidget& dialog) {
         if (room.contains(room.left(), below)) room.setTop(below);
     }
     int needed = neededHeight(dialog, dialog.width());
-    if (needed > room.height()) {  // it takes of the bar what it needs, beside STOP as far as that goes
+    if (needed > room.height()) {  // it takes what it needs from the bar, beside STOP as far as that goes
         const int title = dialog.isVisible() ? dialog.geometry().top() - dialog.frameGeometry().top() : kTitleBar;
         room = screen.adjusted(0, title, 0, 0);
         if (const auto* stop = window->findChild<const QWidget*>("stopButton"); stop != nullptr) {

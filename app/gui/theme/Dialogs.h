@@ -23,7 +23,7 @@ void place(QWidget& dialog);
 /// Adds a button at the end of `layout` that closes the dialog.
 void addCloseButton(QDialog& dialog, QLayout& layout);
 
-/// Opens a file or folder with the desktop's program for it. Where there is none, the value says where it lies.
+/// Opens a file or folder with the desktop's program for it. Where there is none, the value says where the file lies.
 [[nodiscard]] QString openOnDesktop(const QString& path);
 
 struct FileQuestion {

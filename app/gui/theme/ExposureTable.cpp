@@ -187,7 +187,7 @@ void ExposureTable::showRow(int line, const ExposureRow& row) {
     const auto missing = compact_ ? QString("–") : tr("not evaluated");
     auto* value = cell(line, kValue, row.evaluated ? valueText(row) : missing);
     value->setToolTip(row.evaluated ? measuredText(row) : tr("Not evaluated: %1").arg(qtext(row.reason.view())));
-    // Else the palette's own, which follows the theme.
+    // Without it the palette's own colour is used, which follows the theme.
     value->setData(Qt::ForegroundRole, QVariant());
     cell(line, kLimit, limitText(row, compact_))->setToolTip(limitText(row));
     // Both cells that may draw the bar have its data: a cell is painted again when data of its own change.
@@ -243,7 +243,7 @@ QString joined(const ExposureFigure& figure) {
     return figure.unit.isEmpty() ? figure.number : figure.number + kBeforeUnit + figure.unit;
 }
 
-/// Three digits, and no more decimals than matter beside `limit`.
+/// Three digits, with no more decimals than matter beside `limit`.
 QString numberBeside(double value, double limit, int limitDecimals) {
     if (value == 0) return QStringLiteral("0");
     const int most = limit < 1 ? 3 : limit < 100 ? 2 : 1;
@@ -252,7 +252,7 @@ QString numberBeside(double value, double limit, int limitDecimals) {
     const int digits = value >= 99.95 ? 0 : value >= 9.995 ? 1 : 2;
     const int decimals = std::max(std::min(most, digits == 2 && limit < 1 ? 3 : digits), limitDecimals);
     const auto said = decimalText(value, decimals);
-    // What keeps its limit does not read as at it.
+    // A value that keeps its limit never reads as if it were at the limit.
     for (int finer = decimals; value < limit && finer <= kMaxDecimals; ++finer) {
         if (const auto below = decimalText(value, finer); below.toDouble() < limit) return below;
     }

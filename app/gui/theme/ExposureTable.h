@@ -36,12 +36,12 @@ private:
 
 /// "RMS current over 5 s into 500 Ω".
 [[nodiscard]] QString rowTitle(const ExposureRow& row);
-/// "RMS into 500 Ω": for a dock, where the unit beside it tells a voltage from a current.
-/// That of a density has the "/cm²".
+/// "RMS into 500 Ω": for a dock, where the unit beside it tells a voltage from a current. A density's title has the
+/// "/cm²".
 [[nodiscard]] QString shortRowTitle(const ExposureRow& row);
 
-// An exposure against its limit in words: both in the unit of the limit, so that the eye compares
-// numbers, with no more decimals than matter beside the limit.
+// An exposure against its limit in words: both in the unit of the limit, so that the eye compares numbers, with no more
+// decimals than matter beside the limit.
 
 /// "0.69" and "mA" of 690 µA against 10 mA; "0" of nothing at all, "< 0.01" below what is told apart beside the limit,
 /// "> 10" where it is above the limit and would read as at it. Without a limit in its own unit.

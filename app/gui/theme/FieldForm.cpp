@@ -24,7 +24,7 @@ QString shownUnit(const ProtocolParameter& parameter) {
     return axisUnit(0, QString::fromStdString(parameter.unit)).unit;
 }
 
-/// In the unit that stands behind the label, as what is typed is: "0.5 to 10", never "500 ms to 10 s".
+/// The range in the unit behind the label, in which one types: "0.5 to 10", never "500 ms to 10 s".
 QString rangeText(const ProtocolParameter& parameter) {
     const auto text = [](double value) { return grouped(settingText(value, {})); };
     if (parameter.min && parameter.max) return QObject::tr("%1 to %2").arg(text(*parameter.min), text(*parameter.max));
@@ -44,7 +44,7 @@ QString scriptsTip(const ProtocolParameter& parameter) {
            zero;
 }
 
-/// What a script calls "load" has a label on the screen.
+/// The words of a refusal: a script's "load" has a label on the screen.
 QString refusalText(const ProtocolParameter& parameter, const Error& refused) {
     auto words = qtext(refused.message);
     const auto name = qtext(parameter.name) + ' ';
@@ -58,7 +58,7 @@ QString plain(const nlohmann::json& value) {
     return QString::fromStdString(dumpJson(value));
 }
 
-/// As a field shows it: empty where 0 stands for something.
+/// The value as a field shows it: empty where 0 stands for something.
 QString shown(const ProtocolParameter& parameter, const nlohmann::json& value) {
     return !parameter.zero.empty() && value == 0 ? QString() : plain(value);
 }
@@ -263,7 +263,7 @@ void FieldForm::showFields(const std::vector<FormField>& fields) {
 }
 
 void FieldForm::addOwn(const FormField& described) {
-    described.own->setParent(this);  // its turn in the order of Tab
+    described.own->setParent(this);  // this sets its turn in the order of Tab
     if (described.parameter.label.empty())
         settingsRows_->addRow(described.own);
     else
@@ -293,7 +293,7 @@ void FieldForm::addRow(Field& field) {
     auto* rows = parameter.reference ? referenceRows_ : settingsRows_;
     if (ticks) {
         rows->addRow(column);
-        field.label->installEventFilter(this);  // its click ticks the box; a box's own words would not wrap
+        field.label->installEventFilter(this);  // a click on the label ticks the box; a box's own words would not wrap
     } else {
         rows->addRow(label, column);
         field.label = qobject_cast<QLabel*>(rows->labelForField(column));
@@ -356,7 +356,7 @@ void FieldForm::setKnown(std::set<std::string> names) {
     judge();
 }
 
-/// Neither 0 nor an empty field answers what the verdict needs.
+/// The verdict needs an answer: neither 0 nor an empty field is one.
 bool FieldForm::lacks(const Field& field) const {
     if (field.parameter.needed.empty() || known_.contains(field.parameter.name)) return false;
     const auto value = parseSetting(field.parameter, field.text().trimmed().toStdString());

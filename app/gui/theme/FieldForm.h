@@ -24,7 +24,7 @@ struct FormField {
     ProtocolParameter parameter;
     QString tip{};
     QString hint{};          ///< stands in a line that is empty
-    QWidget* own = nullptr;  ///< in place of an editor: it is shown and placed, and not read; the form takes it
+    QWidget* own = nullptr;  ///< stands in place of an editor: shown and placed, but not read; the form takes it
 };
 /// `choices`: key and words; the first is chosen.
 [[nodiscard]] FormField choiceField(const char* name, const QString& label,
@@ -34,7 +34,7 @@ struct FormField {
 [[nodiscard]] FormField wholeField(const char* name, const QString& label, int least, int most, int value,
                                    const QString& tip);
 [[nodiscard]] FormField tickField(const char* name, const QString& label, bool value, const QString& tip = {});
-/// Without a label it has the whole width.
+/// A field without a label has the whole width.
 [[nodiscard]] FormField ownField(const QString& label, QWidget* own);
 
 class FieldForm final : public QWidget {
@@ -58,17 +58,17 @@ public:
     void setRowVisible(QWidget& own, bool visible);
     [[nodiscard]] bool isRowVisible(QWidget& own) const;
     void setFieldEnabled(const std::string& name, bool enabled);
-    /// Parameters whose answer is known from elsewhere, as the electrode's area from the profile: 0 will do there.
+    /// Parameters whose answer is known from elsewhere, as the electrode's area from the profile: for these 0 will do.
     void setKnown(std::set<std::string> names);
-    /// What is missing is said about a field only once the operator has left it, or read() or goToRefused() was called.
+    /// A missing entry is pointed out only once the operator has left the field, or read() or goToRefused() was called.
     void setMissingSaidOnceLeft() { missingSaidOnceLeft_ = true; }
     /// The sentence about the first parameter that decides the verdict and has no answer; empty for none.
     [[nodiscard]] QString unanswered() const;
-    /// What decides the verdict, and how much differs from the script's own: "4 cm² · 2 changed".
+    /// The parameters that decide the verdict, and how many differ from the script's own: "4 cm² · 2 changed".
     [[nodiscard]] QString summary() const;
     /// How many fields of the part are refused as they stand, or have no answer though the verdict needs it.
     [[nodiscard]] int refused(bool reference) const;
-    /// The first such field gets the focus. Returns whether it is one of the reference; nothing where there is none.
+    /// Gives the focus to the first such field. Returns whether it belongs to the reference; nothing without one.
     std::optional<bool> goToRefused();
 
 signals:
@@ -90,8 +90,8 @@ private:
         QLabel* label = nullptr;
         QLabel* range = nullptr;  // empty where it has none
         QString atFirst{};        // the text as the script's default shows it
-        QString why{};            // it is refused as it stands
-        bool left = false;        // once, or what it lacks was asked for
+        QString why{};            // why it is refused as it stands
+        bool left = false;        // the user has left it, or was asked for what it lacks
     };
     [[nodiscard]] Field makeField(const FormField& described);
     void showFields(const std::vector<FormField>& fields);

@@ -24,7 +24,7 @@ void paintIcon(QPainter& painter, const QString& name, const QColor& colour, con
     auto shape = file.readAll().replace("currentColor", colour.name().toLatin1());
     if (name.startsWith("verdict-")) shape.replace(kToolLine, kVerdictLine);
     QSvgRenderer drawing(shape);
-    // What is wider has its room at the right.
+    // A wider picture has its room at the right.
     const double side = std::min(place.width(), place.height());
     drawing.render(&painter, {place.left(), place.center().y() - side / 2, side, side});
 }

@@ -10,14 +10,14 @@
 namespace tacto::gui {
 
 enum class Ink {
-    Text,     ///< as words beside it; a disabled one as disabled words
-    Primary,  ///< as words on the primary fill
+    Text,     ///< like words beside it; disabled like disabled words
+    Primary,  ///< like words on the primary fill
 };
 
 /// `name`: the file's, without its ending ("state-armed"). An icon that is not there is a null icon.
 [[nodiscard]] QIcon icon(const QString& name, Ink ink = Ink::Text);
 
-/// In one colour, `size` logical pixels wide and high, sharp on a screen of `scale` pixels each.
+/// An icon in one colour, `size` logical pixels wide and high, sharp on a screen with a pixel ratio of `scale`.
 [[nodiscard]] QPixmap iconPixmap(const QString& name, const QColor& colour, int size, double scale);
 
 }  // namespace tacto::gui

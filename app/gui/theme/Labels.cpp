@@ -11,7 +11,7 @@
 namespace tacto::gui {
 
 namespace {
-constexpr int kMinLetters = 3;  // fewer before the "…" say nothing
+constexpr int kMinLetters = 3;  // with fewer letters before the "…" it says nothing
 }
 
 QString ElidedLabel::shownText() const {

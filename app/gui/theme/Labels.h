@@ -12,7 +12,7 @@ class ElidedLabel final : public QLabel {
 public:
     using QLabel::QLabel;
     [[nodiscard]] QSize minimumSizeHint() const override { return {0, QLabel::minimumSizeHint().height()}; }
-    /// As it is drawn.
+    /// The text as it is drawn.
     [[nodiscard]] QString shownText() const;
 
 protected:
@@ -28,7 +28,7 @@ public:
     void say(const QString& why);
 };
 
-/// A progress bar whose words are read over what is filled and over what is not.
+/// A progress bar whose words can be read over both its filled and its empty part.
 class ProgressBar final : public QProgressBar {
 public:
     using QProgressBar::QProgressBar;

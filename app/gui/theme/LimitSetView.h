@@ -20,7 +20,7 @@ class LimitSetView final : public QWidget {
 public:
     /// `sets` outlives it.
     explicit LimitSetView(const std::vector<LimitSet>& sets, QWidget* parent);
-    /// Shows the set with that id; nothing changes where there is none.
+    /// Shows the set with that id; changes nothing if there is none.
     void choose(const QString& id);
 
 private:

@@ -16,11 +16,11 @@ struct PlotMark {
 
 class MarkLines {
 public:
-    /// What is made here is the plot's.
+    /// The plot owns what is made here.
     explicit MarkLines(QCustomPlot& plot) : plot_(plot) {}
-    /// Those of `marks` that lie in the time that `rects` show.
+    /// Draws those of `marks` that lie in the time that `rects` show.
     void draw(const std::vector<PlotMark>& marks, const std::vector<QCPAxisRect*>& rects);
-    /// In the current theme.
+    /// Takes the colours of the current theme.
     void colour();
     /// The words that are drawn now.
     [[nodiscard]] QStringList words() const;

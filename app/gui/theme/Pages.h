@@ -1,4 +1,4 @@
-// Pages.h - pages that scroll, pages of which one is shown, and what stands below a page.
+// Pages.h - pages that scroll, stacks that show one page, and the bar below a page.
 #pragma once
 
 #include <QBoxLayout>
@@ -17,27 +17,27 @@ public:
     /// Takes the page. One that was made with viewport() as its parent stays where it is; any other moves here, and
     /// each widget in it takes its style again.
     void hold(QWidget* page);
-    /// None of the page's: one that stands within another scrolls by itself.
+    /// Whether it stands on the page itself: one that stands within another scrolls by itself.
     [[nodiscard]] QSize sizeHint() const override { return minimumSizeHint(); }
 };
 
 /// A list of rows that scrolls where it has less room than it needs, as wide as its place, and takes the arrow keys.
 [[nodiscard]] QScrollArea* scrollingRows(QWidget* rows, QWidget* parent);
 
-/// The widget's width, or that of the scrolling page around it where that is less: what has to suit the room goes by
-/// this, for a page is never narrower than what stands in it.
+/// The width of the widget, or of the scrolling page around it if that is less: whatever has to suit the room goes by
+/// this, since a page is never narrower than its content.
 [[nodiscard]] int widthInSight(const QWidget& widget);
 
 /// How high a layout is at a width: words that wrap make it higher where it is narrow.
 [[nodiscard]] inline int wholeHeightAt(const QLayout& layout, int width) {
     return layout.hasHeightForWidth() ? layout.totalHeightForWidth(width) : layout.totalSizeHint().height();
 }
-/// With all that scrolls or stretches as low as it may be.
+/// The height with all that scrolls or stretches as low as it may be.
 [[nodiscard]] inline int leastHeightAt(const QLayout& layout, int width) {
     return layout.hasHeightForWidth() ? layout.totalMinimumHeightForWidth(width) : layout.totalMinimumSize().height();
 }
 
-/// From the edges of a page to what stands in it.
+/// The distance from the edges of a page to its content.
 inline constexpr int kPagePad = 16;
 
 /// Adds what stands below a page and stays in sight to `page`, the layout of `parent`, from edge to edge: a line, and
@@ -45,8 +45,8 @@ inline constexpr int kPagePad = 16;
 [[nodiscard]] QBoxLayout* addPageFoot(QVBoxLayout& page, QWidget* parent,
                                       QBoxLayout::Direction direction = QBoxLayout::LeftToRight);
 
-/// Pages of which one is shown. It asks for the room of that page alone: a hidden page that is wide or
-/// high makes no other scroll.
+/// Pages of which one is shown. It asks for the room of that page alone: a hidden wide or high page makes no other
+/// scroll.
 class PageStack : public QWidget {
     Q_OBJECT
 public:

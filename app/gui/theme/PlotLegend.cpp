@@ -37,7 +37,7 @@ void putLegendAbove(QCustomPlot& plot) {
     auto* legend = plot.legend;
     plot.axisRect()->insetLayout()->take(legend);
     plot.plotLayout()->insertRow(0);
-    // In a grid of its own with something that takes the rest: a legend's greatest width would bind the axes.
+    // Stands in a grid of its own, beside something that takes the rest: a legend's greatest width would bind the axes.
     auto* line = new QCPLayoutGrid;
     plot.plotLayout()->addElement(0, 0, line);
     plot.plotLayout()->setRowStretchFactor(0, 0.001);
@@ -59,12 +59,12 @@ void fitLegend(QCustomPlot& plot) {
     legend->setBrush(QBrush(c.base));
     legend->setBorderPen(Qt::NoPen);
     legend->setFont(textFont(TextSize::Small));
-    legend->setIconSize(scaledPx(24), QFontMetrics(legend->font()).height());  // its mark beside the word's middle
+    legend->setIconSize(scaledPx(24), QFontMetrics(legend->font()).height());  // its mark is beside the word's middle
     legend->setColumnSpacing(scaledPx(14));
     legend->setRowSpacing(0);
     legend->setMargins(QMargins(scaledPx(8), 2, scaledPx(8), 2));
     legend->setSizeConstraintRect(QCPLayoutElement::scrOuterRect);
-    // One that is hidden leaves its line to the axes.
+    // A hidden legend leaves its line to the axes.
     legend->setMinimumSize(legend->visible() ? QSize(0, 0) : QSize(1, 1));
     legend->setMaximumSize(legend->visible() ? legend->minimumOuterSizeHint() : QSize(1, 1));
 }

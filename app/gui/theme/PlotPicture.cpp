@@ -207,7 +207,7 @@ constexpr int kAxisDigits = 4;
 
 QFont titleFont() { return textFont(TextSize::Large, QFont::DemiBold); }
 
-/// Words that have no room go on in another line.
+/// Words without room continue in another line.
 constexpr int kWrapped = int(Qt::AlignLeft | Qt::AlignTop) | Qt::TextWordWrap;
 
 int heightOf(const QString& text, const QFont& font, int width) {
@@ -215,7 +215,7 @@ int heightOf(const QString& text, const QFont& font, int width) {
     return text.isEmpty() ? 0 : QFontMetrics(font).boundingRect(room, kWrapped, text).height();
 }
 
-/// A line goes on below between its readings, three blanks apart, and not within one.
+/// A line is broken between its readings, three blanks apart, and not within one.
 QString readingsKeptWhole(QString line) {
     static const QRegularExpression within("(?<! ) (?! )");
     return line.contains(QStringLiteral("   ")) ? line.replace(within, QString(QChar(QChar::Nbsp))) : line;

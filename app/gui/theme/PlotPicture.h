@@ -17,8 +17,7 @@
 
 namespace tacto::gui {
 
-// What stands above a saved picture and says what it shows: title, date, devices, scale, readings,
-// and that it is simulated.
+// The caption above a saved picture: title, date, devices, scale, readings, and that it is simulated.
 
 /// Empty lines are left out.
 struct PictureCaption {
@@ -33,20 +32,20 @@ struct PictureCaption {
 
 /// "Oscilloscope · simulated".
 [[nodiscard]] QString pictureTitle(const QString& title, bool simulated);
-/// With its zone.
+/// The date with its time zone.
 [[nodiscard]] QString pictureDate(const QDateTime& taken);
 /// "twin SIM-1 (simulated) · Demo device".
 [[nodiscard]] QString deviceNames(const std::vector<SessionDevice>& devices);
 /// "Interval (s) 0 to 2.2 · Amplitude (V) 0 to 44": the axes that have a title.
 [[nodiscard]] QString axesText(const QCustomPlot& plot);
 
-/// A caption laid out for a width: a line that has no room goes on in another.
+/// A caption laid out for a width: a line without room continues in another.
 class CaptionLines {
 public:
     CaptionLines(const PictureCaption& caption, int width);
     /// 0 for an empty caption.
     [[nodiscard]] int height() const { return height_; }
-    /// From the painter's origin on.
+    /// Draws from the painter's origin on.
     void draw(QPainter& painter) const;
 
 private:
@@ -54,20 +53,20 @@ private:
     int width_ = 0, height_ = 0;
 };
 
-/// The picture of a moment, its caption above it: it is saved as it was then, however long a dialog asks for the
-/// file's name.
+/// The picture of a moment with its caption: it is saved as it was then, however long a dialog asks for the file's
+/// name.
 class Still {
 public:
-    /// What `plot` shows now, with the caption of captionPictures().
+    /// The present picture of `plot`, with the caption of captionPictures().
     Still(QCustomPlot& plot);  // NOLINT(google-explicit-constructor): a plot is saved as it is
-    /// What `widget` shows now.
+    /// The present picture of `widget`.
     Still(QWidget& widget, PictureCaption caption);
     /// `draw` paints `size` from the painter's origin on. `title` is for screen readers.
     Still(QSize size, std::function<void(QCPPainter&)> draw, PictureCaption caption, QString title);
 
     /// Includes the caption and its margin.
     [[nodiscard]] QSize size() const;
-    /// All of it, on its ground.
+    /// Draws all of it, on its ground.
     void draw(QCPPainter& painter) const;
     [[nodiscard]] const QString& title() const { return title_; }
 
@@ -83,7 +82,7 @@ private:
 /// Every picture of `plot` says this above it, also by its menu.
 void captionPictures(QCustomPlot& plot, const std::function<PictureCaption()>& caption);
 
-/// By the path's ending: .png (twice the screen's resolution), .svg or .pdf. Returns what went wrong, as a sentence.
+/// Saves by the path's ending: .png (twice the screen's resolution), .svg or .pdf. Returns a sentence on any failure.
 [[nodiscard]] std::optional<QString> savePicture(const Still& still, const QString& path);
 [[nodiscard]] QImage pictureOf(const Still& still, double scale);
 
@@ -94,11 +93,11 @@ void askSavePicture(QWidget& parent, const Still& still, const QString& name);
 /// A context menu, also by the menu key: copy as picture, save. `name` is the file that is proposed.
 void addPlotMenu(QCustomPlot& plot, const QString& name);
 
-/// What a plot is saved, copied and looked at alone with, as buttons: the same ones in every workspace.
+/// The buttons with which a plot is saved, copied and shown alone: the same ones in every workspace.
 class PictureTools final : public QObject {
     Q_OBJECT
 public:
-    /// `parent` is that of the buttons and of the dialog, and outlives this.
+    /// `parent` owns the buttons and the dialog, and outlives this.
     explicit PictureTools(QWidget* parent);
     [[nodiscard]] QToolButton& save() const { return *save_; }
     [[nodiscard]] QToolButton& copy() const { return *copy_; }

@@ -18,7 +18,7 @@ constexpr int kMinText = 10;      // the least text where numbers need the room
 constexpr int kMinTextTight = 6;  // the least text in a table narrower than a small window
 constexpr int kRoom = 860;        // pixels beside a path in a window of 1280: a wider table is set small
 
-/// As many lines as the longest title has.
+/// Makes the header as high as its longest title needs.
 void fitHeader(QTableWidget& table) {
     auto* header = table.horizontalHeader();
     setTextSize(*header, TextSize::Small);
@@ -153,7 +153,7 @@ void layOutRecordTable(QTableWidget& table, int room_px) {
         setTextSize(table, TextSize::Small);
         const int room = std::min(scaledPx(kRoom), room_px);
         width = narrowWords(table, fitColumns(table), room);
-        if (width > room) width = fitColumns(table);  // it scrolls: no word gives way for nothing
+        if (width > room) width = fitColumns(table);  // the table scrolls: no word gives way for nothing
     }
     // A last column of words takes the rest; one of numbers stands beside the others.
     const bool words = !isOfNumbers(table, table.columnCount() - 1);

@@ -38,7 +38,7 @@ int MnemonicStyle::styleHint(StyleHint hint, const QStyleOption* option, const Q
     return hint == SH_UnderlineShortcut ? int(held_) : QProxyStyle::styleHint(hint, option, widget, returned);
 }
 
-/// What a layout does not state lies on the grid, and small icons grow with the text.
+/// Distances that a layout does not state lie on the grid, and small icons grow with the text.
 int MnemonicStyle::pixelMetric(PixelMetric metric, const QStyleOption* option, const QWidget* widget) const {
     switch (metric) {
         case PM_LayoutLeftMargin:
@@ -90,7 +90,7 @@ bool WheelGuard::isSetting(const QWidget& widget) {
 bool WheelGuard::eventFilter(QObject* watched, QEvent* event) {
     if (event->type() != QEvent::Wheel) return false;
     if (watched->isWindowType()) {
-        // Before Qt gives the focus to what is under the pointer: it goes by the policy.
+        // Runs before Qt gives the focus to what is under the pointer, by its policy.
         const auto* window = QWidget::find(static_cast<QWindow*>(watched)->winId());
         auto* under =
             window == nullptr ? nullptr : window->childAt(static_cast<QWheelEvent*>(event)->position().toPoint());

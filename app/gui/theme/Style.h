@@ -1,5 +1,5 @@
-// Style.h - the program's style: Fusion, whose letters for Alt are underlined only while Alt is held, and whose
-// icons grow with the text and stand a little before it, and whose layouts lie on the grid.
+// Style.h - the program's style, Fusion with three changes: letters for Alt are underlined only while Alt is held,
+// icons grow with the text and stand a little before it, and layouts lie on the grid.
 #pragma once
 
 #include <QProxyStyle>
@@ -30,9 +30,9 @@ private:
 /// tabs under a pointer that scrolls by stay as they are, and what they stand in scrolls (hazard H12).
 class WheelGuard final : public QObject {
 public:
-    /// For every window of the program, from now on; again: nothing.
+    /// Installs it for every window of the program from now on; a second call does nothing.
     static void install();
-    /// What a turn of the wheel would change.
+    /// Whether a turn of the wheel would change its value.
     [[nodiscard]] static bool isSetting(const QWidget& widget);
 
 protected:

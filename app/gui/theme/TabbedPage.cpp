@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kToolsApart = 8;  // from the tabs, and from the right edge
 
-/// All tabs whole, whatever room the tools want: those have a menu for what does not fit.
+/// Keeps all tabs whole, whatever room the tools want: those have a menu for what does not fit.
 class WholeTabBar final : public QTabBar {
 public:
     using QTabBar::QTabBar;

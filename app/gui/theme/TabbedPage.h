@@ -20,7 +20,7 @@ public:
     void addTab(QWidget* page, const QString& title, QWidget* tools = nullptr);
     /// The row of tabs and tools. The tabs' keys work without it.
     void setHeadVisible(bool visible);
-    /// As high as the window leaves it: a page whose words wrap would ask for all that its plot likes to have.
+    /// Takes the height that the window leaves: a page whose words wrap would ask for all that its plot likes to have.
     [[nodiscard]] bool hasHeightForWidth() const override { return false; }
     void setCurrentIndex(int index) { bar_->setCurrentIndex(index); }
     [[nodiscard]] int currentIndex() const { return bar_->currentIndex(); }
@@ -36,14 +36,14 @@ private:
     QTabBar* bar_;
     PageStack* tools_;
     PageStack* pages_;
-    std::vector<QShortcut*> keys_;  ///< of the tabs while their row is hidden: until then the tab bar has them
+    std::vector<QShortcut*> keys_;  ///< keys for the tabs while their row is hidden; otherwise the tab bar has them
 };
 
 /// The order of Tab where widgets are made late: Qt puts each one that is made at the end of its window. Tab goes from
 /// `before` through what stands in `place`, in the order in which that was made, and then to what came after `before`.
 /// Call it again when `place` holds something new. Neither has to take the focus itself.
 void tabAfter(QWidget& before, QWidget& place);
-/// The same where `place` itself stands in the order.
+/// Sets the order where `place` itself stands in it.
 inline void tabInPlace(QWidget& place) { tabAfter(place, place); }
 
 }  // namespace tacto::gui

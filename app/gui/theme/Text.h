@@ -25,7 +25,7 @@ namespace tacto::gui {
 /// "Voltage" of "voltage", as a report has it.
 [[nodiscard]] inline QString titled(QString name) { return capitalised(std::move(name)); }
 
-/// As decimalText() of the core, with a true minus and a narrow space before `unit`: "−0.98 %".
+/// Like decimalText() of the core, with a true minus and a narrow space before `unit`: "−0.98 %".
 [[nodiscard]] inline QString decimalText(double value, int decimals, const QString& unit = {}) {
     const auto number = qtext(tacto::decimalText(value, decimals)).replace('-', QChar(0x2212));
     return unit.isEmpty() ? number : number + QChar(0x202f) + unit;
@@ -51,7 +51,7 @@ namespace tacto::gui {
     return words.replace(unit, QStringLiteral("\\1Ω"));
 }
 
-/// No line breaks between a number and its unit.
+/// Keeps a number and its unit on one line.
 [[nodiscard]] inline QString keptTogether(QString words) {
     static const QRegularExpression between(
         R"((?<=\d) (?=(?:[kMmµnp]?(?:V|A|Ω|ohm|Hz|s|J|C|N|Pa|W)|%|min|cm²|m[AW]/cm²)(?![\w/])))");
@@ -66,13 +66,13 @@ namespace tacto::gui {
     const auto whole = titled(withOhmSigns(words));
     return whole.isEmpty() || whole.endsWith('.') ? whole : whole + '.';
 }
-/// What was said when something ended, to be read later: the output may be on again by then.
+/// Turns words at an end into the past, for reading them later: the output may be on again by then.
 [[nodiscard]] inline QString inThePast(QString words) {
     return words.replace(QObject::tr("Output is off."), QObject::tr("The output was switched off."));
 }
 [[nodiscard]] inline QString sentence(const Error& error) { return sentence(qtext(error.message)); }
 
-/// Whether `why` says that the device does not obey.
+/// Whether `why` says that the device may not obey.
 [[nodiscard]] inline bool saysMayBeOn(const QString& why) {
     return why.contains(qtext(outputAfter(FaultCause::StuckOn)));
 }

@@ -59,7 +59,7 @@ void applyTextSize(int percent) {
     // A style sheet keeps the fonts it met: without it for a moment, widgets take the new one.
     qApp->setStyleSheet({});
     QApplication::setFont(font);
-    // Those that were made but never polished, on a page that was not shown yet, would keep the old one for good.
+    // Widgets that were made but never polished, on a page not yet shown, would keep the old style for good.
     for (auto* widget : QApplication::allWidgets())
         if (!widget->testAttribute(Qt::WA_SetFont)) widget->setFont(QFont());
     applySheet();
@@ -161,7 +161,7 @@ QFont digits(QFont font, double scale) {
 
 namespace {
 
-/// Its negative numbers have a minus, no hyphen.
+/// Writes negative numbers with a minus, not a hyphen.
 class MinusTicker final : public QCPAxisTicker {
 protected:
     QString getTickLabel(double tick, const QLocale& locale, QChar format, int precision) override {
@@ -226,7 +226,7 @@ void stylePlot(QCustomPlot& plot) {
 
 namespace {
 
-/// As large as its axes let it be: a word that is cut says nothing.
+/// A word as large as its axes let it be: a cut word says nothing.
 class Watermark final : public QCPItemText {
 public:
     Watermark(QCustomPlot* plot, bool outlined) : QCPItemText(plot), outlined_(outlined) {}
@@ -240,7 +240,7 @@ protected:
             QTransform().rotate(mRotation).mapRect(QRectF(QFontMetrics(mFont).boundingRect(mText))).size();
         const double fits = kRoomUsed * std::min(room.width() / needed.width(), room.height() / needed.height());
         if (fits > 0 && fits < 1) mFont.setPointSizeF(std::max(1.0, mFont.pointSizeF() * fits));
-        painter->save();  // it leaves the painter where the word stands
+        painter->save();  // restores the painter afterwards, as text leaves it elsewhere
         QCPItemText::draw(painter);
         painter->restore();
         if (outlined_) outline(*painter);
@@ -248,7 +248,7 @@ protected:
     }
 
 private:
-    /// Two lines, one of which is seen on whatever lies below.
+    /// Draws two lines, so that one is seen on whatever lies below.
     void outline(QCPPainter& painter) const {
         QPainterPath word;
         word.addText(0, 0, mFont, mText);

@@ -44,7 +44,7 @@ void setTone(QLabel& label, Tone tone);
 /// The filled button of a screen; one that has no edge until the pointer is over it.
 void makePrimary(QPushButton& button, bool primary = true);
 void makeQuiet(QPushButton& button);
-/// While a page yields, its filled button looks as the others do: what comes next is elsewhere.
+/// While a page yields, its filled button looks like the others: the next step is elsewhere.
 void letYield(QWidget& page, bool yields);
 /// The bar below a page that holds what can be done with it.
 void makeActionBar(QWidget& bar);
@@ -101,7 +101,7 @@ signals:
 
 /// Calls `follow` from now on whenever `widget` has another palette or another font.
 void onLookChange(QWidget& widget, std::function<void()> follow);
-/// The same for another font alone.
+/// Calls it when the font changes, and for nothing else.
 void onFontChange(QWidget& widget, std::function<void()> follow);
 
 /// Calls `follow` in the next turn of the event loop after a change of palette, font or style, when the widgets within

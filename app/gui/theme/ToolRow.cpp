@@ -61,7 +61,7 @@ Qt::Orientations ToolRow::expandingDirections() const {
     return between_ != nullptr ? Qt::Horizontal : Qt::Orientations();
 }
 
-/// Also of one that is hidden.
+/// The width that it wants, even where it is hidden.
 QSize ToolRow::wishOf(const QLayoutItem& item) const {
     auto* part = const_cast<QLayoutItem&>(item).widget();
     if (part == nullptr) return item.sizeHint();
@@ -106,8 +106,8 @@ std::size_t ToolRow::fitting(int width) const {
     return std::max<std::size_t>(fits, 1);
 }
 
-/// What has room is placed now; what is shown or hidden for it changes in the next turn of the event loop, since that
-/// has the parent laid out anew.
+/// Parts that have room are placed now; what is shown or hidden for it changes in the next turn of the event loop,
+/// since that has the parent laid out anew.
 void ToolRow::setGeometry(const QRect& area) {
     QLayout::setGeometry(area);
     const auto fits = fitting(area.width());

@@ -20,9 +20,9 @@ public:
     /// The parts that are added are buttons.
     explicit ToolRow(QWidget* parent);
     ~ToolRow() override;
-    /// What follows is another group.
+    /// The next tools belong to another group.
     void addGap();
-    /// What follows stands at the right end. `part` has the room between, and gives way to the tools; once a row.
+    /// The next tools stand at the right end. `part` has the room between, and gives way to the tools; once a row.
     void addBetween(QWidget* part);
 
     void addItem(QLayoutItem* item) override;
@@ -35,7 +35,7 @@ public:
     void setGeometry(const QRect& area) override;
 
 private:
-    /// How many of the parts have room in `width`, with the "More" button where that is not all of them.
+    /// How many of the parts have room in `width`, with the "More" button where not all of them do.
     [[nodiscard]] std::size_t fitting(int width) const;
     [[nodiscard]] QSize wishOf(const QLayoutItem& item) const;
     void putAway(std::size_t from);
@@ -57,13 +57,13 @@ public:
     explicit TurningRow(std::function<int()> from = {}, QWidget* parent = nullptr)
         : QBoxLayout(LeftToRight, parent), from_(std::move(from)) {}
     void setGeometry(const QRect& room) override;
-    /// From where its parts stand beside each other, whichever way they stand now.
+    /// The size from which its parts stand beside each other, whichever way they stand now.
     [[nodiscard]] QSize sizeHint() const override;
-    /// As wide as its widest part, whichever way it stands: it can always turn.
+    /// The width of its widest part, whichever way it stands: it can always turn.
     [[nodiscard]] QSize minimumSize() const override;
 
 signals:
-    /// It stands the other way now.
+    /// The row stands the other way now.
     void turned(bool beside);
 
 private:

@@ -9,11 +9,11 @@
 namespace tacto::gui {
 
 struct VerdictStyle {
-    QString shape;  ///< in text: "✔"
+    QString shape;  ///< the shape as text: "✔"
     QString icon;   ///< "verdict-pass"
     QString word;   ///< "PASS"
     QColor fill;
-    QColor ink;     ///< on the fill
+    QColor ink;     ///< colour of the words on the fill
     QColor colour;  ///< the word's colour in a list
 };
 /// `key` as RunResult::verdict(), as nameOf(RowVerdict), or "error".
