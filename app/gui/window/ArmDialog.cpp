@@ -31,7 +31,7 @@ constexpr std::chrono::seconds kAnswerWithin =
 ArmDialog::ArmDialog(BenchController& controller, Purpose purpose, const QString& load, QWidget* parent)
     : QDialog(parent), controller_(controller), purpose_(purpose), asked_(controller.mark()) {
     const auto open = controller.open();
-    readsBack_ = !open || !open->source || open->source->readsBack;  // or nothing is to be read
+    readsBack_ = !open || !open->source || open->source->readsBack;  // reads back, or there is nothing to read
     massager_ = open && !open->source;
     auto* layout = new QVBoxLayout(this);
     addPurpose(*layout);
@@ -77,7 +77,7 @@ void ArmDialog::addPurpose(QVBoxLayout& layout) {
 void ArmDialog::addLoad(QVBoxLayout& layout, const QString& load) {
     auto* form = new QFormLayout;
     form->setHorizontalSpacing(12);
-    static const QRegularExpression close("(\\d)([kM]?ohm)");  // as addresses have it: "1kohm"
+    static const QRegularExpression close("(\\d)([kM]?ohm)");  // the form that addresses have: "1kohm"
     load_ = new QLineEdit(withOhmSigns(QString(load).replace(close, "\\1 \\2")), this);
     load_->setPlaceholderText(tr("what is connected, such as 1 kΩ"));
     load_->setToolTip(tr("What is connected, such as “1 kΩ” or “200 Ω + 10 kΩ || 50 nF”."));
@@ -179,7 +179,7 @@ void ArmDialog::confirm() {
 
 namespace {
 
-/// What a simulated stimulator drives. What is connected to a real one only the operator can say.
+/// The load of a simulated stimulator. Only the operator can tell what is connected to a real one.
 QString knownLoad(const SessionAbout& about) {
     for (const auto& device : about.devices) {
         const auto uri = DeviceUri::parse(device.uri);

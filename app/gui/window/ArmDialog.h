@@ -36,10 +36,10 @@ private:
     BenchController& controller_;
     const Purpose purpose_;
     const StopMark asked_;  // when the operator took the first step
-    std::string text_;      // as it stands in confirmed_
+    std::string text_;      // the text of confirmed_
     QLineEdit* load_;
     QLabel* confirmed_;
-    QLabel* first_;  ///< what follows as soon as the output is armed
+    QLabel* first_;  ///< the first output once it is armed
     QLabel* trouble_;
     QCheckBox* connected_;
     QPushButton* arm_;

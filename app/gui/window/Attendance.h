@@ -16,8 +16,8 @@
 namespace tacto::gui {
 
 struct StopInSight {
-    const QWidget& window;           ///< that has to be on the screen
-    const QWidget& stop;             ///< in that window
+    const QWidget& window;           ///< a window that has to be on the screen
+    const QWidget& stop;             ///< STOP in that window
     const QWidget* small = nullptr;  ///< STOP by itself; null: it is not shown
 };
 
@@ -30,15 +30,15 @@ public:
     static constexpr int kCovered_ms = 500, kUncovered_ms = 2000;
 
     explicit Attendance(QWidget& window) : QObject(&window), window_(window), lock_(this) {}
-    /// Thirty times a second, in every state of the output; the display is asked while it is on. Returns why STOP has
-    /// been out of reach for kAbsent_ms ("this window was minimised": read when it is not any more); empty while it is
-    /// in reach.
+    /// Called thirty times a second, in every state of the output; the display is asked while it is on. Returns why
+    /// STOP has been out of reach for kAbsent_ms ("this window was minimised": read when it no longer is); empty while
+    /// it is in reach.
     [[nodiscard]] QString absence(const StopInSight& shown, bool outputOn);
-    /// While output is on another program's window lies over STOP, whatever else is in reach.
+    /// Whether another program's window lies over STOP while output is on, whatever else is in reach.
     [[nodiscard]] bool isCovered() const { return covered_; }
     /// Whether desktops, grabs and what lies on top are known.
     [[nodiscard]] bool displayTells() const { return display_.tells(); }
-    /// The operator has gone on by hand.
+    /// The operator has resumed by hand.
     void noteHand() { lock_.forget(); }
 
 private:
@@ -50,10 +50,10 @@ private:
     DisplaySight display_;
     LockWatch lock_;
     QElapsedTimer asked_;  // the display
-    QString ofDisplay_;    // its last answer
+    QString ofDisplay_;    // what the display answered last
     QElapsedTimer since_;  // invalid while STOP is in reach
     bool coveredNow_ = false, covered_ = false;
-    QElapsedTimer turned_;  // since the two differ
+    QElapsedTimer turned_;  // how long the two have differed
 };
 
 }  // namespace tacto::gui

@@ -19,14 +19,14 @@ class CloseQuestion final : public QObject {
     Q_OBJECT
 public:
     using Runners = std::function<std::vector<ProtocolWorkspace*>()>;
-    /// The window owns this. `runners`: those there are now. `otherRuns`: whether a run goes on that is none of theirs.
+    /// The window owns this. `runners`: those that exist now. `otherRuns`: whether a run goes on that is not theirs.
     CloseQuestion(BenchController& controller, QMainWindow& window, Runners runners, std::function<bool()> otherRuns);
     /// Whether a run is going on or about to begin.
     [[nodiscard]] bool runs() const;
     /// Whether the window may close at once. Otherwise a question is open, and its answer closes the window. `stopped`:
     /// a run that the closing stopped.
     [[nodiscard]] bool mayClose(bool stopped);
-    /// Closes without a question; what is not saved is lost.
+    /// Closes without a question; unsaved text is lost.
     void closeUnasked();
 
 private:

@@ -21,9 +21,9 @@ constexpr int kNamePad = 4, kBesideName = 24;  // above and below; with its box
 constexpr int kUriRole = Qt::UserRole;
 constexpr int kOpenRole = Qt::UserRole + 1;
 constexpr int kObstacleRole = Qt::UserRole + 2;
-constexpr int kRoleRole = Qt::UserRole + 3;  // of those that can be ticked
+constexpr int kRoleRole = Qt::UserRole + 3;  // the role of a device that can be ticked
 constexpr int kSerialRole = Qt::UserRole + 4;
-constexpr qint64 kDescribeEvery_ms = 500;  // what a device reports on itself
+constexpr qint64 kDescribeEvery_ms = 500;  // how often devices report on themselves
 
 QString tr(const char* text) { return QCoreApplication::translate("DeviceDock", text); }
 
@@ -45,7 +45,7 @@ bool isSame(const SessionDevice& open, const DeviceIdentity& present) {
     return uri->path.empty() || uri->path == present.serial || (!open.serial.empty() && open.serial == present.serial);
 }
 
-/// Whether an open device was among those plugged in (`seen`, URIs) and is not any more.
+/// Whether an open device was among those plugged in (`seen`, URIs) and is gone.
 bool unpluggedWhileOpen(const SessionDevice& open, const std::vector<DeviceIdentity>& present,
                         const std::set<std::string>& seen) {
     return seen.contains(open.uri) &&
@@ -78,7 +78,7 @@ QStringList factsOf(const SessionDevice& device, const OpenBench& open) {
     return lines;
 }
 
-/// What it reports on itself, but for counts of 0 and what is not known.
+/// The device's own report, without counts of 0 and unknown values.
 QStringList rowsOf(const DeviceReport& report) {
     QStringList lines;
     for (const auto& row : report.rows()) {
@@ -275,7 +275,7 @@ void DeviceDock::describe() {
             lines << tr("Serial %1").arg(serial.toHtmlEscaped());
         lines << tr("Not open.");
     }
-    // The same text would throw away the user's selection.
+    // Setting the same text again would throw away the user's selection.
     if (const auto text = keptTogether(lines.join("<br>")); text != facts_->text()) facts_->setText(text);
 }
 
@@ -303,7 +303,7 @@ std::map<Role, DeviceUri> DeviceDock::chosen() const {
     return ticked;
 }
 
-/// One of a kind: the new one takes the place of the other.
+/// Of each kind one is chosen: the new one takes the place of the other.
 void DeviceDock::choose(QTreeWidgetItem* item) {
     if (item->checkState(0) == Qt::Checked) {
         const QSignalBlocker quiet(tree_);

@@ -25,21 +25,21 @@ public:
     void refresh(const Telemetry& telemetry);
 
 signals:
-    void simulatedBenchRequested();  ///< with flaws and faults
+    void simulatedBenchRequested();  ///< asks for a simulated bench with flaws and faults
     void recordingRequested();
     void checkRequested();  ///< the impedance check
 
 private:
     void list();
     void choose(QTreeWidgetItem* item);
-    /// Each name on as many lines as it needs: what tells two of a kind apart stands at its end.
+    /// Gives each name as many lines as it needs: what tells two of a kind apart stands at its end.
     void fitNames();
     void describe();
     /// The roles of the devices that are ticked, with their URIs.
     [[nodiscard]] std::map<Role, DeviceUri> chosen() const;
     void openChosen();
     void nameOpen();
-    /// What the bench was opened with stays, even if other values are entered.
+    /// The values with which the bench was opened stay, even if others are entered.
     void lookForCertificate();
 
     BenchController& controller_;
@@ -49,7 +49,7 @@ private:
     QPushButton* open_;
     QPushButton* close_;
     QPushButton* check_;
-    QString certificate_;                  ///< of the oscilloscope that is open; empty: none is entered
+    QString certificate_;                  ///< the certificate of the open oscilloscope; empty: none is entered
     std::filesystem::path certificateOf_;  ///< the session of the bench it was looked up for
     std::vector<std::string> listed_;
     std::set<std::string> seen_;  ///< URIs of open devices that were among those plugged in

@@ -25,7 +25,7 @@ Owned<Reply> owned(Reply* reply) {
 }
 
 constexpr std::uint32_t kEveryDesktop = 0xFFFF'FFFF;
-constexpr int kAcross = 5, kDown = 3;  // of the places within a part that are tried
+constexpr int kAcross = 5, kDown = 3;  // how many places are tried within a part
 
 bool isTaken(std::uint8_t status) {
     return status == XCB_GRAB_STATUS_ALREADY_GRABBED || status == XCB_GRAB_STATUS_FROZEN;
@@ -153,7 +153,7 @@ bool DisplaySight::isBlank() const {
     xcb_generic_error_t* error = nullptr;
     const auto reply = owned(static_cast<std::uint8_t*>(xcb_wait_for_reply(own_->connection, asked, &error)));
     std::free(error);
-    return reply && reply.get()[1] == 1;  // its state: off, on, disabled
+    return reply && reply.get()[1] == 1;  // the second byte is the state: off, on, disabled
 }
 
 bool DisplaySight::keysTakenByAnother() const {

@@ -33,8 +33,8 @@ public:
     [[nodiscard]] bool isBlank() const;
     /// Keys go to another program, whichever window has the focus.
     [[nodiscard]] bool keysTakenByAnother() const;
-    /// Neither a press nor a key reaches any window of this program. Asked by trying to take both, on a connection of
-    /// its own, and giving them back at once; what this program itself holds (an open menu, a drag) does not count.
+    /// Whether neither a press nor a key reaches a window of this program: it tries to take both, on a connection of
+    /// its own, and gives them back at once. What this program itself holds (an open menu, a drag) does not count.
     [[nodiscard]] bool grabbedByAnother() const;
 
 private:

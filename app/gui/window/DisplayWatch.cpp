@@ -28,7 +28,7 @@ QString noDisplay(const QString& why) {
 
 struct Heard {
     QStringList all;
-    QStringList reasons;  // of the displays that were asked
+    QStringList reasons;  // why each display that was asked cannot be seen
     std::string timeout;  // ready for the signal
 };
 Heard& heard() {

@@ -18,7 +18,7 @@ namespace {
 constexpr int kStripIcon = 16;
 constexpr int kStripGap = 8;
 
-constexpr int kFewLines = 88;  ///< of a dock that gives way to those above it: its header and a button
+constexpr int kFewLines = 88;  ///< height of a dock that gives way to those above it: its header and a button
 
 QString settingOf(int workspace) { return QString("docks/collapsed%1").arg(workspace); }
 
@@ -41,7 +41,7 @@ public:
         setToolTip(DockColumn::tr("Show %1").arg(dock.windowTitle()));
         refresh();
     }
-    /// Whether it says something else now.
+    /// Returns whether the text has changed.
     bool refresh() {
         const auto figure = dock_.keyFigure();
         const auto text = figure.isEmpty() ? dock_.windowTitle() : dock_.windowTitle() + " · " + figure;
@@ -201,7 +201,7 @@ void DockColumn::refresh() {
     if (changed) fitStrip();
 }
 
-/// From below they keep their icons alone until all of them are in sight.
+/// From below, parts keep their icons alone until all of them are in sight.
 void DockColumn::fitStrip() {
     for (auto* button : buttons_) button->setWorded(true);
     for (auto button = buttons_.rbegin(); button != buttons_.rend(); ++button) {
@@ -227,7 +227,7 @@ void DockColumn::apply() {
     }
     strip_->setVisible(collapsed_ && hidden_.empty());
     toggle_->setChecked(!collapsed_);
-    QTimer::singleShot(0, this, &DockColumn::share);  // once they are laid out
+    QTimer::singleShot(0, this, &DockColumn::share);  // once the docks are laid out
 }
 
 /// A window shares a change of its height among its docks. Here each has a few lines, then the first has a claim; what

@@ -22,26 +22,26 @@ class DockColumn final : public QObject {
 public:
     /// The docks belong to the window, and are listed from top to bottom.
     DockColumn(QMainWindow& window, std::vector<FoldingDock*> docks);
-    /// What is shown beside the docks, and how they stand there at first.
+    /// The content beside the docks, and how these stand there at first.
     struct View {
         int workspace = 0;
         QString name;  ///< a workspace may have several
         bool open = false;
         std::vector<FoldingDock*> folded;
     };
-    /// As this view was left, else as it says.
+    /// Shows the docks as this view was left, else as it says.
     void enter(const View& view);
     void setCollapsed(bool collapsed);
     [[nodiscard]] bool collapsed() const { return collapsed_; }
     [[nodiscard]] const std::vector<FoldingDock*>& docks() const { return docks_; }
-    /// Opens the column with this dock unfolded; once it is hidden no more.
+    /// Opens the column with this dock unfolded; waits until the column is no longer hidden.
     void show(FoldingDock& dock);
-    /// As at the first start: in their places, open where work is live.
+    /// Puts the docks back as at the first start: in their places, open where work is live.
     void reset();
     /// Why neither docks nor strip are shown, floating docks included. Either is reason enough.
     enum class Hidden {
         PlotOnly,
-        Blind,  ///< they would tell the operator what is delivered
+        Blind,  ///< hidden while the operator is blind: it would tell what is delivered
     };
     void setHidden(Hidden why, bool hidden);
     /// The key figures, as often as telemetry is read.
@@ -69,7 +69,7 @@ private:
     View view_;
     bool entering_ = false;  // the view sets the folds, not the operator: they are not remembered
     bool collapsed_ = false;
-    int width_ = scaledPx(FoldingDock::kWidth);  // of the docks, at least
+    int width_ = scaledPx(FoldingDock::kWidth);  // the least width of the docks
     std::set<Hidden> hidden_;
     std::vector<FoldingDock*> putAway_;  // floating ones, hidden meanwhile
 };

@@ -44,7 +44,7 @@ QString nextStep(std::optional<FaultCause> cause) {
 /// A table of the gate holds what was booked in its last 5 s.
 constexpr double kKeptInTable_s = 4.5;
 
-/// Whether trains that were delivered before may be as the gate judged them.
+/// Whether earlier trains may have been as the gate judged them.
 bool saysNothingOfTrains(std::optional<FaultCause> cause) {
     return cause == FaultCause::OpenElectrode || cause == FaultCause::DeviceLost || cause == FaultCause::LoopSilent ||
            cause == FaultCause::StaleSensor;
@@ -106,7 +106,7 @@ void FaultBanner::note(const Telemetry& telemetry, QTime now) {
     trains_ = telemetry.trainsDelivered;
 }
 
-/// That limits were kept only where the gate judged every train, and the fault does not tell otherwise.
+/// Says that limits were kept only where the gate judged every train and the fault says nothing else.
 QString FaultBanner::outputWords(const Telemetry& telemetry) const {
     const auto off = telemetry.fault == FaultCause::StuckOn
                          ? tr("The program has switched off; the device may still deliver.")

@@ -17,9 +17,9 @@ public:
     /// Call it thirty times a second in every state: it notes when a fault comes, and whether the gate found every
     /// train within its limits. Shows itself while the bench is faulted. `now`: the time of day.
     void refresh(const Telemetry& telemetry, QTime now = QTime::currentTime());
-    /// While blind the telemetry says nothing of trains, and so does this.
+    /// While blind, the telemetry says nothing of trains, and neither does this.
     void setBlind(bool blind) { blind_ = blind; }
-    /// All of it, for a tool tip and for the log.
+    /// The whole text, for a tool tip and for the log.
     [[nodiscard]] QString text() const;
 
 private:

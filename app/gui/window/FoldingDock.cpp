@@ -20,8 +20,8 @@ constexpr int kDockHeader = 32;
 constexpr int kDockPadding = 12;
 constexpr int kDockIcon = 16;
 
-/// As high and as wide as the designed header: a dock gives its title bar the height that it hints, and is no narrower,
-/// folded or not.
+/// A header as high and as wide as the designed one: a dock gives its title bar the height that it hints, and is no
+/// narrower, folded or not.
 class DockHeader final : public QWidget {
 public:
     using QWidget::QWidget;

@@ -14,20 +14,20 @@ public:
     static constexpr int kWidth = 231;  ///< at least, at the usual size of text
     /// `name` is the object's, by which its place is remembered.
     FoldingDock(const QString& title, const QString& iconName, const QString& name, QWidget* parent);
-    /// In its column. On a low screen every dock scrolls: none makes the window larger than the screen.
+    /// The dock's place in its column. On a low screen every dock scrolls, so that none makes the window too large.
     enum class Room {
         Shared,
-        First  ///< as high as its content, as far as the others can give way; they take what is left
+        First  ///< gets the height of its content, as far as the others can give way; they take what is left
     };
     /// Takes `content`, with the docks' margin around it.
     void setContent(QWidget* content, Room room = Room::Shared);
     [[nodiscard]] Room room() const { return room_; }
-    /// With all of its content in sight.
+    /// The height that shows all of its content.
     [[nodiscard]] int wantedHeight() const;
     void fold(bool folded);
     [[nodiscard]] bool folded() const { return folded_; }
     [[nodiscard]] const QString& iconName() const { return icon_; }
-    /// What the collapsed docks still say: "Off", "1.13 of 10 mA". May be empty.
+    /// The figure that a collapsed dock still shows: "Off", "1.13 of 10 mA". May be empty.
     [[nodiscard]] virtual QString keyFigure() const { return {}; }
 
 signals:
@@ -51,8 +51,8 @@ private:
     QToolButton* toggle_;
     bool folded_ = false;
     Room room_ = Room::Shared;
-    QWidget* inside_ = nullptr;  ///< of the scroll area around the content, or of the content that scrolls by itself
-    QWidget* bar_ = nullptr;     ///< its scroll bar
+    QWidget* inside_ = nullptr;  ///< the content of the scroll area, or the content that scrolls by itself
+    QWidget* bar_ = nullptr;     ///< the scroll bar of the content
     int wanted_ = 0;
 };
 

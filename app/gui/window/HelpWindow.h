@@ -15,7 +15,7 @@ class Workspaces;
 /// Opens the guide at that file, beside the limit sets in force with their sources. A guide that is open turns to it.
 void openGuide(const ShippedLimits& limits, const QString& page, QWidget* parent);
 
-/// Says what the widget under the focus is for: its tool tip, or that of what holds it.
+/// Explains the focused widget: its tool tip, or that of the widget around it.
 void explainFocus(QWidget* window);
 
 }  // namespace tacto::gui

@@ -151,7 +151,7 @@ void LimitBar::paintEvent(QPaintEvent*) {
 
 namespace {
 constexpr int kGap = 16;
-constexpr double kStaysFor = 0.2;  // of the limit
+constexpr double kStaysFor = 0.2;  // share of the limit
 }  // namespace
 
 LimitBarRow::LimitBarRow(const QStringList& titles, QWidget* parent) : QWidget(parent) {

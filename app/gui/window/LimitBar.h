@@ -20,20 +20,20 @@ public:
     enum class Shape { Stacked, Line };
     /// `title` is short: "RMS over 5 s". The tool tip has the full words.
     LimitBar(const QString& title, QWidget* parent = nullptr, Shape shape = Shape::Stacked);
-    /// Where what is shown changes with the row.
+    /// Sets the title where the bar shows another row.
     void setTitle(const QString& title);
-    /// Nothing: no row of this quantity yet (no output is configured).
-    /// `sets` names the limit by its title.
+    /// Shows a row; nothing: there is no row of this quantity yet (no output is configured). `sets` names the limit by
+    /// its title.
     void show(const std::optional<ExposureRow>& row, std::span<const LimitSet> sets = {});
     [[nodiscard]] QSize sizeHint() const override;
     [[nodiscard]] QSize minimumSizeHint() const override;
     /// "0.82 of 10 mA", "not evaluated", "–": what is painted, and for screen readers.
     [[nodiscard]] const QString& title() const { return title_; }
     [[nodiscard]] QString text() const { return text_; }
-    /// What is painted of it: where it has no room, without what was measured, or only that where it is not as set;
-    /// else the share in per cent.
+    /// The part of the text that is painted: where there is no room, it lacks the measured value, or has only that
+    /// where it differs; else the share in per cent.
     [[nodiscard]] QString shownText() const;
-    /// Whether title and numbers have room beside each other; stacked, one above the other.
+    /// Whether there is room for title and numbers beside each other or, if stacked, above each other.
     [[nodiscard]] bool fits() const;
     /// Share of the limit, 0 to 1 and above; NaN without a limit or a value.
     [[nodiscard]] double share() const { return share_; }
@@ -69,9 +69,9 @@ public:
         bars_[index]->show(row, sets);
     }
     void setTitle(std::size_t index, const QString& title) { bars_[index]->setTitle(title); }
-    /// After the last show(): chooses which bars are seen.
+    /// Chooses which bars are seen, after the last show().
     void arrange();
-    /// In pixels: the least in which the nearest limit is shown.
+    /// The least width in which the nearest limit is shown, in pixels.
     [[nodiscard]] int oneBarWidth() const;
     [[nodiscard]] QSize sizeHint() const override;
     [[nodiscard]] QSize minimumSizeHint() const override { return {0, sizeHint().height()}; }

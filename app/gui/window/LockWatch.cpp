@@ -15,7 +15,7 @@ constexpr const char* kLogind = "org.freedesktop.login1";
 constexpr const char* kLogindSession = "org.freedesktop.login1.Session";
 constexpr const char* kDBusProperties = "org.freedesktop.DBus.Properties";
 
-/// Calls `then` with the reply, unless `owner` is gone or there is none.
+/// Calls `then` with the reply, unless `owner` is gone or no reply came.
 template <class Reply>
 void askBus(QObject& owner, const QDBusConnection& bus, const QDBusMessage& call,
             std::function<void(const Reply&)> then) {

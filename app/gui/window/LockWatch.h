@@ -1,7 +1,7 @@
 // LockWatch.h - whether the screen is locked, or another session has it: what the desktop (org.freedesktop.ScreenSaver
 // and the names that desktops have for it) and logind say over D-Bus.
 //
-// Where neither bus nor service is there, nothing is said, and says() is empty. A lock program without D-Bus (i3lock)
+// Where the bus or the service is missing, nothing is said, and says() is empty. A lock program without D-Bus (i3lock)
 // takes keyboard and mouse: see DisplaySight.
 //
 // Thread-safety: the GUI thread. Nothing here waits for an answer.
@@ -19,7 +19,7 @@ public:
     explicit LockWatch(QObject* parent);
     /// "the screen was locked"; empty while it is not, or where it is not known.
     [[nodiscard]] QString says() const;
-    /// The operator is there after all: what was said before counts no more.
+    /// The operator is there after all: earlier reports do not count any longer.
     void forget();
 
 private slots:
@@ -31,9 +31,9 @@ private:
     void askSession();
 
     QSet<QString> lockedBy_;  // screen savers that are active
-    bool locked_ = false;     // as logind has it
+    bool locked_ = false;     // logind says that it is locked
     bool elsewhere_ = false;  // another session is at the seat
-    QString session_;         // its path at logind; empty where there is none
+    QString session_;         // the session's path at logind; empty where there is none
 };
 
 }  // namespace tacto::gui

@@ -51,7 +51,7 @@ namespace {
 constexpr int kFrame_ms = 33;
 constexpr QSize kWanted(1440, 900);  // where the screen is large enough
 constexpr int kDocksFrom = 960;      // narrower windows, as with large text, begin with the docks in a strip
-constexpr int kAllDocksFrom = 480;   // in lower ones all docks but that of the drive begin folded to their headers
+constexpr int kAllDocksFrom = 480;   // in lower windows every dock but the drive's begins folded to its header
 
 /// Moves and shrinks the window until it lies on its screen, for STOP is in its corner, even if the screen has changed
 /// since; a maximised one is left alone. Before a window is shown its frame is not known: called again after that, it
@@ -69,7 +69,7 @@ void keepOnScreen(QWidget& window) {
     if (place.topLeft() != window.frameGeometry().topLeft()) window.move(place.topLeft());
 }
 
-/// As a splitter shares its room at first: each part what it asks for, what is left by their stretch.
+/// Shares the room as a splitter does at first: each part gets what it asks for, and the rest by stretch.
 void layOutAnew(QSplitter& splitter) {
     const bool across = splitter.orientation() == Qt::Horizontal;
     const int count = splitter.count();
@@ -95,7 +95,7 @@ MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry, std::function
     setWindowTitle(tr("Tactoscope"));
     setAcceptDrops(true);
     setDockOptions(AllowNestedDocks | AllowTabbedDocks);  // animated, they stop where another move cuts in
-    // Before there is a widget: a theme that comes later dresses each of them anew, and takes longer than all the rest.
+    // Read before there is a widget: a later theme dresses each of them anew, which takes longer than all the rest.
     const QSettings settings;
     applyTextSize(settings.value("textSize", 100).toInt());
     applyTheme(settings.value("theme").toString() == "dark" ? Theme::Dark : Theme::Light);
@@ -254,7 +254,7 @@ int MainWindow::workspace() const { return workspaces_->currentIndex(); }
 
 void MainWindow::showWorkspace(int index) { workspaces_->showPage(index); }
 
-/// Live work has the docks open, those of what is looked at unfolded; everything else gives the room to its plot.
+/// Live work has the docks open, unfolding those for the page in view; everything else gives the room to its plot.
 void MainWindow::enterDocks() {
     const int page = workspace();
     const bool live = page == Workspaces::kLive, scope = workspaces_->showsScope();
@@ -275,7 +275,7 @@ void MainWindow::showPlotOnly(bool only) {
     menuBar()->setVisible(!only);
     workspaces_->showPlotOnly(only);
     docks_->setHidden(DockColumn::Hidden::PlotOnly, only);
-    // What had the keys may be hidden: Space must stop.
+    // The widget with the keys may be hidden: Space must stop.
     if (only) workspaces_->takeFocus();
 }
 
@@ -307,7 +307,7 @@ void MainWindow::showSmallStop(bool shown) {
     smallStop_->show();
 }
 
-/// Where another program's window lies over STOP a small one comes, once, and goes when STOP is free again.
+/// Where another program's window lies over STOP, a small STOP appears once, and goes when the large one is free.
 void MainWindow::standIn() {
     const bool covered = attendance_->isCovered();
     if (covered == std::exchange(covered_, covered) || (covered ? smallStop_ != nullptr : !standsIn_)) return;
@@ -394,7 +394,7 @@ void MainWindow::restore() {
     if (!restoreState(settings.value("state").toByteArray())) {
         QTimer::singleShot(0, this, [this] { docks_->reset(); });  // once the window is laid out
     }
-    // One that was left with the plot only begins whole.
+    // A window that was left with the plot only begins whole.
     rail_->show();
     statusBar()->show();
     // A state that was damaged must not hide STOP.
@@ -422,7 +422,7 @@ void MainWindow::resizeEvent(QResizeEvent* event) {
 void MainWindow::attend(const Telemetry& telemetry) {
     const auto* pilot = workspaces_->pilot();
     const QWidget* theirs = pilot == nullptr ? nullptr : pilot->participantWindow();
-    // On the only screen the participant's window covers this one.
+    // On a single screen the participant's window covers this one.
     const bool covers = theirs != nullptr && theirs->isVisible() && theirs->screen() == screen();
     const bool on = isOn(telemetry.state);
     const auto* stop = covers ? theirs->findChild<QWidget*>("participantStop") : stop_;

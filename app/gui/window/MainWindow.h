@@ -44,13 +44,13 @@ public:
     /// 0 to 6, in the order at the left.
     void showWorkspace(int index);
     [[nodiscard]] int workspace() const;
-    /// A recording (a folder or its JSON), a session or a capture. Says so when it is none of them.
+    /// Opens a recording (a folder or its JSON), a session or a capture. Says so when it is none of them.
     void openFile(const QString& path);
 
     /// Closes at once, without a question about unsaved scripts or a run: for signals.
     void closeUnasked();
 
-    // What menus, docks and the tour order:
+    // The orders of menus, docks and the tour:
     void chooseFile();
     void chooseRecording();
     void openSimulatedBench();
@@ -88,7 +88,7 @@ private:
     void attend(const Telemetry& telemetry);
     void standIn();
     void showTitle();
-    /// While a pilot session hides what is delivered: this workspace alone, no docks, no bars.
+    /// While a pilot session hides what is delivered, shows this workspace alone, without docks and bars.
     void noteBlind();
     void enterDocks();
 
@@ -96,10 +96,10 @@ private:
     CalibrationBook calibrations_{controller_};
     Attendance* attendance_ = nullptr;
     SafetyBar* safety_ = nullptr;
-    const QWidget* stop_ = nullptr;  ///< in the safety bar
+    const QWidget* stop_ = nullptr;  ///< the STOP of the safety bar
     std::unique_ptr<SmallStop> smallStop_;
     bool covered_ = false;   ///< STOP, by another program's window
-    bool standsIn_ = false;  ///< it came by itself, and goes by itself
+    bool standsIn_ = false;  ///< the small STOP came by itself, and goes by itself
     NoticeBanner* banner_ = nullptr;
     Workspaces* workspaces_ = nullptr;
     DeviceDock* devices_ = nullptr;
@@ -115,7 +115,7 @@ private:
     ArmQuestion* arming_ = nullptr;
     WorkspaceRail* rail_ = nullptr;
     bool hasRoomForDocks_ = true, hasRoomForAllDocks_ = true;
-    bool awaitsFrame_ = false;  ///< of the window system
+    bool awaitsFrame_ = false;  ///< a frame from the window system
     QTimer frame_;
 };
 

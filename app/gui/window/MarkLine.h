@@ -1,4 +1,4 @@
-// MarkLine.h - a line for the word of a mark: the moment is that of the key that opened it, however long the typing
+// MarkLine.h - a line for the word of a mark: the mark's moment is when its key was pressed, however long the typing
 // takes.
 //
 // It lies over the lower edge of the workspace, so that nothing moves, and is not a dialog: all keys that stop do so in
@@ -21,8 +21,7 @@ class MarkLine final : public QFrame {
 public:
     /// `over`: the widget at whose lower edge it lies, above `notice` while that is there.
     MarkLine(BenchController& controller, RecordingLine& line, QWidget& over, QWidget& notice);
-    /// Takes this moment, and asks for its word; a line that is still open marks the moment before. Where nothing is
-    /// recorded it says so by refused().
+    /// `over`: the widget at whose lower edge it lies, above `notice` while that is shown.
     void begin();
 
 signals:
@@ -44,7 +43,7 @@ private:
     QLabel* when_;
     QLineEdit* word_;
     Instant at_{0};
-    std::filesystem::path session_;  ///< of the moment
+    std::filesystem::path session_;  ///< the session that holds the moment
     QPointer<QWidget> focusBefore_;
 };
 

@@ -25,7 +25,7 @@ Menus::Menus(MainWindow& window, const QActionGroup& workspaces, DockColumn& doc
     addBench();
     addView(workspaces, docks);
     addHelp();
-    // Their keys work while the menu bar is hidden.
+    // The keys of the menus work while the menu bar is hidden.
     for (const auto* menu : window_.menuBar()->actions()) {
         for (auto* action : menu->menu()->actions())
             if (!action->shortcut().isEmpty()) window_.addAction(action);

@@ -102,8 +102,8 @@ void NoticeBanner::sayOn(InterlockState state) {
     line_.say(controller_.activity() == Activity::Running ? tr("Armed by the run.") : tr("Armed."));
 }
 
-/// In the second frame: the state is there at once, its reason with the control loop's next step. The safety bar shows
-/// it as long as it lasts.
+/// Told in the second frame: the state is known at once, its reason with the control loop's next step. The safety bar
+/// shows it as long as it lasts.
 void NoticeBanner::sayFault(const Telemetry& telemetry) {
     if (telemetry.state != InterlockState::Faulted) {
         faultedFrames_ = 0;
@@ -159,7 +159,7 @@ bool NoticeBanner::eventFilter(QObject* watched, QEvent* event) {
     return QFrame::eventFilter(watched, event);
 }
 
-/// Its text needs another height in another size.
+/// The text needs another height in another size.
 bool NoticeBanner::event(QEvent* event) {
     const bool done = QFrame::event(event);
     if (event->type() == QEvent::LayoutRequest && !isHidden()) lieDown();

@@ -19,12 +19,12 @@ class RecordingLine;
 class NoticeBanner final : public QFrame {
     Q_OBJECT
 public:
-    /// All outlive this. Shows what the controller reports. `over`: the widget at whose lower edge it lies.
+    /// The arguments outlive this. Shows what the controller reports. `over`: the widget at whose lower edge it lies.
     NoticeBanner(BenchController& controller, RecordingLine& line, QWidget& over);
     void complain(const QString& what);
-    /// Until it is dismissed, or `holds` is true no longer after it was; empty: until it is dismissed.
+    /// Shows the text until it is dismissed or `holds` turns from true to false; empty: until it is dismissed.
     void sayWhile(const QString& text, std::function<bool(const Telemetry&)> holds);
-    /// As often as telemetry is read: states and faults, into the log.
+    /// Called as often as telemetry is read: puts states and faults into the log.
     void refresh(const Telemetry& telemetry);
 
 protected:
@@ -44,11 +44,11 @@ private:
     RecordingLine& line_;
     QWidget& over_;
     QLabel* text_;
-    std::function<bool(const Telemetry&)> holds_;  ///< what is said of the output
-    bool held_ = false;                            ///< at the last refresh()
-    bool saidArmed_ = false;                       ///< and nothing since that it is over
-    int framesWithoutReason_ = 0;                  ///< since the bench disarmed
-    int faultedFrames_ = 0;                        ///< since the bench faulted
+    std::function<bool(const Telemetry&)> holds_;  ///< the condition that the text tells of the output
+    bool held_ = false;                            ///< held at the last refresh()
+    bool saidArmed_ = false;                       ///< the bench was said to be armed, and not yet said to be over
+    int framesWithoutReason_ = 0;                  ///< frames without a reason since the bench disarmed
+    int faultedFrames_ = 0;                        ///< frames since the bench faulted
 };
 
 }  // namespace tacto::gui

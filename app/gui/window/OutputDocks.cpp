@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kBetweenBars = 8;
 
-/// By so much of its limit another row has to be nearer than the first to take its place.
+/// How much nearer to its limit another row has to be than the first to take its place, as a share of the limit.
 constexpr double kClearlyNearer = 0.05;
 
 double shareOf(const ExposureRow& row) { return row.evaluated ? row.value / row.limit : -1; }

@@ -15,8 +15,8 @@ namespace tacto::gui {
 
 class DrivePanel;
 
-/// Every limit that holds for what the bench delivers, the nearest first and what was not evaluated last, with the way
-/// to what it lacks.
+/// Every limit that holds for what the bench delivers, the nearest first, the unevaluated ones last, with a way to what
+/// those lack.
 class ExposureDock final : public FoldingDock {
     Q_OBJECT
 public:
@@ -26,7 +26,7 @@ public:
     [[nodiscard]] QString keyFigure() const override { return nearest_; }
 
 signals:
-    void areaWanted();  ///< of the electrode, which current and power density need
+    void areaWanted();  ///< asks for the electrode's area, which current and power density need
 
 private:
     void putInOrder(std::vector<ExposureRow>& rows) const;
@@ -38,19 +38,19 @@ private:
     QPushButton* enterArea_;
     QVBoxLayout* column_;
     std::vector<LimitBar*> bars_;
-    QStringList titles_;  ///< of the bars
+    QStringList titles_;  ///< the titles of the bars
     Instant shownAt_{-1};
     InterlockState shownState_ = InterlockState::Disconnected;
     QString nearest_;
 };
 
-/// What drives the output, in every workspace: off, two sliders, or the fingertip, and what that asks for.
+/// The drive of the output, in every workspace: off, two sliders, or the fingertip, and what that asks for.
 class DriveDock final : public FoldingDock {
     Q_OBJECT
 public:
     DriveDock(BenchController& controller, QWidget* parent);
     void refresh(const Telemetry& telemetry);
-    /// To what drives now: arrows choose from there. Choosing is not done by this.
+    /// Puts the focus on what drives now: arrow keys choose from there. This itself chooses nothing.
     void takeFocus();
     [[nodiscard]] QString keyFigure() const override;
 

@@ -24,7 +24,7 @@ RecordingLine::RecordingLine(BenchController& controller, QStatusBar& bar)
     : QObject(&bar), controller_(controller), bar_(bar) {
     recording_ = new ElidedLabel(&bar);
     recording_->setObjectName("recording");
-    recording_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);  // it gives way to the message
+    recording_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);  // the recording gives way to the message
     bar.addWidget(recording_, 1);
     message_ = new QToolButton(&bar);
     message_->setObjectName("lastMessage");
@@ -119,7 +119,7 @@ void RecordingLine::fitMessage() {
     for (const auto* part : bar_.findChildren<QWidget*>(Qt::FindDirectChildrenOnly))
         if (part != message_ && part != recording_ && !part->isHidden()) room -= part->sizeHint().width();
     message_->setText(metrics.elidedText(said_, Qt::ElideRight, room));
-    if (auto* layout = bar_.layout()) layout->activate();  // not cut until the next turn, after a shorter one
+    if (auto* layout = bar_.layout()) layout->activate();  // else a longer text would be cut until the next turn
 }
 
 bool RecordingLine::eventFilter(QObject* watched, QEvent* event) {

@@ -17,8 +17,8 @@ class RecordingLine final : public QObject {
 public:
     RecordingLine(BenchController& controller, QStatusBar& bar);
     void refresh();
-    /// While blind it says neither how much is written nor when, which come with each train, and messages without their
-    /// numbers.
+    /// While blind it says neither how much is written nor when, as both come with each train, and leaves numbers out
+    /// of messages.
     void setBlind(bool blind);
     /// A message as it may be shown now.
     [[nodiscard]] QString shown(const QString& text) const;
@@ -40,7 +40,7 @@ private:
     QStatusBar& bar_;
     QLabel* recording_;
     QToolButton* message_;
-    QString said_;  // with its time
+    QString said_;  // what was said, with its time
     QStringList log_;
     QElapsedTimer since_;
     QElapsedTimer looked_;

@@ -165,7 +165,7 @@ void SafetyBar::setPauseInstead(std::optional<PauseInstead> instead) {
 
 void SafetyBar::setParticipantsStop(const QString& words) { participantsStop_->setText(words); }
 
-/// Whether a limit is broken, and nothing of how far it is.
+/// Says whether a limit is broken, and nothing of how far it is.
 void SafetyBar::showBlind(const Telemetry& telemetry) {
     const auto rows = telemetry.exposure();
     const auto broken = [](const ExposureRow& row) { return forbids(row); };
@@ -213,7 +213,7 @@ void SafetyBar::giveRoom() {
     const int calibrated = QFontMetrics(textFont(TextSize::Small)).horizontalAdvance(tr(kFactsWidth));
     const int unmeasured = QFontMetrics(textFont(TextSize::Small, QFont::Bold)).horizontalAdvance(tr(kUnmeasured));
     const int facts = std::max(calibrated, unmeasured) + 2 * kBarGap;
-    // While blind no bar is shown, and its room would hold nothing but ellipses.
+    // While blind no bar is shown, and its place would hold nothing but ellipses.
     const int beside = width() - always, forBar = blind_ ? 0 : bars_->oneBarWidth() + kBarGap;
     block_->fit(std::max(beside - forBar, std::min(beside, block_->legibleWidth())));
     const int left = beside - block_->width();
@@ -279,7 +279,7 @@ QString SafetyBar::closedWords() const {
                                      : tr("No bench is open. Ctrl+B opens a simulated one.");
 }
 
-/// The one that has the bench; empty while a person has it.
+/// The protocol that has the bench; empty while a person has it.
 QString SafetyBar::protocol() const {
     const auto open = controller_.open();
     return open && controller_.activity() == Activity::Running ? procedureText(open->about.protocol) : QString();
@@ -304,7 +304,7 @@ void SafetyBar::showDevice(const Telemetry& telemetry) {
     device_->setText(text);
     device_->setToolTip(text);
     const double age_s = noteImpedance(telemetry);
-    // When it was measured last tells when a train came, and the reading itself which.
+    // The time of the last measurement tells when a train came, and the reading itself tells which.
     load_->setText(!open->source || blind_ ? QString()  // a massager has no impedance
                    : std::isfinite(measured_ohm_)
                        ? QString("%1 · %2").arg(quantityText(measured_ohm_, "ohm", 3), ageText(age_s))
@@ -338,7 +338,7 @@ void SafetyBar::showCalibration() {
     const bool counts = !standing || standing->state == CalibrationState::Valid;
     auto text = standing ? standingText(*standing) : QString();
     const auto whole = text;
-    // Where it counts the bar has room for its end; how old it is says the tip.
+    // Where it counts, the bar has room for its end; the tip says how old it is.
     if (standing && counts) text = tr("calibrated until %1").arg(qtext(dateText(standing->newest->validUntil)));
     if (!counts) text = "⚠ " + text;
     if (calibration_->text() != text) {
@@ -357,7 +357,7 @@ void SafetyBar::showExposure(const Telemetry& telemetry) {
         const auto& quantities = allBars()[i].quantities;
         const auto row = quantities.empty() ? netCharge(telemetry) : tightest(rows, quantities);
         bars_->show(i, row, controller_.limits().sets);
-        // It was measured, and stays that of the last pulse.
+        // The value was measured, and stays that of the last pulse.
         if (quantities.empty()) bars_->setTitle(i, off && row ? tr("Last net charge") : tr(allBars()[i].title));
         // Named by the limit that it is beside, as in the dock: one name has one limit.
         if (!quantities.empty()) bars_->setTitle(i, row ? shortRowTitle(*row) : tr(allBars()[i].title));
@@ -391,7 +391,7 @@ void SafetyBar::showButtons(InterlockState state) {
 
 bool SafetyBar::held(InterlockState state) const {
     if (pauseInstead_) return pauseInstead_->paused();
-    // While it delivers the state alone says so: it is there before the loop's next step.
+    // While it delivers, the state alone says so: it is known before the loop's next step.
     const bool mayBegin = controller_.activity() == Activity::Running || state == InterlockState::Checking ||
                           state == InterlockState::Armed;
     return state == InterlockState::Paused || (mayBegin && controller_.paused());

@@ -1,7 +1,7 @@
 // SafetyBar.h - the bar that is visible in every workspace: the interlock in word, shape and colour, what is connected,
 // how far the output is from its limits, and STOP.
 //
-// Where there is little room the state's word gets smaller first, then bars and facts go; STOP and the buttons stay.
+// Where there is little room, the state's word shrinks first, then bars and facts go; STOP and the buttons stay.
 #pragma once
 
 #include <QFrame>
@@ -25,7 +25,7 @@ class LimitBarRow;
 class StateBlock;
 class StopButton;
 
-/// What Pause and Resume do in place of the bench's own, and whether it is paused so.
+/// The actions of Pause and Resume in place of the bench's own, and whether it is paused so.
 struct PauseInstead {
     std::function<void(bool pause)> pause;
     std::function<bool()> paused;
@@ -39,16 +39,16 @@ public:
     void refresh(const Telemetry& telemetry);
     /// During a blind session nothing here shows levels or trains: a word in place of the bars, no pulse with trains.
     void setBlind(bool blind);
-    /// What this display does not tell, for STOP's tool tip.
+    /// Adds to STOP's tool tip what this display does not tell.
     void addToStopTip(const QString& sentence);
     void setParticipantsStop(const QString& words);
-    /// A session holds itself back. Nothing: the bench's own.
+    /// Whether a session pauses by itself. Nothing: the bench's own pause counts.
     void setPauseInstead(std::optional<PauseInstead> instead);
-    /// As the button Pause or Resume.
+    /// Does what the button Pause or Resume does.
     void holdOutput(bool hold);
     /// Whether Pause (true) or Resume (false) would do something, as of the last refresh().
     [[nodiscard]] bool canHold(bool hold) const;
-    /// No train comes until Resume.
+    /// Whether no train comes until Resume.
     [[nodiscard]] bool held(InterlockState state) const;
     /// The state as the bar shows it: while blind, as armed whether or not a train is delivered.
     [[nodiscard]] InterlockState shownState() const { return shown_; }
@@ -56,7 +56,7 @@ public:
 
 signals:
     void armRequested();
-    void detailsRequested();  ///< of a fault
+    void detailsRequested();  ///< the details of a fault are asked for
     void resumed();           ///< by hand
 
 protected:
@@ -88,25 +88,25 @@ private:
     ElidedLabel* load_ = nullptr;
     ElidedLabel* calibration_ = nullptr;
     LimitBarRow* bars_ = nullptr;
-    FaultBanner* fault_ = nullptr;   ///< in place of facts and bars
-    QWidget* blindFacts_ = nullptr;  ///< in place of the bars
+    FaultBanner* fault_ = nullptr;   ///< shown in place of facts and bars
+    QWidget* blindFacts_ = nullptr;  ///< shown in place of the bars
     QLabel* within_ = nullptr;
     QLabel* participantsStop_ = nullptr;
     bool blind_ = false;
-    QString moreOfStop_;  // of its tip
+    QString moreOfStop_;  // the rest of STOP's tip
     std::optional<PauseInstead> pauseInstead_;
     bool paused_ = false;  ///< as shown
     QWidget* buttons_ = nullptr;
     ConfirmButton* action_ = nullptr;  ///< Arm…, Disarm, Reset…
     ConfirmButton* pause_ = nullptr;
-    QPushButton* details_ = nullptr;  ///< in its place while faulted
+    QPushButton* details_ = nullptr;  ///< shown in its place while faulted
     StopButton* stop_ = nullptr;
     double measured_ohm_ = NAN;  ///< |Z| as last measured on this bench
-    double measuredAt_s_ = NAN;  ///< on its clock
+    double measuredAt_s_ = NAN;  ///< when it was measured, on the bench's clock
     std::weak_ptr<BenchTap> measuredOn_;
     std::uint64_t trainsSeen_ = 0;
     std::uint64_t refusalsSeen_ = 0;
-    bool refused_ = false;  // no train was delivered since one was
+    bool refused_ = false;  // the newest train was refused
     bool factsFit_ = true;
     int pulse_ = 0;  ///< frames left of the flash that goes with each train
     InterlockState state_ = InterlockState::Disconnected;

@@ -25,7 +25,7 @@ public:
     SignalClose& operator=(const SignalClose&) = delete;
 
 private:
-    /// When the first signal came.
+    /// The moment of the first signal.
     using First = std::shared_ptr<std::optional<std::chrono::steady_clock::time_point>>;  // the waiting thread's
     static void note(const First& first);
 

@@ -23,7 +23,7 @@ StartedWith refused(const QString& sentence, int exitCode) {
 
 StartedWith StartedWith::read(const QStringList& arguments) {
     QCommandLineParser parser;
-    // As Qt writes its own, so that the h of "-stylesheet" is not "-h".
+    // Parses as Qt does its own, so that the h of "-stylesheet" is not "-h".
     parser.setSingleDashWordOptionMode(QCommandLineParser::ParseAsLongOptions);
     const auto help = parser.addHelpOption();
     const auto version = parser.addVersionOption();

@@ -10,7 +10,7 @@
 namespace tacto::gui {
 
 struct StartedWith {
-    /// What is printed in place of a window.
+    /// The text that is printed in place of a window.
     struct Answer {
         QString text;
         int exitCode = 0;  ///< as tactoscope-cli's: 0 help or version (stdout), 2 usage, 3 no such file (both stderr)

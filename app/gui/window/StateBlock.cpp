@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kSmallest = 1.5;
 constexpr double kStep = 0.1;
-constexpr double kLegible_pt = 28;  // from two metres
+constexpr double kLegible_pt = 28;  // to be read from two metres
 constexpr int kBeforeWord = 56;     // the shape in it
 constexpr int kBehindWord = 24;
 constexpr int kStateShape = 28;
@@ -99,7 +99,7 @@ void StateBlock::showShape(bool pulse) {
     shape_->setPixmap(iconPixmap(style.icon, style.ink, size, devicePixelRatioF()));
 }
 
-/// As a sheet: under the program's own sheet a label's palette does not hold.
+/// The colour is set by a sheet: under the program's own sheet a label's palette does not hold.
 void StateBlock::colour() {
     const auto style = stateStyle(state_);
     const auto sheet = QString(
@@ -107,7 +107,7 @@ void StateBlock::colour() {
                            "QFrame#stateBlock QLabel { background: transparent; color: %2; }")
                            .arg(style.ground.name(), style.ink.name(),
                                 (style.ground == colours().base ? colours().line : style.ground).name());
-    if (styleSheet() != sheet) setStyleSheet(sheet);  // which changes the palette, too
+    if (styleSheet() != sheet) setStyleSheet(sheet);  // a new sheet changes the palette, too
     showShape(false);
 }
 

@@ -18,9 +18,9 @@ public:
     void show(InterlockState state, const QString& reason, bool pulse);
     /// Takes the largest text at which the longest word needs at most `width` pixels; never below smallestWidth().
     void fit(int width);
-    /// In pixels, for the longest word at 28 pt: from there on it gives way to what stands beside it.
+    /// The width for the longest word at 28 pt, in pixels: above it the state makes room for what stands beside it.
     [[nodiscard]] int legibleWidth() const;
-    /// In pixels, for the longest word at 1.5 times the text's size.
+    /// The width for the longest word at 1.5 times the text's size, in pixels.
     [[nodiscard]] int smallestWidth() const;
 
 private:

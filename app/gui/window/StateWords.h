@@ -11,8 +11,8 @@
 
 namespace tacto::gui {
 
-/// "A train every 500 ms, set by hand. Space stops." `protocol` is the name of the one that has the bench; empty: a
-/// person has it. What was commanded decides, not what was asked last. `refused`: the last train was, by a limit.
+/// "A train every 500 ms, set by hand. Space stops." `protocol` names the one that has the bench; empty: a person has
+/// it. The sentence follows what was commanded, not what was last asked. `refused`: a limit refused the last train.
 [[nodiscard]] QString stateWords(const Telemetry& telemetry, const QString& protocol, bool refused = false);
 
 /// "stopped with Esc" of "operator (Esc)", as the bench keeps it; any other reason as it is.
@@ -24,9 +24,9 @@ namespace tacto::gui {
 /// Whether no train is delivered, and none follows before the operator arms: disconnected, disarmed, faulted.
 [[nodiscard]] bool outputIsOff(InterlockState state);
 
-/// The rows of `telemetry`. While the output is off a quantity of single pulses and trains is 0, for none is delivered;
-/// one over a window still has the trains of that window in it, as the gate counts them. What was not evaluated stays
-/// so. None while the output is off and nothing has been judged against a limit yet: unknown is not 0.
+/// The rows of `telemetry`. While the output is off, a quantity of single pulses and trains is 0, as none is delivered;
+/// a quantity over a window still includes the trains of that window, as the gate counts them. Unevaluated rows stay
+/// so. There are no rows while the output is off and nothing has been judged against a limit yet: unknown is not 0.
 [[nodiscard]] std::vector<ExposureRow> exposureNow(const Telemetry& telemetry);
 
 }  // namespace tacto::gui

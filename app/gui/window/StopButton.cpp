@@ -31,7 +31,7 @@ StopButton::StopButton(std::function<void()> stop, QWidget* parent)
     setAccessibleName(tr("STOP"));
     setAutoDefault(false);
     setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Expanding);
-    // When it goes down: the output does not wait for the finger to come up again.
+    // Acts when the button goes down: the output does not wait for the finger to come up again.
     connect(this, &QPushButton::pressed, this, [this] { stop_(); });
     qApp->installEventFilter(this);
     onFontChange(*this, [this] { updateGeometry(); });

@@ -19,7 +19,7 @@ class StopButton final : public QPushButton {
     Q_OBJECT
 public:
     StopButton(std::function<void()> stop, QWidget* parent);
-    /// In place of the keys below the word.
+    /// Shows a hint in place of the keys below the word.
     void setHint(const QString& hint);
     /// Room for the word and the keys: never cut.
     [[nodiscard]] QSize sizeHint() const override;
@@ -31,7 +31,7 @@ protected:
 
 private:
     [[nodiscard]] static std::optional<QPoint> pressedAt(const QEvent& event);
-    bool taken_ = false;  // the press of which the release comes next
+    bool taken_ = false;  // the press whose release comes next
     const std::function<void()> stop_;
     QString hint_;
 };

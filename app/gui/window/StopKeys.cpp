@@ -80,13 +80,13 @@ bool StopKeys::isParticipants(const QObject* watched) {
 bool StopKeys::pressed(QObject* watched, const QKeyEvent& key) {
     const auto* focus = QApplication::focusWidget();
     const bool theirs = isParticipants(watched);
-    // Each press is one stop of theirs, and their third ends a session; a key that is held has stopped already.
+    // Each press is one of their stops, and the third ends a session; a key that is held has stopped already.
     const bool held = key.isAutoRepeat();
     if (theirs && held) return false;
     switch (key.nativeVirtualKey() == kBreak ? Qt::Key_Pause : key.key()) {
         case Qt::Key_Escape:
             stop_(theirs ? "participant (Esc)" : held ? "operator (Esc, held)" : "operator (Esc)");
-            return false;  // it closes dialogs and popups too
+            return false;  // Escape closes dialogs and popups too
         case Qt::Key_Pause:
             stop_(theirs ? "participant (Pause)" : held ? "operator (Pause, held)" : "operator (Pause)");
             return true;

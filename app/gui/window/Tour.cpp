@@ -17,8 +17,8 @@ namespace {
 
 constexpr int kLookInterval_ms = 60;
 constexpr int kWidthChars = 46;
-constexpr int kMargin = 24;       // from the window's edges
-constexpr int kAboveStatus = 48;  // from its lower edge
+constexpr int kMargin = 24;       // distance from the window's edges
+constexpr int kAboveStatus = 48;  // distance from the window's lower edge
 
 }  // namespace
 
@@ -102,7 +102,7 @@ void Tour::look() {
     const auto& now = steps_[step_];
     const auto target = now.target ? now.target() : TourTarget{};
     bringIntoView(target.widget);
-    if (!frame_) frame_ = new TourFrame(window());  // it went with a dialog
+    if (!frame_) frame_ = new TourFrame(window());  // the frame went with a dialog
     frame_->follow(target);
     if (const auto text = now.text(); !done_.isValid() && text_->text() != text) text_->setText(text);
     const bool isDone = now.done && now.done();
@@ -119,7 +119,7 @@ void Tour::showPlace(bool done) {
     place_->setText((done ? tr("%1 of %2 ✔ done") : tr("%1 of %2")).arg(step_ + 1).arg(steps_.size()));
 }
 
-/// Once, when it becomes the one that is talked about: what the user scrolls afterwards stays.
+/// Done once, when it becomes the one that is talked about: what the user scrolls afterwards stays.
 void Tour::bringIntoView(QWidget* control) {
     if (control == shown_ || control == nullptr || !control->isVisible()) return;
     shown_ = control;
@@ -128,12 +128,12 @@ void Tour::bringIntoView(QWidget* control) {
     }
 }
 
-/// Where it hides least of the control, the lower right corner first; below the safety bar: STOP is never covered.
+/// Placed where it hides least of the control, if possible at the lower right; below the safety bar: STOP stays free.
 void Tour::place() {
-    // Never half of the window: a control beside it has room.
+    // Never as wide as half the window: a control beside it has room.
     const int wide =
         std::min(fontMetrics().averageCharWidth() * kWidthChars, parentWidget()->width() / 2 - 4 * kMargin);
-    // Measured here: the label's own answer is that of the size of text before, when that has just changed.
+    // Measured here: the label itself still answers for the last size of text when that has just changed.
     const QRect any(0, 0, wide, QWIDGETSIZE_MAX);
     text_->setFixedSize(wide, text_->fontMetrics().boundingRect(any, Qt::TextWordWrap, text_->text()).height() + 2);
     layout()->activate();
@@ -168,15 +168,15 @@ bool Tour::eventFilter(QObject* watched, QEvent* event) {
 namespace {
 
 constexpr int kLine = 3;  // px at the designed size of text
-constexpr int kHalo = 1;  // on either side of it, so that it stands out on any ground
+constexpr int kHalo = 1;  // width on either side, so that it stands out on any ground
 
-/// What can be seen of it, in the coordinates of its window; empty where nothing can.
+/// The visible part, in the coordinates of its window; empty where nothing of it can be seen.
 QRect visiblePart(const TourTarget& target) {
     auto* widget = target.widget;
     if (widget == nullptr || !widget->isVisible()) return {};
     auto seen = widget->rect();
     if (!target.part.isNull()) seen &= target.part;
-    // What its ancestors cut off. Not visibleRegion(): what lies over it, as the frame does, would be taken off.
+    // Leaves out what its ancestors cut off. visibleRegion() would also leave out what lies over it, as the frame does.
     for (auto* inside = widget; !inside->isWindow() && inside->parentWidget() != nullptr;) {
         seen.translate(inside->pos());
         inside = inside->parentWidget();
@@ -197,7 +197,7 @@ TourFrame::TourFrame(QWidget* window) : QWidget(window) {
 void TourFrame::follow(const TourTarget& target) {
     const auto seen = visiblePart(target);
     if (seen.isEmpty()) return hide();
-    // A dialog is a window of its own: the frame goes there. Deleted with it, it is made anew by the tour.
+    // A dialog is a window of its own: the frame goes there. If it is deleted with the dialog, the tour makes another.
     auto* window = target.widget->window();
     if (parentWidget() != window) setParent(window);
     const int line = scaledPx(kLine) + 2 * kHalo;

@@ -49,7 +49,7 @@ class Tour final : public QFrame {
     Q_OBJECT
 public:
     Tour(std::vector<TourStep> steps, QWidget* window);
-    /// From this step on, from 0; beyond the last: from the first.
+    /// Begins at this step, from 0; at the first, where the number is too large.
     void begin(int step);
     [[nodiscard]] int step() const { return int(step_); }
     /// A text that stays as it is.
@@ -77,8 +77,8 @@ private:
 
     std::vector<TourStep> steps_;
     std::size_t step_ = 0;
-    bool waits_ = false;  ///< it was done already when Back led here: it goes on only when it is done again
-    QElapsedTimer done_;  ///< since it was seen to be done; invalid before
+    bool waits_ = false;  ///< the step was done when Back led here: it leads on only when it is done again
+    QElapsedTimer done_;  ///< how long ago it was seen to be done; invalid before
     QTimer look_;
     QPointer<TourFrame> frame_;
     QPointer<QWidget> shown_;  ///< the control in the frame

@@ -23,7 +23,7 @@ constexpr int kSeparabilityPage = 3;
 constexpr int kSessionsPage = 5;
 constexpr int kTouchTab = 0;
 constexpr int kScopeTab = 1;
-constexpr int kOpenStep = 1;  // of the tour: the simulated bench
+constexpr int kOpenStep = 1;  // the tour's step that opens the simulated bench
 constexpr int kInside = 8;
 constexpr int kSee_ms = 1200;
 constexpr int kReadFor_ms = 6000;  // where something is to be read when it is done
@@ -43,7 +43,7 @@ WelcomeTour::WelcomeTour(MainWindow& window) : QObject(&window), window_(window)
             if (enter) enter();
         };
         if (int(i) <= kOpenStep) continue;
-        // It leads through arming and driving: on simulated devices alone.
+        // The tour leads through arming and driving: on simulated devices alone.
         step.target = [this, target = std::move(step.target)] { return target && !isReal() ? target() : TourTarget{}; };
         step.done = [this, done = std::move(step.done)] { return done && !isReal() && done(); };
     }
@@ -66,7 +66,7 @@ WelcomeTour::WelcomeTour(MainWindow& window) : QObject(&window), window_(window)
     });
 }
 
-/// What was left behind the opened bench is taken up on a simulated one again.
+/// Resumes on a simulated bench what was left behind the opened one.
 void WelcomeTour::begin() {
     const int left = QSettings().value("tourStep", 0).toInt();
     const auto open = controller_.open();
@@ -156,7 +156,7 @@ std::vector<TourStep> WelcomeTour::toTheVerdict() {
     };
 }
 
-/// What needs the output says how it is had again: a step back, a stop or a fault may have ended it.
+/// A step that needs the output says how to get it again: a step back, a stop or a fault may have ended it.
 std::function<QString()> WelcomeTour::whileOn(const QString& text) const {
     return [this, text] {
         return isOn(state()) ? text
@@ -164,7 +164,7 @@ std::function<QString()> WelcomeTour::whileOn(const QString& text) const {
     };
 }
 
-/// Once they are open, the newest one.
+/// The newest session, once they are open.
 TourTarget WelcomeTour::sessionsTarget() {
     if (window_.workspace() != kSessionsPage) return workspaceButton(kSessionsPage);
     if (!newest_.isEmpty()) window_.openFile(std::exchange(newest_, {}));

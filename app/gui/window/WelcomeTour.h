@@ -18,7 +18,7 @@ public:
     /// The window owns it. What was left or finished is not begun again by itself ("tourDone" in the settings); where
     /// it was left is kept as well ("tourStep").
     explicit WelcomeTour(MainWindow& window);
-    /// Where it was left, else from the first step; behind the opened bench only while a simulated one is open.
+    /// Begins where it was left, else at the first step; beyond the opened bench only while a simulated one is open.
     void begin();
 
 private:
@@ -39,7 +39,7 @@ private:
     MainWindow& window_;
     BenchController& controller_;
     Tour* tour_ = nullptr;
-    // Since the present step began:
+    // When the present step began:
     StopMark begun_;
     int presented_ = 0;
     int captured_ = 0;

@@ -48,7 +48,7 @@ WorkspaceRail::WorkspaceRail(QWidget* parent)
         button->setFocusPolicy(Qt::TabFocus);
         button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
         setTextSize(*button, TextSize::Small);
-        parentWidget()->addAction(action);  // its key, wherever the focus is
+        parentWidget()->addAction(action);  // so that its key works wherever the focus is
         ++index;
     }
     fit();

@@ -14,11 +14,11 @@ public:
     /// One action each, in the order of the window's pages; a menu may hold them too.
     [[nodiscard]] const QActionGroup& workspaces() const noexcept { return *workspaces_; }
     void setCurrent(int index);
-    /// All but one, or none, are out of reach, for a reason that their tool tips say.
+    /// Puts all workspaces but one, or all, out of reach, for a reason that their tool tips give.
     void keepTo(std::optional<int> index, const QString& reason);
 
 signals:
-    /// By click, key or menu.
+    /// chosen by click, key or menu
     void chosen(int index);
 
 private:

@@ -159,7 +159,7 @@ void Workspaces::refresh(const Telemetry& telemetry, bool measured) {
     letYield(*this, telemetry.state == InterlockState::Faulted);  // to Reset
     live_->refresh(telemetry, currentIndex() == kLive && !showsScope());
     if (measured || showsScope()) scope_->refresh(telemetry);
-    // One of them takes what a run says: the one it was started from, told apart by themselves.
+    // One of them takes what a run says, namely the one that started it; they tell themselves apart.
     for (auto* protocol : runners()) protocol->refresh();
     if (pilot_ != nullptr) pilot_->refresh(telemetry);
 }
@@ -178,7 +178,7 @@ void Workspaces::openFile(const QString& path) {
         if (opened) showPage(kSessions);
     } else if (captureFormats()->knowsSuffix(path.toStdString())) {
         opened = scope_->openCaptureFile(path);
-        showLive(kScope);  // which also says why not
+        showLive(kScope);  // this also says why not
     } else {
         emit complained(tr("%1 is not a recording (a folder or recording.json), session (*.tacto) or capture (%2)")
                             .arg(path, ScopeFiles::captureGlobs()));

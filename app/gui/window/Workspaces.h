@@ -1,5 +1,5 @@
 // Workspaces.h - the window's seven workspaces, one of them shown. Live is there from the start; each other is made
-// when it is first needed: all of them take as long as the rest of the window.
+// when it is first needed: together they take as long as the rest of the window.
 #pragma once
 
 #include <QStackedWidget>
@@ -23,41 +23,41 @@ class TabbedPage;
 class Workspaces final : public QStackedWidget {
     Q_OBJECT
 public:
-    /// In the order at the left.
+    /// The pages in their order at the left.
     enum Page { kLive, kCalibrate, kSafetyCheck, kSeparability, kPilot, kSessions, kProtocols };
     enum LiveTab { kTouch, kScope };
-    /// Both outlive it.
+    /// Both arguments outlive it.
     Workspaces(BenchController& controller, CalibrationBook& calibrations, QWidget* parent);
-    /// Nothing for a number that there is none of, and for another than Pilot's while a session there is blind.
+    /// Does nothing for a number without a page, and for any page but Pilot's while a session there is blind.
     void showPage(int page);
     void showLive(LiveTab tab);
-    /// Whether the oscilloscope is what is shown.
+    /// Whether the oscilloscope is shown.
     [[nodiscard]] bool showsScope() const;
     /// The keys that follow are meant for the workspace. Not for a field of text in it: there Space would not stop.
     void takeFocus();
-    /// Without tabs, tools and paths.
+    /// Hides tabs, tools and paths.
     void showPlotOnly(bool only);
     /// `measured`: the oscilloscope's readings are shown beside the workspace, whichever it is.
     void refresh(const Telemetry& telemetry, bool measured);
-    /// A recording (a folder or its JSON), a session or a capture; complained() says so when it is none of them.
+    /// Opens a recording (a folder or its JSON), a session or a capture; complained() says so when it is none of them.
     void openFile(const QString& path);
 
     [[nodiscard]] LiveWorkspace& live() const { return *live_; }
     [[nodiscard]] ScopeWorkspace& scope() const { return *scope_; }
     /// Null until it is made.
     [[nodiscard]] PilotWorkspace* pilot() const { return pilot_; }
-    /// Those that run protocols, as far as they are made.
+    /// The workspaces that run protocols, as far as they are made.
     [[nodiscard]] std::vector<ProtocolWorkspace*> runners() const;
 
 signals:
-    /// Another workspace, or another page of Live.
+    /// Another workspace is shown, or another page of Live.
     void shown();
     void pilotMade();
     void complained(const QString& why);  ///< about a file or a recording that was not opened
     void markWanted();
     void plotOnlyWanted();
     void simulatedBenchWanted();
-    void captured(std::shared_ptr<const tacto::Capture> capture);  ///< by a run
+    void captured(std::shared_ptr<const tacto::Capture> capture);  ///< a run has captured this
 
 private:
     void make(int page);
