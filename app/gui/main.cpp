@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
         return answer({"tactoscope: " + tacto::gui::qtext(*refused), 3});
     if (const auto none = tacto::gui::DisplayWatch::noneIsNamed(arguments)) return answer({*none, 3});
     QLocale::setDefault(QLocale::c());  // numbers are written alike everywhere
-    tacto::SignalStop stops;            // before any other thread
+    tacto::SignalStop stops;            // made before any other thread
     std::optional<tacto::gui::DisplayWatch> watch(std::in_place);
     QApplication application(argc, argv);
     watch.reset();
