@@ -23,7 +23,7 @@ protocol({
       value: "study",
     },
     blocks: { label: "Blocks of the test (rehearsals)", type: "integer", min: 1, max: 50, value: 5 },
-    exclusions: { label: "Checklist: what is answered yes", type: "text", value: "" },
+    exclusions: { label: "Checklist: items answered yes", type: "text", value: "" },
     method: {
       label: "Detection by",
       type: "choice",

@@ -120,7 +120,7 @@ QWidget* CertificateDialog::buildForm() {
         return &whole->line();
     };
     const std::array tips{tr("Maker and model."), tr("As the instrument reports it. It tells two of a model apart."),
-                          tr("As on the certificate."), tr("Who issued it.")};
+                          tr("As it stands on the certificate."), tr("Who issued it.")};
     for (std::size_t i = 0; i < texts_.size(); ++i) {
         const auto& text = kCertificateTexts[i];
         texts_[i] = field(titled(qtext(text.title)), qtext(text.key), tips[i]);

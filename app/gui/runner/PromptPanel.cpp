@@ -123,7 +123,7 @@ QWidget* PromptPanel::buildChoices(const OperatorQuestion& question) {
         first_->setObjectName("confirmArming");
         first_ = nullptr;
     } else if (question.kind == OperatorQuestion::Kind::Confirm) {
-        add(tr("Done"), "yes", tr("It is as the sentence says."));
+        add(tr("Done"), "yes", tr("Confirms that it is as the sentence says."));
     }
     for (const auto& [key, text] : question.choices) {
         const auto name = QString::fromStdString(key);

@@ -169,7 +169,7 @@ QWidget* StudyList::buildOfOne() {
         say({});
         askForConsent(code_);
     });
-    auto* more = pageButton(tr("More"), "moreOfOne", tr("Their page, leaving, withdrawing."), holder);
+    auto* more = pageButton(tr("More"), "moreOfOne", tr("Their page, and ways to leave or withdraw."), holder);
     more->setMenu(new QMenu(more));
     addAction(*more, tr("Their page in plain words…"), "pageOfOne", [this] {
         makeReport(tr("The page for %1").arg(code_), "for-participant.pdf", {"--participant", code_});

@@ -184,7 +184,7 @@ std::optional<QString> savePicture(const Still& still, const QString& path) {
         return QObject::tr("%1 was not saved: its name must end in .png, .svg or .pdf.").arg(path);
     }
     if (const auto written = writeWholeFile(path.toStdString(), bytes.toStdString()); !written) {
-        return QObject::tr("%1 was not saved: %2. A file of that name is as it was.")
+        return QObject::tr("%1 was not saved: %2. An existing file of that name was not changed.")
             .arg(path, QString::fromStdString(written.error().message));
     }
     return {};

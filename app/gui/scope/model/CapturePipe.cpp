@@ -206,7 +206,7 @@ std::optional<QString> saveData(const ShownCapture& shown, double from_s, double
         part.channels.push_back(std::move(channel));
     }
     if (const auto written = writeCapture(path.toStdString(), part); !written) {
-        return QObject::tr("%1. A file of that name is as it was.")
+        return QObject::tr("%1. An existing file of that name was not changed.")
             .arg(QString::fromStdString(written.error().message));
     }
     return {};

@@ -155,7 +155,7 @@ void MaskPanel::say() {
                      .arg(titled(QString::fromStdString(worst.channel)), quantityText(worst.time_s, "s"),
                           quantityText(worst.value, unit), quantityText(worst.limit, unit));
     }
-    if (counts_.notJudged > 0) lines << tr("The last not judged: %1.").arg(whyNot_);
+    if (counts_.notJudged > 0) lines << tr("The last one was not judged: %1.").arg(whyNot_);
     if (lines.isEmpty()) lines << tr("Captures are not tested.");
     says_->setText(lines.join('\n'));
     setTone(*says_, first_ || !problem_.isEmpty() ? Tone::Warning : Tone::Quiet);
