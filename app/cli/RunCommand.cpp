@@ -283,7 +283,7 @@ void printSummary(const ScriptOutcome& outcome, const json& value) {
     if (value["report"].is_string()) say("  report   {}\n", value["report"].get<std::string>());
 }
 
-/// At once: a report may take long, and can be made later.
+/// Ends at once: a report may take long, and can be made later.
 [[noreturn]] void endBeforeReports(const std::string& session) {
     if (takesMore(STDERR_FILENO))
         say(stderr,
@@ -293,7 +293,7 @@ void printSummary(const ScriptOutcome& outcome, const json& value) {
     std::_Exit(kStopped);
 }
 
-/// Ends at once: a report may take long, and can be made later.
+/// Writes them beside the session; returns the last one's path, or null when there is none.
 json writeReports(const RunFiles& files, const std::vector<const char*>& endings) {
     json report = nullptr;
     for (const auto* ending : endings) {

@@ -83,7 +83,7 @@ public:
     /// Uses these instead of measuring, reset() included; for a declared baseline that lies behind the frames that need
     /// it.
     void presetRest(const RestLevels& rest);
-    /// No more samples will come: appends the frames that are still waiting.
+    /// The levels in use, once they are known.
     [[nodiscard]] const RestLevels* rest() const noexcept;
 
     /// The streams given to create(), in the units in use.

@@ -49,7 +49,7 @@ struct SegmentResponse {
     std::size_t count = 0;
     double endCapacitorVoltage = 0;
 
-    /// The voltage at `t_s` from the segment's start; outside the segment, the value at its nearer end.
+    /// A view into this object: not of a temporary, which `for (… : respond(…).pieces())` would outlive.
     [[nodiscard]] std::span<const ResponsePiece> pieces() const& noexcept { return {items.data(), count}; }
     std::span<const ResponsePiece> pieces() const&& = delete;
     /// The voltage at `t_s` from the segment's start; outside the segment, the value at its nearer end.

@@ -44,7 +44,7 @@ public:
         const auto bound = [&](double at) { return at == s ? programmed : Time(Seconds(at)); };
         return {bound(least(s)), bound(most(s))};
     }
-    /// The range of a time; a time without a spread stays as it is to the last bit.
+    /// The smallest ratio of delivered to programmed, at `programmed` and at the ends of the line; above 0.
     [[nodiscard]] double leastRatio(double programmed) const noexcept;
 
 private:

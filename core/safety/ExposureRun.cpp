@@ -247,7 +247,7 @@ Sums cutBetween(const Plan& plan, const Run& worst, double apart) noexcept {
     return extraOfCut(train, larger(sumsIn(runFrom(undriven, apart).whole), Sums{}));
 }
 
-/// The share of the charge found by a train that is left when the next begins.
+/// The share of what a train finds on the capacitor that is left when the next begins.
 double slopeOf(const Plan& plan, const Run& rested) noexcept {
     if (!std::isinf(plan.limits.compliance_V)) {
         const double probe = rested.peakVoltage;

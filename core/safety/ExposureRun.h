@@ -37,7 +37,7 @@ struct Run {
     // A stretch of n periods holds at most n times `pulse`, part by part the most of any pulse, and `cut`: it may begin
     // in a part of one pulse and end in the same part of another.
     Sums pulse, cut;
-    Sums cutTrain;             // whole trains cut short, which may find the load differently
+    Sums cutTrain;             // the same as `cut` for whole trains, which may find the load differently
     TrainSums inDuration;      // the sums over n / rate
     TrainSums whole;           // the sums with the rest until the next train
     double endOfTrain = 0;     // Capacitor voltage after n / rate, V

@@ -129,8 +129,8 @@ public:
     /// The participant called `level` uncomfortable; nothing exceeds it afterwards, also after configure() for the same
     /// participant. Voids every approval. Errors: NotArmed outside person mode; InvalidArgument unless finite and ≥ 0.
     [[nodiscard]] Result<void> reportDiscomfort(Milliamps level);
-    /// Accepts it for a person at a massager (see AcceptedLevels.h). Errors: NotArmed for anyone else; InvalidArgument
-    /// unless 0 to 1; LimitExceeded of acceptIntensity() for an intensity that was not permitted.
+    /// Both as for levels, for a person at a massager (see AcceptedLevels.h). Errors: NotArmed for anyone else;
+    /// InvalidArgument unless 0 to 1; LimitExceeded of acceptIntensity() for an intensity that was not permitted.
     [[nodiscard]] Result<void> acceptIntensity(double intensity);
     [[nodiscard]] Result<void> reportUncomfortable(double intensity);
     /// The highest intensity that a burst may have now; nothing but for a person at a massager.

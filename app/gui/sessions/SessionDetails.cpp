@@ -150,7 +150,7 @@ SessionDetails::SessionDetails(const ShippedLimits& limits, QWidget* parent) : Q
 /// Shows all of them where there is room, judged by what is in sight: see fitPanes() of the workspace.
 void SessionDetails::fitTabs() { tabBar()->setUsesScrollButtons(widthInSight(*this) < tabBar()->sizeHint().width()); }
 
-/// Shows all tabs where there is room, judged by what is in sight: see fitPanes() of the workspace.
+/// Takes theme and size of text.
 void SessionDetails::fitLook() {
     fitTabs();
     for (auto* table : {trials_, streams_, captures_}) fitRecordTable(*table);

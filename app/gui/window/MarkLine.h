@@ -21,7 +21,8 @@ class MarkLine final : public QFrame {
 public:
     /// `over`: the widget at whose lower edge it lies, above `notice` while that is there.
     MarkLine(BenchController& controller, RecordingLine& line, QWidget& over, QWidget& notice);
-    /// `over`: the widget at whose lower edge it lies, above `notice` while that is shown.
+    /// Takes this moment, and asks for its word; a line that is still open marks the earlier moment. Where nothing is
+    /// recorded it says so by refused().
     void begin();
 
 signals:

@@ -80,11 +80,12 @@ private:
     int taken_ = 0;
 };
 
-/// nobody asked for it any more
+/// Chooses the captures for the screen: the bench's, from the open session, or those of a file; and the bench's last
+/// train, which stays while the output is off.
 class ScopeFeed {
 public:
     enum class Taken {
-        Nothing,   ///< it was not asked for any more
+        Nothing,   ///< nobody asked for it any more
         Held,      ///< the shown capture stays: this one would say nothing
         Shown,     ///< one more of its source is shown
         ShownAnew  ///< the first of another source: what was counted is over
