@@ -102,7 +102,7 @@ public:
 private:
     /// Compares one channel, or all at once, with itself some samples before.
     struct Repeats {
-        double since_s = 0;                       // since when the last different value has stood still
+        double since_s = 0;                       // time of the last different value, while it repeats
         std::uint64_t run = 0;                    // goes on
         std::uint64_t matched = 0, repeated = 0;  // before that: all values, and those that its noise may have repeated
     };
