@@ -100,7 +100,7 @@ Result<void> BenchPulse::request() {
 }
 
 Result<PulseOutcome> BenchPulse::deliver() {
-    // A unit whose past is unknown gets no approval before its record is complete.
+    // On a unit with an unknown past nothing is approved before this moment.
     while (!stopped_ && record_ && clock_.now() < record_->quietUntil())
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
     if (stopped_) return fail(ErrorCode::Stopped, "stopped: nothing was delivered");
