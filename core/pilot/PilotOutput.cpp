@@ -242,7 +242,7 @@ Result<void> PilotOutput::afterThePause(const StageTrial& trial) {
 Result<void> PilotOutput::recover(const std::string& during, const Error& why) {
     rest();
     if (stage_.ended() != PilotEnd::Unfinished) return tl::unexpected<Error>(why);
-    if (runEnds_) {  // ends for good, though another person pressed, too
+    if (runEnds_) {  // the run ends for good, even if another person pressed as well
         const auto noted = interrupted(during, why);
         return noted ? tl::unexpected<Error>(why) : noted;
     }

@@ -25,7 +25,7 @@ namespace tacto::hid {
 struct HapticControls {
     std::uint8_t report = 0;  ///< number of the output report
     std::size_t length = 0;   ///< its length, the byte of its number included
-    HidField trigger;         ///< ManualTrigger: takes an ordinal
+    HidField trigger;         ///< ManualTrigger, which takes an ordinal
     HidField intensity;
     std::optional<HidField> repeatCount;
     std::optional<HidField> retriggerPeriod;

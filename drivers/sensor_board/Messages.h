@@ -98,7 +98,7 @@ struct Refusal {
 [[nodiscard]] Result<Refusal> readRefusal(const Frame& frame);
 /// The time at which DONE was said, if it answers `command`.
 [[nodiscard]] Result<std::uint64_t> readDone(const Frame& frame, Command command);
-/// Never allocates. Nothing for a payload that is not a block.
+/// Reads a block without allocating; returns nothing for a payload that is not a block.
 [[nodiscard]] std::optional<DataBlock> readBlock(const Frame& frame) noexcept;
 
 /// The payload of SET_CONFIGURATION after its token.

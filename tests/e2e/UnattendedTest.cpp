@@ -89,7 +89,7 @@ public:
     }
 
 private:
-    /// The server has done what was asked before.
+    /// Waits until the server has done all that it was asked.
     void settle() { std::free(xcb_get_input_focus_reply(to_, xcb_get_input_focus(to_), nullptr)); }
 
     xcb_connection_t* to_;

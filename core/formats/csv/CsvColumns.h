@@ -23,9 +23,9 @@ struct CsvColumn {
 /// Whether every field is in brackets or a unit, and one of them is of time: the second of two header lines.
 [[nodiscard]] bool isLineOfUnits(const CsvLine& line);
 
-/// A field of such a line without the brackets about it, and without a word before the unit ("Unit: mV").
+/// Takes the brackets off a field of the line of units, and a word before the unit ("Unit: mV").
 [[nodiscard]] std::string_view unitTextOf(std::string_view field);
-/// The unit in it.
+/// The unit that such a field names.
 [[nodiscard]] std::optional<SpelledUnit> unitField(std::string_view field);
 
 /// Whether a column counts rows: "index", "Sample".
