@@ -2,13 +2,11 @@
 
 #include <QDialogButtonBox>
 #include <QEvent>
-#include <QGridLayout>
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QVBoxLayout>
 #include <array>
 
-#include "app/gui/theme/EntryFields.h"
 #include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -48,7 +46,7 @@ CertificateDialog::CertificateDialog(BenchController& controller, QWidget* paren
     row->addStretch(1);
     row->addWidget(withdraw_);
     column->addLayout(row);
-    column->addWidget(buildForm());
+    buildForm(*column);
     column->addStretch(1);
     page->hold(all);
     auto* frame = new QVBoxLayout(this);
@@ -73,14 +71,14 @@ CertificateDialog::CertificateDialog(BenchController& controller, QWidget* paren
     if (const auto open = controller.open()) {
         for (const auto& device : open->about.devices) {
             if (device.role != nameOf(Role::Oscilloscope)) continue;
-            texts_[0]->setText(qtext(device.name));
-            texts_[1]->setText(qtext(device.serial));
+            names_->set("instrument", qtext(device.name));
+            names_->set("serial", qtext(device.serial));
         }
     }
     list();
     judge();
-    // The dialog is as high as all of it, where the screen is: below that the page scrolls.
-    resize(scaledPx(kWide), sizeHint().height() - page->sizeHint().height() + all->sizeHint().height());
+    // As high as all of it, where the screen is: below that the page scrolls.
+    resize(scaledPx(kWide), sizeHint().height() - page->sizeHint().height() + wholeHeightAt(*column, scaledPx(kWide)));
 }
 
 void CertificateDialog::changeEvent(QEvent* event) {
@@ -93,73 +91,62 @@ void CertificateDialog::resizeEvent(QResizeEvent* event) {
     table_->fitColumns();
 }
 
-QWidget* CertificateDialog::buildForm() {
-    auto* holder = new QWidget(this);
-    auto* form = new QGridLayout(holder);
-    form->setContentsMargins(0, 0, 0, 0);
-    int place = 0;
-    const auto add = [&](const QString& title, QLineEdit& edit, QWidget& whole, const QString& tip) {
-        edit.setAccessibleName(title);
-        edit.setToolTip(tip);
-        auto* label = new QLabel(title, holder);
-        label->setBuddy(&edit);
-        form->addWidget(label, place / 2, 2 * (place % 2));
-        form->addWidget(&whole, place / 2, 2 * (place % 2) + 1);
-        ++place;
-        connect(&edit, &QLineEdit::textChanged, this, &CertificateDialog::judge);
-    };
-    const auto field = [&](const QString& title, const QString& name, const QString& tip) {
-        auto* edit = new QLineEdit(holder);
-        edit->setObjectName(name);
-        add(title, *edit, *edit, tip);
-        return edit;
-    };
-    const auto day = [&](const QString& title, const QString& name, const QString& tip) {
-        auto* whole = new DayField(name, tr("2026-11-21"), holder);
-        add(title, whole->line(), *whole, tip);
-        return &whole->line();
-    };
+void CertificateDialog::buildForm(QVBoxLayout& column) {
     const std::array tips{tr("Maker and model."), tr("As the instrument reports it. It tells two of a model apart."),
-                          tr("As it stands on the certificate."), tr("Who issued it.")};
-    for (std::size_t i = 0; i < texts_.size(); ++i) {
+                          tr("As on the certificate."), tr("Who issued it.")};
+    std::vector<FormField> names, figures;
+    for (std::size_t i = 0; i < tips.size(); ++i) {
         const auto& text = kCertificateTexts[i];
-        texts_[i] = field(titled(qtext(text.title)), qtext(text.key), tips[i]);
+        names.push_back(textField(text.key.data(), titled(qtext(text.title)), {}, tips[i]));
     }
-    date_ = day(tr("Date"), "date", tr("Calibration date, for example 2026-11-21."));
-    due_ = day(tr("Due"), "due", tr("The last day on which it is used, for example 2027-11-20."));
-    for (std::size_t i = 0; i < figures_.size(); ++i) {
-        const auto& figure = kCertificateFigures[i];
-        figures_[i] =
-            field(figureTitle(figure), figure.option,
-                  tr("Expanded uncertainty with k = 2, above 0 to %1 %2.").arg(figure.most).arg(qtext(figure.unit)));
-        if (!figure.required) figures_[i]->setPlaceholderText(tr("not stated"));
-    }
-    return holder;
+    names.push_back(dayField("date", tr("Date"), tr("Calibration date, for example 2026-11-21."), tr("2026-11-21")));
+    names.push_back(
+        dayField("due", tr("Due"), tr("The last day on which it is used, for example 2027-11-20."), tr("2026-11-21")));
+    for (const auto& figure : kCertificateFigures)
+        figures.push_back(
+            textField(figure.option, figureTitle(figure), {},
+                      tr("Expanded uncertainty with k = 2, above 0 to %1 %2.").arg(figure.most).arg(qtext(figure.unit)),
+                      figure.required ? QString() : tr("not stated")));
+    auto* row = new QHBoxLayout;
+    row->setSpacing(16);
+    const auto add = [&](const std::vector<FormField>& fields) {
+        auto* form = new FieldForm(this, FieldForm::Labels::Beside);
+        form->show(fields);
+        connect(form, &FieldForm::edited, this, &CertificateDialog::judge);
+        row->addWidget(form, 1, Qt::AlignTop);
+        return form;
+    };
+    names_ = add(names);
+    figures_ = add(figures);
+    column.addLayout(row);
+}
+
+std::string CertificateDialog::text(std::string_view field) const {
+    const std::string name(field);
+    return (names_->text(name) + figures_->text(name)).toStdString();  // it stands in one of them
 }
 
 Result<Certificate> CertificateDialog::written() const {
     Certificate out;
-    for (std::size_t i = 0; i < texts_.size(); ++i) {
-        auto& text = out.*kCertificateTexts[i].member;
-        text = texts_[i]->text().trimmed().toStdString();
-        if (text.empty()) return fail(ErrorCode::InvalidArgument, "the {} is missing", kCertificateTexts[i].title);
+    for (const auto& [key, title, member] : kCertificateTexts) {
+        out.*member = text(key);
+        if ((out.*member).empty()) return fail(ErrorCode::InvalidArgument, "the {} is missing", title);
     }
-    for (const auto& [edit, title, day] :
-         {std::tuple{date_, "date", &Certificate::date}, std::tuple{due_, "due date", &Certificate::due}}) {
-        const auto text = edit->text().trimmed().toStdString();
-        const auto date = parseDate(text);
+    for (const auto& [field, title, day] :
+         {std::tuple{"date", "date", &Certificate::date}, std::tuple{"due", "due date", &Certificate::due}}) {
+        const auto date = parseDate(text(field));
         if (!date)
-            return fail(ErrorCode::InvalidArgument, "the {} is \"{}\"; a day as 2026-11-21 is expected", title, text);
+            return fail(ErrorCode::InvalidArgument, "the {} is \"{}\"; a day as 2026-11-21 is expected", title,
+                        text(field));
         out.*day = *date;
     }
-    for (std::size_t i = 0; i < figures_.size(); ++i) {
-        const auto& figure = kCertificateFigures[i];
-        const auto text = figures_[i]->text().trimmed().toStdString();
-        if (text.empty()) continue;
-        const auto u = parseNumber(text);
+    for (const auto& figure : kCertificateFigures) {
+        const auto written = text(figure.option);
+        if (written.empty()) continue;
+        const auto u = parseNumber(written);
         if (!u) {
             return fail(ErrorCode::InvalidArgument, "U of the {} is \"{}\"; above 0 to {} {} is accepted", figure.title,
-                        text, figure.most, figure.unit);
+                        written, figure.most, figure.unit);
         }
         out.*figure.member = *u;
     }
@@ -185,7 +172,7 @@ void CertificateDialog::enter() {
     if (!store) return says_->setText(sentence(store.error()));
     if (const auto added = store->add(*certificate, utcToday()); !added) return says_->setText(sentence(added.error()));
     list();
-    texts_[2]->clear();  // the next one has another number
+    names_->set("number", {});  // the next one has another number
     says_->setText(tr("Certificate %1 is entered.").arg(qtext(certificate->number)));
 }
 

@@ -7,13 +7,12 @@
 
 #include <QDialog>
 #include <QLabel>
-#include <QLineEdit>
 #include <QPushButton>
 #include <QTableWidget>
-#include <array>
 
 #include "app/gui/controller/BenchController.h"
 #include "app/gui/theme/ConfirmButton.h"
+#include "app/gui/theme/FieldForm.h"
 #include "core/calibration/CertificateStore.h"
 
 namespace tacto::gui {
@@ -47,8 +46,10 @@ protected:
     void resizeEvent(QResizeEvent* event) override;
 
 private:
-    [[nodiscard]] QWidget* buildForm();
-    /// The certificate as written in the form. Errors: InvalidArgument, one sentence.
+    void buildForm(QVBoxLayout& column);
+    /// As it stands in the form.
+    [[nodiscard]] std::string text(std::string_view field) const;
+    /// As written in the form. Errors: InvalidArgument, one sentence.
     [[nodiscard]] Result<Certificate> written() const;
     void judge();
     void enter();
@@ -56,10 +57,8 @@ private:
     void nameWithdraw();
     void list();
 
-    std::array<QLineEdit*, kCertificateTexts.size()> texts_{};
-    QLineEdit* date_ = nullptr;
-    QLineEdit* due_ = nullptr;
-    std::array<QLineEdit*, kCertificateFigures.size()> figures_{};
+    FieldForm* names_ = nullptr;  // whose certificate, and its days
+    FieldForm* figures_ = nullptr;
     QLabel* empty_;
     CertificateTable* table_ = nullptr;
     QLabel* says_;

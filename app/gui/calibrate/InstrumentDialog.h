@@ -4,14 +4,11 @@
 // are left out: unknown is not zero (hazard H9).
 #pragma once
 
-#include <QComboBox>
 #include <QDialog>
-#include <QFormLayout>
 #include <QLabel>
-#include <QLineEdit>
 #include <QPushButton>
-#include <array>
 
+#include "app/gui/theme/FieldForm.h"
 #include "app/run/InstrumentPresets.h"
 
 namespace tacto::gui {
@@ -26,33 +23,24 @@ signals:
     void chosen(const QString& address);
 
 private:
-    [[nodiscard]] QWidget* buildChoice();
-    [[nodiscard]] QWidget* buildForm();
+    void buildChoice(QVBoxLayout& column);
+    void buildForm(QVBoxLayout& column);
     void read();
     void compose();
     [[nodiscard]] ChosenInstruments picked() const;
     [[nodiscard]] InstrumentKind formKind() const;
     /// The instrument as written in the form. Errors: InvalidArgument, one sentence.
     [[nodiscard]] Result<InstrumentPreset> written() const;
-    void showFields();
     void judge();
     void save();
     void remove();
 
     std::vector<InstrumentPreset> all_;
-    std::array<QComboBox*, 3> choosers_{};  // as InstrumentKind
+    FieldForm* choice_ = nullptr;  // a field for each kind, by its word
     QLabel* address_ = nullptr;
     QLabel* said_ = nullptr;
     QPushButton* use_ = nullptr;
-    QFormLayout* form_ = nullptr;
-    QComboBox* kind_ = nullptr;
-    QLineEdit* name_ = nullptr;
-    QLineEdit* serial_ = nullptr;
-    QLineEdit* where_ = nullptr;
-    QLineEdit* ohms_ = nullptr;
-    QLineEdit* accuracy_ = nullptr;
-    QLineEdit* timeBase_ = nullptr;
-    QLineEdit* due_ = nullptr;
+    FieldForm* form_ = nullptr;
     QLabel* trouble_ = nullptr;
     QPushButton* save_ = nullptr;
     QPushButton* remove_ = nullptr;

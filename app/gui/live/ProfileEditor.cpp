@@ -152,9 +152,7 @@ void ProfileEditor::judge() {
 
 void ProfileEditor::say(const QString& text, bool wrong) {
     says_->setText(wrong ? "⚠ " + text : text);
-    auto colour = palette();
-    if (wrong) colour.setColor(QPalette::WindowText, colours().amberText);
-    says_->setPalette(colour);
+    setTone(*says_, wrong ? Tone::Warning : Tone::Text);
 }
 
 void ProfileEditor::apply() {

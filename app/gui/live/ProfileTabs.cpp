@@ -1,18 +1,32 @@
 #include "app/gui/live/ProfileTabs.h"
 
 #include <QCoreApplication>
-#include <QFormLayout>
-#include <QHBoxLayout>
-#include <QScrollArea>
+#include <QScrollBar>
 #include <QVBoxLayout>
 #include <cmath>
 
+#include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Text.h"
-#include "app/gui/theme/Theme.h"
 #include "core/base/LocaleFreeText.h"
 #include "core/bench/Profile.h"
 
 namespace tacto::gui {
+
+namespace {
+
+FormField formFieldOf(const ProfileField& field) {
+    if (!field.isChoice()) {
+        auto number = textField(field.key, profileWords(field.label), {}, profileWords(field.tip));
+        number.range = field.range();
+        return number;
+    }
+    std::vector<std::pair<QString, QString>> choices;
+    for (std::size_t i = 0; i < field.words.size(); ++i)
+        choices.emplace_back(qtext(field.stored->words[i]), profileWords(field.words[i]));
+    return choiceField(field.key, profileWords(field.label), choices, profileWords(field.tip));
+}
+
+}  // namespace
 
 ProfileTabs::ProfileTabs(QWidget* parent) : QTabWidget(parent) {
     for (int tab = 0; tab < kProfileTabs; ++tab)
@@ -20,137 +34,72 @@ ProfileTabs::ProfileTabs(QWidget* parent) : QTabWidget(parent) {
 }
 
 QWidget* ProfileTabs::buildTab(ProfileTab tab) {
-    auto* area = new QScrollArea(this);
-    area->setWidgetResizable(true);
-    area->setFrameShape(QFrame::NoFrame);
-    area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    auto* page = new QWidget(area);
-    auto* form = new QFormLayout(page);
-    form->setFieldGrowthPolicy(QFormLayout::ExpandingFieldsGrow);
-    for (const auto& field : profileForm()) {
-        if (field.tab != tab) continue;
-        auto row = buildRow(field, page);
-        auto* holder = new QWidget(page);
-        auto* column = new QVBoxLayout(holder);
-        column->setContentsMargins(0, 0, 0, 0);
-        column->setSpacing(0);
-        auto* across = new QHBoxLayout;
-        if (row.box != nullptr) {
-            across->addWidget(row.box, 1);
-        } else {
-            across->addWidget(row.line);
-            across->addSpacing(8);
-            auto* range = new QLabel(field.range(), holder);
-            setTone(*range, Tone::Quiet);
-            across->addWidget(range, 1);
-        }
-        column->addLayout(across);
-        column->addWidget(row.refusal);
-        row.label->setBuddy(row.box != nullptr ? static_cast<QWidget*>(row.box) : row.line);
-        form->addRow(row.label, holder);
-        rows_.push_back(row);
-    }
-    area->setWidget(page);
-    area->setMinimumWidth(page->sizeHint().width() + fontMetrics().averageCharWidth() * 4);
+    auto* page = new QWidget;
+    auto*& form = forms_[std::size_t(tab)] = new FieldForm(page, FieldForm::Labels::Beside);
+    std::vector<FormField> fields;
+    for (const auto& field : profileForm())
+        if (field.tab == tab) fields.push_back(formFieldOf(field));
+    form->show(fields);
+    connect(form, &FieldForm::edited, this, &ProfileTabs::edited);
+    auto* column = new QVBoxLayout(page);
+    column->addWidget(form);
+    column->addStretch(1);
+    auto* area = scrollingRows(page, this);
+    area->setMinimumWidth(page->sizeHint().width() + area->verticalScrollBar()->sizeHint().width());
     return area;
 }
 
-ProfileTabs::Row ProfileTabs::buildRow(const ProfileField& field, QWidget* page) {
-    Row row;
-    row.field = &field;
-    row.label = new QLabel(profileWords(field.label), page);
-    row.refusal = new QLabel(page);
-    row.refusal->setObjectName(QString("%1.refusal").arg(field.key));
-    row.refusal->setWordWrap(true);
-    row.refusal->hide();
-    QWidget* input = nullptr;
-    if (field.isChoice()) {
-        input = row.box = new QComboBox(page);
-        for (std::size_t i = 0; i < field.words.size(); ++i)
-            row.box->addItem(profileWords(field.words[i]), qtext(field.stored->words[i]));
-        connect(row.box, &QComboBox::currentIndexChanged, this, &ProfileTabs::edited);
-    } else {
-        input = row.line = new QLineEdit(page);
-        row.line->setAlignment(Qt::AlignRight);
-        row.line->setFixedWidth(fontMetrics().horizontalAdvance("000000000000"));
-        connect(row.line, &QLineEdit::textChanged, this, &ProfileTabs::edited);
-    }
-    input->setObjectName(field.key);
-    input->setToolTip(profileWords(field.tip));
-    row.label->setToolTip(profileWords(field.tip));
-    return row;
-}
-
 void ProfileTabs::goTo(const QString& key) {
-    for (const auto& row : rows_) {
-        if (row.field->key != key) continue;
-        setCurrentIndex(int(row.field->tab));
-        QWidget* input = row.box;
-        if (row.line != nullptr) {
-            row.line->selectAll();
-            input = row.line;
-        }
-        input->setFocus();
+    for (const auto& field : profileForm()) {
+        if (field.key != key) continue;
+        setCurrentIndex(int(field.tab));
+        formOf(field).goTo(field.key);
     }
 }
 
 void ProfileTabs::fill(const nlohmann::json& document) {
-    for (auto& row : rows_) {
-        const auto& value = document.at(row.field->section()).at(row.field->key);
-        if (row.box != nullptr)
-            row.box->setCurrentIndex(row.box->findData(QString::fromStdString(value.get<std::string>())));
-        else
-            row.line->setText(value.is_number()
-                                  ? QString::number(value.get<double>(), 'g', QLocale::FloatingPointShortest)
-                                  : QString());
+    for (const auto& field : profileForm()) {
+        const auto& value = document.at(field.section()).at(field.key);
+        formOf(field).set(field.key, value.is_string() ? qtext(value.get<std::string>())
+                                     : value.is_number()
+                                         ? QString::number(value.get<double>(), 'g', QLocale::FloatingPointShortest)
+                                         : QString());
     }
 }
 
 std::optional<ProfileTabs::Refusal> ProfileTabs::read(nlohmann::json& document) const {
-    for (const auto& row : rows_) {
-        auto& value = document[row.field->section()][row.field->key];
-        if (row.box != nullptr) {
-            value = row.box->currentData().toString().toStdString();
+    for (const auto& field : profileForm()) {
+        auto& value = document[field.section()][field.key];
+        const auto text = formOf(field).text(field.key);
+        if (field.isChoice()) {
+            value = text.toStdString();
             continue;
         }
-        const auto text = row.line->text().trimmed();
-        if (text.isEmpty() && row.field->stored->mayBeNull) {
+        if (text.isEmpty() && field.stored->mayBeNull) {
             value = nullptr;
             continue;
         }
         const auto number = parseNumber(text.toStdString());
         if (!number || !std::isfinite(*number))
-            return Refusal{row.field, tr("\"%1\" is not a number; %2 is expected").arg(text, row.field->range())};
+            return Refusal{&field, tr("\"%1\" is not a number; %2 is expected").arg(text, field.range())};
         value = *number;
     }
     return std::nullopt;
 }
 
-void ProfileTabs::mark(const ProfileField* field, const QString& refusal) {
-    for (auto& row : rows_) {
-        const bool wrong = field == row.field;
-        row.refusal->setText(wrong ? "⚠ " + refusal : QString());
-        row.refusal->setVisible(wrong);
-        auto amber = palette();
-        amber.setColor(QPalette::WindowText, colours().amberText);
-        row.refusal->setPalette(amber);
+void ProfileTabs::mark(const ProfileField* refused, const QString& refusal) {
+    for (const auto& field : profileForm()) {
+        auto& form = formOf(field);
+        form.refuse(field.key, &field == refused ? refusal : QString());
+        if (field.needs == nullptr) continue;
+        const auto chosen = form.text(field.needs);
+        const QString needed = field.needsValue;
+        const bool matters = needed.startsWith('!') ? chosen != needed.mid(1) : chosen == needed;
+        form.setFieldEnabled(field.key, matters || &field == refused);  // a refused field can always be corrected
     }
     for (int tab = 0; tab < kProfileTabs; ++tab) {
-        const bool wrong = field != nullptr && field->tab == static_cast<ProfileTab>(tab);
+        const bool wrong = refused != nullptr && int(refused->tab) == tab;
         setTabText(tab, titleOf(static_cast<ProfileTab>(tab)) + (wrong ? " ⚠" : ""));
-    }
-    enableWhatMatters();
-}
-
-void ProfileTabs::enableWhatMatters() {
-    for (auto& row : rows_) {
-        if (row.field->needs == nullptr) continue;
-        const auto chosen = findChild<QComboBox*>(row.field->needs)->currentData().toString();
-        QString needed = row.field->needsValue;
-        const bool matters = needed.startsWith('!') ? chosen != needed.mid(1) : chosen == needed;
-        // A refused field can always be corrected.
-        row.line->setEnabled(matters || !row.refusal->text().isEmpty());
-        row.label->setEnabled(row.line->isEnabled());
     }
 }
 

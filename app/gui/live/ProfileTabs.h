@@ -1,15 +1,14 @@
 // ProfileTabs.h - the fields of a profile on tabs, each with its range and, beside it, why it is refused.
 #pragma once
 
-#include <QComboBox>
-#include <QLabel>
-#include <QLineEdit>
 #include <QString>
 #include <QTabWidget>
+#include <array>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
 
+#include "app/gui/theme/FieldForm.h"
 #include "core/base/RecordFields.h"
 
 namespace tacto::gui {
@@ -69,18 +68,10 @@ signals:
     void edited();
 
 private:
-    struct Row {
-        const ProfileField* field = nullptr;
-        QLineEdit* line = nullptr;  ///< the field of a number
-        QComboBox* box = nullptr;   ///< the field of a choice
-        QLabel* label = nullptr;
-        QLabel* refusal = nullptr;
-    };
     [[nodiscard]] QWidget* buildTab(ProfileTab tab);
-    [[nodiscard]] Row buildRow(const ProfileField& field, QWidget* page);
-    void enableWhatMatters();
+    [[nodiscard]] FieldForm& formOf(const ProfileField& field) const { return *forms_[std::size_t(field.tab)]; }
 
-    std::vector<Row> rows_;
+    std::array<FieldForm*, kProfileTabs> forms_{};
 };
 
 }  // namespace tacto::gui

@@ -63,6 +63,18 @@ QString shown(const ProtocolParameter& parameter, const nlohmann::json& value) {
     return !parameter.zero.empty() && value == 0 ? QString() : plain(value);
 }
 
+void offer(QComboBox& box, const ProtocolParameter& parameter) {
+    for (const auto& [key, text] : parameter.choices)
+        box.addItem(withOhmSigns(qtext(text.empty() ? key : text)), qtext(key));
+}
+
+/// As a parameter has them: key and words.
+std::vector<std::pair<std::string, std::string>> utf8(const std::vector<std::pair<QString, QString>>& choices) {
+    std::vector<std::pair<std::string, std::string>> all;
+    for (const auto& [key, words] : choices) all.emplace_back(key.toStdString(), words.toStdString());
+    return all;
+}
+
 QFormLayout* rowsIn(QWidget& part, FieldForm::Labels labels) {
     auto* form = new QFormLayout(&part);
     form->setContentsMargins(0, 0, 0, 0);
@@ -89,8 +101,7 @@ FormField described(const char* name, const QString& label, ParameterType type, 
 FormField choiceField(const char* name, const QString& label, const std::vector<std::pair<QString, QString>>& choices,
                       const QString& tip) {
     auto field = described(name, label, ParameterType::Choice, choices.front().first.toStdString(), tip);
-    for (const auto& [key, words] : choices)
-        field.parameter.choices.emplace_back(key.toStdString(), words.toStdString());
+    field.parameter.choices = utf8(choices);
     return field;
 }
 
@@ -98,6 +109,21 @@ FormField textField(const char* name, const QString& label, const QString& value
                     const QString& hint) {
     auto field = described(name, label, ParameterType::Text, value.toStdString(), tip);
     field.hint = hint;
+    return field;
+}
+
+FormField dayField(const char* name, const QString& label, const QString& tip, const QString& hint) {
+    auto field = described(name, label, ParameterType::Date, "", tip);
+    field.hint = hint;
+    return field;
+}
+
+FormField numberField(const char* name, const QString& label, const char* unit, double least, double most, double value,
+                      const QString& tip) {
+    auto field = described(name, label, ParameterType::Number, value, tip);
+    field.parameter.unit = unit;
+    field.parameter.min = least;
+    field.parameter.max = most;
     return field;
 }
 
@@ -147,11 +173,11 @@ void FieldForm::fitLabels() {
 
 FieldForm::Field FieldForm::makeField(const FormField& described) {
     const auto& parameter = described.parameter;
-    Field field{parameter, described.tip, described.hint, {}, {}};
+    const auto takes = described.range.isEmpty() ? rangeText(parameter) : described.range;
+    Field field{parameter, described.tip, described.hint, takes, {}, {}};
     if (parameter.type == ParameterType::Choice) {
         auto* box = new QComboBox(this);
-        for (const auto& [key, text] : parameter.choices)
-            box->addItem(withOhmSigns(qtext(text.empty() ? key : text)), qtext(key));
+        offer(*box, parameter);
         box->setCurrentIndex(box->findData(plain(parameter.value)));
         box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
         box->setMinimumContentsLength(8);  // characters; grows with the column
@@ -280,7 +306,7 @@ void FieldForm::addRow(Field& field) {
     const bool ticks = parameter.type == ParameterType::Boolean;
     line->addWidget(field.whole, ticks ? 0 : 1);
     if (ticks) line->addWidget(field.label = new QLabel(qtext(parameter.label), column), 1);
-    field.range = new QLabel(rangeText(parameter), column);
+    field.range = new QLabel(field.takes, column);
     field.range->setTextFormat(Qt::PlainText);
     setTone(*field.range, Tone::Quiet);
     line->setSpacing(fontMetrics().averageCharWidth());
@@ -299,6 +325,7 @@ void FieldForm::addRow(Field& field) {
         field.label = qobject_cast<QLabel*>(rows->labelForField(column));
     }
     if (field.label == nullptr) return;
+    field.label->setToolTip(field.tip);
     field.label->setBuddy(field.editor);
     field.label->setWordWrap(true);
     setTextSize(*field.label, TextSize::Body, !parameter.needed.empty());
@@ -329,6 +356,10 @@ const FieldForm::Field* FieldForm::find(const std::string& name) const {
     return found == fields_.end() ? nullptr : &*found;
 }
 
+FieldForm::Field* FieldForm::find(const std::string& name) {
+    return const_cast<Field*>(std::as_const(*this).find(name));
+}
+
 QString FieldForm::text(const std::string& name) const {
     const auto* field = find(name);
     return field == nullptr ? QString() : field->text().trimmed();
@@ -336,6 +367,33 @@ QString FieldForm::text(const std::string& name) const {
 
 void FieldForm::set(const std::string& name, const QString& text) {
     if (const auto* field = find(name)) field->write(text);
+}
+
+void FieldForm::setChoices(const std::string& name, const std::vector<std::pair<QString, QString>>& choices) {
+    auto* field = find(name);
+    auto* box = field == nullptr ? nullptr : qobject_cast<QComboBox*>(field->editor);
+    if (box == nullptr) return;
+    const QSignalBlocker quiet(box);
+    const auto before = field->text();
+    field->parameter.choices = utf8(choices);
+    box->clear();
+    offer(*box, field->parameter);
+    box->setCurrentIndex(std::max(0, box->findData(before)));
+    judge();
+}
+
+void FieldForm::refuse(const std::string& name, const QString& why) {
+    auto* field = find(name);
+    if (field == nullptr) return;
+    field->why = why;
+    say(*field, false);
+}
+
+void FieldForm::goTo(const std::string& name) {
+    const auto* field = find(name);
+    if (field == nullptr) return;
+    if (auto* line = qobject_cast<QLineEdit*>(field->editor)) line->selectAll();
+    field->editor->setFocus();
 }
 
 void FieldForm::setRowVisible(const std::string& name, bool visible) {
@@ -347,7 +405,9 @@ void FieldForm::setRowVisible(QWidget& own, bool visible) { settingsRows_->setRo
 bool FieldForm::isRowVisible(QWidget& own) const { return settingsRows_->isRowVisible(&own); }
 
 void FieldForm::setFieldEnabled(const std::string& name, bool enabled) {
-    if (const auto* field = find(name)) field->editor->setEnabled(enabled);
+    if (const auto* field = find(name))
+        for (auto* part : {field->editor, static_cast<QWidget*>(field->label)})
+            if (part != nullptr) part->setEnabled(enabled);
 }
 
 void FieldForm::setKnown(std::set<std::string> names) {

@@ -24,13 +24,17 @@ struct FormField {
     ProtocolParameter parameter;
     QString tip{};
     QString hint{};          ///< stands in a line that is empty
-    QWidget* own = nullptr;  ///< stands in place of an editor: shown and placed, but not read; the form takes it
+    QString range{};         ///< in place of what the parameter takes, where its owner judges it
+    QWidget* own = nullptr;  ///< in place of an editor: it is shown and placed, and not read; the form takes it
 };
 /// `choices`: key and words; the first is chosen.
 [[nodiscard]] FormField choiceField(const char* name, const QString& label,
                                     const std::vector<std::pair<QString, QString>>& choices, const QString& tip);
 [[nodiscard]] FormField textField(const char* name, const QString& label, const QString& value, const QString& tip,
                                   const QString& hint = {});
+[[nodiscard]] FormField dayField(const char* name, const QString& label, const QString& tip, const QString& hint);
+[[nodiscard]] FormField numberField(const char* name, const QString& label, const char* unit, double least, double most,
+                                    double value, const QString& tip);
 [[nodiscard]] FormField wholeField(const char* name, const QString& label, int least, int most, int value,
                                    const QString& tip);
 [[nodiscard]] FormField tickField(const char* name, const QString& label, bool value, const QString& tip = {});
@@ -54,6 +58,12 @@ public:
     [[nodiscard]] QString text(const std::string& name) const;
     /// Writes into a field, as if it were typed; a name or a choice that is not there is left alone.
     void set(const std::string& name, const QString& text);
+    /// What a choice offers from now on: what was chosen stays where it is still there, else the first one is.
+    void setChoices(const std::string& name, const std::vector<std::pair<QString, QString>>& choices);
+    /// Says below a field why its owner refuses what stands there, until it is edited; an empty text: it is sound.
+    void refuse(const std::string& name, const QString& why);
+    /// The field gets the focus, and all of its text is marked.
+    void goTo(const std::string& name);
     void setRowVisible(const std::string& name, bool visible);
     void setRowVisible(QWidget& own, bool visible);
     [[nodiscard]] bool isRowVisible(QWidget& own) const;
@@ -80,7 +90,7 @@ protected:
 private:
     struct Field {
         ProtocolParameter parameter;
-        QString tip{}, hint{};
+        QString tip{}, hint{}, takes{};
         std::function<QString()> text;
         std::function<void(const QString&)> write;
         QWidget* editor = nullptr;  // has the parameter's name
@@ -97,6 +107,7 @@ private:
     void showFields(const std::vector<FormField>& fields);
     void addOwn(const FormField& described);
     [[nodiscard]] const Field* find(const std::string& name) const;
+    [[nodiscard]] Field* find(const std::string& name);
     void addLine(Field& field);
     void addFileChooser(Field& field);
     void addRow(Field& field);

@@ -1,8 +1,6 @@
 #include "app/gui/window/SimulatedBenchDialog.h"
 
 #include <QDialogButtonBox>
-#include <QFormLayout>
-#include <QPushButton>
 #include <QVBoxLayout>
 
 #include "app/gui/theme/Dialogs.h"
@@ -46,43 +44,26 @@ SimulatedBenchDialog::SimulatedBenchDialog(BenchController& controller, QWidget*
     layout->addWidget(explanation(tr("Fingertip, stimulator, load and oscilloscope, all computed: for learning, and to "
                                      "see what a fault looks like before hardware shows it."),
                                   this));
-    auto* form = new QFormLayout;
-    form->setHorizontalSpacing(12);
-    mode_ = new QComboBox(this);
-    mode_->addItem(tr("voltage source"), "voltage");
-    mode_->addItem(tr("current source"), "current");
-    mode_->setToolTip(tr("What the stimulator holds constant during a phase."));
-    form->addRow(tr("&Stimulator"), mode_);
-    gain_ = new QDoubleSpinBox(this);
-    gain_->setRange(0.5, 1.5);
-    gain_->setDecimals(3);
-    gain_->setSingleStep(0.005);
-    gain_->setValue(1);
-    gain_->setToolTip(tr("Delivered over commanded amplitude: 1 is perfect. Above 1.2 the bench faults."));
-    form->addRow(tr("&Gain"), gain_);
-    load_ = new QLineEdit("1 kΩ", this);
-    load_->setToolTip(tr("What is connected, such as “1 kΩ” or “200 Ω + 10 kΩ || 50 nF”."));
-    form->addRow(tr("&Load"), load_);
-    fault_ = new QComboBox(this);
-    for (const auto& fault : kFaults) fault_->addItem(QCoreApplication::translate("Faults", fault.words));
-    fault_->setToolTip(tr("What goes wrong, and when."));
-    form->addRow(tr("&Fault"), fault_);
-    faultAt_ = new QDoubleSpinBox(this);
-    faultAt_->setRange(0.1, 3600);
-    faultAt_->setValue(10);
-    faultAt_->setSuffix(QStringLiteral("\u202fs"));
-    faultAt_->setToolTip(tr("Time after opening at which the fault begins."));
-    form->addRow(tr("A&fter"), faultAt_);
-    seed_ = new QSpinBox(this);
-    seed_->setRange(0, 1'000'000);
-    seed_->setValue(1);
-    seed_->setToolTip(tr("The same seed gives the same bytes."));
-    form->addRow(tr("S&eed"), seed_);
-    layout->addLayout(form);
+    std::vector<std::pair<QString, QString>> faults;
+    for (const auto& fault : kFaults)
+        faults.emplace_back(QString::number(faults.size()), QCoreApplication::translate("Faults", fault.words));
+    form_ = new FieldForm(this, FieldForm::Labels::Beside);
+    form_->show(
+        {choiceField("mode", tr("&Stimulator"), {{"voltage", tr("voltage source")}, {"current", tr("current source")}},
+                     tr("What the stimulator holds constant during a phase.")),
+         numberField("gain", tr("&Gain"), "", 0.5, 1.5, 1,
+                     tr("Delivered over commanded amplitude: 1 is perfect. Above 1.2 the bench faults.")),
+         textField("load", tr("&Load"), QStringLiteral("1 kΩ"),
+                   tr("What is connected, such as “1 kΩ” or “200 Ω + 10 kΩ || 50 nF”.")),
+         choiceField("fault", tr("&Fault"), faults, tr("What goes wrong, and when.")),
+         numberField("faultAt", tr("A&fter"), "s", 0.1, 3600, 10, tr("Time after opening at which the fault begins.")),
+         wholeField("seed", tr("S&eed"), 0, 1'000'000, 1, tr("The same seed gives the same bytes."))});
+    layout->addWidget(form_);
     says_ = new QLabel(this);
     says_->setWordWrap(true);
     says_->setTextInteractionFlags(Qt::TextSelectableByMouse);
     setTextSize(*says_, TextSize::Small);
+    setTone(*says_, Tone::Quiet);
     layout->addWidget(says_);
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
     open_ = buttons->addButton(tr("&Open"), QDialogButtonBox::AcceptRole);
@@ -90,26 +71,24 @@ SimulatedBenchDialog::SimulatedBenchDialog(BenchController& controller, QWidget*
     layout->addWidget(buttons);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
     connect(buttons, &QDialogButtonBox::accepted, this, &SimulatedBenchDialog::openBench);
-    connect(load_, &QLineEdit::textChanged, this, &SimulatedBenchDialog::judge);
-    connect(mode_, &QComboBox::currentIndexChanged, this, &SimulatedBenchDialog::judge);
-    connect(fault_, &QComboBox::currentIndexChanged, this, &SimulatedBenchDialog::judge);
-    connect(gain_, &QDoubleSpinBox::valueChanged, this, &SimulatedBenchDialog::judge);
-    connect(faultAt_, &QDoubleSpinBox::valueChanged, this, &SimulatedBenchDialog::judge);
+    connect(form_, &FieldForm::edited, this, &SimulatedBenchDialog::judge);
     judge();
     const int wide = fontMetrics().averageCharWidth() * kBenchChars;
     resize(wide, layout->totalHeightForWidth(wide));
     growWithContent(*this);
 }
 
-std::vector<std::string> SimulatedBenchDialog::uris() const {
-    const auto& fault = kFaults[fault_->currentIndex()];
+std::vector<std::string> SimulatedBenchDialog::uris(const nlohmann::json& values) const {
+    const auto& fault = kFaults[form_->text("fault").toInt()];
     const auto faultOf = [&](const char* device) {
-        return std::string_view(fault.device) == device ? fmt::format("{}@{:g}s", fault.key, faultAt_->value()) : "";
+        return std::string_view(fault.device) == device
+                   ? fmt::format("{}@{:g}s", fault.key, values.at("faultAt").get<double>())
+                   : "";
     };
-    auto load = load_->text().trimmed();
+    auto load = form_->text("load");
     load.remove(' ').replace(QStringLiteral("Ω"), "ohm").replace(QChar(0x2126), "ohm");
-    auto stimulator = fmt::format("sim:stimulator?mode={}&gain={:g}&load={}",
-                                  mode_->currentData().toString().toStdString(), gain_->value(), load.toStdString());
+    auto stimulator = fmt::format("sim:stimulator?mode={}&gain={:g}&load={}", values.at("mode").get<std::string>(),
+                                  values.at("gain").get<double>(), load.toStdString());
     std::vector<std::string> all;
     for (const auto* device : {"stimulator", "finger", "oscilloscope"}) {
         auto uri = std::string_view(device) == "stimulator" ? stimulator : fmt::format("sim:{}", device);
@@ -121,24 +100,28 @@ std::vector<std::string> SimulatedBenchDialog::uris() const {
 }
 
 void SimulatedBenchDialog::judge() {
-    const auto load = parseLoad(load_->text().toStdString());
-    open_->setEnabled(load.has_value());
-    faultAt_->setEnabled(fault_->currentIndex() > 0);
+    const auto load = parseLoad(form_->text("load").toStdString());
+    form_->refuse("load", load ? QString() : sentence(load.error()));
+    form_->setFieldEnabled("faultAt", form_->text("fault") != "0");
+    const auto chosen = form_->read();
+    open_->setEnabled(chosen && load);
     QStringList shown;
-    for (const auto& uri : uris()) shown << QString::fromStdString(uri);
-    says_->setText(load ? shown.join("\n") : "⚠ " + sentence(load.error()));
-    setTone(*says_, load ? Tone::Quiet : Tone::Warning);
+    if (open_->isEnabled())
+        for (const auto& uri : uris(chosen->parameters)) shown << qtext(uri);
+    says_->setText(shown.join("\n"));
 }
 
 void SimulatedBenchDialog::openBench() {
+    const auto chosen = form_->read();
+    if (!chosen) return;
     LiveOrder order;
-    for (const auto& text : uris()) {
+    for (const auto& text : uris(chosen->parameters)) {
         auto uri = DeviceUri::parse(text);
-        if (!uri) return says_->setText(QString::fromStdString(uri.error().message));
+        if (!uri) return says_->setText(qtext(uri.error().message));
         order.uris.push_back(std::move(*uri));
     }
     order.profile = controller_.profile();
-    order.seed = static_cast<std::uint64_t>(seed_->value());
+    order.seed = chosen->parameters.at("seed").get<std::uint64_t>();
     controller_.openLive(order);
     accept();
 }

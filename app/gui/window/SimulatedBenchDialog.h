@@ -2,14 +2,12 @@
 // training and demonstration.
 #pragma once
 
-#include <QComboBox>
 #include <QDialog>
-#include <QDoubleSpinBox>
 #include <QLabel>
-#include <QLineEdit>
-#include <QSpinBox>
+#include <QPushButton>
 
 #include "app/gui/controller/BenchController.h"
+#include "app/gui/theme/FieldForm.h"
 
 namespace tacto::gui {
 
@@ -19,17 +17,13 @@ public:
     explicit SimulatedBenchDialog(BenchController& controller, QWidget* parent);
 
 private:
-    [[nodiscard]] std::vector<std::string> uris() const;
+    /// `values`: the form's, typed.
+    [[nodiscard]] std::vector<std::string> uris(const nlohmann::json& values) const;
     void judge();
     void openBench();
 
     BenchController& controller_;
-    QComboBox* mode_;
-    QLineEdit* load_;
-    QDoubleSpinBox* gain_;
-    QComboBox* fault_;
-    QDoubleSpinBox* faultAt_;
-    QSpinBox* seed_;
+    FieldForm* form_;
     QLabel* says_;
     QPushButton* open_;
 };

@@ -39,7 +39,7 @@ protected:
         return *found;
     }
     QString says() { return editor.findChild<QLabel*>("profileTrouble")->text(); }
-    QString refusal(const char* key) { return editor.findChild<QLabel*>(QString("%1.refusal").arg(key))->text(); }
+    QString refusal(const char* key) { return editor.findChild<QLabel*>(QString("trouble-%1").arg(key))->text(); }
     void showTab(int index) { editor.findChild<QTabWidget*>()->setCurrentIndex(index); }
 
     ProfileEditor editor{controller};
@@ -54,7 +54,7 @@ TEST_F(Editor, RefusesAWrongValueInTheSentenceOfTheCoreWithTheNamesOfItsFields) 
     const auto* words = "“Smallest amplitude” 45 V is not below “Largest amplitude” 40 V.";
     EXPECT_EQ(refusal("amplitude_min_v").toStdString(), std::string("⚠ ") + words) << "beside the field";
     EXPECT_EQ(says().toStdString(), std::string("⚠ Cannot be applied: ") + words) << "on every tab";
-    EXPECT_TRUE(editor.findChild<QLabel*>("amplitude_min_v.refusal")->isVisible());
+    EXPECT_TRUE(editor.findChild<QLabel*>("trouble-amplitude_min_v")->isVisible());
     EXPECT_FALSE(button("Apply").isEnabled());
     EXPECT_FALSE(button("Save…").isEnabled());
     EXPECT_EQ(editor.findChild<QLineEdit*>("amplitude_min_v")->text(), "45") << "never clamped";
@@ -62,7 +62,7 @@ TEST_F(Editor, RefusesAWrongValueInTheSentenceOfTheCoreWithTheNamesOfItsFields) 
     EXPECT_EQ(controller.profile().encoding.amplitudeMin.value(), 10);
     type("amplitude_min_v", "12.5");
     EXPECT_TRUE(editor.trouble().isEmpty());
-    EXPECT_FALSE(editor.findChild<QLabel*>("amplitude_min_v.refusal")->isVisible());
+    EXPECT_FALSE(editor.findChild<QLabel*>("trouble-amplitude_min_v")->isVisible());
     EXPECT_TRUE(button("Apply").isEnabled());
 }
 

@@ -250,14 +250,15 @@ TEST_F(ResultsInTheWindow, TheDialogOfFaultsLooksRightAndDoesWhatTheReadmePromis
     ASSERT_NE(dialog, nullptr);
     ASSERT_IN_TIME(comesTrue([&] { return dialog->isVisible(); }));
     test::looksRight(*dialog, "faults");
-    QComboBox* faults = nullptr;
-    for (auto* box : dialog->findChildren<QComboBox*>())
-        if (box->findText("electrode lifts (open)") >= 0) faults = box;
-    ASSERT_NE(faults, nullptr);
-    faults->setCurrentText("electrode lifts (open)");
-    for (auto* after : dialog->findChildren<QDoubleSpinBox*>())
-        if (after->suffix().trimmed() == "s") after->setValue(4);  // the spin box with the thirty seconds
-    click(*find<QPushButton>(*dialog, "Open"));
+    dialog->findChild<QComboBox*>("fault")->setCurrentText("electrode lifts (open)");
+    auto* after = dialog->findChild<QLineEdit*>("faultAt");
+    auto* open = find<QPushButton>(*dialog, "Open");
+    for (const auto* refused : {"0", "3601", "nan", ""}) {
+        after->setText(refused);
+        EXPECT_FALSE(open->isEnabled()) << refused;
+    }
+    after->setText("4");  // of the thirty seconds
+    click(*open);
     ASSERT_IN_TIME(comesTrue([this] { return window.controller().activity() == gui::Activity::Live; }));
     arm();
     window.controller().drive(DriveSource::Manual, 0.5, 1);
