@@ -1,11 +1,9 @@
 #include "app/gui/calibrate/CalibrateWorkspace.h"
 
-#include <QHBoxLayout>
-#include <QVBoxLayout>
-
 #include "app/gui/calibrate/CalibrationCard.h"
 #include "app/gui/calibrate/CalibrationHistory.h"
 #include "app/gui/runner/ProtocolWorkspace.h"
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Pages.h"
 #include "app/gui/theme/TabbedPage.h"
 
@@ -13,9 +11,7 @@ namespace tacto::gui {
 
 CalibrateWorkspace::CalibrateWorkspace(BenchController& controller, CalibrationBook& book, QWidget* parent)
     : QWidget(parent), controller_(controller), book_(book) {
-    auto* column = new QVBoxLayout(this);
-    column->setContentsMargins(0, 0, 0, 0);
-    column->setSpacing(0);
+    auto* column = columnIn(*this, 0);
     tabs_ = new TabbedPage(this);
     tabs_->setObjectName("calibratePages");
     runner_ = new ProtocolWorkspace(controller_, "stimulator-calibration", tabs_->room());
@@ -23,8 +19,7 @@ CalibrateWorkspace::CalibrateWorkspace(BenchController& controller, CalibrationB
     auto* stored = new ScrollingPage(tabs_->room());
     stored->hold(buildStored(stored->viewport()));
     auto* tools = new QWidget(tabs_);
-    auto* row = new QHBoxLayout(tools);
-    row->setContentsMargins(0, 0, 8, 0);
+    auto* row = rowIn(*tools, -1, {0, 0, 8, 0});
     row->addStretch();
     row->addWidget(&runner_->plotKind());
     tabs_->addTab(runner_, tr("&Guided run"), tools);

@@ -1,8 +1,6 @@
 #include "app/gui/calibrate/CalibrationCard.h"
 
-#include <QHBoxLayout>
-#include <QVBoxLayout>
-
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/ToolRow.h"
@@ -61,13 +59,8 @@ CalibrationCard::CalibrationCard(CalibrationBook& book, QWidget* parent) : QFram
     setObjectName("calibrationCard");
     setAccessibleName(tr("Calibration of the stimulator"));
     setFrameShape(QFrame::StyledPanel);
-    auto* column = new QVBoxLayout(this);
-    column->setContentsMargins(8, 8, 8, 8);
-    column->setSpacing(4);
-    word_ = new QLabel(this);
-    word_->setObjectName("calibrationState");
-    setTextSize(*word_, TextSize::Large);
-    word_->setWordWrap(true);
+    auto* column = columnIn(*this, 4, {8, 8, 8, 8});
+    word_ = makeLabel({}, {.name = "calibrationState", .size = TextSize::Large, .wraps = true}, this);
     chooser_ = new QComboBox(this);
     chooser_->setObjectName("stimulatorChooser");
     chooser_->setAccessibleName(tr("Stimulator"));
@@ -103,14 +96,14 @@ CalibrationCard::CalibrationCard(CalibrationBook& book, QWidget* parent) : QFram
     row->addLayout(act);
     for (auto* each : {act, row}) each->setSpacing(kApart);
     column->addLayout(row);
-    facts_ = new QLabel(this);
-    facts_->setObjectName("calibrationFacts");
-    facts_->setWordWrap(true);
-    facts_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    facts_ = makeLabel({}, {.name = "calibrationFacts", .wraps = true, .selectable = true}, this);
     column->addWidget(facts_);
     connect(&book_, &CalibrationBook::changed, this, &CalibrationCard::fill);
     fill();
     afterLookChange(*this, [this] { colour(); });
+    onEvent(*this, QEvent::Show, [this] {
+        book_.read();  // the command line may have added one
+    });
 }
 
 std::optional<StimulatorId> CalibrationCard::shown() const {
@@ -180,11 +173,6 @@ void CalibrationCard::colour() {
     const auto& ink = counts_ ? colours().passText : warns_ ? colours().amberText : colours().text;
     const auto sheet = QString("QLabel { color: %1; }").arg(ink.name());
     if (word_->styleSheet() != sheet) word_->setStyleSheet(sheet);
-}
-
-void CalibrationCard::showEvent(QShowEvent* event) {
-    QFrame::showEvent(event);
-    book_.read();  // the command line may have added one
 }
 
 }  // namespace tacto::gui

@@ -25,9 +25,6 @@ signals:
     void checkWanted();
     void stimulatorChosen();
 
-protected:
-    void showEvent(QShowEvent* event) override;
-
 private:
     void fill();
     void tell(const StimulatorId& stimulator);

@@ -1,11 +1,11 @@
 #include "app/gui/calibrate/CalibrationHistory.h"
 
 #include <QHeaderView>
-#include <QVBoxLayout>
 #include <cmath>
 #include <set>
 
 #include "app/gui/calibrate/CalibrationTrendView.h"
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 
@@ -42,10 +42,7 @@ QString timesText(const StoredCalibration& c) {
 
 CalibrationHistory::CalibrationHistory(QWidget* parent) : QWidget(parent) {
     auto* column = new QVBoxLayout(this);
-    empty_ = new QLabel(this);
-    empty_->setObjectName("historyEmpty");
-    empty_->setWordWrap(true);
-    setTone(*empty_, Tone::Quiet);
+    empty_ = makeLabel({}, {.name = "historyEmpty", .tone = Tone::Quiet, .wraps = true}, this);
     column->addWidget(empty_);
     trend_ = new CalibrationTrendView(this);
     column->addWidget(trend_, 3);
@@ -57,12 +54,10 @@ CalibrationHistory::CalibrationHistory(QWidget* parent) : QWidget(parent) {
            "stored cannot be changed without being noticed."));
     table_->setHorizontalHeaderLabels({tr("State"), tr("Made"), tr("Valid until"), tr("Gain"), tr("Offset"),
                                        tr("U (95 %)"), tr("Range"), tr("Measured with")});
-    table_->verticalHeader()->hide();
-    table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+    makeReadOnly(*table_);
     table_->setSelectionBehavior(QAbstractItemView::SelectRows);
     table_->setAlternatingRowColors(true);
     table_->setWordWrap(false);
-    table_->setTabKeyNavigation(false);
     table_->horizontalHeader()->setStretchLastSection(true);  // elided; the tool tip has all of it
     table_->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
     table_->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);

@@ -1,9 +1,8 @@
 #include "app/gui/calibrate/CalibrationTrendView.h"
 
-#include <QHBoxLayout>
-#include <QVBoxLayout>
 #include <cmath>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -31,16 +30,13 @@ QString signedText(const QString& text, double value) { return value > 0 ? "+" +
 
 CalibrationTrendView::CalibrationTrendView(QWidget* parent)
     : QWidget(parent),
-      says_(new QLabel(this)),
-      warns_(new QLabel(this)),
+      says_(makeLabel({}, {.name = "trendSays", .wraps = true}, this)),
+      warns_(makeLabel({}, {.name = "trendWarns", .wraps = true}, this)),
       quantity_(new QComboBox(this)),
       plot_(new QCustomPlot(this)) {
     setObjectName("calibrationTrend");
-    auto* column = new QVBoxLayout(this);
-    column->setContentsMargins(0, 0, 0, 0);
+    auto* column = columnIn(*this);
     auto* row = new QHBoxLayout;
-    says_->setObjectName("trendSays");
-    says_->setWordWrap(true);
     row->addWidget(says_, 1);
     quantity_->setObjectName("trendQuantity");
     quantity_->setAccessibleName(tr("Quantity of the trend"));
@@ -48,8 +44,6 @@ CalibrationTrendView::CalibrationTrendView(QWidget* parent)
     quantity_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
     row->addWidget(quantity_);
     column->addLayout(row);
-    warns_->setObjectName("trendWarns");
-    warns_->setWordWrap(true);
     column->addWidget(warns_);
     buildPlot();
     column->addWidget(plot_, 1);

@@ -1,11 +1,11 @@
 #include "app/gui/calibrate/CalibrationView.h"
 
-#include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
 
 #include "app/gui/calibrate/CalibrationPlot.h"
 #include "app/gui/calibrate/ToleranceCard.h"
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Labels.h"
 #include "app/gui/theme/Pages.h"
 #include "app/gui/theme/PlotPicture.h"
@@ -26,9 +26,7 @@ constexpr int kToolHigh = 24;  // the line of the title is no higher: a small wi
 
 CalibrationView::CalibrationView(QWidget* parent) : QWidget(parent) {
     setObjectName("calibrationView");
-    auto* column = new QVBoxLayout(this);
-    column->setContentsMargins(0, 0, 0, 0);
-    column->setSpacing(kCardsBelow);
+    auto* column = columnIn(*this, kCardsBelow);
     head_ = buildHead();
     column->addWidget(head_);
     plots_ = new PageStack(this);
@@ -47,12 +45,12 @@ CalibrationView::CalibrationView(QWidget* parent) : QWidget(parent) {
     places_->setSpacing(kCardsApart);
     column->addLayout(places_);
     begin({});
+    onEvent(*this, QEvent::Resize, [this] { arrange(); });
 }
 
 QWidget* CalibrationView::buildHead() {
     auto* head = new QWidget(this);
-    auto* row = new QHBoxLayout(head);
-    row->setContentsMargins(0, 0, 0, 0);
+    auto* row = rowIn(*head);
     title_ = new ElidedLabel(head);
     title_->setObjectName("calibrationShown");
     setTextSize(*title_, TextSize::Body, true);
@@ -270,11 +268,6 @@ void CalibrationView::showEvent(QShowEvent* event) {
 void CalibrationView::hideEvent(QHideEvent* event) {
     QWidget::hideEvent(event);
     if (!isAncestorOf(kind_)) kind_->hide();
-}
-
-void CalibrationView::resizeEvent(QResizeEvent* event) {
-    QWidget::resizeEvent(event);
-    arrange();
 }
 
 }  // namespace tacto::gui

@@ -2,11 +2,10 @@
 
 #include <QDialogButtonBox>
 #include <QEvent>
-#include <QHBoxLayout>
 #include <QHeaderView>
-#include <QVBoxLayout>
 #include <array>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -24,16 +23,14 @@ CertificateDialog::CertificateDialog(BenchController& controller, QWidget* paren
     setWindowTitle(tr("Oscilloscope certificates"));
     auto* page = new ScrollingPage(this);
     auto* all = new QWidget(page->viewport());
-    auto* column = new QVBoxLayout(all);
-    column->setContentsMargins(0, 0, 0, 0);
+    auto* column = columnIn(*all);
     column->addWidget(heading(tr("Calibration certificates of oscilloscopes"), this));
     column->addWidget(
         explanation(tr("The expanded uncertainties U (k = 2) of a certificate are used for captures of the "
                        "oscilloscope with its serial number, from its date until it is due, in place of "
                        "the data sheet's. A bench that is open keeps what it was opened with."),
                     this));
-    empty_ = new QLabel(tr("No certificate is entered."), this);
-    setTone(*empty_, Tone::Quiet);
+    empty_ = makeLabel(tr("No certificate is entered."), {.tone = Tone::Quiet}, this);
     column->addWidget(empty_);
     table_ = new CertificateTable(this);
     column->addWidget(table_);
@@ -51,11 +48,8 @@ CertificateDialog::CertificateDialog(BenchController& controller, QWidget* paren
     page->hold(all);
     auto* frame = new QVBoxLayout(this);
     frame->addWidget(page, 1);
-    says_ = new QLabel(this);
-    says_->setObjectName("certificateSays");
-    says_->setWordWrap(true);
-    says_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-    frame->addWidget(says_);  // in sight, like the button that it speaks of
+    says_ = makeLabel({}, {.name = "certificateSays", .wraps = true, .selectable = true}, this);
+    frame->addWidget(says_);  // in sight, as the button that it speaks of
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
     enter_ = buttons->addButton(tr("&Enter certificate"), QDialogButtonBox::ActionRole);
     enter_->setObjectName("enterCertificate");
@@ -79,16 +73,12 @@ CertificateDialog::CertificateDialog(BenchController& controller, QWidget* paren
     judge();
     // As high as all of it, where the screen is: below that the page scrolls.
     resize(scaledPx(kWide), sizeHint().height() - page->sizeHint().height() + wholeHeightAt(*column, scaledPx(kWide)));
+    onEvent(*this, QEvent::Resize, [this] { table_->fitColumns(); });
 }
 
 void CertificateDialog::changeEvent(QEvent* event) {
     QDialog::changeEvent(event);
     if (event->type() == QEvent::PaletteChange && enter_ != nullptr) list();  // greyed in the new theme's grey
-}
-
-void CertificateDialog::resizeEvent(QResizeEvent* event) {
-    QDialog::resizeEvent(event);
-    table_->fitColumns();
 }
 
 void CertificateDialog::buildForm(QVBoxLayout& column) {
@@ -281,13 +271,11 @@ CertificateTable::CertificateTable(QWidget* parent) : QTableWidget(0, kCertifica
     setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Maximum);
     setMaximumHeight(kMaxRows * verticalHeader()->defaultSectionSize());
-    verticalHeader()->hide();
-    setEditTriggers(QAbstractItemView::NoEditTriggers);
+    makeReadOnly(*this);
     setSelectionBehavior(QAbstractItemView::SelectRows);
     setSelectionMode(QAbstractItemView::SingleSelection);
     setAlternatingRowColors(true);
     setWordWrap(false);
-    setTabKeyNavigation(false);
     setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
     horizontalHeader()->setStretchLastSection(true);  // the lines of the table reach its edge
 }

@@ -1,8 +1,6 @@
 #include "app/gui/calibrate/InstrumentDialog.h"
 
 #include <QDialogButtonBox>
-#include <QHBoxLayout>
-#include <QVBoxLayout>
 
 #include "app/gui/theme/Building.h"
 #include "app/gui/theme/Text.h"
@@ -65,10 +63,7 @@ InstrumentDialog::InstrumentDialog(QWidget* parent) : QDialog(parent) {
 
 void InstrumentDialog::buildChoice(QVBoxLayout& column) {
     const auto line = [this](const char* name) {
-        auto* label = new QLabel(this);
-        label->setObjectName(name);
-        label->setWordWrap(true);
-        label->setTextInteractionFlags(Qt::TextSelectableByMouse);
+        auto* label = makeLabel({}, {.name = name, .wraps = true, .selectable = true}, this);
         return label;
     };
     address_ = line("instrumentAddress");
@@ -107,9 +102,7 @@ void InstrumentDialog::buildForm(QVBoxLayout& column) {
                   tr("The last day on which its figures hold, as 2027-03-01. Empty: figures of the data sheet."),
                   tr("data sheet"))});
     column.addWidget(form_);
-    trouble_ = new QLabel(this);
-    trouble_->setObjectName("presetTrouble");
-    trouble_->setWordWrap(true);
+    trouble_ = makeLabel({}, {.name = "presetTrouble", .wraps = true}, this);
     column.addWidget(trouble_);
     auto* row = new QHBoxLayout;
     save_ = pageButton(tr("&Save"), "savePreset", tr("Keeps it for this and all later runs."), this);

@@ -5,9 +5,9 @@
 #include <QLabel>
 #include <QPainter>
 #include <QSvgRenderer>
-#include <QVBoxLayout>
 #include <algorithm>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Theme.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
 
@@ -73,13 +73,11 @@ WiringPage::WiringPage(QWidget* parent) : QScrollArea(parent) {
     setFrameShape(QFrame::NoFrame);
     auto* page = new QWidget(this);
     auto* column = new QVBoxLayout(page);
-    auto* says = new QLabel(
+    column->addWidget(makeLabel(
         tr("Before the run: <b>both oscilloscope grounds at one node</b>, or one of them shorts the load. The shunt "
            "stands in the low side; its drop is subtracted from the voltage by itself. No person is connected. The "
            "run then reads the known load first, and ends if that reads wrong. Simulated devices are wired like this."),
-        page);
-    says->setWordWrap(true);
-    column->addWidget(says);
+        {.wraps = true}, page));
     const auto file = drawingFile("wiring");
     if (file) {
         QFile svg(QString::fromStdString(file->string()));

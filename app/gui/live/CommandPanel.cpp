@@ -1,8 +1,8 @@
 #include "app/gui/live/CommandPanel.h"
 
-#include <QVBoxLayout>
 #include <cmath>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "core/acquisition/StreamHealth.h"
@@ -36,20 +36,14 @@ QString nearText(const std::vector<Condition>& conditions, double roughness, dou
 CommandPanel::CommandPanel(QWidget* parent)
     : QWidget(parent),
       words_(new QLabel(this)),
-      near_(new QLabel(this)),
-      trains_(new QLabel(this)),
+      near_(makeLabel({}, {.name = "commandIndices", .tone = Tone::Quiet}, this)),
+      trains_(makeLabel({}, {.name = "commandTrains", .tone = Tone::Quiet}, this)),
       refusal_(new QLabel(this)) {
     setAccessibleName(tr("What the fingertip feels"));
-    auto* column = new QVBoxLayout(this);
-    column->setContentsMargins(0, 0, 0, 0);
-    column->setSpacing(0);
+    auto* column = columnIn(*this, 0);
     words_->setObjectName("commandWords");
     words_->setToolTip(tr("Roughness R from smooth to rough, pressure P from light to firm, both 0 to 1."));
     setTextSize(*words_, TextSize::Large);
-    near_->setObjectName("commandIndices");
-    setTone(*near_, Tone::Quiet);
-    trains_->setObjectName("commandTrains");
-    setTone(*trains_, Tone::Quiet);
     trains_->setToolTip(
         tr("Since the bench was opened. Refused: beyond a limit. Skipped: the fingertip's samples were old."));
     refusal_->setObjectName("commandRefusal");

@@ -1,12 +1,11 @@
 #include "app/gui/live/DrivePanel.h"
 
 #include <QGridLayout>
-#include <QHBoxLayout>
 #include <QKeyEvent>
-#include <QVBoxLayout>
 #include <cmath>
 
 #include "app/gui/controller/FirstOutput.h"
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "core/encoding/Encoder.h"
@@ -21,9 +20,7 @@ constexpr int kAnswerWithin_ms = 400;  // the bench takes a command at its next 
 }  // namespace
 
 DrivePanel::DrivePanel(BenchController& controller, QWidget* parent) : QWidget(parent), controller_(controller) {
-    auto* layout = new QVBoxLayout(this);
-    layout->setContentsMargins(0, 0, 0, 0);
-    layout->setSpacing(8);
+    auto* layout = columnIn(*this, 8);
     sources_ = new QButtonGroup(this);
     off_ = new QPushButton(tr("Off"), this);
     off_->setToolTip(
@@ -54,13 +51,9 @@ DrivePanel::DrivePanel(BenchController& controller, QWidget* parent) : QWidget(p
     addIndex(*grid, pressure_, "drivePressure", tr("P"), tr("Pressure P"),
              tr("Pressure, 0 light to 1 firm. Arrows step by 0.01, Page up and down by 0.1."));
     layout->addLayout(grid);
-    output_ = new QLabel(this);
-    output_->setObjectName("driveOutput");
-    setTextSize(*output_, TextSize::Large);
+    output_ = makeLabel({}, {.name = "driveOutput", .size = TextSize::Large}, this);
     layout->addWidget(output_);
-    says_ = new QLabel(this);
-    says_->setObjectName("driveSays");
-    says_->setWordWrap(true);
+    says_ = makeLabel({}, {.name = "driveSays", .wraps = true}, this);
     says_->setAlignment(Qt::AlignTop);
     setTone(*says_, Tone::Quiet);
     setTextSize(*says_, TextSize::Small);

@@ -1,10 +1,8 @@
 #include "app/gui/live/LiveWorkspace.h"
 
-#include <QHBoxLayout>
 #include <QScrollBar>
 #include <QShortcut>
 #include <QToolButton>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -17,6 +15,7 @@
 #include "app/gui/live/StripPlots.h"
 #include "app/gui/live/TactilePlane.h"
 #include "app/gui/live/TaxelMap.h"
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/Labels.h"
@@ -69,8 +68,7 @@ private:
 }  // namespace
 
 LiveWorkspace::LiveWorkspace(BenchController& controller, QWidget* parent) : QWidget(parent), controller_(controller) {
-    auto* layout = new QVBoxLayout(this);
-    layout->setContentsMargins(0, 0, 0, 0);
+    auto* layout = columnIn(*this);
     stack_ = new QStackedWidget(this);
     layout->addWidget(stack_, 1);
     stack_->addWidget(buildEmpty());
@@ -91,6 +89,7 @@ LiveWorkspace::LiveWorkspace(BenchController& controller, QWidget* parent) : QWi
         if (controller_.activity() == Activity::Opening) pendingSpeed_.reset();
     });
     begin();
+    onEvent(*this, QEvent::Resize, [this] { fit(); });
 }
 
 QWidget* LiveWorkspace::buildEmpty() {
@@ -119,8 +118,7 @@ QWidget* LiveWorkspace::buildEmpty() {
 
 QWidget* LiveWorkspace::buildBench() {
     auto* bench = new QWidget(stack_);
-    auto* layout = new QVBoxLayout(bench);
-    layout->setContentsMargins(8, 4, 8, 4);
+    auto* layout = columnIn(*bench, -1, {8, 4, 8, 4});
     staleLine_ = new ElidedLabel(bench);
     staleLine_->setObjectName("staleLine");
     setTone(*staleLine_, Tone::Warning);
@@ -141,16 +139,11 @@ QWidget* LiveWorkspace::buildBench() {
 
 void LiveWorkspace::fillSide() {
     side_->setObjectName("fingertipSide");
-    side_->setWidgetResizable(true);
-    side_->setFrameShape(QFrame::NoFrame);
-    side_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    scrollDownOnly(*side_);
     side_->setWhatsThis(tr("Where the fingertip is, and what it feels. The arrow keys scroll it."));
     QWidget* side = new LeastColumn([this] { fit(); }, side_);
-    auto* layout = new QVBoxLayout(side);
-    layout->setContentsMargins(8, 0, 8, 0);
-    where_ = new QLabel(side);
-    where_->setObjectName("whereTitle");
-    setTextSize(*where_, TextSize::Small, true);
+    auto* layout = columnIn(*side, -1, {8, 0, 8, 0});
+    where_ = makeLabel({}, {.name = "whereTitle", .size = TextSize::Small, .strong = true}, side);
     layout->addWidget(where_);
     plane_ = new TactilePlane(side);
     layout->addWidget(plane_, 1);
@@ -187,9 +180,7 @@ void LiveWorkspace::fit() {
 
 void LiveWorkspace::buildTools() {
     tools_ = new QWidget(this);
-    auto* row = new QHBoxLayout(tools_);
-    row->setContentsMargins(8, 0, 0, 0);
-    row->setSpacing(8);
+    auto* row = rowIn(*tools_, 8, {8, 0, 0, 0});
     freeze_ = new QPushButton(icon("pause"), tr("Free&ze"), tools_);
     makeQuiet(*freeze_);
     freeze_->setAccessibleName(tr("Freeze"));
@@ -256,11 +247,6 @@ void LiveWorkspace::addViewTools(ToolRow& row) {
     enable();
     auto* key = new QShortcut(QKeySequence::Undo, strips_);  // wherever the focus is, as after Freeze
     connect(key, &QShortcut::activated, strips_, &StripPlots::undoZoom);
-}
-
-void LiveWorkspace::resizeEvent(QResizeEvent* event) {
-    QWidget::resizeEvent(event);
-    fit();
 }
 
 void LiveWorkspace::begin() {

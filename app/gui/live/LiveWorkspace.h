@@ -50,9 +50,6 @@ signals:
     /// The plots without what is around them, or back.
     void plotOnlyWanted();
 
-protected:
-    void resizeEvent(QResizeEvent* event) override;
-
 private:
     enum Page { kEmpty, kOpening, kBench };
     [[nodiscard]] QWidget* buildEmpty();

@@ -1,9 +1,8 @@
 #include "app/gui/live/ProfileEditor.h"
 
-#include <QHBoxLayout>
 #include <QScreen>
-#include <QVBoxLayout>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -52,17 +51,13 @@ ProfileEditor::ProfileEditor(BenchController& controller, QWidget* parent) : QDi
     auto* right = new QVBoxLayout;
     preview_ = new ProfilePreview(this);
     right->addWidget(preview_, 1);
-    facts_ = new QLabel(this);
-    facts_->setObjectName("profileFacts");
-    facts_->setWordWrap(true);
+    facts_ = makeLabel({}, {.name = "profileFacts", .wraps = true}, this);
     facts_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
     facts_->setMinimumHeight(fontMetrics().height() * 4);
     right->addWidget(facts_);
     split->addLayout(right, 1);
     layout->addLayout(split, 1);
-    says_ = new QLabel(this);
-    says_->setObjectName("profileTrouble");
-    says_->setWordWrap(true);
+    says_ = makeLabel({}, {.name = "profileTrouble", .wraps = true}, this);
     layout->addWidget(says_);
     layout->addWidget(buildButtons());
     fill(controller_.profile());
@@ -89,8 +84,7 @@ void ProfileEditor::goTo(const QString& key) { tabs_->goTo(key); }
 
 QWidget* ProfileEditor::buildButtons() {
     auto* holder = new QWidget(this);
-    auto* row = new QHBoxLayout(holder);
-    row->setContentsMargins(0, 0, 0, 0);
+    auto* row = rowIn(*holder);
     const auto button = [&](const QString& text, const QString& tip, auto slot) {
         auto* made = new QPushButton(text, holder);
         made->setToolTip(tip);

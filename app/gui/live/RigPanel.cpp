@@ -1,8 +1,8 @@
 #include "app/gui/live/RigPanel.h"
 
 #include <QGridLayout>
-#include <QHBoxLayout>
-#include <QVBoxLayout>
+
+#include "app/gui/theme/Building.h"
 
 namespace tacto::gui {
 
@@ -12,8 +12,7 @@ constexpr double kPaces[] = {0.1, 0.25, 0.5, 1.0, 2.0, 5.0, 10.0};
 }  // namespace
 
 RigPanel::RigPanel(BenchController& controller, QWidget* parent) : QWidget(parent), controller_(controller) {
-    auto* layout = new QVBoxLayout(this);
-    layout->setContentsMargins(0, 0, 0, 0);
+    auto* layout = columnIn(*this);
     surfaces_ = buildSurfaces();
     layout->addWidget(surfaces_);
     pace_ = buildPace();
@@ -24,8 +23,7 @@ RigPanel::RigPanel(BenchController& controller, QWidget* parent) : QWidget(paren
 
 QWidget* RigPanel::buildSurfaces() {
     auto* group = new QGroupBox(tr("Under the simulated finger"), this);
-    auto* fields = new QGridLayout(group);
-    fields->setContentsMargins(0, 0, 0, 0);
+    auto* fields = layoutIn<QGridLayout>(*group, -1, {});
     material_ = new QComboBox(group);
     material_->setObjectName("surface");
     material_->addItem(tr("nothing (lifted)"), "");  // see begin() for what the finger does by itself
@@ -64,8 +62,7 @@ QWidget* RigPanel::buildSurfaces() {
 
 QWidget* RigPanel::buildPace() {
     auto* holder = new QWidget(this);
-    auto* row = new QHBoxLayout(holder);
-    row->setContentsMargins(0, 0, 0, 0);
+    auto* row = rowIn(*holder);
     paceLabel_ = new QLabel(holder);
     paceBox_ = new QComboBox(holder);
     paceBox_->setObjectName("pace");

@@ -150,9 +150,7 @@ void InputRows::build() {
 QWidget* InputRows::build(Row& row) {
     const auto& device = row.seat.device;
     row.widget = new QWidget(this);
-    auto* column = new QVBoxLayout(row.widget);
-    column->setContentsMargins(0, 0, 0, 0);
-    column->setSpacing(4);
+    auto* column = columnIn(*row.widget, 4);
     auto* whose = new QComboBox(row.widget);
     whose->setObjectName("inputOf " + qtext(device.identity));
     whose->setAccessibleName(tr("Whose %1 is").arg(qtext(device.name)));
@@ -165,8 +163,7 @@ QWidget* InputRows::build(Row& row) {
     whose->setEnabled(row.trouble.isEmpty());
     auto* line = new QHBoxLayout;
     line->setSpacing(8);
-    auto* name = new QLabel(qtext(device.name), row.widget);
-    wrapPlain(*name);
+    auto* name = makeLabel(qtext(device.name), {.wraps = true, .plain = true}, row.widget);
     name->setToolTip(qtext(device.identity + ", " + device.address));
     line->addWidget(name, 1);
     line->addWidget(whose);
@@ -181,10 +178,7 @@ QWidget* InputRows::build(Row& row) {
     });
     const auto trouble = !row.there ? tr("It is unplugged.") : row.trouble;
     if (!trouble.isEmpty()) {
-        auto* why = new QLabel("⚠ " + trouble, row.widget);
-        wrapPlain(*why);
-        setTone(*why, Tone::Warning);
-        column->addWidget(why);
+        column->addWidget(makeLabel("⚠ " + trouble, {.tone = Tone::Warning, .wraps = true, .plain = true}, row.widget));
     }
     buildBefore(row, *column);
     row.lamps.clear();
@@ -198,10 +192,7 @@ void InputRows::buildBefore(Row& row, QVBoxLayout& column) {
     const bool same = row.assigned && row.seat.whose == row.before->whose && row.seat.uses == row.before->uses;
     if (!same && row.assigned) return;
     const auto whose = row.before->whose == PromptTo::Participant ? tr("the participant’s") : tr("the operator’s");
-    auto* told = new QLabel(row.widget);
-    told->setObjectName("asLastTime");
-    wrapPlain(*told);
-    setTone(*told, Tone::Quiet);
+    auto* told = makeLabel({}, {.name = "asLastTime", .tone = Tone::Quiet, .wraps = true, .plain = true}, row.widget);
     told->setText(same ? tr("As in the last session.")
                   : row.seat.device.hasSerial
                       ? tr("In the last session it was %1.").arg(whose)
@@ -232,10 +223,8 @@ void InputRows::buildButtons(Row& row, QVBoxLayout& column) {
     grid->setVerticalSpacing(4);
     column.addLayout(grid);
     if (!row.assigned) {
-        auto* hint = new QLabel(tr("Press a button to see which device it is."), row.widget);
-        hint->setObjectName("pressIt");
-        hint->setWordWrap(true);
-        setTone(*hint, Tone::Quiet);
+        auto* hint = makeLabel(tr("Press a button to see which device it is."),
+                               {.name = "pressIt", .tone = Tone::Quiet, .wraps = true}, row.widget);
         grid->addWidget(hint, 0, 0);
         row.lamps.assign(buttons.size(), hint);
         return;

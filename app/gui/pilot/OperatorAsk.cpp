@@ -27,8 +27,7 @@ OperatorAsk::OperatorAsk(QWidget* parent) : QFrame(parent) {
     setFrameShape(QFrame::StyledPanel);
     setAutoFillBackground(true);
     setBackgroundRole(QPalette::Base);
-    layout_ = new QVBoxLayout(this);
-    layout_->setContentsMargins(kAskStripe * 3, kAskStripe, kAskStripe, kAskStripe);
+    layout_ = columnIn(*this, -1, {kAskStripe * 3, kAskStripe, kAskStripe, kAskStripe});
     hide();
 }
 
@@ -41,13 +40,10 @@ void OperatorAsk::ask(const PilotPrompt& prompt, quint64 id) {
     close();
     id_ = id;
     body_ = new QWidget(this);
-    column_ = new QVBoxLayout(body_);
-    column_->setContentsMargins(0, 0, 0, 0);
-    auto* says = new QLabel(qtext(prompt.text), body_);
-    says->setObjectName("operatorQuestion");
-    wrapPlain(*says);
-    setTextSize(*says, TextSize::Body, true);
-    column_->addWidget(says);
+    column_ = columnIn(*body_);
+    column_->addWidget(makeLabel(
+        qtext(prompt.text),
+        {.name = "operatorQuestion", .size = TextSize::Body, .strong = true, .wraps = true, .plain = true}, body_));
     if (prompt.to == PromptTo::Both)
         column_->addWidget(explanation(tr("The participant has to press it as well."), body_));
     if (prompt.name == "stop-test")

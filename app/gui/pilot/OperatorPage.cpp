@@ -46,7 +46,7 @@ QString whereText(const PilotScreen& screen) {
 
 OperatorPage::OperatorPage(QWidget* parent)
     : QWidget(parent),
-      where_(new QLabel(this)),
+      where_(makeLabel({}, {.name = "whereInSession", .size = TextSize::Large}, this)),
       counts_(new ElidedLabel(this)),
       hidden_(new ElidedLabel(this)),
       phase_(new PhaseBar(this)),
@@ -59,8 +59,6 @@ OperatorPage::OperatorPage(QWidget* parent)
     auto* column = new QVBoxLayout;
     column->setContentsMargins(kOperatorPad, kOperatorPad, kOperatorPad, kOperatorPad / 2);
     column->setSpacing(kOperatorPad / 4);
-    where_->setObjectName("whereInSession");
-    setTextSize(*where_, TextSize::Large);
     column->addWidget(where_);
     for (auto* quiet : {counts_, hidden_}) {
         setTone(*quiet, Tone::Quiet);
@@ -69,10 +67,7 @@ OperatorPage::OperatorPage(QWidget* parent)
     column->addSpacing(kOperatorPad / 2);
     column->addWidget(phase_);
     auto* row = rowIn(*obstacle_);
-    obstacleText_ = new QLabel(obstacle_);
-    obstacleText_->setObjectName("presentationObstacle");
-    obstacleText_->setWordWrap(true);
-    setTone(*obstacleText_, Tone::Warning);
+    obstacleText_ = makeLabel({}, {.name = "presentationObstacle", .tone = Tone::Warning, .wraps = true}, obstacle_);
     row->addWidget(obstacleText_, 1);
     auto* keys = new QPushButton(tr("&Give them the keys"), obstacle_);
     keys->setAutoDefault(false);
@@ -94,6 +89,10 @@ OperatorPage::OperatorPage(QWidget* parent)
     column->addWidget(notes_);
     all->addLayout(column, 1);
     all->addWidget(buildBar());
+    onEvent(*this, QEvent::Resize, [this] {
+        keepRoomForObstacle();
+        showTrend();
+    });
 }
 
 QWidget* OperatorPage::buildBar() {
@@ -276,12 +275,6 @@ void OperatorPage::setBreakDue(bool due) {
 void OperatorPage::setProgress(const QString& what, int done, int total) {
     where_->setText(tr("The virtual participant answers: %1, %2 of %3").arg(what.toLower()).arg(done).arg(total));
     counts_->setText(tr("Nothing is asked of you. Each answer is on disk before the next presentation."));
-}
-
-void OperatorPage::resizeEvent(QResizeEvent* event) {
-    QWidget::resizeEvent(event);
-    keepRoomForObstacle();
-    showTrend();
 }
 
 /// A massager has no impedance.

@@ -46,9 +46,6 @@ signals:
     void abortWanted();
     void keysWanted();  ///< asks for the keys of the participant's window
 
-protected:
-    void resizeEvent(QResizeEvent* event) override;
-
 private:
     [[nodiscard]] QWidget* buildBar();
     void showWhere();

@@ -6,6 +6,7 @@
 
 #include "app/gui/pilot/ParticipantField.h"
 #include "app/gui/pilot/ParticipantStop.h"
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "core/analysis/identification/IdentificationText.h"
@@ -75,7 +76,7 @@ ParticipantFace::ParticipantFace(std::function<void()> stop, QWidget* parent)
       block_(new QLabel(this)),
       blocks_(new ShareBars(this)),
       note_(new QLabel(this)),
-      title_(new QLabel(this)),
+      title_(makeLabel({}, {.name = "participantTitle", .wraps = true}, this)),
       below_(new QLabel(this)),
       field_(new ParticipantField(this)),
       stopTarget_(new ParticipantStop(std::move(stop), this)),
@@ -89,8 +90,6 @@ ParticipantFace::ParticipantFace(std::function<void()> stop, QWidget* parent)
         label->setTextFormat(Qt::PlainText);
         label->setAttribute(Qt::WA_TransparentForMouseEvents);
     }
-    title_->setObjectName("participantTitle");
-    title_->setWordWrap(true);
     title_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
     below_->setWordWrap(true);
     for (auto* quiet : {note_, below_, timeWord_, leastWord_, mostWord_}) setTone(*quiet, Tone::Quiet);
@@ -98,6 +97,7 @@ ParticipantFace::ParticipantFace(std::function<void()> stop, QWidget* parent)
     hold_->hide();
     line_->hide();
     afterLookChange(*this, [this] { arrange(); });
+    onEvent(*this, QEvent::Resize, [this] { arrange(); });
 }
 
 void ParticipantFace::setNote(const QString& note) {
@@ -335,11 +335,6 @@ void ParticipantFace::placeEnds(const Picture& at, int top) {
     leastWord_->setGeometry(at.margin, top, at.column / 2, high);
     mostWord_->setGeometry(at.margin + at.column / 2, top, at.column - at.column / 2, high);
     mostWord_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
-}
-
-void ParticipantFace::resizeEvent(QResizeEvent* event) {
-    QWidget::resizeEvent(event);
-    arrange();
 }
 
 namespace {

@@ -60,9 +60,6 @@ public:
     [[nodiscard]] AnswerTarget& hold() { return *hold_; }
     [[nodiscard]] QLineEdit& line() { return *line_; }
 
-protected:
-    void resizeEvent(QResizeEvent* event) override;
-
 private:
     struct Picture;
     void put(const QString& title, const QString& below);

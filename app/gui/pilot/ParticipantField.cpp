@@ -6,6 +6,7 @@
 #include <QScreen>
 #include <algorithm>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -126,9 +127,7 @@ void ParticipantField::arrange() {
     const int rows = (count + columns - 1) / columns, least = pixelsOf(kTarget_mm, *this);
     const bool whole = kind_ == PromptKind::Condition;
     delete layout();
-    auto* grid = new QGridLayout(this);
-    grid->setContentsMargins(0, 0, 0, 0);
-    grid->setSpacing(gap_px_);
+    auto* grid = layoutIn<QGridLayout>(*this, gap_px_, {});
     for (int i = 0; i < count; ++i) {
         auto* target = targets_[std::size_t(i)];
         target->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Ignored);

@@ -12,6 +12,7 @@
 
 #include "app/gui/pilot/ParticipantFace.h"
 #include "app/gui/pilot/ParticipantField.h"
+#include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 
@@ -78,6 +79,10 @@ ParticipantWindow::ParticipantWindow(ParticipantDesk& desk, std::function<void(c
     connect(&ticking_, &QTimer::timeout, this, &ParticipantWindow::tick);
     showState();
     judge();
+    onEvent(*this, QEvent::Resize, [this] {
+        face_->setGeometry(rect());
+        judge();
+    });
 }
 
 void ParticipantWindow::setNote(const QString& note) { face_->setNote(note); }
@@ -398,12 +403,6 @@ void ParticipantWindow::showEvent(QShowEvent* event) {
 
 void ParticipantWindow::hideEvent(QHideEvent* event) {
     QWidget::hideEvent(event);
-    judge();
-}
-
-void ParticipantWindow::resizeEvent(QResizeEvent* event) {
-    QWidget::resizeEvent(event);
-    face_->setGeometry(rect());
     judge();
 }
 

@@ -64,6 +64,7 @@ PilotWorkspace::PilotWorkspace(BenchController& controller, QWidget* parent)
     connect(start_, &SessionStartPage::backWanted, this, [this] { showPage(kHome); });
     showPage(kHome);
     afterLookChange(*this, [this] { showBeside(Page(pages_->currentIndex())); });
+    onEvent(*this, QEvent::Resize, [this] { showBeside(Page(pages_->currentIndex())); });
 }
 
 PilotWorkspace::~PilotWorkspace() = default;
@@ -156,11 +157,6 @@ void PilotWorkspace::showBeside(Page page) {
     const bool side = page == kSession && room >= path_->maximumWidth() + side_->maximumWidth();
     for (auto* left : {static_cast<QWidget*>(path_), static_cast<QWidget*>(pathEdge_)}) left->setVisible(path);
     for (auto* right : {static_cast<QWidget*>(side_), static_cast<QWidget*>(sideEdge_)}) right->setVisible(side);
-}
-
-void PilotWorkspace::resizeEvent(QResizeEvent* event) {
-    QWidget::resizeEvent(event);
-    showBeside(Page(pages_->currentIndex()));
 }
 
 void PilotWorkspace::showPlotOnly(bool only) {

@@ -48,9 +48,6 @@ signals:
     void attentionWanted();
     void runningChanged();
 
-protected:
-    void resizeEvent(QResizeEvent* event) override;
-
 private:
     enum Page { kHome, kStart, kSession, kOutcome };
     [[nodiscard]] QWidget* buildHome();

@@ -46,7 +46,7 @@ std::optional<Unfinished> unfinishedIn(const QString& folder, const std::string&
 
 RehearsalPage::RehearsalPage(QWidget* parent)
     : QWidget(parent),
-      title_(new QLabel(this)),
+      title_(makeLabel({}, {.name = "rehearsalTitle", .size = TextSize::Large}, this)),
       folder_(new FolderRow(newFolder(), tr("A new folder, or the folder of a rehearsal to continue."),
                             tr("The rehearsal’s folder"), this)),
       offer_(new UnfinishedOffer(this)),
@@ -55,8 +55,6 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     auto* page = new ScrollingPage(this);
     auto* inside = new QWidget(page->viewport());
     auto* column = columnIn(*inside, 8, {kPagePad, kPagePad, kPagePad, kPagePad / 2});
-    title_->setObjectName("rehearsalTitle");
-    setTextSize(*title_, TextSize::Large);
     column->addWidget(title_);
     column->addWidget(explanation(
         tr("The whole session as participant and operator see it, on simulated devices: checklist, thresholds, "

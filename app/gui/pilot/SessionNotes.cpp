@@ -20,8 +20,7 @@ SessionNotes::SessionNotes(QWidget* parent)
     auto* column = columnIn(*this, 4);
     auto* row = new QHBoxLayout;
     row->setSpacing(8);
-    auto* title = strongLabel(tr("Notes"), this);
-    row->addWidget(title);
+    row->addWidget(strongLabel(tr("Notes"), this));
     line_->setObjectName("noteLine");
     line_->setAccessibleName(tr("Note"));
     line_->setMaxLength(kLongestNote);
@@ -59,9 +58,8 @@ void SessionNotes::clear() {
 void SessionNotes::add(const QString& note) {
     auto* row = new QWidget(this);
     auto* line = rowIn(*row, 16, {0, 4, 0, 4});
-    auto* at = new QLabel(QTime::currentTime().toString("HH:mm:ss"), row);
-    setTextSize(*at, TextSize::Small);
-    setTone(*at, Tone::Quiet);
+    auto* at =
+        makeLabel(QTime::currentTime().toString("HH:mm:ss"), {.tone = Tone::Quiet, .size = TextSize::Small}, row);
     auto* words = new ElidedLabel(note.isEmpty() ? tr("mark") : note, row);
     words->setTextFormat(Qt::PlainText);
     words->setToolTip(note);

@@ -76,13 +76,8 @@ SessionPath::SessionPath(QWidget* parent) : QWidget(parent) {
     auto* top = new QVBoxLayout;
     top->setContentsMargins(kPathPad, 0, kPathPad, kPathPad / 2);
     top->setSpacing(4);
-    title_ = new QLabel(this);
-    title_->setWordWrap(true);
-    setTextSize(*title_, TextSize::Body, true);
-    below_ = new QLabel(this);
-    below_->setWordWrap(true);
-    setTextSize(*below_, TextSize::Small);
-    setTone(*below_, Tone::Quiet);
+    title_ = makeLabel({}, {.size = TextSize::Body, .strong = true, .wraps = true}, this);
+    below_ = makeLabel({}, {.tone = Tone::Quiet, .size = TextSize::Small, .wraps = true}, this);
     top->addWidget(title_);
     top->addWidget(below_);
     column->addLayout(top);
@@ -94,16 +89,13 @@ SessionPath::SessionPath(QWidget* parent) : QWidget(parent) {
     auto* foot = new QVBoxLayout;
     foot->setContentsMargins(kPathPad, 0, kPathPad, 0);
     foot->setSpacing(4);
-    leftWord_ = new QLabel(tr("Time left"), this);
-    setTextSize(*leftWord_, TextSize::Small);
-    setTone(*leftWord_, Tone::Quiet);
-    left_ = new QLabel(this);
-    left_->setObjectName("timeLeft");
-    setTextSize(*left_, TextSize::Large);
+    leftWord_ = makeLabel(tr("Time left"), {.tone = Tone::Quiet, .size = TextSize::Small}, this);
+    left_ = makeLabel({}, {.name = "timeLeft", .size = TextSize::Large}, this);
     foot->addWidget(leftWord_);
     foot->addWidget(left_);
     column->addLayout(foot);
     clear();
+    onEvent(*this, QEvent::Resize, [this] { steps_->fit(); });
 }
 
 void SessionPath::setTitle(const QString& title, const QString& below) {
@@ -194,11 +186,6 @@ QString SessionPath::timeLeft() const {
         rest_min += lasts_min;
     }
     return tr("about %1 min").arg(std::max(1, int(std::lround(rest_min))));
-}
-
-void SessionPath::resizeEvent(QResizeEvent* event) {
-    QWidget::resizeEvent(event);
-    steps_->fit();
 }
 
 }  // namespace tacto::gui

@@ -38,9 +38,6 @@ public:
     void clear();
     using QWidget::show;
 
-protected:
-    void resizeEvent(QResizeEvent* event) override;
-
 private:
     void nameSeats(bool massager);
     void reach(int step);

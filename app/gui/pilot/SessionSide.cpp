@@ -7,6 +7,7 @@
 #include "app/gui/theme/Building.h"
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/Labels.h"
+#include "app/gui/theme/Pages.h"
 
 namespace tacto::gui {
 
@@ -16,9 +17,7 @@ constexpr int kPilotSide = 224;
 
 SessionSide::SessionSide(QWidget* parent) : QScrollArea(parent) {
     setObjectName("pilotSide");
-    setWidgetResizable(true);
-    setFrameShape(QFrame::NoFrame);
-    setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    scrollDownOnly(*this);
     setFocusPolicy(Qt::NoFocus);
     fixWidth(*this, kPilotSide);
     auto* inside = new QWidget(this);
@@ -115,10 +114,7 @@ void FactsCard::setPicture(QWidget* picture) { column_->insertWidget(1, picture)
 
 void FactsCard::setWords(const QString& words) {
     if (words_ == nullptr) {
-        words_ = new QLabel(this);
-        words_->setWordWrap(true);
-        setTextSize(*words_, TextSize::Small);
-        setTone(*words_, Tone::Quiet);
+        words_ = makeLabel({}, {.tone = Tone::Quiet, .size = TextSize::Small, .wraps = true}, this);
         column_->addWidget(words_);
     }
     words_->setText(words);

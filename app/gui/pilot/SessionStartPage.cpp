@@ -21,7 +21,7 @@ constexpr int kMaxPlanSeed = 1'000'000'000;
 
 SessionStartPage::SessionStartPage(const DeviceWatch& watch, QWidget* parent)
     : QWidget(parent),
-      head_(new QLabel(this)),
+      head_(makeLabel({}, {.name = "sessionHead", .size = TextSize::Large}, this)),
       about_(new QLabel(this)),
       offer_(new UnfinishedOffer(this)),
       trouble_(new TroubleLine("sessionTrouble", this)) {
@@ -31,8 +31,6 @@ SessionStartPage::SessionStartPage(const DeviceWatch& watch, QWidget* parent)
     auto* inside = new QWidget(page->viewport());
     boundWidth(*inside, kStartWide);
     auto* column = columnIn(*inside, 12, {kPagePad, kPagePad, kPagePad, kPagePad});
-    head_->setObjectName("sessionHead");
-    setTextSize(*head_, TextSize::Large);
     setTone(*about_, Tone::Quiet);
     for (auto* label : {head_, about_}) {
         wrapPlain(*label);
@@ -90,8 +88,7 @@ void SessionStartPage::buildChecklist() {
     asks_ = new QWidget(this);
     checklist_ = new ExclusionChecklist(asks_);
     auto* column = columnIn(*asks_, 8);
-    auto* title = strongLabel(tr("Exclusion checklist: ask each, today"), asks_);
-    column->addWidget(title);
+    column->addWidget(strongLabel(tr("Exclusion checklist: ask each, today"), asks_));
     column->addWidget(
         explanation(tr("A yes ends the day, whatever is answered later. Which one it was is sealed."), asks_));
     column->addWidget(checklist_);
@@ -165,15 +162,13 @@ void SessionStartPage::say(const QString& what) { trouble_->say(what); }
 ExclusionChecklist::ExclusionChecklist(QWidget* parent) : QWidget(parent) {
     setObjectName("exclusionChecklist");
     setAccessibleName(tr("Exclusion checklist"));
-    auto* grid = new QGridLayout(this);
-    grid->setContentsMargins(0, 0, 0, 0);
+    auto* grid = layoutIn<QGridLayout>(*this, -1, {});
     grid->setHorizontalSpacing(scaledPx(16));
     grid->setVerticalSpacing(scaledPx(8));
     grid->setColumnStretch(0, 1);
     int row = 0;
     for (const auto& item : exclusionItems()) {
-        auto* question = new QLabel(qtext(item.question), this);
-        wrapPlain(*question);
+        auto* question = makeLabel(qtext(item.question), {.wraps = true, .plain = true}, this);
         grid->addWidget(question, row, 0);
         auto* group = new QButtonGroup(this);
         for (const auto answer : {kNo, kYes}) {

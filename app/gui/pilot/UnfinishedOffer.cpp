@@ -39,16 +39,17 @@ Result<std::optional<Unfinished>> unfinishedOf(const Study& study, const Partici
 }
 
 UnfinishedOffer::UnfinishedOffer(QWidget* parent)
-    : QFrame(parent), says_(new QLabel(this)), goOn_(new QRadioButton(this)), end_(new QRadioButton(this)) {
+    : QFrame(parent),
+      says_(makeLabel(
+          {}, {.name = "unfinishedSays", .size = TextSize::Body, .strong = true, .wraps = true, .plain = true}, this)),
+      goOn_(new QRadioButton(this)),
+      end_(new QRadioButton(this)) {
     setObjectName("unfinishedOffer");
     setAccessibleName(tr("A session was interrupted"));
     setFrameShape(QFrame::StyledPanel);
     setAutoFillBackground(true);
     setBackgroundRole(QPalette::Base);
     auto* column = columnIn(*this, -1, {kOfferStripe * 3, kOfferStripe * 2, kOfferStripe * 2, kOfferStripe * 2});
-    says_->setObjectName("unfinishedSays");
-    wrapPlain(*says_);
-    setTextSize(*says_, TextSize::Body, true);
     column->addWidget(says_);
     goOn_->setObjectName("goOnWithIt");
     end_->setObjectName("endIt");
@@ -59,6 +60,7 @@ UnfinishedOffer::UnfinishedOffer(QWidget* parent)
         connect(choice, &QRadioButton::toggled, this, &UnfinishedOffer::changed);
     }
     hide();
+    onEvent(*this, QEvent::Resize, [this] { fit(); });
 }
 
 void UnfinishedOffer::paintEvent(QPaintEvent* event) {
@@ -98,12 +100,7 @@ void UnfinishedOffer::offer(const std::optional<Unfinished>& unfinished) {
     emit changed();
 }
 
-void UnfinishedOffer::resizeEvent(QResizeEvent* event) {
-    QFrame::resizeEvent(event);
-    fit();
-}
-
-/// Shows all lines of the sentence, in a page that scrolls too.
+/// All lines of the sentence, in a page that scrolls too.
 void UnfinishedOffer::fit() { says_->setMinimumHeight(std::max(0, says_->heightForWidth(says_->width()))); }
 
 std::string UnfinishedOffer::chosen() const {

@@ -1,13 +1,12 @@
 #include "app/gui/runner/DisclosedPanel.h"
 
-#include <QHBoxLayout>
 #include <QScrollBar>
 #include <QTableWidget>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
 
 #include "app/gui/runner/CaptureStrip.h"
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Pages.h"
 #include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/Text.h"
@@ -50,8 +49,7 @@ OutputsByLoad byLoad(const nlohmann::json& disclosed) {
 
 QWidget* makePage(QTableWidget& table) {
     auto* page = new QWidget;
-    auto* column = new QVBoxLayout(page);
-    column->setContentsMargins(0, 0, 0, 0);
+    auto* column = columnIn(*page);
     column->addWidget(&table);
     return page;
 }
@@ -65,25 +63,18 @@ DisclosedPanel::DisclosedPanel(QWidget* parent)
       table_(new QTableWidget),
       area_(scrollingRows(makePage(*table_), outputs_)),
       none_(new QLabel(tr("No limit set asks for outputs to be disclosed."), outputs_)),
-      peak_(new QLabel(this)),
+      peak_(makeLabel({}, {.name = "strongestOutput", .size = TextSize::Small, .strong = true, .wraps = true}, this)),
       wave_(new CaptureStrip(this)) {
     layout_->setContentsMargins(0, kGap, 0, 0);
     layout_->setSpacing(kBetween);
     auto* tracing = new QVBoxLayout;
     tracing->setSpacing(0);
-    peak_->setObjectName("strongestOutput");
-    peak_->setWordWrap(true);
-    setTextSize(*peak_, TextSize::Small, true);
     tracing->addWidget(peak_);
     wave_->setMinimumHeight(scaledPx(kMinWave));
     tracing->addWidget(wave_, 1);
     layout_->addLayout(tracing, 1);
-    auto* column = new QVBoxLayout(outputs_);
-    column->setContentsMargins(0, 0, 0, 0);
-    column->setSpacing(kGap / 2);
-    auto* heading = new QLabel(tr("Outputs to disclose"), outputs_);
-    setTextSize(*heading, TextSize::Small, true);
-    column->addWidget(heading);
+    auto* column = columnIn(*outputs_, kGap / 2);
+    column->addWidget(makeLabel(tr("Outputs to disclose"), {.size = TextSize::Small, .strong = true}, outputs_));
     none_->setWordWrap(true);
     setTone(*none_, Tone::Quiet);
     column->addWidget(none_);

@@ -1,8 +1,8 @@
 #include "app/gui/runner/FindBar.h"
 
-#include <QHBoxLayout>
 #include <QKeyEvent>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/Theme.h"
 
@@ -10,8 +10,7 @@ namespace tacto::gui {
 
 FindBar::FindBar(CodeEdit& code, QWidget* parent) : QWidget(parent), code_(code) {
     setObjectName("findBar");
-    auto* row = new QHBoxLayout(this);
-    row->setContentsMargins(0, 0, 0, 0);
+    auto* row = rowIn(*this);
     words_ = new QLineEdit(this);
     words_->setObjectName("findWords");
     words_->setAccessibleName(tr("Find"));
@@ -19,9 +18,7 @@ FindBar::FindBar(CodeEdit& code, QWidget* parent) : QWidget(parent), code_(code)
     words_->setToolTip(tr("Case does not count. Return or F3: next; with Shift: previous."));
     words_->installEventFilter(this);
     row->addWidget(words_, 1);
-    says_ = new QLabel(this);
-    says_->setObjectName("findCount");
-    setTone(*says_, Tone::Quiet);
+    says_ = makeLabel({}, {.name = "findCount", .tone = Tone::Quiet}, this);
     says_->setMinimumWidth(says_->fontMetrics().horizontalAdvance(tr("%1 of %2, from the top").arg(999).arg(999)));
     row->addWidget(says_);
     back_ = addButton(tr("Previous"), "findPrevious", tr("The match before (Shift+F3)."));
@@ -41,10 +38,7 @@ FindBar::FindBar(CodeEdit& code, QWidget* parent) : QWidget(parent), code_(code)
 }
 
 QPushButton* FindBar::addButton(const QString& text, const QString& name, const QString& tip) {
-    auto* made = new QPushButton(text, this);
-    made->setObjectName(name);
-    made->setToolTip(tip);
-    made->setAutoDefault(false);
+    auto* made = pageButton(text, name, tip, this);
     layout()->addWidget(made);
     return made;
 }

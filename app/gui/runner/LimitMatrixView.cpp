@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/Text.h"
@@ -181,10 +182,8 @@ LimitMatrixView::LimitMatrixView(QWidget* parent) : QTableWidget(parent) {
         tr("How much of each limit is used on each load, uncertainty included. ✔ inside, amber from 80 %; ▲ attention; "
            "? indeterminate; ✖ exceeded; hatched, n. e.: not evaluated, and never a pass; –: not judged on this load. "
            "A chosen cell shows the strongest train on its load."));
-    verticalHeader()->hide();
-    setEditTriggers(NoEditTriggers);
+    makeReadOnly(*this);
     setSelectionMode(SingleSelection);
-    setTabKeyNavigation(false);
     setHorizontalScrollMode(ScrollPerPixel);
     setVerticalScrollMode(ScrollPerPixel);
     setItemDelegate(new CellDelegate(this));

@@ -2,6 +2,7 @@
 
 #include <QHeaderView>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/VerdictBlock.h"
@@ -29,11 +30,9 @@ LoadRows::LoadRows(QWidget* parent) : QTableWidget(0, kColumns, parent) {
     setToolTip(tr("Each load of the bench set: its value as measured, the strongest output so far, and its verdict."));
     setHorizontalHeaderLabels(
         {tr("Load"), tr("Verdict"), tr("Measured"), tr("Commands"), tr("Peak current"), tr("RMS, 5 s")});
-    verticalHeader()->hide();
-    setEditTriggers(NoEditTriggers);
+    makeReadOnly(*this);
     setSelectionMode(NoSelection);
     setAlternatingRowColors(true);
-    setTabKeyNavigation(false);
     setWordWrap(false);
     setHorizontalScrollMode(ScrollPerPixel);
     begin();

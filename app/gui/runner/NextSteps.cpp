@@ -77,6 +77,7 @@ NextStepBar::NextStepBar(QWidget* parent) : QWidget(parent) {
     setObjectName("nextSteps");
     setAccessibleName(tr("What comes next"));
     afterLookChange(*this, [this] { measure(); });
+    onEvent(*this, QEvent::Resize, [this] { fit(); });
 }
 
 void NextStepBar::show(const std::vector<NextStep>& steps) {
@@ -122,11 +123,6 @@ QSize NextStepBar::minimumSizeHint() const {
     int widest = 0;
     for (const auto& each : buttons_) widest = std::max(widest, each.bare);
     return {widest, flow()};
-}
-
-void NextStepBar::resizeEvent(QResizeEvent* event) {
-    QWidget::resizeEvent(event);
-    fit();
 }
 
 int NextStepBar::flow(const std::function<void(const Button&, const QRect&)>& place) const {

@@ -2,11 +2,12 @@
 
 #include <QFormLayout>
 
+#include "app/gui/theme/Building.h"
+
 namespace tacto::gui {
 
 NotesPanel::NotesPanel(DayNotes& day, QWidget* parent) : QGroupBox(tr("For the report"), parent), day_(day) {
-    auto* form = new QFormLayout(this);
-    form->setContentsMargins(0, 0, 0, 0);
+    auto* form = layoutIn<QFormLayout>(*this, -1, {});
     form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
     const auto add = [&](const QString& label, const char* name, std::string RunNotes::*text,
                          const QString& placeholder, const QString& tip) {
@@ -30,6 +31,7 @@ NotesPanel::NotesPanel(DayNotes& day, QWidget* parent) : QGroupBox(tr("For the r
         all + tr("Ambient conditions. As you enter them; none are measured."));
     connect(&day_, &DayNotes::changed, this, &NotesPanel::load);
     load();
+    onEvent(*this, QEvent::Show, [this] { load(); });
 }
 
 /// A note that still stands here from another day is not entered along with it.
@@ -40,11 +42,6 @@ void NotesPanel::takeUp(const QLineEdit& edited) {
         }
     }
     day_.set(notes());
-}
-
-void NotesPanel::showEvent(QShowEvent* event) {
-    load();
-    QGroupBox::showEvent(event);
 }
 
 void NotesPanel::load() {

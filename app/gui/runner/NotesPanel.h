@@ -17,9 +17,6 @@ public:
     explicit NotesPanel(DayNotes& day, QWidget* parent = nullptr);
     [[nodiscard]] RunNotes notes() const;
 
-protected:
-    void showEvent(QShowEvent* event) override;
-
 private:
     void load();
     void takeUp(const QLineEdit& edited);

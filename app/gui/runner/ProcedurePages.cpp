@@ -8,6 +8,7 @@
 #include "app/gui/runner/SignPage.h"
 #include "app/gui/runner/WiringPanel.h"
 #include "app/gui/runner/WorstPage.h"
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/FieldForm.h"
 #include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Theme.h"
@@ -50,36 +51,22 @@ QScrollArea* dressed(QScrollArea* area) {
 }
 
 /// Scrolls up and down only.
-QScrollArea* scrolling(QWidget* part, QWidget* parent) {
-    auto* area = new QScrollArea(parent);
-    area->setWidgetResizable(true);
-    area->setFrameShape(QFrame::NoFrame);
-    area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    area->setWidget(part);
-    return dressed(area);
-}
+QScrollArea* scrolling(QWidget* part, QWidget* parent) { return dressed(scrollingRows(part, parent)); }
 
 QVBoxLayout* pageLayout(QWidget* page, const QString& title, const QString& about) {
-    auto* column = new QVBoxLayout(page);
-    column->setContentsMargins(kPageSide, kPageTop, kPageSide, kPageTop);
+    auto* column = columnIn(*page, -1, {kPageSide, kPageTop, kPageSide, kPageTop});
     if (!title.isEmpty()) {
-        auto* head = new QLabel(title, page);
-        setTextSize(*head, TextSize::Large);
-        column->addWidget(head);
+        column->addWidget(makeLabel(title, {.size = TextSize::Large}, page));
     }
     if (about.isEmpty()) return column;
-    auto* says = new QLabel(about, page);
-    says->setWordWrap(true);
-    setTone(*says, Tone::Quiet);
-    column->addWidget(says);
+    column->addWidget(makeLabel(about, {.tone = Tone::Quiet, .wraps = true}, page));
     return column;
 }
 
 /// The part in a column no wider than a form is read well.
 QWidget* formColumn(QWidget* part) {
     auto* body = new QWidget;
-    auto* column = new QVBoxLayout(body);
-    column->setContentsMargins(0, 0, 12, 0);
+    auto* column = columnIn(*body, -1, {0, 0, 12, 0});
     auto* bounded = new QHBoxLayout;  // alone in a column it would be as high as its words at a width that it has not
     bounded->addWidget(part, 1);
     bounded->addStretch();
@@ -146,8 +133,7 @@ QWidget* ProcedurePages::buildSettings(DayNotes& day) {
     auto* row = turning();
     auto* parts = new QWidget;
     boundWidth(*parts, kFormWidth * 3 / 2);
-    auto* below = new QVBoxLayout(parts);
-    below->setContentsMargins(0, 0, 0, 0);
+    auto* below = columnIn(*parts);
     below->addWidget(form_);
     notes_ = new NotesPanel(day, parts);
     below->addWidget(notes_);

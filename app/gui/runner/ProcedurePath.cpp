@@ -1,12 +1,12 @@
 #include "app/gui/runner/ProcedurePath.h"
 
-#include <QVBoxLayout>
 #include <utility>
 
 #include "app/gui/runner/LimitMatrixView.h"
 #include "app/gui/runner/ProtocolHead.h"
 #include "app/gui/runner/RunPanel.h"
 #include "app/gui/runner/StepList.h"
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/FieldForm.h"
 #include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Theme.h"
@@ -34,14 +34,14 @@ ProcedurePath::ProcedurePath(bool chooses, QWidget* parent)
     setAttribute(Qt::WA_StyledBackground);
     legend_->hide();
     layDown();
+    onEvent(*this, QEvent::Resize, [this] { steps_->fit(); });
 }
 
 void ProcedurePath::layDown() {
     setMinimumHeight(0);
     setFixedWidth(scaledPx(kPathWidth));
     setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Preferred);
-    auto* column = new QVBoxLayout(this);
-    column->setContentsMargins(0, kPathPad / 2, 0, kPathPad / 2);
+    auto* column = columnIn(*this, -1, {0, kPathPad / 2, 0, kPathPad / 2});
     const auto addPadded = [&](QWidget* part) {
         auto* padded = new QVBoxLayout;
         padded->setContentsMargins(kPathPad, 0, kPathPad, 0);
@@ -60,9 +60,7 @@ void ProcedurePath::layAcross() {
     setMinimumWidth(0);
     setMaximumWidth(QWIDGETSIZE_MAX);
     setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
-    auto* rows = new QVBoxLayout(this);
-    rows->setContentsMargins(0, 0, kPathPad, 0);
-    rows->setSpacing(0);
+    auto* rows = columnIn(*this, 0, {0, 0, kPathPad, 0});
     auto* controls = new QHBoxLayout;
     controls->setSpacing(kPathPad);
     auto* line = new TurningRow(
@@ -174,11 +172,6 @@ bool ProcedurePath::event(QEvent* event) {
         setMinimumHeight(across_ ? wholeHeightAt(*parts, width()) : leastHeightAt(*parts, width()));
     if (event->type() == QEvent::LayoutRequest || event->type() == QEvent::Resize) fitLegend();
     return done;
-}
-
-void ProcedurePath::resizeEvent(QResizeEvent* event) {
-    QWidget::resizeEvent(event);
-    steps_->fit();
 }
 
 }  // namespace tacto::gui

@@ -1,11 +1,11 @@
 #include "app/gui/runner/PromptPanel.h"
 
-#include <QHBoxLayout>
 #include <QLineEdit>
 #include <QPainter>
 #include <QPushButton>
 #include <QSvgRenderer>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/ConfirmButton.h"
 #include "app/gui/theme/Theme.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
@@ -34,8 +34,7 @@ PromptPanel::PromptPanel(WindowOperator& controller, QWidget* parent) : QFrame(p
     setFrameShape(QFrame::StyledPanel);
     setAutoFillBackground(true);
     setBackgroundRole(QPalette::Base);
-    layout_ = new QVBoxLayout(this);
-    layout_->setContentsMargins(kStripe * 3, kStripe, kStripe, kStripe);
+    layout_ = columnIn(*this, -1, {kStripe * 3, kStripe, kStripe, kStripe});
     hide();
 }
 
@@ -49,10 +48,8 @@ void PromptPanel::ask(const OperatorQuestion& question) {
     asked_ = question.id;
     body_ = new QWidget(this);
     first_ = nullptr;
-    auto* column = new QVBoxLayout(body_);
-    column->setContentsMargins(0, 0, 0, 0);
-    auto* says = new QLabel(QString::fromStdString(question.text), body_);
-    says->setObjectName("question");
+    auto* column = columnIn(*body_);
+    auto* says = makeLabel(QString::fromStdString(question.text), {.name = "question"}, body_);
     says->setTextFormat(Qt::PlainText);  // a script's words: no picture is fetched for them
     says->setWordWrap(true);
     setTextSize(*says, TextSize::Body, true);
@@ -98,8 +95,7 @@ QWidget* PromptPanel::buildDrawing(const OperatorQuestion& question) {
     drawn.render(&painter);
     painter.end();
     image.setDevicePixelRatio(devicePixelRatioF());
-    auto* label = new QLabel(body_);
-    label->setObjectName("drawing");
+    auto* label = makeLabel({}, {.name = "drawing"}, body_);
     label->setAccessibleName(tr("Drawing: %1").arg(QString::fromStdString(question.drawing)));
     label->setPixmap(QPixmap::fromImage(image));
     return label;
@@ -107,8 +103,7 @@ QWidget* PromptPanel::buildDrawing(const OperatorQuestion& question) {
 
 QWidget* PromptPanel::buildChoices(const OperatorQuestion& question) {
     auto* holder = new QWidget(body_);
-    auto* row = new QHBoxLayout(holder);
-    row->setContentsMargins(0, 0, 0, 0);
+    auto* row = rowIn(*holder);
     const auto add = [&](const QString& text, const QString& key, const QString& tip) {
         auto* button = new ConfirmButton(text, holder);
         button->setToolTip(tip);
@@ -134,8 +129,7 @@ QWidget* PromptPanel::buildChoices(const OperatorQuestion& question) {
 
 QWidget* PromptPanel::buildEntry(const OperatorQuestion& question) {
     auto* holder = new QWidget(body_);
-    auto* row = new QHBoxLayout(holder);
-    row->setContentsMargins(0, 0, 0, 0);
+    auto* row = rowIn(*holder);
     auto* line = new QLineEdit(holder);
     line->setObjectName("answer");
     line->setAccessibleName(QString::fromStdString(question.text));

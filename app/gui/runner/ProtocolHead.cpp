@@ -2,6 +2,7 @@
 
 #include <QPushButton>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Labels.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -19,10 +20,7 @@ ProtocolHead::ProtocolHead(bool chooses, QWidget* parent)
     layout_->setContentsMargins(0, 0, 0, 0);
     layout_->setSpacing(kBelow);
     const auto words = [this](const char* name) {
-        auto* label = new QLabel(this);
-        label->setTextFormat(Qt::PlainText);
-        label->setObjectName(name);
-        label->setWordWrap(true);
+        auto* label = makeLabel({}, {.name = name, .wraps = true, .plain = true}, this);
         layout_->addWidget(label);
         return label;
     };
@@ -56,6 +54,7 @@ ProtocolHead::ProtocolHead(bool chooses, QWidget* parent)
     }
     buttons_->addStretch();
     layout_->addLayout(buttons_);
+    onEvent(*this, QEvent::Resize, [this] { fitLine(); });
 }
 
 void ProtocolHead::setAcross(bool across) {
@@ -85,11 +84,6 @@ void ProtocolHead::fitLine() {
     int taken = buttons_->sizeHint().width() + kBeside;
     if (chooser_ != nullptr) taken += chooser_->sizeHint().width() + kBeside;
     line_->setVisible(across_ && width() - taken >= line_->fontMetrics().averageCharWidth() * kLineChars);
-}
-
-void ProtocolHead::resizeEvent(QResizeEvent* event) {
-    QWidget::resizeEvent(event);
-    fitLine();
 }
 
 void ProtocolHead::addButton(const QString& text, const QString& tip, void (ProtocolHead::*wanted)()) {

@@ -26,9 +26,6 @@ signals:
     void editWanted();
     void newWanted();
 
-protected:
-    void resizeEvent(QResizeEvent* event) override;
-
 private:
     void fitLine();
     void addButton(const QString& text, const QString& tip, void (ProtocolHead::*wanted)());

@@ -80,6 +80,7 @@ ProtocolWorkspace::ProtocolWorkspace(BenchController& controller, const QString&
     connect(&previewLater_, &QTimer::timeout, this, &ProtocolWorkspace::preview);
     fillChooser({});
     onFontChange(*this, [this] { arrange(); });
+    onEvent(*this, QEvent::Resize, [this] { arrange(); });
 }
 
 void ProtocolWorkspace::arrange() {
@@ -101,11 +102,6 @@ void ProtocolWorkspace::showPath() {
     path_->setVisible(shown);
     edge_->setVisible(shown);
     if (!shown && hadFocus) pages_->setFocus();
-}
-
-void ProtocolWorkspace::resizeEvent(QResizeEvent* event) {
-    QWidget::resizeEvent(event);
-    arrange();
 }
 
 void ProtocolWorkspace::connectPath() {

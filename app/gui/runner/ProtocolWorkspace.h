@@ -64,9 +64,6 @@ signals:
     void liveWanted();
     void plotOnlyWanted();
 
-protected:
-    void resizeEvent(QResizeEvent* event) override;
-
 private:
     void arrange();
     void showPath();

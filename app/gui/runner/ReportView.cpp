@@ -3,10 +3,10 @@
 #include <QFileInfo>
 #include <QMenu>
 #include <QScreen>
-#include <QVBoxLayout>
 #include <algorithm>
 
 #include "app/gui/runner/ReportPrinter.h"
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/Labels.h"
 #include "app/gui/theme/Theme.h"
@@ -24,8 +24,7 @@ ReportView::ReportView(const QString& empty, QWidget* parent)
       document_(new QPdfDocument(this)),
       view_(new QPdfView(this)),
       printer_(new ReportPrinter(this)) {
-    auto* column = new QVBoxLayout(this);
-    column->setContentsMargins(0, 0, 0, 0);
+    auto* column = columnIn(*this);
     empty_->setAlignment(Qt::AlignCenter);
     empty_->setWordWrap(true);
     setTone(*empty_, Tone::Quiet);
@@ -39,6 +38,11 @@ ReportView::ReportView(const QString& empty, QWidget* parent)
     column->addWidget(buildRow());
     connect(printer_, &ReportPrinter::said, this, &ReportView::said);
     offer();
+    onEvent(*this, QEvent::Show, [this] {
+        if (report_.isEmpty() || document_->pageCount() > 0) return;
+        read();
+        offer();
+    });
 }
 
 QWidget* ReportView::buildRow() {
@@ -77,9 +81,7 @@ QWidget* ReportView::buildRow() {
 
 QWidget* ReportView::buildZoom(QWidget* parent) {
     auto* holder = new QWidget(parent);
-    auto* row = new QHBoxLayout(holder);
-    row->setContentsMargins(0, 0, 0, 0);
-    row->setSpacing(0);
+    auto* row = rowIn(*holder, 0);
     const auto add = [&](const QString& text, const char* name, const QString& tip, auto act) {
         auto* button = new QPushButton(text, holder);
         button->setObjectName(name);
@@ -120,13 +122,6 @@ void ReportView::show(const QString& pdf) {
 void ReportView::clear() {
     report_.clear();
     document_->close();
-    offer();
-}
-
-void ReportView::showEvent(QShowEvent* event) {
-    QWidget::showEvent(event);
-    if (report_.isEmpty() || document_->pageCount() > 0) return;
-    read();
     offer();
 }
 

@@ -30,9 +30,6 @@ signals:
     void said(const QString& what);
     void unreadable(const QString& why);
 
-protected:
-    void showEvent(QShowEvent* event) override;
-
 private:
     [[nodiscard]] QWidget* buildRow();
     [[nodiscard]] QWidget* buildZoom(QWidget* parent);
@@ -52,7 +49,6 @@ private:
 };
 
 // A report that is written, in a window of the program: zoom, print, and the desktop's viewer.
-
 
 class ReportWindow final : public QDialog {
     Q_OBJECT

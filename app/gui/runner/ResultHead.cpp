@@ -1,10 +1,9 @@
 #include "app/gui/runner/ResultHead.h"
 
-#include <QHBoxLayout>
 #include <QScrollBar>
-#include <QVBoxLayout>
 #include <utility>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/NumberText.h"
@@ -31,11 +30,7 @@ constexpr int kReadable = 36;  // characters in a line of reasons; with less roo
 
 /// A script's words: one line each, as plain text.
 QLabel* wordsLabel(const char* name, QWidget* parent) {
-    auto* label = new QLabel(parent);
-    label->setObjectName(name);
-    label->setTextFormat(Qt::PlainText);
-    label->setWordWrap(true);
-    label->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    auto* label = makeLabel({}, {.name = name, .wraps = true, .plain = true, .selectable = true}, parent);
     return label;
 }
 
@@ -51,18 +46,14 @@ ResultHead::ResultHead(QWidget* parent) : QWidget(parent) {
     area_ = new ScrollingPage(this);
     area_->setObjectName("verdictReasons");
     auto* page = new QWidget(area_->viewport());
-    auto* column = new QVBoxLayout(page);
-    column->setContentsMargins(0, 0, 0, 0);
-    column->setSpacing(0);
+    auto* column = columnIn(*page, 0);
     why_ = wordsLabel("verdictWhy", page);
     setTextSize(*why_, TextSize::Body, true);
     more_ = wordsLabel("verdictMore", page);
     setTextSize(*more_, TextSize::Small);
     setTone(*more_, Tone::Quiet);
-    toScript_ = new QPushButton(tr("Show the &line in the script"), page);
-    toScript_->setObjectName("toScript");
-    toScript_->setToolTip(tr("Opens the script with the line marked at which it ended."));
-    toScript_->setAutoDefault(false);
+    toScript_ = pageButton(tr("Show the &line in the script"), "toScript",
+                           tr("Opens the script with the line marked at which it ended."), page);
     connect(toScript_, &QPushButton::clicked, this, [this] { emit scriptErrorChosen(errorLine_, error_); });
     column->addWidget(why_);
     column->addWidget(more_);
@@ -72,6 +63,7 @@ ResultHead::ResultHead(QWidget* parent) : QWidget(parent) {
     row->addWidget(area_, 1, Qt::AlignTop);
     row->addWidget(toScript_, 0, Qt::AlignTop);
     clear();
+    onEvent(*this, QEvent::Resize, [this] { giveRoom(); });
 }
 
 void ResultHead::clear() {
@@ -118,11 +110,6 @@ void ResultHead::show(const FinishedRun& run) {
     giveRoom();
     errorLine_ = outcome.line;
     toScript_->setVisible(outcome.error && outcome.line > 0);
-}
-
-void ResultHead::resizeEvent(QResizeEvent* event) {
-    QWidget::resizeEvent(event);
-    giveRoom();
 }
 
 void ResultHead::giveRoom() {

@@ -27,9 +27,6 @@ public:
 signals:
     void scriptErrorChosen(int line, const QString& why);  ///< the operator wants to see the line
 
-protected:
-    void resizeEvent(QResizeEvent* event) override;
-
 private:
     void giveRoom();
     [[nodiscard]] int wholeLines(int wide, int most) const;

@@ -3,6 +3,7 @@
 #include <QFormLayout>
 #include <QLabel>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -29,8 +30,7 @@ void ResultTables::show(const json& results) {
     delete std::exchange(body_, nullptr);
     if (!results.is_object() || results.empty()) return;
     body_ = new QWidget(this);
-    column_ = new QVBoxLayout(body_);
-    column_->setContentsMargins(0, 0, 0, 0);
+    column_ = columnIn(*body_);
     for (const auto& table : tablesOf(results)) {
         if (isInWindow(table.shown)) add(table, results);
     }
@@ -61,10 +61,7 @@ void ResultTables::add(const ResultTable& table, const json& results) {
 }
 
 void ResultTables::addHeading(const std::string& title) {
-    auto* head = new QLabel(qtext(title), body_);
-    head->setTextFormat(Qt::PlainText);
-    head->setWordWrap(true);
-    setTextSize(*head, TextSize::Body, true);
+    auto* head = makeLabel(qtext(title), {.size = TextSize::Body, .strong = true, .wraps = true, .plain = true}, body_);
     column_->addSpacing(8);
     column_->addWidget(head);
 }
@@ -75,13 +72,8 @@ void ResultTables::addFacts(const ResultTable& table, const json& record) {
     for (const auto& column : table.columns) {
         if (memberAt(record, column.at).is_null()) continue;
         auto one = columnText(column, json::array({record}));
-        auto* shown = new QLabel(one.cells.first(), body_);
-        shown->setTextFormat(Qt::PlainText);
-        shown->setWordWrap(true);
-        shown->setTextInteractionFlags(Qt::TextSelectableByMouse);
-        auto* name = new QLabel(one.header.replace('\n', ' '), body_);
-        name->setTextFormat(Qt::PlainText);
-        setTone(*name, Tone::Quiet);
+        auto* shown = makeLabel(one.cells.first(), {.wraps = true, .plain = true, .selectable = true}, body_);
+        auto* name = makeLabel(one.header.replace('\n', ' '), {.tone = Tone::Quiet, .plain = true}, body_);
         form->addRow(name, shown);
     }
     if (form->rowCount() == 0) return delete form;
@@ -106,10 +98,7 @@ void ResultTables::addSentences(const ResultTable& table, const json& sentences)
 }
 
 QLabel* ResultTables::addSentence(const QString& text) {
-    auto* line = new QLabel(text, body_);
-    line->setTextFormat(Qt::PlainText);
-    line->setWordWrap(true);
-    line->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    auto* line = makeLabel(text, {.wraps = true, .plain = true, .selectable = true}, body_);
     column_->addWidget(line);
     return line;
 }

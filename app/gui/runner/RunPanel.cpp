@@ -3,6 +3,7 @@
 #include <QApplication>
 #include <cmath>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/ConfirmButton.h"
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/Labels.h"
@@ -69,29 +70,22 @@ RunPanel::RunPanel(QWidget* parent)
     layout_->addWidget(bar_);
     bar_->hide();
     howLong_ = tr("F5 runs; Esc stops.");
-    left_ = new QLabel(howLong_, this);
-    left_->setWordWrap(true);
-    left_->setTextFormat(Qt::PlainText);
-    left_->setObjectName("timeLeft");
-    setTone(*left_, Tone::Quiet);
-    setTextSize(*left_, TextSize::Small);
+    left_ = makeLabel(howLong_,
+                      {.name = "timeLeft", .tone = Tone::Quiet, .size = TextSize::Small, .wraps = true, .plain = true},
+                      this);
     layout_->addWidget(left_);
     showButtons();
 }
 
 void RunPanel::buildWords() {
-    auto* column = new QVBoxLayout(words_);
-    column->setContentsMargins(0, 0, 0, 0);
+    auto* column = columnIn(*words_);
     const auto addTrouble = [&](const char* name) {
         auto* line = new TroubleLine(name, words_);
         column->addWidget(line);
         return line;
     };
     const auto addButton = [&](const QString& text, const char* name, const QString& tip) {
-        auto* button = new QPushButton(text, words_);
-        button->setObjectName(name);
-        button->setAutoDefault(false);
-        button->setToolTip(tip);
+        auto* button = pageButton(text, name, tip, words_);
         button->hide();
         column->addWidget(button, 0, Qt::AlignLeft);
         return button;
@@ -104,9 +98,7 @@ void RunPanel::buildWords() {
     trouble_ = addTrouble("runTrouble");
     toLine_ = addButton(tr("Show the &line in the script"), "toLine", tr("Opens the script with that line marked."));
     connect(toLine_, &QPushButton::clicked, this, [this] { emit lineWanted(line_, said_); });
-    closed_ = new QLabel(tr("The run closed the bench that was open."), words_);
-    closed_->setObjectName("closedByRun");
-    closed_->setWordWrap(true);
+    closed_ = makeLabel(tr("The run closed the bench that was open."), {.name = "closedByRun", .wraps = true}, words_);
     closed_->hide();
     column->addWidget(closed_);
     setTone(*closed_, Tone::Quiet);
@@ -119,12 +111,8 @@ void RunPanel::buildWords() {
 
 QWidget* RunPanel::buildQuestion() {
     auto* holder = new QWidget(words_);
-    auto* column = new QVBoxLayout(holder);
-    column->setContentsMargins(0, 0, 0, 0);
-    questionText_ = new QLabel(holder);
-    questionText_->setTextFormat(Qt::PlainText);
-    questionText_->setObjectName("armQuestion");
-    questionText_->setWordWrap(true);
+    auto* column = columnIn(*holder);
+    questionText_ = makeLabel({}, {.name = "armQuestion", .wraps = true, .plain = true}, holder);
     column->addWidget(questionText_);
     auto* row = new QHBoxLayout;
     arm_ = new ConfirmButton(tr("Arm and run"), holder);

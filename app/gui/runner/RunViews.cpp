@@ -1,6 +1,5 @@
 #include "app/gui/runner/RunViews.h"
 
-#include <QHBoxLayout>
 #include <QScrollArea>
 #include <QSplitter>
 
@@ -11,6 +10,8 @@
 #include "app/gui/runner/LoadRows.h"
 #include "app/gui/runner/ResultHead.h"
 #include "app/gui/runner/ResultTables.h"
+#include "app/gui/theme/Building.h"
+#include "app/gui/theme/Pages.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -36,9 +37,7 @@ TrialPlane::Features featuresOf(RunViews::Plot plot) {
 }  // namespace
 
 RunViews::RunViews(QWidget* parent) : QWidget(parent) {
-    auto* column = new QVBoxLayout(this);
-    column->setContentsMargins(0, 0, 0, 0);
-    column->setSpacing(0);
+    auto* column = columnIn(*this, 0);
     body_ = new QVBoxLayout;
     body_->setSpacing(kPageGap);
     column->addLayout(body_, 1);
@@ -48,16 +47,13 @@ RunViews::RunViews(QWidget* parent) : QWidget(parent) {
     views_ = new QStackedWidget(this);
     views_->addWidget(buildPlots());
     auto* area = new QScrollArea(views_);
-    area->setWidgetResizable(true);
-    area->setFrameShape(QFrame::NoFrame);
-    area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    scrollDownOnly(*area);
     tables_ = new ResultTables(area);
     area->setWidget(tables_);
     for (auto* ground : {static_cast<QWidget*>(tables_), area->viewport()}) ground->setAutoFillBackground(false);
     views_->addWidget(area);
     auto* waveform = new QWidget(views_);
-    auto* room = new QVBoxLayout(waveform);
-    room->setContentsMargins(0, 0, 0, 0);
+    columnIn(*waveform);
     views_->addWidget(waveform);
     log_ = new QPlainTextEdit(views_);
     log_->setReadOnly(true);
@@ -69,15 +65,15 @@ RunViews::RunViews(QWidget* parent) : QWidget(parent) {
     views_->addWidget(log_);
     body_->addWidget(views_, 1);
     column->addWidget(buildBar());
-    views_->installEventFilter(this);
+    onEvent(*views_, QEvent::Resize, [this] { arrange(); });  // their room is known once they are laid out
     showResult(false);
     showPlot(Plot::Trials);
+    onEvent(*this, QEvent::Resize, [this] { arrange(); });
 }
 
 QWidget* RunViews::buildPlots() {
     auto* holder = new QWidget(views_);
-    plots_ = new QHBoxLayout(holder);
-    plots_->setContentsMargins(0, 0, 0, 0);
+    plots_ = rowIn(*holder);
     plane_ = new TrialPlane(holder);
     plane_->addTitle();
     loads_ = new LoadRows(holder);
@@ -94,10 +90,9 @@ QWidget* RunViews::buildPlots() {
     judged_->setStretchFactor(1, 0);
     calibration_ = new CalibrationView(holder);
     connect(calibration_, &CalibrationView::plotOnlyWanted, this, &RunViews::plotOnlyWanted);
-    none_ = new QLabel(tr("This protocol has no plot of its own: what it says is in the log, what it found in the "
-                          "tables."),
-                       holder);
-    none_->setWordWrap(true);
+    none_ = makeLabel(tr("This protocol has no plot of its own: what it says is in the log, what it found in the "
+                         "tables."),
+                      {.wraps = true}, holder);
     none_->setAlignment(Qt::AlignCenter);
     setTone(*none_, Tone::Quiet);
     wave_ = new CaptureStrip(holder);
@@ -119,9 +114,7 @@ QWidget* RunViews::buildBar() {
     bar_->addWidget(next_);
     bar_->addStretch();
     viewRow_ = new QWidget(holder);
-    auto* row = new QHBoxLayout(viewRow_);
-    row->setContentsMargins(0, 0, 0, 0);
-    row->setSpacing(0);
+    auto* row = rowIn(*viewRow_, 0);
     addPictureTools(*row);
     choices_ = new QButtonGroup(this);
     const std::pair<QString, QString> views[] = {
@@ -279,17 +272,6 @@ void RunViews::arrange() {
     const int across =
         2 * kViewSide + next_->sizeHint().width() + viewRow_->minimumSizeHint().width() + bar_->spacing();
     bar_->setDirection(width() >= across ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
-}
-
-void RunViews::resizeEvent(QResizeEvent* event) {
-    QWidget::resizeEvent(event);
-    arrange();
-}
-
-/// The room for the views is known once they are laid out.
-bool RunViews::eventFilter(QObject* watched, QEvent* event) {
-    if (watched == views_ && event->type() == QEvent::Resize) arrange();
-    return QWidget::eventFilter(watched, event);
 }
 
 QString RunViews::word() const { return head_->word(); }

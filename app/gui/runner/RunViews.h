@@ -60,10 +60,6 @@ signals:
     void nextChosen(tacto::gui::NextStep step);
     void plotOnlyWanted();
 
-protected:
-    void resizeEvent(QResizeEvent* event) override;
-    bool eventFilter(QObject* watched, QEvent* event) override;
-
 private:
     [[nodiscard]] QWidget* buildPlots();
     [[nodiscard]] QWidget* buildBar();

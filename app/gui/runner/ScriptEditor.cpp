@@ -1,14 +1,13 @@
 #include "app/gui/runner/ScriptEditor.h"
 
 #include <QDir>
-#include <QHBoxLayout>
 #include <QKeyEvent>
 #include <QRegularExpression>
 #include <QShortcut>
 #include <QSplitter>
 #include <QTextBrowser>
-#include <QVBoxLayout>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/Theme.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
@@ -52,8 +51,7 @@ ScriptEditor::ScriptEditor(const BenchController& controller, QWidget* parent)
     auto* split = new QSplitter(Qt::Horizontal, this);
     split->setChildrenCollapsible(false);
     auto* text = new QWidget(split);
-    auto* column = new QVBoxLayout(text);
-    column->setContentsMargins(0, 0, 0, 0);
+    auto* column = columnIn(*text);
     code_ = new CodeEdit(text);
     code_->setAccessibleName(tr("Script"));
     find_ = new FindBar(*code_, text);
@@ -67,11 +65,7 @@ ScriptEditor::ScriptEditor(const BenchController& controller, QWidget* parent)
     split->setStretchFactor(0, 3);
     split->setStretchFactor(1, 2);
     layout->addWidget(split, 1);
-    message_ = new QLabel(this);
-    message_->setTextFormat(Qt::PlainText);
-    message_->setObjectName("scriptMessage");
-    message_->setWordWrap(true);
-    message_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    message_ = makeLabel({}, {.name = "scriptMessage", .wraps = true, .plain = true, .selectable = true}, this);
     layout->addWidget(message_);
     naming_ = buildNaming();
     leaving_ = buildLeaving();
@@ -90,8 +84,7 @@ ScriptEditor::ScriptEditor(const BenchController& controller, QWidget* parent)
 
 QWidget* ScriptEditor::buildNaming() {
     auto* holder = new QWidget(this);
-    auto* row = new QHBoxLayout(holder);
-    row->setContentsMargins(0, 0, 0, 0);
+    auto* row = rowIn(*holder);
     name_ = new QLineEdit(holder);
     name_->setObjectName("protocolName");
     name_->setToolTip(tr("Letters, digits, - and _. The name of a shipped protocol takes that one's place."));
@@ -119,8 +112,7 @@ QWidget* ScriptEditor::buildNaming() {
 
 QWidget* ScriptEditor::buildLeaving() {
     auto* holder = new QWidget(this);
-    auto* row = new QHBoxLayout(holder);
-    row->setContentsMargins(0, 0, 0, 0);
+    auto* row = rowIn(*holder);
     row->addWidget(new QLabel(tr("⚠ There are changes that are not saved."), holder), 1);
     const auto add = [&](const QString& text, const QString& tip, auto act) {
         auto* button = new QPushButton(text, holder);

@@ -1,11 +1,10 @@
 #include "app/gui/runner/SignPage.h"
 
 #include <QFormLayout>
-#include <QHBoxLayout>
-#include <QVBoxLayout>
 
 #include "app/gui/runner/ReportPrinter.h"
 #include "app/gui/runner/ReportView.h"
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Labels.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/ToolRow.h"
@@ -54,46 +53,32 @@ SignPage::SignPage(QWidget* parent) : QWidget(parent), maker_(this) {
 
 QWidget* SignPage::buildWords() {
     auto* holder = new QWidget(this);
-    auto* column = new QVBoxLayout(holder);
-    column->setContentsMargins(0, 0, 0, 0);
-    auto* how = new QLabel(tr("Print the report and sign in ink, on the lines of its first page; or open it in the PDF "
-                              "viewer and sign there."),
-                           holder);
-    how->setObjectName("howToSign");
-    how->setWordWrap(true);
-    column->addWidget(how);
+    auto* column = columnIn(*holder);
+    column->addWidget(
+        makeLabel(tr("Print the report and sign in ink, on the lines of its first page; or open it in the PDF "
+                     "viewer and sign there."),
+                  {.name = "howToSign", .wraps = true}, holder));
     named_ = new QWidget(holder);
-    auto* named = new QVBoxLayout(named_);
-    named->setContentsMargins(0, 8, 0, 0);
-    auto* heading = new QLabel(tr("This report names"), named_);
-    setTextSize(*heading, TextSize::Body, true);
-    named->addWidget(heading);
+    auto* named = columnIn(*named_, -1, {0, 8, 0, 0});
+    named->addWidget(makeLabel(tr("This report names"), {.size = TextSize::Body, .strong = true}, named_));
     auto* form = new QFormLayout;
     const std::pair<QString, const char*> rows[] = {{tr("Operator"), "namedOperator"},
                                                     {tr("Sample"), "namedSample"},
                                                     {tr("Reviewer"), "namedReviewer"},
                                                     {tr("Ambient"), "namedAmbient"}};
     for (const auto& [title, name] : rows) {
-        auto* value = new QLabel(named_);
-        value->setObjectName(name);
-        value->setTextFormat(Qt::PlainText);
-        value->setWordWrap(true);
-        auto* what = new QLabel(title, named_);
-        setTone(*what, Tone::Quiet);
+        auto* value = makeLabel({}, {.name = name, .wraps = true, .plain = true}, named_);
+        auto* what = makeLabel(title, {.tone = Tone::Quiet}, named_);
         form->addRow(what, value);
         notes_.push_back(value);
     }
     named->addLayout(form);
-    auto* tip = new QLabel(tr("As entered under Settings when the run began. For other names enter them there and run "
-                              "again."),
-                           named_);
-    tip->setWordWrap(true);
-    setTone(*tip, Tone::Quiet);
-    named->addWidget(tip);
-    auto* change = new QPushButton(tr("Change and run again…"), named_);
-    change->setObjectName("changeNotes");
-    change->setAutoDefault(false);
-    change->setToolTip(tr("Goes to Settings; this report stays as it is."));
+    named->addWidget(
+        makeLabel(tr("As entered under Settings when the run began. For other names enter them there and run "
+                     "again."),
+                  {.tone = Tone::Quiet, .wraps = true}, named_));
+    auto* change = pageButton(tr("Change and run again…"), "changeNotes",
+                              tr("Goes to Settings; this report stays as it is."), named_);
     connect(change, &QPushButton::clicked, this, &SignPage::settingsWanted);
     named->addWidget(change, 0, Qt::AlignLeft);
     column->addWidget(named_);

@@ -28,6 +28,7 @@ StepList::StepList(const QStringList& steps, QWidget* parent)
     }
     setShown(0);
     onFontChange(*this, [this] { fit(); });
+    onEvent(*this, QEvent::Resize, [this] { placeAcross(); });
 }
 
 void StepList::setState(int step, State state) { buttons_.at(std::size_t(step))->setState(state); }
@@ -110,11 +111,6 @@ QSize StepList::sizeHint() const {
 
 QSize StepList::minimumSizeHint() const {
     return across_ ? QSize(widthAcross(Names::None), QWidget::minimumSizeHint().height()) : QWidget::minimumSizeHint();
-}
-
-void StepList::resizeEvent(QResizeEvent* event) {
-    QWidget::resizeEvent(event);
-    placeAcross();
 }
 
 }  // namespace tacto::gui

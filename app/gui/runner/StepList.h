@@ -41,9 +41,6 @@ public:
 signals:
     void chosen(int step);
 
-protected:
-    void resizeEvent(QResizeEvent* event) override;
-
 private:
     enum class Names { None, OfShown, All };
     /// The width of all steps in a row.

@@ -6,6 +6,7 @@
 #include <QToolButton>
 
 #include "app/gui/calibrate/InstrumentDialog.h"
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/ExposureTable.h"
 #include "app/gui/theme/Text.h"
@@ -26,14 +27,10 @@ Result<std::vector<DeviceUri>> devicesOf(const QString& text) {
 
 WiringPanel::WiringPanel(QWidget* parent) : QWidget(parent) {
     setAccessibleName(tr("Devices"));
-    auto* form = new QFormLayout(this);
-    form->setContentsMargins(0, 0, 0, 0);
+    auto* form = layoutIn<QFormLayout>(*this, -1, {});
     form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
     form->setRowWrapPolicy(QFormLayout::WrapLongRows);
-    needs_ = new QLabel(this);
-    needs_->setTextFormat(Qt::PlainText);
-    needs_->setWordWrap(true);
-    setTone(*needs_, Tone::Quiet);
+    needs_ = makeLabel({}, {.tone = Tone::Quiet, .wraps = true, .plain = true}, this);
     form->addRow(needs_);
     auto* devices = buildDevices();
     form->addRow(tr("&Devices"), devices);
@@ -60,8 +57,7 @@ WiringPanel::WiringPanel(QWidget* parent) : QWidget(parent) {
 
 QWidget* WiringPanel::buildDevices() {
     auto* holder = new QWidget(this);
-    auto* row = new QHBoxLayout(holder);
-    row->setContentsMargins(0, 0, 0, 0);
+    auto* row = rowIn(*holder);
     devices_ = new QLineEdit("sim:", holder);
     devices_->setObjectName("devices");
     devices_->setToolTip(
@@ -94,8 +90,7 @@ QWidget* WiringPanel::buildDevices() {
 
 QWidget* WiringPanel::buildOutput() {
     auto* holder = new QWidget(this);
-    auto* row = new QHBoxLayout(holder);
-    row->setContentsMargins(0, 0, 0, 0);
+    auto* row = rowIn(*holder);
     out_ = new QLineEdit(holder);
     out_->setObjectName("out");
     out_->setPlaceholderText(tr("the sessions folder"));

@@ -1,11 +1,10 @@
 #include "app/gui/runner/WorstPage.h"
 
-#include <QHBoxLayout>
 #include <QHeaderView>
 #include <QPushButton>
-#include <QVBoxLayout>
 #include <utility>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/ExposureTable.h"
 #include "app/gui/theme/LimitSetView.h"
@@ -22,12 +21,11 @@ constexpr int kMinChooser = 120;
 constexpr int kMinRows = 2;
 }  // namespace
 
-WorstPage::WorstPage(QWidget* parent) : QWidget(parent), worst_(new ExposureTable(this)), says_(new QLabel(this)) {
-    auto* column = new QVBoxLayout(this);
-    column->setContentsMargins(0, 0, 0, 0);
-    says_->setTextFormat(Qt::PlainText);
-    says_->setObjectName("worstCase");
-    says_->setWordWrap(true);
+WorstPage::WorstPage(QWidget* parent)
+    : QWidget(parent),
+      worst_(new ExposureTable(this)),
+      says_(makeLabel({}, {.name = "worstCase", .wraps = true, .plain = true}, this)) {
+    auto* column = columnIn(*this);
     column->addWidget(says_);
     column->addWidget(buildChooser());
     worst_->setAccessibleName(tr("Worst case against the limits"));
@@ -54,8 +52,7 @@ bool WorstPage::event(QEvent* event) {
 
 QWidget* WorstPage::buildChooser() {
     auto* holder = new QWidget(this);
-    auto* row = new QHBoxLayout(holder);
-    row->setContentsMargins(0, 0, 0, 0);
+    auto* row = rowIn(*holder);
     chooser_ = new QComboBox(holder);
     chooser_->setObjectName("limitSetChooser");
     chooser_->setAccessibleName(tr("Limit set"));
@@ -65,10 +62,8 @@ QWidget* WorstPage::buildChooser() {
     least();
     onFontChange(*chooser_, least);
     connect(chooser_, &QComboBox::currentIndexChanged, this, &WorstPage::filter);
-    auto* read = new QPushButton(tr("Read the limits…"), holder);
-    read->setObjectName("readLimits");
-    read->setAutoDefault(false);
-    read->setToolTip(tr("Each limit with its value, the time it is taken over, and its source."));
+    auto* read = pageButton(tr("Read the limits…"), "readLimits",
+                            tr("Each limit with its value, the time it is taken over, and its source."), holder);
     connect(read, &QPushButton::clicked, this, [this] {
         if (sets_ != nullptr) openDialog(makeLimitSetWindow(*sets_, chooser_->currentData().toString(), window()));
     });

@@ -3,7 +3,6 @@
 #include <QEvent>
 #include <QSettings>
 #include <QSplitter>
-#include <QVBoxLayout>
 
 #include "app/gui/scope/measurements/MeasurementTable.h"
 #include "app/gui/scope/measurements/SpectrumPanel.h"
@@ -12,6 +11,7 @@
 #include "app/gui/scope/panels/ScopeStatus.h"
 #include "app/gui/scope/panels/ScopeTools.h"
 #include "app/gui/scope/screen/ScopeScreen.h"
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
@@ -36,21 +36,15 @@ ScopeColumns::ScopeColumns(const Parts& parts, QWidget* parent)
     parts_.table.hide();
 
     auto* left = new QWidget(this);
-    auto* column = new QVBoxLayout(left);
-    column->setContentsMargins(0, 0, 0, 0);
-    column->setSpacing(0);
+    auto* column = columnIn(*left, 0);
     column->addWidget(plots_, 1);
     column_ = column;
-    auto* tools = new QHBoxLayout(head_);
-    tools->setContentsMargins(0, 0, 0, 0);
-    tools->setSpacing(0);
+    auto* tools = rowIn(*head_, 0);
     tools->addWidget(&parts_.tools, 1);
-    head_->installEventFilter(this);
+    onEvent(*head_, QEvent::Resize, [this] { placeStatus(); });
     placeStatus();
 
-    auto* rows = new QVBoxLayout(this);
-    rows->setContentsMargins(0, 0, 0, 0);
-    rows->setSpacing(0);
+    auto* rows = columnIn(*this, 0);
     rows->addWidget(head_);
     auto* row = new QHBoxLayout;
     row->addWidget(left, 1);
@@ -60,6 +54,7 @@ ScopeColumns::ScopeColumns(const Parts& parts, QWidget* parent)
         fitControls();
         placeStatus();
     });
+    onEvent(*this, QEvent::Resize, [this] { fitControls(); });
 }
 
 void ScopeColumns::askForControls(bool on) {
@@ -85,12 +80,7 @@ void ScopeColumns::fitControls() {
     parts_.controls.setVisible(on);
 }
 
-bool ScopeColumns::eventFilter(QObject* watched, QEvent* event) {
-    if (watched == head_ && event->type() == QEvent::Resize) placeStatus();
-    return QWidget::eventFilter(watched, event);
-}
-
-/// A line that stands on the screen if the tools leave enough room beside them.
+/// A line that the screen has instead where the tools leave enough room beside them.
 void ScopeColumns::placeStatus() {
     constexpr int kWide = 1340;  // tools, lanes, trigger and captures
     auto& row = *static_cast<QBoxLayout*>(head_->layout());
@@ -100,11 +90,6 @@ void ScopeColumns::placeStatus() {
     (beside ? column_ : &row)->removeWidget(&parts_.status);
     beside ? row.addWidget(&parts_.status, 1) : column_->insertWidget(0, &parts_.status);
     row.setStretchFactor(&parts_.tools, beside ? 0 : 1);
-}
-
-void ScopeColumns::resizeEvent(QResizeEvent* event) {
-    QWidget::resizeEvent(event);
-    fitControls();
 }
 
 void ScopeColumns::save(QSettings& settings) const {

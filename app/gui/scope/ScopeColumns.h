@@ -39,10 +39,6 @@ public:
     void save(QSettings& settings) const;
     void restore(QSettings& settings);
 
-protected:
-    void resizeEvent(QResizeEvent* event) override;
-    bool eventFilter(QObject* watched, QEvent* event) override;
-
 private:
     void placeStatus();
     void fitControls();

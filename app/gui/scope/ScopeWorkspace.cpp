@@ -5,7 +5,6 @@
 #include <QMimeData>
 #include <QShortcut>
 #include <QStackedWidget>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -18,6 +17,7 @@
 #include "app/gui/scope/panels/ScopeStatus.h"
 #include "app/gui/scope/panels/ScopeTools.h"
 #include "app/gui/scope/screen/ScopeGestures.h"
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Labels.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Theme.h"
@@ -88,8 +88,7 @@ void ScopeWorkspace::layOut() {
     stack_->addWidget(empty);
     columns_ = new ScopeColumns({*tools_, *status_, *screen_, *spectrum_, *table_, *controls_}, stack_);
     stack_->addWidget(columns_);
-    auto* layout = new QVBoxLayout(this);
-    layout->setContentsMargins(0, 0, 0, 0);
+    auto* layout = columnIn(*this);
     layout->setSizeConstraint(QLayout::SetNoConstraint);  // see minimumSizeHint()
     layout->addWidget(stack_);
 }

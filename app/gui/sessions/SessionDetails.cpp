@@ -8,6 +8,7 @@
 #include "app/gui/sessions/SessionOverview.h"
 #include "app/gui/sessions/SessionPreview.h"
 #include "app/gui/sessions/SessionWords.h"
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Pages.h"
 #include "app/gui/theme/PlotLegend.h"
 #include "app/gui/theme/PlotPicture.h"
@@ -31,11 +32,9 @@ constexpr int kMinStreams = 2;  // rows
 QTableWidget* makeTable(QWidget* parent, const QString& name) {
     auto* table = new QTableWidget(parent);
     table->setAccessibleName(name);
-    table->setTabKeyNavigation(false);  // Tab leaves the table
-    table->setEditTriggers(QAbstractItemView::NoEditTriggers);
+    makeReadOnly(*table);
     table->setSelectionBehavior(QAbstractItemView::SelectRows);
     table->setSelectionMode(QAbstractItemView::SingleSelection);
-    table->verticalHeader()->hide();
     table->horizontalHeader()->setHighlightSections(false);
     table->setWordWrap(false);
     return table;

@@ -53,13 +53,14 @@ public:
 }  // namespace
 
 SessionList::SessionList(QWidget* parent)
-    : QWidget(parent), index_(userSessionIndex()), model_(new SessionModel(this)), empty_(new QLabel(this)) {
+    : QWidget(parent),
+      index_(userSessionIndex()),
+      model_(new SessionModel(this)),
+      empty_(makeLabel({}, {.name = "sessionsEmpty", .wraps = true}, this)) {
     auto* column = columnIn(*this, 0);
     column->addWidget(buildSearch());
     buildTable();
     column->addWidget(table_, 1);
-    empty_->setObjectName("sessionsEmpty");
-    empty_->setWordWrap(true);
     empty_->setAlignment(Qt::AlignCenter);
     empty_->setMargin(kGap);
     column->addWidget(empty_, 1);
@@ -68,6 +69,15 @@ SessionList::SessionList(QWidget* parent)
     connect(&seen_, &QTimer::timeout, this, &SessionList::confirmSeen);
     connect(table_->verticalScrollBar(), &QScrollBar::valueChanged, &seen_, qOverload<>(&QTimer::start));
     say();
+    onEvent(*this, QEvent::Resize, [this] {
+        const bool wordy = width() >= fontMetrics().averageCharWidth() * kWordyChars;
+        search_->setPlaceholderText(wordy ? tr("Search names, notes, tags") : tr("Search"));
+        count_->setVisible(wordy);
+        const bool roomy = width() >= fontMetrics().averageCharWidth() * kRoomyChars;
+        for (const int each : {SessionModel::kOperator, SessionModel::kLength}) table_->setColumnHidden(each, !roomy);
+        fitColumns();  // a hidden column has no contents to fit
+        seen_.start();
+    });
 }
 
 QWidget* SessionList::buildSearch() {
@@ -95,10 +105,7 @@ QWidget* SessionList::buildSearch() {
     age_->addItem(tr("Today"), 0);
     age_->addItem(tr("7 days"), 6);
     age_->addItem(tr("30 days"), 29);
-    count_ = new QLabel(holder);
-    count_->setObjectName("sessionsCount");
-    setTone(*count_, Tone::Quiet);
-    setTextSize(*count_, TextSize::Small);
+    count_ = makeLabel({}, {.name = "sessionsCount", .tone = Tone::Quiet, .size = TextSize::Small}, holder);
     row->addWidget(search_, 1);
     row->addWidget(ending_);
     row->addWidget(age_);
@@ -120,11 +127,9 @@ void SessionList::buildTable() {
     table_->setModel(model_);
     table_->setItemDelegateForColumn(SessionModel::kVerdict, new VerdictDelegate(table_));
     setTextSize(*table_->horizontalHeader(), TextSize::Small);
-    table_->verticalHeader()->hide();
     table_->setWordWrap(false);
     table_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);  // the last column takes the rest and elides
-    table_->setTabKeyNavigation(false);                            // Tab leaves the table
-    table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+    makeReadOnly(*table_);
     table_->setSelectionBehavior(QAbstractItemView::SelectRows);
     table_->setSelectionMode(QAbstractItemView::ExtendedSelection);
     table_->horizontalHeader()->setResizeContentsPrecision(kMeasuredRows);
@@ -318,17 +323,6 @@ void SessionList::say() {
         empty_->setText(tr("No session contains “%1”. The search covers procedure, note, operator, sample, tags, "
                            "verdict, devices, date and file name.")
                             .arg(search_->text().trimmed()));
-}
-
-void SessionList::resizeEvent(QResizeEvent* event) {
-    QWidget::resizeEvent(event);
-    const bool wordy = width() >= fontMetrics().averageCharWidth() * kWordyChars;
-    search_->setPlaceholderText(wordy ? tr("Search names, notes, tags") : tr("Search"));
-    count_->setVisible(wordy);
-    const bool roomy = width() >= fontMetrics().averageCharWidth() * kRoomyChars;
-    for (const int each : {SessionModel::kOperator, SessionModel::kLength}) table_->setColumnHidden(each, !roomy);
-    fitColumns();  // a hidden column has no contents to fit
-    seen_.start();
 }
 
 std::vector<std::filesystem::path> SessionList::chosenPaths() const {

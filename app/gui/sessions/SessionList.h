@@ -36,9 +36,6 @@ public:
 signals:
     void selectionChanged();
 
-protected:
-    void resizeEvent(QResizeEvent* event) override;
-
 private:
     [[nodiscard]] QWidget* buildSearch();
     void buildTable();

@@ -62,23 +62,19 @@ SessionOverview::SessionOverview(QWidget* parent)
     split->setSizes({10'000, 1});  // the plot takes the room
     column->addWidget(split, 1);
     say(tr("Choose a session at the left."));
+    onEvent(*this, QEvent::Resize, [this] {
+        if (session_) QTimer::singleShot(0, this, &SessionOverview::fitWhy);  // once the head has its width
+    });
 }
 
 QWidget* SessionOverview::buildHead() {
     auto* head = new QWidget(content_);
-    auto* grid = new QGridLayout(head);
-    grid->setContentsMargins(0, 0, 0, 0);
+    auto* grid = layoutIn<QGridLayout>(*head, -1, {});
     grid->setHorizontalSpacing(kGrid);
     grid->setVerticalSpacing(0);
     icon_ = new QLabel(head);
-    title_ = new QLabel(head);
-    title_->setObjectName("sessionTitle");
-    title_->setWordWrap(true);
-    setTextSize(*title_, TextSize::Large, true);
-    why_ = new QLabel(head);
-    why_->setObjectName("sessionWhy");
-    why_->setWordWrap(true);
-    why_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    title_ = makeLabel({}, {.name = "sessionTitle", .size = TextSize::Large, .strong = true, .wraps = true}, head);
+    why_ = makeLabel({}, {.name = "sessionWhy", .wraps = true, .selectable = true}, head);
     grid->addWidget(icon_, 0, 0, 2, 1, Qt::AlignTop);
     grid->addWidget(title_, 0, 1);
     grid->addWidget(why_, 1, 1);
@@ -89,8 +85,7 @@ QWidget* SessionOverview::buildHead() {
 QWidget* SessionOverview::buildHappened() {
     auto* holder = new QWidget(content_);
     auto* column = columnIn(*holder, kGrid / 2, {0, kGrid, 0, 0});
-    auto* heading = strongLabel(tr("What happened"), holder);
-    column->addWidget(heading);
+    column->addWidget(strongLabel(tr("What happened"), holder));
     happened_ = new QTextBrowser(holder);
     happened_->document()->setDocumentMargin(0);
     happened_->setObjectName("whatHappened");
@@ -105,14 +100,11 @@ QWidget* SessionOverview::buildHappened() {
 
 QWidget* SessionOverview::buildFields() {
     auto* fields = new QWidget(content_);
-    auto* grid = new QGridLayout(fields);
-    grid->setContentsMargins(0, 0, 0, 0);
+    auto* grid = layoutIn<QGridLayout>(*fields, -1, {});
     grid->setHorizontalSpacing(kGrid);
     grid->setVerticalSpacing(kGrid / 2);
     const auto label = [fields](const QString& title) {
-        auto* made = new QLabel(title, fields);
-        setTone(*made, Tone::Quiet);
-        setTextSize(*made, TextSize::Small);
+        auto* made = makeLabel(title, {.tone = Tone::Quiet, .size = TextSize::Small}, fields);
         return made;
     };
     const auto edit = [this, fields](const QString& title, const char* name, const QString& placeholder,
@@ -197,11 +189,6 @@ void SessionOverview::fitWhy() {
     const bool low = height() < scaledPx(kLowPage);
     const int room = low ? why_->width() - 4 : int(kWhyLines * kWrapped * why_->width());
     why_->setText(why_->fontMetrics().elidedText(whole_, Qt::ElideRight, std::max(room, why_->fontMetrics().height())));
-}
-
-void SessionOverview::resizeEvent(QResizeEvent* event) {
-    QWidget::resizeEvent(event);
-    if (session_) QTimer::singleShot(0, this, &SessionOverview::fitWhy);  // once the head has its width
 }
 
 void SessionOverview::showFields() {

@@ -36,8 +36,6 @@ protected:
     void changeEvent(QEvent* event) override;
     void hideEvent(QHideEvent* event) override;
 
-    void resizeEvent(QResizeEvent* event) override;
-
 private:
     void fitWhy();
     [[nodiscard]] QWidget* buildHead();

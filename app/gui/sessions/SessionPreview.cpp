@@ -57,15 +57,13 @@ void SheetView::paintEvent(QPaintEvent* /*event*/) {
 }
 
 SessionPreview::SessionPreview(QWidget* parent)
-    : QWidget(parent), title_(new QLabel(this)), stack_(new QStackedWidget(this)) {
+    : QWidget(parent),
+      title_(makeLabel({}, {.name = "previewTitle", .size = TextSize::Small, .strong = true, .wraps = true}, this)),
+      stack_(new QStackedWidget(this)) {
     auto* column = columnIn(*this, 4);
-    title_->setObjectName("previewTitle");
-    title_->setWordWrap(true);
-    setTextSize(*title_, TextSize::Small, true);
     column->addWidget(title_);
     column->addWidget(stack_, 1);
-    nothing_ = new QLabel(stack_);
-    nothing_->setObjectName("nothingToDraw");
+    nothing_ = makeLabel({}, {.name = "nothingToDraw"}, stack_);
     nothing_->setAlignment(Qt::AlignCenter);
     nothing_->setWordWrap(true);
     setTone(*nothing_, Tone::Quiet);

@@ -79,6 +79,8 @@ SessionsWorkspace::SessionsWorkspace(BenchController& controller, QWidget* paren
     chosen();
     fitPanes();
     onFontChange(*this, [this] { fitPanes(); });
+    onEvent(*this, QEvent::Resize, [this] { fitPanes(); });
+    onEvent(*this, QEvent::Show, [this] { rescan(); });
 }
 
 /// Fitted to what is in sight: a page that scrolls is as wide as its parts ask for. Where the panes have no room beside
@@ -89,16 +91,9 @@ void SessionsWorkspace::fitPanes() {
     split_->setOrientation(room < scaledPx(kPanesFrom) ? Qt::Vertical : Qt::Horizontal);
 }
 
-void SessionsWorkspace::resizeEvent(QResizeEvent* event) {
-    QWidget::resizeEvent(event);
-    fitPanes();
-}
-
-/// A pane of the page: its content, and below it the actions for that.
+/// A pane of the page: what it shows, and below it what can be done with that.
 void SessionsWorkspace::layOut(QWidget& pane, QWidget& shown, QWidget& actions) {
-    auto* column = new QVBoxLayout(&pane);
-    column->setContentsMargins(0, 0, 0, 0);
-    column->setSpacing(0);
+    auto* column = columnIn(pane, 0);
     column->addWidget(&shown, 1);
     makeActionBar(actions);
     column->addWidget(&actions);
@@ -146,10 +141,8 @@ QWidget* SessionsWorkspace::buildSessionActions() {
 QWidget* SessionsWorkspace::buildNews() {
     auto* holder = new QWidget(this);
     auto* below = new QHBoxLayout(holder);
-    below->setContentsMargins(kListMargin, 0, kListMargin, 0);  // takes no height where there is no news
-    says_ = new QLabel(holder);
-    says_->setObjectName("sessionsSay");
-    says_->setWordWrap(true);
+    below->setContentsMargins(kListMargin, 0, kListMargin, 0);  // without news no height
+    says_ = makeLabel({}, {.name = "sessionsSay", .wraps = true}, holder);
     says_->setContentsMargins(0, 0, 0, kListMargin / 2);
     says_->hide();
     says_->setTextInteractionFlags(Qt::TextSelectableByMouse);
@@ -162,11 +155,6 @@ QWidget* SessionsWorkspace::buildNews() {
     below->addWidget(progress_);
     below->addWidget(cancel_);
     return holder;
-}
-
-void SessionsWorkspace::showEvent(QShowEvent* event) {
-    QWidget::showEvent(event);
-    rescan();
 }
 
 void SessionsWorkspace::rescan() {

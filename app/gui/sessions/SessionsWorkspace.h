@@ -60,9 +60,7 @@ signals:
     void recordingReady(const QString& folder);
 
 protected:
-    void showEvent(QShowEvent* event) override;
     void dragEnterEvent(QDragEnterEvent* event) override;
-    void resizeEvent(QResizeEvent* event) override;
     void dropEvent(QDropEvent* event) override;
 
 private:

@@ -21,7 +21,11 @@ constexpr int kPassphraseChars = 60;
 }
 
 PassphraseDialog::PassphraseDialog(Purpose purpose, const QString& study, QWidget* parent)
-    : QDialog(parent), purpose_(purpose), first_(new PassphraseEdit(this)), trouble_(new QLabel(this)) {
+    : QDialog(parent),
+      purpose_(purpose),
+      first_(new PassphraseEdit(this)),
+      trouble_(
+          makeLabel({}, {.name = "passphraseTrouble", .tone = Tone::Warning, .wraps = true, .plain = true}, this)) {
     const bool isNew = purpose == Purpose::New;
     setObjectName("passphraseDialog");
     setWindowTitle(isNew ? tr("A passphrase for the new study") : tr("Open a study"));
@@ -45,9 +49,6 @@ PassphraseDialog::PassphraseDialog(Purpose purpose, const QString& study, QWidge
         connect(second_, &QLineEdit::returnPressed, this, &PassphraseDialog::give);
     }
     column->addLayout(form);
-    trouble_->setObjectName("passphraseTrouble");
-    wrapPlain(*trouble_);
-    setTone(*trouble_, Tone::Warning);
     trouble_->setMinimumHeight(2 * fontMetrics().height());
     column->addWidget(trouble_);
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);

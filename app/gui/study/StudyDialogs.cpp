@@ -45,10 +45,7 @@ public:
     /// The column for the questions, filled before finish().
     [[nodiscard]] QVBoxLayout& column() { return *column_; }
     QLabel* say(const QString& what, const char* name) {
-        auto* label = new QLabel(what, this);
-        label->setObjectName(name);
-        wrapPlain(*label);
-        label->setTextInteractionFlags(Qt::TextSelectableByMouse);
+        auto* label = makeLabel(what, {.name = name, .wraps = true, .plain = true, .selectable = true}, this);
         column_->addWidget(label);
         return label;
     }
@@ -174,13 +171,11 @@ struct SideEffectRows {
     std::vector<Item> items{};  ///< as kSideEffects
 
     SideEffectRows() {
-        auto* cells = new QGridLayout(grid);
-        cells->setContentsMargins(0, 0, 0, 0);
+        auto* cells = layoutIn<QGridLayout>(*grid, -1, {});
         cells->setColumnStretch(0, 1);
         int row = 0, column = 0;
         for (const auto& title : {tr("Since then"), tr("Severity"), tr("Related to it")}) {
-            auto* head = strongLabel(title, grid);
-            cells->addWidget(head, row, column++);
+            cells->addWidget(strongLabel(title, grid), row, column++);
         }
         for (const auto& each : kSideEffects) {
             const auto text = QCoreApplication::translate("SideEffect", each.text);

@@ -198,8 +198,7 @@ StudyForm::StudyForm(QWidget* parent) : QWidget(parent) {
     }
     for (int g = 0; g < kStudyGroups; ++g) {
         auto* column = columns[g < 2 ? 0 : 1];
-        auto* title = strongLabel(translated(kGroupTitles[g]), this);
-        column->addWidget(title);
+        column->addWidget(strongLabel(translated(kGroupTitles[g]), this));
         auto* form = new FieldForm(this);
         connect(form, &FieldForm::edited, this, &StudyForm::edited);
         form->setMissingSaidOnceLeft();

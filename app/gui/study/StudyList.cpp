@@ -65,18 +65,14 @@ json participantRows(const Study& study) {
 StudyList::StudyList(OpenStudy& study, QWidget* parent)
     : QWidget(parent),
       study_(study),
-      title_(new QLabel(this)),
-      facts_(new QLabel(this)),
+      title_(makeLabel({}, {.name = "studyTitle", .size = TextSize::Large}, this)),
+      facts_(makeLabel({}, {.name = "studyFacts", .tone = Tone::Quiet}, this)),
       trouble_(new QLabel(this)),
       participants_(new PageTable("participants", tr("Participants"), *this, kListPad, true)),
       withdrawn_(new QLabel(this)),
       sessions_(new StudySessions(*this)) {
     setObjectName("studyList");
     auto* column = columnIn(*this, 8, {kListPad, kListPad, kListPad, kListPad});
-    title_->setObjectName("studyTitle");
-    setTextSize(*title_, TextSize::Large);
-    facts_->setObjectName("studyFacts");
-    setTone(*facts_, Tone::Quiet);
     trouble_->setObjectName("studyTrouble");
     setTone(*withdrawn_, Tone::Quiet);
     for (auto* label : {title_, facts_, trouble_, withdrawn_}) {
@@ -134,8 +130,7 @@ void StudyList::askForConsent(const QString& code) { openDialog(consentDialog(st
 QWidget* StudyList::buildParticipants() {
     auto* holder = new QWidget(this);
     auto* row = rowIn(*holder);
-    auto* title = strongLabel(tr("Participants"), holder);
-    row->addWidget(title);
+    row->addWidget(strongLabel(tr("Participants"), holder));
     row->addStretch();
     auto* enrol = pageButton(tr("Enrol…"), "enrol", tr("A new participant, who is given a code."), holder);
     connect(enrol, &QPushButton::clicked, this, [this] {

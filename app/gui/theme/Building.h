@@ -4,6 +4,7 @@
 #include <QBoxLayout>
 #include <QLabel>
 #include <QPushButton>
+#include <optional>
 
 #include "app/gui/theme/Theme.h"
 
@@ -29,19 +30,45 @@ inline void wrapPlain(QLabel& label) {
     label.setTextFormat(Qt::PlainText);
     label.setWordWrap(true);
 }
-/// The title of a part of a page.
-inline QLabel* strongLabel(const QString& text, QWidget* parent) {
+/// How a label looks, and what its words are: those that are not given stay as Qt has them.
+struct LabelLooks {
+    QString name = {};  ///< of the object
+    Tone tone = Tone::Text;
+    std::optional<TextSize> size = {};
+    bool strong = false;  ///< with a size
+    bool wraps = false;
+    bool plain = false;       ///< its words are no markup
+    bool selectable = false;  ///< by the mouse
+};
+inline QLabel* makeLabel(const QString& text, const LabelLooks& looks, QWidget* parent) {
     auto* made = new QLabel(text, parent);
-    setTextSize(*made, TextSize::Body, true);
+    if (!looks.name.isEmpty()) made->setObjectName(looks.name);
+    if (looks.plain) made->setTextFormat(Qt::PlainText);
+    made->setWordWrap(looks.wraps);
+    if (looks.selectable) made->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    if (looks.size) setTextSize(*made, *looks.size, looks.strong);
+    if (looks.tone != Tone::Text) setTone(*made, looks.tone);
     return made;
 }
-/// A button that no key but its own presses.
-inline QPushButton* pageButton(const QString& text, const char* name, const QString& tip, QWidget* parent) {
+/// The title of a part of a page.
+inline QLabel* strongLabel(const QString& text, QWidget* parent) {
+    return makeLabel(text, {.size = TextSize::Body, .strong = true}, parent);
+}
+/// No key but its own presses it.
+inline QPushButton* pageButton(const QString& text, const QString& name, const QString& tip, QWidget* parent) {
     auto* made = new QPushButton(text, parent);
     made->setObjectName(name);
     made->setToolTip(tip);
     made->setAutoDefault(false);
     return made;
+}
+
+/// A table that shows, whose rows have no numbers, and which Tab leaves.
+template <class Table>
+void makeReadOnly(Table& table) {
+    table.verticalHeader()->hide();
+    table.setEditTriggers(Table::NoEditTriggers);
+    table.setTabKeyNavigation(false);
 }
 
 }  // namespace tacto::gui

@@ -19,6 +19,8 @@
 #include <QUrl>
 #include <utility>
 
+#include "app/gui/theme/Building.h"
+
 namespace tacto::gui {
 
 namespace {
@@ -77,9 +79,7 @@ public:
         for (auto* shortcut : findChildren<QShortcut*>()) {
             if (shortcut->key() == QKeySequence(QKeySequence::Delete)) shortcut->setEnabled(false);
         }
-        says_ = new QLabel(this);
-        says_->setObjectName("fileTrouble");
-        says_->setWordWrap(true);
+        says_ = makeLabel({}, {.name = "fileTrouble", .wraps = true}, this);
         says_->hide();
         if (auto* grid = qobject_cast<QGridLayout*>(layout()))
             grid->addWidget(says_, grid->rowCount(), 0, 1, grid->columnCount());

@@ -2,12 +2,12 @@
 
 #include <QCalendarWidget>
 #include <QDate>
-#include <QHBoxLayout>
 #include <QKeyEvent>
 #include <QMenu>
 #include <QPushButton>
 #include <QWidgetAction>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/Icons.h"
 
@@ -24,9 +24,7 @@ PathField::PathField(const QString& path, const QString& tip, QWidget* parent) :
 
 FolderRow::FolderRow(const QString& path, const QString& tip, const QString& question, QWidget* parent)
     : QWidget(parent), line_(new PathField(path, tip, this)) {
-    auto* row = new QHBoxLayout(this);
-    row->setContentsMargins(0, 0, 0, 0);
-    row->setSpacing(8);
+    auto* row = rowIn(*this, 8);
     auto* choose = new QPushButton(tr("Ch&oose…"), this);
     choose->setAutoDefault(false);
     choose->setToolTip(tr("Chooses the folder from a list."));
@@ -41,9 +39,7 @@ FolderRow::FolderRow(const QString& path, const QString& tip, const QString& que
 }
 
 void placeInLine(QWidget& holder, QLineEdit& line, QToolButton& button) {
-    auto* row = new QHBoxLayout(&holder);
-    row->setContentsMargins(0, 0, 0, 0);
-    row->setSpacing(4);
+    auto* row = rowIn(holder, 4);
     row->addWidget(&line, 1);
     button.setFocusPolicy(Qt::StrongFocus);
     row->addWidget(&button);

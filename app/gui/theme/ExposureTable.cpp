@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/NumberText.h"
@@ -123,11 +124,9 @@ ExposureTable::ExposureTable(QWidget* parent) : QTableWidget(0, 4, parent) {
     horizontalHeaderItem(kQuantity)->setTextAlignment(Qt::AlignLeft | Qt::AlignVCenter);
     for (const int column : {kValue, kLimit})
         horizontalHeaderItem(column)->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
-    verticalHeader()->hide();
-    setEditTriggers(QAbstractItemView::NoEditTriggers);
+    makeReadOnly(*this);
     setSelectionBehavior(QAbstractItemView::SelectRows);
     setWordWrap(false);
-    setTabKeyNavigation(false);  // Tab leaves the table
     setShowGrid(false);
     setItemDelegateForColumn(kQuantity, new QuantityDelegate(this));
     setItemDelegateForColumn(kUsed, new BarDelegate(this));

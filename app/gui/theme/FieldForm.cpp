@@ -5,8 +5,8 @@
 #include <QFocusEvent>
 #include <QLineEdit>
 #include <QToolButton>
-#include <QVBoxLayout>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/EntryFields.h"
 #include "app/gui/theme/TabbedPage.h"
@@ -76,8 +76,7 @@ std::vector<std::pair<std::string, std::string>> utf8(const std::vector<std::pai
 }
 
 QFormLayout* rowsIn(QWidget& part, FieldForm::Labels labels) {
-    auto* form = new QFormLayout(&part);
-    form->setContentsMargins(0, 0, 0, 0);
+    auto* form = layoutIn<QFormLayout>(part, -1, {});
     form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
     if (labels == FieldForm::Labels::Beside) form->setVerticalSpacing(8);
     form->setRowWrapPolicy(labels == FieldForm::Labels::Above ? QFormLayout::WrapAllRows  // a narrow column
@@ -278,9 +277,7 @@ void FieldForm::showFields(const std::vector<FormField>& fields) {
         }
     }
     if (settingsRows_->rowCount() == 0) {
-        auto* none = new QLabel(tr("This protocol has nothing to set."), this);
-        setTone(*none, Tone::Quiet);
-        none->setWordWrap(true);
+        auto* none = makeLabel(tr("This protocol has nothing to set."), {.tone = Tone::Quiet, .wraps = true}, this);
         settingsRows_->addRow(none);
     }
     for (auto* part : {static_cast<QWidget*>(this), reference_}) tabInPlace(*part);
@@ -299,9 +296,7 @@ void FieldForm::addOwn(const FormField& described) {
 void FieldForm::addRow(Field& field) {
     const auto& parameter = field.parameter;
     auto* column = field.row = new QWidget(this);
-    auto* stack = new QVBoxLayout(column);
-    stack->setContentsMargins(0, 0, 0, 0);
-    stack->setSpacing(0);
+    auto* stack = columnIn(*column, 0);
     auto* line = new QHBoxLayout;
     const bool ticks = parameter.type == ParameterType::Boolean;
     line->addWidget(field.whole, ticks ? 0 : 1);

@@ -1,8 +1,8 @@
 #include "app/gui/theme/LimitSetView.h"
 
 #include <QHeaderView>
-#include <QVBoxLayout>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/Text.h"
@@ -53,7 +53,7 @@ LimitSetView::LimitSetView(const std::vector<LimitSet>& sets, QWidget* parent)
       sets_(sets),
       chooser_(new QComboBox(this)),
       table_(new QTableWidget(0, kSourceColumn + 1, this)),
-      stated_(new QLabel(this)) {
+      stated_(makeLabel({}, {.name = "limitDisclosures", .tone = Tone::Quiet, .wraps = true}, this)) {
     setObjectName("limitSetView");
     auto* column = new QVBoxLayout(this);
     auto* row = new QHBoxLayout;
@@ -68,19 +68,14 @@ LimitSetView::LimitSetView(const std::vector<LimitSet>& sets, QWidget* parent)
     table_->setAccessibleName(tr("Limits of the set"));
     table_->setHorizontalHeaderLabels(
         {tr("Quantity"), tr("Limit"), tr("Over"), tr("Judged"), tr("Beyond it"), tr("Source")});
-    table_->verticalHeader()->hide();
     table_->verticalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
-    table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+    makeReadOnly(*table_);
     table_->setSelectionBehavior(QAbstractItemView::SelectRows);
-    table_->setTabKeyNavigation(false);
     table_->setWordWrap(true);
     table_->horizontalHeader()->setStretchLastSection(true);
     table_->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
     table_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     column->addWidget(table_, 1);
-    stated_->setObjectName("limitDisclosures");
-    stated_->setWordWrap(true);
-    setTone(*stated_, Tone::Quiet);
     column->addWidget(stated_);
     connect(chooser_, &QComboBox::currentIndexChanged, this, &LimitSetView::show);
     show(chooser_->currentIndex());

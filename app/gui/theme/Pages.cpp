@@ -18,11 +18,15 @@ void ScrollingPage::hold(QWidget* page) {
     for (auto* ground : {page, viewport()}) ground->setAutoFillBackground(false);  // the workspace's own
 }
 
+void scrollDownOnly(QScrollArea& area) {
+    area.setFrameShape(QFrame::NoFrame);
+    area.setWidgetResizable(true);
+    area.setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+}
+
 QScrollArea* scrollingRows(QWidget* rows, QWidget* parent) {
     auto* area = new QScrollArea(parent);
-    area->setFrameShape(QFrame::NoFrame);
-    area->setWidgetResizable(true);
-    area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    scrollDownOnly(*area);
     area->setMinimumHeight(1);
     area->setWidget(rows);
     return area;

@@ -21,6 +21,8 @@ public:
     [[nodiscard]] QSize sizeHint() const override { return minimumSizeHint(); }
 };
 
+/// Of its page's width, without a frame; from top to bottom only.
+void scrollDownOnly(QScrollArea& area);
 /// A list of rows that scrolls where it has less room than it needs, as wide as its place, and takes the arrow keys.
 [[nodiscard]] QScrollArea* scrollingRows(QWidget* rows, QWidget* parent);
 

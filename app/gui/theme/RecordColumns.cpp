@@ -4,6 +4,7 @@
 #include <QScrollBar>
 #include <algorithm>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
@@ -134,12 +135,10 @@ void putText(QTableWidget& table, int row, int column, const QString& text, bool
 }
 
 void layOutRecordTable(QTableWidget& table, int room_px) {
-    table.verticalHeader()->hide();
-    table.setEditTriggers(QAbstractItemView::NoEditTriggers);
+    makeReadOnly(table);
     table.setSelectionMode(QAbstractItemView::NoSelection);
     table.setWordWrap(false);
     table.setTextElideMode(Qt::ElideRight);
-    table.setTabKeyNavigation(false);
     table.setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
     table.setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     table.setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);

@@ -1,7 +1,6 @@
 #include "app/gui/theme/TabbedPage.h"
 
-#include <QVBoxLayout>
-
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/ToolRow.h"
 
 namespace tacto::gui {
@@ -37,9 +36,7 @@ TabbedPage::TabbedPage(QWidget* parent)
     row->setContentsMargins(0, 0, kToolsApart, 0);
     row->addWidget(bar_, 0, Qt::AlignBottom);
     row->addWidget(tools_, 1);
-    auto* column = new QVBoxLayout(this);
-    column->setContentsMargins(0, 0, 0, 0);
-    column->setSpacing(0);
+    auto* column = columnIn(*this, 0);
     column->addWidget(head_);
     column->addWidget(pages_, 1);
     tools_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);

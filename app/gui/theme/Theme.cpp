@@ -369,8 +369,27 @@ private:
     bool waits_ = false;
 };
 
+class EventFollower final : public QObject {
+public:
+    EventFollower(QWidget& widget, QEvent::Type event, std::function<void()> follow)
+        : QObject(&widget), event_(event), follow_(std::move(follow)) {
+        widget.installEventFilter(this);
+    }
+    bool eventFilter(QObject*, QEvent* event) override {
+        if (event->type() == event_) follow_();
+        return false;
+    }
+
+private:
+    const QEvent::Type event_;
+    const std::function<void()> follow_;
+};
+
 }  // namespace
 
+void onEvent(QWidget& widget, QEvent::Type event, std::function<void()> follow) {
+    new EventFollower(widget, event, std::move(follow));
+}
 void onLookChange(QWidget& widget, std::function<void()> follow) {
     new LookChange(widget, true, Qt::DirectConnection, std::move(follow));
 }

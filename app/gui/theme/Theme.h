@@ -6,6 +6,7 @@
 #pragma once
 
 #include <QApplication>
+#include <QEvent>
 #include <QFont>
 #include <QLabel>
 #include <QPushButton>
@@ -103,6 +104,10 @@ signals:
 void onLookChange(QWidget& widget, std::function<void()> follow);
 /// Calls it when the font changes, and for nothing else.
 void onFontChange(QWidget& widget, std::function<void()> follow);
+
+/// Calls `follow` whenever `widget` is shown or gets another size, with what is laid out in it in its new place.
+/// `event`: Show or Resize; another, such as Hide, comes also while the widget is destroyed.
+void onEvent(QWidget& widget, QEvent::Type event, std::function<void()> follow);
 
 /// Calls `follow` in the next turn of the event loop after a change of palette, font or style, when the widgets within
 /// have it too: for one that gives them fonts, places or a style sheet of its own. (The theme's new sheet takes them

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/gui/controller/FirstOutput.h"
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/ConfirmButton.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/Text.h"
@@ -89,9 +90,7 @@ void ArmDialog::addLoad(QVBoxLayout& layout, const QString& load) {
 
 void ArmDialog::addWhatIsArmed(QVBoxLayout& layout) {
     const auto line = [&](const char* name) {
-        auto* label = new QLabel(this);
-        label->setObjectName(name);
-        label->setWordWrap(true);
+        auto* label = makeLabel({}, {.name = name, .wraps = true}, this);
         layout.addWidget(label);
         return label;
     };

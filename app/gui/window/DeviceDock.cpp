@@ -3,10 +3,10 @@
 #include <QCoreApplication>
 #include <QGridLayout>
 #include <QHeaderView>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -100,8 +100,7 @@ DeviceDock::DeviceDock(BenchController& controller, const CalibrationBook& calib
       controller_(controller),
       calibrations_(calibrations) {
     auto* body = new QWidget;
-    auto* layout = new QVBoxLayout(body);
-    layout->setContentsMargins(0, 0, scaledPx(12), 0);
+    auto* layout = columnIn(*body, -1, {0, 0, scaledPx(12), 0});
     tree_ = new QTreeWidget(body);
     tree_->setAccessibleName(tr("Devices"));
     tree_->setHeaderLabels({tr("Device")});
@@ -117,9 +116,7 @@ DeviceDock::DeviceDock(BenchController& controller, const CalibrationBook& calib
     tree_->setUniformRowHeights(false);
     tree_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);  // names wrap, and it is as high as its rows
     layout->addWidget(tree_);
-    facts_ = new QLabel(body);
-    facts_->setObjectName("deviceFacts");
-    facts_->setWordWrap(true);
+    facts_ = makeLabel({}, {.name = "deviceFacts", .wraps = true}, body);
     facts_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
     layout->addWidget(facts_);
 

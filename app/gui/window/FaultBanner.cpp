@@ -1,8 +1,8 @@
 #include "app/gui/window/FaultBanner.h"
 
-#include <QVBoxLayout>
 #include <cmath>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 
@@ -57,9 +57,7 @@ FaultBanner::FaultBanner(QWidget* parent)
     setObjectName("faultBanner");
     setAccessibleName(tr("Fault"));
     cause_->setObjectName("faultText");
-    auto* column = new QVBoxLayout(this);
-    column->setContentsMargins(scaledPx(16), 0, scaledPx(8), 0);
-    column->setSpacing(0);
+    auto* column = columnIn(*this, 0, {scaledPx(16), 0, scaledPx(8), 0});
     column->addStretch();
     for (auto* line : {cause_, output_, next_}) {
         line->setTextFormat(Qt::PlainText);

@@ -1,13 +1,12 @@
 #include "app/gui/window/FoldingDock.h"
 
 #include <QEvent>
-#include <QHBoxLayout>
 #include <QScrollArea>
 #include <QScrollBar>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <utility>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Theme.h"
@@ -41,9 +40,7 @@ FoldingDock::FoldingDock(const QString& title, const QString& iconName, const QS
       title_(new QLabel(title, header_)),
       toggle_(new QToolButton(header_)) {
     setObjectName(name);
-    auto* row = new QHBoxLayout(header_);
-    row->setContentsMargins(kDockPadding, 0, 4, 0);
-    row->setSpacing(8);
+    auto* row = rowIn(*header_, 8, {kDockPadding, 0, 4, 0});
     row->addWidget(picture_);
     row->addWidget(title_, 1);
     row->addWidget(toggle_);
@@ -61,12 +58,10 @@ FoldingDock::FoldingDock(const QString& title, const QString& iconName, const QS
 void FoldingDock::setContent(QWidget* content, Room room) {
     room_ = room;
     auto* body = new QWidget(this);
-    auto* column = new QVBoxLayout(body);
-    column->setContentsMargins(kDockPadding, 4, 0, kDockPadding);
+    auto* column = columnIn(*body, -1, {kDockPadding, 4, 0, kDockPadding});
     if (qobject_cast<QAbstractScrollArea*>(content) == nullptr) {
         inside_ = new QWidget;
-        auto* rows = new QVBoxLayout(inside_);
-        rows->setContentsMargins(0, 0, kDockPadding, 0);
+        auto* rows = columnIn(*inside_, -1, {0, 0, kDockPadding, 0});
         rows->addWidget(content);
         rows->addStretch();
         auto* area = scrollingRows(inside_, body);

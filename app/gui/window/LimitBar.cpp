@@ -157,14 +157,13 @@ constexpr double kStaysFor = 0.2;  // share of the limit
 LimitBarRow::LimitBarRow(const QStringList& titles, QWidget* parent) : QWidget(parent) {
     for (const auto& title : titles) bars_.push_back(new LimitBar(title, this));
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
+    onEvent(*this, QEvent::Resize, [this] { arrange(); });
 }
 
 QSize LimitBarRow::sizeHint() const {
     const auto one = bars_.front()->sizeHint();
     return {int(bars_.size()) * (one.width() + kGap) - kGap, one.height()};
 }
-
-void LimitBarRow::resizeEvent(QResizeEvent*) { arrange(); }
 
 int LimitBarRow::oneBarWidth() const { return bars_.front()->minimumSizeHint().width(); }
 

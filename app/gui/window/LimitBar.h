@@ -76,9 +76,6 @@ public:
     [[nodiscard]] QSize sizeHint() const override;
     [[nodiscard]] QSize minimumSizeHint() const override { return {0, sizeHint().height()}; }
 
-protected:
-    void resizeEvent(QResizeEvent* event) override;
-
 private:
     std::vector<LimitBar*> bars_;
     std::vector<LimitBar*> seen_;

@@ -12,7 +12,6 @@
 #include <QStatusBar>
 #include <QToolBar>
 #include <QToolButton>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <utility>
 
@@ -22,6 +21,7 @@
 #include "app/gui/scope/ScopeFiles.h"
 #include "app/gui/scope/ScopeWorkspace.h"
 #include "app/gui/scope/measurements/MeasurementSummary.h"
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/window/ArmDialog.h"
 #include "app/gui/window/Attendance.h"
@@ -128,9 +128,7 @@ MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry, std::function
     auto* centre = new QWidget(this);
     centre->setObjectName("centre");
     centre->setAttribute(Qt::WA_StyledBackground);
-    auto* layout = new QVBoxLayout(centre);
-    layout->setContentsMargins(0, 0, 0, 0);
-    layout->setSpacing(0);
+    auto* layout = columnIn(*centre, 0);
     line_ = new RecordingLine(controller_, *statusBar());
     workspaces_ = new Workspaces(controller_, calibrations_, centre);
     layout->addWidget(workspaces_, 1);
@@ -140,8 +138,7 @@ MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry, std::function
     connect(mark_, &MarkLine::refused, banner_, &NoticeBanner::complain);
     if (const auto resources = resourcesFolder(); !resources) banner_->complain(sentence(resources.error()));
     if (const auto added = addedLimitsText(controller_.limits()); !added.empty()) {
-        auto* limits = new QLabel(QString::fromStdString(added), this);
-        limits->setObjectName("added-limits");
+        auto* limits = makeLabel(QString::fromStdString(added), {.name = "added-limits"}, this);
         statusBar()->addPermanentWidget(limits);
     }
 
@@ -174,6 +171,11 @@ MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry, std::function
     connect(&frame_, &QTimer::timeout, this, &MainWindow::tick);
     frame_.start(kFrame_ms);
     showTitle();
+    onEvent(*this, QEvent::Resize, [this] {
+        const bool changed = hasRoomForDocks_ != (width() >= scaledPx(kDocksFrom)) ||
+                             hasRoomForAllDocks_ != (height() >= scaledPx(kAllDocksFrom));
+        if (docks_ != nullptr && changed) enterDocks();
+    });
 }
 
 MainWindow::~MainWindow() {
@@ -410,13 +412,6 @@ void MainWindow::showEvent(QShowEvent* event) {
     if (event->spontaneous()) return;
     awaitsFrame_ = true;
     QTimer::singleShot(0, this, [this] { keepOnScreen(*this); });
-}
-
-void MainWindow::resizeEvent(QResizeEvent* event) {
-    QMainWindow::resizeEvent(event);
-    const bool changed = hasRoomForDocks_ != (width() >= scaledPx(kDocksFrom)) ||
-                         hasRoomForAllDocks_ != (height() >= scaledPx(kAllDocksFrom));
-    if (docks_ != nullptr && changed) enterDocks();
 }
 
 void MainWindow::attend(const Telemetry& telemetry) {

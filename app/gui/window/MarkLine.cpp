@@ -2,11 +2,11 @@
 
 #include <QApplication>
 #include <QEvent>
-#include <QHBoxLayout>
 #include <QKeyEvent>
 #include <QPushButton>
 #include <algorithm>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -34,9 +34,7 @@ MarkLine::MarkLine(BenchController& controller, RecordingLine& line, QWidget& ov
     setObjectName("markLine");
     setFrameShape(QFrame::StyledPanel);
     setAutoFillBackground(true);
-    auto* row = new QHBoxLayout(this);
-    row->setContentsMargins(kMarkGap, kMarkGap / 2, kMarkGap / 2, kMarkGap / 2);
-    row->setSpacing(kMarkGap);
+    auto* row = rowIn(*this, kMarkGap, {kMarkGap, kMarkGap / 2, kMarkGap / 2, kMarkGap / 2});
     auto* shape = new QLabel(this);
     shape->setPixmap(icon("mark").pixmap(kMarkIcon));
     row->addWidget(shape);

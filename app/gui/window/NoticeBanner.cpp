@@ -1,12 +1,12 @@
 #include "app/gui/window/NoticeBanner.h"
 
 #include <QEvent>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
 #include <cmath>
 #include <utility>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/window/RecordingLine.h"
@@ -22,14 +22,15 @@ constexpr int kFramesForReason = 10;  // a third of a second
 }  // namespace
 
 NoticeBanner::NoticeBanner(BenchController& controller, RecordingLine& line, QWidget& over)
-    : QFrame(&over), controller_(controller), line_(line), over_(over), text_(new QLabel(this)) {
+    : QFrame(&over),
+      controller_(controller),
+      line_(line),
+      over_(over),
+      text_(makeLabel({}, {.name = "bannerText", .wraps = true, .selectable = true}, this)) {
     setObjectName("banner");
     setFrameShape(QFrame::StyledPanel);
     setAutoFillBackground(true);
     auto* row = new QHBoxLayout(this);
-    text_->setObjectName("bannerText");
-    text_->setWordWrap(true);
-    text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
     row->addWidget(text_, 1);
     auto* dismiss = new QPushButton(tr("Dismiss"), this);
     dismiss->setAutoDefault(false);

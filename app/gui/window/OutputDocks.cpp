@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "app/gui/live/DrivePanel.h"
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/ExposureTable.h"
 #include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Text.h"
@@ -51,9 +52,7 @@ ExposureDock::ExposureDock(const BenchController& controller, QWidget* parent)
     body->setToolTip(
         tr("Worst case over the permitted load range, exposure of the last 5 s included: upper bounds, for a train "
            "counts whole in every window that it may touch. Hatched: not evaluated, and never a pass."));
-    column_ = new QVBoxLayout(body);
-    column_->setContentsMargins(0, 0, scaledPx(12), 0);
-    column_->setSpacing(kBetweenBars);
+    column_ = columnIn(*body, kBetweenBars, {0, 0, scaledPx(12), 0});
     empty_->setText(tr("Nothing is judged yet: limits appear here once the output is armed."));
     empty_->setWordWrap(true);
     setTextSize(*empty_, TextSize::Small);

@@ -1,9 +1,8 @@
 #include "app/gui/window/SafetyBar.h"
 
-#include <QHBoxLayout>
-#include <QVBoxLayout>
 #include <algorithm>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/ConfirmButton.h"
 #include "app/gui/theme/ExposureTable.h"
 #include "app/gui/theme/Labels.h"
@@ -73,9 +72,7 @@ SafetyBar::SafetyBar(BenchController& controller, const CalibrationBook& calibra
     setAccessibleName(tr("Safety bar"));
     setAutoFillBackground(true);
     setBackgroundRole(QPalette::Base);
-    auto* row = new QHBoxLayout(this);
-    row->setContentsMargins(0, 0, 0, 0);
-    row->setSpacing(0);
+    auto* row = rowIn(*this, 0);
     row->setSizeConstraint(QLayout::SetNoConstraint);  // minimumSizeHint() says how narrow it may be
     facts_ = buildFacts();
     QStringList titles;
@@ -95,13 +92,12 @@ SafetyBar::SafetyBar(BenchController& controller, const CalibrationBook& calibra
     row->addWidget(buttons_);
     row->addWidget(stop_);
     refresh(Telemetry{});
+    onEvent(*this, QEvent::Resize, [this] { giveRoom(); });
 }
 
 QWidget* SafetyBar::buildFacts() {
     auto* holder = new QWidget(this);
-    auto* column = new QVBoxLayout(holder);
-    column->setContentsMargins(kBarGap, 0, kBarGap, 0);
-    column->setSpacing(0);
+    auto* column = columnIn(*holder, 0, {kBarGap, 0, kBarGap, 0});
     load_ = new ElidedLabel(holder);
     device_ = new ElidedLabel(holder);
     calibration_ = new ElidedLabel(holder);
@@ -116,9 +112,7 @@ QWidget* SafetyBar::buildFacts() {
 
 QWidget* SafetyBar::buildBlindFacts() {
     auto* holder = new QWidget(this);
-    auto* row = new QHBoxLayout(holder);
-    row->setContentsMargins(0, 0, 0, 0);
-    row->setSpacing(kBarGap);
+    auto* row = rowIn(*holder, kBarGap);
     const auto pair = [&](QLabel*& strong, const QString& quiet) {
         auto* column = new QVBoxLayout;
         column->setSpacing(0);
@@ -175,9 +169,7 @@ void SafetyBar::showBlind(const Telemetry& telemetry) {
 
 QWidget* SafetyBar::buildButtons() {
     auto* holder = new QWidget(this);
-    auto* column = new QVBoxLayout(holder);
-    column->setContentsMargins(kBarGap / 2, 0, kBarGap / 2, 0);
-    column->setSpacing(4);
+    auto* column = columnIn(*holder, 4, {kBarGap / 2, 0, kBarGap / 2, 0});
     action_ = new ConfirmButton({}, holder);
     action_->setObjectName("armButton");
     connect(action_, &QPushButton::clicked, this, &SafetyBar::pressAction);
@@ -232,11 +224,6 @@ QSize SafetyBar::minimumSizeHint() const {
 void SafetyBar::changeEvent(QEvent* event) {
     if (event->type() == QEvent::FontChange && stop_ != nullptr) giveRoom();
     QFrame::changeEvent(event);
-}
-
-void SafetyBar::resizeEvent(QResizeEvent* event) {
-    giveRoom();
-    QFrame::resizeEvent(event);
 }
 
 void SafetyBar::refresh(const Telemetry& telemetry) {

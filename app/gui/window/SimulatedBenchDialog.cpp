@@ -1,8 +1,8 @@
 #include "app/gui/window/SimulatedBenchDialog.h"
 
 #include <QDialogButtonBox>
-#include <QVBoxLayout>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -59,11 +59,7 @@ SimulatedBenchDialog::SimulatedBenchDialog(BenchController& controller, QWidget*
          numberField("faultAt", tr("A&fter"), "s", 0.1, 3600, 10, tr("Time after opening at which the fault begins.")),
          wholeField("seed", tr("S&eed"), 0, 1'000'000, 1, tr("The same seed gives the same bytes."))});
     layout->addWidget(form_);
-    says_ = new QLabel(this);
-    says_->setWordWrap(true);
-    says_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-    setTextSize(*says_, TextSize::Small);
-    setTone(*says_, Tone::Quiet);
+    says_ = makeLabel({}, {.tone = Tone::Quiet, .size = TextSize::Small, .wraps = true, .selectable = true}, this);
     layout->addWidget(says_);
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
     open_ = buttons->addButton(tr("&Open"), QDialogButtonBox::AcceptRole);

@@ -4,6 +4,7 @@
 #include <QGridLayout>
 #include <algorithm>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/Theme.h"
 
@@ -37,8 +38,7 @@ StateBlock::StateBlock(QWidget* parent)
     shape_->setAlignment(Qt::AlignCenter);
     setTextSize(*reason_, TextSize::Small);
     reason_->setObjectName("interlockReason");
-    auto* grid = new QGridLayout(this);
-    grid->setContentsMargins(0, 0, scaledPx(8), 4);
+    auto* grid = layoutIn<QGridLayout>(*this, -1, {0, 0, scaledPx(8), 4});
     grid->setHorizontalSpacing(0);
     grid->setVerticalSpacing(0);
     grid->addWidget(shape_, 0, 0, 2, 1);

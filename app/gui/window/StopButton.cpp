@@ -5,10 +5,10 @@
 #include <QMouseEvent>
 #include <QPainter>
 #include <QScreen>
-#include <QVBoxLayout>
 #include <QWindow>
 #include <utility>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
@@ -107,8 +107,7 @@ SmallStop::SmallStop(std::function<void()> stop, const QWidget& beside)
     setWindowTitle(tr("Tactoscope"));
     setAttribute(Qt::WA_ShowWithoutActivating);
     setAttribute(Qt::WA_QuitOnClose, false);
-    auto* layout = new QVBoxLayout(this);
-    layout->setContentsMargins(0, 0, 0, 0);
+    auto* layout = columnIn(*this);
     layout->addWidget(stop_);
     showState(InterlockState::Disconnected);
     const auto screen = beside.screen()->availableGeometry();

@@ -1,14 +1,13 @@
 #include "app/gui/window/Tour.h"
 
 #include <QEvent>
-#include <QHBoxLayout>
 #include <QPainter>
 #include <QScrollArea>
 #include <QStyle>
-#include <QVBoxLayout>
 #include <limits>
 #include <utility>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
@@ -29,18 +28,12 @@ Tour::Tour(std::vector<TourStep> steps, QWidget* window) : QFrame(window), steps
     setFrameShadow(QFrame::Raised);
     setAutoFillBackground(true);
     auto* layout = new QVBoxLayout(this);
-    title_ = new QLabel(this);
-    title_->setObjectName("tourTitle");
-    setTextSize(*title_, TextSize::Large);
+    title_ = makeLabel({}, {.name = "tourTitle", .size = TextSize::Large}, this);
     layout->addWidget(title_);
-    text_ = new QLabel(this);
-    text_->setObjectName("tourText");
-    text_->setWordWrap(true);
+    text_ = makeLabel({}, {.name = "tourText", .wraps = true}, this);
     layout->addWidget(text_);
     auto* row = new QHBoxLayout;
-    place_ = new QLabel(this);
-    place_->setObjectName("tourPlace");
-    setTone(*place_, Tone::Quiet);
+    place_ = makeLabel({}, {.name = "tourPlace", .tone = Tone::Quiet}, this);
     row->addWidget(place_);
     row->addStretch();
     leave_ = new QPushButton(tr("Leave"), this);

@@ -5,10 +5,10 @@
 #include <QMenu>
 #include <QPushButton>
 #include <QToolButton>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -63,18 +63,14 @@ double impedanceOf(const std::vector<ChannelMeasurement>& measured) {
 
 MeasurementSummary::MeasurementSummary(QWidget* parent)
     : QWidget(parent),
-      head_(new QLabel(this)),
+      head_(makeLabel({}, {.name = "summaryHead", .wraps = true}, this)),
       column_(new QVBoxLayout(this)),
       impedanceName_(new QLabel(tr("|Z|"), this)),
       impedance_(new QLabel(this)),
-      note_(new QLabel(this)),
+      note_(makeLabel({}, {.name = "summaryNote", .wraps = true}, this)),
       choose_(new QPushButton(tr("Choose…"), this)),
       reset_(new QPushButton(tr("Reset"), this)) {
     setAccessibleName(tr("Measurements"));
-    head_->setObjectName("summaryHead");
-    head_->setWordWrap(true);
-    note_->setObjectName("summaryNote");
-    note_->setWordWrap(true);
     for (auto* label : {head_, note_, impedanceName_, impedance_}) setTextSize(*label, TextSize::Small);
     impedanceName_->setIndent(kEdge);
     impedanceName_->setToolTip(
@@ -160,8 +156,7 @@ void MeasurementSummary::lay() {
     figures_.clear();
     quiet_.clear();
     rows_ = new QWidget(this);
-    grid_ = new QGridLayout(rows_);
-    grid_->setContentsMargins(0, 0, 0, 0);
+    grid_ = layoutIn<QGridLayout>(*rows_, -1, {});
     grid_->setHorizontalSpacing(scaledPx(8));
     grid_->setVerticalSpacing(0);
     grid_->setColumnStretch(0, 1);
@@ -204,8 +199,7 @@ void MeasurementSummary::layRow(Reading reading) {
     if (unfolded_ != reading) return;
     for (std::size_t s = 1; s < kStatistics.size(); ++s) {
         row = grid_->rowCount();
-        auto* title = new QLabel("    " + nameOf(kStatistics[s]), rows_);
-        setTextSize(*title, TextSize::Small);
+        auto* title = makeLabel("    " + nameOf(kStatistics[s]), {.size = TextSize::Small}, rows_);
         quiet_.push_back(title);
         grid_->addWidget(title, row, 0, 1, below() ? inLine() : 1);
         layFigures(reading, kStatistics[s], below() ? row + 1 : row, below() ? 0 : 1);

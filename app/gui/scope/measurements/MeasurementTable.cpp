@@ -2,7 +2,6 @@
 
 #include <QClipboard>
 #include <QGuiApplication>
-#include <QHBoxLayout>
 #include <QHeaderView>
 #include <QKeyEvent>
 #include <QLabel>
@@ -11,10 +10,10 @@
 #include <QScrollBar>
 #include <QTableWidget>
 #include <QTimer>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 
@@ -43,17 +42,15 @@ MeasurementTable::MeasurementTable(ChosenReadings& chosen, QWidget* parent)
       chosen_(chosen),
       table_(new QTableWidget(this)),
       seen_(new QLabel(this)),
-      warnings_(new QLabel(this)),
+      warnings_(makeLabel({}, {.name = "warnings", .wraps = true, .selectable = true}, this)),
       choose_(new QPushButton(tr("Choose…"), this)),
       reset_(new QPushButton(tr("Reset statistics"), this)) {
     table_->setObjectName("measurements");
     table_->setAccessibleName(tr("Measurements"));
-    table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+    makeReadOnly(*table_);
     table_->setSelectionMode(QAbstractItemView::ContiguousSelection);
     table_->setShowGrid(false);
-    table_->setTabKeyNavigation(false);
     table_->setFrameShape(QFrame::NoFrame);
-    table_->verticalHeader()->hide();
     table_->horizontalHeader()->setHighlightSections(false);
     for (QWidget* small : {static_cast<QWidget*>(table_), static_cast<QWidget*>(table_->horizontalHeader())})
         setTextSize(*small, TextSize::Small);
@@ -68,9 +65,6 @@ MeasurementTable::MeasurementTable(ChosenReadings& chosen, QWidget* parent)
         lay();
         refill();
     });
-    warnings_->setWordWrap(true);
-    warnings_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-    warnings_->setObjectName("warnings");
     warnings_->hide();
     seen_->setWordWrap(true);
     auto* line = new QHBoxLayout;
@@ -78,9 +72,7 @@ MeasurementTable::MeasurementTable(ChosenReadings& chosen, QWidget* parent)
     line->addWidget(choose_);
     line->addWidget(reset_);
     setTabOrder(reset_, table_);
-    auto* layout = new QVBoxLayout(this);
-    layout->setContentsMargins(8, 4, 8, 0);
-    layout->setSpacing(4);
+    auto* layout = columnIn(*this, 4, {8, 4, 8, 0});
     layout->addLayout(line);
     layout->addWidget(table_, 1);
     layout->addWidget(warnings_);
@@ -88,6 +80,9 @@ MeasurementTable::MeasurementTable(ChosenReadings& chosen, QWidget* parent)
     restyle();
     refill();
     onLookChange(*this, [this] { restyle(); });
+    onEvent(*this, QEvent::Resize, [this] {
+        QTimer::singleShot(0, this, &MeasurementTable::fitColumns);  // once the table has its width
+    });
 }
 
 void MeasurementTable::add(const ShownPtr& shown) {
@@ -248,11 +243,6 @@ void MeasurementTable::keyPressEvent(QKeyEvent* event) {
         return;
     }
     QWidget::keyPressEvent(event);
-}
-
-void MeasurementTable::resizeEvent(QResizeEvent* event) {
-    QWidget::resizeEvent(event);
-    QTimer::singleShot(0, this, &MeasurementTable::fitColumns);  // once the table has its width
 }
 
 void MeasurementTable::restyle() {

@@ -2,10 +2,8 @@
 
 #include <QCheckBox>
 #include <QComboBox>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QSettings>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -16,6 +14,7 @@
 #include "app/gui/scope/model/ScopeLanes.h"
 #include "app/gui/scope/model/ScopeModel.h"
 #include "app/gui/scope/screen/LaneLegend.h"
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Labels.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Text.h"
@@ -91,9 +90,7 @@ SpectrumPanel::SpectrumPanel(QWidget* parent)
     line->addWidget(new QLabel(tr("Spectrum of"), this));
     for (QWidget* each : std::initializer_list<QWidget*>{channel_, window_, log_}) line->addWidget(each);
     line->addWidget(note_, 1);
-    auto* layout = new QVBoxLayout(this);
-    layout->setContentsMargins(0, 0, 0, 0);
-    layout->setSpacing(4);
+    auto* layout = columnIn(*this, 4);
     layout->addLayout(line);
     layout->addWidget(plot_, 1);
     plot_->setAccessibleName(tr("Spectrum"));
@@ -126,6 +123,7 @@ SpectrumPanel::SpectrumPanel(QWidget* parent)
         plot_->replot(QCustomPlot::rpQueuedReplot);
         showModel();  // the lane's colour
     });
+    onEvent(*this, QEvent::Show, [this] { showModel(); });
 }
 
 SpectrumPanel::~SpectrumPanel() = default;
@@ -338,11 +336,6 @@ void SpectrumPanel::restore(const QSettings& settings) {
     const int known = window_->findData(settings.value("fft/window").toString());
     if (known >= 0) window_->setCurrentIndex(known);
     log_->setChecked(rememberedFlag(settings, "fft/log").value_or(false));
-}
-
-void SpectrumPanel::showEvent(QShowEvent* event) {
-    QWidget::showEvent(event);
-    showModel();
 }
 
 void SpectrumPanel::follow(const ScopeModel& model) {

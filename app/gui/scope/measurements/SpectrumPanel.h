@@ -62,9 +62,6 @@ public:
     void save(QSettings& settings) const;
     void restore(const QSettings& settings);
 
-protected:
-    void showEvent(QShowEvent* event) override;
-
 private:
     void showModel();
     void calculate(const Trace& trace, double from_s, double to_s);

@@ -12,6 +12,7 @@
 #include "app/gui/scope/model/Remembered.h"
 #include "app/gui/scope/model/Viewport.h"
 #include "app/gui/scope/panels/QuantitySpin.h"
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/NumberText.h"
@@ -50,7 +51,7 @@ AcquisitionPanel::AcquisitionPanel(QWidget* parent)
       volts_(combo(tr("Voltage range"), tr("Full scale of the voltage input. Beyond it pulses are clipped and not "
                                            "measured; far below it they are coarse."))),
       amps_(combo(tr("Current range"), tr("Full scale of the current input."))),
-      said_(new QLabel(this)) {
+      said_(makeLabel({}, {.tone = Tone::Quiet, .wraps = true}, this)) {
     source_->addItem(tr("Voltage"), false);
     source_->addItem(tr("Current"), true);
     level_->setValue(1);
@@ -74,10 +75,7 @@ AcquisitionPanel::AcquisitionPanel(QWidget* parent)
     offer(volts_, 1, kMaxVolts, "±", "V", 50);
     offer(amps_, 1e-3, kMaxAmps, "±", "A", 200e-3);
     fillRates();
-    setTone(*said_, Tone::Quiet);
-    said_->setWordWrap(true);
-    auto* form = new QFormLayout(this);
-    form->setContentsMargins(0, 0, 0, 0);
+    auto* form = layoutIn<QFormLayout>(*this, -1, {});
     form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
     form->addRow(tr("Trigger on"), source_);
     form->addRow(tr("Level"), level_);

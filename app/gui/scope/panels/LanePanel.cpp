@@ -6,7 +6,6 @@
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QToolButton>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
 
@@ -14,6 +13,7 @@
 #include "app/gui/scope/panels/QuantitySpin.h"
 #include "app/gui/scope/screen/LaneLegend.h"
 #include "app/gui/scope/screen/ScopeScreen.h"
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/NumberText.h"
 
@@ -40,8 +40,7 @@ LanePanel::LanePanel(ScopeModel& model, ScopeScreen& screen, QWidget* parent)
       grid_(new QGridLayout),
       store_(new QPushButton(tr("Store as reference"), this)) {
     store_->setToolTip(tr("Keeps the selected lane as it looks now, to compare with later captures."));
-    auto* layout = new QVBoxLayout(this);
-    layout->setContentsMargins(0, 0, 0, 0);
+    auto* layout = columnIn(*this);
     grid_->setHorizontalSpacing(4);
     grid_->setVerticalSpacing(4);
     grid_->setColumnStretch(1, 1);

@@ -5,13 +5,13 @@
 #include <QPushButton>
 #include <QSettings>
 #include <QSignalBlocker>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <array>
 #include <utility>
 
 #include "app/gui/scope/model/Remembered.h"
 #include "app/gui/scope/panels/QuantitySpin.h"
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 
@@ -32,7 +32,7 @@ MaskPanel::MaskPanel(QWidget* parent)
       remove_(new QPushButton(tr("Remove"), this)),
       reset_(new QPushButton(tr("Reset counts"), this)),
       showFirst_(new QPushButton(tr("Show the first outside"), this)),
-      says_(new QLabel(this)) {
+      says_(makeLabel({}, {.name = "maskSays", .wraps = true, .selectable = true}, this)) {
     make_->setToolTip(
         tr("A band around the capture on the screen. Captures from now on are tested against it. This does "
            "not affect the output."));
@@ -57,11 +57,7 @@ MaskPanel::MaskPanel(QWidget* parent)
         amps_->setValue(kAmps);
         time_->setValue(kTime_s);
     }
-    says_->setObjectName("maskSays");
-    says_->setWordWrap(true);
-    says_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-    auto* layout = new QVBoxLayout(this);
-    layout->setContentsMargins(0, 0, 0, 0);
+    auto* layout = columnIn(*this);
     layout->addLayout(form);
     layout->addWidget(make_);
     layout->addWidget(says_);

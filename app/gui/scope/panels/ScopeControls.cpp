@@ -3,34 +3,29 @@
 #include <QEvent>
 #include <QLabel>
 #include <QScrollBar>
-#include <QVBoxLayout>
 
+#include "app/gui/theme/Building.h"
+#include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 
 ScopeControls::ScopeControls(ScopeModel& model, ScopeScreen& screen, QWidget* parent) : QScrollArea(parent) {
     setObjectName("scopeControls");
-    setWidgetResizable(true);
-    setFrameShape(QFrame::NoFrame);
-    setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    scrollDownOnly(*this);
     setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Expanding);
     auto* inside = new QWidget(this);
     auto* lanes = new LanePanel(model, screen, inside);
     view_ = new ViewPanel(model, inside);
     acquisition_ = new AcquisitionPanel(inside);
     mask_ = new MaskPanel(inside);
-    auto* column = new QVBoxLayout(inside);
-    column->setContentsMargins(4, 0, 8, 0);
-    column->setSpacing(8);
+    auto* column = columnIn(*inside, 8, {4, 0, 8, 0});
     for (const auto& [title, panel] :
          std::initializer_list<std::pair<QString, QWidget*>>{{tr("Lanes"), lanes},
                                                              {tr("View"), view_},
                                                              {tr("Trigger and record"), acquisition_},
                                                              {tr("Mask"), mask_}}) {
-        auto* name = new QLabel(title, inside);
-        setTextSize(*name, TextSize::Body, true);
-        column->addWidget(name);
+        column->addWidget(makeLabel(title, {.size = TextSize::Body, .strong = true}, inside));
         column->addWidget(panel);
         column->addSpacing(8);
     }

@@ -1,27 +1,25 @@
 #include "app/gui/scope/panels/ScopeStatus.h"
 
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QToolButton>
 
 #include "app/gui/scope/screen/LaneLegend.h"
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 
 ScopeStatus::ScopeStatus(const ScopeModel& model, QWidget* parent)
-    : QWidget(parent), text_(new QLabel(this)), cancel_(new QToolButton(this)) {
-    text_->setObjectName("scopeStatus");
-    text_->setWordWrap(true);
-    setTextSize(*text_, TextSize::Small);
+    : QWidget(parent),
+      text_(makeLabel({}, {.name = "scopeStatus", .size = TextSize::Small, .wraps = true}, this)),
+      cancel_(new QToolButton(this)) {
     cancel_->setText(tr("Cancel"));
     cancel_->setToolTip(tr("Stops reading. The picture stays."));
     cancel_->setAutoRaise(true);
     cancel_->setFocusPolicy(Qt::StrongFocus);
     cancel_->hide();
     connect(cancel_, &QToolButton::clicked, this, &ScopeStatus::cancelClicked);
-    auto* row = new QHBoxLayout(this);
-    row->setContentsMargins(8, 0, 8, 0);
+    auto* row = rowIn(*this, -1, {8, 0, 8, 0});
     row->addWidget(new LaneLegend(model, this), 0, Qt::AlignVCenter);
     row->addWidget(text_, 1);
     row->addWidget(cancel_);

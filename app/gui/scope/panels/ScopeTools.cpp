@@ -101,15 +101,13 @@ ScopeTools::ScopeTools(QMenu* files, QWidget* parent)
     add(kControls);
     row->addWidget(&pictures_->plotOnly());
     pictures_->plotOnly().raise();  // the last of them for Tab, which goes by this order (TabbedPage.h)
-}
-
-/// Where a word would push out other tools, the icon and the tip say it.
-void ScopeTools::resizeEvent(QResizeEvent* event) {
-    QWidget::resizeEvent(event);
-    const bool worded = single_->toolButtonStyle() == Qt::ToolButtonTextBesideIcon;
-    const int word = fontMetrics().horizontalAdvance(single_->text()) + 2 * fontMetrics().averageCharWidth();
-    const bool room = width() >= layout()->sizeHint().width() + (worded ? 0 : word);
-    if (room != worded) single_->setToolButtonStyle(room ? Qt::ToolButtonTextBesideIcon : Qt::ToolButtonIconOnly);
+    // Its icon and its tip say it where a word would put other tools away.
+    onEvent(*this, QEvent::Resize, [this] {
+        const bool worded = single_->toolButtonStyle() == Qt::ToolButtonTextBesideIcon;
+        const int word = fontMetrics().horizontalAdvance(single_->text()) + 2 * fontMetrics().averageCharWidth();
+        const bool room = width() >= layout()->sizeHint().width() + (worded ? 0 : word);
+        if (room != worded) single_->setToolButtonStyle(room ? Qt::ToolButtonTextBesideIcon : Qt::ToolButtonIconOnly);
+    });
 }
 
 void ScopeTools::addModes(ToolRow& row) {

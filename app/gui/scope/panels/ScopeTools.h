@@ -36,9 +36,6 @@ signals:
     void modeChosen(tacto::gui::ScopeMode mode);
     void timeBaseChosen(double perDivision_s);
 
-protected:
-    void resizeEvent(QResizeEvent* event) override;
-
 private:
     void addModes(ToolRow& row);
     void markTimeBase();

@@ -13,6 +13,7 @@
 #include "app/gui/scope/model/ScopeModel.h"
 #include "app/gui/scope/model/Viewport.h"
 #include "app/gui/scope/panels/QuantitySpin.h"
+#include "app/gui/theme/Building.h"
 #include "app/report/NumberText.h"
 
 namespace tacto::gui {
@@ -63,8 +64,7 @@ ViewPanel::ViewPanel(ScopeModel& model, QWidget* parent)
     spectrum_->setToolTip(tr("The spectrum of what a lane shows on the screen, below it."));
     // The box is no wider than its words: a click beside them is not meant for it.
     for (auto* box : {power_, charge_, spectrum_}) box->setSizePolicy(QSizePolicy::Maximum, QSizePolicy::Fixed);
-    auto* form = new QFormLayout(this);
-    form->setContentsMargins(0, 0, 0, 0);
+    auto* form = layoutIn<QFormLayout>(*this, -1, {});
     form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
     form->addRow(tr("Time base"), base_);
     form->addRow(tr("Middle"), centre_);
