@@ -12,7 +12,6 @@ namespace tacto::gui {
 
 namespace {
 constexpr int kBelow = 4, kBeside = 12;  // between its parts
-constexpr int kLineChars = 8;            // the least width of the title beside them
 }  // namespace
 
 ProtocolHead::ProtocolHead(bool chooses, QWidget* parent)
@@ -54,7 +53,6 @@ ProtocolHead::ProtocolHead(bool chooses, QWidget* parent)
     }
     buttons_->addStretch();
     layout_->addLayout(buttons_);
-    onEvent(*this, QEvent::Resize, [this] { fitLine(); });
 }
 
 void ProtocolHead::setAcross(bool across) {
@@ -76,14 +74,7 @@ void ProtocolHead::showWords() {
     line_->setText(title_->text());
     line_->setToolTip(
         QString("<p><b>%1</b></p>%2").arg(title_->text().toHtmlEscaped(), purpose_->text().toHtmlEscaped()));
-    fitLine();
-}
-
-/// Where only a few letters of it fit, the title is left out: rail and tab say what this is.
-void ProtocolHead::fitLine() {
-    int taken = buttons_->sizeHint().width() + kBeside;
-    if (chooser_ != nullptr) taken += chooser_->sizeHint().width() + kBeside;
-    line_->setVisible(across_ && width() - taken >= line_->fontMetrics().averageCharWidth() * kLineChars);
+    line_->setVisible(across_);
 }
 
 void ProtocolHead::addButton(const QString& text, const QString& tip, void (ProtocolHead::*wanted)()) {

@@ -371,6 +371,8 @@ void FieldForm::setChoices(const std::string& name, const std::vector<std::pair<
     const QSignalBlocker quiet(box);
     const auto before = field->text();
     field->parameter.choices = utf8(choices);
+    for (auto& each : declaration_.parameters)  // which reads what is chosen
+        if (each.name == name) each.choices = field->parameter.choices;
     box->clear();
     offer(*box, field->parameter);
     box->setCurrentIndex(std::max(0, box->findData(before)));

@@ -1,6 +1,7 @@
 // The form of a protocol's parameters.
 #include <QCheckBox>
 #include <QComboBox>
+#include <QFocusEvent>
 #include <QLabel>
 #include <QLineEdit>
 #include <QTest>
@@ -196,6 +197,46 @@ TEST(FieldForm, WhatIsMissingIsSaidOnceTheFieldWasLeftOrTheFormWasTried) {
     EXPECT_FALSE(says("reference"));
     form.show(declaration);
     EXPECT_FALSE(says("title")) << "a new form";
+}
+
+TEST(FieldForm, ARefusalOfItsOwnerStaysUntilTheFieldIsEdited) {
+    gui::FieldForm form;
+    form.show({gui::textField("load", "&Load", "1 kohm", "What is connected."),
+               gui::numberField("gain", "Gain", "", 0.5, 1.5, 1, "Delivered over commanded.")});
+    auto* load = form.findChild<QLineEdit*>("load");
+    const auto* trouble = form.findChild<QLabel*>("trouble-load");
+    EXPECT_EQ(load->accessibleName(), "Load");
+    form.refuse("load", "It is open.");
+    QFocusEvent leaves(QEvent::FocusOut, Qt::TabFocusReason);
+    QCoreApplication::sendEvent(load, &leaves);
+    EXPECT_TRUE(trouble->text().contains("It is open."));
+    EXPECT_EQ(form.refused(false), 1);
+    EXPECT_TRUE(form.read()) << "its owner judges it";
+    load->setText("2 kohm");
+    EXPECT_TRUE(trouble->isHidden());
+    EXPECT_EQ(form.refused(false), 0);
+    form.refuse("load", {});
+    for (const auto* outside : {"0.49", "1.51", "nan", "inf", "", "1,2"}) {
+        form.set("gain", outside);
+        EXPECT_FALSE(form.read()) << outside;
+        EXPECT_EQ(form.refused(false), 1) << outside;
+    }
+}
+
+TEST(FieldForm, WhatWasChosenStaysWhereOtherChoicesStillHaveIt) {
+    gui::FieldForm form;
+    form.show({gui::choiceField("probe", "Probe", {{"", "none"}, {"P1", "P1"}}, {})});
+    int edits = 0;
+    QObject::connect(&form, &gui::FieldForm::edited, [&] { ++edits; });
+    form.set("probe", "P1");
+    form.setChoices("probe", {{"", "none"}, {"P0", "P0"}, {"P1", "P1 (expired)"}});
+    EXPECT_EQ(form.text("probe"), "P1");
+    EXPECT_EQ(form.findChild<QComboBox*>("probe")->currentText(), "P1 (expired)");
+    form.setChoices("probe", {{"", "none"}, {"P0", "P0"}});
+    EXPECT_EQ(form.text("probe"), "");
+    EXPECT_EQ(edits, 3) << "each is told, as a new choice may be another";
+    form.set("probe", "P0");
+    EXPECT_EQ(form.read().value().parameters.at("probe"), "P0");
 }
 
 }  // namespace
