@@ -131,37 +131,64 @@ namespace {
 constexpr double kByChance = 1e-9;
 constexpr std::uint64_t kKnown = 100;  // changes: what a value does by itself is known from there on
 constexpr std::uint64_t kEnough = 40;  // repeats of one that moves more often than not: by chance in 10^12 times
+
+/// A bit for each of the last values, newest first, that is the same. Few are: whether any is takes the least time.
+std::uint64_t sameAs(std::uint64_t value, const std::uint64_t* past) noexcept {
+    std::uint64_t any = 0, same = 0;
+    for (std::size_t i = 0; i < Standstill::kPeriods; ++i) any |= past[i] == value ? 1U : 0U;
+    for (std::size_t i = 0; any != 0 && i < Standstill::kPeriods; ++i) {
+        same |= std::uint64_t{past[i] == value ? 1U : 0U} << i;
+    }
+    return same;
+}
 }  // namespace
 
 Standstill::Standstill(std::size_t channels, bool eachChannel)
     : channels_(channels),
       eachChannel_(eachChannel),
-      before_(channels * kPeriods),
-      all_(kPeriods),
-      each_(eachChannel ? channels * kPeriods : 0) {}
+      before_(channels * 2 * kPeriods),
+      repeats_((eachChannel ? 1 + channels : 1) * kPeriods),
+      same_(eachChannel ? 1 + channels : 1) {}
 
 void Standstill::feed(const SampleBlock& block) noexcept {
     for (std::size_t i = 0; i < block.t_s.size(); ++i) {
         const double* values = block.values.data() + i * channels_;
         last_s_ = std::exchange(newest_s_, block.t_s[i]);
         compare(values);
-        const std::size_t at = seen_ % kPeriods * channels_;
-        for (std::size_t c = 0; c < channels_; ++c) before_[at + c] = std::bit_cast<std::uint64_t>(values[c]);
+        keep(values);
         ++seen_;
     }
 }
 
 void Standstill::compare(const double* values) noexcept {
-    for (std::size_t period = 1; period <= std::min<std::uint64_t>(seen_, kPeriods); ++period) {
-        const std::uint64_t* past = before_.data() + (seen_ - period) % kPeriods * channels_;
-        bool same = true;
-        for (std::size_t c = 0; c < channels_ && (same || eachChannel_); ++c) {
-            const bool one = std::bit_cast<std::uint64_t>(values[c]) == past[c];
-            if (eachChannel_) count(each_[(period - 1) * channels_ + c], period, one);
-            same = same && one;
-        }
-        count(all_[period - 1], period, same);
+    const std::uint64_t known = seen_ < kPeriods ? (std::uint64_t{1} << seen_) - 1 : ~std::uint64_t{0};
+    std::uint64_t all = known;
+    for (std::size_t c = 0; c < channels_; ++c) {
+        const std::uint64_t same =
+            sameAs(std::bit_cast<std::uint64_t>(values[c]), before_.data() + c * 2 * kPeriods + newest_) & known;
+        if (eachChannel_) countAll(1 + c, same);
+        all &= same;
     }
+    countAll(0, all);
+}
+
+void Standstill::keep(const double* values) noexcept {
+    const bool full = newest_ == 0;
+    newest_ = (full ? kPeriods : newest_) - 1;
+    for (std::size_t c = 0; c < channels_; ++c) {
+        std::uint64_t* past = before_.data() + c * 2 * kPeriods;
+        if (full) std::copy_n(past, kPeriods, past + kPeriods);
+        past[newest_] = std::bit_cast<std::uint64_t>(values[c]);
+    }
+}
+
+/// Only where something repeats or ends repeating is there anything to count: seldom, of a sensor that lives.
+void Standstill::countAll(std::size_t row, std::uint64_t same) noexcept {
+    for (std::uint64_t left = same | same_[row]; left != 0; left &= left - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(left));
+        count(repeats_[row * kPeriods + i], i + 1, (same >> i & 1U) != 0);
+    }
+    same_[row] = same;
 }
 
 /// Repeats of a value that stood still do not count as its noise.
@@ -188,7 +215,7 @@ bool Standstill::stands(const Repeats& one, std::size_t period) const noexcept {
 }
 
 std::optional<double> Standstill::since() const noexcept {
-    const auto& last = all_.front();
+    const auto& last = repeats_.front();
     if (last.run == 0 || !(newest_s_ - last.since_s > StreamHealth::kStale_s)) return std::nullopt;
     const double share =
         static_cast<double>(last.repeated + 1) / static_cast<double>(last.repeated + changes(last, 1) + 2);
@@ -198,10 +225,12 @@ std::optional<double> Standstill::since() const noexcept {
 
 std::optional<double> Standstill::repeatsSince() const noexcept {
     std::optional<double> earliest;
-    const auto& judged = eachChannel_ ? each_ : all_;
-    for (std::size_t i = 0; i < judged.size(); ++i) {
-        if (!stands(judged[i], i / (eachChannel_ ? channels_ : 1) + 1)) continue;
-        earliest = std::min(earliest.value_or(judged[i].since_s), judged[i].since_s);
+    for (std::size_t row = eachChannel_ ? 1 : 0; row < same_.size(); ++row) {
+        for (std::uint64_t left = same_[row]; left != 0; left &= left - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(left));
+            const auto& judged = repeats_[row * kPeriods + i];
+            if (stands(judged, i + 1)) earliest = std::min(earliest.value_or(judged.since_s), judged.since_s);
+        }
     }
     return earliest;
 }

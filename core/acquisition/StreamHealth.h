@@ -107,6 +107,8 @@ private:
         std::uint64_t matched = 0, repeated = 0;  // before that: all values, and those that its noise may have repeated
     };
     void compare(const double* values) noexcept;
+    void keep(const double* values) noexcept;
+    void countAll(std::size_t row, std::uint64_t same) noexcept;
     void count(Repeats& one, std::size_t period, bool same) const noexcept;
     [[nodiscard]] std::uint64_t changes(const Repeats& one, std::size_t period) const noexcept;
     [[nodiscard]] bool moves(const Repeats& one, std::size_t period) const noexcept;
@@ -114,11 +116,13 @@ private:
 
     const std::size_t channels_;
     const bool eachChannel_;
-    std::vector<std::uint64_t> before_;  // the bits of the last kPeriods samples, a ring
-    std::uint64_t seen_ = 0;             // samples before this one
-    std::vector<Repeats> all_;           // by period - 1
-    std::vector<Repeats> each_;          // by period - 1, then by channel; empty unless eachChannel_
-    double newest_s_ = 0, last_s_ = 0;   // times of this sample and of the one before
+    // By channel: the bits of the last kPeriods samples, newest first from newest_ on, with as much room before them.
+    std::vector<std::uint64_t> before_;
+    std::size_t newest_ = kPeriods;
+    std::uint64_t seen_ = 0;            // samples before this one
+    std::vector<Repeats> repeats_;      // a row of kPeriods for all channels at once, then, with eachChannel_, for each
+    std::vector<std::uint64_t> same_;   // by row: the bit period - 1 is set where the newest sample repeats
+    double newest_s_ = 0, last_s_ = 0;  // of this sample and the one before
 };
 
 }  // namespace tacto
