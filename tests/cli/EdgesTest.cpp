@@ -155,7 +155,7 @@ TEST(Edges, AWindowWithoutADisplayEndsWithASentence) {
     }
 }
 
-#ifndef __SANITIZE_ADDRESS__  // the sanitizer's own library would have to be preloaded first
+#ifndef TACTOSCOPE_ADDRESS_SANITIZED  // its own library would have to be preloaded first
 TEST(Edges, ADisplayThatDoesNotAnswerIsNotWaitedForForEver) {
     const Desk desk;
     // The other end stands still, as it may with ssh -X.

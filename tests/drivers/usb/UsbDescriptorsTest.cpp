@@ -3,7 +3,7 @@
 
 #include "tests/drivers/usb/UsbFixture.h"
 
-#ifdef __SANITIZE_ADDRESS__
+#ifdef TACTOSCOPE_ADDRESS_SANITIZED
 #include <sanitizer/lsan_interface.h>
 #endif
 
@@ -23,7 +23,7 @@ protected:
         if (!comes([&] { return context->find({0x1209, 2}).has_value(); })) return {ErrorCode::Timeout, "no hot-plug"};
         const auto found = context->find({description.vendor, description.product});
         if (!found) return found.error();
-#ifdef __SANITIZE_ADDRESS__
+#ifdef TACTOSCOPE_ADDRESS_SANITIZED
         // libusb 1.0.26 loses an interface's settings (40 bytes) where the descriptors break off within it.
         const __lsan::ScopedDisabler notOurs;
 #endif
