@@ -54,7 +54,7 @@ TEST_F(SensorBoardRealTime, NothingIsLostAndNothingIsStampedAhead) {
     std::thread window([&] {
         while (!ending.load()) {
             EXPECT_IN_TIME(board_->report().streams[0].lostBlocks == 0U);
-            std::this_thread::yield();
+            std::this_thread::sleep_for(std::chrono::microseconds(200));
         }
     });
     EXPECT_IN_TIME(readUntil([&] { return blocks_[0].samples() >= 8000; }).has_value());
