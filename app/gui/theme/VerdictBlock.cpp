@@ -76,4 +76,4 @@ void VerdictBlock::paintEvent(QPaintEvent* /*event*/) {
 
 }  // namespace tacto::gui
 
-#include "moc_Verdict.cpp"
+#include "moc_VerdictBlock.cpp"
