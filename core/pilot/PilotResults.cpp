@@ -146,7 +146,7 @@ ResultTraits pilotThresholdsKind() {
 
 ResultTraits pilotIdentificationKind() {
     Tables tables = ofSession("thresholds");
-    Tables own{rows("Presented", "presented",
+    Tables own{rows("Presented levels", "presented",
                     {as(As::Condition, "Condition", "name"), number("Level", "current_ma", "mA"),
                      number("Strength", "intensity"), number("Interval", "interval_s", "s")})};
     std::ranges::copy(identificationTables(), std::back_inserter(own));

@@ -207,7 +207,7 @@ Tables stimulatorTables() {
                         number("Expected", "expected", "@unit"), number("Measured", "measured", "@unit"),
                         number("Off", "off", "@unit", "expanded_uncertainty"), text("Direction", "direction"),
                         number("Allowed, ±", "allowed", "@unit")}));
-    all.push_back(facts("Stored", "stored",
+    all.push_back(facts("Stored calibration", "stored",
                         {text("Stimulator", "serial"), text("Valid until", "valid_until"),
                          number("Readings", "readings"), as(As::YesNo, "Simulated", "simulated")}));
     return all;

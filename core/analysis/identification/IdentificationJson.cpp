@@ -81,7 +81,7 @@ ResultRecord<Identification> describeIdentification() {
     all.table(confusion("Given, and answered"));
     all.kept("texture", &I::texture, describeFeature());
     all.kept("pressure", &I::pressure, describeFeature());
-    all.table(rows("Told apart", "|texture|pressure", describeFigures().columns()));
+    all.table(rows("Conditions told apart", "|texture|pressure", describeFigures().columns()));
     all.shown(number("Nothing was given", "catch.n"), in(&I::catches, &CatchFigures::n));
     all.shown(number("It was named as something", "catch.false_alarms"), in(&I::catches, &CatchFigures::falseAlarms));
     all.kept("catch.rate", in(&I::catches, &CatchFigures::rate));

@@ -254,7 +254,7 @@ ResultRecord<LoadSafety> describeLoadSafety() {
     all.table(rows("Output, as the FDA guidance asks", "described", outputColumns(), Else::InTheTerminal));
     all.rows("Outputs to disclose", "disclosed", &S::disclosed, describeDisclosed());
     all.table(
-        whose(rows("Asked for and refused", "rows",
+        whose(rows("Commands that were refused", "rows",
                    {verdict(), row.column("load", "Load"), row.column("title", "Asked"), text("Would be", "source")},
                    Else::OnlyInTheReport),
               "set", "gate"));

@@ -264,7 +264,7 @@ ResultRecord<Predicted> describeVariation() {
          number("Every pair 5 JND apart", "clearly_separable"),
          as(As::Share, "Right answers of the served", "accuracy")}));
     all.table(
-        rows("Served by what is too strong, predicted, not measured", "readings",
+        rows("Served people by the level that is too strong, predicted, not measured", "readings",
              {text("Too strong from", "too_strong_from"), number("Median", "median_ma", "mA"),
               number("Fixed range serves", "fixed_served"), number("It is refused to", "fixed_refused"),
               number("Its lowest not felt by", "fixed_not_feeling"), number("Own range serves", "personal_served"),

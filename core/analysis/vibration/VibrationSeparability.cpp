@@ -146,7 +146,7 @@ json toJson(const VibrationSeparability& found) { return builtOnce<describeVibra
 
 std::vector<ResultTable> vibrationTables(const std::string& place) {
     const auto& all = builtOnce<describeVibration>();
-    return {under(place, all.tables().front()), facts("Of the massager", place.c_str(), all.columns())};
+    return {under(place, all.tables().front()), facts("The massager", place.c_str(), all.columns())};
 }
 
 json toJson(const BurstFigures& figures) { return builtOnce<burstFields>().write(figures); }
