@@ -56,15 +56,13 @@ QString factsOf(const StoredCalibration& c) {
 }  // namespace
 
 CalibrationCard::CalibrationCard(CalibrationBook& book, QWidget* parent) : QFrame(parent), book_(book) {
-    setObjectName("calibrationCard");
-    setAccessibleName(tr("Calibration of the stimulator"));
+    nameWidget(*this, "calibrationCard", tr("Calibration of the stimulator"));
     setFrameShape(QFrame::StyledPanel);
     auto* column = columnIn(*this, 4, {8, 8, 8, 8});
     word_ = makeLabel({}, {.name = "calibrationState", .size = TextSize::Large, .wraps = true}, this);
     chooser_ = new QComboBox(this);
-    chooser_->setObjectName("stimulatorChooser");
-    chooser_->setAccessibleName(tr("Stimulator"));
-    chooser_->setToolTip(
+    nameWidget(
+        *chooser_, "stimulatorChooser", tr("Stimulator"),
         tr("Whose calibration is shown: the stimulator that is open, those plugged in, and those calibrated before. "
            "Which one is calibrated is chosen under Wiring."));
     chooser_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);

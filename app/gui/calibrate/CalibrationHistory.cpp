@@ -47,11 +47,9 @@ CalibrationHistory::CalibrationHistory(QWidget* parent) : QWidget(parent) {
     trend_ = new CalibrationTrendView(this);
     column->addWidget(trend_, 3);
     table_ = new QTableWidget(0, kColumns, this);
-    table_->setObjectName("calibrationHistory");
-    table_->setAccessibleName(tr("Stored calibrations"));
-    table_->setToolTip(
-        tr("Every calibration of this stimulator. A newer one supersedes the older, which stays; what is "
-           "stored cannot be changed without being noticed."));
+    nameWidget(*table_, "calibrationHistory", tr("Stored calibrations"),
+               tr("Every calibration of this stimulator. A newer one supersedes the older, which stays; what is "
+                  "stored cannot be changed without being noticed."));
     table_->setHorizontalHeaderLabels({tr("State"), tr("Made"), tr("Valid until"), tr("Gain"), tr("Offset"),
                                        tr("U (95 %)"), tr("Range"), tr("Measured with")});
     makeReadOnly(*table_);

@@ -38,9 +38,7 @@ CalibrationTrendView::CalibrationTrendView(QWidget* parent)
     auto* column = columnIn(*this);
     auto* row = new QHBoxLayout;
     row->addWidget(says_, 1);
-    quantity_->setObjectName("trendQuantity");
-    quantity_->setAccessibleName(tr("Quantity of the trend"));
-    quantity_->setToolTip(tr("What gain, offset and U are of."));
+    nameWidget(*quantity_, "trendQuantity", tr("Quantity of the trend"), tr("What gain, offset and U are of."));
     quantity_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
     row->addWidget(quantity_);
     column->addLayout(row);
@@ -55,9 +53,8 @@ CalibrationTrendView::CalibrationTrendView(QWidget* parent)
 }
 
 void CalibrationTrendView::buildPlot() {
-    plot_->setObjectName("trendPlot");
-    plot_->setAccessibleName(tr("Trend of the calibration"));
-    plot_->setToolTip(
+    nameWidget(
+        *plot_, "trendPlot", tr("Trend of the calibration"),
         tr("Each stored calibration, with its U (95 %): of the gain as it is, of the offset at the lowest command that "
            "was calibrated. A thick line joins two that differ by more than both U explain."));
     plot_->setMinimumHeight(fontMetrics().height() * kMinLines);

@@ -34,8 +34,7 @@ CalibrationView::CalibrationView(QWidget* parent) : QWidget(parent) {
     errors_->setObjectName("calibrationErrors");
     measured_ = new CalibrationPlot(CalibrationPlot::Kind::Measured, plots_);
     measured_->setObjectName("calibrationMeasured");
-    plots_->addWidget(errors_);
-    plots_->addWidget(measured_);
+    addAll(*plots_, {errors_, measured_});
     connect(kind_, &QComboBox::currentIndexChanged, this, [this](int kind) {
         plots_->setCurrentIndex(kind);
         if (shown_ >= 0) say();
@@ -51,19 +50,15 @@ CalibrationView::CalibrationView(QWidget* parent) : QWidget(parent) {
 QWidget* CalibrationView::buildHead() {
     auto* head = new QWidget(this);
     auto* row = rowIn(*head);
-    title_ = new ElidedLabel(head);
-    title_->setObjectName("calibrationShown");
-    setTextSize(*title_, TextSize::Body, true);
+    title_ = makeLabel<ElidedLabel>({}, {.name = "calibrationShown", .size = TextSize::Body, .strong = true}, head);
     row->addWidget(title_);
-    says_ = new ElidedLabel(head);
-    says_->setObjectName("calibrationSays");
+    says_ = makeLabel<ElidedLabel>({}, {.name = "calibrationSays"}, head);
     says_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
     setTextSize(*says_, TextSize::Small);
     setTone(*says_, Tone::Quiet);
     row->addWidget(says_, 1);
     kind_ = new QComboBox(head);
-    kind_->setObjectName("calibrationPlotKind");
-    kind_->setAccessibleName(tr("Plot"));
+    nameWidget(*kind_, "calibrationPlotKind", tr("Plot"));
     kind_->addItems({tr("Residuals"), tr("Measured")});
     kind_->setToolTip(
         tr("Residuals: each reading's distance from its command, in the tolerance band. Measured: each "

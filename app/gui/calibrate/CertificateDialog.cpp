@@ -252,9 +252,8 @@ QString figureTitle(const CertificateFigure& figure) {
 }
 
 CertificateTable::CertificateTable(QWidget* parent) : QTableWidget(0, kCertificateColumns, parent) {
-    setObjectName("certificates");
-    setAccessibleName(QObject::tr("Certificates"));
-    setToolTip(
+    nameWidget(
+        *this, "certificates", QObject::tr("Certificates"),
         QObject::tr("Every certificate that was entered. The one with the latest date is in use; what is entered "
                     "cannot be changed without being noticed."));
     QStringList titles{QObject::tr("State"),       QObject::tr("Instrument"), QObject::tr("Serial"),

@@ -110,8 +110,7 @@ void InstrumentDialog::buildForm(QVBoxLayout& column) {
         tr("Re&move"), "removePreset",
         tr("Forgets the saved instrument of this kind and name. Sessions keep what they were measured with."), this);
     row->addStretch();
-    row->addWidget(remove_);
-    row->addWidget(save_);
+    addAll(*row, {remove_, save_});
     column.addLayout(row);
     connect(form_, &FieldForm::edited, this, &InstrumentDialog::judge);
     connect(save_, &QPushButton::clicked, this, &InstrumentDialog::save);

@@ -67,8 +67,7 @@ private:
 }  // namespace
 
 WiringPage::WiringPage(QWidget* parent) : QScrollArea(parent) {
-    setObjectName("wiringPage");
-    setAccessibleName(tr("Wiring"));
+    nameWidget(*this, "wiringPage", tr("Wiring"));
     setWidgetResizable(true);
     setFrameShape(QFrame::NoFrame);
     auto* page = new QWidget(this);
@@ -83,8 +82,8 @@ WiringPage::WiringPage(QWidget* parent) : QScrollArea(parent) {
         QFile svg(QString::fromStdString(file->string()));
         static_cast<void>(svg.open(QIODevice::ReadOnly));  // the file is there: see drawingFile()
         auto* drawing = new WiringDrawing(svg.readAll(), page);
-        drawing->setObjectName("wiringDrawing");
-        drawing->setAccessibleName(
+        nameWidget(
+            *drawing, "wiringDrawing",
             tr("Drawing: the stimulator's output goes through the load and then the shunt back to it; channel 1 across "
                "both, channel 2 across the shunt, both grounds at the stimulator's return"));
         column->addWidget(drawing);

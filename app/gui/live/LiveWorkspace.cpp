@@ -119,9 +119,7 @@ QWidget* LiveWorkspace::buildEmpty() {
 QWidget* LiveWorkspace::buildBench() {
     auto* bench = new QWidget(stack_);
     auto* layout = columnIn(*bench, -1, {8, 4, 8, 4});
-    staleLine_ = new ElidedLabel(bench);
-    staleLine_->setObjectName("staleLine");
-    setTone(*staleLine_, Tone::Warning);
+    staleLine_ = makeLabel<ElidedLabel>({}, {.name = "staleLine", .tone = Tone::Warning}, bench);
     staleLine_->hide();
     layout->addWidget(staleLine_);
     split_ = new QSplitter(Qt::Horizontal, bench);
@@ -194,14 +192,12 @@ void LiveWorkspace::buildTools() {
     window->setAccessibleName(tr("Window"));
     connect(window, &QComboBox::currentIndexChanged, this,
             [this, window] { strips_->setWindow(window->currentData().toDouble()); });
-    health_ = new ElidedLabel(tools_);
-    health_->setObjectName("sensorHealth");
+    health_ = makeLabel<ElidedLabel>({}, {.name = "sensorHealth"}, tools_);
     health_->setAccessibleName(tr("Sensor health"));
     health_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
     setTone(*health_, Tone::Quiet);
     setTextSize(*health_, TextSize::Small);
-    row->addWidget(freeze_);
-    row->addWidget(window);
+    addAll(*row, {freeze_, window});
     auto* holder = new QWidget(tools_);
     auto* tools = new ToolRow(holder);
     addViewTools(*tools);
@@ -408,9 +404,8 @@ void LiveWorkspace::replayAgain() {
 }
 
 void LiveWorkspace::chooseRecording() {
-    FileQuestion question;
-    question.title = tr("Open a recording: its recording.json");
-    question.filters << tr("Recordings (*.json)") << tr("All files (*)");
+    FileQuestion question{.title = tr("Open a recording: its recording.json"),
+                          .filters = {tr("Recordings (*.json)"), tr("All files (*)")}};
     askForFile(*this, question, [this](const QString& path) { openRecording(path); });
 }
 

@@ -86,9 +86,7 @@ QWidget* ProfileEditor::buildButtons() {
     auto* holder = new QWidget(this);
     auto* row = rowIn(*holder);
     const auto button = [&](const QString& text, const QString& tip, auto slot) {
-        auto* made = new QPushButton(text, holder);
-        made->setToolTip(tip);
-        made->setAutoDefault(false);
+        auto* made = pageButton(text, {}, tip, holder);
         connect(made, &QPushButton::clicked, this, slot);
         row->addWidget(made);
         return made;
@@ -173,19 +171,16 @@ void ProfileEditor::saveFile(const QString& path) {
 }
 
 void ProfileEditor::chooseFile() {
-    FileQuestion question;
-    question.title = tr("Open a profile");
-    question.filters << tr("Profiles (*.json)");
+    FileQuestion question{.title = tr("Open a profile"), .filters = {tr("Profiles (*.json)")}};
     askForFile(*this, question, [this](const QString& path) { openFile(path); });
 }
 
 void ProfileEditor::chooseTarget() {
-    FileQuestion question;
-    question.title = tr("Save the profile");
-    question.wants = FileQuestion::Wants::NewFile;
-    question.filters << tr("Profiles (*.json)");
-    question.suffix = "json";
-    question.name = name_->text().trimmed() + ".json";
+    FileQuestion question{.title = tr("Save the profile"),
+                          .wants = FileQuestion::Wants::NewFile,
+                          .filters = {tr("Profiles (*.json)")},
+                          .name = name_->text().trimmed() + ".json",
+                          .suffix = "json"};
     askForFile(*this, question, [this](const QString& path) { saveFile(path); });
 }
 

@@ -74,8 +74,7 @@ QWidget* RigPanel::buildPace() {
     paceLabel_->setBuddy(paceBox_);
     again_ = new QPushButton(tr("Replay a&gain"), holder);
     again_->setToolTip(tr("Plays the recording from its beginning, into a session file of its own."));
-    row->addWidget(paceLabel_);
-    row->addWidget(paceBox_);
+    addAll(*row, {paceLabel_, paceBox_});
     row->addStretch();
     row->addWidget(again_);
     connect(paceBox_, &QComboBox::currentIndexChanged, this, [this] { controller_.setSpeed(speed()); });

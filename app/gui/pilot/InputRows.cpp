@@ -152,8 +152,7 @@ QWidget* InputRows::build(Row& row) {
     row.widget = new QWidget(this);
     auto* column = columnIn(*row.widget, 4);
     auto* whose = new QComboBox(row.widget);
-    whose->setObjectName("inputOf " + qtext(device.identity));
-    whose->setAccessibleName(tr("Whose %1 is").arg(qtext(device.name)));
+    nameWidget(*whose, "inputOf " + qtext(device.identity), tr("Whose %1 is").arg(qtext(device.name)));
     whose->addItem(tr("not used"));
     whose->addItem(tr("the participant’s"));
     whose->addItem(tr("the operator’s"));
@@ -233,8 +232,7 @@ void InputRows::buildButtons(Row& row, QVBoxLayout& column) {
         auto* lamp = new QLabel(lampText(buttons[i], false), row.widget);
         lamp->setObjectName(QString("lamp %1").arg(qtext(buttons[i])));
         auto* use = new QComboBox(row.widget);
-        use->setObjectName(QString("use %1").arg(qtext(buttons[i])));
-        use->setAccessibleName(tr("What button %1 does").arg(qtext(buttons[i])));
+        nameWidget(*use, QString("use %1").arg(qtext(buttons[i])), tr("What button %1 does").arg(qtext(buttons[i])));
         addUses(*use);
         use->setCurrentIndex(use->findData(QPoint(int(row.seat.uses[i].does), row.seat.uses[i].answer)));
         const int at = int(i) / kButtonsInRow, cell = int(i) % kButtonsInRow * 2;

@@ -22,8 +22,7 @@ bool onTheirScreen(const QWidget& widget) { return widget.window()->property("st
 }  // namespace
 
 OperatorAsk::OperatorAsk(QWidget* parent) : QFrame(parent) {
-    setObjectName("operatorAsk");
-    setAccessibleName(tr("Question to the operator"));
+    nameWidget(*this, "operatorAsk", tr("Question to the operator"));
     setFrameShape(QFrame::StyledPanel);
     setAutoFillBackground(true);
     setBackgroundRole(QPalette::Base);
@@ -133,8 +132,7 @@ void OperatorAsk::addSeveral(const PilotPrompt& prompt) {
 void OperatorAsk::addLine(const PilotPrompt& /*prompt*/) {
     auto* row = new QHBoxLayout;
     auto* line = new QLineEdit(body_);
-    line->setObjectName("operatorAnswer");
-    line->setAccessibleName(tr("Answer"));
+    nameWidget(*line, "operatorAnswer", tr("Answer"));
     line->setMinimumWidth(fontMetrics().averageCharWidth() * 24);
     auto* enter = new QPushButton(tr("&Enter"), body_);
     enter->setAutoDefault(false);
@@ -145,8 +143,7 @@ void OperatorAsk::addLine(const PilotPrompt& /*prompt*/) {
     };
     connect(line, &QLineEdit::returnPressed, this, take);
     connect(enter, &QPushButton::clicked, this, take);
-    row->addWidget(line);
-    row->addWidget(enter);
+    addAll(*row, {line, enter});
     row->addStretch();
     column_->addLayout(row);
 }

@@ -69,9 +69,8 @@ OperatorPage::OperatorPage(QWidget* parent)
     auto* row = rowIn(*obstacle_);
     obstacleText_ = makeLabel({}, {.name = "presentationObstacle", .tone = Tone::Warning, .wraps = true}, obstacle_);
     row->addWidget(obstacleText_, 1);
-    auto* keys = new QPushButton(tr("&Give them the keys"), obstacle_);
-    keys->setAutoDefault(false);
-    keys->setToolTip(tr("Brings the participant’s window to the front."));
+    auto* keys =
+        pageButton(tr("&Give them the keys"), {}, tr("Brings the participant’s window to the front."), obstacle_);
     connect(keys, &QPushButton::clicked, this, &OperatorPage::keysWanted);
     row->addWidget(keys);
     // The line comes and goes with the keys, often when a button below it is about to be pressed: its room is kept.
@@ -80,8 +79,7 @@ OperatorPage::OperatorPage(QWidget* parent)
     obstacle_->setSizePolicy(kept);
     onFontChange(*this, [this] { keepRoomForObstacle(); });
     obstacle_->hide();
-    column->addWidget(obstacle_);
-    column->addWidget(ask_);
+    addAll(*column, {obstacle_, ask_});
     column->addSpacing(kOperatorPad / 2);
     column->addWidget(trend_, 100);
     column->addStretch(1);  // the room of a trend that is not there
@@ -116,10 +114,7 @@ QWidget* OperatorPage::buildBar() {
            "under way."),
         bar);
     connect(now_, &QPushButton::clicked, this, &OperatorPage::breakNowWanted);
-    kept_ = new ElidedLabel(bar);
-    kept_->setObjectName("answersKept");
-    setTextSize(*kept_, TextSize::Small);
-    setTone(*kept_, Tone::Quiet);
+    kept_ = makeLabel<ElidedLabel>({}, {.name = "answersKept", .tone = Tone::Quiet, .size = TextSize::Small}, bar);
     kept_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
     abort_ = pageButton(tr("Abort session…"), "abortSession",
                         tr("First of two steps. Ends the session; what was answered is kept."), bar);
@@ -138,14 +133,11 @@ QWidget* OperatorPage::buildBar() {
         sure_->hide();
         abort_->show();
     });
-    sureRow->addWidget(reallyAbort_);
-    sureRow->addWidget(back);
+    addAll(*sureRow, {reallyAbort_, back});
     sure_->hide();
-    row->addWidget(after_);
-    row->addWidget(now_);
+    addAll(*row, {after_, now_});
     row->addWidget(kept_, 1);
-    row->addWidget(abort_);
-    row->addWidget(sure_);
+    addAll(*row, {abort_, sure_});
     both->addLayout(row);
     return bar;
 }

@@ -4,6 +4,7 @@
 #include <QVBoxLayout>
 
 #include "app/gui/pilot/ParticipantStop.h"
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/ConfirmButton.h"
 #include "app/gui/theme/Labels.h"
 #include "app/gui/theme/Theme.h"
@@ -20,8 +21,7 @@ OperatorStrip::OperatorStrip(QWidget* parent)
       ask_(new OperatorAsk(this)),
       notes_(new SessionNotes(this)),
       break_(new QPushButton(this)) {
-    setObjectName("operatorStrip");
-    setAccessibleName(tr("Operator"));
+    nameWidget(*this, "operatorStrip", tr("Operator"));
     setAutoFillBackground(true);
     setBackgroundRole(QPalette::Base);
     setFrameShape(QFrame::StyledPanel);
@@ -47,8 +47,7 @@ OperatorStrip::OperatorStrip(QWidget* parent)
     connect(close, &QPushButton::clicked, this, &OperatorStrip::closeWanted);
     for (auto* button : {break_, static_cast<QPushButton*>(abort), close}) row->addWidget(button);
     column->addLayout(row);
-    column->addWidget(ask_);
-    column->addWidget(notes_);
+    addAll(*column, {ask_, notes_});
     setBreakDue(false);
 }
 

@@ -132,14 +132,9 @@ PilotResult::PilotResult(QWidget* parent)
     setTone(*more_, Tone::Quiet);
     setTone(*note_, Tone::Quiet);
     setTextSize(*matrixTitle_, TextSize::Body, true);
-    column->addWidget(head_);
-    column->addWidget(why_);
-    column->addWidget(more_);
+    addAll(*column, {head_, why_, more_});
     column->addSpacing(8);
-    column->addWidget(matrixTitle_);
-    column->addWidget(matrix_);
-    column->addWidget(blocks_);
-    column->addWidget(note_);
+    addAll(*column, {matrixTitle_, matrix_, blocks_, note_});
     column->addStretch();
     all->addLayout(column, 1);
     auto* row = addPageFoot(*all, this);

@@ -4,6 +4,7 @@
 #include <QScreen>
 #include <QSettings>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 
@@ -124,9 +125,8 @@ void SeatRows::showFor(bool person, bool realTime) {
 }
 
 ScreenChoice::ScreenChoice(QWidget* parent) : QComboBox(parent) {
-    setObjectName("participantScreen");
-    setAccessibleName(tr("The participant’s screen"));
-    setToolTip(tr("Where the participant’s window opens, full screen. Remembered by name."));
+    nameWidget(*this, "participantScreen", tr("The participant’s screen"),
+               tr("Where the participant’s window opens, full screen. Remembered by name."));
     fill();
     connect(this, &QComboBox::activated, this, [this] { QSettings().setValue(kScreenKey, chosenName()); });
     connect(qGuiApp, &QGuiApplication::screenAdded, this, [this](const QScreen* screen) {

@@ -21,8 +21,7 @@ SessionNotes::SessionNotes(QWidget* parent)
     auto* row = new QHBoxLayout;
     row->setSpacing(8);
     row->addWidget(strongLabel(tr("Notes"), this));
-    line_->setObjectName("noteLine");
-    line_->setAccessibleName(tr("Note"));
+    nameWidget(*line_, "noteLine", tr("Note"));
     line_->setMaxLength(kLongestNote);
     line_->setPlaceholderText(tr("A note; never a name. Space types here, Esc and Pause stop."));
     line_->setToolTip(tr(
@@ -60,8 +59,7 @@ void SessionNotes::add(const QString& note) {
     auto* line = rowIn(*row, 16, {0, 4, 0, 4});
     auto* at =
         makeLabel(QTime::currentTime().toString("HH:mm:ss"), {.tone = Tone::Quiet, .size = TextSize::Small}, row);
-    auto* words = new ElidedLabel(note.isEmpty() ? tr("mark") : note, row);
-    words->setTextFormat(Qt::PlainText);
+    auto* words = makeLabel<ElidedLabel>(note.isEmpty() ? tr("mark") : note, {.plain = true}, row);
     words->setToolTip(note);
     line->addWidget(at);
     line->addWidget(words, 1);

@@ -78,8 +78,7 @@ SessionPath::SessionPath(QWidget* parent) : QWidget(parent) {
     top->setSpacing(4);
     title_ = makeLabel({}, {.size = TextSize::Body, .strong = true, .wraps = true}, this);
     below_ = makeLabel({}, {.tone = Tone::Quiet, .size = TextSize::Small, .wraps = true}, this);
-    top->addWidget(title_);
-    top->addWidget(below_);
+    addAll(*top, {title_, below_});
     column->addLayout(top);
     QStringList titles;
     for (int step = 0; step < kSteps; ++step) titles << titleOf(step, false);
@@ -91,8 +90,7 @@ SessionPath::SessionPath(QWidget* parent) : QWidget(parent) {
     foot->setSpacing(4);
     leftWord_ = makeLabel(tr("Time left"), {.tone = Tone::Quiet, .size = TextSize::Small}, this);
     left_ = makeLabel({}, {.name = "timeLeft", .size = TextSize::Large}, this);
-    foot->addWidget(leftWord_);
-    foot->addWidget(left_);
+    addAll(*foot, {leftWord_, left_});
     column->addLayout(foot);
     clear();
     onEvent(*this, QEvent::Resize, [this] { steps_->fit(); });

@@ -35,9 +35,7 @@ SessionStartPage::SessionStartPage(const DeviceWatch& watch, QWidget* parent)
     for (auto* label : {head_, about_}) {
         wrapPlain(*label);
     }
-    column->addWidget(head_);
-    column->addWidget(about_);
-    column->addWidget(offer_);
+    addAll(*column, {head_, about_, offer_});
     // Tab goes from what is made first to what is made later: devices and seats, the checklist, then the buttons.
     auto* form = buildForm(*inside, watch);
     buildChecklist();
@@ -160,8 +158,7 @@ void SessionStartPage::judge() {
 void SessionStartPage::say(const QString& what) { trouble_->say(what); }
 
 ExclusionChecklist::ExclusionChecklist(QWidget* parent) : QWidget(parent) {
-    setObjectName("exclusionChecklist");
-    setAccessibleName(tr("Exclusion checklist"));
+    nameWidget(*this, "exclusionChecklist", tr("Exclusion checklist"));
     auto* grid = layoutIn<QGridLayout>(*this, -1, {});
     grid->setHorizontalSpacing(scaledPx(16));
     grid->setVerticalSpacing(scaledPx(8));
@@ -173,8 +170,8 @@ ExclusionChecklist::ExclusionChecklist(QWidget* parent) : QWidget(parent) {
         auto* group = new QButtonGroup(this);
         for (const auto answer : {kNo, kYes}) {
             auto* choice = new QRadioButton(answer == kYes ? tr("yes") : tr("no"), this);
-            choice->setObjectName(qtext(item.key) + (answer == kYes ? "-yes" : "-no"));
-            choice->setAccessibleName(tr("%1 %2").arg(qtext(item.question), choice->text()));
+            nameWidget(*choice, qtext(item.key) + (answer == kYes ? "-yes" : "-no"),
+                       tr("%1 %2").arg(qtext(item.question), choice->text()));
             group->addButton(choice, answer);
             grid->addWidget(choice, row, 1 + answer, Qt::AlignTop);
         }

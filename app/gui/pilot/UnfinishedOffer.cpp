@@ -44,8 +44,7 @@ UnfinishedOffer::UnfinishedOffer(QWidget* parent)
           {}, {.name = "unfinishedSays", .size = TextSize::Body, .strong = true, .wraps = true, .plain = true}, this)),
       goOn_(new QRadioButton(this)),
       end_(new QRadioButton(this)) {
-    setObjectName("unfinishedOffer");
-    setAccessibleName(tr("A session was interrupted"));
+    nameWidget(*this, "unfinishedOffer", tr("A session was interrupted"));
     setFrameShape(QFrame::StyledPanel);
     setAutoFillBackground(true);
     setBackgroundRole(QPalette::Base);

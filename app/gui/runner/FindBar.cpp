@@ -12,8 +12,7 @@ FindBar::FindBar(CodeEdit& code, QWidget* parent) : QWidget(parent), code_(code)
     setObjectName("findBar");
     auto* row = rowIn(*this);
     words_ = new QLineEdit(this);
-    words_->setObjectName("findWords");
-    words_->setAccessibleName(tr("Find"));
+    nameWidget(*words_, "findWords", tr("Find"));
     words_->setPlaceholderText(tr("Find in the script"));
     words_->setToolTip(tr("Case does not count. Return or F3: next; with Shift: previous."));
     words_->installEventFilter(this);

@@ -176,9 +176,8 @@ void paintCellShape(QPainter& painter, const QRect& place, const QString& verdic
 }
 
 LimitMatrixView::LimitMatrixView(QWidget* parent) : QTableWidget(parent) {
-    setObjectName("limitMatrix");
-    setAccessibleName(tr("Limits on each load"));
-    setToolTip(
+    nameWidget(
+        *this, "limitMatrix", tr("Limits on each load"),
         tr("How much of each limit is used on each load, uncertainty included. ✔ inside, amber from 80 %; ▲ attention; "
            "? indeterminate; ✖ exceeded; hatched, n. e.: not evaluated, and never a pass; –: not judged on this load. "
            "A chosen cell shows the strongest train on its load."));

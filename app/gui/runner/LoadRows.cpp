@@ -25,9 +25,8 @@ QString number(const nlohmann::json& values, const char* key, const char* unit) 
 }  // namespace
 
 LoadRows::LoadRows(QWidget* parent) : QTableWidget(0, kColumns, parent) {
-    setObjectName("loadRows");
-    setAccessibleName(tr("Loads"));
-    setToolTip(tr("Each load of the bench set: its value as measured, the strongest output so far, and its verdict."));
+    nameWidget(*this, "loadRows", tr("Loads"),
+               tr("Each load of the bench set: its value as measured, the strongest output so far, and its verdict."));
     setHorizontalHeaderLabels(
         {tr("Load"), tr("Verdict"), tr("Measured"), tr("Commands"), tr("Peak current"), tr("RMS, 5 s")});
     makeReadOnly(*this);

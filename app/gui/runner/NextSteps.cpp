@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/RecordColumns.h"
 #include "app/gui/theme/TabbedPage.h"
@@ -74,8 +75,7 @@ std::vector<NextStep> nextStepsAfter(const FinishedRun& run) {
 }
 
 NextStepBar::NextStepBar(QWidget* parent) : QWidget(parent) {
-    setObjectName("nextSteps");
-    setAccessibleName(tr("What comes next"));
+    nameWidget(*this, "nextSteps", tr("What comes next"));
     afterLookChange(*this, [this] { measure(); });
     onEvent(*this, QEvent::Resize, [this] { fit(); });
 }

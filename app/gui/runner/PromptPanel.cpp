@@ -29,8 +29,7 @@ QString accepted(const OperatorQuestion& question) {
 }  // namespace
 
 PromptPanel::PromptPanel(WindowOperator& controller, QWidget* parent) : QFrame(parent), controller_(controller) {
-    setObjectName("prompt");
-    setAccessibleName(tr("Question"));
+    nameWidget(*this, "prompt", tr("Question"));
     setFrameShape(QFrame::StyledPanel);
     setAutoFillBackground(true);
     setBackgroundRole(QPalette::Base);
@@ -58,9 +57,8 @@ void PromptPanel::ask(const OperatorQuestion& question) {
     auto* row = new QHBoxLayout;
     row->addWidget(question.kind == OperatorQuestion::Kind::Enter ? buildEntry(question) : buildChoices(question));
     row->addStretch();
-    auto* refuse = new QPushButton(tr("&Refuse and end the run"), body_);
-    refuse->setAutoDefault(false);
-    refuse->setToolTip(tr("The output is switched off; what was recorded so far is kept."));
+    auto* refuse = pageButton(tr("&Refuse and end the run"), {},
+                              tr("The output is switched off; what was recorded so far is kept."), body_);
     connect(refuse, &QPushButton::clicked, this, [this] { controller_.refuse(); });
     row->addWidget(refuse);
     if (first_ == nullptr) first_ = refuse;
@@ -131,8 +129,7 @@ QWidget* PromptPanel::buildEntry(const OperatorQuestion& question) {
     auto* holder = new QWidget(body_);
     auto* row = rowIn(*holder);
     auto* line = new QLineEdit(holder);
-    line->setObjectName("answer");
-    line->setAccessibleName(QString::fromStdString(question.text));
+    nameWidget(*line, "answer", QString::fromStdString(question.text));
     line->setMinimumWidth(fontMetrics().averageCharWidth() * 16);
     row->addWidget(line);
     first_ = line;
@@ -144,9 +141,7 @@ QWidget* PromptPanel::buildEntry(const OperatorQuestion& question) {
         beside << axisUnit(0, QString::fromStdString(question.unit)).unit;
     row->addWidget(new QLabel(beside.join(' '), holder));
     line->setToolTip(tr("Type the answer; Return gives it to the protocol."));
-    auto* enter = new QPushButton(tr("&Enter"), holder);
-    enter->setAutoDefault(false);
-    enter->setToolTip(tr("Gives this answer to the protocol (Return)."));
+    auto* enter = pageButton(tr("&Enter"), {}, tr("Gives this answer to the protocol (Return)."), holder);
     connect(enter, &QPushButton::clicked, this, [this, line] { answer(line->text()); });
     row->addWidget(enter);
     return holder;

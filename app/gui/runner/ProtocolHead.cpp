@@ -12,6 +12,7 @@ namespace tacto::gui {
 
 namespace {
 constexpr int kBelow = 4, kBeside = 12;  // between its parts
+constexpr int kLineChars = 8;            // the least width of the title beside them
 }  // namespace
 
 ProtocolHead::ProtocolHead(bool chooses, QWidget* parent)
@@ -25,9 +26,8 @@ ProtocolHead::ProtocolHead(bool chooses, QWidget* parent)
     };
     if (chooses) {
         chooser_ = new QComboBox(this);
-        chooser_->setObjectName("chooser");
-        chooser_->setAccessibleName(tr("Protocol"));
-        chooser_->setToolTip(tr("Protocols that came with the program, and the lab's own."));
+        nameWidget(*chooser_, "chooser", tr("Protocol"),
+                   tr("Protocols that came with the program, and the lab's own."));
         chooser_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
         connect(chooser_, &QComboBox::currentIndexChanged, this,
                 [this] { emit chosen(chooser_->currentData().toString()); });
@@ -38,9 +38,7 @@ ProtocolHead::ProtocolHead(bool chooses, QWidget* parent)
     purpose_ = words("purpose");
     setTextSize(*purpose_, TextSize::Small);
     setTone(*purpose_, Tone::Quiet);
-    line_ = new ElidedLabel(this);
-    line_->setTextFormat(Qt::PlainText);
-    setTextSize(*line_, TextSize::Body, true);
+    line_ = makeLabel<ElidedLabel>({}, {.size = TextSize::Body, .strong = true, .plain = true}, this);
     layout_->addWidget(line_);
     line_->hide();
     if (chooses) {
@@ -53,6 +51,7 @@ ProtocolHead::ProtocolHead(bool chooses, QWidget* parent)
     }
     buttons_->addStretch();
     layout_->addLayout(buttons_);
+    onEvent(*this, QEvent::Resize, [this] { fitLine(); });
 }
 
 void ProtocolHead::setAcross(bool across) {
@@ -74,13 +73,18 @@ void ProtocolHead::showWords() {
     line_->setText(title_->text());
     line_->setToolTip(
         QString("<p><b>%1</b></p>%2").arg(title_->text().toHtmlEscaped(), purpose_->text().toHtmlEscaped()));
-    line_->setVisible(across_);
+    fitLine();
+}
+
+/// Where it would be a few letters the title goes: rail and tab say what this is.
+void ProtocolHead::fitLine() {
+    int taken = buttons_->sizeHint().width() + kBeside;
+    if (chooser_ != nullptr) taken += chooser_->sizeHint().width() + kBeside;
+    line_->setVisible(across_ && width() - taken >= line_->fontMetrics().averageCharWidth() * kLineChars);
 }
 
 void ProtocolHead::addButton(const QString& text, const QString& tip, void (ProtocolHead::*wanted)()) {
-    auto* button = new QPushButton(text, this);
-    button->setAutoDefault(false);
-    button->setToolTip(tip);
+    auto* button = pageButton(text, {}, tip, this);
     connect(button, &QPushButton::clicked, this, wanted);
     buttons_->addWidget(button);
 }

@@ -27,6 +27,7 @@ signals:
     void newWanted();
 
 private:
+    void fitLine();
     void addButton(const QString& text, const QString& tip, void (ProtocolHead::*wanted)());
     QComboBox* chooser_ = nullptr;
     void showWords();

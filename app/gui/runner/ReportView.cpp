@@ -29,8 +29,7 @@ ReportView::ReportView(const QString& empty, QWidget* parent)
     empty_->setWordWrap(true);
     setTone(*empty_, Tone::Quiet);
     column->addWidget(empty_, 1);
-    view_->setObjectName("reportView");
-    view_->setAccessibleName(tr("Report"));
+    nameWidget(*view_, "reportView", tr("Report"));
     view_->setDocument(document_);
     view_->setPageMode(QPdfView::PageMode::MultiPage);
     view_->setZoomMode(QPdfView::ZoomMode::FitToWidth);
@@ -84,9 +83,7 @@ QWidget* ReportView::buildZoom(QWidget* parent) {
     auto* row = rowIn(*holder, 0);
     const auto add = [&](const QString& text, const char* name, const QString& tip, auto act) {
         auto* button = new QPushButton(text, holder);
-        button->setObjectName(name);
-        button->setAccessibleName(tip);
-        button->setToolTip(tip);
+        nameWidget(*button, name, tip, tip);
         button->setAutoDefault(false);
         makeQuiet(*button);
         connect(button, &QPushButton::clicked, this, act);

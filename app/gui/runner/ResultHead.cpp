@@ -55,8 +55,7 @@ ResultHead::ResultHead(QWidget* parent) : QWidget(parent) {
     toScript_ = pageButton(tr("Show the &line in the script"), "toScript",
                            tr("Opens the script with the line marked at which it ended."), page);
     connect(toScript_, &QPushButton::clicked, this, [this] { emit scriptErrorChosen(errorLine_, error_); });
-    column->addWidget(why_);
-    column->addWidget(more_);
+    addAll(*column, {why_, more_});
     column->addStretch();
     area_->hold(page);
     for (auto* ground : {page, area_->viewport()}) ground->setAutoFillBackground(false);  // the workspace's own

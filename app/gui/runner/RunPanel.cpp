@@ -121,15 +121,12 @@ QWidget* RunPanel::buildQuestion() {
         question_->hide();
         emit confirmed();
     });
-    back_ = new QPushButton(tr("Back"), holder);
-    back_->setToolTip(tr("Nothing is opened, and the output stays off."));
-    back_->setAutoDefault(false);
+    back_ = pageButton(tr("Back"), {}, tr("Nothing is opened, and the output stays off."), holder);
     connect(back_, &QPushButton::clicked, this, [this] {
         question_->hide();
         run_->setFocus();
     });
-    row->addWidget(arm_);
-    row->addWidget(back_);
+    addAll(*row, {arm_, back_});
     row->addStretch();
     column->addLayout(row);
     holder->hide();

@@ -60,8 +60,7 @@ ScriptEditor::ScriptEditor(const BenchController& controller, QWidget* parent)
     auto* reference = new QTextBrowser(split);
     reference->setAccessibleName(tr("Reference of the host objects"));
     reference->setMarkdown(QString::fromStdString(scriptReference()));
-    split->addWidget(text);
-    split->addWidget(reference);
+    addAll(*split, {text, reference});
     split->setStretchFactor(0, 3);
     split->setStretchFactor(1, 2);
     layout->addWidget(split, 1);
@@ -69,8 +68,7 @@ ScriptEditor::ScriptEditor(const BenchController& controller, QWidget* parent)
     layout->addWidget(message_);
     naming_ = buildNaming();
     leaving_ = buildLeaving();
-    layout->addWidget(naming_);
-    layout->addWidget(leaving_);
+    addAll(*layout, {naming_, leaving_});
     buildButtons();
     later_.setSingleShot(true);
     later_.setInterval(kCheckAfter_ms);
@@ -96,8 +94,7 @@ QWidget* ScriptEditor::buildNaming() {
     back->setToolTip(tr("Back to the text."));
     row->addWidget(label);
     row->addWidget(name_, 1);
-    row->addWidget(save);
-    row->addWidget(back);
+    addAll(*row, {save, back});
     connect(name_, &QLineEdit::returnPressed, this, [this] { saveAs(name_->text().trimmed()); });
     connect(save, &QPushButton::clicked, this, [this] { saveAs(name_->text().trimmed()); });
     connect(back, &QPushButton::clicked, this, [this] {
@@ -115,9 +112,7 @@ QWidget* ScriptEditor::buildLeaving() {
     auto* row = rowIn(*holder);
     row->addWidget(new QLabel(tr("⚠ There are changes that are not saved."), holder), 1);
     const auto add = [&](const QString& text, const QString& tip, auto act) {
-        auto* button = new QPushButton(text, holder);
-        button->setAutoDefault(false);
-        button->setToolTip(tip);
+        auto* button = pageButton(text, {}, tip, holder);
         connect(button, &QPushButton::clicked, this, act);
         row->addWidget(button);
     };
@@ -138,9 +133,7 @@ QWidget* ScriptEditor::buildLeaving() {
 void ScriptEditor::buildButtons() {
     auto* row = new QHBoxLayout;
     const auto button = [&](const QString& text, const QString& tip, auto slot) {
-        auto* made = new QPushButton(text, this);
-        made->setToolTip(tip);
-        made->setAutoDefault(false);
+        auto* made = pageButton(text, {}, tip, this);
         connect(made, &QPushButton::clicked, this, slot);
         row->addWidget(made);
         return made;

@@ -113,12 +113,10 @@ void SignPage::addStateTo(QHBoxLayout& row) {
     // Where there is little room this text is short: a report that is being drawn must not make the page wider.
     drawing_->setMinimumWidth(fontMetrics().averageCharWidth() * 4);
     drawing_->setMaximumWidth(fontMetrics().averageCharWidth() * 14);
-    cancel_ = new QPushButton(tr("Cancel the report"), this);
-    cancel_->setAutoDefault(false);
-    cancel_->setToolTip(tr("The session is complete; its report can be drawn later, under Sessions."));
+    cancel_ = pageButton(tr("Cancel the report"), {},
+                         tr("The session is complete; its report can be drawn later, under Sessions."), this);
     connect(cancel_, &QPushButton::clicked, &maker_, &ReportMaker::cancel);
-    says_ = new ElidedLabel(this);
-    says_->setObjectName("reportState");
+    says_ = makeLabel<ElidedLabel>({}, {.name = "reportState"}, this);
     row.addWidget(drawing_);
     row.addWidget(cancel_);
     row.addWidget(says_, 1);

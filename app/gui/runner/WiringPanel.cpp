@@ -104,9 +104,7 @@ QWidget* WiringPanel::buildOutput() {
     choose->setToolTip(tr("Chooses a folder."));
     choose->setFocusPolicy(Qt::StrongFocus);
     connect(choose, &QToolButton::clicked, this, [this] {
-        FileQuestion question;
-        question.title = tr("Folder for the run");
-        question.wants = FileQuestion::Wants::Folder;
+        FileQuestion question{.title = tr("Folder for the run"), .wants = FileQuestion::Wants::Folder};
         askForFile(*this, question, [this](const QString& folder) { out_->setText(folder); });
     });
     row->addWidget(choose);
@@ -126,9 +124,7 @@ void WiringPanel::useOscilloscope(const QString& address) {
 }
 
 void WiringPanel::addFolder(const QString& scheme, const QString& title) {
-    FileQuestion question;
-    question.title = title;
-    question.wants = FileQuestion::Wants::Folder;
+    FileQuestion question{.title = title, .wants = FileQuestion::Wants::Folder};
     askForFile(*this, question, [this, scheme](const QString& folder) {
         devices_->setText(QString("%1:%2 %3").arg(scheme, folder, devices().isEmpty() ? "sim:" : devices()));
     });

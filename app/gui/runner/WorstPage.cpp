@@ -54,9 +54,8 @@ QWidget* WorstPage::buildChooser() {
     auto* holder = new QWidget(this);
     auto* row = rowIn(*holder);
     chooser_ = new QComboBox(holder);
-    chooser_->setObjectName("limitSetChooser");
-    chooser_->setAccessibleName(tr("Limit set"));
-    chooser_->setToolTip(tr("Selects the limit set to show. All limit sets always apply."));
+    nameWidget(*chooser_, "limitSetChooser", tr("Limit set"),
+               tr("Selects the limit set to show. All limit sets always apply."));
     chooser_->addItem(tr("All limits"));
     const auto least = [this] { chooser_->setMinimumWidth(scaledPx(kMinChooser)); };  // its longest title may be wider
     least();
@@ -67,8 +66,7 @@ QWidget* WorstPage::buildChooser() {
     connect(read, &QPushButton::clicked, this, [this] {
         if (sets_ != nullptr) openDialog(makeLimitSetWindow(*sets_, chooser_->currentData().toString(), window()));
     });
-    row->addWidget(chooser_);
-    row->addWidget(read);
+    addAll(*row, {chooser_, read});
     row->addStretch();
     return holder;
 }

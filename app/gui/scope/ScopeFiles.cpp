@@ -62,20 +62,18 @@ QString ScopeFiles::captureGlobs() {
 }
 
 void ScopeFiles::askOpen() {
-    FileQuestion question;
-    question.title = tr("Open a capture");
-    question.filters << tr("Captures (%1)").arg(captureGlobs()) << tr("All files (*)");
+    FileQuestion question{.title = tr("Open a capture"),
+                          .filters = {tr("Captures (%1)").arg(captureGlobs()), tr("All files (*)")}};
     askForFile(window_, question, [this](const QString& path) { emit openWanted(path); });
 }
 
 void ScopeFiles::askSavePicture() { askSave(tr("PNG picture (*.png)"), "png"); }
 
 void ScopeFiles::askSave(const QString& filter, const QString& ending) {
-    FileQuestion question;
-    question.title = tr("Save as %1").arg(ending.toUpper());
-    question.wants = FileQuestion::Wants::NewFile;
-    question.filters << filter;
-    question.suffix = ending;
+    FileQuestion question{.title = tr("Save as %1").arg(ending.toUpper()),
+                          .wants = FileQuestion::Wants::NewFile,
+                          .filters = {filter},
+                          .suffix = ending};
     const auto shown = still();
     question.name = "scope-" + shown.taken.toString("yyyyMMdd-HHmmss") + "." + ending;
     askForFile(window_, question, [this, ending, shown](const QString& path) {

@@ -7,6 +7,7 @@
 #include "app/gui/sessions/Differences.h"
 #include "app/gui/sessions/SessionPreview.h"
 #include "app/gui/sessions/SessionWords.h"
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/PlotLegend.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Text.h"
@@ -108,8 +109,7 @@ CompareWindow::CompareWindow(std::shared_ptr<const ReadSession> first, std::shar
     addWatermark(*streams_->axisRect(), WatermarkPlace::InFront)->setVisible(simulated);
     const auto found = differencesOf(*sessions_[0], *sessions_[1]);
     auto* said = new QTextBrowser(tabs);
-    said->setObjectName("differences");
-    said->setAccessibleName(tr("Differences"));
+    nameWidget(*said, "differences", tr("Differences"));
     said->setTabChangesFocus(true);
     said->setHtml(differencesHtml(found));
     tabs->insertTab(0, said, tr("&Differences (%1)").arg(found.size()));

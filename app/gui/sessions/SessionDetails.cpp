@@ -121,8 +121,7 @@ SessionDetails::SessionDetails(const ShippedLimits& limits, QWidget* parent) : Q
     // Dragged and zoomed: a mark's word goes with its moment.
     connect(plot_->xAxis, qOverload<const QCPRange&>(&QCPAxis::rangeChanged), this, &SessionDetails::drawMarks);
     colour();
-    split_->addWidget(streams_);
-    split_->addWidget(plot_);
+    addAll(*split_, {streams_, plot_});
     split_->setStretchFactor(0, 0);
     split_->setStretchFactor(1, 1);
     captures_ = makeTable(this, tr("Captures"));

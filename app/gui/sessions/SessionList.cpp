@@ -107,9 +107,7 @@ QWidget* SessionList::buildSearch() {
     age_->addItem(tr("30 days"), 29);
     count_ = makeLabel({}, {.name = "sessionsCount", .tone = Tone::Quiet, .size = TextSize::Small}, holder);
     row->addWidget(search_, 1);
-    row->addWidget(ending_);
-    row->addWidget(age_);
-    row->addWidget(count_);
+    addAll(*row, {ending_, age_, count_});
     for (auto* box : {ending_, age_}) {
         box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
         box->setMinimumContentsLength(int(box->currentText().size()));
@@ -122,8 +120,7 @@ QWidget* SessionList::buildSearch() {
 
 void SessionList::buildTable() {
     table_ = new QTableView(this);
-    table_->setObjectName("sessionsTable");
-    table_->setAccessibleName(tr("Sessions"));
+    nameWidget(*table_, "sessionsTable", tr("Sessions"));
     table_->setModel(model_);
     table_->setItemDelegateForColumn(SessionModel::kVerdict, new VerdictDelegate(table_));
     setTextSize(*table_->horizontalHeader(), TextSize::Small);

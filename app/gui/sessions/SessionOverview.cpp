@@ -88,8 +88,7 @@ QWidget* SessionOverview::buildHappened() {
     column->addWidget(strongLabel(tr("What happened"), holder));
     happened_ = new QTextBrowser(holder);
     happened_->document()->setDocumentMargin(0);
-    happened_->setObjectName("whatHappened");
-    happened_->setAccessibleName(tr("What happened"));
+    nameWidget(*happened_, "whatHappened", tr("What happened"));
     happened_->setTabChangesFocus(true);
     const auto least = [this] { happened_->setMinimumHeight(happened_->fontMetrics().height() * kMinMoments); };
     least();
@@ -110,8 +109,7 @@ QWidget* SessionOverview::buildFields() {
     const auto edit = [this, fields](const QString& title, const char* name, const QString& placeholder,
                                      std::size_t limit) {
         auto* made = new QLineEdit(fields);
-        made->setObjectName(name);
-        made->setAccessibleName(title);
+        nameWidget(*made, name, title);
         made->setPlaceholderText(placeholder);
         made->setMaxLength(int(limit));
         connect(made, &QLineEdit::editingFinished, this, &SessionOverview::save);
@@ -127,8 +125,7 @@ QWidget* SessionOverview::buildFields() {
         grid->addWidget(one, 1, at++);
     }
     // Beside the note, so that it takes no room from the plot. A long sentence leaves the note some words.
-    saved_ = new ElidedLabel(fields);
-    saved_->setObjectName("labelsSaved");
+    saved_ = makeLabel<ElidedLabel>({}, {.name = "labelsSaved"}, fields);
     saved_->hide();
     setTextSize(*saved_, TextSize::Small);
     auto* note = new QHBoxLayout;

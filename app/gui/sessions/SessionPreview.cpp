@@ -70,8 +70,7 @@ SessionPreview::SessionPreview(QWidget* parent)
     plane_ = new TrialPlane(stack_);
     sheet_ = new SheetView(stack_);
     course_ = new QCustomPlot(stack_);
-    course_->setObjectName("course");
-    course_->setAccessibleName(tr("What was felt and delivered"));
+    nameWidget(*course_, "course", tr("What was felt and delivered"));
     course_->setInteractions(QCP::iRangeDrag | QCP::iRangeZoom);
     course_->axisRect()->setRangeZoom(Qt::Horizontal);
     course_->axisRect()->setRangeDrag(Qt::Horizontal);

@@ -152,8 +152,7 @@ QWidget* SessionsWorkspace::buildNews() {
     cancel_->setToolTip(tr("Cancels what is under way. No half-written file is left."));
     connect(cancel_, &QPushButton::clicked, &work_, &Background::cancel);
     below->addWidget(says_, 1);
-    below->addWidget(progress_);
-    below->addWidget(cancel_);
+    addAll(*below, {progress_, cancel_});
     return holder;
 }
 
@@ -264,11 +263,10 @@ void SessionsWorkspace::makeReport() {
 void SessionsWorkspace::askExport() {
     const auto* entry = list_->current();
     if (entry == nullptr) return;
-    FileQuestion question;
-    question.title = tr("Export %1 into a new folder").arg(qtext(entry->path.filename().string()));
-    question.wants = FileQuestion::Wants::NewFile;
-    question.folder = qtext(entry->path.parent_path().string());
-    question.name = qtext(entry->path.stem().string()) + "-csv";
+    FileQuestion question{.title = tr("Export %1 into a new folder").arg(qtext(entry->path.filename().string())),
+                          .wants = FileQuestion::Wants::NewFile,
+                          .folder = qtext(entry->path.parent_path().string()),
+                          .name = qtext(entry->path.stem().string()) + "-csv"};
     // Keeps this session, even if another is selected when the folder is chosen.
     const auto session = entry->path;
     askForFile(*this, question, [this, session](const QString& folder) { exportSession(session, folder); });

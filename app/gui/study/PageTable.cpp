@@ -4,6 +4,7 @@
 #include <QResizeEvent>
 #include <algorithm>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Theme.h"
 
@@ -11,8 +12,7 @@ namespace tacto::gui {
 
 PageTable::PageTable(const char* name, const QString& title, QWidget& page, int pad, bool chosen)
     : QTableWidget(&page), page_(page), pad_(pad), chosen_(chosen) {
-    setObjectName(name);
-    setAccessibleName(title);
+    nameWidget(*this, name, title);
     if (chosen) {
         setSelectionBehavior(QAbstractItemView::SelectRows);
         setFocusPolicy(Qt::StrongFocus);

@@ -42,8 +42,7 @@ PassphraseDialog::PassphraseDialog(Purpose purpose, const QString& study, QWidge
     form->addRow(tr("&Passphrase"), first_);
     if (isNew) {
         second_ = new PassphraseEdit(this);
-        second_->setObjectName("passphraseAgain");
-        second_->setAccessibleName(tr("Passphrase once more"));
+        nameWidget(*second_, "passphraseAgain", tr("Passphrase once more"));
         form->addRow(tr("&Once more"), second_);
         connect(second_, &PassphraseEdit::edited, this, &PassphraseDialog::judge);
         connect(second_, &QLineEdit::returnPressed, this, &PassphraseDialog::give);

@@ -182,8 +182,7 @@ struct SideEffectRows {
             cells->addWidget(new QLabel(text, grid), ++row, 0);
             const auto box = [&](std::span<const char* const> words, const char* part, const QString& none, int at) {
                 auto* made = new QComboBox(grid);
-                made->setObjectName(QString("%1-%2").arg(each.key, part));
-                made->setAccessibleName(QString("%1, %2").arg(text, part));
+                nameWidget(*made, QString("%1-%2").arg(each.key, part), QString("%1, %2").arg(text, part));
                 made->addItem(none, 0);
                 for (int score = 1; score <= int(words.size()); ++score)
                     made->addItem(scoreChoice(words, score), score);

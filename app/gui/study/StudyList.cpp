@@ -78,9 +78,7 @@ StudyList::StudyList(OpenStudy& study, QWidget* parent)
     for (auto* label : {title_, facts_, trouble_, withdrawn_}) {
         wrapPlain(*label);
     }
-    column->addWidget(title_);
-    column->addWidget(facts_);
-    column->addWidget(trouble_);
+    addAll(*column, {title_, facts_, trouble_});
     trouble_->hide();
     column->addSpacing(8);
     column->addWidget(buildParticipants());
@@ -286,13 +284,12 @@ void StudyList::judge() {
 }
 
 void StudyList::makeReport(const QString& title, const QString& name, const QStringList& more) {
-    FileQuestion question;
-    question.title = title;
-    question.wants = FileQuestion::Wants::NewFile;
-    question.filters = {tr("Reports (*.pdf *.html)")};
-    question.folder = QFileInfo(study_.folder()).absolutePath();
-    question.name = name;
-    question.suffix = "pdf";
+    FileQuestion question{.title = title,
+                          .wants = FileQuestion::Wants::NewFile,
+                          .filters = {tr("Reports (*.pdf *.html)")},
+                          .folder = QFileInfo(study_.folder()).absolutePath(),
+                          .name = name,
+                          .suffix = "pdf"};
     askForFile(*this, question, [this, more](const QString& out) {
         if (!noteReport(out, more)) return;
         say(tr("The report is being drawn…"), false);
@@ -321,10 +318,9 @@ bool StudyList::noteReport(const QString& out, const QStringList& more) {
 }
 
 void StudyList::askForExport(const BidsWith& with) {
-    FileQuestion question;
-    question.title = tr("A new or empty folder for the results, outside the study");
-    question.wants = FileQuestion::Wants::NewFolder;
-    question.folder = QFileInfo(study_.folder()).absolutePath();
+    FileQuestion question{.title = tr("A new or empty folder for the results, outside the study"),
+                          .wants = FileQuestion::Wants::NewFolder,
+                          .folder = QFileInfo(study_.folder()).absolutePath()};
     askForFile(*this, question, [this, with](const QString& place) {
         say(tr("The results are being written…"), false);
         study_.exportBids(place, with);

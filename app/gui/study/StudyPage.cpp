@@ -85,9 +85,7 @@ QWidget* StudyPage::buildNone() {
 }
 
 void StudyPage::chooseFolder() {
-    FileQuestion question;
-    question.title = tr("The study’s folder");
-    question.wants = FileQuestion::Wants::Folder;
+    FileQuestion question{.title = tr("The study’s folder"), .wants = FileQuestion::Wants::Folder};
     askForFile(*this, question, [this](const QString& path) { open(path); });
 }
 

@@ -4,6 +4,7 @@
 #include <QBoxLayout>
 #include <QLabel>
 #include <QPushButton>
+#include <initializer_list>
 #include <optional>
 
 #include "app/gui/theme/Theme.h"
@@ -25,6 +26,19 @@ inline QHBoxLayout* rowIn(QWidget& in, int spacing = -1, const QMargins& margins
     return layoutIn<QHBoxLayout>(in, spacing, margins);
 }
 
+/// One after the other, without stretch.
+template <class Holder>
+void addAll(Holder& holder, std::initializer_list<QWidget*> parts) {
+    for (auto* part : parts) holder.addWidget(part);
+}
+
+/// By what it is found, what a screen reader says of it, and its tip. An empty tip changes none.
+inline void nameWidget(QWidget& widget, const QString& name, const QString& spoken, const QString& tip = {}) {
+    widget.setObjectName(name);
+    widget.setAccessibleName(spoken);
+    if (!tip.isEmpty()) widget.setToolTip(tip);
+}
+
 /// Plain text that wraps.
 inline void wrapPlain(QLabel& label) {
     label.setTextFormat(Qt::PlainText);
@@ -40,8 +54,9 @@ struct LabelLooks {
     bool plain = false;       ///< its words are no markup
     bool selectable = false;  ///< by the mouse
 };
-inline QLabel* makeLabel(const QString& text, const LabelLooks& looks, QWidget* parent) {
-    auto* made = new QLabel(text, parent);
+template <class Label = QLabel>
+Label* makeLabel(const QString& text, const LabelLooks& looks, QWidget* parent) {
+    auto* made = new Label(text, parent);
     if (!looks.name.isEmpty()) made->setObjectName(looks.name);
     if (looks.plain) made->setTextFormat(Qt::PlainText);
     made->setWordWrap(looks.wraps);

@@ -28,12 +28,12 @@ void addCloseButton(QDialog& dialog, QLayout& layout);
 
 struct FileQuestion {
     enum class Wants { ExistingFile, Folder, NewFolder, NewFile };
-    QString title;
+    QString title = {};
     Wants wants = Wants::ExistingFile;
-    QStringList filters;  ///< "Profiles (*.json)"; empty: all files
-    QString folder;       ///< shown first; empty: the last one
-    QString name;         ///< suggested
-    QString suffix;       ///< added to a name without one; without a dot
+    QStringList filters = {};  ///< "Profiles (*.json)"; empty: all files
+    QString folder = {};       ///< shown first; empty: the last one
+    QString name = {};         ///< suggested
+    QString suffix = {};       ///< added to a name without one; without a dot
 };
 
 /// Asks the operator for a file or folder; a new folder that is typed is made. `then` gets its path, unless the

@@ -25,13 +25,9 @@ PathField::PathField(const QString& path, const QString& tip, QWidget* parent) :
 FolderRow::FolderRow(const QString& path, const QString& tip, const QString& question, QWidget* parent)
     : QWidget(parent), line_(new PathField(path, tip, this)) {
     auto* row = rowIn(*this, 8);
-    auto* choose = new QPushButton(tr("Ch&oose…"), this);
-    choose->setAutoDefault(false);
-    choose->setToolTip(tr("Chooses the folder from a list."));
+    auto* choose = pageButton(tr("Ch&oose…"), {}, tr("Chooses the folder from a list."), this);
     connect(choose, &QPushButton::clicked, this, [this, question] {
-        FileQuestion asked;
-        asked.title = question;
-        asked.wants = FileQuestion::Wants::NewFolder;
+        FileQuestion asked{.title = question, .wants = FileQuestion::Wants::NewFolder};
         askForFile(*this, asked, [this](const QString& chosen) { line_->setText(chosen); });
     });
     row->addWidget(line_, 1);
@@ -54,9 +50,7 @@ DayField::DayField(const QString& name, const QString& meansEmpty, QWidget* pare
     setFocusProxy(line_);
     button_->setProperty("role", "opens");
     button_->setIcon(icon("chevron-down"));
-    button_->setObjectName("calendar-" + name);
-    button_->setAccessibleName(tr("Choose the day"));
-    button_->setToolTip(tr("Chooses the day in a calendar (Alt+Down)."));
+    nameWidget(*button_, "calendar-" + name, tr("Choose the day"), tr("Chooses the day in a calendar (Alt+Down)."));
     button_->setPopupMode(QToolButton::InstantPopup);
     auto* menu = new QMenu(button_);
     auto* calendar = new QCalendarWidget(menu);

@@ -231,9 +231,8 @@ void FieldForm::addFileChooser(Field& field) {
     line->setClearButtonEnabled(true);
     auto* button = new QToolButton(this);
     button->setText("…");
-    button->setObjectName("choose-" + QString::fromStdString(field.parameter.name));
-    button->setAccessibleName(tr("Choose the file"));
-    button->setToolTip(tr("Chooses a file."));
+    nameWidget(*button, "choose-" + QString::fromStdString(field.parameter.name), tr("Choose the file"),
+               tr("Chooses a file."));
     const auto title = QString::fromStdString(field.parameter.label);
     connect(button, &QToolButton::clicked, this, [this, line, title] {
         FileQuestion question;

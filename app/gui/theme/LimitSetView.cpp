@@ -57,15 +57,12 @@ LimitSetView::LimitSetView(const std::vector<LimitSet>& sets, QWidget* parent)
     setObjectName("limitSetView");
     auto* column = new QVBoxLayout(this);
     auto* row = new QHBoxLayout;
-    chooser_->setObjectName("limitSet");
-    chooser_->setAccessibleName(tr("Limit set"));
-    chooser_->setToolTip(tr("Selects the set to show. All sets always apply."));
+    nameWidget(*chooser_, "limitSet", tr("Limit set"), tr("Selects the set to show. All sets always apply."));
     for (const auto& set : sets_) chooser_->addItem(qtext(set.title), qtext(set.id));
     row->addWidget(chooser_);
     row->addStretch();
     column->addLayout(row);
-    table_->setObjectName("limitRows");
-    table_->setAccessibleName(tr("Limits of the set"));
+    nameWidget(*table_, "limitRows", tr("Limits of the set"));
     table_->setHorizontalHeaderLabels(
         {tr("Quantity"), tr("Limit"), tr("Over"), tr("Judged"), tr("Beyond it"), tr("Source")});
     table_->verticalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);

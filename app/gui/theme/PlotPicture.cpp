@@ -145,12 +145,11 @@ void captionPictures(QCustomPlot& plot, const CaptionOf& caption) {
 void copyPicture(const Still& still) { QApplication::clipboard()->setImage(pictureOf(still, kPictureScale)); }
 
 void askSavePicture(QWidget& parent, const Still& still, const QString& name) {
-    FileQuestion question;
-    question.title = QObject::tr("Save the plot");
-    question.wants = FileQuestion::Wants::NewFile;
-    question.filters << QObject::tr("Pictures (*.png *.svg *.pdf)");
-    question.suffix = "png";
-    question.name = name + ".png";
+    FileQuestion question{.title = QObject::tr("Save the plot"),
+                          .wants = FileQuestion::Wants::NewFile,
+                          .filters = {QObject::tr("Pictures (*.png *.svg *.pdf)")},
+                          .name = name + ".png",
+                          .suffix = "png"};
     askForFile(parent, question, [&parent, still](const QString& path) {
         if (const auto wrong = savePicture(still, path)) {
             openDialog(

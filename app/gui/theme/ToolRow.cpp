@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Icons.h"
 
 namespace tacto::gui {
@@ -29,9 +30,7 @@ QToolButton* makeTool(const QString& name, const QString& tip, const QString& ic
 ToolRow::ToolRow(QWidget* parent) : QLayout(parent), more_(new QToolButton(parent)) {
     setContentsMargins(0, 0, 0, 0);
     setSpacing(kBetweenTools);
-    more_->setObjectName("moreTools");
-    more_->setAccessibleName(QObject::tr("More tools"));
-    more_->setToolTip(QObject::tr("The tools that have no room in this row."));
+    nameWidget(*more_, "moreTools", QObject::tr("More tools"), QObject::tr("The tools that have no room in this row."));
     more_->setIcon(icon("more"));
     more_->setAutoRaise(true);
     more_->setFocusPolicy(Qt::StrongFocus);

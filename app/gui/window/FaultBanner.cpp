@@ -54,8 +54,7 @@ bool saysNothingOfTrains(std::optional<FaultCause> cause) {
 
 FaultBanner::FaultBanner(QWidget* parent)
     : QFrame(parent), cause_(new ElidedLabel(this)), output_(new ElidedLabel(this)), next_(new ElidedLabel(this)) {
-    setObjectName("faultBanner");
-    setAccessibleName(tr("Fault"));
+    nameWidget(*this, "faultBanner", tr("Fault"));
     cause_->setObjectName("faultText");
     auto* column = columnIn(*this, 0, {scaledPx(16), 0, scaledPx(8), 0});
     column->addStretch();

@@ -11,6 +11,7 @@
 #include <QWhatsThis>
 #include <array>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/LimitSetView.h"
 #include "app/gui/theme/Theme.h"
@@ -62,8 +63,7 @@ QWidget* makeGuide(const QString& page, QWidget* parent) {
     tools->addStretch();
     layout->addLayout(tools);
     auto* browser = new GuideBrowser(guide);
-    browser->setObjectName("guide");
-    browser->setAccessibleName(QObject::tr("Guide"));
+    nameWidget(*browser, "guide", QObject::tr("Guide"));
     layout->addWidget(browser);
     QObject::connect(browser, &QTextBrowser::sourceChanged, browser, [browser] { wrapCommands(*browser->document()); });
     back->setEnabled(false);

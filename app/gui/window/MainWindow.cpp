@@ -352,17 +352,15 @@ void MainWindow::openSimulatedBench() {
 void MainWindow::openFile(const QString& path) { workspaces_->openFile(path); }
 
 void MainWindow::chooseFile() {
-    FileQuestion question;
-    question.title = tr("Open");
-    question.filters << tr("Recordings, sessions and captures (*.json *.tacto %1)").arg(ScopeFiles::captureGlobs())
-                     << tr("All files (*)");
+    FileQuestion question{
+        .title = tr("Open"),
+        .filters = {tr("Recordings, sessions and captures (*.json *.tacto %1)").arg(ScopeFiles::captureGlobs()),
+                    tr("All files (*)")}};
     askForFile(*this, question, [this](const QString& path) { openFile(path); });
 }
 
 void MainWindow::chooseRecording() {
-    FileQuestion question;
-    question.title = tr("Open a recording: its folder");
-    question.wants = FileQuestion::Wants::Folder;
+    FileQuestion question{.title = tr("Open a recording: its folder"), .wants = FileQuestion::Wants::Folder};
     askForFile(*this, question, [this](const QString& path) { openFile(path); });
 }
 

@@ -37,10 +37,8 @@ MarkLine::MarkLine(BenchController& controller, RecordingLine& line, QWidget& ov
     auto* row = rowIn(*this, kMarkGap, {kMarkGap, kMarkGap / 2, kMarkGap / 2, kMarkGap / 2});
     auto* shape = new QLabel(this);
     shape->setPixmap(icon("mark").pixmap(kMarkIcon));
-    row->addWidget(shape);
-    row->addWidget(when_);
-    word_->setObjectName("markWord");
-    word_->setAccessibleName(tr("Word of the mark"));
+    addAll(*row, {shape, when_});
+    nameWidget(*word_, "markWord", tr("Word of the mark"));
     word_->setPlaceholderText(tr("a word for it, then Return"));
     word_->setToolTip(
         tr("Kept in the session at the moment when the key was pressed, not at that of Return. Esc stops "

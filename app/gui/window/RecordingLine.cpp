@@ -4,9 +4,9 @@
 #include <QDialog>
 #include <QFileInfo>
 #include <QPlainTextEdit>
-#include <QVBoxLayout>
 #include <utility>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/Labels.h"
 #include "app/gui/theme/Text.h"
@@ -22,9 +22,8 @@ constexpr int kRecordingChars = 12;  // "● recording" is left where the messag
 
 RecordingLine::RecordingLine(BenchController& controller, QStatusBar& bar)
     : QObject(&bar), controller_(controller), bar_(bar) {
-    recording_ = new ElidedLabel(&bar);
-    recording_->setObjectName("recording");
-    recording_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);  // the recording gives way to the message
+    recording_ = makeLabel<ElidedLabel>({}, {.name = "recording"}, &bar);
+    recording_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);  // gives way to the message
     bar.addWidget(recording_, 1);
     message_ = new QToolButton(&bar);
     message_->setObjectName("lastMessage");

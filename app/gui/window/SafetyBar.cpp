@@ -68,8 +68,7 @@ std::optional<ExposureRow> netCharge(const Telemetry& telemetry) {
 
 SafetyBar::SafetyBar(BenchController& controller, const CalibrationBook& calibrations, QWidget* parent)
     : QFrame(parent), controller_(controller), calibrations_(calibrations), block_(new StateBlock(this)) {
-    setObjectName("safetyBar");
-    setAccessibleName(tr("Safety bar"));
+    nameWidget(*this, "safetyBar", tr("Safety bar"));
     setAutoFillBackground(true);
     setBackgroundRole(QPalette::Base);
     auto* row = rowIn(*this, 0);
@@ -83,14 +82,12 @@ SafetyBar::SafetyBar(BenchController& controller, const CalibrationBook& calibra
     setPauseInstead({});
     fault_ = new FaultBanner(this);
     fault_->hide();
-    row->addWidget(block_);
-    row->addWidget(facts_);
+    addAll(*row, {block_, facts_});
     row->addWidget(bars_, 1);
     blindFacts_ = buildBlindFacts();
     row->addWidget(blindFacts_, 1);
     row->addWidget(fault_, 1);
-    row->addWidget(buttons_);
-    row->addWidget(stop_);
+    addAll(*row, {buttons_, stop_});
     refresh(Telemetry{});
     onEvent(*this, QEvent::Resize, [this] { giveRoom(); });
 }
@@ -100,8 +97,7 @@ QWidget* SafetyBar::buildFacts() {
     auto* column = columnIn(*holder, 0, {kBarGap, 0, kBarGap, 0});
     load_ = new ElidedLabel(holder);
     device_ = new ElidedLabel(holder);
-    calibration_ = new ElidedLabel(holder);
-    calibration_->setObjectName("calibrationAge");
+    calibration_ = makeLabel<ElidedLabel>({}, {.name = "calibrationAge"}, holder);
     load_->setObjectName("impedance");
     for (auto* label : {load_, device_, calibration_}) setTextSize(*label, TextSize::Small, label == load_);
     column->addStretch();
@@ -116,14 +112,10 @@ QWidget* SafetyBar::buildBlindFacts() {
     const auto pair = [&](QLabel*& strong, const QString& quiet) {
         auto* column = new QVBoxLayout;
         column->setSpacing(0);
-        strong = new ElidedLabel(holder);
-        setTextSize(*strong, TextSize::Body, true);
-        auto* below = new ElidedLabel(quiet, holder);
-        setTextSize(*below, TextSize::Small);
-        setTone(*below, Tone::Quiet);
+        strong = makeLabel<ElidedLabel>({}, {.size = TextSize::Body, .strong = true}, holder);
+        auto* below = makeLabel<ElidedLabel>(quiet, {.tone = Tone::Quiet, .size = TextSize::Small}, holder);
         column->addStretch();
-        column->addWidget(strong);
-        column->addWidget(below);
+        addAll(*column, {strong, below});
         column->addStretch();
         row->addLayout(column, 1);
     };
@@ -180,9 +172,7 @@ QWidget* SafetyBar::buildButtons() {
            "by itself, within 2 s; no other one "
            "is delivered until you resume. STOP ends it at once."));
     connect(pause_, &QPushButton::clicked, this, &SafetyBar::pressPause);
-    details_ = new QPushButton(tr("Details…"), holder);
-    details_->setAutoDefault(false);
-    details_->setToolTip(tr("All messages since the program began."));
+    details_ = pageButton(tr("Details…"), {}, tr("All messages since the program began."), holder);
     connect(details_, &QPushButton::clicked, this, &SafetyBar::detailsRequested);
     details_->hide();
     column->addStretch();

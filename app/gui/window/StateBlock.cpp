@@ -32,8 +32,7 @@ QString longestWord(const QFontMetrics& metrics) {
 
 StateBlock::StateBlock(QWidget* parent)
     : QFrame(parent), shape_(new QLabel(this)), word_(new QLabel(this)), reason_(new ElidedLabel(this)) {
-    setObjectName("stateBlock");
-    setAccessibleName(QObject::tr("State of the output"));
+    nameWidget(*this, "stateBlock", QObject::tr("State of the output"));
     word_->setObjectName("interlockState");
     shape_->setAlignment(Qt::AlignCenter);
     setTextSize(*reason_, TextSize::Small);

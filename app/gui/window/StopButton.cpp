@@ -27,8 +27,7 @@ QFont keysFont() { return textFont(TextSize::Small); }
 
 StopButton::StopButton(std::function<void()> stop, QWidget* parent)
     : QPushButton(tr("STOP"), parent), stop_(std::move(stop)), hint_(tr("Space · Esc · Pause")) {
-    setObjectName("stopButton");
-    setAccessibleName(tr("STOP"));
+    nameWidget(*this, "stopButton", tr("STOP"));
     setAutoDefault(false);
     setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Expanding);
     // Acts when the button goes down: the output does not wait for the finger to come up again.

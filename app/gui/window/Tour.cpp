@@ -22,8 +22,7 @@ constexpr int kAboveStatus = 48;  // distance from the window's lower edge
 }  // namespace
 
 Tour::Tour(std::vector<TourStep> steps, QWidget* window) : QFrame(window), steps_(std::move(steps)) {
-    setObjectName("tour");
-    setAccessibleName(tr("Tour"));
+    nameWidget(*this, "tour", tr("Tour"));
     setFrameShape(QFrame::StyledPanel);
     setFrameShadow(QFrame::Raised);
     setAutoFillBackground(true);

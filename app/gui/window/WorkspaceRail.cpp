@@ -3,6 +3,7 @@
 #include <QToolButton>
 #include <algorithm>
 
+#include "app/gui/theme/Building.h"
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/Theme.h"
 
@@ -43,8 +44,7 @@ WorkspaceRail::WorkspaceRail(QWidget* parent)
         workspaces_->addAction(action);
         connect(action, &QAction::triggered, this, [this, index] { emit chosen(index); });
         auto* button = qobject_cast<QToolButton*>(widgetForAction(action));
-        button->setObjectName("workspaceButton");
-        button->setAccessibleName(name);
+        nameWidget(*button, "workspaceButton", name);
         button->setFocusPolicy(Qt::TabFocus);
         button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
         setTextSize(*button, TextSize::Small);

@@ -95,8 +95,7 @@ MeasurementSummary::MeasurementSummary(QWidget* parent)
     column_->addWidget(note_);
     auto* buttons = new QHBoxLayout;
     buttons->setSpacing(scaledPx(4));
-    buttons->addWidget(choose_);
-    buttons->addWidget(reset_);
+    addAll(*buttons, {choose_, reset_});
     buttons->addStretch();
     column_->addLayout(buttons);
     column_->addStretch();

@@ -45,8 +45,7 @@ MeasurementTable::MeasurementTable(ChosenReadings& chosen, QWidget* parent)
       warnings_(makeLabel({}, {.name = "warnings", .wraps = true, .selectable = true}, this)),
       choose_(new QPushButton(tr("Choose…"), this)),
       reset_(new QPushButton(tr("Reset statistics"), this)) {
-    table_->setObjectName("measurements");
-    table_->setAccessibleName(tr("Measurements"));
+    nameWidget(*table_, "measurements", tr("Measurements"));
     makeReadOnly(*table_);
     table_->setSelectionMode(QAbstractItemView::ContiguousSelection);
     table_->setShowGrid(false);
@@ -69,8 +68,7 @@ MeasurementTable::MeasurementTable(ChosenReadings& chosen, QWidget* parent)
     seen_->setWordWrap(true);
     auto* line = new QHBoxLayout;
     line->addWidget(seen_, 1);
-    line->addWidget(choose_);
-    line->addWidget(reset_);
+    addAll(*line, {choose_, reset_});
     setTabOrder(reset_, table_);
     auto* layout = columnIn(*this, 4, {8, 4, 8, 0});
     layout->addLayout(line);

@@ -59,12 +59,9 @@ MaskPanel::MaskPanel(QWidget* parent)
     }
     auto* layout = columnIn(*this);
     layout->addLayout(form);
-    layout->addWidget(make_);
-    layout->addWidget(says_);
-    layout->addWidget(showFirst_);
+    addAll(*layout, {make_, says_, showFirst_});
     auto* row = new QHBoxLayout;
-    row->addWidget(reset_);
-    row->addWidget(remove_);
+    addAll(*row, {reset_, remove_});
     layout->addLayout(row);
     connect(make_, &QPushButton::clicked, this, &MaskPanel::makeWanted);
     connect(remove_, &QPushButton::clicked, this, &MaskPanel::remove);
