@@ -144,7 +144,7 @@ PackedCapture packSamples(const Capture& capture) {
     return packed;
 }
 
-nlohmann::json describe(const Capture& capture, const PackedCapture& packed) {
+nlohmann::json describePacked(const Capture& capture, const PackedCapture& packed) {
     auto description = describeCapture(capture);
     description["samples"] = capture.samples();
     description["deflated"] = packed.deflated;

@@ -60,7 +60,7 @@ struct PackedCapture {
 /// Deflates at the fastest level and keeps it when it saves at least a tenth.
 [[nodiscard]] PackedCapture packSamples(const Capture& capture);
 /// The capture without its samples, as the log row's JSON ("trial" and checksums apart). NaN becomes null.
-[[nodiscard]] nlohmann::json describe(const Capture& capture, const PackedCapture& packed);
+[[nodiscard]] nlohmann::json describePacked(const Capture& capture, const PackedCapture& packed);
 
 /// Errors: ParseError when the description is not one or the samples do not fit it.
 [[nodiscard]] Result<Capture> unpackCapture(const nlohmann::json& description, std::span<const std::byte> data);

@@ -210,7 +210,7 @@ Result<std::int64_t> SessionWriter::capture(Instant at, const Capture& capture, 
     const auto packed = packSamples(capture);
     const std::span<const std::byte> parts[] = {packed.data};
     const auto digest = bulkDigest(parts);
-    auto body = describe(capture, packed);
+    auto body = describePacked(capture, packed);
     body["crc32"] = crc32(parts);
 
     const std::lock_guard lock(state_->mutex);

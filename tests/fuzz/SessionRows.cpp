@@ -46,7 +46,7 @@ void capture(std::string_view text, Data data) {
     for (const auto& channel : read->channels) require(channel.samples.size() == read->samples());
     if (read->channels.empty()) return;
     const auto packed = packSamples(*read);
-    const auto again = unpackCapture(describe(*read, packed), packed.data);
+    const auto again = unpackCapture(describePacked(*read, packed), packed.data);
     require(again && again->samples() == read->samples() && again->channels.size() == read->channels.size());
 }
 

@@ -14,7 +14,7 @@ namespace tacto::test {
 /// A gate for `source` on a 1 kohm bench load that allows up to 1000 V; nothing else is asked of it.
 [[nodiscard]] inline std::unique_ptr<SafetyGate> benchGate(const Clock& clock, const SourceTraits& source) {
     LimitRow row;
-    row.quantity = Quantity::PeakVoltage;
+    row.quantity = tacto::Quantity::PeakVoltage;
     row.max = 1000;
     row.source = "test";
     LimitSet limits;
