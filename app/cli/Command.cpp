@@ -10,6 +10,7 @@
 
 #include "core/base/JsonText.h"
 #include "core/base/LocaleFreeText.h"
+#include "core/base/TypedNumber.h"
 #include "core/base/WholeFile.h"
 
 namespace tacto::cli {
@@ -114,9 +115,10 @@ Result<std::string> onlyArgument(const QCommandLineParser& parser, const char* w
 Result<double> numberOption(const QCommandLineParser& parser, const char* name) {
     if (!parser.isSet(name)) return fail(ErrorCode::InvalidArgument, "--{} is missing", name);
     const auto text = parser.value(name).toStdString();
-    const auto number = parseNumber(text);
+    const auto number = typedNumber(text);
     if (!number || !std::isfinite(*number)) {
-        return fail(ErrorCode::InvalidArgument, "--{} is \"{}\"; a number is expected", name, text);
+        return fail(ErrorCode::InvalidArgument, "--{} is \"{}\"; a number is expected{}", name, text,
+                    typedTrouble(text));
     }
     return *number;
 }

@@ -4,6 +4,7 @@
 
 #include "core/base/JsonText.h"
 #include "core/base/LocaleFreeText.h"
+#include "core/base/TypedNumber.h"
 #include "core/session/Digest.h"
 
 namespace tacto {
@@ -145,8 +146,8 @@ Result<nlohmann::json> asJson(const nlohmann::json& before, std::string_view key
         return refused("true or false");
     }
     if (before.is_number()) {
-        const auto number = parseNumber(text);
-        return number ? Result<nlohmann::json>(*number) : refused("a number");
+        if (const auto number = typedNumber(text)) return *number;
+        return invalid("{} is \"{}\"; a number is expected{}", key, text, typedTrouble(text));
     }
     if (before.is_array()) {
         auto list = nlohmann::json::array();

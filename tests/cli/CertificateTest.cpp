@@ -77,7 +77,7 @@ TEST_F(CertificateCli, IsRefusedInOneSentence) {
     expectRefused(add("A", "", 0, 9), 2, {"certificate number is empty"});
     expectRefused(add("A", "1", 0, -1), 2, {"before its date"});
     expectRefused(add("A", "1", 0, 9, {}), 2, {"--gain-u is missing"});
-    for (const auto* u : {"nan", "0", "-1", "51", "1e999", "0,5"})
+    for (const auto* u : {"nan", "0", "-1", "51", "1e999", "1,000"})
         expectRefused(add("A", "1", 0, 9, {"--gain-u", u}), 2, {});
     expectRefused(desk.run({"certificate", "add", "--instrument", "X", "--serial", "A", "--number", "1", "--by", "L",
                             "--date", "2026-02-30", "--due", "2027-01-01", "--gain-u", "1"}),

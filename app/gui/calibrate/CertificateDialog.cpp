@@ -10,6 +10,7 @@
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "core/base/LocaleFreeText.h"
+#include "core/base/TypedNumber.h"
 namespace tacto::gui {
 
 namespace {
@@ -133,10 +134,10 @@ Result<Certificate> CertificateDialog::written() const {
     for (const auto& figure : kCertificateFigures) {
         const auto written = text(figure.option);
         if (written.empty()) continue;
-        const auto u = parseNumber(written);
+        const auto u = typedNumber(written);
         if (!u) {
-            return fail(ErrorCode::InvalidArgument, "U of the {} is \"{}\"; above 0 to {} {} is accepted", figure.title,
-                        written, figure.most, figure.unit);
+            return fail(ErrorCode::InvalidArgument, "U of the {} is \"{}\"; above 0 to {} {} is accepted{}",
+                        figure.title, written, figure.most, figure.unit, typedTrouble(written));
         }
         out.*figure.member = *u;
     }

@@ -6,6 +6,7 @@
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "core/base/LocaleFreeText.h"
+#include "core/base/TypedNumber.h"
 
 namespace tacto::gui {
 
@@ -172,9 +173,10 @@ Result<InstrumentPreset> InstrumentDialog::written() const {
     const auto number = [this](const char* field, const char* title, std::optional<double>& into) -> Result<void> {
         const auto text = form_->text(field).toStdString();
         if (text.empty()) return {};
-        into = parseNumber(text);
+        into = typedNumber(text);
         if (into) return {};
-        return fail(ErrorCode::InvalidArgument, "{} is \"{}\"; a number is expected", title, text);
+        return fail(ErrorCode::InvalidArgument, "{} is \"{}\"; a number is expected{}", title, text,
+                    typedTrouble(text));
     };
     if (out.kind == InstrumentKind::Oscilloscope) {
         out.address = form_->text("presetAddress").toStdString();

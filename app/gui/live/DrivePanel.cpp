@@ -8,6 +8,7 @@
 #include "app/gui/theme/Building.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "app/gui/theme/TypedSpin.h"
 #include "core/encoding/Encoder.h"
 
 namespace tacto::gui {
@@ -66,7 +67,7 @@ DrivePanel::DrivePanel(BenchController& controller, QWidget* parent) : QWidget(p
 void DrivePanel::addIndex(QGridLayout& grid, Index& index, const char* objectName, const QString& label,
                           const QString& name, const QString& tip) {
     index.slider = new QSlider(Qt::Horizontal, this);
-    index.box = new QDoubleSpinBox(this);
+    index.box = new TypedSpin(this);
     index.slider->setRange(0, kSteps);
     index.slider->setSingleStep(1);
     index.slider->setPageStep(10);

@@ -8,6 +8,7 @@
 #include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Text.h"
 #include "core/base/LocaleFreeText.h"
+#include "core/base/TypedNumber.h"
 #include "core/bench/Profile.h"
 
 namespace tacto::gui {
@@ -79,9 +80,10 @@ std::optional<ProfileTabs::Refusal> ProfileTabs::read(nlohmann::json& document) 
             value = nullptr;
             continue;
         }
-        const auto number = parseNumber(text.toStdString());
+        const auto number = typedNumber(text.toStdString());
         if (!number || !std::isfinite(*number))
-            return Refusal{&field, tr("\"%1\" is not a number; %2 is expected").arg(text, field.range())};
+            return Refusal{&field, tr("\"%1\" is not a number; %2 is expected").arg(text, field.range()) +
+                                       qtext(typedTrouble(text.toStdString()))};
         value = *number;
     }
     return std::nullopt;

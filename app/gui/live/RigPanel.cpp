@@ -3,6 +3,7 @@
 #include <QGridLayout>
 
 #include "app/gui/theme/Building.h"
+#include "app/gui/theme/TypedSpin.h"
 
 namespace tacto::gui {
 
@@ -30,7 +31,7 @@ QWidget* RigPanel::buildSurfaces() {
     for (const auto* name : kMaterials) material_->addItem(name, name);
     material_->setToolTip(tr("The surface under the sliding finger, from smooth to rough."));
     const auto spin = [&](double low, double high, double step, int decimals, double value, const QString& unit) {
-        auto* box = new QDoubleSpinBox(group);
+        auto* box = new TypedSpin(group);
         box->setRange(low, high);
         box->setSingleStep(step);
         box->setDecimals(decimals);

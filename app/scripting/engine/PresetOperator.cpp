@@ -2,6 +2,7 @@
 
 #include "app/scripting/engine/Operator.h"
 #include "core/base/LocaleFreeText.h"
+#include "core/base/TypedNumber.h"
 #include "core/base/ValueKind.h"
 
 namespace tacto {
@@ -43,13 +44,13 @@ Result<nlohmann::json> choose(const OperatorQuestion& question, const std::strin
 
 Result<nlohmann::json> enter(const OperatorQuestion& question, const std::string& answer) {
     if (!question.number) return nlohmann::json(answer);
-    const auto value = parseNumber(answer);
+    const auto value = typedNumber(answer);
     const AcceptedNumbers numbers{.low = question.min.value_or(AcceptedNumbers{}.low),
                                   .high = question.max.value_or(AcceptedNumbers{}.high),
                                   .unit = question.unit};
     if (value && numbers.contain(*value)) return nlohmann::json(*value);
-    return fail(ErrorCode::InvalidArgument, "{}={} does not answer \"{}\"; {} is expected", question.name, answer,
-                question.text, numbers.text());
+    return fail(ErrorCode::InvalidArgument, "{}={} does not answer \"{}\"; {} is expected{}", question.name, answer,
+                question.text, numbers.text(), typedTrouble(answer));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "core/base/JsonText.h"
 #include "core/base/LocaleFreeText.h"
 #include "core/base/Statistics.h"
+#include "core/base/TypedNumber.h"
 #include "core/base/ValueKind.h"
 #include "core/base/Words.h"
 #include "core/calibration/CalibrationStore.h"
@@ -261,9 +262,10 @@ Result<Json> parseSetting(const ProtocolParameter& parameter, std::string_view t
     switch (parameter.type) {
         case ParameterType::Number:
         case ParameterType::Integer: {
-            auto number = parseNumber(text);
-            if (!number && !parameter.unit.empty()) number = parseQuantity(text, parameter.unit);
-            return accepted(parameter, number ? Json(*number) : Json(std::string(text)));
+            if (const auto number = typedNumber(text, parameter.unit)) return accepted(parameter, Json(*number));
+            auto refused = accepted(parameter, Json(std::string(text)));
+            if (!refused) refused.error().message += typedTrouble(text);
+            return refused;
         }
         case ParameterType::Boolean:
             if (text == "true" || text == "yes" || text == "1") return Json(true);

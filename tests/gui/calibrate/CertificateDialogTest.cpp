@@ -143,7 +143,7 @@ TEST_F(CertificateWindow, RefusesInPlace) {
     RecordProperty("hazard", "H9");
     showDialog();
     writeAll("4711", -10, 355);
-    for (const auto* u : {"0", "-1", "nan", "51", "0,5", ""}) {
+    for (const auto* u : {"0", "-1", "nan", "51", "1,000", ""}) {
         write("gain-u", u);
         EXPECT_FALSE(enter().isEnabled()) << u;
         EXPECT_THAT(says(), HasSubstr("above 0 to 50 %")) << u;

@@ -38,6 +38,18 @@ TEST(FieldForm, ADefaultThatWasLeftAloneIsTheScriptsWordToTheLastDigitAndBlank) 
     EXPECT_EQ(chosen.parameters.at("area"), 5);
 }
 
+TEST(FieldForm, ADecimalCommaIsReadAndAnUncertainOneIsRefusedWithItsReason) {
+    gui::FieldForm form;
+    form.show({gui::numberField("load", "Load", "ohm", 1, 1e6, 1000, "")});
+    form.set("load", "4,5 kohm");
+    EXPECT_EQ(form.read().value().parameters.at("load"), 4500);
+    form.set("load", "1,000");
+    const auto refused = form.read();
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::InvalidArgument);
+    EXPECT_NE(refused.error().message.find("may be 1.000 or 1000"), std::string::npos) << refused.error().message;
+}
+
 TEST(FieldForm, ATickSaysYesByItself) {
     ProtocolDeclaration declaration;
     ProtocolParameter keep;
@@ -216,7 +228,7 @@ TEST(FieldForm, ARefusalOfItsOwnerStaysUntilTheFieldIsEdited) {
     EXPECT_TRUE(trouble->isHidden());
     EXPECT_EQ(form.refused(false), 0);
     form.refuse("load", {});
-    for (const auto* outside : {"0.49", "1.51", "nan", "inf", "", "1,2"}) {
+    for (const auto* outside : {"0.49", "1.51", "nan", "inf", "", "1,200"}) {
         form.set("gain", outside);
         EXPECT_FALSE(form.read()) << outside;
         EXPECT_EQ(form.refused(false), 1) << outside;

@@ -7,6 +7,7 @@
 #include "app/gui/scope/model/Viewport.h"
 #include "app/gui/theme/Text.h"
 #include "app/report/NumberText.h"
+#include "core/base/TypedNumber.h"
 
 namespace tacto::gui {
 
@@ -23,7 +24,7 @@ double asShown(double value) { return QString::number(value, 'g', kDigits).toDou
 std::optional<double> parseQuantity(const QString& text, const QString& unit) {
     QString plain = text;
     plain.remove(QChar(0x202f)).remove(' ');
-    plain.replace(QChar(0x2212), '-').replace(QChar(0x03bc), QChar(0x00b5)).replace(',', '.');
+    plain.replace(QChar(0x2212), '-').replace(QChar(0x03bc), QChar(0x00b5));
     double factor = 1;
     if (!unit.isEmpty() && plain.endsWith(unit)) plain.chop(unit.size());
     static const QString prefixes = QString::fromUtf8("pnuµmkMG");
@@ -34,10 +35,9 @@ std::optional<double> parseQuantity(const QString& text, const QString& unit) {
             plain.chop(1);
         }
     }
-    bool isNumber = false;
-    const double number = plain.toDouble(&isNumber);
-    if (!isNumber || !std::isfinite(number)) return std::nullopt;
-    return number * factor;
+    const auto number = typedNumber(plain.toStdString());
+    if (!number || !std::isfinite(*number)) return std::nullopt;
+    return *number * factor;
 }
 
 QuantitySpin::QuantitySpin(const QString& unit, double low, double high, QWidget* parent) : QDoubleSpinBox(parent) {
@@ -108,7 +108,7 @@ QString hyphened(QString text) { return text.replace(kMinus, '-'); }
 
 }  // namespace
 
-DivisionSpin::DivisionSpin(QWidget* parent) : QDoubleSpinBox(parent) {
+DivisionSpin::DivisionSpin(QWidget* parent) : TypedSpin(parent) {
     setLocale(QLocale::c());  // numbers are written alike everywhere
     setRange(-1000, 1000);
     setDecimals(2);
@@ -124,7 +124,7 @@ double DivisionSpin::valueFromText(const QString& text) const { return QDoubleSp
 
 QValidator::State DivisionSpin::validate(QString& text, int& at) const {
     auto plain = hyphened(text);
-    const auto state = QDoubleSpinBox::validate(plain, at);
+    const auto state = TypedSpin::validate(plain, at);
     text = plain.replace('-', kMinus);
     return state;
 }

@@ -4,8 +4,9 @@
 // what it has. Steps follow the size of the number.
 #pragma once
 
-#include <QDoubleSpinBox>
 #include <optional>
+
+#include "app/gui/theme/TypedSpin.h"
 
 class QComboBox;
 class QString;
@@ -37,7 +38,7 @@ void addStep(QComboBox& box, double perDivision, const QString& unit);
 void showStep(QComboBox& box, double now, const QString& unit);
 
 /// A position in divisions of the screen, "−1.50 div"; typed with a hyphen or a minus sign.
-class DivisionSpin final : public QDoubleSpinBox {
+class DivisionSpin final : public TypedSpin {
     Q_OBJECT
 public:
     explicit DivisionSpin(QWidget* parent = nullptr);

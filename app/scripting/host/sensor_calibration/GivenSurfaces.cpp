@@ -7,6 +7,7 @@
 #include "core/analysis/sensor_calibration/ProfilometerFile.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/base/LocaleFreeText.h"
+#include "core/base/TypedNumber.h"
 
 namespace tacto::host::sensor_calibration {
 
@@ -43,12 +44,10 @@ std::vector<std::string> partsOf(const std::string& text) {
     return parts;
 }
 
-Result<double> positive(std::string text, const std::string& what) {
-    std::string decimal = text;
-    std::ranges::replace(decimal, ',', '.');
-    const auto value = parseNumber(decimal);
+Result<double> positive(const std::string& text, const std::string& what) {
+    const auto value = typedNumber(text);
     if (value && *value > 0 && std::isfinite(*value)) return *value;
-    return fail(ErrorCode::InvalidArgument, "{} is {}; a number above 0 is expected", what, text);
+    return fail(ErrorCode::InvalidArgument, "{} is {}; a number above 0 is expected{}", what, text, typedTrouble(text));
 }
 
 /// "NAME RA RZ" in µm, or "NAME FILE.csv".
