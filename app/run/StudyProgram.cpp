@@ -48,6 +48,9 @@ Result<void> stateProgram(StudySettings& settings, const Profile& profile) {
         if (script.name.starts_with(kPilotScripts))
             settings.scripts.push_back({std::string(script.name), std::string(script.sha256)});
     }
+    auto fitted = profile;
+    fitProfile(fitted, settings);
+    if (auto possible = validate(fitted.encoding); !possible) return possible;  // a session would be refused
     const auto asked = settings.procedure.value_or(StudyProcedure());
     settings.procedure = procedureOf(profile, settings, {asked.method, asked.comparison});
     return {};

@@ -19,7 +19,8 @@ struct AskedProcedure {
 [[nodiscard]] StudyProcedure procedureOf(const Profile& profile, const StudySettings& study,
                                          const AskedProcedure& asked);
 
-/// Fills in `limits`, `scripts` and `procedure`; what is asked stays as it is. Errors: as shippedLimits().
+/// Fills in `limits`, `scripts` and `procedure`; what is asked stays as it is. Errors: as shippedLimits();
+/// InvalidArgument for a train that the profile cannot give, which every session would refuse.
 [[nodiscard]] Result<void> stateProgram(StudySettings& settings, const Profile& profile);
 
 }  // namespace tacto

@@ -92,8 +92,8 @@ tl::unexpected<Error> refusalOf(const LockedFile::Refused& refused, const std::f
                         holderOf(path));
         case LockedFile::Refusal::NotItsOwn:
             return fail(ErrorCode::Io,
-                        "the record of what this unit has delivered, {}, is not a file of its own (a link, a pipe); "
-                        "remove it. Without a record the unit is not driven",
+                        "the record of what this unit has delivered, {}, is a link or a pipe, not a file of its own; "
+                        "remove it. The unit is not driven without a record",
                         path.string());
         case LockedFile::Refusal::Failed:
             break;

@@ -24,8 +24,8 @@ Result<std::unique_ptr<HidPort>> TrancePort::open(std::shared_ptr<UsbContext> co
 
 Result<std::size_t> TrancePort::write(std::span<const std::uint8_t> report) {
     if (report.size() != 2) {
-        return fail(ErrorCode::InvalidArgument, "Trance Vibrator: a report of {} bytes; 2 were expected, 0 and speed",
-                    report.size());
+        return fail(ErrorCode::InvalidArgument,
+                    "Trance Vibrator: a report of {} bytes; expected 2: a 0, then the speed", report.size());
     }
     if (auto sent = control_->send(report[1], kTimeout); !sent) return failure(sent);
     return report.size();

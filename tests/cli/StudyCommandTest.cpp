@@ -155,6 +155,19 @@ TEST_F(StudyCli, IsMadeEnrolledInConsentedToShownLeftAndWithdrawnFrom) {
     EXPECT_EQ(jsonOf(verified)["ledger"]["head"], shown["ledger_head"]);
 }
 
+TEST_F(StudyCli, IsNotMadeWhereEverySessionWouldRefuseItsTrain) {
+    RecordProperty("hazard", "H11");
+    const std::string pulses = "train.pulses=50", rate = "train.rate_hz=50";
+    const auto tooLong = create("2099-12-31", {"--set", pulses, "--set", rate});
+    EXPECT_EQ(tooLong.code, 2);
+    EXPECT_THAT(tooLong.err, HasSubstr("lasts 1 s, which is not below interval_min_s 0.5 s"));
+    const auto crowded = create("2099-12-31", {"--set", "train.width_us=1000", "--set", "train.rate_hz=1000"});
+    EXPECT_EQ(crowded.code, 2);
+    EXPECT_THAT(crowded.err, HasSubstr("does not fit into its period"));
+    EXPECT_FALSE(std::filesystem::exists(at()));
+    EXPECT_EQ(create("2099-12-31", {"--set", "train.pulses=20", "--set", rate}).code, 0);
+}
+
 TEST_F(StudyCli, AnAmendmentRenewsTheApprovalAndIsListed) {
     RecordProperty("hazard", "H11");
     ASSERT_EQ(create("2026-02-01", {"--set", "license=CC-BY-4.0"}).code, 0);

@@ -48,7 +48,7 @@ DeviceRows::DeviceRows(FieldForm& form, const DeviceWatch& watch)
 }
 
 std::vector<FormField> DeviceRows::fields() const {
-    return {ownField(tr("Delivers"), delivers_), ownField(tr("On its motor"), looks_)};
+    return {ownField(tr("Delivers"), delivers_), ownField(tr("Motor sensor"), looks_)};
 }
 
 void DeviceRows::offer(const StudySettings& study, bool person) {
