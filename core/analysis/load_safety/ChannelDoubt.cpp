@@ -9,7 +9,7 @@ namespace tacto {
 namespace {
 
 void addStated(BudgetRows& rows, std::string what, double value, double divisor, double sensitivity) {
-    if (value == 0) return;  // stated to be nothing
+    if (value == 0) return;  // the channel states that this error is zero
     rows.push_back({std::move(what), Distribution::Rectangular, value, divisor, sensitivity});
 }
 

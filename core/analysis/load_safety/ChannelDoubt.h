@@ -1,5 +1,5 @@
-// ChannelDoubt.h - the rows of an uncertainty budget that a load's figures are made of: what is stated of a channel,
-// its noise, and the spread of the trains. Private to core/analysis.
+// ChannelDoubt.h - the uncertainty budget rows of a load's figures: the stated channel tolerances, the noise, and the
+// spread between trains. Private to core/analysis.
 //
 // Thread-safety: pure functions; a ChannelDoubt does not outlive its capture.
 #pragma once
@@ -19,21 +19,21 @@ constexpr double kSqrt2 = 1.4142135623730951;
 constexpr double kSqrt3 = 1.7320508075688772;
 constexpr double kSqrt12 = 3.4641016151377544;
 
-/// Rows for what is stated about a channel; anything unstated is NaN and makes the figure's U unknown.
+/// Adds budget rows for a channel's stated tolerances. An unstated tolerance is NaN and makes the figure's U unknown.
 class ChannelDoubt {
 public:
-    /// Null for a missing channel: nothing is stated of it.
+    /// `channel` may be null if the capture lacks the channel; all its tolerances are then unknown.
     explicit ChannelDoubt(const CaptureChannel* channel) : channel_(channel) {}
 
-    /// Relative.
+    /// The relative gain tolerance; NaN if it is not stated.
     [[nodiscard]] double gain() const;
-    /// Gain and probe or shunt; `sensitivity`: the figure's change per relative change of the channel.
+    /// Adds gain and probe (or shunt). `sensitivity`: change of the figure per relative change of the channel.
     void addGain(BudgetRows& rows, double sensitivity) const;
     void addProbe(BudgetRows& rows, double sensitivity) const;
-    /// A level above its baseline: two of them, each to a step of the converter; and the linearity between them.
+    /// Adds the converter step of a level and of its baseline, and the linearity between the two.
     void addLevel(BudgetRows& rows, double sensitivity) const;
-    /// The sum of two equal and opposite levels, over `width_s` each, above one baseline, which both share. What bends
-    /// one level bends the other the opposite way (the cubic of CalibrationVerdict.h).
+    /// Adds the converter steps for the sum of two opposite levels, each over `width_s`, above one shared baseline. A
+    /// nonlinearity bends the two levels in opposite ways (the cubic of CalibrationVerdict.h).
     void addOpposites(BudgetRows& rows, double width_s) const;
 
 private:
@@ -43,7 +43,7 @@ private:
 };
 
 void addNormal(BudgetRows& rows, const char* what, double u, double sensitivity = 1);
-/// The spread of the mean of the trains; one train has no spread to tell.
+/// Adds the standard error of the mean of the trains; a single train has no spread, so nothing is added.
 void addSpread(BudgetRows& rows, const LoadTrains& trains, double TrainFigures::*member, double sensitivity = 1);
 
 }  // namespace tacto

@@ -26,14 +26,14 @@ LimitCell cellOf(const SafetyRow& row) {
         cell.value = row.stop_s;
         cell.margin_pct = 100 * (1 - row.stop_s / row.allowed_s);
     }
-    if (row.basis == RowBasis::Commanded) cell.expanded = 0;  // a command is what it was
+    if (row.basis == RowBasis::Commanded) cell.expanded = 0;  // a command is known exactly
     if (std::isfinite(row.limit) && std::isfinite(cell.value) && cell.expanded >= 0)
         cell.margin_pct = 100 * (row.limit - cell.value - cell.expanded) / row.limit;
     return cell;
 }
 
-/// Output must end by itself whether or not trains run when the circuit opens: takes the worse verdict, and the longer
-/// time unless one of them is timed against the next train.
+/// Output must end by itself whether or not trains run when the circuit opens. Returns the worse verdict, and the
+/// longer time unless one of the two cells was timed against the next train.
 LimitCell worseOf(const LimitCell& a, const LimitCell& b) {
     const bool timed = std::isfinite(a.margin_pct) || std::isfinite(b.margin_pct);
     auto worse = std::isfinite(b.margin_pct) ? b : a;
@@ -43,7 +43,7 @@ LimitCell worseOf(const LimitCell& a, const LimitCell& b) {
     return worse;
 }
 
-/// What its limit set says about it; the laboratory's own limits are in none.
+/// Copies what the limit set says about the limit. The laboratory's own limits belong to no set.
 void fillFromSets(LimitLine& line, const std::vector<LimitSet>& sets) {
     const auto set = std::find_if(sets.begin(), sets.end(), [&](const LimitSet& each) { return each.id == line.set; });
     if (set == sets.end()) return;
@@ -64,7 +64,7 @@ void summarise(LimitLine& line) {
         if (!line.cells[i]) continue;
         const auto& cell = *line.cells[i];
         verdicts.push_back(cell.verdict);
-        // Net charge that is reported and not judged has no margin to lose.
+        // Net charge that is only reported, not judged, has no margin.
         if (cell.verdict == RowVerdict::NotApplicable || !std::isfinite(cell.margin_pct)) continue;
         if (!(line.margin_pct <= cell.margin_pct)) line.margin_pct = cell.margin_pct, line.worst = i;
     }
@@ -128,7 +128,7 @@ LimitMatrix limitMatrixOf(const LoadSafety& found, const std::vector<LimitSet>& 
         summarise(line);
     }
     const auto order = [](const LimitLine& line) {
-        // An end of output that was not timed has no margin: it stands first of its rank, others without one last.
+        // A trip without a measured time has no margin and comes first in its rank. Other limits without one come last.
         const double without = line.item == "trip" ? -1e9 : 1e9;
         return std::tuple(rankOf(line.verdict), std::isfinite(line.margin_pct) ? line.margin_pct : without);
     };
@@ -141,7 +141,7 @@ namespace {
 
 using namespace describe;
 
-/// A cell, with the load of its column.
+/// A cell together with the name of the load in its column.
 struct PlacedCell {
     std::string load;
     LimitCell cell;

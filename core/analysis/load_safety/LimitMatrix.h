@@ -1,6 +1,6 @@
-// LimitMatrix.h - limits x loads: every limit once, what was measured against it on each load, and how much of the
-// limit is left; and whether the output ended by itself on an open and on a short circuit. Made from the rows of a
-// load-safety check, so that it can say nothing that they do not.
+// LimitMatrix.h - a table of limits against loads: for each limit the value measured on each load and the margin left,
+// and whether the output ended by itself on an open and on a short circuit. Made only from the rows of a load-safety
+// check.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -11,45 +11,45 @@
 
 namespace tacto {
 
-/// The column of what is extrapolated over the permitted loads.
+/// Name of the column with the values extrapolated over the permitted load range.
 inline constexpr const char* kExtrapolatedColumn = "worst case";
 
 struct LimitCell {
-    /// In a trip, the time to the end of output: from the train that found it where known, else from the change.
+    /// For a trip: the time to the end of output, counted from the detecting train if known, else from the change.
     double value = std::numeric_limits<double>::quiet_NaN();
     double expanded = std::numeric_limits<double>::quiet_NaN();  ///< U, in the value's unit
-    /// (limit - value - U) / limit; below 0: not kept. For a trip what was left of the time to the next train.
+    /// (limit - value - U) / limit; negative: limit not kept. For a trip: share of the allowed time that was left.
     double margin_pct = std::numeric_limits<double>::quiet_NaN();
     RowVerdict verdict = RowVerdict::NotEvaluated;
-    std::string note{};  ///< the row's note: what was measured beside a command
+    std::string note{};  ///< the row's note, for example the measured value next to a command
 };
 
 struct LimitLine {
     std::string item, title, unit, set;
     double limit = std::numeric_limits<double>::quiet_NaN();  ///< NaN: output must end before the next train (H3)
-    bool strict = false;                                      ///< whether it is "<" and not "≤"
+    bool strict = false;                                      ///< true for "<", false for "≤"
     std::string source;                                       ///< document and clause
-    std::string confidence;  ///< in that source, as its limit set states it; empty for this program's own
-    double margin_pct = std::numeric_limits<double>::quiet_NaN();  ///< the smallest of the cells
-    std::size_t worst = 0;                                         ///< the cell that has it, an index into the loads
-    RowVerdict verdict = RowVerdict::NotEvaluated;                 ///< summaryOf() the cells; attention where one is
-    std::vector<std::optional<LimitCell>> cells;                   ///< as LimitMatrix::loads; empty: asks nothing there
+    std::string confidence;  ///< how certain the source is, as in its limit set; empty for own limits
+    double margin_pct = std::numeric_limits<double>::quiet_NaN();  ///< the smallest margin of all cells
+    std::size_t worst = 0;                                         ///< index of the load with that margin
+    RowVerdict verdict = RowVerdict::NotEvaluated;                 ///< summaryOf() of the cells; or attention
+    std::vector<std::optional<LimitCell>> cells;                   ///< in the order of the loads; empty: no limit
 };
 
 struct LimitMatrix {
     std::vector<std::string> loads;  ///< the loads in the order of the rows; kExtrapolatedColumn is last
-    /// Failed limits come first, then indeterminate ones, then by the margin left; those not evaluated stand last.
+    /// Sorted: failed limits first, then indeterminate ones, then by margin left; limits not evaluated come last.
     std::vector<LimitLine> lines;
 };
 
-/// `sets`: those that `found` was judged by; they say what kind of limit it is and how sure its source.
+/// `sets`: the limit sets that `found` was judged by. They supply the comparison sign and how certain the source is.
 [[nodiscard]] LimitMatrix limitMatrixOf(const LoadSafety& found, const std::vector<LimitSet>& sets);
 
 /// {"loads": [...], "lines": [{"item","title","unit","set","limit" (null: NaN),"compare","source","confidence",
 /// "margin_pct","worst_load","verdict",
 /// "cells": [null or {"load","value","expanded_uncertainty","margin_pct","note","verdict"}]}]}
 [[nodiscard]] nlohmann::json toJson(const LimitMatrix& matrix);
-/// What a table shows of its lines.
+/// Returns the columns that a table of these lines shows.
 [[nodiscard]] std::vector<ResultColumn> limitColumns();
 
 }  // namespace tacto

@@ -9,10 +9,10 @@ namespace tacto {
 
 namespace {
 
-/// An onset may jitter against the window's edge; a hundredth of a train is not a further train.
+/// An onset may jitter across the window's edge; a hundredth of a train does not add a whole train.
 constexpr double kWindowEdge = 0.01;
-/// For a straight line that is continued to the end: the noise of its value over that of the mean, and the share of the
-/// way that a bend may be worth.
+/// For a straight line extended to the end of the phase: the noise of its end value relative to the noise of a mean,
+/// and the share of the extended rise that curvature may make uncertain.
 constexpr double kLineNoise = 2.6, kLineDoubt = 0.2;
 
 Reading rootOf(const Reading& squares, double seconds, double scale) {
@@ -23,15 +23,15 @@ Reading rootOf(const Reading& squares, double seconds, double scale) {
     return {rms, half * squares.u, half * squares.expanded};
 }
 
-/// Trains that the worst window of `seconds` holds at `interval_s`, which may be long by `slack_s`; NaN without one.
+/// Trains in the worst window of `seconds`. `interval_s` may be too long by `slack_s`. NaN without an interval.
 double trainsIn(double seconds, double interval_s, double slack_s) {
     if (std::isnan(interval_s)) return kNaN;
     const double trains = seconds / interval_s;
     return std::max(1.0, std::ceil(trains - std::max(kWindowEdge, trains * slack_s / interval_s)));
 }
 
-/// A whole number of trains, the most that `seconds` can hold at this interval. Where the interval's U leaves open
-/// whether there is one more, that one is in the window's own; without that U nothing is known.
+/// Returns the sum over the most trains that `seconds` can hold at this interval. If the interval's U leaves one more
+/// train possible, that train goes into U of the result; if the interval has no U, the result has none.
 Reading windowOf(double seconds, const Reading& perTrain, const Reading& interval_s) {
     const double T = interval_s.value, slack_s = interval_s.measured() ? interval_s.expanded : 0;
     const double trains = trainsIn(seconds, T, slack_s);
@@ -42,7 +42,7 @@ Reading windowOf(double seconds, const Reading& perTrain, const Reading& interva
     return out;
 }
 
-/// The shortest from onset to onset in one record. NaN where it does not hold two trains.
+/// Shortest time between two train onsets in one record. NaN if the record does not hold two trains.
 double shortestIn(const Capture& rhythm, const ExpectedTrain& expected) {
     MeasureOptions options;
     if (expected.pulses > 1) options.intraTrainRate = Hertz(expected.rate_hz);
@@ -64,14 +64,14 @@ void LoadFigures::addTimeBase(BudgetRows& rows, double sensitivity) const {
     rows.push_back({"time base", Distribution::Rectangular, timeBase_, kSqrt3, sensitivity});
 }
 
-/// The relative uncertainty of a width: what it adds to charges, energies and squares. They all share the time base.
+/// Adds the relative uncertainty of a width, which charges, energies and squares share, together with the time base.
 void LoadFigures::addWidth(BudgetRows& rows, double sensitivity) const {
     addTimeBase(rows, sensitivity);
     addNormal(rows, "sampling of the edges", dt_ / std::sqrt(6.0) / meanOver(trains_, &TrainFigures::width_s),
               sensitivity);
 }
 
-/// The uncertainty of the voltage at the end of a phase: noise, and the way there; `samples` were averaged.
+/// Adds the uncertainty of the voltage at the end of a phase: noise, and the extrapolation. `samples` were averaged.
 void LoadFigures::addEnd(BudgetRows& rows, const LoadTrains& trains, double samples, double sensitivity) const {
     const double line = meanOver(trains, &TrainFigures::line_v);
     addNormal(rows, "noise of voltage", (line > 0 ? kLineNoise : 1) * trains.front().noise_v / std::sqrt(samples),
@@ -103,7 +103,7 @@ Reading LoadFigures::impedanceOf(const LoadTrains& trains, const ChannelDoubt& v
     return figure(ohms, std::move(rows));
 }
 
-/// The mean of the trains, each uncertain by `rows`: their spread includes that of the programmed values.
+/// Adds a mean over trains that are each uncertain by `rows`. The spread includes that of the programmed values.
 void LoadFigures::addAmplitude(LoadReading& out, Reading& amplitude, double TrainFigures::*member,
                                const BudgetRows& rows, bool driven) const {
     const double mean = meanOver(trains_, member);
@@ -125,7 +125,7 @@ void LoadFigures::addVoltage(LoadReading& out) const {
     v_.addLevel(rows, 1);
     addEnd(rows, trains_, trains_.front().endSamples, 1);
     addAmplitude(out, out.amplitude_v, &TrainFigures::plateau_v, rows, expected_.drive == Drive::Voltage);
-    // The train with the most counts: the difference between trains is not part of its uncertainty.
+    // The train with the highest value: the spread between trains is not part of its uncertainty.
     const double highest = largestOf(trains_, &TrainFigures::plateau_v);
     for (auto& row : rows) row.sensitivity *= highest / v;
     out.highest_v = figure(highest, std::move(rows));
@@ -133,7 +133,7 @@ void LoadFigures::addVoltage(LoadReading& out) const {
     const double w = meanOver(trains_, &TrainFigures::width_s);
     BudgetRows width;
     addWidth(width, w);
-    // The position of the samples moves a width, too, and is in it already: only larger differences of trains count.
+    // Sampling also moves a width and is already in the budget, so only larger differences between trains are added.
     constexpr double kBeyond = 2;
     const double sampling = dt_ / std::sqrt(6.0);
     if (statisticsOver(trains_, &TrainFigures::width_s).sd > kBeyond * sampling) {
@@ -150,7 +150,7 @@ void LoadFigures::addVoltage(LoadReading& out) const {
     out.peak_v = figure(peak, std::move(top));
 }
 
-/// The uncertainty of where the first and the last pulse of a train begin, relative to what lies between them.
+/// Adds the uncertainty of the onsets of a train's first and last pulse, relative to the time between them.
 void LoadFigures::addOnsets(BudgetRows& rows, double rate_hz, double sensitivity) const {
     addNormal(rows, "sampling of the onsets", dt_ / std::sqrt(6.0) * rate_hz / (expected_.pulses - 1), sensitivity);
 }
@@ -221,8 +221,8 @@ void LoadFigures::addCurrent(LoadReading& out) const {
     addWidth(charge, phase);
     out.charge_uc = times(1e6, figure(phase, std::move(charge)));
 
-    // Gain is common to both phases and leaves their balance alone; what the converter's steps hide in two plateaus
-    // and in the baseline under them does not, nor do four edges, each somewhere within a sample.
+    // A gain error scales both phases alike and does not change their balance. The converter's steps in the two
+    // plateaus and the baseline do change it, and so do four edges, each known only to within a sample.
     const double net = largestOf(trains_, &TrainFigures::net_C);
     BudgetRows balance;
     i_.addOpposites(balance, w);
@@ -232,7 +232,7 @@ void LoadFigures::addCurrent(LoadReading& out) const {
     i_.addGain(balance, net);
     out.net_charge_uc = times(1e6, figure(net, std::move(balance)));
 
-    // The gains of one instrument add up in a product: they may be off together.
+    // The gain errors of one instrument add up in a product, because they may have the same sign.
     const double energy = largestOf(trains_, &TrainFigures::energy_J);
     BudgetRows work;
     work.push_back({"gains of voltage and current", Distribution::Rectangular, v_.gain() + i_.gain(), kSqrt3, energy});
@@ -249,7 +249,7 @@ void LoadFigures::addCurrent(LoadReading& out) const {
     i_.addLevel(heat, 2 * largestOf(trains_, &TrainFigures::magnitude_a));
     addWidth(heat, squares);
     const Reading train = figure(squares, heat);
-    // The window of a train is as long as the device made it. Its time base is in the squares already.
+    // The measured rate of the device sets the window of a train. The time base is already in the squares.
     const double rate_hz = pulses > 1 ? out.rate_hz.value : expected_.rate_hz;
     if (pulses > 1) addOnsets(heat, rate_hz, squares);
     out.rms_train_ma = rootOf(figure(squares, std::move(heat)), pulses / rate_hz, 1e3);
@@ -261,11 +261,11 @@ void LoadFigures::addCurrent(LoadReading& out) const {
 
 namespace {
 
-/// A wide and a fine record of the same command, each known by the onset of its first pulse.
+/// A wide-range and a fine-range record of the same command, aligned by the onset of their first pulses.
 struct TwoRanges {
     LoadTrace wide, fine, voltage;  ///< voltage: of the fine record
     double wideOnset_s = 0, fineOnset_s = 0;
-    ChannelMeasurement pulses;  ///< the fine record's pulses
+    ChannelMeasurement pulses;  ///< pulses measured in the fine record
 };
 
 std::optional<TwoRanges> twoRanges(const Capture& wide, const Capture& fine, const ExpectedTrain& expected,
@@ -280,13 +280,13 @@ std::optional<TwoRanges> twoRanges(const Capture& wide, const Capture& fine, con
     return TwoRanges{*a, *b, *v, wide_s, fine_s, std::move(*pulses)};
 }
 
-/// ∫i of the fine record, and of the wide one while the fine one clips; with how long that was, and how often.
+/// Integral of the fine current, with the wide record where the fine one clips; also the length and number of joins.
 struct Joined {
     double integral = 0, wide_s = 0;
     std::size_t seams = 0;
 };
 Joined joined(const TwoRanges& two) {
-    constexpr std::size_t kAside = 3;  // samples beside a clipped one: its amplifier is still coming back
+    constexpr std::size_t kAside = 3;  // samples next to a clipped one: the amplifier is still recovering
     Joined out;
     const auto& fine = two.fine;
     for (std::size_t i = fine.quiet; i < fine.size();) {
@@ -321,14 +321,14 @@ void addFineRange(LoadReading& out, const LoadFigures& figures, std::span<const 
         readEnds(two->voltage, &two->fine, two->pulses, expected.drive, train);
         train.noise_v = two->voltage.noise;
         train.noise_a = two->fine.noise;
-        if (!(train.end_a < 0.98 * two->fine.channel->high)) return;  // the range does not fit the end either
+        if (!(train.end_a < 0.98 * two->fine.channel->high)) return;  // the end of the phase clips in this range, too
         ends.push_back(train);
         const auto charge = joined(*two);
         const double here = std::abs(charge.integral) / expected.pulses;
         if (!rows.empty() && !(here > net)) continue;
         net = here;
         rows.clear();
-        // A moving level takes every step of the converter evenly; the step of the baseline under it stays.
+        // Steps average out while the level moves, but the step error of the baseline below it remains.
         rows.push_back({"resolution of current", Distribution::Rectangular,
                         two->wide.channel->lsb > 0 ? two->wide.channel->lsb : kNaN, kSqrt12,
                         charge.wide_s / expected.pulses});

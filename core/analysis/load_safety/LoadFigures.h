@@ -9,15 +9,15 @@
 
 namespace tacto {
 
-/// A current below that many steps of its converter says nothing.
+/// Currents below this many converter steps are too coarse to evaluate.
 constexpr double kMinLsb = 10;
 
-/// The reading in another unit, or a part of it.
+/// Multiplies a reading by a factor, to change its unit or to take a part of it.
 [[nodiscard]] Reading times(double factor, const Reading& reading);
 
 class LoadFigures {
 public:
-    /// Takes at least one train; `capture` is the first one's. All arguments outlive this.
+    /// `trains` holds at least one train; `capture` is that of the first train. All arguments outlive this object.
     LoadFigures(const LoadTrains& trains, const ExpectedTrain& expected, const Capture& capture)
         : trains_(trains),
           expected_(expected),
@@ -29,15 +29,15 @@ public:
           stamp_s_(capture.stampTolerance_s),
           gainShared_(capture.gainShared) {}
 
-    /// Amplitude, width and peak.
+    /// Adds amplitude, width and peak voltage.
     void addVoltage(LoadReading& out) const;
     /// Adds the rate, in trains of more than one pulse.
     void addRate(LoadReading& out) const;
-    /// `rhythm`: readLoad()'s, where the interval is taken from it.
+    /// `rhythm` is the argument of readLoad(); if it is given, the interval comes from that record.
     void addInterval(LoadReading& out, const Capture* rhythm) const;
-    /// After addInterval().
+    /// Adds the voltage figures over longer windows. Call it after addInterval().
     void addVoltageWindows(LoadReading& out) const;
-    /// Adds all that rests on the current; called after the others.
+    /// Adds all figures that need the current. Call it after the other functions.
     void addCurrent(LoadReading& out) const;
     [[nodiscard]] Reading impedanceOf(const LoadTrains& trains, const ChannelDoubt& v, const ChannelDoubt& i,
                                       double currentLsb) const;
@@ -58,12 +58,12 @@ private:
     const bool gainShared_;
 };
 
-// Adds a second, finer current range for the same command: a skin equivalent's charging spike clips in it, the end of a
-// phase does not. Private to core/analysis.
+// Adds a second, finer current range for the same command. In it a skin equivalent's charging spike clips, but the end
+// of a phase does not. Private to core/analysis.
 
-/// |Z|, net charge and imbalance of `out`, read again: in `fine`, and in `captures` only while `fine` clips; not
-/// measured where a record of the two cannot be read. `figures` are those of `captures`, whose charge and width `out`
-/// has.
+/// Reads |Z|, net charge and imbalance of `out` again from `fine`, and from `captures` only while `fine` clips. They
+/// are not measured if either record cannot be read. `figures` belong to `captures`, which also gave the charge and
+/// width in `out`.
 void addFineRange(LoadReading& out, const LoadFigures& figures, std::span<const Capture> captures,
                   std::span<const Capture> fine, const ExpectedTrain& expected);
 

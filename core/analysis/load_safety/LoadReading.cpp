@@ -48,7 +48,7 @@ Result<LoadReading> readLoad(std::span<const Capture> captures, const ExpectedTr
         if (auto train = readTrain(captures[k], expected, programmed, out.warnings)) trains.push_back(*train);
     }
     out.trains = trains.size();
-    // The train that cannot be read may have been the one above a limit.
+    // A train that cannot be read may have been the one that exceeds a limit.
     if (trains.size() != captures.size()) return out;
 
     out.notStated = notStatedText(captures.front());

@@ -56,7 +56,7 @@ void addMissingLoads(const LoadSafetyInput& input, LoadSafety& out) {
     }
 }
 
-/// Rows that wait for nothing but the electrode's area; said once instead of row by row.
+/// True if a row lacks only the electrode's area. Such rows share one sentence.
 bool waitsForArea(const SafetyRow& row, const LoadSafetyInput& input) {
     const auto quantity = quantityOf(row.item);
     return !input.area_cm2 && quantity && needsArea(*quantity) && row.verdict == RowVerdict::NotEvaluated;
@@ -66,7 +66,7 @@ bool isReference(const SafetyRow& row) {
     return row.item == "reference" || row.item == "absolute_reference" || row.item == "time_reference";
 }
 
-/// A sentence on passed rows is true of each: a command has no uncertainty, and a trip is judged by its time.
+/// Describes the passed rows truthfully: a command has no uncertainty, and a trip is judged by its time.
 std::string whatPassed(const std::vector<SafetyRow>& rows) {
     std::size_t withU = 0, trips = 0, commanded = 0, others = 0;
     for (const auto& row : rows) {
@@ -119,7 +119,7 @@ void decide(const LoadSafetyInput& input, LoadSafety& out) {
             : refused == 2 ? "; both commands that must be refused were refused"
                            : fmt::format("; all {} commands that must be refused were refused", refused)));
     }
-    // Unless a known load reads as it should, nothing else was asked.
+    // If the known load does not read as it should, no further measurement was made.
     for (const auto& row : out.rows) {
         if (isReference(row) && row.verdict != RowVerdict::Pass) out.reasons.push_back(row.reason);
     }
@@ -166,7 +166,7 @@ LoadSafety judgeLoadSafety(const LoadSafetyInput& input) {
     LoadSafety out;
     for (const auto& record : input.loads) {
         if (isTrip(record)) {
-            // Judged by its trips alone: their rows are among the trips.
+            // Only the rows of its trips judge this record.
             LoadLine line;
             line.name = record.name;
             std::vector<RowVerdict> verdicts;

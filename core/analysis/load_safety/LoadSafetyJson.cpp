@@ -17,7 +17,7 @@ namespace {
 constexpr AcceptedText kAnyWords{.mayBeEmpty = true};
 constexpr std::size_t kMaxEntries = 1'000'000;
 
-/// A table of what a protocol script carries between its steps.
+/// Adapts a table to JSON that a protocol script passes between its steps.
 template <class Record>
 RecordFields<Record> scripted(RecordFields<Record> fields) {
     fields.takeNullAsMissing();
@@ -68,7 +68,7 @@ RecordFields<LoadReading> buildReadingFields() {
 
 const RecordFields<LoadReading>& readingFields() { return builtOnce<buildReadingFields>(); }
 
-/// The beginning that every kind of step shares.
+/// The first fields, which all kinds of steps share.
 template <class Step>
 RecordFields<Step> stepFields() {
     RecordFields<Step> all;
@@ -136,13 +136,13 @@ RecordFields<AbsoluteError> buildAbsoluteFields() {
 
 using namespace describe;
 
-/// What is shown of the strongest step on a load.
+/// A figure of the strongest step on a load that is shown in tables.
 struct ShownReading {
     const char* title;
     const char* key;
     const char* unit;
     Reading LoadReading::*reading;
-    bool keepsStandard = false;  ///< u beside U
+    bool keepsStandard = false;  ///< also shows u, not only U
 };
 constexpr ShownReading kShownReadings[] = {
     {"Peak voltage", "peak_v", "V", &LoadReading::peak_v, true},
@@ -225,7 +225,7 @@ ResultRecord<LoadWorstCase> describeWorstCase() {
     return all;
 }
 
-/// The steps of the protocol add the matrix of limits and what the output is.
+/// The description also covers the limit matrix and output description, which the steps of the protocol add.
 ResultRecord<LoadSafety> describeLoadSafety() {
     using S = LoadSafety;
     const auto load = describeLoad();
@@ -299,7 +299,7 @@ Result<LoadRecord> loadRecordFrom(const json& from) {
     const auto load = parseLoad(out->name);
     if (!load) return failure(load);
     out->load = *load;
-    if (!(out->dmm_ohm.u > 0)) out->dmm_ohm.u = kNaN;  // no meter is exact: its uncertainty is not known
+    if (!(out->dmm_ohm.u > 0)) out->dmm_ohm.u = kNaN;  // no meter is exact, so zero means an unknown uncertainty
     out->dmm_ohm.expanded = 2 * out->dmm_ohm.u;
     return out;
 }

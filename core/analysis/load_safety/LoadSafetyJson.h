@@ -1,5 +1,5 @@
-// LoadSafetyJson.h - the load-safety check in the shapes of the command line's contract, and the records that a
-// protocol script carries between its steps. Absent values are null.
+// LoadSafetyJson.h - writes the load-safety check as JSON in the format of the command-line contract, and reads the
+// records that a protocol script passes between its steps. Absent values are null.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -9,15 +9,15 @@
 
 namespace tacto {
 
-/// {"amplitude_v", "amplitude_v_u", ...}: each figure by its member's name, its standard uncertainty with _u, its U
-/// with _expanded.
+/// {"amplitude_v", "amplitude_v_u", ...}: each figure under its member's name, its standard uncertainty with the suffix
+/// _u, and its U with the suffix _expanded.
 [[nodiscard]] nlohmann::json toJson(const LoadReading& reading);
 [[nodiscard]] nlohmann::json toJson(const SafetyRow& row);
-/// cli.md: loads, worst_case; and rows, disclosed, verdict, reasons.
+/// Returns loads and worst_case (cli.md), and rows, disclosed, verdict and reasons.
 [[nodiscard]] nlohmann::json toJson(const LoadSafety& found);
 
-/// {"command_v", "interval_s", "reading"}. Errors: InvalidArgument naming the member and what is expected there. Null
-/// is not measured.
+/// Reads {"command_v", "interval_s", "reading"}. Null means not measured. Errors: InvalidArgument, with the name of the
+/// member and what is expected there.
 [[nodiscard]] Result<LoadStep> loadStepFrom(const nlohmann::json& json);
 /// {"name", "dmm_ohm", "dmm_u_ohm", "serial", "steps": [{"command_v",
 /// "interval_s", "reading"}],
@@ -25,12 +25,12 @@ namespace tacto {
 ///  "undriven": [{"command_v", "interval_s", "reason"}], "not_applicable", "problem"}; all but the name may be left
 ///  out. Errors: as loadStepFrom(); as parseLoad().
 [[nodiscard]] Result<LoadRecord> loadRecordFrom(const nlohmann::json& json);
-/// {"reference_v", "deviation_pct", "expanded_uncertainty_pct", "allowed_pct"}, judged again.
+/// Reads {"reference_v", "deviation_pct", "expanded_uncertainty_pct", "allowed_pct"} and judges them again.
 [[nodiscard]] Result<SafetyRow> absoluteRowFrom(const nlohmann::json& json);
 /// {"name", "evaluated", "tripped", "after_s", "stop_s", "allowed_s", "reason"}
 [[nodiscard]] Result<TripTrial> tripTrialFrom(const nlohmann::json& json);
 
-/// How a check is judged and shown.
+/// Describes how this kind of result is judged and shown.
 [[nodiscard]] ResultTraits loadSafetyKind();
 
 }  // namespace tacto

@@ -53,7 +53,7 @@ std::string missingOf(const LoadRecord& record) {
     return record.steps.empty() ? "nothing was delivered" : "it was not measured";
 }
 
-/// Divides by the electrode's area, whose own uncertainty counts.
+/// Divides by the electrode's area and includes the area's own uncertainty.
 Reading perArea(const Reading& reading, const LoadSafetyInput& input) {
     if (!input.area_cm2) return {};
     const auto out = scaledBy(1 / *input.area_cm2, reading);
@@ -61,8 +61,8 @@ Reading perArea(const Reading& reading, const LoadSafetyInput& input) {
     return {out.value, std::hypot(out.u, area / 2), std::hypot(out.expanded, area)};
 }
 
-/// The step with the highest sum of value and uncertainty; a step that was not measured, or with an unknown
-/// uncertainty, wins, so that it is not hidden.
+/// Returns the value of the step with the highest value + U. A step that was not measured or has no U takes precedence,
+/// so that it is not hidden.
 template <class Of>
 Reading highest(const LoadRecord& record, Of of) {
     Reading most;
@@ -80,13 +80,13 @@ Reading highest(const LoadRecord& record, Of of) {
     return most;
 }
 
-/// The error that comes highest, or that is not known.
+/// Returns the error with the higher value + U; an unknown error takes precedence.
 Reading higherOf(const Reading& a, const Reading& b) {
     if (!a.measured()) return a;
     return !b.measured() || b.value + b.expanded > a.value + a.expanded ? b : a;
 }
 
-/// How far the delivered amplitude lies above the command, % of it; negative below.
+/// How far the delivered amplitude lies above the command, in % of the command; negative if below.
 Reading amplitudeError(const LoadStep& step) {
     const Reading& got = step.reading.delivered;
     return {100 * (got.value - 1), 100 * got.u, 100 * got.expanded};
@@ -105,14 +105,14 @@ Reading widthError(const LoadStep& step, const PulseTrain& train) {
     return {scale * (got.value - wanted), scale * got.u, scale * got.expanded};
 }
 
-/// Pulses of a train that come closer together heat more within it.
+/// Pulses that follow each other faster within a train produce more heat.
 Reading trainRateError(const LoadStep& step, const PulseTrain& train) {
     const auto& got = step.reading.rate_hz;
     const double scale = 100 / train.rate.value();
     return {scale * (got.value - train.rate.value()), scale * got.u, scale * got.expanded};
 }
 
-/// Trains that follow too soon are too many: the shorter interval counts as the larger error.
+/// Trains that follow too soon are too many, so a shorter interval gives a larger error.
 Reading rateError(const LoadStep& step) {
     const auto& got = step.reading.interval_s;
     const double scale = 100 / step.interval_s;
@@ -135,7 +135,7 @@ void addLoadValue(std::vector<SafetyRow>& rows, const LoadRecord& record, const 
     if (!record.steps.empty()) {
         const Reading& got = record.steps.front().reading.impedance_ohm;
         const double truth = metered ? record.dmm_ohm.value : expectedOhms(record, input);
-        // A tolerance as marked on it: a rectangle, whose 95 % are 0.95 of it and whose s is its half-width/√3.
+        // The marked tolerance is a rectangle: U (95 %) is 0.95 of its half-width, and s is its half-width/√3.
         const double marked = input.tolerances.resistor_pct / 100 * truth;
         const Reading known = metered ? record.dmm_ohm : Reading{truth, marked / std::sqrt(3.0), 0.95 * marked};
         const double scale = 100 / truth;
@@ -164,8 +164,8 @@ void addAccuracy(std::vector<SafetyRow>& rows, const LoadRecord& record, const L
              rowOf(record, "amplitude_over", "amplitude above the command", highest(record, amplitudeError), "%"),
              input.tolerances.amplitude_pct, false, "laboratory", own);
     if (input.source.drive == Drive::Current) {
-        // It was programmed to A / |Z|: if |Z| was read too low, more than A is delivered, which the current alone does
-        // not show.
+        // The device was programmed to A / |Z|. If |Z| was measured too low, the device delivers more than A, which the
+        // current alone does not show.
         addUpper(rows, record,
                  rowOf(record, "voltage_over", "voltage above the command", highest(record, voltageError), "%"),
                  input.tolerances.load_pct, false, "laboratory", own);
@@ -182,7 +182,7 @@ void addAccuracy(std::vector<SafetyRow>& rows, const LoadRecord& record, const L
              input.tolerances.timing_pct, false, "laboratory", own);
     for (const auto& set : input.limits) {
         for (const auto& asked : set.accuracy) {
-            if (!(asked.tolerance_pct > 0)) continue;  // to be stated, which the table of outputs does
+            if (!(asked.tolerance_pct > 0)) continue;  // only to be stated, in the table of outputs
             Reading error;
             if (asked.parameter == "amplitude") error = highest(record, within(amplitudeError));
             if (asked.parameter == "width") error = highest(record, within(width));
@@ -230,7 +230,7 @@ bool isOhm500(const LoadRecord& record) {
     return record.load.kind == LoadKind::Resistor && std::abs(record.load.series.value() - 500) < 1e-6;
 }
 
-/// A limit on the command itself: judged by what was commanded; what was measured stands beside it.
+/// Judges a limit on the command itself by the commanded value; the note shows the measured one.
 SafetyRow commandRow(const LoadRecord& record, const LimitSet& set, const LimitRow& limit) {
     double most = kNaN;
     for (const auto& step : record.steps) most = std::fmax(most, step.command_v);
@@ -252,7 +252,7 @@ SafetyRow commandRow(const LoadRecord& record, const LimitSet& set, const LimitR
     return row;
 }
 
-/// Whether it is taken over 1 s or 5 s, for which no record is long enough.
+/// True if the quantity covers 1 s or 5 s, which is longer than any record.
 bool isOverAWindow(Quantity quantity) {
     switch (quantity) {
         case Quantity::RmsCurrent1s:
@@ -407,7 +407,7 @@ std::vector<SafetyRow> rowsOf(const LoadRecord& record, const LoadSafetyInput& i
     }
     addRefusals(rows, record);
     addUndriven(rows, record);
-    // A load on which the limits forbid everything has nothing to measure.
+    // If the limits forbid every command on a load, nothing can be measured on it.
     const bool allRefused = record.steps.empty() && !record.refusals.empty() && record.problem.empty();
     if (allRefused) return rows;
     addLoadValue(rows, record, input);

@@ -19,17 +19,17 @@ const LoadRecord* recordAt(const LoadSafetyInput& input, double ohm) {
     return nullptr;
 }
 
-/// The device's error on a command, relative: from the measured step that delivers most.
+/// The device's largest relative deviations from the command over all measured steps.
 struct Made {
     Reading amplitude{1, 0, 0}, width{1, 0, 0}, rate{1, 0, 0}, interval{1, 0, 0};
     bool measured = false;
 };
-/// A value that was measured nowhere is unknown, and not as commanded.
+/// A quantity that no step measured is unknown, not equal to the command.
 Made madeOf(const LoadSafetyInput& input) {
     Made out;
     bool widthSeen = false, intervalSeen = false;
     bool rateSeen = input.train.pulses == 1;  // a single pulse has no rate to see
-    // A step that was measured without a known U leaves nothing known.
+    // A single measured step without U makes the whole result unknown.
     const auto take = [](Reading& into, double value, const Reading& got, double scale, bool more) {
         if (std::isnan(got.value)) return;
         const double expanded = scale * got.expanded;
@@ -58,12 +58,12 @@ Made madeOf(const LoadSafetyInput& input) {
     return out;
 }
 
-/// The factors of a command, one after the other by its U.
+/// Multipliers of the command and the area; each is raised by its U in turn.
 struct Factors {
     double amplitude = 1, width = 1, rate = 1, interval = 1, area = 1;
 };
 
-/// Into `load` at `command_v`; a current source is programmed to A / |Z|.
+/// Computes the exposure in `load` at `command_v`; a current source is programmed to A / |Z|.
 TrainExposure exposureAt(const LoadSafetyInput& input, const Load& load, double command_v, const Factors& factors) {
     double amplitude = factors.amplitude * command_v;
     if (input.source.drive == Drive::Current) {
@@ -78,13 +78,13 @@ TrainExposure exposureAt(const LoadSafetyInput& input, const Load& load, double 
     return exposureOf(train, Seconds(input.interval_s * factors.interval), load, input.source, area);
 }
 
-/// The loads that a row is extrapolated to, and the command on each.
+/// A load for the extrapolation, with the command given on it.
 struct Place {
     Load load;
     double command_v = 0;
 };
 
-/// The worst of the places in one quantity, and the U that the factors' own make of it: each by itself, in quadrature.
+/// Highest value of one quantity over all places. Each factor's U is applied alone; the changes add in quadrature.
 Reading extrapolate(const LoadSafetyInput& input, const std::vector<Place>& places, const Made& made,
                     Quantity quantity) {
     const auto worstAt = [&](const Factors& factors) {
@@ -96,7 +96,7 @@ Reading extrapolate(const LoadSafetyInput& input, const std::vector<Place>& plac
         }
         return most;
     };
-    // A train that jitters over a window's edge is not a further train (as in LoadReading).
+    // A train that jitters across a window's edge does not add a whole train (as in LoadReading).
     const auto beyondTheEdge = [&](double shorter) {
         constexpr double kLongestWindow_s = 5, kEdge = 0.01;
         return shorter * kLongestWindow_s / input.interval_s > kEdge ? shorter : 0;
@@ -252,7 +252,7 @@ LoadWorstCase worstCaseOf(const LoadSafetyInput& input) {
     std::vector<Place> overRange{{Load::resistor(Ohms(out.low_ohm)), input.command_v},
                                  {Load::resistor(Ohms(out.high_ohm)), input.command_v}};
     const std::vector<Place> at500{{Load::resistor(Ohms(500)), input.command_v}};
-    // On the skin equivalent the strongest command that the limits allow is taken; a stronger one is refused.
+    // On the skin equivalent: the strongest command that the limits allow; stronger commands are refused.
     for (const auto& record : input.loads) {
         if (record.load.kind != LoadKind::SkinEquivalent || record.steps.empty()) continue;
         double most = 0;
@@ -263,9 +263,9 @@ LoadWorstCase worstCaseOf(const LoadSafetyInput& input) {
     std::vector<RowVerdict> verdicts;
     for (const auto& set : input.limits) {
         for (const auto& limit : set.rows) {
-            // A command stays what it was, whatever the device makes of it.
+            // A limit on the command does not depend on what the device delivers.
             if (limit.quantity == Quantity::CommandVoltage || !limit.holdsAt(1 / input.interval_s)) continue;
-            // The open circuit is the worst case of the voltage, and it is measured: openCircuitRows().
+            // The voltage is highest on the open circuit, where it is measured: openCircuitRows().
             if (limit.quantity == Quantity::PeakVoltage) continue;
             const auto& places = limit.judged == JudgedAt::Ohm500 ? at500 : overRange;
             out.rows.push_back(

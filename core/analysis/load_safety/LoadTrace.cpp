@@ -35,7 +35,7 @@ std::optional<LoadTrace> traceOf(const Capture& capture, std::string_view name, 
         if (!std::isfinite(sample)) return std::nullopt;
         if (limits && limits->reachedBy(static_cast<double>(sample))) trace.clipped = true;
     }
-    // The last tenth before the onset is left out: an edge begins before its half height.
+    // Leave out the last tenth before the onset, because an edge begins before it reaches half its height.
     const double before = 0.9 * (onset_s - capture.start_s) * capture.rate_hz;
     if (!(before >= 8)) return std::nullopt;
     trace.quiet = std::min(static_cast<std::size_t>(before), channel->samples.size());
@@ -56,7 +56,7 @@ TraceSums sumsOf(const LoadTrace& trace) {
         const double x = trace.at(i);
         if (std::abs(x) > sums.peak) {
             sums.peak = std::abs(x);
-            // An edge into the peak is as steep as the source; what may stand higher shows in the way down.
+            // The edge up to the peak is as steep as the source; the smaller step bounds how high a hidden peak is.
             const double next = i + 1 < trace.size() ? trace.at(i + 1) : x;
             sums.step = std::min(std::abs(x - last), std::abs(next - x));
         }
@@ -66,7 +66,7 @@ TraceSums sumsOf(const LoadTrace& trace) {
         last = x;
     }
     const double seconds = static_cast<double>(trace.size() - trace.quiet) * trace.dt;
-    sums.squares = std::max(0.0, sums.squares - trace.noise * trace.noise * seconds);  // noise squared is not a signal
+    sums.squares = std::max(0.0, sums.squares - trace.noise * trace.noise * seconds);  // subtract the noise's share
     sums.magnitude = std::max(0.0, sums.magnitude - 0.8 * trace.noise * seconds);  // mean |noise| is 0.8 of its s.d.
     return sums;
 }

@@ -1,7 +1,7 @@
-// OutputDescription.h - the output in words, as the FDA guidance for powered muscle stimulators asks it to be
-// disclosed beside the figures of DisclosedOutput: waveform, shape, widths, frequency, symmetry of the phases, how the
-// net charge comes to zero, burst duty, on and off time. What was measured into 500 Ω (else the first load measured)
-// stands beside what was commanded.
+// OutputDescription.h - describes the output in words, as the FDA guidance for powered muscle stimulators requires in
+// addition to the figures of DisclosedOutput: waveform, shape, widths, frequency, symmetry of the phases, how the net
+// charge becomes zero, burst duty, on and off time. Each line gives the commanded value and the value measured into 500
+// Ω (else into the first load measured).
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -16,12 +16,12 @@ namespace tacto {
 struct DescribedOutput {
     std::string output;     ///< "phase width"
     std::string commanded;  ///< "200 µs"
-    std::string measured;  ///< "200.1 ± 0.4 µs"; empty where only a command says it, "not evaluated" where unmeasured
+    std::string measured;   ///< "200.1 ± 0.4 µs"; empty if only a command tells it; "not evaluated" if unmeasured
 };
 
 [[nodiscard]] std::vector<DescribedOutput> describeOutput(const LoadSafetyInput& input);
 
-/// {"output","commanded","measured"}; measured null where there is nothing to measure.
+/// {"output","commanded","measured"}; "measured" is null if there is nothing to measure.
 [[nodiscard]] nlohmann::json toJson(const DescribedOutput& output);
 [[nodiscard]] std::vector<ResultColumn> outputColumns();
 
