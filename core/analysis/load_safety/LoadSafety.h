@@ -108,8 +108,8 @@ inline constexpr std::array<std::string_view, 6> kRequiredTrips = {
     "open", "short", "open while delivering", "short while delivering", "intermittent contact", "dead-man"};
 
 struct LoadSafetyTolerances {
-    double load_pct = 5;       ///< measured against the DMM's value, else the nominal one; a current source's voltage
-    double resistor_pct = 1;   ///< how far a resistor may lie from its nominal value, where no DMM read it; half-width
+    double load_pct = 5;       ///< load value against the DMM, else the nominal one; also a current source's voltage
+    double resistor_pct = 1;   ///< half-width of the tolerance around the nominal value, used without a DMM value
     double amplitude_pct = 2;  ///< delivered amplitude above the command; laboratory's figure (science.md section 9)
     double timing_pct = 1;     ///< phase wider, or interval shorter, than commanded
     double clock_pct = 0.5;    ///< the reference's train interval against the computer's clock (choice)

@@ -172,7 +172,7 @@ LoadReading strongestOf(const LoadRecord& record) {
               &LoadReading::dc_ma, &LoadReading::power_1s_w}) {
             take(most.*member, reading.*member);
         }
-        most.trains = first ? reading.trains : std::min(most.trains, reading.trains);  // so that all count the same
+        most.trains = first ? reading.trains : std::min(most.trains, reading.trains);  // smallest number of all steps
         first = false;
     }
     if (!record.steps.empty()) most.interval_s = record.steps.back().reading.interval_s;

@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::chrono::milliseconds kPollInterval{50};
 
-/// A thread inherits the vector registers of the thread that starts it. If that thread has left their upper halves in
-/// use, as the scripts' engine does, scalar mathematics waits for them at every step: measured 7 to 10 times slower.
+/// A new thread inherits the vector registers of its starting thread. If their upper halves are still in use, which the
+/// scripts' engine causes, scalar mathematics waits for them at every step: 7 to 10 times slower when measured.
 void clearUpperHalves() noexcept {
 #if defined(__x86_64__)
     if (__builtin_cpu_supports("avx")) asm volatile("vzeroupper");
@@ -70,7 +70,7 @@ Result<std::size_t> runIndexed(const IndexedWork& wanted, std::stop_token stop) 
     const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
     const std::size_t most = wanted.threads == 0 ? cores : wanted.threads;
     {
-        std::vector<std::jthread> threads;  // joined at the end of this scope in any case
+        std::vector<std::jthread> threads;  // joined at the end of this scope, also after an error
         for (std::size_t i = 0; i < std::min(most, wanted.count); ++i) {
             {
                 const std::lock_guard lock(crew.mutex);
@@ -81,7 +81,7 @@ Result<std::size_t> runIndexed(const IndexedWork& wanted, std::stop_token stop) 
             } catch (const std::system_error& refused) {
                 const std::lock_guard lock(crew.mutex);
                 --crew.working;
-                if (!threads.empty()) break;  // fewer do it too
+                if (!threads.empty()) break;  // continue with fewer threads
                 return fail(ErrorCode::Unsupported, "no thread could be started: {}", refused.what());
             }
         }

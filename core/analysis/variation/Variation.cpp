@@ -24,7 +24,7 @@ Result<void> check(const VariationOptions& options) {
     return validate(options.wanted);
 }
 
-/// A member over the participants for whom it means something.
+/// Estimates a value over the participants, without those for whom it is NaN.
 template <class Value>
 Estimate over(std::span<const ParticipantPrediction> people, Value&& value) {
     std::vector<double> values;
@@ -38,7 +38,7 @@ bool presents(const ParticipantPrediction& person, std::size_t condition) {
     return person.delivery.stimuli[condition].outcome == DeliveryOutcome::Presented;
 }
 
-/// Presented, felt and not too strong (which would have been withheld).
+/// True if the condition is presented and felt; a condition that is too strong is never presented.
 bool counts(const ParticipantPrediction& person, std::size_t condition) {
     return presents(person, condition) && person.delivery.stimuli[condition].felt;
 }
@@ -105,7 +105,7 @@ bool isClearlySeparable(const ParticipantPrediction& person) {
     return true;
 }
 
-/// Adds the answers of the served participants.
+/// Adds the answers of the served participants to the confusion matrix and the accuracies.
 void addAnswers(Variation& out, std::span<const ParticipantPrediction> people, std::size_t conditions) {
     out.confusion.assign(conditions, std::vector<std::size_t>(conditions + 1, 0));
     std::size_t right = 0, trials = 0;
@@ -233,7 +233,7 @@ Result<Variation> predictVariation(const VariationOptions& options, std::stop_to
         auto needed = trialsNeeded(out.accuracies, wanted);
         if (!needed) return failure(needed);
         out.trials = std::move(*needed);
-        std::vector<std::size_t> sizes = {3, 4, 5};  // the sizes that the paper plans
+        std::vector<std::size_t> sizes = {3, 4, 5};  // sample sizes planned in the paper
         if (wanted.participants < 3 || wanted.participants > 5) sizes.push_back(wanted.participants);
         const PilotPeople group{out.accuracies, out.participants};
         for (const auto size : sizes) {

@@ -13,7 +13,7 @@ namespace tacto {
 
 namespace {
 
-/// One pulse into the participant's skin.
+/// The result of one pulse into the participant's skin.
 struct PulseIntoSkin {
     Milliamps mean{0};  ///< mean of the leading phase
     Volts end{0};
@@ -29,8 +29,8 @@ PulseIntoSkin pulseInto(const Load& skin, const PulseTrain& train, const SourceT
             Volts(std::abs(totals.leadingEndVoltage_V))};
 }
 
-/// The profile's amplitudes as far as the participant feels them and they are not too strong; nothing when none do.
-/// Skin is taken as linear: the current per volt of command is the same at every amplitude.
+/// Returns the part of the profile's amplitude range that the participant feels and that is not too strong, or nothing
+/// if no such part exists. Skin is assumed linear: the current per volt of command does not depend on the amplitude.
 std::optional<EncodingProfile> personalRange(const VirtualParticipant& who, const VirtualStimulation& stimulation,
                                              double milliampsPerVolt) {
     EncodingProfile personal = stimulation.encoding;
@@ -45,7 +45,7 @@ std::optional<EncodingProfile> personalRange(const VirtualParticipant& who, cons
 GateSetup setupFor(const VirtualParticipant& who, const VirtualStimulation& stimulation, Ohms impedance) {
     GateSetup setup;
     setup.source = stimulation.source;
-    // A person's gate knows |Z| alone; a voltage source, which it refuses for people, is judged as on the bench.
+    // For a person the gate knows only |Z|. It refuses voltage sources for people, so these are judged as on the bench.
     if (stimulation.source.drive == Drive::Current) {
         setup.mode = OutputMode::Person;
         setup.load = LoadRange::measured(impedance);
@@ -59,7 +59,7 @@ GateSetup setupFor(const VirtualParticipant& who, const VirtualStimulation& stim
     return setup;
 }
 
-/// Everything after the command: rounding, delivery, and whether it is withheld.
+/// Completes a stimulus after the command: rounds and delivers the train and decides whether to withhold it.
 void follow(PredictedStimulus& stimulus, const VirtualParticipant& who, const VirtualStimulation& stimulation,
             Ohms impedance, const GateSetup& setup) {
     const auto withhold = [&stimulus](DeliveryOutcome outcome, std::string reason) {
@@ -101,7 +101,7 @@ Result<AmplitudeLevels> amplitudeLevelsFrom(std::string_view name) {
 std::string_view nameOf(DeliveryOutcome outcome) noexcept { return wordFor(kDeliveryOutcomeWords, outcome); }
 
 SourceTraits idealSource(Drive drive) noexcept {
-    constexpr double kFarAway = 1000;  // V and mA: ten times what 40 V into the permitted loads ask for
+    constexpr double kFarAway = 1000;  // V and mA: ten times what 40 V needs into the permitted loads
     SourceTraits source;
     source.drive = drive;
     source.amplitudeMax = kFarAway;

@@ -66,7 +66,7 @@ json modelJson(const VariationOptions& options) {
     return out;
 }
 
-/// A list per column: rows of objects would repeat the names a thousand times.
+/// Writes one list per column, because one object per person would repeat the names a thousand times.
 json peopleJson(const std::vector<ParticipantPrediction>& people) {
     const auto column = [&people](auto value) {
         json out = json::array();
@@ -105,7 +105,7 @@ json peopleJson(const std::vector<ParticipantPrediction>& people) {
 
 using namespace describe;
 
-/// A prediction, and what it was made with.
+/// A prediction together with the options that produced it.
 struct Predicted {
     const Variation& found;
     const VariationOptions& options;
@@ -192,7 +192,7 @@ std::vector<std::string> labelsOf(const Predicted& of) {
     return labels;
 }
 
-/// The steps of the protocol add other ranges, readings and levels, what a pilot needs, and the benches.
+/// The description also covers what the protocol's steps add: other ranges, readings, levels, pilot needs and benches.
 ResultRecord<Predicted> describeVariation() {
     using P = Predicted;
     using V = Variation;
@@ -325,7 +325,7 @@ constexpr std::string_view kDoelker =
     "Dölker et al. 2022, doi:10.1038/s41598-022-10708-9: median of 81 people, upper arm, 150 µs per phase. A fingertip "
     "differs.";
 
-/// Rows of quantities that every participant draws; compared with the shipped model to show changes in this run.
+/// Makes the rows of drawn quantities and compares them with the shipped model to mark changes in this run.
 class Premises {
 public:
     explicit Premises(const VariationOptions& options) : options_(options), model_(options.population) {}
@@ -344,7 +344,7 @@ public:
         add(std::move(quantity), withUnit(value, unit), "", mark, source, value != shippedValue,
             withUnit(shippedValue, unit));
     }
-    /// A figure that follows from other figures or from the run.
+    /// Adds a figure that is derived from other figures or from the run.
     void derived(std::string quantity, std::string value, PremiseMark mark, std::string_view source) {
         add(std::move(quantity), std::move(value), "", mark, source, false, "");
     }

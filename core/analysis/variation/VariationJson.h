@@ -1,4 +1,4 @@
-// VariationJson.h - a prediction in the shape of the command line's contract.
+// VariationJson.h - writes a prediction as JSON in the format of the command-line contract.
 //
 //   {"simulated": true, "measured": false, "participants", "asked", "partial", "seed", "range_v": [least, most],
 //    "served", "participants_refused", "participants_not_feeling", "participants_without_range", "complete",
@@ -15,13 +15,13 @@
 //    "all_above_chance", "prevalence_all", "prevalence_but_one", "width"}], "premises": [{"quantity", "value",
 //    "spread", "mark", "source"}], "model": {…}, "people": {column: [a value per participant]}}
 //
-// Counts are of participants, but "refused", "not_felt" and "withheld" of participants times conditions. A condition
-// counts if it is presented, felt and not too strong; "served" are those for whom all count, and confusion, accuracy,
-// accuracies, information, trials and pilots are theirs. "clearly_separable_share" is of all participants.
-// "model" holds the medians and constants drawn with; "people" the first 1000.
+// Counts are of participants; "refused", "not_felt" and "withheld" count pairs of participant and condition. "served"
+// are participants for whom every condition is presented, felt and not too strong. Confusion, accuracy, accuracies,
+// information, trials and pilots cover these. "clearly_separable_share" is a share of all participants. "model" holds
+// the medians and constants used for drawing, "people" the first 1000 participants.
 //
-// An interval's value is the median over participants, low and high are 5 and 95 % of them. The number of threads is
-// not in it: it has no influence.
+// "value" of an interval is the median over participants; "low" and "high" are their 5 and 95 % quantiles. The number
+// of threads is absent because it does not affect the result.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -35,34 +35,34 @@
 
 namespace tacto {
 
-/// `options` are those that made it; the trials are null where no participant is served.
+/// `options` are those of this prediction. The trials are null if no participant is served.
 [[nodiscard]] nlohmann::json toJson(const Variation& found, const VariationOptions& options);
 /// {"draws", "conditions": [{"name", "amplitude_v", "interval_s"}], "pairs": [{"a", "b", "amplitude_jnd",
 /// "interval_jnd"}]}
 [[nodiscard]] nlohmann::json toJson(const BenchVariation& found);
 
-// What a prediction rests on: each figure with its source, or said to be a choice of ours.
+// The premises of a prediction: each figure has a source or is marked as the authors' choice.
 
 enum class PremiseMark {
-    Source,  ///< the value is the source's
-    Choice,  ///< no source was found, or several would do: replace it with the laboratory's own
-    Set,     ///< other than shipped: the operator answers for it
+    Source,  ///< the value is taken from the source
+    Choice,  ///< no clear source was found; replace it with the laboratory's own value
+    Set,     ///< changed from the shipped value by the operator, who is responsible for it
 };
 [[nodiscard]] std::string_view nameOf(PremiseMark mark) noexcept;  // "source", "choice", "set"
 
 struct Premise {
     std::string quantity;
     std::string value;   ///< median, with its unit
-    std::string spread;  ///< geometric standard deviation and its own mark, "1.4 (choice)": no source gives one; empty
-                         ///< for one value for all
+    std::string spread;  ///< geometric standard deviation with its own mark, for example "1.4 (choice)", since no
+                         ///< source gives it; empty if all people share one value
     PremiseMark mark = PremiseMark::Choice;
-    std::string source;  ///< source of the shipped value; for a choice what it leans on, in a sentence
+    std::string source;  ///< source of the shipped value; for a choice, a sentence on its basis
 };
 
-/// The premises in the order of the chain: thresholds, skin, discrimination, levels. `options` of the prediction.
+/// Lists the premises in the order of the chain: thresholds, skin, discrimination, levels.
 [[nodiscard]] std::vector<Premise> premisesOf(const VariationOptions& options);
 
-/// How a prediction is shown.
+/// Describes how a prediction is shown.
 [[nodiscard]] ResultTraits variationKind();
 
 }  // namespace tacto

@@ -11,12 +11,12 @@ namespace tacto {
 
 namespace {
 
-constexpr double kTailDeviations = 9;  // standard deviations: 1e-19 lies beyond
-constexpr double kPanel = 0.5;         // standard deviations a panel of the quadrature spans at most
+constexpr double kTailDeviations = 9;  // in standard deviations; only 1e-19 lies beyond
+constexpr double kPanel = 0.5;         // largest width of a quadrature panel in standard deviations
 
 double phi(double z) noexcept { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
 
-/// x·across + y·along ≤ bound: the side of the bisector that belongs to one of two points.
+/// x·across + y·along ≤ bound: the points that are nearer to one of two conditions.
 struct HalfPlane {
     double across = 0;
     double along = 0;
@@ -24,7 +24,7 @@ struct HalfPlane {
 };
 
 struct Region {
-    bool empty = false;  ///< an earlier point lies at the same place
+    bool empty = false;  ///< not given, or an earlier point lies at the same place
     std::vector<HalfPlane> sides;
 };
 
@@ -43,7 +43,7 @@ std::vector<Region> regionsOf(const IdentificationTask& task) {
                 if (m < j) regions[j].empty = true;
                 continue;
             }
-            // The mean of the two points lies on the bisector; written so, large coordinates do not cancel.
+            // The midpoint of the two points lies on the bisector. This form avoids cancellation at large coordinates.
             const double bound = across * (own.amplitude_jnd + other.amplitude_jnd) / 2 +
                                  along * (own.interval_jnd + other.interval_jnd) / 2;
             regions[j].sides.push_back({across, along, bound});
@@ -70,7 +70,7 @@ std::vector<double> breaksOf(const std::vector<Region>& regions) {
     return breaks;
 }
 
-/// Probability of an interval percept that belongs to `region`, at the amplitude percept `x`.
+/// Probability that the felt interval falls into `region` when the felt amplitude is `x`.
 double slice(const Region& region, double x, double centre, double sigma) noexcept {
     double low = -std::numeric_limits<double>::infinity();
     double high = std::numeric_limits<double>::infinity();
@@ -87,7 +87,7 @@ double slice(const Region& region, double x, double centre, double sigma) noexce
     return low < high ? phi((high - centre) / sigma) - phi((low - centre) / sigma) : 0;
 }
 
-/// ∫ over [from, to] of the percept's density times the slice, by 8-point Gauss-Legendre.
+/// Integrates density of the felt amplitude times slice() over [from, to], with 8-point Gauss-Legendre.
 double panel(const Region& region, const FeltPoint& stimulus, double sigma, double from, double to) noexcept {
     constexpr std::array<double, 4> kNodes = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
                                               0.9602898564975363};

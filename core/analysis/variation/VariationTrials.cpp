@@ -15,13 +15,13 @@ double widthOf(std::size_t k, std::size_t n) noexcept {
     return interval.high - interval.low;
 }
 
-/// Smallest k from n/2 up with a narrow enough interval, n + 1 if there is none: the interval is the widest in the
-/// middle and the same for k and n - k.
+/// Smallest k from n/2 up with a narrow enough interval, or n + 1 if there is none. The interval is widest in the
+/// middle, and its width is the same for k and n - k.
 std::size_t narrowFrom(std::size_t n, double width) noexcept {
     return firstEnough((n + 1) / 2, n + 1, [&](std::size_t k) { return widthOf(k, n) <= width; });
 }
 
-/// The mean over people of a probability that depends on their accuracy.
+/// Averages over people a probability that depends on their accuracy.
 template <class Probability>
 double over(std::span<const double> accuracies, Probability&& probability) {
     double sum = 0;
@@ -29,7 +29,7 @@ double over(std::span<const double> accuracies, Probability&& probability) {
     return sum / static_cast<double>(accuracies.size());
 }
 
-/// At most this many accuracies go through the search: more people become equally large groups of similar ones.
+/// The search uses at most this many accuracies; more are combined into equally large groups of similar people.
 constexpr std::size_t kGroups = 100;
 
 std::vector<double> grouped(std::vector<double> sorted) {
@@ -44,8 +44,8 @@ std::vector<double> grouped(std::vector<double> sorted) {
     return out;
 }
 
-/// The smallest multiple of `step` that is enough together with every larger one up to `enoughFrom`; nothing when
-/// even that is not. Searched from above: with n the probability rises in a saw-tooth.
+/// Smallest multiple of `step` such that it and every larger one up to `enoughFrom` is enough; nothing if even the
+/// largest is not. Searches downwards, because the probability rises with n in a saw-tooth.
 template <class Reached>
 std::optional<std::size_t> fewest(std::size_t step, std::size_t enoughFrom, double assurance, Reached&& reached) {
     std::size_t n = (enoughFrom + step - 1) / step * step;
@@ -54,12 +54,12 @@ std::optional<std::size_t> fewest(std::size_t step, std::size_t enoughFrom, doub
     return n;
 }
 
-/// The number of trials at which every outcome is narrow enough, or `most`.
+/// Number of trials from which every outcome gives a narrow enough interval, or `most`.
 std::size_t alwaysNarrow(double width, std::size_t most) noexcept {
     return firstEnough(1, most, [&](std::size_t n) { return widthOf((n + 1) / 2, n) <= width; });
 }
 
-/// Trials that are enough for certain, in the sense that more cannot spoil it, found by doubling.
+/// Finds by doubling a number of trials that is certainly enough, so that more trials cannot spoil the result.
 template <class Reached>
 std::size_t doubledUntil(std::size_t most, double assurance, Reached&& reached) {
     std::size_t n = 64;
@@ -86,7 +86,7 @@ PooledTrials pooled(std::optional<std::size_t> independent, double rho, const Tr
     return out;
 }
 
-/// P(X = k) for k = 0..n, the mean over people: for every outcome at once far cheaper than one tail after the other.
+/// P(X = k) for k = 0..n, averaged over people. Computing all outcomes at once is far cheaper than separate tails.
 std::vector<double> outcomes(std::span<const double> accuracies, std::size_t n) {
     std::vector<double> logFactorial(n + 1, 0.0), out(n + 1, 0.0);
     for (std::size_t k = 1; k <= n; ++k) logFactorial[k] = logFactorial[k - 1] + std::log(static_cast<double>(k));
@@ -105,7 +105,7 @@ std::vector<double> outcomes(std::span<const double> accuracies, std::size_t n) 
     return out;
 }
 
-/// Quantiles of the width: the mass of each outcome, gathered in order of width.
+/// Quantiles of the width, from the probabilities of the outcomes sorted by width.
 Estimate widthsAt(std::span<const double> accuracies, std::size_t n) {
     std::vector<std::pair<double, double>> mass;
     const auto shares = outcomes(accuracies, n);

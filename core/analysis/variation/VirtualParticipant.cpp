@@ -10,8 +10,8 @@ namespace tacto {
 
 namespace {
 
-/// Where `from` lies between two neighbours of `medians`, `to` lies between those of `own`; beyond the last, in
-/// proportion. Both rise, and `from` is above the first median.
+/// Maps `from` from its place between two neighbours of `medians` to the same place between those of `own`; above the
+/// last value, in proportion. Both lists rise, and `from` is above the first median.
 double ownScale(const std::array<double, 3>& medians, const std::array<double, 3>& own, double from) noexcept {
     if (from >= medians[2]) return own[2] * (from / medians[2]);
     const std::size_t low = from < medians[1] ? 0 : 1;
@@ -33,7 +33,7 @@ Result<void> validate(const PopulationModel& model) {
         if (!field.accepted.contain(field.of(model)))
             return invalid("the {} is {}; {} is expected", field.name, field.of(model), field.accepted.text());
         if (const double spread = field.drawn ? (model.*field.drawn).spread : 1; !kAcceptedSpread.contain(spread)) {
-            constexpr std::string_view kMedian = "median ";  // begins its name
+            constexpr std::string_view kMedian = "median ";  // the field's name begins with this word
             return invalid("the spread of the {} is {}; {} is expected", field.name.substr(kMedian.size()), spread,
                            kAcceptedSpread.text());
         }
@@ -60,7 +60,7 @@ VirtualParticipant drawParticipant(const PopulationModel& model, std::uint64_t s
     Random random(seed, fmt::format("virtual participant {}", index));
     VirtualParticipant out;
     out.index = index;
-    // Draws in a fixed order, one statement each: the order in which arguments are evaluated is the compiler's.
+    // One statement per draw keeps the order fixed; the compiler may evaluate function arguments in any order.
     const double series = model.series_ohm.draw(random);
     const double parallel = model.parallel_ohm.draw(random);
     const double capacitance = model.capacitance_nf.draw(random);
@@ -75,7 +75,7 @@ VirtualParticipant drawParticipant(const PopulationModel& model, std::uint64_t s
         medians[i] = thresholds[i]->median;
         own[i] = scale * thresholds[i]->at(shared + std::sqrt(1 - model.thresholdCorrelation) * random.normal());
     }
-    std::ranges::sort(own);  // whoever tolerates a current feels it
+    std::ranges::sort(own);  // a person who tolerates a current also feels it
     out.detection = Milliamps(own[0]);
     out.attention = Milliamps(own[1]);
     out.intolerance = Milliamps(own[2]);
