@@ -13,7 +13,7 @@ namespace tacto {
 
 namespace {
 
-/// Readings of one level and one direction, by their index.
+/// Indices of the readings of one level and one direction.
 struct Group {
     std::size_t level = 0;
     SweepDirection direction = SweepDirection::None;
@@ -41,8 +41,8 @@ Result<void> check(std::span<const CalibrationReading> readings) {
     return {};
 }
 
-/// Levels by rising command; `levelOf` gives each reading's. A level begins where a command lies further than `apart`
-/// above the level's first.
+/// Returns the levels by rising command; `levelOf` gets the level of each reading. A new level begins if a command is
+/// more than `apart` above the first command of the level.
 std::vector<CalibrationLevel> findLevels(std::span<const CalibrationReading> readings, double apart,
                                          std::vector<std::size_t>& levelOf) {
     std::vector<double> commands;
@@ -58,7 +58,7 @@ std::vector<CalibrationLevel> findLevels(std::span<const CalibrationReading> rea
         const auto above = std::upper_bound(firsts.begin(), firsts.end(), r.commanded);
         const auto k = static_cast<std::size_t>(above - firsts.begin()) - 1;
         levelOf.push_back(k);
-        // Counted from the first command, so that equal commands keep their every digit.
+        // Relative to the first command, so that equal commands give exactly the same mean.
         levels[k].commanded += r.commanded - firsts[k];
         ++counts[k];
     }
@@ -81,7 +81,7 @@ std::vector<Group> findGroups(const Calibration& found, const std::vector<std::s
     return groups;
 }
 
-/// The measurements, as if each had been commanded the level's own value.
+/// Returns the readings, corrected to the level's own command.
 std::vector<double> measuredOf(const Calibration& found, const Group& group) {
     std::vector<double> out;
     for (const std::size_t i : group.members) {
@@ -91,7 +91,7 @@ std::vector<double> measuredOf(const Calibration& found, const Group& group) {
     return out;
 }
 
-/// Means, spreads, repeatability and hysteresis.
+/// Computes means, spreads, repeatability and hysteresis.
 void summarise(Calibration& found, const std::vector<Group>& groups) {
     std::vector<double> squares(found.levels.size(), 0);
     std::vector<double> sums(found.levels.size(), 0);
@@ -115,7 +115,7 @@ void summarise(Calibration& found, const std::vector<Group>& groups) {
         auto& level = found.levels[k];
         level.mean = level.n > 0 ? sums[k] / static_cast<double>(level.n) : std::numeric_limits<double>::quiet_NaN();
         if (level.degreesOfFreedom > 0) level.s = std::sqrt(squares[k] / level.degreesOfFreedom);
-        hysteresis = std::fmax(hysteresis, std::abs(level.meanUp - level.meanDown));  // fmax passes NaN over
+        hysteresis = std::fmax(hysteresis, std::abs(level.meanUp - level.meanDown));  // fmax ignores NaN
     }
     found.hysteresis_pct = 100 * hysteresis / found.fullScale;
     if (allFreedom > 0) {
@@ -139,7 +139,7 @@ void fitLine(Calibration& found) {
     for (Eigen::Index i = 0; i < n; ++i) {
         const auto& r = *used[static_cast<std::size_t>(i)];
         const double weight = found.weighted ? finest / r.uncertainty : 1;
-        design.row(i) << weight * r.commanded / found.fullScale, weight;  // scaled: both columns of the same size
+        design.row(i) << weight * r.commanded / found.fullScale, weight;  // scaled: both columns of similar size
         measured(i) = weight * r.measured;
     }
     const Eigen::ColPivHouseholderQR<Eigen::MatrixX2d> solver(design);
@@ -152,7 +152,7 @@ void fitLine(Calibration& found) {
         found.degreesOfFreedom = static_cast<double>(n - 2);
         s = std::sqrt((measured - design * line).squaredNorm() / found.degreesOfFreedom);
     }
-    // (XᵀX)⁻¹ with the weights in the design; stated uncertainties set the scale themselves.
+    // (XᵀX)⁻¹ with the weights in the design. Stated uncertainties also set the scale.
     const Eigen::Matrix2d spread = (design.transpose() * design).inverse();
     if (found.weighted) s = finest;
     found.gainStandardError = s * std::sqrt(spread(0, 0)) / found.fullScale;
@@ -167,10 +167,10 @@ void fitLine(Calibration& found) {
 }
 
 void markOutliers(Calibration& found, const std::vector<Group>& groups, double resolution) {
-    std::vector<double> apart;  // the differences of every two repeats
+    std::vector<double> apart;  // differences of all pairs of repeats
     std::vector<std::pair<std::size_t, double>> of;
     for (const auto& group : groups) {
-        if (group.members.size() < 3) continue;  // among two, neither is the odd one
+        if (group.members.size() < 3) continue;  // two readings cannot show which one is wrong
         const auto measured = measuredOf(found, group);
         const double middle = medianOf(measured);
         for (std::size_t k = 0; k < measured.size(); ++k) {
@@ -179,7 +179,7 @@ void markOutliers(Calibration& found, const std::vector<Group>& groups, double r
         }
     }
     const auto spread = statisticsOf(apart);
-    // A normal scatter σ has a median of 0.6745·√2·σ and a mean of 2/√π·σ.
+    // The difference of two normal values with scatter σ has a median of 0.6745·√2·σ and a mean of 2/√π·σ.
     const double scale = spread.median > 0 ? 1.0483 * spread.median : 0.8862 * spread.mean;
     std::vector<std::string> marked;
     for (const auto& [i, distance] : of) {

@@ -82,7 +82,7 @@ ResultRecord<UncertaintyBudget> describeBudget() {
     ResultRecord<B> all;
     all.kept("rows", &B::rows, describeContribution());
     all.kept("degrees_of_freedom", &B::degreesOfFreedom);
-    all.shown(as(As::Quantity, "Quantity", "quantity"));  // that it is a part of
+    all.shown(as(As::Quantity, "Quantity", "quantity"));  // the quantity that the budget belongs to
     all.shown(number("Combined, u", "combined", "@unit"), &B::combined);
     all.shown(number("Expanded, U (95 %)", "expanded_uncertainty", "@unit"), &B::expanded);
     all.shown(number("k", "coverage_factor"), &B::coverageFactor);
@@ -90,7 +90,7 @@ ResultRecord<UncertaintyBudget> describeBudget() {
     return all;
 }
 
-/// A level with what was judged of it.
+/// A level with its judgement.
 struct LevelAsJudged {
     CalibrationLevel level;
     JudgedLevel judged;
@@ -162,7 +162,7 @@ ResultRecord<JudgedCalibration> describeJudged() {
 
 const ResultRecord<JudgedCalibration>& judgedRecord() { return builtOnce<describeJudged>(); }
 
-/// "amplitude.budget|interval.budget|...": that member of each quantity.
+/// Paths of this member of every quantity: "amplitude.budget|interval.budget|...".
 std::string ofEach(std::string_view member) {
     std::string all;
     for (const auto& one : kCalibratedQuantities) {
@@ -172,7 +172,7 @@ std::string ofEach(std::string_view member) {
     return all;
 }
 
-/// Levels, what the uncertainty is made of at both ends (what weighs at one need not at the other), marked readings.
+/// Adds tables of the levels, of the uncertainty budgets at both ends (which may differ), and of marked readings.
 void addQuantity(Tables& all, const std::string& title, const std::string& id) {
     const auto add = [&](const char* what, const char* at, Columns columns) -> ResultTable& {
         return all.emplace_back(
@@ -187,7 +187,7 @@ void addQuantity(Tables& all, const std::string& title, const std::string& id) {
     marked = whose(std::move(marked), "outlier", true);
 }
 
-/// The protocol has the quantities as members, a check of what is stored, and what it stored.
+/// Tables for all places of the quantities: members in a protocol, a check of a stored calibration, and a stored one.
 Tables stimulatorTables() {
     const auto found = describeCalibration();
     const auto of = ofEach("");
@@ -235,7 +235,7 @@ const ResultRecord<Calibration>& calibrationRecord() { return builtOnce<describe
 
 namespace {
 
-/// A finite number, or NaN where `mayLack` and the field is empty or says nan.
+/// A finite number, or NaN if `mayLack` and the field is empty or "nan".
 Result<double> numberIn(const NamedRows& rows, std::size_t index, std::string_view column, bool mayLack, double least) {
     const auto field = rows[index];
     if (field.empty() && mayLack) return kNaN;

@@ -1,5 +1,5 @@
-// CalibrationJson.h - calibrations and uncertainty budgets in the shapes of the command line's contract. Absent values
-// (NaN, infinite degrees of freedom) are null.
+// CalibrationJson.h - writes calibrations and uncertainty budgets as JSON in the format of the command-line contract.
+// Absent values (NaN, infinite degrees of freedom) are null.
 #pragma once
 
 #include <filesystem>
@@ -20,23 +20,23 @@ namespace tacto {
 /// {"rows":[{"name","distribution","value","divisor","sensitivity","contribution","degrees_of_freedom"}],
 /// "combined","degrees_of_freedom","coverage_factor","expanded_uncertainty","method"}
 [[nodiscard]] nlohmann::json toJson(const UncertaintyBudget& budget);
-/// What toJson(Calibration) says, each level with error, expanded_uncertainty, tolerance and verdict; and
-/// {"expanded_uncertainty" (at the largest command), "gain_expanded_uncertainty", "offset_expanded_uncertainty",
-/// "budget" (at the largest command), "tolerance_pct","verdict","reasons"}; k of each as "..._coverage_factor".
+/// Returns the members of toJson(Calibration), with error, expanded_uncertainty, tolerance and verdict at each level;
+/// and {"expanded_uncertainty" (at the largest command), "gain_expanded_uncertainty", "offset_expanded_uncertainty",
+/// "budget" (at the largest command), "tolerance_pct","verdict","reasons"}; each k as "..._coverage_factor".
 [[nodiscard]] nlohmann::json toJson(const JudgedCalibration& judged);
 
 // The table that `analyze calibration` reads.
 
-/// Readings from CSV columns `commanded`, `measured` and, where there are such, `direction` (up, down or empty) and `u`
-/// (standard uncertainty), in any order among others; names are trimmed. An empty or nan measured value was not
-/// measured; an empty or nan `u` is not stated.
-/// Errors: NotFound, Io; ParseError naming file, line and what was expected.
+/// Reads the CSV columns `commanded` and `measured` and, if present, `direction` (up, down or empty) and `u` (standard
+/// uncertainty), in any order and with other columns between; names are trimmed. An empty or nan measured value means
+/// not measured; an empty or nan `u` means not stated. Errors: NotFound, Io; ParseError naming file, line and what was
+/// expected.
 [[nodiscard]] Result<std::vector<CalibrationReading>> readCalibrationReadings(const std::filesystem::path& path);
-/// Reads them from text; `name` stands for the file in messages.
+/// Reads the same table from text; `name` replaces the file name in messages.
 [[nodiscard]] Result<std::vector<CalibrationReading>> parseCalibrationReadings(std::string_view text,
                                                                                std::string_view name);
 
-/// How a stimulator's calibration, or a check of one that is stored, is judged and shown.
+/// Describes how a stimulator calibration, or the check of a stored one, is judged and shown.
 [[nodiscard]] ResultTraits stimulatorCalibrationKind();
 [[nodiscard]] const ResultRecord<Calibration>& calibrationRecord();
 

@@ -17,11 +17,11 @@ constexpr double kTwoEdges = 2.449489742783178;     // √6
 constexpr double kTwoStamps = 1.224744871391589;    // √(3/2)
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-/// Rows that do not depend on how often was read. `value` is the reading's size.
+/// Adds the rows that do not depend on the number of readings. `value` is the measured value.
 void addInstrument(std::vector<Contribution>& rows, const InstrumentErrors& errors, double value) {
     rows.push_back({"instrument gain", Distribution::Rectangular, errors.gainTolerance, kHalfWidth, value, kInfinite});
     const auto add = [&rows](const char* name, double halfWidth, double divisor, double sensitivity) {
-        if (halfWidth == 0) return;  // stated to be nothing
+        if (halfWidth == 0) return;  // zero was stated explicitly
         rows.push_back({name, Distribution::Rectangular, halfWidth, divisor, sensitivity, kInfinite});
     };
     add("probe or shunt", errors.probeTolerance, kHalfWidth, value);
@@ -33,10 +33,10 @@ void addInstrument(std::vector<Contribution>& rows, const InstrumentErrors& erro
     add("load", errors.loadTolerance, kHalfWidth, errors.loadSensitivity * value);
 }
 
-/// The budget of a mean of `n` of the level's readings.
+/// Makes the budget for the mean of `n` readings of a level.
 Result<UncertaintyBudget> levelBudget(const CalibrationLevel& level, std::size_t n, const Calibration& found,
                                       const InstrumentErrors& errors, const BudgetOptions& options) {
-    // A level that was read once per direction knows its scatter from the others only.
+    // A level read once per direction takes its scatter from the other levels.
     const bool own = level.degreesOfFreedom > 0;
     const double s = own ? level.s : found.repeatability;
     if (std::isnan(s)) {
@@ -54,7 +54,7 @@ Result<UncertaintyBudget> levelBudget(const CalibrationLevel& level, std::size_t
     return combine(std::move(rows), options);
 }
 
-/// How the fit weighs an error of each level: the line's gain, or its offset, is the sum of weight times mean.
+/// Weights of the level means in the fitted gain and offset.
 struct LineWeights {
     std::vector<double> gain, offset;
 };
@@ -87,8 +87,8 @@ LineWeights lineWeights(const Calibration& found) {
     return out;
 }
 
-/// Standard deviation of the levels' means about the line, where it is clearly more than their scatter explains (F of
-/// 2.25, which scatter alone exceeds in 2 of 100 calibrations); else nothing.
+/// Standard deviation of the level means about the line if clearly larger than their scatter explains (F above 2.25;
+/// scatter alone exceeds this in 2 of 100 calibrations); otherwise nothing.
 std::optional<Contribution> departures(const Calibration& found, double sensitivity) {
     double squares = 0, readings = 0, levels = 0;
     for (const auto& level : found.levels) {
@@ -103,13 +103,13 @@ std::optional<Contribution> departures(const Calibration& found, double sensitiv
     return Contribution{"departures of the levels from the line", Distribution::Student, s, 1, sensitivity, levels - 2};
 }
 
-/// Errors that the levels share, or have by themselves, as they come out in the line's gain or offset; `value` is that
-/// figure's, `weights` what the fit makes of the levels.
+/// Makes the budget of the line's gain or offset from errors shared by the levels and errors of single levels. `value`:
+/// the gain or offset. `weights`: the weight of each level in it.
 Result<UncertaintyBudget> lineBudget(const JudgedCalibration& judged, const InstrumentErrors& errors, const char* name,
                                      double standardError, double value, const std::vector<double>& weights,
                                      const BudgetOptions& options) {
     const auto& found = judged.calibration;
-    // The cubic that is 0 at 0 and at both ends and 1 at its most.
+    // The cubic that is 0 at 0 and at both ends, with a maximum of 1.
     const double end = std::isnan(errors.fullScale) ? found.fullScale : std::max(errors.fullScale, found.fullScale);
     double shared = 0, squares = 0, bend = 0, straight = 0;
     for (std::size_t k = 0; k < weights.size(); ++k) {
@@ -135,7 +135,7 @@ Result<UncertaintyBudget> lineBudget(const JudgedCalibration& judged, const Inst
         if (tolerance == 0) return;
         rows.push_back({what, Distribution::Rectangular, tolerance, divisor, sensitivity, kInfinite});
     };
-    // The weights of the gain add up to 0 but for rounding: what all levels share is not in it.
+    // The weights of the gain sum to 0 apart from rounding, so an error common to all levels does not change the gain.
     const double common = std::round(shared);
     add("instrument linearity", errors.linearityTolerance, kHalfWidth, std::max(std::abs(bend), std::abs(straight)));
     if (common == 0) return combine(std::move(rows), options);

@@ -16,18 +16,18 @@ namespace {
 
 constexpr std::size_t kQuarters = 4, kPairsOfQuarters = 6;
 constexpr double kMaxTolerance_pct = 100;
-constexpr double kUnstatedUncertainty = 0.001;  // stands in for what a table does not state, as in a separability
+constexpr double kUnstatedUncertainty = 0.001;  // used if a table states none, as in a separability test
 
 double percentOf(double logRatio) { return 100 * std::expm1(logRatio); }
 
-/// One measured trial: the place within the session from 0 to 1, and the logarithm of the amplitude.
+/// One measured trial: its place in the session from 0 to 1, and the logarithm of the amplitude.
 struct Point {
     std::size_t condition = 0, quarter = 0;
     double place = 0, log = 0, resolution = 0;
 };
 
-/// Least squares of log amplitudes: a level for each condition, and the columns that `row` fills. What is fitted are
-/// deviations from the condition's means, which leaves the levels out (Frisch and Waugh).
+/// Fits log amplitudes by least squares, with a level for each condition and the columns that `row` fills. Fitting
+/// deviations from the condition's means removes the levels from the fit (Frisch and Waugh).
 class Fit {
 public:
     template <class Row>
@@ -57,7 +57,7 @@ public:
     [[nodiscard]] bool known() const { return freedom_ > 0; }
     [[nodiscard]] const Eigen::VectorXd& columns() const { return found_; }
 
-    /// The combination of the columns, in %, with its interval at the level of one of `among` that are looked at.
+    /// Weighted sum of the columns, in %, with the interval for the largest of `among` such comparisons (Bonferroni).
     [[nodiscard]] Estimate percent(const Eigen::VectorXd& weights, std::size_t among = 1) const {
         const double value = weights.dot(found_);
         const double reach =
@@ -71,7 +71,7 @@ private:
     double freedom_ = 0;
 };
 
-/// The relative resolution of one reading, without what the gain makes; NaN: not known, 0: not stated.
+/// Relative uncertainty of one reading without the gain's part; NaN: unknown, 0: not stated.
 double resolutionOf(const SeparabilityTrial& trial) {
     const double gain = std::isnan(trial.amplitudeGain) ? 0 : trial.amplitudeGain;
     const double relative = trial.amplitudeUncertainty / trial.amplitude;
@@ -132,7 +132,7 @@ void describeConditions(const std::vector<Point>& points, double floor, Drift& d
     }
 }
 
-/// Quarters are compared within conditions, so that an unequal share of strong ones is no drift.
+/// Compares quarters within conditions, so that an uneven number of strong conditions does not look like drift.
 void compareQuarters(const std::vector<Point>& points, double floor, Drift& drift) {
     for (std::size_t q = 0; q < kQuarters && drift.trials >= kQuarters; ++q) {
         const auto first = [&](std::size_t quarter) { return (quarter * drift.trials + kQuarters - 1) / kQuarters; };
@@ -148,7 +148,7 @@ void compareQuarters(const std::vector<Point>& points, double floor, Drift& drif
     const double mean = (level[0] + level[1] + level[2] + level[3]) / kQuarters;
     for (std::size_t q = 0; q < kQuarters; ++q) drift.quarters[q].change_pct = percentOf(level[q] - mean);
     const auto [lowest, highest] = std::ranges::minmax_element(level);
-    // Later minus earlier: a fall is below 0.
+    // Later minus earlier, so that a fall is negative.
     const auto [earlier, later] = std::minmax({lowest - level.begin(), highest - level.begin()});
     Eigen::VectorXd weights = Eigen::VectorXd::Zero(kQuarters - 1);
     if (later > 0) weights(later - 1) += 1;
@@ -163,7 +163,7 @@ void judge(Drift& drift) {
     for (const auto& [what, change] :
          {std::pair{"From the first trial to the last the amplitude changes by", drift.change_pct},
           std::pair{"Between two quarters of the trials the amplitude changes by", drift.betweenQuarters_pct}}) {
-        if (std::isnan(change.value)) continue;  // said below
+        if (std::isnan(change.value)) continue;  // reported below
         const auto sentence = fmt::format("{} {:+.2g} % (95 % interval {:+.2g} to {:+.2g} %); ± {:g} % is accepted",
                                           what, change.value, change.low, change.high, most);
         if (change.low > most || change.high < -most)
@@ -247,7 +247,7 @@ ResultRecord<Drift::Quarter> describeQuarter() {
     return all;
 }
 
-/// The figure, for plot.curves().
+/// Makes the figure for plot.curves().
 nlohmann::json curvesOf(const Drift& found) {
     auto curves = nlohmann::json::array();
     for (const auto& each : found.conditions) {

@@ -29,7 +29,7 @@ std::optional<std::size_t> indexOf(const std::vector<std::string>& names, std::s
     return static_cast<std::size_t>(at - names.begin());
 }
 
-/// The names in test trials, in the order first met, after those in `met`.
+/// Appends to `met` the further names from test trials, in the order of first appearance.
 std::vector<std::string> namesMet(std::span<const IdentificationTrial> trials, std::string IdentificationTrial::*name,
                                   std::vector<std::string> met) {
     for (const auto& trial : trials) {
@@ -54,7 +54,7 @@ Result<void> checkLabels(const std::vector<std::string>& labels) {
     return {};
 }
 
-/// Presented conditions and answers must be known: a misspelt one would otherwise be a wrong answer.
+/// Checks that all conditions and answers are known; otherwise a misspelt answer would be counted as wrong.
 Result<void> checkTrials(std::span<const IdentificationTrial> trials, const std::vector<std::string>& labels,
                          const std::vector<std::string>& columns) {
     std::set<std::size_t> answered;
@@ -75,7 +75,7 @@ Result<void> checkTrials(std::span<const IdentificationTrial> trials, const std:
     return {};
 }
 
-/// Right answers stand on the diagonal; `names` are offered in addition to the words that are no names.
+/// Right answers lie on the diagonal. `names`: number of labels offered, without "none" and "not sure".
 ConfusionFigures figuresOf(const Counts& counts, std::size_t names) {
     ConfusionFigures out;
     std::vector<std::vector<double>> table;
@@ -92,14 +92,14 @@ ConfusionFigures figuresOf(const Counts& counts, std::size_t names) {
     return out;
 }
 
-/// z of the rate `k` of `n` with half an answer added to each cell, so that it is finite.
+/// z of the rate `k` / `n`, with half an answer added to each cell so that z is finite.
 double standardScore(std::size_t k, std::size_t n) {
     constexpr double kNormal = std::numeric_limits<double>::infinity();
     const double rate = (static_cast<double>(k) + 0.5) / (static_cast<double>(n) + 1);
     return rate == 0.5 ? 0 : studentQuantile(rate, kNormal);
 }
 
-/// The table of the labels with the other feature passed over.
+/// Merges the table of labels into a table of one feature.
 FeatureFigures mergedBy(std::string_view LabelFeatures::*value, const Identification& found) {
     FeatureFigures out;
     std::vector<std::size_t> rowOf;
@@ -135,10 +135,10 @@ bool areTwoByTwo(const std::vector<std::string>& labels) {
         textures.insert(features.texture);
         pressures.insert(features.pressure);
     }
-    return labels.size() == 4 && textures.size() == 2 && pressures.size() == 2;  // labels differ, so all four are there
+    return labels.size() == 4 && textures.size() == 2 && pressures.size() == 2;  // no two are equal, so all exist
 }
 
-/// The answered trials of the test that present something, in their order.
+/// Adds the answered test trials in their order, without catch trials.
 void addTrials(Identification& out, std::span<const IdentificationTrial> trials) {
     std::map<std::size_t, BlockFigures> blocks;
     std::vector<std::vector<double>> times(out.labels.size());
@@ -169,7 +169,7 @@ void addTrials(Identification& out, std::span<const IdentificationTrial> trials)
     for (const auto& row : times) out.medianResponseTime_s.push_back(statisticsOf(row).median);
 }
 
-/// Trials of the test that have no answer at any attempt.
+/// Number of test trials without an answer in any attempt.
 std::size_t unanswered(std::span<const IdentificationTrial> trials) {
     std::map<std::size_t, bool> answered;
     for (const auto& trial : trials) {

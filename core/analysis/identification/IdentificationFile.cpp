@@ -12,7 +12,7 @@ namespace {
 
 bool isMissing(std::string_view field) { return field.empty() || field == "n/a"; }
 
-/// A whole number from 1; `fallback` where there is no such column or value. Errors: ParseError.
+/// Reads a whole number ≥ 1; `fallback` if the column or the value is missing. Errors: ParseError.
 Result<std::size_t> countIn(const NamedRows& rows, std::optional<std::size_t> column, std::string_view name,
                             std::size_t fallback) {
     if (!column || isMissing(rows[*column])) return fallback;

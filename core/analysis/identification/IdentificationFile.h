@@ -1,4 +1,4 @@
-// IdentificationFile.h - the table that `analyze identification` reads.
+// IdentificationFile.h - reads the table of trials for `analyze identification`.
 //
 // Thread-safety: pure functions on files.
 #pragma once
@@ -12,18 +12,18 @@
 namespace tacto {
 
 struct ParticipantTrials {
-    std::string participant;  ///< empty in a table without that column
-    std::string basis;        ///< "person", "virtual participant": as the table says; empty where it does not
+    std::string participant;  ///< empty if the table has no such column
+    std::string basis;        ///< "person" or "virtual participant" as in the table; empty if absent
     std::vector<IdentificationTrial> trials;
 };
 
-/// Trials from columns `stimulus` (or `condition`, or `trial_type`, as the BIDS export names it) and `response`, by
-/// `participant` where that column is there, and with `trial`, `block`, `phase`, `attempt` and `response_time` (or
-/// `rt_s`), and `basis`, on whom the answers rest. Comma, semicolon or tab. "not_sure" is read as "not-sure"; an empty
-/// response or n/a is not an answer. A row without a phase is a test trial. Errors: NotFound, Io; ParseError naming
-/// file, line and what was expected.
+/// Reads trials from the columns `stimulus` (or `condition`, or `trial_type` as in the BIDS export) and `response`.
+/// Optional columns: `participant`, `trial`, `block`, `phase`, `attempt`, `response_time` (or `rt_s`) and `basis` (the
+/// kind of participant). Separated by comma, semicolon or tab. "not_sure" is read as "not-sure". An empty response or
+/// n/a means no answer. A row without a phase is a test trial. Errors: NotFound, Io; ParseError naming file, line and
+/// expectation.
 [[nodiscard]] Result<std::vector<ParticipantTrials>> readIdentificationTrials(const std::filesystem::path& path);
-/// Reads them from text; `name` stands for the file in messages.
+/// Reads the same table from text; `name` replaces the file name in messages.
 [[nodiscard]] Result<std::vector<ParticipantTrials>> parseIdentificationTrials(std::string_view text,
                                                                                std::string_view name);
 

@@ -20,7 +20,7 @@ ResultRecord<ConfusionFigures> describeFigures() {
     using F = ConfusionFigures;
     const auto bits = &F::itCorrected_bits;
     ResultRecord<F> all;
-    all.shown(text("Of", "of"));  // all of it, or a feature of the conditions
+    all.shown(text("Of", "of"));  // all conditions, or one feature of them
     all.shown(number("Right", "hits"), &F::hits);
     all.shown(number("n", "n"), &F::n);
     all.shown(as(As::Share, "Share", "accuracy"), &F::accuracy);
@@ -144,7 +144,7 @@ ResultRecord<FewPeople> describePeople() {
     return all;
 }
 
-/// The fields of a trial in a result.
+/// The fields of a trial within a result.
 RecordFields<IdentificationTrial> answerFields() {
     using T = IdentificationTrial;
     RecordFields<T> all;
@@ -159,7 +159,7 @@ RecordFields<IdentificationTrial> answerFields() {
     return all;
 }
 
-/// The further fields in a session's row.
+/// The fields of a trial in a session's row: those of an answer and more.
 RecordFields<IdentificationTrial> trialFields() {
     using T = IdentificationTrial;
     auto all = answerFields();

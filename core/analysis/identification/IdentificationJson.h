@@ -1,5 +1,5 @@
-// IdentificationJson.h - an identification session's figures in the shapes of the command line's contract (pilot.md
-// section 10): the same for `run pilot-identification`, `analyze identification` and reports. Absent values are null.
+// IdentificationJson.h - writes an identification session's figures as JSON in the command-line contract (pilot.md
+// section 10), shared by `run pilot-identification`, `analyze identification` and reports. Absent values are null.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -13,23 +13,23 @@ namespace tacto {
 
 /// {"labels", "columns", "confusion", "n", "hits", "accuracy", "p_chance", "it_bits", "it_bias_bits",
 /// "it_corrected_bits", "it_corrected_low_bits", "it_corrected_high_bits", "texture", "pressure", "catch", "no_answer",
-/// "blocks", "shares", "learning", "sequence", "median_rt_s"}. The caller adds what it alone knows: participant, parts,
+/// "blocks", "shares", "learning", "sequence", "median_rt_s"}. The caller adds its own members: participant, parts,
 /// range, drift, predicted, ...
 [[nodiscard]] nlohmann::json toJson(const Identification& found);
-/// How they are shown.
+/// Returns the tables that show an identification session.
 [[nodiscard]] const std::vector<ResultTable>& identificationTables();
 /// {"n", "hits", "accuracy", "p_chance", "it_bits", "it_bias_bits", "it_corrected_bits", "it_corrected_low_bits",
-/// "it_corrected_high_bits"}: as counted, what is taken off, what is left and its 95 % interval
+/// "it_corrected_high_bits"}: raw information, its bias, the corrected value and its 95 % interval
 [[nodiscard]] nlohmann::json toJson(const ConfusionFigures& figures);
-/// The corrected information of such figures, with its interval; NaN for a missing value.
+/// Reads the corrected information with its interval from such JSON; NaN for a missing value.
 [[nodiscard]] Estimate correctedBitsFrom(const nlohmann::json& figures);
-/// {"number", "phase", "block", "condition", "response", "attempt", "rt_s"}; response null without an answer
+/// {"number", "phase", "block", "condition", "response", "attempt", "rt_s"}; "response" is null without an answer.
 [[nodiscard]] nlohmann::json toJson(const IdentificationTrial& trial);
-/// The trial in the body of a session's row of an answer, or of none; what is missing keeps its default.
+/// Reads a trial from a session's row for an answer or a missing answer. Missing members keep their defaults.
 [[nodiscard]] IdentificationTrial identificationTrialFrom(const nlohmann::json& row);
 /// {"people", "left_out": [{"name", "reason"}], "accuracy": {"median", "min", "max"}, "it_corrected_bits",
-/// "above_chance": {"k", "n", "share", "prevalence", "prevalence_at_least"}}; the last is the lower end of the one
-/// before
+/// "above_chance": {"k", "n", "share", "prevalence", "prevalence_at_least"}}; "prevalence_at_least" is the lower end of
+/// "prevalence".
 [[nodiscard]] nlohmann::json toJson(const FewPeople& people);
 /// {"encodings", "pairs": [{"a", "b", "difference"}], "preferred"}
 [[nodiscard]] nlohmann::json toJson(const EncodingComparison& compared);

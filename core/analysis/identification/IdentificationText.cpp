@@ -15,7 +15,7 @@ std::string countWord(std::size_t n) {
     return n < std::size(kWords) ? std::string(kWords[n]) : std::to_string(n);
 }
 
-/// " between 4.0 and 6.5 mA, 14 to 22 V at 3.4 kΩ"; empty where nothing is known.
+/// " between 4.0 and 6.5 mA, 14 to 22 V at 3.4 kΩ"; empty if the range is unknown.
 std::string rangeText(const PresentedRange& range) {
     if (range.lowIntensity && range.highIntensity) {
         return fmt::format(" between strengths of {:.2f} and {:.2f}", *range.lowIntensity, *range.highIntensity);
@@ -31,7 +31,7 @@ std::string rangeText(const PresentedRange& range) {
     return text;
 }
 
-/// Half of the Wilson interval at that share of right answers, in %.
+/// Half the width of the Wilson interval at this share of right answers, in %.
 double reach_pct(std::size_t n, double share) {
     const auto interval = wilsonInterval(static_cast<std::size_t>(std::lround(share * static_cast<double>(n))), n);
     return 50 * (interval.high - interval.low);
@@ -69,7 +69,7 @@ std::string chanceText(double p) {
 
 std::string bitsText(const Estimate& bits) {
     if (!std::isfinite(bits.value)) return "–";
-    if (!std::isfinite(bits.low)) return decimalText(bits.value, 2);  // a result of an older version
+    if (!std::isfinite(bits.low)) return decimalText(bits.value, 2);  // from an older version, without an interval
     return fmt::format("{:.2f} ({:.2f} to {:.2f})", bits.value, bits.low, bits.high);
 }
 

@@ -1,4 +1,4 @@
-// IdentificationText.h - the sentences with which every result begins.
+// IdentificationText.h - writes the opening sentences of identification results.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace tacto {
 
-/// The range of the conditions: a current with its voltage, or a massager's intensity.
+/// The range of the presented conditions: a current with its voltage, or a massager's intensity.
 struct PresentedRange {
     std::optional<Milliamps> low, high;
     Volts lowVoltage{kNaN}, highVoltage{kNaN};  ///< at `impedance`
@@ -19,18 +19,18 @@ struct PresentedRange {
     std::optional<double> lowIntensity, highIntensity;  ///< 0 to 1
 };
 
-/// "14 to 22 V", "2.5 to 4.5 V", "0.62 to 0.95 V": both with as many decimals as the smaller needs for two digits.
+/// "14 to 22 V", "2.5 to 4.5 V", "0.62 to 0.95 V": both numbers get the decimals that give the smaller two digits.
 [[nodiscard]] std::string voltageRangeText(Volts low, Volts high);
 
 /// "P-7K3M told the four apart in 68 of 80 trials (85 %, 95 % interval 76 to 91 %, chance 25 %) between 4.0 and 6.5 mA,
 /// 14 to 22 V at 3.4 kΩ." Unknown parts are left out. Without trials: "P-7K3M answered no test trial."
 [[nodiscard]] std::string headline(const std::string& name, const Identification& found, const PresentedRange& range);
 
-/// The words that people read for a condition or an answer: "rough, firm" for "rough-high", "not sure" for "not-sure".
-/// Other names stay as they are.
+/// Returns the wording of a condition or answer for people: "rough, firm" for "rough-high", "not sure" for "not-sure".
+/// Other names are unchanged.
 [[nodiscard]] std::string answerWords(std::string_view key);
 
-/// "0.012"; "< 0.001" below that, and "–" for an unknown value.
+/// "0.012"; "< 0.001" for smaller values; "–" for an unknown value.
 [[nodiscard]] std::string chanceText(double p);
 
 /// "1.94 (1.72 to 2.00)": corrected information and its 95 % interval, in bits; "–" for an unknown value.

@@ -27,14 +27,14 @@ Result<void> checkSessions(const std::vector<SessionFigures>& sessions) {
     return {};
 }
 
-/// The first session for which `known` holds; null for none.
+/// Returns the first session for which `known` is true, or null.
 template <class Known>
 const SessionFigures* firstOf(const std::vector<SessionFigures>& sessions, Known known) {
     const auto found = std::ranges::find_if(sessions, known);
     return found == sessions.end() ? nullptr : &*found;
 }
 
-/// A figure divided by the one in the first session that has it.
+/// Divides a figure by its value in the first session that has it.
 template <class Figure>
 double ratioToFirst(const std::vector<SessionFigures>& sessions, const SessionFigures& session, Figure figure) {
     const auto* first = firstOf(sessions, [&](const auto& each) { return figure(each) > 0; });
@@ -66,7 +66,7 @@ Estimate ratioOf(const Estimate& a, const Estimate& b) noexcept {
 
 double smallestChange(std::size_t n, double accuracy) noexcept {
     constexpr double kZ = 1.959963984540054;                     // 97.5 % point of the normal distribution
-    if (n == 0 || !(accuracy > 0 && accuracy < 1)) return kNaN;  // all answers are alike: the spread is not known
+    if (n == 0 || !(accuracy > 0 && accuracy < 1)) return kNaN;  // all answers are equal: unknown spread
     return kZ * std::sqrt(2 * accuracy * (1 - accuracy) / static_cast<double>(n));
 }
 
@@ -93,11 +93,11 @@ Result<OverSessions> compareSessions(std::vector<SessionFigures> sessions) {
 namespace {
 
 constexpr double kDeviance95 = 3.841458820694124;  // 95 % point of χ² with one degree of freedom
-/// In units of the whole range of x; with a steeper curve every answer lies on its flat ends.
+/// Steepest slope tried, in units of the whole range of x. At steeper slopes every answer lies on the flat ends.
 constexpr double kSteepest = 200;
 constexpr int kHalvings = 200;
 
-/// Logistic model over x from 0 to 1, its intercept always the best for the slope.
+/// Logistic model over x from 0 to 1. The intercept is always the best one for the given slope.
 class SlopeProfile {
 public:
     explicit SlopeProfile(std::vector<LogisticPoint> points) : points_(std::move(points)) {
@@ -114,7 +114,7 @@ public:
         }
         return sum;
     }
-    /// Derivative of the profile: falls with the slope.
+    /// Derivative of the profile likelihood; it falls as the slope rises.
     [[nodiscard]] double score(double slope) const {
         const double intercept = interceptFor(slope);
         double sum = 0;
@@ -129,7 +129,7 @@ private:
     [[nodiscard]] static double softPlus(double z) { return std::max(z, 0.0) + std::log1p(std::exp(-std::abs(z))); }
     [[nodiscard]] static double probability(double z) { return 1 / (1 + std::exp(-z)); }
 
-    /// The intercept that makes as many right answers expected as there are: their number rises with it.
+    /// Finds the intercept at which the expected number of right answers equals the actual number, by bisection.
     [[nodiscard]] double interceptFor(double slope) const {
         double low = -60 - std::abs(slope), high = 60 + std::abs(slope);
         for (int i = 0; i < kHalvings && high - low > 1e-14 * (1 + std::abs(low)); ++i) {
@@ -147,7 +147,7 @@ private:
     double right_ = 0;
 };
 
-/// The place between `inside` and `outside` where `above` turns from true to false.
+/// Finds by bisection where `above` changes from true at `inside` to false at `outside`.
 template <class Above>
 double turnOf(double inside, double outside, Above&& above) {
     for (int i = 0; i < kHalvings && std::abs(outside - inside) > 1e-13 * (1 + std::abs(inside)); ++i) {
@@ -178,7 +178,7 @@ Estimate logisticSlope(std::span<const LogisticPoint> points) {
     const SlopeProfile profile(std::move(used));
     constexpr double kOpen = std::numeric_limits<double>::infinity();
     const double found = turnOf(-kSteepest, kSteepest, [&](double b) { return profile.score(b) > 0; });
-    // Where every answer agrees with a slope, steeper slopes are just as good, but for rounding.
+    // If a slope separates the answers perfectly, steeper slopes are equally good apart from rounding.
     constexpr double kAsGood = 1e-9;
     const double asGood = profile.logLikelihood(found) - kAsGood;
     const bool openAbove = profile.logLikelihood(kSteepest) >= asGood;
@@ -225,7 +225,7 @@ std::vector<std::size_t> williamsOrder(std::size_t encodings, std::size_t enroll
     if (encodings == 0) return {};
     const std::size_t row = enrolled % williamsRows(encodings);
     std::vector<std::size_t> order;
-    // 0, 1, n - 1, 2, n - 2, ... with the row's number added; of an odd number the same rows again, backwards.
+    // 0, 1, n - 1, 2, n - 2, ... plus the row's number; odd designs add the same rows in reverse.
     for (std::size_t i = 0; i < encodings; ++i) {
         const std::size_t step = i % 2 == 1 ? (i + 1) / 2 : (encodings - i / 2) % encodings;
         order.push_back((step + row) % encodings);
