@@ -9,9 +9,9 @@ namespace tacto {
 
 namespace {
 
-constexpr double kRise = 0.05;          // Share of the level
+constexpr double kRise = 0.05;          // share of the level
 constexpr double kLargestRise_ma = 1;   // IEC 60601-2-10, 201.12.1.101
-constexpr std::size_t kMaxLeading = 3;  // Empty presentations at the beginning
+constexpr std::size_t kMaxLeading = 3;  // empty presentations at the beginning
 constexpr std::size_t kOneEmptyOf = 5;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
@@ -120,7 +120,7 @@ void AscendingLimits::answerEmpty(StrengthWord word) {
 
 void AscendingLimits::answerLevel(StrengthWord word) {
     const double level = grid_.level(index_);
-    if (repeat_ && first_ == last_) {  // Another answer replaces this one
+    if (repeat_ && first_ == last_) {  // the new answer replaces the previous one
         first_ = 0;
         current().felt = kNone;
     }

@@ -1,13 +1,13 @@
-// AscendingLimits.h - three series of rising levels, until the participant says "too strong" (pilot.md section 4).
+// AscendingLimits.h - three series of rising levels until the participant says "too strong" (pilot.md section 4).
 //
-// Safety comes first; the threshold is rough, because anticipation and habituation shift it. Each series starts from
-// nothing: 1 to 3 empty presentations, then up by one device step, or by 5 % of the level (rounded down to the grid)
-// where that is more, at most 1 mA. In each five later presentations one, drawn from the seed, is empty. After an empty
-// one that was felt the last level is presented again, and its new answer replaces the one before; a second felt empty
-// one marks the series. "Too strong" ends the series, whatever was presented, and keeps every later level below it;
-// said about an empty presentation it counts for the last level of the series and marks it.
+// Safety comes first. The threshold is only rough, because anticipation and habituation shift it. Each series starts
+// with 1 to 3 empty presentations. Then the level rises by one device step or by 5 % (rounded down to the grid),
+// whichever is more, but by at most 1 mA. One of every five later presentations, chosen from the seed, is empty. If an
+// empty one was felt, the last level is presented again and its new answer replaces the previous one; a second felt
+// empty presentation marks the series. "Too strong" ends the series after any presentation and keeps all later levels
+// below it. Said about an empty presentation, it applies to the last level of the series and marks the series.
 //
-// The same settings, seed and answers give the same presentations, so a record replays.
+// The same settings, seed and answers give the same presentations, so a recorded series can be replayed.
 #pragma once
 
 #include <cstdint>
@@ -18,14 +18,14 @@
 
 namespace tacto {
 
-/// A participant's words for one presentation.
+/// The words a participant can use for one presentation.
 enum class StrengthWord { Nothing, Weak, Strong, TooStrong };
 inline constexpr Word<StrengthWord> kStrengthWords[] = {{"nothing", StrengthWord::Nothing},
                                                         {"weak", StrengthWord::Weak},
                                                         {"strong", StrengthWord::Strong},
                                                         {"too-strong", StrengthWord::TooStrong}};
 [[nodiscard]] constexpr std::string_view nameOf(StrengthWord word) noexcept { return wordFor(kStrengthWords, word); }
-/// Errors: InvalidArgument naming the text and the words.
+/// Errors: InvalidArgument naming the text and the accepted words.
 [[nodiscard]] Result<StrengthWord> strengthWordFrom(std::string_view text);
 
 enum class SeriesEnd { Open, TooStrong, Ceiling, Stop };
@@ -35,27 +35,27 @@ inline constexpr Word<SeriesEnd> kSeriesEnds[] = {{"open", SeriesEnd::Open},
                                                   {"stop", SeriesEnd::Stop}};
 [[nodiscard]] constexpr std::string_view nameOf(SeriesEnd end) noexcept { return wordFor(kSeriesEnds, end); }
 
-/// Three trains at the shortest interval, 1 to 2 s after the one before; an empty one is as long.
+/// Three trains at the shortest interval, 1 to 2 s after the previous presentation. Empty ones last equally long.
 struct AscendingPresentation {
     std::size_t number = 0;  ///< from 1, over all series
     std::size_t series = 0;  ///< from 1
-    double level = 0;        ///< 0: empty
+    double level = 0;        ///< 0: an empty presentation
     [[nodiscard]] bool empty() const noexcept { return level == 0; }
 };
 
 struct AscendingSeries {
-    double felt = std::numeric_limits<double>::quiet_NaN();  ///< first level felt; NaN: none
+    double felt = std::numeric_limits<double>::quiet_NaN();  ///< first level that was felt; NaN: none
     double tooStrong = std::numeric_limits<double>::quiet_NaN();
     double highest = 0;  ///< the highest level that was answered
     SeriesEnd endedBy = SeriesEnd::Open;
-    LevelLimit ceiling = LevelLimit::Device;  ///< the kind of ceiling, where it ended the series
+    LevelLimit ceiling = LevelLimit::Device;  ///< which ceiling, if a ceiling ended the series
     std::size_t feltEmpty = 0;
     [[nodiscard]] bool marked() const noexcept { return feltEmpty >= 2; }
 };
 
 struct AscendingResult {
-    double felt = std::numeric_limits<double>::quiet_NaN();  ///< F: median of the series'; NaN: nothing was felt
-    /// U: lowest level called too strong, else the highest that was answered; NaN before any was.
+    double felt = std::numeric_limits<double>::quiet_NaN();  ///< F: median over the series; NaN: nothing was felt
+    /// U: lowest level called too strong, else the highest level that was answered; NaN before the first answer.
     double tooStrong = std::numeric_limits<double>::quiet_NaN();
     bool saidTooStrong = false;
     std::vector<AscendingSeries> series;
@@ -65,22 +65,22 @@ class AscendingLimits {
 public:
     static constexpr std::size_t kSeries = 3;
 
-    /// Errors: InvalidArgument for a grid of currents whose step exceeds 1 mA, naming it.
+    /// Errors: InvalidArgument for a grid of currents with a step above 1 mA.
     [[nodiscard]] static Result<AscendingLimits> create(const LevelGrid& grid, std::uint64_t seed);
 
-    /// The next presentation: the same until it is answered; nothing when done().
+    /// The next presentation, unchanged until it is answered; nothing if done().
     [[nodiscard]] std::optional<AscendingPresentation> next() const;
-    /// Errors: InvalidArgument for a value that is not a word, or when nothing is asked for; nothing has changed then.
+    /// Errors: InvalidArgument for a value that is not a word, or if no answer is expected; nothing has changed then.
     [[nodiscard]] Result<void> answer(StrengthWord word);
-    /// The presentation was refused by `by`: the series ends at its ceiling. Without effect when done().
+    /// Reports that `by` refused the presentation: its ceiling ends the series. No effect if done().
     void refused(LevelLimit by);
-    /// The participant, or the operator, stopped: the series ends, the presentation is void. Without effect when
-    /// done().
+    /// Reports that the participant or the operator stopped: the series ends and the open presentation is not
+    /// evaluated. No effect if done().
     void stop();
     [[nodiscard]] bool done() const noexcept {
         return result_.series.size() == kSeries && current().endedBy != SeriesEnd::Open;
     }
-    /// The result of the answers so far.
+    /// Returns the result of the answers given so far.
     [[nodiscard]] AscendingResult result() const;
 
 private:
@@ -98,18 +98,18 @@ private:
 
     LevelGrid grid_;
     std::uint64_t seed_;
-    std::size_t ceiling_;   // Index; falls to below what was called too strong
-    LevelLimit limitedBy_;  // the reason for ceiling_
+    std::size_t ceiling_;   // Highest allowed index; stays below what was too strong
+    LevelLimit limitedBy_;  // What sets ceiling_
     AscendingResult result_;
-    std::size_t number_ = 1;      // The presentation that is asked for
-    std::size_t index_ = 0;       // The level's index; 0: empty
-    std::size_t last_ = 0;        // Last level of this series
-    std::size_t first_ = 0;       // First level felt in this series; 0: none
-    std::size_t leading_ = 0;     // Empty presentations still due at the beginning
-    std::size_t inFive_ = 0;      // Place in the current five
-    std::size_t emptyPlace_ = 0;  // Which of the five is empty
+    std::size_t number_ = 1;      // Number of the open presentation
+    std::size_t index_ = 0;       // Index of its level; 0: empty
+    std::size_t last_ = 0;        // Index of the last level of this series
+    std::size_t first_ = 0;       // Index of the first level felt in this series; 0: none
+    std::size_t leading_ = 0;     // Empty presentations still to come at the beginning
+    std::size_t inFive_ = 0;      // Position in the current group of five
+    std::size_t emptyPlace_ = 0;  // Position of the empty one in the group of five
     std::size_t fives_ = 0;
-    bool repeat_ = false;  // `last_` is presented again
+    bool repeat_ = false;  // `last_` must be presented again
 };
 
 }  // namespace tacto

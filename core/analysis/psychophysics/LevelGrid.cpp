@@ -7,7 +7,7 @@ namespace tacto {
 
 namespace {
 
-constexpr double kOnGrid = 1e-9;  // In steps
+constexpr double kOnGrid = 1e-9;  // in steps
 
 double stepsDown(double value, double step) noexcept { return std::floor(value / step + kOnGrid); }
 
@@ -51,7 +51,7 @@ std::optional<std::size_t> LevelGrid::atOrAbove(double value) const noexcept {
 }
 
 std::size_t LevelGrid::nearest(double value) const noexcept {
-    const double steps = std::ceil(value / step_ - 0.5 - kOnGrid);  // Half-way is the weaker
+    const double steps = std::ceil(value / step_ - 0.5 - kOnGrid);  // half-way values go to the weaker level
     if (!(steps >= 1)) return 1;
     return steps < static_cast<double>(count_) ? static_cast<std::size_t>(steps) : count_;
 }

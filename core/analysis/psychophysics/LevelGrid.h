@@ -1,7 +1,7 @@
 // LevelGrid.h - the levels that a session may present: multiples of the device's step up to the lowest ceiling.
 //
-// A level is a current in mA, or with a massager an intensity from 0 to 1. Which of the two it is belongs to the grid,
-// so the procedures carry levels as plain numbers in the grid's unit and serve both kinds of device.
+// A level is a current in mA or, for a massager, an intensity from 0 to 1. Only the grid knows which of the two. The
+// procedures carry levels as plain numbers in the grid's unit and so serve both kinds of device.
 //
 // Thread-safety: values; pure functions.
 #pragma once
@@ -19,13 +19,13 @@ namespace tacto {
 
 enum class LevelUnit { Current, Intensity };
 
-/// The reason why levels cannot be higher.
+/// What limits the highest level.
 enum class LevelLimit {
     Device,        ///< the device's largest amplitude
     Gate,          ///< the largest level that the gate approves
     Cap,           ///< the study's cap
     TooStrong,     ///< the participant called a level too strong
-    Confirmation,  ///< the participant did not want the highest level for half an hour
+    Confirmation,  ///< the participant refused half an hour of the highest level
 };
 inline constexpr Word<LevelUnit> kLevelUnits[] = {{"current_ma", LevelUnit::Current},
                                                   {"intensity", LevelUnit::Intensity}};
@@ -34,17 +34,17 @@ inline constexpr Word<LevelLimit> kLevelLimits[] = {{"device", LevelLimit::Devic
                                                     {"cap", LevelLimit::Cap},
                                                     {"too-strong", LevelLimit::TooStrong},
                                                     {"confirmation", LevelLimit::Confirmation}};
-/// The step between the levels of a massager (choice: twenty, so that a series of ascending limits is as long as one in
-/// steps of 0.5 mA).
+/// Step between the levels of a massager (choice: twenty levels make an ascending series as long as steps of 0.5 mA
+/// do).
 inline constexpr double kIntensityStep = 0.05;
 
 [[nodiscard]] constexpr std::string_view nameOf(LevelUnit unit) noexcept { return wordFor(kLevelUnits, unit); }
-/// The key of a level in JSON: "felt_ma", "felt_intensity".
+/// Returns the JSON key of a level: "felt_ma", "felt_intensity".
 [[nodiscard]] inline std::string levelKey(std::string_view what, LevelUnit unit) {
     return std::string(what) + (unit == LevelUnit::Current ? "_ma" : "_intensity");
 }
 [[nodiscard]] constexpr std::string_view nameOf(LevelLimit limit) noexcept { return wordFor(kLevelLimits, limit); }
-/// The words that people read for it: "what was too strong".
+/// What people read for each limit: "what was too strong".
 inline constexpr Word<LevelLimit> kLevelLimitsInWords[] = {
     {"the device's largest level", LevelLimit::Device},
     {"the safety gate", LevelLimit::Gate},
@@ -55,21 +55,21 @@ inline constexpr Word<LevelLimit> kLevelLimitsInWords[] = {
     return wordFor(kLevelLimitsInWords, limit);
 }
 
-/// Levels above `level` are not presented.
+/// An upper limit of the levels and where it comes from.
 struct LevelCeiling {
     double level = 0;
     LevelLimit by = LevelLimit::Device;
 };
 
-/// Levels have indices: 0 is nothing, 1 the device's smallest step, count() the highest.
+/// Levels have indices: 0 is no stimulus, 1 the device's smallest step, count() the highest level.
 class LevelGrid {
 public:
     static constexpr std::size_t kMaxLevels = 10'000;
 
-    /// The highest level is the last multiple of `step` that no ceiling forbids; of equal ceilings the first names it.
-    /// Errors: InvalidArgument naming the value and what is accepted: a step that is not above 0 (of an intensity: to
-    /// 1), no ceiling, a ceiling that is not finite or below one step, an intensity ceiling above 1, more than
-    /// kMaxLevels.
+    /// Makes a grid up to the last multiple of `step` that no ceiling forbids; of equal ceilings, limitedBy() is the
+    /// first. Errors: InvalidArgument naming the value and what is accepted: a step that is not positive (for an
+    /// intensity also above 1), no ceiling, a ceiling that is infinite or below one step, an intensity ceiling above 1,
+    /// or more than kMaxLevels.
     [[nodiscard]] static Result<LevelGrid> create(LevelUnit unit, double step, std::span<const LevelCeiling> ceilings);
 
     [[nodiscard]] LevelUnit unit() const noexcept { return unit_; }
@@ -80,12 +80,12 @@ public:
     [[nodiscard]] double level(std::size_t index) const noexcept { return step_ * static_cast<double>(index); }
     [[nodiscard]] double highest() const noexcept { return level(count_); }
 
-    // A value within a billionth of a step of a level counts as that level. `value` is finite and ≥ 0. At most count();
-    // 0 for less than a step.
+    // In the following functions, a value within a billionth of a step of a level equals that level. `value` is finite
+    // and ≥ 0. This one returns at most count(), and 0 for less than a step.
     [[nodiscard]] std::size_t atOrBelow(double value) const noexcept;
-    /// Nothing where the value lies above the highest level.
+    /// Returns nothing if the value is above the highest level.
     [[nodiscard]] std::optional<std::size_t> atOrAbove(double value) const noexcept;
-    /// 1 to count(); of two equally near the weaker.
+    /// Returns 1 to count(); of two equally near levels the weaker.
     [[nodiscard]] std::size_t nearest(double value) const noexcept;
 
     /// "4.5 mA", "intensity 0.35".

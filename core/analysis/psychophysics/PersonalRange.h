@@ -1,9 +1,9 @@
-// PersonalRange.h - the levels between which a participant's conditions lie today (pilot.md section 4).
+// PersonalRange.h - finds the range of levels for a participant's conditions today (pilot.md section 4).
 //
-// I_min = 1.25 times the detection threshold, up to the grid. I_max = the lowest of 0.8 U, what the gate approves at
-// the shortest interval, and the cap, down to the grid. Then the participant feels I_max for 4 s at the shortest
-// interval and is asked "half an hour of this?"; each no lowers it by one step. Fewer than two steps between the two is
-// no usable range, which is a result like any other: leaving such participants out would flatter the answer.
+// I_min is 1.25 times the detection threshold, rounded up to the grid. I_max is the lowest of 0.8 U, the gate's highest
+// approved level at the shortest interval, and the cap, rounded down to the grid. The participant then feels I_max for
+// 4 s at the shortest interval and is asked "half an hour of this?". Each no lowers it by one step. Fewer than two
+// steps leave no usable range. This is a normal result: excluding such participants would make the study look better.
 //
 // The same settings and answers give the same presentations.
 #pragma once
@@ -14,37 +14,37 @@
 namespace tacto {
 
 struct PersonalRangeSettings {
-    double detection = 0;       ///< α̂, in the grid's unit; > 0
-    double tooStrong = 0;       ///< U; > 0
-    bool saidTooStrong = true;  ///< U was called too strong; else it is the highest level that was presented
+    double detection = 0;       ///< estimate of α, in the grid's unit; > 0
+    double tooStrong = 0;       ///< U, the level that is too strong; > 0
+    bool saidTooStrong = true;  ///< the participant called U too strong; else U is the highest level presented
     double aboveDetection = 1.25;
     double belowTooStrong = 0.8;
-    std::size_t leastSteps = 2;              ///< between I_min and I_max
+    std::size_t leastSteps = 2;              ///< smallest number of steps between I_min and I_max
     double weber = kAmplitudeWeberFraction;  ///< Weber fraction of the level, for the distance in JND; > 0
 };
 
 struct PersonalRangeResult {
     bool usable = false;
-    std::string reason;                                     ///< one sentence that says why it is not usable; else empty
-    double min = std::numeric_limits<double>::quiet_NaN();  ///< I_min on the grid; NaN: above the highest level
-    double max = std::numeric_limits<double>::quiet_NaN();  ///< I_max on the grid; NaN: below one step
-    LevelLimit limitedBy = LevelLimit::TooStrong;           ///< the reason why I_max is no higher
-    std::size_t steps = 0;                                  ///< from min to max; 0 where max is not above min
-    double jnd = std::numeric_limits<double>::quiet_NaN();  ///< ln(max/min) / ln(1 + weber); NaN where not usable
-    std::size_t lowered = 0;                                ///< times that the participant said no
+    std::string reason;                                     ///< sentence: why it is not usable; else empty
+    double min = std::numeric_limits<double>::quiet_NaN();  ///< I_min on the grid; NaN if above the highest level
+    double max = std::numeric_limits<double>::quiet_NaN();  ///< I_max on the grid; NaN if below one step
+    LevelLimit limitedBy = LevelLimit::TooStrong;           ///< what limits I_max
+    std::size_t steps = 0;                                  ///< steps from min to max; 0 if max is not above min
+    double jnd = std::numeric_limits<double>::quiet_NaN();  ///< ln(max/min) / ln(1 + weber); NaN if not usable
+    std::size_t lowered = 0;                                ///< how often the participant said no
 };
 
 class PersonalRange {
 public:
-    /// The grid's highest level stands for the gate, the cap and the device. Errors: InvalidArgument naming the
-    /// setting, its value and what is accepted.
+    /// The grid's highest level already includes the limits of the gate, the cap and the device. Errors:
+    /// InvalidArgument naming the setting, its value and what is accepted.
     [[nodiscard]] static Result<PersonalRange> create(const LevelGrid& grid, const PersonalRangeSettings& settings);
 
-    /// The level to be felt and asked about; nothing when done().
+    /// The level to present and ask about; nothing if done().
     [[nodiscard]] std::optional<double> next() const;
-    /// "Half an hour of this?" Errors: InvalidArgument when done().
+    /// Takes the answer to "half an hour of this?". Errors: InvalidArgument if done().
     [[nodiscard]] Result<void> answer(bool acceptable);
-    /// Accepted, or nothing usable is left.
+    /// True if I_max is accepted or no usable range is left.
     [[nodiscard]] bool done() const noexcept { return confirmed_ || !wideEnough(); }
     [[nodiscard]] PersonalRangeResult result() const;
 
@@ -54,8 +54,8 @@ private:
 
     LevelGrid grid_;
     PersonalRangeSettings settings_;
-    std::optional<std::size_t> min_;  // Index; nothing: above the highest level
-    std::size_t max_ = 0;             // Index; 0: below one step
+    std::optional<std::size_t> min_;  // index; empty: above the highest level
+    std::size_t max_ = 0;             // index; 0: below one step
     LevelLimit limitedBy_ = LevelLimit::TooStrong;
     std::size_t lowered_ = 0;
     bool confirmed_ = false;

@@ -10,10 +10,10 @@ namespace tacto {
 
 namespace {
 
-constexpr double kSumOfProbabilities = 1e-6;  // May differ from 1 by this
+constexpr double kSumOfProbabilities = 1e-6;  // allowed difference of the sum from 1
 constexpr double kSameG = 1e-9;
 
-/// Counts or expectations, [condition][response].
+/// A table of counts or expected counts, [condition][response].
 class ResponseTable {
 public:
     ResponseTable(std::size_t conditions, std::size_t responses)
@@ -39,7 +39,7 @@ double gOf(std::span<const double> counts, std::span<const double> expected) {
     return std::max(g, 0.0);
 }
 
-/// The places of simulated sessions, seen from one G.
+/// Counts the simulated sessions with a G larger than or equal to `g`.
 struct SimulatedG {
     double g = 0;
     std::size_t larger = 0;

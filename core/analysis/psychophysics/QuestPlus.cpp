@@ -12,7 +12,7 @@ namespace tacto {
 
 namespace {
 
-constexpr double kAlphaBelow_db = 12, kAlphaAbove_db = 9, kAlphaStep_db = 0.5;  // About 20 lg F
+constexpr double kAlphaBelow_db = 12, kAlphaAbove_db = 9, kAlphaStep_db = 0.5;  // relative to 20 lg F
 constexpr auto kAlphas = static_cast<std::size_t>((kAlphaBelow_db + kAlphaAbove_db) / kAlphaStep_db) + 1;
 constexpr std::array<double, 4> kSlopes = {2, 4, 8, 16};
 constexpr double kPriorBelowFelt_db = 1;

@@ -10,10 +10,10 @@ namespace tacto {
 
 namespace {
 
-constexpr double kStartTimes = 1.5;       // In F
-constexpr double kStepShare = 0.05;       // In F
-constexpr std::size_t kUpSteps = 2;       // Steps up for one step down
-constexpr std::size_t kDoubledUntil = 2;  // Reversals
+constexpr double kStartTimes = 1.5;       // multiple of F
+constexpr double kStepShare = 0.05;       // share of F
+constexpr std::size_t kUpSteps = 2;       // steps in a move up, for one step in a move down
+constexpr std::size_t kDoubledUntil = 2;  // number of reversals
 constexpr std::size_t kRightForDown = 2;
 
 }  // namespace

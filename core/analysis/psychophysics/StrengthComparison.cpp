@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kMinWeber = 0.01;
 constexpr double kWeberStep = 0.05;  // step of ln w
-constexpr std::size_t kWebers = 93;  // to 1
+constexpr std::size_t kWebers = 93;  // number of grid points, up to w = 1
 constexpr double kPriorWeber = 0.10;
 constexpr std::size_t kWidestEvery = 8;
 
@@ -21,7 +21,7 @@ EvenDensity webers() { return {std::log(kMinWeber), kWeberStep, {}}; }
 
 double StrengthComparison::probabilityRight(const StrengthPair& pair, double weber) noexcept {
     using P = TwoIntervalPosterior;
-    const double apart = std::log(pair.stronger / pair.weaker) / std::log1p(weber);  // JND
+    const double apart = std::log(pair.stronger / pair.weaker) / std::log1p(weber);  // in JND
     return P::kGuess + (1 - P::kGuess - P::kLapse) * std::erf(apart / 2);
 }
 

@@ -36,7 +36,7 @@ bool runsAreShort(const PlannedOrder& order) {
     return true;
 }
 
-/// Uniform among the orders of one block that obey; nothing when none was found.
+/// Draws one of the valid orders of a block with equal probability; nothing if none was found.
 std::optional<PlannedOrder> orderOfBlock(const PlannedBlocks& wanted, Random& random) {
     PlannedOrder order(wanted.catchTrials);
     for (std::size_t condition = 0; condition < wanted.conditions; ++condition) {
@@ -49,8 +49,8 @@ std::optional<PlannedOrder> orderOfBlock(const PlannedBlocks& wanted, Random& ra
     return std::nullopt;
 }
 
-/// Each block is drawn by itself, and all of them are drawn again when a run crosses their ends, so that whole orders
-/// are equally likely.
+/// Draws each block separately. If a run across two blocks breaks the rule, all blocks are drawn again, so that all
+/// valid orders of the phase are equally likely.
 std::optional<PlannedOrder> orderOfPhase(const PlannedBlocks& wanted, std::uint64_t seed) {
     Random random(seed, fmt::format("plan, {}", nameOf(wanted.phase)));
     for (int tries = 0; tries < kTries; ++tries) {

@@ -91,8 +91,8 @@ std::size_t TwoIntervalPosterior::mostInformative() const {
     return best;
 }
 
-/// Less the entropy of what is known now, which is the same for every choice: the posterior's expected entropy is the
-/// present one, plus what the answer would leave open if the model were known, less the answer's own.
+/// Returns the expected posterior entropy minus the present entropy, which is equal for every choice. This is the
+/// answer's entropy given the model, minus the answer's entropy given present knowledge.
 double TwoIntervalPosterior::expectedEntropy(std::size_t choice) const {
     const std::size_t size = weights_.size(), from = choice * size;
     double right = 0, known = 0;

@@ -1,9 +1,9 @@
-// TwoIntervalTrials.h - detection trials: one train in one of two intervals, "first or second; guess".
+// TwoIntervalTrials.h - detection trials with one train in one of two intervals: "first or second; guess".
 //
-// Which interval holds the train is drawn from the seed, each five times in every ten trials. How often each interval
-// was answered rightly is counted, because people prefer one of them.
+// The seed decides which interval holds the train; in every ten trials each interval holds it five times. Right answers
+// are counted for each interval, because people prefer one of them.
 //
-// Thread-safety: values; none for TwoIntervalOrder, one owner.
+// Thread-safety: values may be shared; a TwoIntervalOrder must have a single owner.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ inline constexpr Word<TrialInterval> kTrialIntervals[] = {{"first", TrialInterva
 [[nodiscard]] constexpr std::string_view nameOf(TrialInterval interval) noexcept {
     return wordFor(kTrialIntervals, interval);
 }
-/// Errors: InvalidArgument naming the text and the words.
+/// Errors: InvalidArgument naming the text and the accepted words.
 [[nodiscard]] Result<TrialInterval> trialIntervalFrom(std::string_view text);
 /// Errors: InvalidArgument for a value that has no word.
 [[nodiscard]] Result<void> validate(TrialInterval interval);
@@ -55,7 +55,7 @@ struct IntervalShares {
 
 class TwoIntervalOrder {
 public:
-    /// `name` tells the procedures of a session apart: two with the same seed and name are the same.
+    /// `name` separates the procedures of a session: equal seeds and names give equal orders.
     TwoIntervalOrder(std::uint64_t seed, std::string_view name);
     /// The interval of trial `number`, from 1.
     [[nodiscard]] TrialInterval of(std::size_t number) const;
@@ -63,34 +63,34 @@ public:
 private:
     std::uint64_t seed_;
     std::string name_;
-    mutable std::optional<std::size_t> drawn_;  ///< which ten stand in ten_
+    mutable std::optional<std::size_t> drawn_;  ///< index of the ten trials stored in ten_
     mutable std::array<TrialInterval, 10> ten_{};
 };
 
-// What answers of two-interval trials say about a grid of models, and which trial says most next.
+// The posterior over a grid of models from two-interval answers, and the choice of the most informative next trial.
 //
-// Each cell of the grid is a model that gives each choice (a level, a pair of levels) a probability of a right answer.
-// The next choice is that with the least expected entropy of the posterior (Watson, Journal of Vision 17(3):10, 2017).
+// Each cell of the grid is a model that gives a probability of a right answer for each choice (a level or a pair of
+// levels). The next choice has the least expected posterior entropy (Watson, Journal of Vision 17(3):10, 2017).
 
 class TwoIntervalPosterior {
 public:
     static constexpr double kGuess = 0.5;
-    /// Fixed: left free, it sends the search to the easiest trials.
+    /// Fixed, because a free lapse rate would favour the easiest trials.
     static constexpr double kLapse = 0.02;
     static constexpr double kEqualEntropy = 1e-9;  ///< nats
-    static constexpr std::size_t kMaxAlike = 3;    ///< trials in a row with the same choice
+    static constexpr std::size_t kMaxAlike = 3;    ///< largest number of trials in a row with the same choice
 
-    /// `prior`: a weight of each cell, not all 0. `right`: choice after choice, of each cell the probability of a right
-    /// answer.
+    /// `prior`: one weight per cell, not all 0. `right`: the probability of a right answer, for every cell of the first
+    /// choice, then of the second, and so on.
     TwoIntervalPosterior(std::vector<double> prior, std::vector<double> right);
 
     [[nodiscard]] std::span<const double> weights() const noexcept { return weights_; }
     [[nodiscard]] std::size_t choices() const noexcept { return right_.size() / weights_.size(); }
     void take(std::size_t choice, bool right);
-    /// The first of those within kEqualEntropy; one that was taken kMaxAlike times in a row only where it is the only
-    /// one.
+    /// Returns the first choice within kEqualEntropy of the best. A choice taken kMaxAlike times in a row is returned
+    /// only if there is no other.
     [[nodiscard]] std::size_t mostInformative() const;
-    /// The choice that is forbidden; choices() where none is.
+    /// Returns the choice that may not be taken next; choices() if there is none.
     [[nodiscard]] std::size_t forbidden() const noexcept;
 
 private:
@@ -99,11 +99,11 @@ private:
 
     std::vector<double> weights_;
     std::vector<double> right_;
-    std::vector<double> entropy_;  // entropy of the answer when the cell is known
+    std::vector<double> entropy_;  // entropy of the answer if the cell is the true model
     std::vector<std::size_t> taken_;
 };
 
-/// Weights on an even grid of a quantity, with a sum of 1; the weight is even within a cell.
+/// A density on an even grid: weights with sum 1, uniform within each cell.
 struct EvenDensity {
     double first = 0;  ///< middle of the first cell
     double step = 1;
@@ -112,7 +112,7 @@ struct EvenDensity {
     [[nodiscard]] double mean() const noexcept;
     [[nodiscard]] double sd() const noexcept;
     [[nodiscard]] double quantile(double q) const noexcept;
-    /// More than 2.5 % lies in an end's cell: the quantity may lie beyond, and an interval is too narrow.
+    /// True if more than 2.5 % lies in an end cell: the value may lie outside, and an interval is too narrow.
     [[nodiscard]] bool atEdge() const noexcept;
     [[nodiscard]] double at(std::size_t cell) const noexcept { return first + step * static_cast<double>(cell); }
 };

@@ -10,7 +10,7 @@ namespace tacto {
 
 namespace {
 
-/// Rises on a logarithmic scale from `least` at `from` to `most` at `to`, with noise, as a whole number of the scale.
+/// A rating that rises on a logarithmic scale from `least` at `from` to `most` at `to`, with noise, as a whole number.
 struct RatingScale {
     double from;
     double to;
@@ -62,7 +62,7 @@ VirtualObserver::VirtualObserver(const VirtualObserverSettings& settings) noexce
     attention_ = who.attention.value() / unit;
     tooStrong_ = who.discomfort.value() / unit;
     intolerance_ = who.intolerance.value() / unit;
-    // d(felt)/d(ln level) at the threshold: β/e of the Weibull function, 1/(√(2π) σ) of the normal noise.
+    // Equates the slopes d(felt)/d(ln level) at the threshold: β/e (Weibull) and 1/(√(2π) σ) (normal noise).
     const double sigma = who.noise_jnd * std::log1p(who.amplitudeWeber);
     slope_ = std::numbers::e / (std::sqrt(2 * std::numbers::pi) * sigma);
 }

@@ -22,7 +22,7 @@ std::string_view withoutQuotes(std::string_view field) {
     return field;
 }
 
-/// Micrometres per unit, for a text that is a unit and nothing else, in brackets or not.
+/// Returns micrometres per unit if the text is only a unit, with or without brackets.
 std::optional<double> unitOf(std::string_view text) {
     text = withoutQuotes(text);
     if (text.size() >= 2 && (text.front() == '[' || text.front() == '(') &&
@@ -30,7 +30,7 @@ std::optional<double> unitOf(std::string_view text) {
         text = trimmed(text.substr(1, text.size() - 2));
     }
     const auto is = [&](std::string_view name) { return text == name; };
-    // Micro as UTF-8 (sign and Greek letter), as Latin-1, and as people type it.
+    // Micro in UTF-8 (sign and Greek letter), in Latin-1, and as usually typed.
     for (const auto* name :
          {"\xC2\xB5m", "\xCE\xBCm", "\xB5m", "um", "micron", "microns", "micrometer", "micrometre"}) {
         if (is(name)) return 1.0;
@@ -42,10 +42,10 @@ std::optional<double> unitOf(std::string_view text) {
 
 struct Number {
     double value = 0;
-    std::optional<double> unit;  // the unit that follows it
+    std::optional<double> unit;  // the unit after the number
 };
 
-/// "1.62", "1,62", "1.62 µm".
+/// Reads "1.62", "1,62", "1.62 µm".
 std::optional<Number> numberOf(std::string_view text) {
     text = withoutQuotes(text);
     std::size_t end = 0;
@@ -66,7 +66,7 @@ std::optional<Number> numberOf(std::string_view text) {
 
 enum class Parameter : std::size_t { Ra, Rz };
 
-/// A field that names Ra or Rz, and what else stands in it.
+/// A field with the name Ra or Rz, and the other content of the field.
 struct Label {
     Parameter parameter;
     std::optional<double> unit;
@@ -85,7 +85,7 @@ std::optional<Label> labelOf(std::string_view field) {
         const auto close = rest.find_first_of("])");
         if (close == std::string_view::npos) return std::nullopt;
         out.unit = unitOf(rest.substr(0, close + 1));
-        if (!out.unit) return std::nullopt;  // "Ra (limit)": another thing
+        if (!out.unit) return std::nullopt;  // "Ra (limit)" is not Ra itself
         rest = trimmed(rest.substr(close + 1));
     }
     if (!rest.empty() && (rest.front() == '=' || rest.front() == ':')) rest = trimmed(rest.substr(1));
@@ -100,7 +100,7 @@ std::optional<Label> labelOf(std::string_view field) {
 }
 
 std::vector<std::string_view> fieldsOf(std::string_view line, char separator) {
-    // "Ra = 1,62 µm" or "Ra: 1,62 µm" in a file without other separators is one field.
+    // In a file without other separators, "Ra = 1,62 µm" or "Ra: 1,62 µm" is a single field.
     if (separator == ',' && line.find_first_of("=:") != std::string_view::npos && labelOf(line)) return {line};
     std::vector<std::string_view> out;
     bool quoted = false;
@@ -133,7 +133,7 @@ public:
         for (std::size_t i = 0; i < fields.size(); ++i) {
             const auto label = labelOf(fields[i]);
             if (!label) continue;
-            if (!labelled) columns_ = {};  // a new header or a new block: the old table has ended
+            if (!labelled) columns_ = {};  // new header or block, so the old table has ended
             labelled = true;
             if (auto taken = take(*label, fields, i); !taken) return taken;
         }
@@ -175,7 +175,7 @@ private:
     struct Found {
         std::vector<double> values;  // µm
         std::size_t line = 0;        // number of the last line
-        bool final = false;          // a row of means has spoken
+        bool final = false;          // a row of means was found and is final
     };
     struct Column {
         std::optional<std::size_t> index;
@@ -211,7 +211,7 @@ private:
         if (label.value) return add(label.parameter, *label.value, label.unit, false);
         const auto next = at + 1 < fields.size() ? fields[at + 1] : std::string_view();
         const auto unit = label.unit ? label.unit : unitOf(next);
-        // Name, unit, value as well as name, value, unit.
+        // Accepts name, unit, value and name, value, unit.
         const std::size_t valueAt = unitOf(next) ? at + 2 : at + 1;
         const auto value = valueAt < fields.size() ? numberOf(fields[valueAt]) : std::nullopt;
         if (!value) {
@@ -254,7 +254,7 @@ private:
     std::array<Found, 2> found_;
     std::array<Column, 2> columns_;
     std::size_t line_ = 0;
-    std::size_t nameSeen_ = 0;  // the line that names Ra, whatever followed
+    std::size_t nameSeen_ = 0;  // line that names Ra, even without a value
 };
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kNormal95 = 1.959963984540054;
 
-/// The correlation of ranks, whose mean is (n + 1) / 2 for any ties. NaN when one side does not vary.
+/// Correlation of ranks; their mean is (n + 1) / 2, with or without ties. NaN if all values of one list are equal.
 double correlation(const std::vector<double>& a, const std::vector<double>& b) {
     const double middle = (static_cast<double>(a.size()) + 1) / 2;
     double ab = 0, aa = 0, bb = 0;
@@ -27,7 +27,7 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
 double halfWidth(double rho, double n) { return kNormal95 * std::sqrt((1 + rho * rho / 2) / (n - 3)); }
 
 Estimate intervalOf(double rho, double n) {
-    // Rounding leaves ranks in perfect order a few ulp off 1; the nearest other value is 6 / (n (n² - 1)) away or more.
+    // Rounding can move ranks in perfect order off 1 slightly; other values differ from 1 by at least 6 / (n (n² - 1)).
     const double step = 6 / (n * (n * n - 1));
     const bool perfect = 1 - std::abs(rho) < step / 1000;
     const double used = perfect ? std::copysign(1 - step, rho) : rho;
@@ -37,7 +37,7 @@ Estimate intervalOf(double rho, double n) {
     return out;
 }
 
-/// Ranks from 1; equal values get the mean of theirs.
+/// Returns ranks from 1; equal values get the mean of their ranks.
 std::vector<double> midRanks(std::span<const double> values) {
     std::vector<std::size_t> order(values.size());
     std::iota(order.begin(), order.end(), std::size_t{0});

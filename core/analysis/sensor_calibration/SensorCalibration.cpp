@@ -25,7 +25,7 @@ ReferenceScale& scaleOf(RoughnessSettings& settings, SensorFeature feature) {
     return settings.vDynamic;
 }
 
-/// log10 per slide; nothing where one slide lacks the feature: a mean over those that have it would be of others.
+/// Returns log10 per slide; nothing if any slide lacks the feature, since a mean would then leave out slides.
 std::optional<std::vector<double>> logarithms(const SlidSurface& surface, SensorFeature feature) {
     std::vector<double> out;
     for (const auto& slide : surface.slides) {
@@ -76,12 +76,12 @@ std::vector<double> roughnesses(const SlidSurface& surface, const RoughnessSetti
 }
 
 ReferenceSurface certificate(const SlidSurface& surface) {
-    // A profile writes 0 for an Rz that was not stated.
+    // A profile stores 0 for an Rz that is unknown.
     return {surface.name, Micrometres(surface.ra_um), Micrometres(surface.rz_um > 0 ? surface.rz_um : 0)};
 }
 
-/// A rig that never measures a feature does without it. One that measures it now and then would weigh it by a scale
-/// that is not this rig's.
+/// A rig may lack a feature completely. But a rig that measures it only sometimes would use a scale for it that was not
+/// measured on this rig.
 void sayAbsent(SensorFeature feature, const std::vector<SlidSurface>& surfaces, SensorCalibration& found) {
     const bool measured = std::ranges::any_of(surfaces, [&](const SlidSurface& surface) {
         return std::ranges::any_of(surface.slides, [&](const auto& slide) { return valueOf(slide, feature) > 0; });
@@ -96,7 +96,7 @@ void sayAbsent(SensorFeature feature, const std::vector<SlidSurface>& surfaces, 
         keyOf(feature)));
 }
 
-/// Every feature's distance and its new scale; a feature in use that does not tell them apart becomes a reason.
+/// Sets each feature's distance and new scale. A feature in use that cannot tell the references apart becomes a reason.
 void setScales(const std::vector<SlidSurface>& surfaces, SensorCalibration& found, RoughnessSettings& scaled) {
     const auto used = featuresInUse(scaled);
     std::size_t present = 0;
@@ -109,7 +109,7 @@ void setScales(const std::vector<SlidSurface>& surfaces, SensorCalibration& foun
             continue;
         }
         const auto distance = surfaceDistance(*smooth, *rough);
-        if (!distance) continue;  // check() has seen to the number of slides
+        if (!distance) continue;  // check() already checked the number of slides
         found.distances[f] = *distance;
         if (!distance->toldApart()) {
             (inUse ? found.reasons : found.warnings)
@@ -204,7 +204,7 @@ Result<SensorCalibration> calibrateSensor(const std::vector<SlidSurface>& surfac
         found.surfaces.push_back(std::move(row));
     }
     if (found.reasons.empty()) {
-        // R stands on scales of this run only where every feature in use has one.
+        // R has scales from this run only if every used feature has one.
         if (auto distance = surfaceDistance(roughnesses(surfaces[0], scaled), roughnesses(surfaces[1], scaled))) {
             found.distanceR = *distance;
             if (!(distance->difference > 0) || !distance->toldApart()) found.reasons.push_back(apart("R", *distance));
@@ -230,7 +230,7 @@ std::vector<Weight> weightsOf(const RoughnessSettings& scaled, const std::vector
     double total = 0;
     for (const auto feature : featuresInUse(scaled)) {
         const bool spectral = feature == SensorFeature::H || feature == SensorFeature::HAbs;
-        // A feature that the rig does not have takes no part in R.
+        // A feature that the rig does not measure is not part of R.
         if (!(valueOf(surfaces.front().slides.front(), feature) > 0)) continue;
         const auto& scale = spectral ? scaled.spectralScale() : scaled.taxelScale();
         const double weight = spectral ? scaled.spectralWeight : scaled.taxelWeight;
@@ -241,7 +241,7 @@ std::vector<Weight> weightsOf(const RoughnessSettings& scaled, const std::vector
     return out;
 }
 
-/// The roughness of a slide, but for a constant; NaN where a feature is absent.
+/// The roughness of a slide apart from a constant; NaN if a feature is absent.
 double positionOf(const SlideReading& slide, const std::vector<Weight>& weights) {
     double z = 0;
     for (const auto& weight : weights) z += weight.perDecade * std::log10(valueOf(slide, weight.feature));

@@ -1,11 +1,11 @@
-// SensorCalibration.h - reference surfaces become the scale of R: science.md section 2.6.
+// SensorCalibration.h - sets the scale of R with reference surfaces (science.md section 2.6).
 //
-// Each surface was slid over several times; a slide gives one value per feature. The first two surfaces are the smooth
-// and the rough reference: x_smooth and x_rough are the geometric means over their slides, because g() works on log10.
-// How far apart the two read is a distance in d′ (SurfaceDistance.h) of log10 x per slide, and of R per slide under the
-// new scale. A pair that cannot be told apart, in a feature that R stands on or in R itself, is refused: the settings
-// then stay as they were. With five or more surfaces of known Ra, Spearman's correlation of mean R against Ra says
-// whether R ranks as the profilometer does (RankCorrelation.h); it is reported, and not judged.
+// The finger slides over each surface several times; a slide gives one value per feature. The first two surfaces are
+// the smooth and the rough reference. x_smooth and x_rough are geometric means over their slides, because g() uses
+// log10. Their distance is a d′ (SurfaceDistance.h) of log10 x per slide, and of R per slide with the new scale. If R
+// or a feature used by R cannot tell the two apart, the calibration is refused and the settings stay unchanged. With
+// five or more surfaces of known Ra, Spearman's correlation of mean R with Ra tells whether R ranks like the
+// profilometer (RankCorrelation.h). It is reported but not judged.
 #pragma once
 
 #include <array>
@@ -25,12 +25,12 @@ inline constexpr std::array kSensorFeatures{SensorFeature::H, SensorFeature::HAb
                                             SensorFeature::VDynamic};
 [[nodiscard]] std::string_view keyOf(SensorFeature feature) noexcept;  // "h", "h_abs", "v_static", "v_dynamic"
 [[nodiscard]] double valueOf(const SlideReading& slide, SensorFeature feature) noexcept;
-/// The two that `settings` choose, without those of weight 0.
+/// Returns the two features that `settings` choose, without any of weight 0.
 [[nodiscard]] std::vector<SensorFeature> featuresInUse(const RoughnessSettings& settings);
 
 struct SlidSurface {
     std::string name;
-    double ra_um = std::numeric_limits<double>::quiet_NaN();  ///< by profilometer; NaN: not known
+    double ra_um = std::numeric_limits<double>::quiet_NaN();  ///< measured by a profilometer; NaN: unknown
     double rz_um = std::numeric_limits<double>::quiet_NaN();
     std::vector<SlideReading> slides;
 };
@@ -41,37 +41,37 @@ struct SurfaceResult {
     double rz_um = std::numeric_limits<double>::quiet_NaN();
     std::size_t slides = 0;
     std::array<double, kSensorFeatures.size()> features{};  ///< geometric means; NaN: absent
-    Statistics R;        ///< R of the slides under the new scale, each beyond 0..1 where it is beyond the references
-    Statistics force_n;  ///< from the slides' means
+    Statistics R;        ///< R of the slides with the new scale; outside 0..1 if outside the references
+    Statistics force_n;  ///< from the mean force of each slide
 };
 
 struct SensorCalibration {
     bool accepted = false;
-    std::vector<std::string> reasons;   ///< reasons why it is not usable, one sentence each
-    std::vector<std::string> warnings;  ///< limitations of an accepted calibration
-    RoughnessSettings settings;         ///< settings with the new scales, surfaces and rest; unchanged where refused
-    std::optional<RoughnessUncertainty> uncertainty;  ///< uncertainty of R under the new scales; nothing: not evaluated
+    std::vector<std::string> reasons;                 ///< why the calibration is refused, one sentence each
+    std::vector<std::string> warnings;                ///< limitations of an accepted calibration
+    RoughnessSettings settings;                       ///< with new scales, surfaces and rest; unchanged if refused
+    std::optional<RoughnessUncertainty> uncertainty;  ///< of R with the new scales; empty: not evaluated
     std::vector<SurfaceResult> surfaces;
-    std::array<std::optional<SurfaceDistance>, kSensorFeatures.size()> distances;  ///< nothing where the rig lacks it
+    std::array<std::optional<SurfaceDistance>, kSensorFeatures.size()> distances;  ///< empty if not measured
     std::optional<SurfaceDistance> distanceR;
-    std::optional<RankCorrelation> ranking;  ///< nothing: fewer than five surfaces of known Ra, or R does not vary
+    std::optional<RankCorrelation> ranking;  ///< empty: fewer than five surfaces of known Ra, or constant R
 };
 
-/// `surfaces` begins with the smooth and the rough reference.
-/// Errors: InvalidArgument for fewer than two surfaces, fewer than kMinSlides slides of a reference, a name that
-/// appears twice, and a rough reference whose Ra is not known or not above the smooth one's.
+/// The first two `surfaces` are the smooth and the rough reference. Errors: InvalidArgument for fewer than two
+/// surfaces, fewer than kMinSlides slides of a reference, a repeated name, or a rough reference whose Ra is unknown or
+/// not above that of the smooth one.
 [[nodiscard]] Result<SensorCalibration> calibrateSensor(const std::vector<SlidSurface>& surfaces,
                                                         const RoughnessSettings& settings, const SensorRest& rest);
 
-// How far R of one slide can be off, from the repeatability of the slide and the two references.
+// The uncertainty of R of one slide, from the repeatability of the slide and of the two references.
 //
-// R = Σ w g / Σ w, and g is linear in log10 of its feature, so that R of a slide moves by z = Σ c log10 x with
+// R = Σ w g / Σ w, and g is linear in log10 of its feature. R of a slide therefore changes with z = Σ c log10 x, where
 // c = w / (Σ w · (log10 x_rough − log10 x_smooth)). s is the standard deviation of z within a surface, pooled over all
-// surfaces; features of one slide move together, and z holds their covariance. GUM 5.1.2 with the references' means
-// over n slides each: u²(R) = s² (1 + (1 − R)²/n_smooth + R²/n_rough), k from Student's t at Σ (n − 1).
+// surfaces; z includes the covariance of a slide's features. With reference means over n slides each, GUM 5.1.2 gives
+// u²(R) = s² (1 + (1 − R)²/n_smooth + R²/n_rough), with k from Student's t at Σ (n − 1).
 // tests/reference/roughness_uncertainty.py computes the same from covariance matrices.
 
-/// Nothing where a feature in use is absent, or no surface was slid over twice. `scaled` holds the new scales.
+/// Returns nothing if a used feature is absent or no surface has two slides. `scaled` holds the new scales.
 [[nodiscard]] std::optional<RoughnessUncertainty> roughnessRepeatability(const std::vector<SlidSurface>& surfaces,
                                                                          const RoughnessSettings& scaled);
 

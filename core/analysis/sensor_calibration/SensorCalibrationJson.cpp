@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Words for the logarithm of the feature.
+/// Names the logarithm of the feature in words.
 std::string_view wordsOf(SensorFeature feature) noexcept {
     switch (feature) {
         case SensorFeature::H:
@@ -85,7 +85,7 @@ namespace {
 
 using namespace describe;
 
-/// A distance, and of which feature.
+/// A distance with the name of its feature.
 struct NamedDistance {
     std::string of;
     SurfaceDistance distance;
@@ -114,7 +114,7 @@ SensorFeature taxelsOf(const SensorCalibration& found) {
     return found.settings.taxel == TaxelFeature::Static ? SensorFeature::VStatic : SensorFeature::VDynamic;
 }
 
-/// A surface within the calibration that it is a part of.
+/// A surface together with the calibration that contains it.
 struct PlacedSurface {
     const SensorCalibration& calibration;
     SurfaceResult surface;
@@ -148,11 +148,11 @@ ResultRecord<PlacedSurface> describeSurface() {
     all.kept("R_expanded_uncertainty", [](const P& at) { return expandedR(at.calibration, at.R); });
     all.shown(spread("s.d. of R", "R_sd", ""), [](const P& at) { return at.surface.R.sd; });
     all.shown(number("Force", "force_n", "N"), [](const P& at) { return at.surface.force_n.mean; });
-    all.shown(text("Ra and Rz are", "source"));  // the operator's
+    all.shown(text("Ra and Rz are", "source"));  // taken from the operator
     return all;
 }
 
-/// U of R for one slide at the ends and in the middle of R.
+/// U of R of one slide, at R 0, 0.5 and 1.
 Json uncertaintyJson(const SensorCalibration& found) {
     if (!found.uncertainty) return {};
     Json out = roughnessUncertaintyFields().write(*found.uncertainty);
@@ -199,7 +199,7 @@ ResultRecord<SensorCalibration> describeSensorCalibration() {
     all.shown(number("At R 0.5", "uncertainty_R.middle"));
     all.shown(number("At R 1", "uncertainty_R.rough"));
     all.shown(number("k", "uncertainty_R.coverage_factor"));
-    all.shown(text("Profile", "profile.name"));  // the one that the protocol wrote
+    all.shown(text("Profile", "profile.name"));  // the profile that the protocol wrote
     all.facts("Roughness");
     all.kept("surfaces", surfacesOf, describeSurface());
     all.table(
@@ -213,7 +213,7 @@ ResultRecord<SensorCalibration> describeSensorCalibration() {
     return all;
 }
 
-/// A reading times the scale, and the offset, is the reference; the fit within has readings of references.
+/// reference = reading times scale, plus offset. In the nested fit, readings are a function of the references.
 ResultRecord<SensorScale> describeScale() {
     using S = SensorScale;
     const auto& fit = calibrationRecord();
@@ -225,13 +225,13 @@ ResultRecord<SensorScale> describeScale() {
     all.shown(number("Offset", "offset", "N", "offset_expanded_uncertainty"), &S::offset);
     all.kept("offset_expanded_uncertainty", &S::offsetU);
     for (const auto& column : fit.columns()) all.shown(column);
-    all.shown(text("Reason", "reason"));  // why there is none
+    all.shown(text("Reason", "reason"));  // why there is no scale
     return all;
 }
 
 const ResultRecord<SensorCalibration>& sensorRecord() { return builtOnce<describeSensorCalibration>(); }
 
-/// The protocol adds the scales, what was read for them, and the reference.
+/// The protocol adds the scales, the readings for them, and the reference.
 Tables sensorTables() {
     Tables all{facts("Known reference", "reference",
                      {number("Mass", "mass_g", "g"), number("Weight", "reference_n", "N"),

@@ -1,5 +1,5 @@
-// SensorCalibrationJson.h - the sensor calibration in the shapes of the command line's contract, and the readings that
-// scripts are given. Absent values (NaN) are null; an end that is infinite is null too.
+// SensorCalibrationJson.h - writes the sensor calibration as JSON in the command-line contract, and the readings for
+// scripts. Absent (NaN) and infinite values are null.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -18,7 +18,7 @@ namespace tacto {
 ///  "warnings","roughness" (a profile's section)}; "h" and "v" are the variants that the settings choose.
 [[nodiscard]] nlohmann::json toJson(const SensorCalibration& found);
 /// {"scale","scale_expanded_uncertainty","offset","offset_expanded_uncertainty", "gain","residual_max_pct_fs",
-/// "repeatability_pct_fs","hysteresis_pct_fs","levels","readings","warnings", ...}, as Calibration's.
+/// "repeatability_pct_fs","hysteresis_pct_fs","levels","readings","warnings", ...}, as for Calibration.
 [[nodiscard]] nlohmann::json toJson(const SensorScale& found);
 
 /// {"taxel_baseline","taxel_floor","taxel_unit","mean_square","unit"}
@@ -27,11 +27,11 @@ namespace tacto {
 [[nodiscard]] nlohmann::json toJson(const SlideReading& slide);
 /// {"mean","unit","u"}
 [[nodiscard]] nlohmann::json toJson(const ForceInUse& force);
-/// {"mass_g","reference_n","force","force_unit" (where there is a force sensor),"taxels","taxel_unit" (where there are
+/// {"mass_g","reference_n","force","force_unit" (if there is a force sensor),"taxels","taxel_unit" (if there are
 /// taxels),"force_in_use": {"mean","unit","u"}|null}
 [[nodiscard]] nlohmann::json toJson(const WeightReading& reading);
 
-/// How a fingertip's calibration is judged and shown.
+/// Describes how a fingertip's calibration is judged and shown.
 [[nodiscard]] ResultTraits sensorCalibrationKind();
 
 }  // namespace tacto

@@ -12,7 +12,7 @@ namespace tacto {
 
 namespace {
 
-/// The stretch that every sample lies in; nothing without samples.
+/// Returns the time interval with all samples; nothing without samples.
 std::optional<TimeInterval> stretchOf(const SensorSamples& samples) {
     std::optional<TimeInterval> out;
     for (const auto& block : samples.blocks) {
@@ -75,7 +75,7 @@ Result<SensorRest> readRest(const SensorSamples& samples, const RoughnessSetting
     (*chain)->feed(samples.blocks, frames);
     (*chain)->finish(frames);
     for (const auto& frame : frames) {
-        // Without force, contact is assumed and not seen.
+        // Without a force sensor, contact is only assumed.
         if (frame.contact && streamOf(samples, StreamKind::Force) != nullptr) {
             return invalid(
                 "the fingertip at rest: it was in contact {} s after the start; nothing touching is expected",
@@ -153,13 +153,13 @@ WeightError weightError(const WeightReading& reading, const ForceInUse& atRest, 
 
 namespace {
 
-/// U of what scatters by `u` and carries the tolerances that all references share, times `scale`.
+/// U from the scatter `u` and from the references' common tolerances times `scale`.
 double expandedOf(double u, double freedom, const std::vector<double>& tolerances, double scale) {
     if (std::isnan(u)) return u;
     std::vector<Contribution> rows{{"repeatability", Distribution::Student, u, 1, 1, std::max(1.0, freedom)}};
     for (const double tolerance : tolerances)
         rows.push_back({"references", Distribution::Rectangular, tolerance, std::sqrt(3.0), scale});
-    // A fingertip has many taxels; 20 000 draws know U to a third of a percent.
+    // A fingertip has many taxels; 20 000 draws give U to a third of a percent.
     const auto budget = combine(std::move(rows), {.draws = 20'000});
     return budget ? budget->expanded : std::nan("");
 }
@@ -187,7 +187,7 @@ Result<SensorScale> fitSensorScale(std::span<const CalibrationReading> readings,
     out.scale = 1 / gain;
     out.offset = -fit->offset / gain;
     out.scaleU = expandedOf(std::abs(out.scale) * se / std::abs(gain), freedom, tolerances, out.scale);
-    // offset / gain: the two are correlated, cov = - (mean of the references) · var(gain) for an unweighted line.
+    // Gain and offset are correlated: cov = - (mean of the references) · var(gain) for an unweighted line.
     double sum = 0;
     std::size_t n = 0;
     for (const auto& reading : readings) {

@@ -1,6 +1,6 @@
-// SensorReading.h - what a fingertip measured while it rested, slid or carried a weight: samples in, features out.
+// SensorReading.h - computes features from a fingertip's samples while it rests, slides or carries a weight.
 //
-// The live bench reads them with the same chain (core/dsp), so that a scale measured here means the same there.
+// The live bench uses the same processing (core/dsp), so a scale measured here is also valid there.
 #pragma once
 
 #include <limits>
@@ -21,99 +21,99 @@ namespace tacto {
 struct SensorSamples {
     std::vector<StreamInfo> streams;
     std::vector<SampleBlock> blocks;  ///< one per stream
-    std::string serial{};             ///< the fingertip whose scales hold; empty: not known
+    std::string serial{};             ///< the fingertip for which the scales are valid; empty: unknown
 };
 
-/// The fingertip at rest, touching nothing.
+/// A fingertip at rest that touches nothing.
 struct SensorRest {
     RestLevels levels;
     StreamUnit restUnit = StreamUnit::MetrePerSecondSquared;  ///< unit of levels.slidingMeanSquare, squared
     StreamUnit taxelUnit = StreamUnit::Pascal;                ///< unit of levels.taxelBaseline
 };
 
-/// All samples are taken as rest. Errors: InvalidArgument where they are fewer than 250 ms can hold, or where no rest
-/// can be derived from them; as RoughnessChain::create().
+/// Treats all samples as rest. Errors: InvalidArgument for less than 250 ms of samples, or if no rest level can be
+/// derived from them; those of RoughnessChain::create().
 [[nodiscard]] Result<SensorRest> readRest(const SensorSamples& samples, const RoughnessSettings& settings);
 
-/// One slide over one surface. Features are arithmetic means over its frames (h over sliding frames, v over contact
-/// frames, as bench.measureReference() takes them); NaN: the rig does not measure it, or no frame has it.
+/// One slide over one surface. Features are arithmetic means (h over sliding frames, v over contact frames, as in
+/// bench.measureReference()). NaN: the rig does not measure the feature, or no frame has it.
 struct SlideReading {
     double h = kNaN;
     double hAbs = kNaN;  ///< (m/s2/N)2
     double vStatic = kNaN;
     double vDynamic = kNaN;
-    double force_n = kNaN;  ///< in the force stream's unit; NaN without one
+    double force_n = kNaN;  ///< in the force stream's unit; NaN without a force stream
     std::size_t slidingFrames = 0;
 };
 
-/// Errors: as RoughnessChain::create(); Device when nothing was felt sliding or in contact.
+/// Errors: those of RoughnessChain::create(); Device if there was no sliding or no contact.
 [[nodiscard]] Result<SlideReading> readSlide(const SensorSamples& samples, const RoughnessSettings& settings,
                                              const SensorRest& rest);
 
-/// The mean of a force as the profile in force scales it.
+/// The mean force with the scale of the active profile.
 struct ForceInUse {
     double mean = kNaN;
     StreamUnit unit = StreamUnit::Newton;
-    double uncertainty = kNaN;  ///< standard, of the mean, with kForceParts - 1 degrees of freedom; NaN: not known
+    double uncertainty = kNaN;  ///< standard, of the mean, with kForceParts - 1 degrees of freedom; NaN: unknown
 };
 
-/// A force record is cut into that many parts; the scatter of their means tells how well the whole mean is known.
-/// Single samples would not: a finger trembles, so that neighbours are alike.
+/// A force record is cut into this many parts. The scatter of their means gives the uncertainty of the whole mean.
+/// Single samples would not, because neighbouring samples of a trembling finger are correlated.
 inline constexpr std::size_t kForceParts = 8;
-/// Standard uncertainty of the mean of a stream's first channel, from its parts; NaN for fewer than two samples a part.
+/// Standard uncertainty of the mean of a stream's first channel; NaN with fewer than two samples per part.
 [[nodiscard]] double meanUncertainty(const SensorSamples& samples, StreamKind kind);
 
-/// One weight on the resting fingertip: means over all samples, in the sensor's own units; NaN: not read.
+/// One weight on the resting fingertip: means over all samples, in the sensor's own units; NaN: no reading.
 struct WeightReading {
     double mass_g = kNaN;
-    double reference_n = kNaN;  ///< the force of its weight
+    double reference_n = kNaN;  ///< weight force of this mass
     double force = kNaN;
-    std::optional<StreamUnit> forceUnit{};  ///< nothing: there is no force sensor
+    std::optional<StreamUnit> forceUnit{};  ///< empty: there is no force sensor
     std::vector<double> taxels{};
-    std::optional<StreamUnit> taxelUnit{};  ///< nothing: there are no taxels
-    std::optional<ForceInUse> inUse{};      ///< nothing: there is no force sensor
+    std::optional<StreamUnit> taxelUnit{};  ///< empty: there are no taxels
+    std::optional<ForceInUse> inUse{};      ///< empty: there is no force sensor
 };
 
-/// The error of the sensor, with the profile's scale, under a known weight: N, with its U (95 %).
+/// Error of the sensor with the profile's scale under a known weight, in N, with U (95 %).
 struct WeightError {
     double value = kNaN;
-    double expanded = kNaN;  ///< NaN: a part of it is not known
+    double expanded = kNaN;  ///< NaN: a contribution is unknown
 };
-/// The reading less that at rest and less what the weight should weigh. U: the tolerances of the weight and of local
-/// gravity (relative half-widths; NaN: not known), and both readings.
+/// Reading minus reading at rest minus the known weight force. U includes both readings and the tolerances of the
+/// weight and of local gravity (relative half-widths; NaN: unknown).
 [[nodiscard]] WeightError weightError(const WeightReading& reading, const ForceInUse& atRest, double weightTolerance,
                                       double gravityTolerance);
 
-/// R of the slide under `settings`, of the means of its features, as RoughnessIndex::ofSlide(): beyond 0..1 where it is
-/// smoother or rougher than the references. NaN with no feature present.
+/// R of the slide from the means of its features, by RoughnessIndex::ofSlide(). Outside 0..1 for surfaces smoother or
+/// rougher than the references. NaN if no feature is present.
 [[nodiscard]] double roughnessOf(const SlideReading& slide, const RoughnessSettings& settings);
 
-/// Statistics of one channel over all finite samples; n = 0 where there is no such stream.
+/// Statistics of one channel over all finite samples; n = 0 if there is no such stream.
 [[nodiscard]] Statistics levelOf(const SensorSamples& samples, StreamKind kind, std::size_t channel = 0);
-/// Nothing where no such stream exists.
+/// Returns null if there is no such stream.
 [[nodiscard]] const StreamInfo* streamOf(const SensorSamples& samples, StreamKind kind) noexcept;
 
-// A sensor's reading against known references: how much one unit of it stands for, and from where.
+// Finds scale and offset of a sensor from its readings at known references.
 //
-// Force against weights, and each taxel against force over contact area, are the same question. The readings are fitted
-// against the references (the references are what is known), by fitCalibration(), and the line is turned round:
+// The same fit serves force against weights and each taxel against force over contact area. fitCalibration() fits the
+// readings as a function of the known references, and the line is then inverted:
 //   reference = scale · reading + offset, scale = 1 / gain, offset = -(fitted offset) / gain.
-// The uncertainties are type A from the repeatability, and the tolerance that all references share, rectangular: of the
-// scale, and times the offset of the offset. U is combine()'s, for 95 %. There may be several such tolerances (of the
-// weights, of local gravity, of the contact area); one that is not known leaves U unknown.
+// The uncertainties are type A from the repeatability and the rectangular tolerance common to all references, applied
+// to the scale and, times the offset, to the offset. combine() gives U (95 %). There may be several tolerances
+// (weights, local gravity, contact area); if one is unknown, U is unknown.
 
 struct SensorScale {
     double scale = 0;  ///< reference per unit of reading: N per count, Pa per count
-    double scaleU = std::numeric_limits<double>::quiet_NaN();  ///< 95 %; NaN where nothing was repeated
-    double offset = 0;  ///< in the reference's unit: what stands for a reading of 0
+    double scaleU = std::numeric_limits<double>::quiet_NaN();  ///< 95 %; NaN without repeats
+    double offset = 0;                                         ///< the reference value at a reading of 0
     double offsetU = std::numeric_limits<double>::quiet_NaN();
     Calibration fit;  ///< readings against references
 };
 
-/// `readings`: commanded is the reference, measured the sensor's reading. `tolerances` of the references are relative
-/// half-widths, 0 to below 1; NaN: not known.
-/// Errors: as fitCalibration(); Device where the reading does not follow the reference: the slope's 95 % interval
-/// reaches 0. `what` names the sensor in that sentence.
+/// `readings`: the reference as commanded value, the sensor's reading as measured value. `tolerances` of the
+/// references: relative half-widths, 0 to below 1; NaN: unknown. Errors: as fitCalibration(); Device if the reading
+/// does not follow the reference, because the 95 % interval of the slope includes 0. `what` names the sensor in that
+/// message.
 [[nodiscard]] Result<SensorScale> fitSensorScale(std::span<const CalibrationReading> readings,
                                                  const std::vector<double>& tolerances, std::string_view what);
 

@@ -13,13 +13,13 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double normalCdf(double x) noexcept { return std::erfc(-x / std::sqrt(2.0)) / 2; }
 
-/// The non-centrality under which P(T ≤ t) = p. It falls as the non-centrality rises.
+/// Finds the non-centrality for which P(T ≤ t) = p. P falls as the non-centrality rises.
 double noncentralityAt(double t, double degreesOfFreedom, double p) noexcept {
-    // Far beyond either end: T spreads by about √(1 + t²/2ν), and 2.5 % lie within a few of those.
+    // Start far beyond both solutions: T has a spread of about √(1 + t²/2ν), and 2.5 % lie within a few times this.
     const double reach = 8 * std::sqrt(1 + t * t / (2 * degreesOfFreedom)) + 8;
     double low = t - reach, high = t + reach;
     const auto excess = [&](double noncentrality) { return noncentralT(t, degreesOfFreedom, noncentrality) - p; };
-    // Halve where the curve is flat, then follow it (false position after the Illinois rule).
+    // Halve the interval while the curve is flat, then use the faster false position (Illinois rule).
     for (int i = 0; i < 8; ++i) {
         const double middle = (low + high) / 2;
         (excess(middle) > 0 ? low : high) = middle;
@@ -59,9 +59,9 @@ double noncentralT(double t, double degreesOfFreedom, double noncentrality) noex
         !std::isfinite(degreesOfFreedom)) {
         return std::numeric_limits<double>::quiet_NaN();
     }
-    // T = (Z + δ) / S with S = √(χ²/ν), so P(T ≤ t) = ∫ Φ(t s - δ) f(s) ds. f is that of chi, scaled by √ν; the scale
-    // cancels by normalising with the same sum. Simpson's rule: everything is smooth but Φ, a step of width 1/t, whose
-    // neighbourhood is integrated by itself.
+    // T = (Z + δ) / S with S = √(χ²/ν), so P(T ≤ t) = ∫ Φ(t s - δ) f(s) ds. f is the chi density scaled by √ν; its
+    // constant cancels by dividing by the same sum. Simpson's rule suits this smooth integrand, except near the step of
+    // Φ (width 1/t), which is integrated separately.
     const double nu = degreesOfFreedom;
     const double spread = 1 / std::sqrt(2 * nu);
     const double begin = std::max(0.0, 1 - 10 * spread), end = 1 + 10 * spread;

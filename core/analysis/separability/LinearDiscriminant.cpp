@@ -27,7 +27,7 @@ LinearDiscriminant::LinearDiscriminant(const std::vector<LabelledPoint>& points,
     }
     if (points.size() > used) covariance /= static_cast<double>(points.size() - used);
     for (int i = 0; i < 2; ++i) covariance(i, i) = std::max(covariance(i, i), floor(i) * floor(i));
-    // Readings that move in perfect step would make the matrix singular; a correlation of one is never known so well.
+    // Perfectly correlated readings would make the matrix singular, so the correlation stays slightly below one.
     constexpr double kLargestCorrelation = 1 - 1e-9;
     const double bound = kLargestCorrelation * std::sqrt(covariance(0, 0) * covariance(1, 1));
     covariance(0, 1) = covariance(1, 0) = std::clamp(covariance(0, 1), -bound, bound);

@@ -1,4 +1,4 @@
-// LinearDiscriminant.h - classes of points in the plane with one shared covariance. Private to core/analysis.
+// LinearDiscriminant.h - separates classes of points in the plane with one shared covariance. Private to core/analysis.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,14 +15,14 @@ struct LabelledPoint {
 
 class LinearDiscriminant {
 public:
-    /// Means per class and the covariance pooled over all of them, with points minus classes degrees of freedom. No
-    /// variance is taken below the square of `floor`, which is above zero. Classes without points stay unused.
+    /// Computes the means per class and the covariance pooled over all classes (degrees of freedom: points minus
+    /// classes). No variance is less than the square of `floor`, which is positive. Classes without points are ignored.
     LinearDiscriminant(const std::vector<LabelledPoint>& points, std::size_t classes, const Eigen::Vector2d& floor);
 
-    /// The class with the nearest mean in Mahalanobis distance: LDA with equal priors. The first one on a tie.
+    /// Returns the class with the nearest mean in Mahalanobis distance (LDA with equal priors); the first one on a tie.
     [[nodiscard]] std::size_t classify(const Eigen::Vector2d& x) const;
 
-    /// Mahalanobis distance between two classes' means; NaN when one has no points.
+    /// Mahalanobis distance between the means of two classes; NaN if one of them has no points.
     [[nodiscard]] double distance(std::size_t a, std::size_t b) const;
 
 private:

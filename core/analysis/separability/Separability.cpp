@@ -62,14 +62,14 @@ Result<void> checkValues(std::span<const SeparabilityTrial> trials) {
 }
 
 double amplitudeUncertaintyOf(const SeparabilityTrial& trial) { return trial.amplitudeUncertainty; }
-/// Reading and time base; 0 where the reading states none.
+/// Combines reading and time base; 0 if the reading states no uncertainty.
 double intervalUncertaintyOf(const SeparabilityTrial& trial) {
     return trial.intervalUncertainty_s == 0
                ? 0
                : std::hypot(trial.intervalUncertainty_s, trial.timeBase * trial.interval_s);
 }
 
-/// All but the uncertainty of the gain and the time base, which are the same in all trials and divide out of a ratio.
+/// Uncertainty without the gain and the time base, which are equal in all trials and cancel in a ratio.
 double ownAmplitudeUncertaintyOf(const SeparabilityTrial& trial) {
     const double gain = std::isnan(trial.amplitudeGain) ? 0 : trial.amplitudeGain * trial.amplitude;
     const double rest = trial.amplitudeUncertainty * trial.amplitudeUncertainty - gain * gain;
@@ -79,8 +79,8 @@ double ownIntervalUncertaintyOf(const SeparabilityTrial& trial) {
     return std::isnan(trial.timeBase) ? trial.timeBase : trial.intervalUncertainty_s;
 }
 
-/// Root mean square of the uncertainties of one condition, or of all: what readings are known to. 0.1 % of the mean
-/// over all trials when a trial comes without; NaN when one is unknown.
+/// Root mean square of the uncertainties of one condition or of all trials. 0.1 % of the mean over all trials if a
+/// trial states none; NaN if one is unknown.
 double resolutionOf(std::span<const SeparabilityTrial> trials, double SeparabilityTrial::*value,
                     double (*uncertaintyOf)(const SeparabilityTrial&), const std::string* condition = nullptr) {
     double sum = 0, all = 0, squares = 0, n = 0;
@@ -99,7 +99,7 @@ double resolutionOf(std::span<const SeparabilityTrial> trials, double Separabili
     return stated ? std::sqrt(squares / n) : kUnstatedUncertainty * sum / all;
 }
 
-/// Trials are classified also where a resolution is unknown, as those that come without: a discriminant needs a floor.
+/// Returns a floor even if the uncertainty is unknown (as if not stated), because the discriminant needs a floor.
 Eigen::Vector2d classifyingFloor(std::span<const SeparabilityTrial> trials, const Separability& found) {
     const auto none = [](const SeparabilityTrial&) { return 0.0; };
     const auto orElse = [&](double floor, double SeparabilityTrial::*value) {
@@ -111,7 +111,7 @@ Eigen::Vector2d classifyingFloor(std::span<const SeparabilityTrial> trials, cons
 
 struct Points {
     std::vector<LabelledPoint> all;
-    std::vector<std::size_t> indexInCondition;  // trial i of its condition, in time order
+    std::vector<std::size_t> indexInCondition;  // index of each trial within its condition, in time order
 };
 
 Points summariseConditions(std::span<const SeparabilityTrial> trials, const std::vector<std::string>& names,
@@ -145,7 +145,7 @@ Points summariseConditions(std::span<const SeparabilityTrial> trials, const std:
     return points;
 }
 
-/// Just-noticeable differences between two means.
+/// Bounds of the distance between two means, in just-noticeable differences.
 Bounds jndBounds(const MeanReading& a, const MeanReading& b, double weberFraction) {
     const Bounds distance = logRatioBounds(a, b);
     return {distance.low / std::log1p(weberFraction), distance.high / std::log1p(weberFraction)};
@@ -205,7 +205,7 @@ void crossValidate(const Points& points, const Eigen::Vector2d& floor, Separabil
     result.accuracy = wilsonInterval(correct, points.all.size());
 }
 
-/// Collects what speaks against a pass; what fails is said before what is undecided.
+/// Collects the reasons against a pass. Failures are listed before open points.
 struct Judgement {
     std::vector<std::string> failures;
     std::vector<std::string> open;

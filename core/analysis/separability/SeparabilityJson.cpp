@@ -84,7 +84,7 @@ ResultRecord<Separability> describeSeparability() {
     all.shown(number("Instrument's floor, amplitude", "floor.amplitude_v", "V"), &S::amplitudeFloor);
     all.shown(number("Instrument's floor, interval", "floor.interval_s", "s"), &S::intervalFloor_s);
     all.facts("Recognition");
-    // The protocol adds them.
+    // The protocol adds this table.
     all.table(rows(
         "Reference surfaces", "references",
         {text("Material", "material"), number("Vibration h", "h"), number("Taxels v", "v"), number("Frames", "frames")},

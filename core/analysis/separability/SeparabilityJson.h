@@ -1,5 +1,5 @@
-// SeparabilityJson.h - a judged separability in the shape of the command line's contract (cli.md), and its trials as
-// JSON and as the tables that `analyze` reads.
+// SeparabilityJson.h - writes a judged separability as JSON in the command-line contract (cli.md), and reads its trials
+// from JSON and from the tables of `analyze`.
 #pragma once
 
 #include <filesystem>
@@ -13,8 +13,8 @@
 
 namespace tacto {
 
-/// A trial as measure.train() measured it, with its condition. Null and a missing key: not measured, or for an
-/// uncertainty not stated. Errors: InvalidArgument for a row without a condition and for values of another type.
+/// Reads a trial from measure.train() with its condition. A null or missing value was not measured; a null or missing
+/// uncertainty was not stated. Errors: InvalidArgument for a row without a condition or a value of another type.
 [[nodiscard]] Result<SeparabilityTrial> separabilityTrialFrom(const nlohmann::json& row);
 /// {"condition","amplitude_v","interval_s","amplitude_u_v","interval_u_s","time_base_u",
 /// "amplitude_gain_u"}
@@ -22,14 +22,14 @@ namespace tacto {
 
 /// {"conditions","pairs","confusion","accuracy","verdict","reasons", ...}
 [[nodiscard]] nlohmann::json toJson(const Separability& found);
-/// How they are judged and shown.
+/// Describes how a separability is judged and shown.
 [[nodiscard]] ResultTraits separabilityKind();
 
-/// Trials from CSV columns `condition`, `amplitude`, `interval` (or `amplitude_v`, `interval_s`, as the csv export
-/// writes them), in any order among others; names are trimmed. An empty or nan value is a trial that was not measured.
+/// Reads trials from the CSV columns `condition`, `amplitude`, `interval` (or `amplitude_v`, `interval_s` as in the csv
+/// export), in any order and with other columns between; names are trimmed. An empty or nan value means not measured.
 /// Errors: NotFound, Io; ParseError naming file, line and what was expected.
 [[nodiscard]] Result<std::vector<SeparabilityTrial>> readSeparabilityTrials(const std::filesystem::path& path);
-/// Reads them from text; `name` stands for the file in messages.
+/// Reads the same table from text; `name` replaces the file name in messages.
 [[nodiscard]] Result<std::vector<SeparabilityTrial>> parseSeparabilityTrials(std::string_view text,
                                                                              std::string_view name);
 
