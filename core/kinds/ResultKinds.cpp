@@ -18,7 +18,7 @@ namespace {
 
 using namespace describe;
 
-// Kinds whose results a protocol puts together by itself.
+// Kinds with results that only a protocol assembles.
 
 ResultTraits encodingComparison() {
     return {.kind = ResultKind::EncodingComparison,

@@ -1,5 +1,5 @@
-// ResultKinds.h - the kinds of results, as their `kind` says it: the one place that compares names of kinds. What the
-// app does by kind goes by ResultKind.
+// ResultKinds.h - finds a kind of results by the name in its `kind` member. Only this file compares such names; the app
+// uses the enum ResultKind.
 #pragma once
 
 #include <string_view>
@@ -8,10 +8,10 @@
 
 namespace tacto {
 
-/// The traits of the kind with that name; those of Other where there is none.
+/// Returns the traits of the kind with that name, or those of Other if there is none.
 [[nodiscard]] const ResultTraits& resultTraits(std::string_view name);
 
-/// What a report keeps of results: what the tables of their kind show, with the kind. Null where it has none.
+/// Returns the results that a report keeps: the kind and all that its tables show. Null for results without a kind.
 [[nodiscard]] nlohmann::json shownInReports(const nlohmann::json& results);
 
 }  // namespace tacto

@@ -1,4 +1,4 @@
-// Describe.h - columns and tables of results in few words.
+// Describe.h - short functions that make columns and tables of results.
 #pragma once
 
 #include <string>
@@ -40,14 +40,14 @@ inline ResultTable rows(const char* title, const char* at, Columns columns, Else
 inline ResultTable sentences(const char* title, const char* at, Else shown = Else::Nowhere) {
     return {.title = title, .at = at, .shape = Shape::Sentences, .shown = shown};
 }
-/// Reports have it as a figure.
+/// A confusion matrix; reports show it as a figure.
 inline ResultTable confusion(const char* title = "Presented and recognised") {
     return {.title = title, .at = "confusion", .shape = Shape::Confusion, .shown = Else::InTheReport};
 }
 inline ResultTable across(const char* title, const char* at, Columns columns, Else shown = Else::Nowhere) {
     return {.title = title, .at = at, .shape = Shape::Across, .columns = std::move(columns), .shown = shown};
 }
-/// Those records alone of which a member is that.
+/// Limits the table to records whose member has this value.
 inline ResultTable whose(ResultTable table, const char* member, nlohmann::json is) {
     table.where = member;
     table.is = std::move(is);
@@ -62,11 +62,11 @@ inline ResultTable noted(ResultTable table, const char* note) {
     return table;
 }
 
-/// The same of a record that is the member `place`.
+/// Moves columns or a table to a record that is the member `place`.
 [[nodiscard]] Columns under(const std::string& place, Columns columns);
 [[nodiscard]] ResultTable under(const std::string& place, ResultTable table);
 
-/// With what every run with an oscilloscope rests on; reports have that on their first page.
+/// Adds the tables on references and instruments that all oscilloscope runs have; reports show them on page one.
 [[nodiscard]] Tables withBasis(Tables tables);
 
 }  // namespace tacto::describe

@@ -1,4 +1,4 @@
-// ResultKind.h - what is declared of a kind of results, beside the analysis that gives it. core/kinds lists them all.
+// ResultKind.h - the declared properties of a kind of results. core/kinds lists all kinds.
 #pragma once
 
 #include <string_view>
@@ -8,9 +8,9 @@
 
 namespace tacto {
 
-/// Kinds for which the program does something by itself.
+/// Kinds of results that the program itself treats specially.
 enum class ResultKind {
-    Other,  ///< a laboratory's own, one that is a table and a verdict and no more, or none
+    Other,  ///< a laboratory's own kind, a kind with only a table and a verdict, or no kind
     Separability,
     EncodingComparison,
     Transitions,
@@ -26,12 +26,12 @@ enum class ResultKind {
 
 struct ResultTraits {
     ResultKind kind = ResultKind::Other;
-    std::string_view name = {};          ///< "separability"; empty where results have no declared kind
-    std::string_view decisionRule = {};  ///< where the results state none; empty: as the script says in its reasons
-    bool guardBanded = false;            ///< judged with the uncertainty counting against the device
-    bool ofStudy = false;                ///< a session of a study: with a participant, on their record
-    std::string_view procedure = {};     ///< what people call it, where that is not its name: "safety check"
-    std::vector<ResultTable> tables{};   ///< in the order in which they are read
+    std::string_view name = {};          ///< "separability"; empty if the kind is not declared
+    std::string_view decisionRule = {};  ///< used if the results state none; empty: the script's reasons state it
+    bool guardBanded = false;            ///< true if the uncertainty counts against the device
+    bool ofStudy = false;                ///< true for a session of a study, kept in its participant's record
+    std::string_view procedure = {};     ///< usual name if it differs from `name`: "safety check"
+    std::vector<ResultTable> tables{};   ///< in reading order
 };
 
 }  // namespace tacto

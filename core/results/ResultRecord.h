@@ -1,6 +1,6 @@
-// ResultRecord.h - what a record of results holds. Each member is described once: its key, the value that it comes from
-// and, where it is shown, its title, its unit and what stands beside it. The session's JSON and the tables derive from
-// that:
+// ResultRecord.h - describes the members of a result record. Each member is described once: its key, the source of its
+// value and, if it is shown, its title, unit and related member. The session's JSON and the tables are derived from
+// this:
 //
 //   ResultRecord<PairSummary> describePair() {
 //       ResultRecord<PairSummary> all;
@@ -9,7 +9,7 @@
 //       return all;
 //   }
 //
-// Numbers that are not known, NaN, are null; so is what a std::optional does not hold.
+// Unknown numbers (NaN) and empty std::optional values are written as null.
 #pragma once
 
 #include <algorithm>
@@ -46,7 +46,7 @@ concept PlainValue =
 
 }  // namespace detail
 
-/// How a value stands in a session: words by nameOf(), lists one by one, anything else by its toJson().
+/// Converts a value to JSON: words by nameOf(), lists item by item, anything else by its toJson().
 template <class Value>
 nlohmann::json resultJson(const Value& value) {
     if constexpr (std::floating_point<Value>) {
@@ -66,7 +66,7 @@ nlohmann::json resultJson(const Value& value) {
     }
 }
 
-/// A text that is null where it is empty.
+/// Makes a getter that returns null for an empty text.
 template <class Get>
 [[nodiscard]] auto nullIfEmpty(Get get) {
     return [get](const auto& record) {
@@ -78,13 +78,13 @@ template <class Get>
 template <class Record>
 class ResultRecord {
 public:
-    /// In the session, and in no table. `get` is a member or a function of the record; `key` may be "a.b", a member of
-    /// a record that stands in this one.
+    /// Adds a member to the session but to no table. `get` is a member or a function of the record. `key` may be "a.b",
+    /// a member of a nested record.
     template <class Get>
     void kept(std::string key, Get get) {
         keep(std::move(key), [get](const Record& record) { return resultJson(std::invoke(get, record)); });
     }
-    /// In the session as the record that `part` describes, as a list of such records, or as null where there is none.
+    /// Adds a member that `part` describes: one record, a list of such records, or null if absent.
     template <class Get, class Part>
     void kept(std::string key, Get get, ResultRecord<Part> part) {
         keep(std::move(key), [get, part = std::move(part)](const Record& record) -> nlohmann::json {
@@ -100,26 +100,26 @@ public:
             }
         });
     }
-    /// In the session, and a column of its tables.
+    /// Adds a member to the session and a column to its tables.
     template <class Get>
     void shown(ResultColumn column, Get get) {
         kept(column.at, std::move(get));
         columns_.push_back(std::move(column));
     }
-    /// A column that a script or another record fills.
+    /// Adds a column whose value comes from a script or another record.
     void shown(ResultColumn column) { columns_.push_back(std::move(column)); }
-    /// Both bounds of what the member `key` is: "key_low" and "key_high".
+    /// Adds both bounds of a figure: "key_low" and "key_high".
     template <class Get>
     void keptBounds(const std::string& key, Get get) {
         kept(key + "_low", [get](const Record& record) { return std::invoke(get, record).low; });
         kept(key + "_high", [get](const Record& record) { return std::invoke(get, record).high; });
     }
-    /// Its verdict and the reasons for that.
+    /// Adds the verdict and its reasons.
     void judged() {
         kept("verdict", &Record::verdict);
         kept("reasons", &Record::reasons);
     }
-    /// All members of a record that this one holds, beside its own; a member that is kept later replaces one.
+    /// Adds all members of a nested record to this one. A later member with the same key replaces the earlier.
     template <class Get, class Part>
     void merge(Get get, const ResultRecord<Part>& part) {
         part.each([&](const nlohmann::json::json_pointer& at, const auto& value) {
@@ -127,20 +127,20 @@ public:
         });
     }
 
-    // The tables, in the order in which they are read. What is returned may be changed until the next is added.
+    // The following functions add tables in reading order. A returned reference is valid until the next table is added.
 
-    /// Of the columns that were shown since the last table.
+    /// Adds a table of one record from the columns added since the last table.
     ResultTable& facts(const char* title, ResultTable::Else where = ResultTable::Else::Nowhere) {
         return table(describe::facts(title, "", std::exchange(columns_, {}), where));
     }
-    /// Of a list of records, which is a member.
+    /// Adds a member that is a list of records, and its table.
     template <class Get, class Part>
     ResultTable& rows(const char* title, const char* key, Get get, const ResultRecord<Part>& part,
                       ResultTable::Else where = ResultTable::Else::Nowhere) {
         kept(key, std::move(get), part);
         return table(describe::rows(title, key, part.columns(), where));
     }
-    /// Of a member that is kept, or of what a script adds.
+    /// Adds a table of a member added by kept() or by a script.
     ResultTable& table(ResultTable of) { return tables_.emplace_back(std::move(of)); }
 
     [[nodiscard]] nlohmann::json write(const Record& record) const {
@@ -150,7 +150,7 @@ public:
     }
     [[nodiscard]] const std::vector<ResultColumn>& columns() const& noexcept { return columns_; }
     [[nodiscard]] std::vector<ResultColumn> columns() && { return std::move(columns_); }
-    /// The column of that key under another title, for another table.
+    /// Returns the column with that key under another title, for another table.
     [[nodiscard]] ResultColumn column(std::string_view key, std::string title) const {
         auto found = *std::ranges::find(columns_, key, &ResultColumn::at);
         found.title = std::move(title);

@@ -12,7 +12,7 @@ using nlohmann::json;
 
 const json kNothing;
 
-/// "a" and "b" of "a|b".
+/// Returns "a" and "b" for "a|b".
 std::vector<std::string> partsOf(const std::string& at) {
     std::vector<std::string> parts;
     for (std::size_t from = 0; from <= at.size();) {

@@ -1,5 +1,5 @@
-// ResultTable.h - how results are shown: which tables a kind has, in which order, with which columns. Window, terminal
-// and report all go by it; what is not named here is not shown, and is in the session.
+// ResultTable.h - describes how results are shown: the tables of a kind, their order and columns. The window, the
+// terminal and reports all use it. A member that is not listed is kept in the session but not shown.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -11,57 +11,57 @@ namespace tacto {
 struct ResultColumn {
     enum class As {
         Text,
-        Heading,    ///< what a record is about, as a sentence begins
-        Number,     ///< with U, a standard deviation or an interval where the member has one
-        Spread,     ///< a standard deviation, or a deviation without its U: two digits
+        Heading,    ///< the subject of a record, as the start of a sentence
+        Number,     ///< with U, standard deviation or interval if the member has one
+        Spread,     ///< a standard deviation, or a deviation without U: two digits
         Tolerance,  ///< "± 0.5 %": two digits at most
         Jnd,        ///< a distance in just-noticeable differences: two decimals
         AtLeast,    ///< a number with its one-sided 95 % lower bound
-        Chance,     ///< a probability: "< 0.001" below that
-        Share,      ///< of one, in %; where `beside` names one, with its one-sided 95 % upper bound
-        Used,       ///< how much of a limit or a tolerance is used, of one; with `beside`, |number| + U over @unit
-        Freedom,    ///< degrees of freedom: without end where there is no number
-        Limit,      ///< "≤ 40 V"; `beside` says how it is compared; without one a rule in words
+        Chance,     ///< a probability; small ones as "< 0.001"
+        Share,      ///< a share of 1, in %; `beside` may name its one-sided 95 % upper bound
+        Used,       ///< used part of a limit or tolerance; with `beside`, (|number| + U) / @unit
+        Freedom,    ///< degrees of freedom; infinite without a number
+        Limit,      ///< "≤ 40 V"; `beside`: comparison sign; no number: a rule in words
         YesNo,
         Verdict,
         Load,
         LimitSet,
-        Quantity,  ///< a calibrated one by its id: "Phase width" of "width"
-        Condition  ///< of a pilot, or an answer: "rough, firm" of "rough-high"
+        Quantity,  ///< a calibrated quantity by its id: "Phase width" for "width"
+        Condition  ///< a pilot's condition or answer: "rough, firm" for "rough-high"
     };
     std::string title{};
-    std::string at{};  ///< the member; "a.b" for a member of a member; "a-b" for what a number is above another
+    std::string at{};  ///< the member; "a.b" for a nested member; "a-b" for the difference of a number and another
     As as = As::Text;
-    std::string unit{};    ///< of a number; "@b": the record's own, which its member b states
-    std::string beside{};  ///< the member that stands beside it: U (95 %) in the number's unit, or the bound
+    std::string unit{};    ///< unit of a number; "@b": the record's member b states it
+    std::string beside{};  ///< the member shown next to it: U (95 %) in the number's unit, or the bound
 };
 
 struct ResultTable {
     enum class Shape {
-        Facts,      ///< one record as a form; members that it does not have are left out
-        Rows,       ///< a list of records; one that is empty or missing is left out
-        Sentences,  ///< a list of texts, or one
-        Confusion,  ///< counts, row by column
+        Facts,      ///< one record as a form; absent members are left out
+        Rows,       ///< a list of records; left out if empty or missing
+        Sentences,  ///< one text or a list of texts
+        Confusion,  ///< a matrix of counts
         Limits,     ///< limits against loads, as toJson(LimitMatrix)
-        Across      ///< a list of records that stand beside each other, a column each; what was measured in none is not
+        Across      ///< records side by side, one column each; rows without any measured value are left out
     };
-    /// Where else it is shown, or shown better.
+    /// Other places that show this table's content.
     enum class Else {
         Nowhere,
-        InTheReport,    ///< a report has it as a figure, a matrix or on its first page
-        InTheTerminal,  ///< the terminal leaves it out: too long for a screen
+        InTheReport,    ///< a report shows it as a figure, a matrix or on its first page
+        InTheTerminal,  ///< not in the terminal, because it is too long for a screen
         InBoth,
-        InTheWindow,     ///< the window has what it says in a panel of its own
-        OnlyInTheReport  ///< window and terminal say it in fewer words, or beside the matrix
+        InTheWindow,     ///< the window shows it in a separate panel
+        OnlyInTheReport  ///< window and terminal show it shorter, or next to the matrix
     };
     std::string title{};
     std::string at{};  ///< "changes.groups"; empty: the results themselves; "a|b": the records a and b as rows
     Shape shape = Shape::Rows;
     std::vector<ResultColumn> columns{};
-    std::string but{};            ///< Rows: those with this verdict are left out, as they say nothing
-    std::string where{};          ///< Rows: those alone of which this member
-    nlohmann::json is = nullptr;  ///< is this
-    std::string note{};           ///< what a reader has to know of it; below it
+    std::string but{};            ///< Rows: leaves out records with this verdict
+    std::string where{};          ///< Rows: keeps only records in which this member
+    nlohmann::json is = nullptr;  ///< has this value
+    std::string note{};           ///< a note for readers, below the table
     Else shown = Else::Nowhere;
 };
 
@@ -76,14 +76,14 @@ struct ResultTable {
     return shown != ResultTable::Else::InTheWindow && shown != ResultTable::Else::OnlyInTheReport;
 }
 
-/// The member at "a.b"; null where there is none.
+/// Returns the member at "a.b"; null if it does not exist.
 [[nodiscard]] const nlohmann::json& memberAt(const nlohmann::json& record, const std::string& path);
 
-/// The records of a table of Rows: those that are objects, without those of the verdict that is left out. A record
-/// without a `unit` or a `quantity` of its own has those of what it is a part of; of several, `of` says which it is.
+/// Returns the rows of a table: all records that are objects, without the excluded verdict. A record without `unit` or
+/// `quantity` gets those of its parent record. If there are several parents, `of` names the one.
 [[nodiscard]] nlohmann::json rowsOf(const ResultTable& table, const nlohmann::json& results);
 
-/// What of `results` the tables show, in its own places: what a report keeps.
+/// Returns the part of `results` that the tables show, at the same paths. Reports keep this part.
 [[nodiscard]] nlohmann::json shownIn(const std::vector<ResultTable>& tables, const nlohmann::json& results);
 
 }  // namespace tacto

@@ -55,7 +55,7 @@ TwoIntervalPosterior QuestPlus::begun() const {
     const double centre = decibels(settings_.felt);
     const double prior = settings_.prior > 0 ? decibels(settings_.prior) : centre - kPriorBelowFelt_db;
     const EvenDensity alphas{centre - kAlphaBelow_db, kAlphaStep_db, {}};
-    // A prior far outside the grid keeps its nearest end: relative to that no weight underflows to nothing.
+    // Weights are relative to the grid point nearest to the prior, so that a distant prior does not underflow.
     const double nearest = std::clamp(prior, alphas.first, alphas.at(kAlphas - 1));
     const auto exponent = [&](double alpha) { return std::pow((alpha - prior) / settings_.priorSd_db, 2) / 2; };
     std::vector<double> weights, right;

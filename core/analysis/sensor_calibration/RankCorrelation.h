@@ -17,7 +17,7 @@
 namespace tacto {
 
 inline constexpr std::size_t kMinRanked = 5;      ///< with fewer there is no result: the interval is too wide
-inline constexpr std::size_t kSmallRanking = 10;  ///< with fewer there is no result: the interval is too wide
+inline constexpr std::size_t kSmallRanking = 10;  ///< with fewer the interval is approximate, and the result says so
 
 struct RankCorrelation {
     Estimate rho;

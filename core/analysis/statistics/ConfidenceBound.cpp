@@ -1,4 +1,4 @@
-// Boost.Math in few files: its headers take seconds to compile.
+// Include Boost.Math in as few files as possible: its headers take seconds to compile.
 #include "core/analysis/statistics/ConfidenceBound.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace tacto {
 
 namespace {
 
-// Errors as values: no exception leaves a noexcept function.
+// Returns errors as values, because no exception may leave a noexcept function.
 using QuietBound =
     boost::math::policies::policy<boost::math::policies::domain_error<boost::math::policies::ignore_error>,
                                   boost::math::policies::overflow_error<boost::math::policies::ignore_error>,

@@ -19,12 +19,12 @@ Estimate wilsonInterval(std::size_t successes, std::size_t n) noexcept {
 
 namespace {
 
-// Errors as values: no exception leaves a noexcept function.
+// Returns errors as values, because no exception may leave a noexcept function.
 using QuietBeta =
     boost::math::policies::policy<boost::math::policies::domain_error<boost::math::policies::ignore_error>,
                                   boost::math::policies::overflow_error<boost::math::policies::ignore_error>,
                                   boost::math::policies::evaluation_error<boost::math::policies::ignore_error>,
-                                  // Twice as fast as in long double; 1e-14 is more than any number of trials needs.
+                                  // Twice as fast as long double; an accuracy of 1e-14 is enough.
                                   boost::math::policies::promote_double<false>>;
 
 }  // namespace
@@ -64,12 +64,12 @@ double truncatedBetaQuantile(double a, double b, double from, double q) noexcept
 
 namespace {
 
-/// The share γ for which θ is the probability of a person to be above chance.
+/// The share γ at which a person is above chance with probability θ.
 double shareOf(double theta) noexcept { return (theta - kAboveChanceLevel) / (1 - kAboveChanceLevel); }
 
 double thetaOf(double share) noexcept { return kAboveChanceLevel + (1 - kAboveChanceLevel) * share; }
 
-/// The quantile `q` of γ.
+/// Quantile `q` of γ.
 double shareQuantile(std::size_t k, std::size_t n, double q) noexcept {
     return shareOf(
         truncatedBetaQuantile(static_cast<double>(k + 1), static_cast<double>(n - k + 1), kAboveChanceLevel, q));
@@ -81,7 +81,7 @@ Estimate prevalenceInterval(std::size_t k, std::size_t n) noexcept {
     if (n == 0) return {std::numeric_limits<double>::quiet_NaN(), 0, 1};
     constexpr double kLeft = 1 - 0.95;
     const double hits = static_cast<double>(k), misses = static_cast<double>(n - k);
-    // The density, which has one maximum, is as high at both ends of the shortest interval, or falls from 0 on.
+    // The density has a single maximum. It is equal at both ends of the shortest interval, unless it falls from 0 on.
     const auto rises = [&](double below) {
         const double low = shareQuantile(k, n, below), high = shareQuantile(k, n, below + 1 - kLeft);
         return hits * std::log(thetaOf(low) / thetaOf(high)) + misses * std::log((1 - low) / (1 - high)) < 0;

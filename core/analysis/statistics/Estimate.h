@@ -1,4 +1,4 @@
-// Estimate.h - a value with its 95 % interval, and what counts say: k right of n, k of n people above chance.
+// Estimate.h - a value with its 95 % interval, and estimates from counts: k of n answers, k of n people above chance.
 #pragma once
 
 #include <cstddef>
@@ -6,17 +6,17 @@
 
 namespace tacto {
 
-/// 95 %. NaN where there is nothing to estimate from.
+/// A value with its 95 % interval; NaN if there are no data.
 struct Estimate {
     double value = std::numeric_limits<double>::quiet_NaN();
     double low = std::numeric_limits<double>::quiet_NaN();
     double high = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Wilson score interval of a proportion. n = 0 knows nothing: no value, 0 to 1. `successes` ≤ n.
+/// Wilson score interval of a proportion. `successes` ≤ n. For n = 0 the value is NaN and the interval 0 to 1.
 [[nodiscard]] Estimate wilsonInterval(std::size_t successes, std::size_t n) noexcept;
 
-/// The first count from `low` on that is enough, where every larger one is too; `high` where none below it is.
+/// Finds the first count from `low` that is enough (every larger count must be enough, too); `high` if none is.
 template <class Enough>
 [[nodiscard]] std::size_t firstEnough(std::size_t low, std::size_t high, Enough&& enough) {
     while (low < high) {
@@ -29,37 +29,37 @@ template <class Enough>
     return low;
 }
 
-// Exact probabilities and intervals of counts: k right of n.
+// Exact probabilities and intervals for counts: k of n answers right.
 
-/// A person is above chance where their right answers have at most this probability by chance, one-sided and exact.
+/// A person is above chance if guessing gives as many right answers with at most this probability, one-sided, exact.
 inline constexpr double kAboveChanceLevel = 0.05;
 
 /// P(X ≥ k) for X ~ Binomial(n, p).
 [[nodiscard]] double binomialAtLeast(std::size_t k, std::size_t n, double p) noexcept;
 
-/// Fewest right answers of `trials` with P(X ≥ k) ≤ kAboveChanceLevel by chance; trials + 1 where no number is enough.
+/// Smallest k of `trials` with P(X ≥ k) ≤ kAboveChanceLevel by guessing; trials + 1 if no k is enough.
 [[nodiscard]] std::size_t aboveChanceFrom(std::size_t trials, double chance) noexcept;
 
-/// Clopper and Pearson's exact interval of a proportion, which for few trials never promises too much. n = 0 knows
-/// nothing: no value, 0 to 1. `successes` ≤ n.
+/// Clopper and Pearson's exact interval of a proportion, which is never too narrow, even for few trials. `successes` ≤
+/// n. For n = 0 the value is NaN and the interval 0 to 1.
 [[nodiscard]] Estimate clopperPearsonInterval(std::size_t successes, std::size_t n) noexcept;
 
-/// a/m - b/n of two independent samples, with Newcombe's hybrid score interval (Stat Med 17, 1998, 873, method 10): the
-/// distances to the ends of the two Wilson intervals, squared and added. NaN throughout where m or n is 0.
+/// a/m - b/n of two independent samples, with Newcombe's hybrid score interval (Stat Med 17, 1998, 873, method 10):
+/// distances to the ends of the two Wilson intervals, combined in quadrature. All NaN if m or n is 0.
 [[nodiscard]] Estimate newcombeDifference(std::size_t a, std::size_t m, std::size_t b, std::size_t n) noexcept;
 
-// What k of n people above chance say about everybody: the Bayesian prevalence (Ince et al. 2021,
+// Bayesian prevalence: what k of n people above chance say about the population (Ince et al. 2021,
 // doi:10.7554/eLife.62461).
 //
-// With an even prior, and a test that lets 5 % through who cannot do it, θ = 0.05 + 0.95·γ is Beta(k + 1, n - k + 1)
-// between 0.05 and 1, where γ is the share of people who can.
+// γ is the share of people who can do the task. The test also passes 5 % of the people who cannot, so that θ = 0.05 +
+// 0.95·γ of all people pass. With a uniform prior, θ has a Beta(k + 1, n - k + 1) distribution between 0.05 and 1.
 
-/// When `k` of `n` people were above chance: γ at the mode of θ, (k/n - 0.05)/0.95 and at least 0, with the shortest
-/// interval that holds 95 %. It begins at 0 where the mode is 0, and ends at 1 where k = n; its lower end is the "at
-/// least". For n = 0 nothing is known: no value, 0 to 1. k ≤ n.
+/// Estimates γ if `k` of `n` people (k ≤ n) were above chance: the value at the mode of θ, (k/n - 0.05)/0.95 but at
+/// least 0, with the shortest 95 % interval. The interval begins at 0 if the mode is 0, and ends at 1 if k = n. Its low
+/// end is the "at least" value. For n = 0 the value is NaN and the interval 0 to 1.
 [[nodiscard]] Estimate prevalenceInterval(std::size_t k, std::size_t n) noexcept;
 
-/// The quantile `q` of a Beta(a, b) that is cut off below `from`; a, b ≥ 1, 0 ≤ from < 1, q in 0 to 1.
+/// Quantile `q` of a Beta(a, b) distribution truncated below `from`; a, b ≥ 1, 0 ≤ from < 1, q in 0 to 1.
 [[nodiscard]] double truncatedBetaQuantile(double a, double b, double from, double q) noexcept;
 
 }  // namespace tacto

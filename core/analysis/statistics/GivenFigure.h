@@ -1,4 +1,4 @@
-// GivenFigure.h - numbers that a caller gives, checked by one table: what each is called and what is accepted of it.
+// GivenFigure.h - checks numbers from a caller against a table of their names and accepted values.
 #pragma once
 
 #include <initializer_list>
@@ -8,12 +8,12 @@
 namespace tacto {
 
 struct GivenFigure {
-    std::string_view name;  ///< begins the sentence: "the last estimate of the threshold"
+    std::string_view name;  ///< first words of the error message: "the last estimate of the threshold"
     double value;
     AcceptedNumbers accepted;
 };
 
-/// Errors: InvalidArgument naming the first that is not accepted, its value and what is.
+/// Errors: InvalidArgument for the first number that is not accepted, with its value and the accepted values.
 [[nodiscard]] inline Result<void> checkFigures(std::initializer_list<GivenFigure> figures) {
     for (const auto& each : figures) {
         if (!each.accepted.contain(each.value))
@@ -22,11 +22,11 @@ struct GivenFigure {
     return {};
 }
 
-/// A count.
+/// Makes an entry for a whole number.
 [[nodiscard]] inline GivenFigure givenCount(std::string_view name, std::size_t count, double low, double high) {
     return {name, static_cast<double>(count), {.low = low, .high = high, .whole = true}};
 }
-/// A figure above 0.
+/// Makes an entry for a number above 0.
 [[nodiscard]] inline GivenFigure givenAboveZero(std::string_view name, double value,
                                                 double high = AcceptedNumbers{}.high) {
     return {name, value, {.low = 0, .high = high, .openLow = true}};

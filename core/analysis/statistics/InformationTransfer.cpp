@@ -12,7 +12,7 @@ namespace {
 
 using Table = std::vector<std::vector<double>>;
 
-/// The contribution of a share to an entropy, bits.
+/// Contribution of one share to an entropy, in bits.
 double surprise(double share) noexcept { return share > 0 ? -share * std::log2(share) : 0; }
 
 double entropy(std::span<const double> shares) noexcept {
@@ -21,7 +21,7 @@ double entropy(std::span<const double> shares) noexcept {
     return bits;
 }
 
-/// The contribution of `k` of `n` trials to an entropy by the jackknife of second order; as counted for a single trial.
+/// Contribution of `k` of `n` trials to an entropy by the second-order jackknife; uncorrected for a single trial.
 double jackknifed(double k, double n) noexcept {
     const double all = surprise(k / n);
     if (n < 2) return all;
@@ -35,9 +35,9 @@ double jackknifed(double k, double n) noexcept {
     return bits;
 }
 
-/// Stimuli that were presented, with the shares of their answers.
+/// The presented stimuli with the shares of their answers.
 struct Answers {
-    std::vector<double> n, weight;  // one for each row
+    std::vector<double> n, weight;  // one entry for each row
     Table share;                    // shares of a row's answers
     std::vector<double> overall;    // shares of all answers
     double trials = 0;
@@ -63,8 +63,8 @@ Answers answersOf(std::span<const std::vector<double>> counts) {
     return out;
 }
 
-/// Variance of the transfer where each row's answers have these shares: by its derivative, and what remains where that
-/// is 0.
+/// Variance of the information for these shares of answers: `first` from the derivative, `second` from the second-order
+/// term, which remains if the derivative is 0.
 struct Variance {
     double first = 0, second = 0;
 };
@@ -91,7 +91,7 @@ Variance varianceAt(const Answers& told) {
     return out;
 }
 
-/// The answers with two more in each row, spread as all answers are.
+/// Adds two answers to each row, distributed like all answers.
 Answers smoothed(Answers told) {
     constexpr double kMore = 2;
     for (std::size_t s = 0; s < told.n.size(); ++s) {
@@ -126,7 +126,7 @@ Estimate correctedInformation(std::span<const std::vector<double>> counts) {
         const auto& share = told.share[s];
         for (const double part : share) bits -= weight * jackknifed(n * part, n);
         if (n < 2) continue;
-        // Leaves out one of the row's trials, whichever answer it had; the row counts as before.
+        // Leave out one trial of the row, for each possible answer; the weight of the row stays the same.
         const double row = entropy(share);
         double mean = 0, squares = 0;
         for (std::size_t left = 0; left < share.size(); ++left) {

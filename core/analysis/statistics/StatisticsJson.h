@@ -1,5 +1,5 @@
-// StatisticsJson.h - statistics in the shapes of the command line's contract: the same for `analyze`, for scripts and
-// for the session's rows. Absent values (NaN) are null.
+// StatisticsJson.h - writes statistics as JSON in the command-line contract, for `analyze`, for scripts and for the
+// session's rows. Absent values (NaN) are null.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -15,9 +15,9 @@ namespace tacto {
 [[nodiscard]] nlohmann::json toJson(const Statistics& statistics);
 /// {"value","low","high"}, 95 %
 [[nodiscard]] nlohmann::json toJson(const Estimate& estimate);
-/// A reading in a list, where null keeps the place of one that failed: NaN.
+/// A list entry with a reading; null stands for a failed reading and gives NaN.
 [[nodiscard]] ValueKind<double> readingKind();
-/// A text, or null for an empty one.
+/// A text; an empty text is written as null.
 [[nodiscard]] ValueKind<std::string> textOrNullKind();
 
 }  // namespace tacto

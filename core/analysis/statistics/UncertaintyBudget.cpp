@@ -30,7 +30,7 @@ Result<void> check(const Contribution& row) {
     return {};
 }
 
-/// Student's t by Bailey's polar method: exact for any ν, and no gamma draw.
+/// Draws Student's t by Bailey's polar method, which is exact for any ν and needs no gamma draw.
 double drawStudent(Random& random, double nu) {
     if (std::isinf(nu)) return random.normal();
     for (;;) {
@@ -41,10 +41,10 @@ double drawStudent(Random& random, double nu) {
     }
 }
 
-/// Half-width of the symmetric 95 % interval of the sum of the rows' own distributions, each about 0.
+/// Half-width of the symmetric 95 % interval of the sum of all rows, each drawn from its own distribution around 0.
 double propagate(const std::vector<Contribution>& rows, const BudgetOptions& options) {
     Random random(options.seed, "uncertainty budget");
-    // Normal rows add up to one normal row: one draw for all of them.
+    // Normal rows are combined into one normal row, which needs only one draw.
     double normalSquares = 0;
     for (const auto& row : rows) {
         if (row.distribution == Distribution::Normal) normalSquares += row.contribution() * row.contribution();
@@ -104,7 +104,7 @@ Result<UncertaintyBudget> combine(std::vector<Contribution> rows, const BudgetOp
         budget.rows = std::move(rows);
         return budget;
     }
-    double fourthPowers = 0;  // sum of (contribution / u_c)⁴ over degrees of freedom: no under- or overflow
+    double fourthPowers = 0;  // Σ (contribution / u_c)⁴ / degrees of freedom; ratios avoid overflow
     if (budget.combined > 0) {
         for (const auto& row : rows) {
             const double share = row.contribution() / budget.combined;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kCoverageFactor = 2;
 
-/// Scatter of the trains of one command, relative: what a capture leaves open of a ratio of two amplitudes.
+/// Relative scatter of the trains with one command: the uncertainty that a capture leaves in a ratio of two amplitudes.
 double scatterOf(std::span<const CapturedChange> changes) {
     double squares = 0, freedom = 0;
     for (const auto& change : changes) {
@@ -41,15 +41,15 @@ void takeStep(LargestStep& axis, double jnd, double from, double to) {
 
 double largerOrUnknown(double a, double b) { return std::isnan(a) || std::isnan(b) ? kNaN : std::max(a, b); }
 
-/// Standard, relative, of the step from `before_v` to a train: of the two levels. The one before is as well known as
-/// this one, in volts.
+/// Relative standard uncertainty of the step from `before_v` to a train, from both levels. The previous level is
+/// assumed to have the same uncertainty in volts.
 double statedOf(const CapturedTrain& train, double before_v) {
     return train.amplitudeUncertainty_v * std::hypot(1 / train.amplitude_v, 1 / before_v);
 }
 
-/// The expanded uncertainty of the step from `before_s` to the interval that ends with train `k`. Two intervals share
-/// the stamp between them, which makes one longer as it makes the other shorter. u: of the least certain of their three
-/// stamps.
+/// Expanded uncertainty of the step from `before_s` to the interval that ends with train `k`. The time stamp between
+/// the two intervals is common to both: an error lengthens one and shortens the other. Uses the largest uncertainty of
+/// the three time stamps.
 double intervalUncertainty_jnd(const std::vector<CapturedTrain>& trains, std::size_t k, double before_s) {
     double stamp_s = 0;
     for (std::size_t i = k < 2 ? 0 : k - 2; i <= k; ++i)
@@ -69,7 +69,7 @@ void addTrains(ChangeGroup& group, const CapturedChange& change) {
     for (std::size_t k = 0; k < change.trains.size(); ++k) {
         const auto& train = change.trains[k];
         ++group.captured;
-        // The first trains of a movement have none before them to be compared with.
+        // The first train of a movement has no earlier train for comparison.
         if (!movement || k >= 1) {
             const bool isFirst = std::isnan(group.amplitude.jnd);
             takeStep(group.amplitude, train.amplitude_jnd, last_v, train.amplitude_v);
@@ -117,7 +117,7 @@ void addChange(ChangeGroup& group, const CapturedChange& change, const ChangeLim
     if (!(measured.trains <= fastest.trains)) ++group.tooMany;
 }
 
-/// The reasons against a pass, in sentences.
+/// Sentences with the reasons against a pass.
 struct Findings {
     std::vector<std::string> failures, open, notes;
     [[nodiscard]] Verdict verdict() const {
@@ -225,12 +225,12 @@ ChangeJudgement judgeChanges(std::span<const CapturedChange> changes, const std:
 
 namespace {
 
-/// Steps of one name, measured and not measured.
+/// All steps with the same name, measured or not.
 struct MeasuredSteps {
     std::string name;
     std::vector<double> latency_s, designed_s, error_s, trains, designedTrains;
     std::size_t steps = 0;
-    std::size_t slow = 0;  // took more trains than the design
+    std::size_t slow = 0;  // steps that took more trains than designed
 };
 
 void addStep(MeasuredSteps& group, const CapturedChange& step) {
@@ -239,7 +239,7 @@ void addStep(MeasuredSteps& group, const CapturedChange& step) {
     if (std::isfinite(designed.latency_s)) group.designed_s.push_back(designed.latency_s);
     if (std::isfinite(measured.latency_s) && std::isfinite(designed.latency_s)) {
         group.latency_s.push_back(measured.latency_s);
-        // A difference within what a measurement of the design may find is none.
+        // A difference within the range expected of a measurement is zero.
         const double low = step.designedFirst.latency_s, high = step.designedLast.latency_s;
         const bool ranged = low <= designed.latency_s && designed.latency_s <= high;
         group.error_s.push_back(measured.latency_s -

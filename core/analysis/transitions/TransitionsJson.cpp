@@ -106,11 +106,11 @@ RecordFields<CapturedTrain> trainFields() {
     return all;
 }
 
-/// The fields that steps and movements share.
+/// The fields common to steps and movements.
 RecordFields<CapturedChange> changeFields() {
     using C = CapturedChange;
     RecordFields<C> all;
-    all.add("name", &C::name, textOrNullKind()).leftOutIfEmpty = true;  // the bench knows no name
+    all.add("name", &C::name, textOrNullKind()).leftOutIfEmpty = true;  // empty in rows from the bench
     all.word("type", &C::kind, kChangeKinds);
     all.list("onsets", &C::trains, trainFields().kind(), 0, kMaxTrains);
     return all;
@@ -168,7 +168,7 @@ ResultTraits transitionsKind() {
     const auto& latency = builtOnce<describeLatency>();
     auto limits = under("changes", changes.columns());
     std::ranges::copy(under("latency", latency.columns()), std::back_inserter(limits));
-    // What the encoding makes of a change is the protocol's.
+    // The protocol adds the changes that the encoding makes.
     limits.push_back(jnd("Largest change, gradual (JND)", "transitions.gradual.largest_jnd"));
     limits.push_back(jnd("Largest change, abrupt (JND)", "transitions.abrupt.largest_jnd"));
     return {

@@ -1,4 +1,4 @@
-// TransitionsJson.h - steps and movements as scripts are told of them, and what they were judged to be. NaN is null.
+// TransitionsJson.h - steps and movements as JSON for scripts, and their judgements. NaN is null.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -8,12 +8,12 @@
 
 namespace tacto {
 
-/// The row that bench.step() or bench.traverse() returns.
+/// Writes the row that bench.step() or bench.traverse() returns.
 [[nodiscard]] nlohmann::json toJson(const CapturedChange& change);
 
 [[nodiscard]] nlohmann::json toJson(const LatencyJudgement& judgement);
 [[nodiscard]] nlohmann::json toJson(const ChangeJudgement& judgement);
-/// How a protocol's results are judged and shown that has both, as `changes` and `latency`.
+/// Describes how results with both members, `changes` and `latency`, are judged and shown.
 [[nodiscard]] ResultTraits transitionsKind();
 
 }  // namespace tacto

@@ -9,9 +9,9 @@ namespace tacto {
 namespace {
 
 constexpr double kOnsetShare = 0.1, kRisenShare = 0.9;  // shares of the peak
-constexpr double kGap = 3;                              // sample periods
+constexpr double kGap = 3;                              // in sample periods
 
-/// Magnitudes beside their stamps, without what is there in the quiet.
+/// Magnitudes with their time stamps, after subtraction of the mean in the quiet.
 struct Course {
     std::vector<double> t_s;
     std::vector<double> magnitude;
@@ -21,7 +21,7 @@ struct Course {
     [[nodiscard]] std::size_t from(double t) const {
         return static_cast<std::size_t>(std::ranges::lower_bound(t_s, t) - t_s.begin());
     }
-    /// Whether every sample between the two was taken.
+    /// True if no sample between the two times is missing.
     [[nodiscard]] bool covers(double begin, double end) const {
         const double most = kGap * period_s;
         double before = begin;
@@ -64,7 +64,7 @@ double medianPeriod(std::span<const AccelerationSample> samples) {
     return *middle;
 }
 
-/// Errors: NotFound without a quiet before `firstOnset`.
+/// Errors: NotFound if there is no quiet before `firstOnset`.
 Result<Course> courseOf(std::span<const AccelerationSample> samples, double firstOnset) {
     Course course;
     course.period_s = medianPeriod(samples);
@@ -94,10 +94,10 @@ Result<Course> courseOf(std::span<const AccelerationSample> samples, double firs
 
 struct OneBurst {
     double onset_s, rise_s, strength;
-    double samples;  // how many samples gave the strength
+    double samples;  // number of samples in the strength
 };
 
-/// Nothing where the motor did not move. `until`: the next burst, or the end of its run-down.
+/// Returns nothing if the motor did not move. `until`: the next burst, or the end of the run-down.
 std::optional<OneBurst> measure(const Course& course, const CommandedBurst& burst, double until) {
     const auto begin = course.from(burst.onset_s), end = course.from(until);
     if (begin >= end) return std::nullopt;
@@ -105,7 +105,7 @@ std::optional<OneBurst> measure(const Course& course, const CommandedBurst& burs
     const auto at = [&](std::size_t i) { return first + static_cast<std::ptrdiff_t>(i); };
     const double peak = *std::max_element(at(begin), at(end));
     if (!(peak > BurstFigures::kAboveNoise * course.noise)) return std::nullopt;
-    // A tenth of a weak burst may be noise.
+    // In a weak burst, a tenth of the peak may be noise.
     const double threshold = std::max(kOnsetShare * peak, BurstFigures::kAboveNoise * course.noise);
     const auto reached = [&](double share) {
         const auto found = std::find_if(at(begin), at(end), [share](double each) { return each >= share; });
@@ -165,11 +165,11 @@ Result<BurstFigures> burstFigures(std::span<const AccelerationSample> samples, s
     out.strength_m_s2 = strength / moved;
     out.latency_s = latency / moved;
     out.rise_s = rise / moved;
-    // Noise on each of the samples adds to the mean square as it is; half of that is the root's share.
+    // Noise in each sample adds to the mean square; its root has half of that relative error.
     out.strengthUncertainty_m_s2 = out.noise_m_s2 / std::sqrt(taken);
     if (intervals == 0) return out;
     out.interval_s = between / intervals;
-    // Each of the two onsets lies anywhere in a sample period; the onsets between them cancel.
+    // Each of the two outer onsets lies anywhere within a sample period; the onsets between cancel.
     out.intervalUncertainty_s = course->period_s / std::sqrt(6.0) / intervals;
     return out;
 }

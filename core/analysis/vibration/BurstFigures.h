@@ -1,7 +1,7 @@
-// BurstFigures.h - what a massager did in one presentation, by an accelerometer on its motor.
+// BurstFigures.h - what a massager did in one presentation, measured by an accelerometer on its motor.
 //
-// What is measured is the acceleration less its mean in the quiet before the first burst (gravity and offset), as a
-// magnitude over the axes, so that it does not matter how the board is fastened:
+// Each sample is the acceleration minus its mean in the quiet before the first burst (gravity and offset), as a
+// magnitude over the axes. The orientation of the board therefore does not matter:
 //   noise      root mean square in the quiet
 //   strength   root mean square over the burst's own length from its measured onset, less the noise (of the squares)
 //   peak       largest magnitude until the next burst, or for kRunDown after the command's end
@@ -10,8 +10,8 @@
 //   latency    onset less command
 //   rise       from the onset to the first sample of nine tenths of the peak
 //   interval   between the onsets of two bursts that follow each other, mean over the presentation
-// A burst moved the motor where its peak exceeds kAboveNoise times the noise. One of which samples are missing was not
-// measured: neither moved nor still. What was not measured is NaN, never zero.
+// A burst moved the motor if its peak exceeds kAboveNoise times the noise. A burst with missing samples was not
+// measured: it is neither moved nor still. A figure that was not measured is NaN, never zero.
 #pragma once
 
 #include <cstddef>
@@ -24,29 +24,29 @@
 
 namespace tacto {
 
-/// Stamps ascend. One acceleration a stamp, in m/s².
+/// One acceleration in m/s² with its time stamp. Time stamps must ascend.
 struct AccelerationSample {
     double t_s = 0;
     double x = 0, y = 0, z = 0;
 };
 
-/// A burst as it was commanded.
+/// The onset and duration of a commanded burst.
 struct CommandedBurst {
     double onset_s = 0;
     Seconds duration{0.1};
 };
 
 struct BurstFigures {
-    std::size_t bursts = 0;       ///< commanded
+    std::size_t bursts = 0;       ///< number of commanded bursts
     std::size_t moved = 0;        ///< bursts in which the motor moved
     std::size_t missed = 0;       ///< bursts that were not measured
-    double strength_m_s2 = kNaN;  ///< means over those that moved
+    double strength_m_s2 = kNaN;  ///< strength and the next figures: means over bursts that moved
     double latency_s = kNaN;
     double rise_s = kNaN;
     double interval_s = kNaN;
     double noise_m_s2 = kNaN;  ///< noise of one sample
-    /// Standard uncertainties of what is said above, by noise and sampling. The accelerometer's scale is not in them:
-    /// it is the same for all conditions, and only ratios are judged.
+    /// Standard uncertainties of the figures above, from noise and sampling. They exclude the accelerometer's scale,
+    /// which is the same for all conditions, because only ratios are judged.
     double strengthUncertainty_m_s2 = kNaN;
     double intervalUncertainty_s = kNaN;
 
@@ -55,10 +55,10 @@ struct BurstFigures {
     static constexpr Seconds kMinQuiet{0.1};
 };
 
-/// `samples` begin at least kMinQuiet before the first burst and end after the last. A gap of more than three sample
-/// periods is where samples are missing.
-/// Errors: InvalidArgument for no bursts, bursts that do not ascend, a duration that is not above 0, stamps that do not
-/// ascend or are not finite; NotFound where the quiet before the first burst was not measured.
+/// `samples` must begin at least kMinQuiet before the first burst and end after the last one. In a gap of more than
+/// three sample periods, samples are missing. Errors: InvalidArgument for no bursts, bursts or time stamps that do not
+/// ascend, a duration that is not positive, or a time stamp that is not finite; NotFound if the quiet before the first
+/// burst was not measured.
 [[nodiscard]] Result<BurstFigures> burstFigures(std::span<const AccelerationSample> samples,
                                                 std::span<const CommandedBurst> bursts);
 

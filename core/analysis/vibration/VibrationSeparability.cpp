@@ -153,7 +153,7 @@ json toJson(const BurstFigures& figures) { return builtOnce<burstFields>().write
 
 BurstFigures burstFiguresFrom(const json& said) {
     BurstFigures out;
-    static_cast<void>(builtOnce<burstFields>().read(said, out, {.lenient = true}));  // what cannot be read is not known
+    static_cast<void>(builtOnce<burstFields>().read(said, out, {.lenient = true}));  // unreadable members stay unknown
     return out;
 }
 
