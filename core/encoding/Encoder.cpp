@@ -39,7 +39,7 @@ Command Encoder::limited(const Command& last, const Command& wanted, Seconds sin
 
 double Encoder::massagerIntensity(Volts amplitude) const noexcept {
     const double intensity = amplitude.value() / profile_.amplitudeMax.value();
-    return intensity > 0 ? std::min(intensity, 1.0) : 0.0;  // NaN is silence
+    return intensity > 0 ? std::min(intensity, 1.0) : 0.0;  // no output for NaN
 }
 
 PulseTrain voltageTrain(const EncodingProfile& profile, Volts amplitude) noexcept {

@@ -106,7 +106,7 @@ double Curve::at(double x, double from, double to) const noexcept {
     double y = from + x * (to - from);
     if (kind == CurveKind::Logarithmic) y = from * std::pow(to / from, x);
     if (kind == CurveKind::Power) y = from + (to - from) * std::pow(x, 1 / beta);
-    return std::clamp(y, std::min(from, to), std::max(from, to));  // so that a rounded last bit never passes an end
+    return std::clamp(y, std::min(from, to), std::max(from, to));  // rounding must not exceed an end
 }
 
 std::vector<Condition> EncodingProfile::fourConditions(double low, double high) {

@@ -70,7 +70,7 @@ Result<void> validate(const PulseTrain& train) {
     if (train.pulses < 1) return invalid("{} pulses are not 1 or more", train.pulses);
     const double rate = train.rate.value();
     if (!finite(rate, rate > 0)) return refused("intra-train rate", rate, "Hz", "a finite number above 0");
-    // A billionth of tolerance: 0.1 ms of pulse at 10 kHz fits although neither is exact in binary.
+    // Tolerance of 1e-9: a pulse of 0.1 ms must fit at 10 kHz, although neither value is exact in binary.
     const double pulse = train.pulseDuration().count();
     if (!(pulse <= (1 + 1e-9) / rate)) {
         return invalid("a pulse of {:.6g} µs does not fit into its period of {:.6g} µs (1/{} Hz)", pulse * 1e6,
@@ -104,7 +104,7 @@ Seconds restBetweenPulses(const PulseTrain& train) noexcept {
 
 namespace {
 
-/// Adds a rectangle [from, to), in samples of `out`, as each sample's mean.
+/// Adds the rectangle [from, to), given in samples of `out`, as a mean value per sample.
 void addRectangle(std::span<double> out, double from, double to, double level) noexcept {
     const double end = static_cast<double>(out.size());
     from = std::max(from, 0.0);
@@ -135,7 +135,7 @@ Result<void> synthesize(const PulseTrain& train, Hertz sampleRate, std::span<dou
     const double windowEnd = start.count() + static_cast<double>(out.size()) / fs;
     const double period = 1 / train.rate.value();
     const double pulseLength = train.pulseDuration().count();
-    // Counts only the pulses that reach into the window.
+    // Use only the pulses that overlap the window.
     const double first = std::max(0.0, std::floor((start.count() - pulseLength) / period));
     const double last = std::min(static_cast<double>(train.pulses - 1), std::floor(windowEnd / period));
     const PulseSegments pulse = segmentsOf(train, GapState::HoldsZero);

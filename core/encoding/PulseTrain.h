@@ -1,7 +1,7 @@
-// PulseTrain.h - what is asked of a stimulator: one self-ending train of electrical pulses.
+// PulseTrain.h - the request to a stimulator: one train of electrical pulses that ends by itself.
 //
-// A request only. Drivers never take it; they take the ApprovedTrain that SafetyGate makes of it.
-// Definitions: science.md sections 4 and 5.
+// This is only a request. Drivers accept only an ApprovedTrain, which SafetyGate makes from it. Definitions: science.md
+// sections 4 and 5.
 #pragma once
 
 #include <span>
@@ -15,18 +15,17 @@ namespace tacto {
 
 enum class PulseShape {
     SymmetricBiphasic,   ///< second phase mirrors the first
-    AsymmetricBiphasic,  ///< second phase of equal charge, `rechargeRatio` times longer and lower
-    Monophasic,          ///< leading phase only: bench loads only
+    AsymmetricBiphasic,  ///< second phase has equal charge; it is `rechargeRatio` times longer and lower
+    Monophasic,          ///< leading phase only, for bench loads only
 };
 enum class Polarity { Positive, Negative };  ///< sign of the leading phase
 
 /// What the source does between the phases and after the pulse.
 enum class GapState { HoldsZero, HighImpedance };
 
-/// The leading phase's plateau, unsigned. The unit says what kind of source it is meant for, so volts cannot
-/// reach a current source by accident (hazard H4).
-/// A type of its own, not an alias, because clang instantiates every conversion between units while it chooses an
-/// alternative, and volts to milliamps is an error already there.
+/// Plateau of the leading phase, without sign. The unit fixes the kind of source, so that volts cannot reach a current
+/// source by accident (hazard H4). This is a separate type, not an alias, because clang instantiates every conversion
+/// between units while it chooses an alternative, and the conversion from volts to milliamps does not compile.
 struct Amplitude : std::variant<Volts, Milliamps> {
     Amplitude(Volts v) noexcept : variant(std::in_place_type<Volts>, v) {}
     Amplitude(Milliamps i) noexcept : variant(std::in_place_type<Milliamps>, i) {}
@@ -36,7 +35,7 @@ struct Amplitude : std::variant<Volts, Milliamps> {
 [[nodiscard]] inline const char* amplitudeUnit(const Amplitude& a) noexcept {
     return amplitudeUnit(isCurrent(a) ? Drive::Current : Drive::Voltage);
 }
-/// The amplitude in V or A, depending on the drive.
+/// Returns the amplitude in V or A, depending on its unit.
 [[nodiscard]] double siValue(const Amplitude& a) noexcept;
 
 struct PulseTrain {
@@ -49,16 +48,16 @@ struct PulseTrain {
     int pulses = 1;             ///< n ≥ 1
     Hertz rate{100};            ///< intra-train pulse rate
 
-    /// n / intra-train rate: the window of the in-train RMS, and the time a train occupies.
+    /// n / intra-train rate: the duration of a train, also the window of its RMS.
     [[nodiscard]] Seconds duration() const noexcept;
-    /// The time from the leading edge to the end of the last phase of one pulse.
+    /// Time from the leading edge to the end of the last phase of one pulse.
     [[nodiscard]] Seconds pulseDuration() const noexcept;
-    /// The time from the first leading edge to the end of the last phase of the last pulse.
+    /// Time from the first leading edge to the end of the last phase of the last pulse.
     [[nodiscard]] Seconds outputDuration() const noexcept;
     bool operator==(const PulseTrain&) const = default;
 };
 
-/// `train` with `change` applied to its amplitude, in V or mA, depending on the drive.
+/// Returns `train` with `change` applied to its amplitude, in V or mA depending on its unit.
 template <class Change>
 [[nodiscard]] PulseTrain withAmplitude(PulseTrain train, Change change) noexcept {
     if (const auto* volts = std::get_if<Volts>(&train.amplitude)) {
@@ -69,28 +68,28 @@ template <class Change>
     return train;
 }
 
-/// Refuses what no stimulator could mean: values that are not finite or negative, n < 1, a pulse longer than
-/// its period, a recharge ratio not above 1. Says nothing about safety.
+/// Errors: InvalidArgument for trains that make no sense: values that are not finite or are negative, n < 1, a pulse
+/// longer than its period, or a recharge ratio that is not above 1. This is not a safety check.
 [[nodiscard]] Result<void> validate(const PulseTrain& train);
 
-/// One pulse as ideal rectangular segments, without the rest after it. `gap` is the source's declared state.
+/// Returns one pulse as ideal rectangular segments, without the rest after it. `gap`: what the source does in gaps.
 [[nodiscard]] PulseSegments segmentsOf(const PulseTrain& train, GapState gap) noexcept;
 
-/// What the source does after a pulse, for `duration`: 0 V held, or high impedance.
+/// Returns the segment after a pulse, for `duration`: 0 V held, or high impedance.
 [[nodiscard]] DriveSegment restOf(GapState gap, Seconds duration) noexcept;
-/// The time from the end of one pulse's last phase to the next pulse of the same train: 1/rate less the pulse.
+/// Time from the end of a pulse's last phase to the next pulse of the same train: 1/rate minus the pulse.
 [[nodiscard]] Seconds restBetweenPulses(const PulseTrain& train) noexcept;
 
-// A pulse train as samples, charge-exact at any rate.
+// Sampling of a pulse train with exact charge at any sampling rate.
 //
 // Each sample is the mean of the ideal rectangular waveform over its own interval [k/fs, (k + 1)/fs), not its value at
-// an instant. So the sum of the samples times 1/fs is the exact charge (or flux) of every phase, even where a phase
-// does not fall on the sampling grid: an edge inside a sample shows as a partial value there, and a symmetric biphasic
-// train sums to zero (to rounding) at any rate.
+// one instant. The sum of the samples times 1/fs is therefore the exact charge (or flux) of every phase, even if a
+// phase does not fit the sampling grid: an edge within a sample gives a partial value there. A symmetric biphasic train
+// sums to zero (apart from rounding) at any rate.
 
-/// Fills `out` with the train's level in V or A. Sample k covers `start` + [k, k + 1)/sampleRate, time 0 being the
-/// leading edge; outside the pulses (gap, rest, before and after) the level is 0. Errors: InvalidArgument as
-/// validate(), or for a sampling rate or start that is not finite or not above 0.
+/// Fills `out` with the train's level in V or A. Sample k covers `start` + [k, k + 1)/sampleRate; time 0 is the leading
+/// edge. Outside the pulses (gap, rest, before and after) the level is 0. Errors: InvalidArgument as validate(), or for
+/// a sampling rate that is not finite and positive or a start that is not finite.
 [[nodiscard]] Result<void> synthesize(const PulseTrain& train, Hertz sampleRate, std::span<double> out,
                                       Seconds start = Seconds(0));
 

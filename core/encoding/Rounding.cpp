@@ -6,7 +6,7 @@
 namespace tacto {
 namespace {
 
-/// The share by which `wanted` shrank; 0 where only the last bits differ.
+/// Relative decrease of `wanted`; 0 if only the last bits differ.
 double shrunk(double wanted, double rounded) noexcept {
     if (!(wanted > 0)) return 0;
     const double relative = (wanted - rounded) / wanted;
@@ -31,7 +31,7 @@ Result<RoundedTrain> roundToDevice(const PulseTrain& wanted, const DeviceGrid& g
 
     const bool current = isCurrent(wanted.amplitude);
     const double amplitude = std::visit([](auto a) { return a.value(); }, wanted.amplitude);
-    // The outer minimum: a multiple of a step that is not exact in binary may lie a last bit above the range.
+    // The outer minimum is needed because a multiple of an inexact step may lie a last bit above the range.
     const double amplitudeSet =
         std::min(onto(std::min(amplitude, grid.amplitudeMax), grid.amplitudeStep), grid.amplitudeMax);
     const char* unit = amplitudeUnit(wanted.amplitude);

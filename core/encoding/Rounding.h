@@ -1,17 +1,17 @@
-// Rounding.h - fits a train to what a device can set, before it is judged.
+// Rounding.h - rounds a train to values that a device can set, before the gate judges it.
 //
-// Toward zero, so that rounding never adds exposure; and never by more than 10 %, so that what is delivered is still
-// what was asked for. What a calibration programs is a correction of that: it goes to the nearest step, so that what
-// comes out is at most half a step short. The gate then judges the rounded train, and the rounding is recorded with it.
+// Rounds toward zero, so that rounding never adds exposure, and by at most 10 %, so that the train remains the
+// requested one. A value already corrected by a calibration is rounded to the nearest step, so that the output is at
+// most half a step too low. The gate then judges the rounded train, and the rounding is recorded with it.
 //
-// Thread-safety: pure functions. Success does not allocate.
+// Thread-safety: pure functions. A successful call does not allocate.
 #pragma once
 
 #include "core/encoding/PulseTrain.h"
 
 namespace tacto {
 
-/// What a device can set. A step of 0 is continuous.
+/// The values that a device can set. A step of 0 means continuous.
 struct DeviceGrid {
     double amplitudeStep = 0;  ///< V or mA, in the train's own unit
     double amplitudeMax = 0;   ///< V or mA
@@ -25,7 +25,7 @@ inline constexpr double kLargestRounding = 0.10;
 
 struct RoundedTrain {
     PulseTrain train;
-    /// The share by which each value shrank: 0 = untouched, 0.1 at most, below 0 where it grew.
+    /// Relative decrease of each value: 0 = unchanged, at most 0.1, negative if the value grew.
     double amplitude = 0;
     double phaseWidth = 0;
     double gap = 0;
@@ -33,20 +33,20 @@ struct RoundedTrain {
     [[nodiscard]] bool changed() const noexcept { return amplitude != 0 || phaseWidth != 0 || gap != 0 || pulses != 0; }
 };
 
-/// `value` moved toward zero onto a multiple of `step`; what lies within a billionth of a step below a multiple counts
-/// as on it (0.3 / 0.1 is 2.9999999999999996).
+/// Rounds `value` toward zero to a multiple of `step`. A value less than a billionth of a step below a multiple is
+/// taken as that multiple (0.3 / 0.1 is 2.9999999999999996).
 [[nodiscard]] double towardZero(double value, double step) noexcept;
 
-/// `value` moved onto the nearest multiple of `step`.
+/// Rounds `value` to the nearest multiple of `step`.
 [[nodiscard]] double toNearest(double value, double step) noexcept;
 
 enum class RoundedTo {
-    Zero,     ///< what was asked for
-    Nearest,  ///< what a calibration has corrected
+    Zero,     ///< for a requested value
+    Nearest,  ///< for a value corrected by a calibration
 };
 
-/// Errors: InvalidArgument as validate(); Unsupported naming the value, and what the device can set, when it is below
-/// the device's smallest or would be rounded by more than 10 %.
+/// Errors: InvalidArgument as validate(); Unsupported, naming the value and what the device can set, if the value is
+/// below the device's smallest or would change by more than 10 %.
 [[nodiscard]] Result<RoundedTrain> roundToDevice(const PulseTrain& wanted, const DeviceGrid& grid,
                                                  RoundedTo to = RoundedTo::Zero);
 

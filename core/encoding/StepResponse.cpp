@@ -10,9 +10,9 @@
 namespace tacto {
 
 StepResponse respond(const StepEnds& ends, std::span<const StepTrain> trains, double carried) noexcept {
-    constexpr Seconds kAtOnce{0.05};  // what a control loop and a stimulator take
+    constexpr Seconds kAtOnce{0.05};  // delay of the control loop and the stimulator
     StepResponse found;
-    // A value that was not measured, NaN, is neither near nor far.
+    // NaN (not measured) is neither near nor far.
     const auto near = [carried](double distance) { return distance <= carried; };
     const auto far = [carried](double distance) { return distance > carried; };
     const auto intervalBefore = [&](std::size_t k) {
@@ -26,7 +26,7 @@ StepResponse respond(const StepEnds& ends, std::span<const StepTrain> trains, do
             found.latency = trains[k].onset;
         }
         if (found.trains || k + 1 >= trains.size()) continue;
-        // The first may come late and yet at once: more than the new interval had passed when the finger pressed.
+        // The first train may be late and still be sent at once, if the new interval had already passed at the step.
         const bool inTime = near(intervalDistance(interval, ends.after.interval)) ||
                             (k == 0 && ends.sinceOnset >= ends.after.interval && interval - ends.sinceOnset <= kAtOnce);
         if (inTime && near(amplitudeDistance(amplitude, ends.after.amplitude)) &&
@@ -42,7 +42,7 @@ ResponseRange rangeOf(const StepEnds& ends, std::span<const StepTrain> designed)
     constexpr double kOff = 0.2;
     const StepResponse early = respond(ends, designed, (1 - kOff) * kCarried);
     const StepResponse late = respond(ends, designed, (1 + kOff) * kCarried);
-    // A train that leaves sooner under a small threshold arrives later under it.
+    // With a small threshold the step is seen earlier, but is complete later.
     return {{early.latency, late.trains, late.complete}, {late.latency, early.trains, early.complete}};
 }
 
@@ -83,7 +83,7 @@ Result<std::vector<StepTrain>> designedTrains(const EncodingProfile& profile, co
 
 namespace {
 
-/// Steps that a distance takes; a last bit above a whole number is that number.
+/// Number of steps for a distance. A rounding error above a whole number does not add a step.
 int stepsFor(double distance, double perTrain) noexcept {
     return std::max(0, static_cast<int>(std::ceil(distance / perTrain - 1e-9)));
 }
@@ -98,9 +98,9 @@ StepPace fastestPace(const StepEnds& ends, double perTrain) noexcept {
     pace.trains = std::max(1, stepsFor(amplitudeDistance(ends.before.amplitude, ends.after.amplitude), perTrain));
     double total = 0;
     if (after < before) {
-        // The first interval lasts at least as long as has passed already.
+        // The first interval cannot be shorter than the time already passed.
         double interval = std::max({before / ratio, after, since});
-        // A first train that comes at once, since more than the new interval has passed, is in time for it already.
+        // If more than the new interval has passed, a first train sent at once is already in time.
         const int steps = stepsFor(intervalDistance(Seconds(interval), ends.after.interval), perTrain);
         const bool atOnce = since >= interval && steps <= 1;
         pace.trains = std::max(pace.trains, atOnce ? 1 : 1 + steps);
@@ -111,7 +111,7 @@ StepPace fastestPace(const StepEnds& ends, double perTrain) noexcept {
     } else {
         pace.trains =
             std::max(pace.trains, stepsFor(intervalDistance(ends.before.interval, ends.after.interval), perTrain));
-        // As short as the last, which is the new interval, allows.
+        // Each interval is the shortest from which the remaining trains can still reach the new interval.
         for (int left = pace.trains - 1; left >= 0; --left) total += std::max(before, after / std::pow(ratio, left));
     }
     pace.complete = Seconds(std::max(0.0, total - since));

@@ -60,7 +60,7 @@ PulseTrain leastDelivered(PulseTrain train, const KnownLines& calibration) noexc
 
 namespace {
 
-constexpr double kSmallestShare = 0.01;  // with a smaller share, times would shrink to nothing and windows last forever
+constexpr double kSmallestShare = 0.01;  // a smaller share would shrink times to nothing and make windows endless
 
 }  // namespace
 

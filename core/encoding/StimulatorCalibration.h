@@ -1,11 +1,11 @@
-// StimulatorCalibration.h - a stimulator's calibration, applied: what it is programmed to so that it delivers what is
-// wanted, and what may come out of that.
+// StimulatorCalibration.h - applies a stimulator's calibration: what to program for a wanted output, and what output a
+// programmed value may give.
 //
-// An interval is timed by the computer and measured by an oscilloscope, as everything else: where the two clocks
-// differ, the oscilloscope's counts. What is programmed is then rounded to the device's steps (Rounding.h), so it comes
-// out up to a step short.
+// The computer times an interval and an oscilloscope measures it, like all quantities. If the two clocks differ, the
+// oscilloscope's time is used. Programmed values are then rounded to the device's steps (Rounding.h), so the output may
+// be up to one step too low.
 //
-// Thread-safety: values; pure functions that do not allocate, but for the text of an error.
+// Thread-safety: values; pure functions, which allocate only for the text of an error.
 #pragma once
 
 #include <algorithm>
@@ -19,53 +19,51 @@
 
 namespace tacto {
 
-// A straight line from what a stimulator is programmed to deliver to what it delivers, and back.
+// A straight line between a stimulator's programmed value and its delivered value, in both directions.
 //
-// Within the calibrated range delivered = gain · programmed + offset. Outside it the ratio of the nearer end holds, so
-// that 0 stays 0 and nothing jumps. The unit is that of the quantity: V or mA for an amplitude, s for a time.
+// Within the calibrated range delivered = gain · programmed + offset. Outside, the ratio delivered / programmed of the
+// nearer end is used, so that 0 stays 0 and there is no jump. Unit: V or mA for an amplitude, s for a time.
 //
-// A stimulator that is off by more than 20 % anywhere in its range is out of order (IEC 60601-2-10 allows its output
-// ± 20 %): its calibration is refused, not applied. So no calibration file makes a command grow by more
-// than a quarter.
+// A stimulator with an error of more than 20 % anywhere in its range is defective (IEC 60601-2-10 allows its output ±
+// 20 %), and its calibration is refused. Therefore no calibration file can increase a command by more than a quarter.
 
-// How far a value may lie from the one that is expected: what an uncertainty (95 %), a stated accuracy or a
-// largest residual amounts to.
+// The possible distance of a value from its expected value: an uncertainty (95 %), a stated accuracy or a largest
+// residual.
 
 struct Spread {
     double relative = 0;  ///< share of the value: 0.01 is 1 %
     double absolute = 0;  ///< in the value's own unit
 
-    /// The most and the least that a value may be. Zero stays zero: an output that is commanded 0 is off. NaN stays.
+    /// Largest and smallest possible value. Zero stays zero, because an output commanded to 0 is off. NaN stays NaN.
     [[nodiscard]] double above(double value) const noexcept {
         return value > 0 ? value * (1 + relative) + absolute : value;
     }
     [[nodiscard]] double below(double value) const noexcept {
         return value > 0 ? std::max(value * (1 - relative) - absolute, 0.0) : value;
     }
-    /// 0 or more, finite, and less than the value itself.
+    /// True if both parts are finite and not negative and the relative one is below 1.
     [[nodiscard]] bool sound() const noexcept {
         return relative >= 0 && relative < 1 && absolute >= 0 && std::isfinite(absolute);
     }
     bool operator==(const Spread&) const = default;
 };
 
-/// Stands in where no spread is stated: science.md section 12.
+/// Used if no spread is stated (science.md section 12).
 inline constexpr Spread kUnknownSpread{0.05, 0};
 
 struct CalibrationLine {
     double gain = 1;
-    double offset = 0;  ///< in the quantity's unit, like the two below
-    double lowest = 0;  ///< the calibrated range, as programmed: 0 < lowest < highest
+    double offset = 0;  ///< in the quantity's unit, like the next two
+    double lowest = 0;  ///< start of the calibrated range of programmed values: 0 < lowest < highest
     double highest = 0;
-    /// How far the delivered value may lie from the line: its uncertainty U (95 %) and the largest residual. Nothing:
-    /// unknown.
+    /// Possible distance of the delivered value from the line: U (95 %) and the largest residual. Empty: unknown.
     std::optional<Spread> spread{};
 
-    /// For values of 0 and more; NaN stays NaN.
+    /// For values ≥ 0; NaN stays NaN.
     [[nodiscard]] double delivered(double programmed) const noexcept;
     [[nodiscard]] double programmedFor(double delivered) const noexcept;
-    /// The most and the least that the line may stand for: outside the range the line, too, may continue. Without its
-    /// spread.
+    /// Largest and smallest value that the line may give, without its spread. Outside the calibrated range the line
+    /// itself may also continue.
     [[nodiscard]] double atMost(double programmed) const noexcept;
     [[nodiscard]] double atLeast(double programmed) const noexcept;
     bool operator==(const CalibrationLine&) const = default;
@@ -76,21 +74,21 @@ private:
 
 inline constexpr double kLargestMiscalibration = 0.2;
 
-/// Errors: InvalidArgument for numbers that are not finite, a gain that is not above 0, an empty range, a negative
-/// spread, or an output below a hundredth of what is programmed at either end of the range; `quantity` is named.
+/// Errors: InvalidArgument naming `quantity`, for numbers that are not finite, a gain that is not positive, an empty
+/// range, a negative spread, or an output below a hundredth of the programmed value at either end of the range.
 [[nodiscard]] Result<void> validateNumbers(const CalibrationLine& line, std::string_view quantity);
-/// Errors: as above, and for an output more than 20 % from what is programmed at either end of the range.
+/// Errors: as validateNumbers(), and for an output more than 20 % off the programmed value at either end of the range.
 [[nodiscard]] Result<void> validate(const CalibrationLine& line, std::string_view quantity);
 
-// The quantities that a stimulator is calibrated in: what files, scripts and people call them.
+// The calibrated quantities of a stimulator, with their names for files, scripts and people.
 
 struct CalibratedQuantity {
     std::string_view id;       ///< its name in files, scripts and results
-    std::string_view reading;  ///< its member in a reading and in the command: V or mA by the source, else s
+    std::string_view reading;  ///< its member in readings and commands: V or mA depending on the source, else s
     std::string_view title;
     std::string_view words;    ///< its name within a sentence
-    std::string_view setting;  ///< the unit in which a run's parameters state its range, as their names end
-    double perUnit = 1;        ///< factor from the unit of a reading to that of a parameter
+    std::string_view setting;  ///< unit of its range in a run's parameters, as at the end of their names
+    double perUnit = 1;        ///< factor from a reading's unit to a parameter's unit
     [[nodiscard]] constexpr bool isAmplitude() const noexcept { return id == "amplitude"; }
 };
 
@@ -101,7 +99,7 @@ inline constexpr CalibratedQuantity kCalibratedGap{"gap", "gap_s", "Inter-phase 
 inline constexpr std::array kCalibratedQuantities{kCalibratedAmplitude, kCalibratedInterval, kCalibratedWidth,
                                                   kCalibratedGap};
 
-/// Null for another id.
+/// Returns the quantity with that id, or null.
 [[nodiscard]] constexpr const CalibratedQuantity* calibratedQuantity(std::string_view id) noexcept {
     for (const auto& one : kCalibratedQuantities) {
         if (one.id == id) return &one;
@@ -110,15 +108,15 @@ inline constexpr std::array kCalibratedQuantities{kCalibratedAmplitude, kCalibra
 }
 
 struct StimulatorCalibration {
-    CalibrationLine amplitude;                    ///< V or mA, as the source
-    std::optional<CalibrationLine> interval{};    ///< s, onset to onset; without one, a time is as programmed
+    CalibrationLine amplitude;                    ///< V or mA, depending on the source
+    std::optional<CalibrationLine> interval{};    ///< s, onset to onset; if absent, delivered as programmed
     std::optional<CalibrationLine> phaseWidth{};  ///< s, of the leading phase
     std::optional<CalibrationLine> gap{};         ///< s, between the phases
-    /// What a person needs: all four.
+    /// True if all four lines exist, which output to a person requires.
     [[nodiscard]] bool complete() const noexcept { return interval && phaseWidth && gap; }
     bool operator==(const StimulatorCalibration&) const = default;
 };
-/// A time, and the member that is its line: of StimulatorCalibration or StoredCalibration.
+/// A calibrated time with the member that holds its line, in StimulatorCalibration or StoredCalibration.
 template <class Calibration>
 struct TimeLine : CalibratedQuantity {
     decltype(&Calibration::interval) line;
@@ -127,20 +125,20 @@ template <class Calibration>
 inline constexpr std::array<TimeLine<Calibration>, 3> kTimeLines{{{kCalibratedInterval, &Calibration::interval},
                                                                   {kCalibratedWidth, &Calibration::phaseWidth},
                                                                   {kCalibratedGap, &Calibration::gap}}};
-using KnownLines = std::optional<StimulatorCalibration>;  ///< nothing: everything comes out as it is programmed
+using KnownLines = std::optional<StimulatorCalibration>;  ///< empty: output is as programmed
 
-/// Errors: as for one line, of the first that has one.
+/// Errors: as for a single line; reports the first invalid line.
 [[nodiscard]] Result<void> validateNumbers(const StimulatorCalibration& calibration);
 [[nodiscard]] Result<void> validate(const StimulatorCalibration& calibration);
 
-/// `train` as it must be programmed: amplitude, phase width and gap.
+/// Returns the train to program, so that `train` is delivered: amplitude, phase width and gap.
 [[nodiscard]] PulseTrain programmedFor(PulseTrain train, const KnownLines& calibration) noexcept;
 [[nodiscard]] Seconds programmedFor(Seconds interval, const KnownLines& calibration) noexcept;
 
-/// What comes out of a train that is programmed, by the lines alone; beyond the range of a line the most. What their
-/// spread adds, the gate judges: core/safety/DeliveryBounds.h.
+/// Returns the output of a programmed train by the lines alone; outside a line's range the largest possible. The spread
+/// of the lines is judged by the gate (core/safety/DeliveryBounds.h).
 [[nodiscard]] PulseTrain deliveredBy(PulseTrain train, const StimulatorCalibration& calibration) noexcept;
-/// `train` with the most, and with the least, amplitude that the stimulator then delivers by its line; times as
+/// Returns `train` with the largest (or smallest) amplitude that the stimulator may deliver by its line; times stay as
 /// programmed.
 [[nodiscard]] PulseTrain mostDelivered(PulseTrain train, const KnownLines& calibration) noexcept;
 [[nodiscard]] PulseTrain leastDelivered(PulseTrain train, const KnownLines& calibration) noexcept;

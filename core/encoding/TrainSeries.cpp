@@ -5,7 +5,7 @@
 namespace tacto {
 
 namespace {
-/// A pause of more of the longest intervals ends a series.
+/// A pause longer than this many of the longest intervals ends a series.
 constexpr double kSilence = 2;
 }  // namespace
 
@@ -61,7 +61,7 @@ void TrainSeries::delivered() noexcept {
 }
 
 namespace {
-/// Rounded up to whole nanoseconds, so that rounding never makes a train early.
+/// Rounds up to whole nanoseconds, so that a train is never early.
 Instant wholeNanoseconds(Seconds interval) noexcept {
     const Instant nearest = toInstant(interval);
     return Seconds(nearest) < interval ? nearest + Instant(1) : nearest;

@@ -11,15 +11,15 @@ namespace tacto {
 
 namespace {
 
-/// The control loop's step: how often the pending train may move.
+/// Time step of the control loop, at which the pending train can move.
 constexpr Instant kStep = std::chrono::milliseconds(1);
 
-/// A finger moving through the plane, and the trains that go out meanwhile.
+/// A finger that moves through the plane, and the trains sent meanwhile.
 class Walk {
 public:
     explicit Walk(const EncodingProfile& profile) : profile_(profile) {}
 
-    /// Begins at a point with a train that has been felt long enough to count as the one before.
+    /// Starts at a point with a train that was felt there long enough to serve as the previous train.
     void rest(double R, double P) {
         series_.emplace(profile_);
         last_ = *series_->encoder().encode(R, P);
@@ -30,7 +30,7 @@ public:
         series_->delivered();
     }
 
-    /// One control step at (R, P). A train that goes out is handed to `found`.
+    /// Makes one control step at (R, P) and passes a train that is sent to `found`.
     void step(double R, double P, const auto& found) {
         now_ += kStep;
         way_ = {std::min(way_.lowR, R), std::max(way_.highR, R), std::min(way_.lowP, P), std::max(way_.highP, P)};
@@ -53,10 +53,10 @@ private:
     Instant now_{0};
     Instant started_{0};
     Command last_;
-    PlaneExtent way_;  // how far the finger moved since the last train
+    PlaneExtent way_;  // part covered since the last train
 };
 
-/// Until a jump has worn off: many of the longest intervals, since slew limits stretch it.
+/// Wait after a jump, in longest intervals; many, because slew limits prolong the jump.
 constexpr int kTrainsAfterJump = 50;
 
 }  // namespace
@@ -124,7 +124,7 @@ Result<TransitionMap> mapOf(const std::vector<TransitionStep>& steps, int cells)
     for (const auto& step : steps) {
         for (std::size_t p = cellOf(step.way.lowP); p <= cellOf(step.way.highP); ++p) {
             for (std::size_t r = cellOf(step.way.lowR); r <= cellOf(step.way.highR); ++r) {
-                map.amplitude[p][r] = std::fmax(map.amplitude[p][r], step.amplitude);  // fmax passes NaN over
+                map.amplitude[p][r] = std::fmax(map.amplitude[p][r], step.amplitude);  // fmax ignores NaN
                 map.interval[p][r] = std::fmax(map.interval[p][r], step.interval);
             }
         }

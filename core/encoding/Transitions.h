@@ -1,7 +1,7 @@
-// Transitions.h - how large a step from one train to the next feels, over the whole R–P plane.
+// Transitions.h - computes how large the steps between trains feel, over the whole R–P plane.
 //
-// Distances are in just-noticeable differences: |ln(x1/x2)| / ln(1 + w), w the Weber fraction (science.md section 10).
-// At most 2 per train is wanted.
+// Distances are in just-noticeable differences: |ln(x1/x2)| / ln(1 + w), with the Weber fraction w (science.md section
+// 10). At most 2 per train are wanted.
 #pragma once
 
 #include <algorithm>
@@ -11,19 +11,19 @@
 
 namespace tacto {
 
-/// Just-noticeable differences from a train to the next, at most: what is wanted.
+/// Largest wanted step from one train to the next, in just-noticeable differences.
 inline constexpr double kWantedPerTrain = 2;
 
-/// The distance of two amplitudes that are both above 0.
+/// Distance between two positive amplitudes, in just-noticeable differences.
 [[nodiscard]] double amplitudeDistance(Volts a, Volts b) noexcept;
 [[nodiscard]] double intervalDistance(Seconds a, Seconds b) noexcept;
 
 struct TransitionSweep {
-    int lines = 11;       ///< lines along R and along P, evenly spaced, ends included; ≥ 2
-    Seconds traverse{5};  ///< time from one end of the plane to the other, and the same back; > 0
+    int lines = 11;       ///< number of lines along R and along P, evenly spaced, including the ends; ≥ 2
+    Seconds traverse{5};  ///< time from one end of the plane to the other, and again for the way back; > 0
 };
 
-/// The stretch that a finger covered between two trains, with both its ends.
+/// The part of the plane that a finger covered between two trains, including both ends.
 struct PlaneExtent {
     double lowR = 0, highR = 0;
     double lowP = 0, highP = 0;
@@ -31,45 +31,45 @@ struct PlaneExtent {
 
 /// A step from one train to the next.
 struct TransitionStep {
-    double R = 0;  ///< at the later train
+    double R = 0;  ///< at the later train, as is P
     double P = 0;
-    PlaneExtent way;  ///< how far it moved since the earlier train
-    Command from;     ///< as delivered, with the interval that passed
+    PlaneExtent way;  ///< part covered since the earlier train
+    Command from;     ///< as delivered, with the interval that actually passed
     Command to;
-    double amplitude = 0;  ///< just-noticeable differences
+    double amplitude = 0;  ///< distance in just-noticeable differences, as is `interval`
     double interval = 0;
 };
 
-/// The worst steps found, each axis for itself.
+/// The largest steps found, separately for amplitude and interval.
 struct LargestSteps {
     TransitionStep amplitude;
     TransitionStep interval;
-    /// Just-noticeable differences, the worse axis.
+    /// The larger of the two distances, in just-noticeable differences.
     [[nodiscard]] double largest() const noexcept { return std::max(amplitude.amplitude, interval.interval); }
 };
 
 struct TransitionReport {
-    std::vector<TransitionStep> steps;  ///< the steps of the gradual sweep, in order
+    std::vector<TransitionStep> steps;  ///< all steps of the gradual sweep, in order
     LargestSteps gradual;               ///< the largest of `steps`
-    LargestSteps abrupt;                ///< when R and P jump between any two corners of the plane
+    LargestSteps abrupt;                ///< after a jump of R and P between any two corners of the plane
 };
 
-/// Moves along every line of the plane and back while trains go out as the scheduler has them (pulled forward, slew
-/// limits and all), then jumps between the corners. Errors: InvalidArgument for a sweep or profile that is not valid.
+/// Moves along every line of the plane and back while the scheduler sends trains (including early trains and slew
+/// limits), then jumps between the corners. Errors: InvalidArgument for an invalid sweep or profile.
 [[nodiscard]] Result<TransitionReport> sweepTransitions(const EncodingProfile& profile,
                                                         const TransitionSweep& sweep = {});
 
-// The steps of a sweep laid over the R–P plane: in each cell the largest step that a finger feels on
-// its way through it.
+// A map of a sweep's steps over the R–P plane: for each cell the largest step that a finger feels on its way through
+// the cell.
 
-/// Just-noticeable differences, [P][R], lowest first; NaN where no step leads through the cell. Cell i is centred on
-/// i / (n − 1), the ends included.
+/// Just-noticeable differences, [P][R], lowest first; NaN in cells without any step. Cell i has its centre at i / (n −
+/// 1), ends included.
 struct TransitionMap {
     std::vector<std::vector<double>> amplitude;
     std::vector<std::vector<double>> interval;
 };
 
-/// A step counts in every cell that its way leads through. Errors: InvalidArgument unless `cells` is 2 to 101.
+/// A step is entered in every cell on its way. Errors: InvalidArgument unless `cells` is 2 to 101.
 [[nodiscard]] Result<TransitionMap> mapOf(const std::vector<TransitionStep>& steps, int cells = 11);
 
 }  // namespace tacto
