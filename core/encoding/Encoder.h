@@ -1,7 +1,7 @@
 // Encoder.h - turns what the finger feels into the command of the next train.
 //
-// Uses the formulas of science.md section 4. The encoder computes volts (the paper's amplitude). A current source gets
-// A / |Z|, and no command until |Z| was measured (hazard H4).
+// Uses the formulas of science.md section 4. The encoder computes an amplitude A in volts, as in the paper. A current
+// source gets A / |Z|, and no command until |Z| was measured (hazard H4).
 //
 // Thread-safety: Encoder is immutable; the other functions are pure. A successful call never allocates.
 #pragma once

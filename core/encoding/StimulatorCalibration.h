@@ -24,8 +24,8 @@ namespace tacto {
 // Within the calibrated range delivered = gain · programmed + offset. Outside, the ratio delivered / programmed of the
 // nearer end is used, so that 0 stays 0 and there is no jump. Unit: V or mA for an amplitude, s for a time.
 //
-// A stimulator with an error of more than 20 % anywhere in its range is defective (IEC 60601-2-10 allows its output ±
-// 20 %), and its calibration is refused. Therefore no calibration file can increase a command by more than a quarter.
+// A stimulator with an error of more than 20 % anywhere in its range is defective (IEC 60601-2-10 allows ± 20 %), and
+// its calibration is refused. Therefore no calibration file can increase a command by more than a quarter.
 
 // The possible distance of a value from its expected value: an uncertainty (95 %), a stated accuracy or a largest
 // residual.

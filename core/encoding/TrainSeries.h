@@ -38,8 +38,8 @@ public:
     /// Time at which the next train is due; empty while off.
     [[nodiscard]] std::optional<Instant> due() const noexcept { return running_ ? std::optional(due_) : std::nullopt; }
 
-    /// Reports that a train began at `onset`, or was refused and skipped; the next is due one interval later. If it was
-    /// in time, pass its due time, because otherwise the loop's delays add up.
+    /// Reports that a train began at `onset`, or was refused and skipped; the next is due one interval later. If the
+    /// train was in time, pass its due time, because otherwise the loop's delays add up.
     void trainAt(Instant onset) noexcept;
 
 private:
@@ -61,7 +61,7 @@ public:
 
     /// Sets the wanted command from `now` on. Moves the pending train, or starts the series.
     void want(const Command& wanted, Instant now) noexcept;
-    /// Stops trains until the next want(). The last train is kept: the next one rises from it within the limits but
+    /// Stops trains until the next want(). The last train is kept: the next train rises from it within the limits but
     /// falls at once, so that nothing begins stronger or faster than wanted (hazard H6).
     void wantNothing() noexcept;
 

@@ -30,7 +30,7 @@ public:
         series_->delivered();
     }
 
-    /// Makes one control step at (R, P) and passes a train that is sent to `found`.
+    /// Makes one control step at (R, P). If a train is sent, its step is passed to `found`.
     void step(double R, double P, const auto& found) {
         now_ += kStep;
         way_ = {std::min(way_.lowR, R), std::max(way_.highR, R), std::min(way_.lowP, P), std::max(way_.highP, P)};

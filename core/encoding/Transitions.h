@@ -62,8 +62,8 @@ struct TransitionReport {
 // A map of a sweep's steps over the R–P plane: for each cell the largest step that a finger feels on its way through
 // the cell.
 
-/// Just-noticeable differences, [P][R], lowest first; NaN in cells without any step. Cell i has its centre at i / (n −
-/// 1), ends included.
+/// Just-noticeable differences, [P][R], lowest first; NaN in cells without any step. The centre of cell i is at i / (n
+/// − 1), ends included.
 struct TransitionMap {
     std::vector<std::vector<double>> amplitude;
     std::vector<std::vector<double>> interval;

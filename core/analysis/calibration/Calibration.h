@@ -32,7 +32,7 @@ inline constexpr Word<SweepDirection> kSweepDirections[] = {
     return wordFor(kSweepDirections, direction);
 }
 
-inline constexpr double kOutlierDistance = 5;  ///< robust standard deviations
+inline constexpr double kOutlierDistance = 5;  ///< in robust standard deviations
 inline constexpr std::size_t kWantedLevels = 11;
 inline constexpr std::size_t kWantedRepeats = 5;  ///< per level and direction
 
@@ -47,12 +47,12 @@ struct CalibrationReading {
 
 struct CalibrationLevel {
     double commanded = 0;
-    std::size_t n = 0;  ///< measured readings
+    std::size_t n = 0;  ///< number of measured readings
     std::size_t notMeasured = 0;
     double mean = 0;  ///< the mean of all its readings
     double meanUp = std::numeric_limits<double>::quiet_NaN();
     double meanDown = std::numeric_limits<double>::quiet_NaN();
-    double s = std::numeric_limits<double>::quiet_NaN();  ///< pooled within direction
+    double s = std::numeric_limits<double>::quiet_NaN();  ///< standard deviation, pooled within direction
     double degreesOfFreedom = 0;                          ///< degrees of freedom of s
     double residual = 0;                                  ///< mean minus the line
 };

@@ -22,7 +22,7 @@ struct DriftOptions {
 struct Drift {
     struct Condition {
         std::string name;
-        std::size_t n = 0;  ///< measured trials
+        std::size_t n = 0;  ///< number of measured trials
         std::size_t notMeasured = 0;
         Statistics amplitude = {};
         Estimate change_pct = {};         ///< from the first trial of the session to the last; NaN for fewer than three
@@ -32,7 +32,7 @@ struct Drift {
     /// One quarter of the session's trials, in their order.
     struct Quarter {
         std::size_t from = 0, to = 0;  ///< numbers of the first and last trial
-        std::size_t n = 0;             ///< measured trials
+        std::size_t n = 0;             ///< number of measured trials
         double change_pct = 0;         ///< from the mean of all four; NaN if the conditions could explain the change
     };
     std::size_t trials = 0;

@@ -44,8 +44,8 @@ struct FewPeople {
 /// Lists each person left out with the reason: "B: 1 condition(s); at least two are needed to tell apart. C: …".
 [[nodiscard]] std::string leftOutText(std::span<const PersonLeftOut> leftOut);
 
-/// "4 of 5 were above chance (exact 95 % interval 28 to 99 %), which says that 38 to 98 % of such people can do it.";
-/// followed by the people left out, with the reasons.
+/// Returns "4 of 5 were above chance (exact 95 % interval 28 to 99 %), which says that 38 to 98 % of such people can do
+/// it.", followed by the people left out, with the reasons.
 [[nodiscard]] std::string fewPeopleSentence(const FewPeople& found);
 
 }  // namespace tacto

@@ -41,7 +41,7 @@ struct IdentificationTrial {
     std::string condition;  ///< a label, or kCatchCondition
     std::string response;   ///< a label, kNoneResponse or kNotSureResponse; empty if no answer came, even when repeated
     std::size_t attempt = 1;   ///< 2 if the first attempt was interrupted or not answered
-    double rt_s = kNaN;        ///< from the appearance of the targets; NaN without an answer
+    double rt_s = kNaN;        ///< response time from the appearance of the targets; NaN without an answer
     Milliamps current{kNaN};   ///< delivered current; NaN if the device reports none (a massager)
     double interval_s = kNaN;  ///< between the onsets of two trains; NaN for a catch trial
     std::size_t trains = 0;    ///< number of delivered trains
@@ -97,8 +97,8 @@ struct AnswerShare {
 };
 
 struct Identification {
-    std::vector<std::string> labels;                  ///< rows
-    std::vector<std::string> columns;                 ///< labels, then the other answers: "none", "not-sure"
+    std::vector<std::string> labels;                  ///< names of the rows
+    std::vector<std::string> columns;                 ///< names of the columns: labels, then "none" and "not-sure"
     std::vector<std::vector<std::size_t>> confusion;  ///< [presented][answered]
     ConfusionFigures all;
     std::optional<FeatureFigures> texture;  ///< set only if the labels combine two textures with two pressures

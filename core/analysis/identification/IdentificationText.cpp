@@ -15,7 +15,7 @@ std::string countWord(std::size_t n) {
     return n < std::size(kWords) ? std::string(kWords[n]) : std::to_string(n);
 }
 
-/// " between 4.0 and 6.5 mA, 14 to 22 V at 3.4 kΩ"; empty if the range is unknown.
+/// Returns " between 4.0 and 6.5 mA, 14 to 22 V at 3.4 kΩ"; empty if the range is unknown.
 std::string rangeText(const PresentedRange& range) {
     if (range.lowIntensity && range.highIntensity) {
         return fmt::format(" between strengths of {:.2f} and {:.2f}", *range.lowIntensity, *range.highIntensity);

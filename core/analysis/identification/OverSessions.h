@@ -43,7 +43,7 @@ struct OverSessions {
     /// Change of the log odds of a right answer per day, profile likelihood; NaN for fewer than three sessions with
     /// test trials.
     Estimate trend;
-    double smallestChange = kNaN;  ///< smallest change of accuracy that two such sessions can show; NaN for fewer
+    double smallestChange = kNaN;  ///< smallest change of accuracy that two such sessions can show; NaN for one
 };
 
 /// Ratio a/b of two independent positive estimates with 95 % intervals [l, u]: from a/b exp(-√(ln²(a/l_a) +

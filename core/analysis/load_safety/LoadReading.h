@@ -52,9 +52,9 @@ struct LoadReading {
     Reading impedance_ohm;  ///< voltage / current at the end of the leading phase (|Z| in science.md section 4); mean
     Reading peak_v;         ///< largest |voltage|
     Reading peak_ma;        ///< largest |current|
-    Reading charge_uc;      ///< the larger |charge| of either phase of a pulse
+    Reading charge_uc;      ///< the larger |charge| of the two phases of a pulse
     Reading net_charge_uc;  ///< |charge| of a pulse, gap and tail included
-    Reading imbalance;      ///< net_charge_uc / charge_uc, 0..
+    Reading imbalance;      ///< net_charge_uc / charge_uc, ≥ 0
     Reading energy_mj;      ///< ∫v·i dt of a pulse
     Reading rms_train_ma;   ///< over pulses / measured rate; for a single pulse over 1 / programmed rate
     /// For the following windows the trains are repeated at the measured interval. The values are upper bounds, because
@@ -66,8 +66,8 @@ struct LoadReading {
     Reading power_1s_w;        ///< energy of the worst second / 1 s
     double currentLsb = 0;     ///< A; 0 = unknown
     bool biphasic = false;     ///< every pulse had a second phase
-    bool underTenLsb = false;  ///< the current peaks below 10 LSB: nothing about current is evaluated
-    std::size_t trains = 0;    ///< captures measured
+    bool underTenLsb = false;  ///< true if the current stays below 10 LSB; no current figure is then evaluated
+    std::size_t trains = 0;    ///< number of measured captures
     /// Why some figures have no U, as the end of a sentence: "the oscilloscope does not state the gain of voltage".
     std::string notStated;
     std::vector<std::string> warnings;
@@ -80,7 +80,7 @@ struct ExpectedTrain {
     /// The quantity that the source imposes (voltage or current). Its channel shows where the phases are. The other
     /// channel shows the load's response, which outlasts the phase on a capacitor.
     Drive drive = Drive::Voltage;
-    /// Amplitude that the device was to deliver in each capture, V or mA by its drive; empty = not known.
+    /// Amplitude that the device was to deliver in each capture, V or mA depending on `drive`; empty = not known.
     std::vector<double> programmed{};
     /// Random draws for every uncertainty interval. Two thousand draws give U to half a percent, which is finer than
     /// its two digits show; a check has thousands of figures.

@@ -23,18 +23,18 @@ namespace tacto {
 enum class RowVerdict {
     Pass,
     Fail,
-    Indeterminate,      ///< within U of the limit
+    Indeterminate,      ///< the limit lies within ± U of the value
     NotEvaluated,       ///< it was not measured; this is never a pass
     NotApplicable,      ///< impossible on this device; listed, but does not prevent a pass
     RefusedAsExpected,  ///< the command would exceed a limit on this load, was tried, and was refused
     Attention,          ///< above a figure that requires a warning or a marking; not a fault
 };
-/// "pass", "fail", "indeterminate", "not evaluated", "not applicable", "refused as expected", "attention"
+/// Returns "pass", "fail", "indeterminate", "not evaluated", "not applicable", "refused as expected", "attention".
 [[nodiscard]] std::string_view nameOf(RowVerdict verdict) noexcept;
 
 /// Where a row's value comes from: a capture, a command, or a computation.
 enum class RowBasis { Measured, Commanded, Computed };
-/// "measured", "commanded", "computed"
+/// Returns "measured", "commanded" or "computed".
 [[nodiscard]] std::string_view nameOf(RowBasis basis) noexcept;
 
 /// One judged item of the check.

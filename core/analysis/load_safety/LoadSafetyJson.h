@@ -19,15 +19,14 @@ namespace tacto {
 /// Reads {"command_v", "interval_s", "reading"}. Null means not measured. Errors: InvalidArgument, with the name of the
 /// member and what is expected there.
 [[nodiscard]] Result<LoadStep> loadStepFrom(const nlohmann::json& json);
-/// {"name", "dmm_ohm", "dmm_u_ohm", "serial", "steps": [{"command_v",
-/// "interval_s", "reading"}],
-///  "refusals": [{"command_v", "interval_s", "forbidden", "refused", "predicted", "reason", "what"}],
-///  "undriven": [{"command_v", "interval_s", "reason"}], "not_applicable", "problem"}; all but the name may be left
-///  out. Errors: as loadStepFrom(); as parseLoad().
+/// Reads {"name", "dmm_ohm", "dmm_u_ohm", "serial", "steps": [{"command_v", "interval_s", "reading"}], "refusals":
+/// [{"command_v", "interval_s", "forbidden", "refused", "predicted", "reason", "what"}], "undriven": [{"command_v",
+/// "interval_s", "reason"}], "not_applicable", "problem"}; every member except the name is optional. Errors: those of
+/// loadStepFrom() and of parseLoad().
 [[nodiscard]] Result<LoadRecord> loadRecordFrom(const nlohmann::json& json);
 /// Reads {"reference_v", "deviation_pct", "expanded_uncertainty_pct", "allowed_pct"} and judges them again.
 [[nodiscard]] Result<SafetyRow> absoluteRowFrom(const nlohmann::json& json);
-/// {"name", "evaluated", "tripped", "after_s", "stop_s", "allowed_s", "reason"}
+/// Reads {"name", "evaluated", "tripped", "after_s", "stop_s", "allowed_s", "reason"}.
 [[nodiscard]] Result<TripTrial> tripTrialFrom(const nlohmann::json& json);
 
 /// Describes how this kind of result is judged and shown.

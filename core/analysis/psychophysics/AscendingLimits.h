@@ -54,8 +54,8 @@ struct AscendingSeries {
 };
 
 struct AscendingResult {
-    double felt = std::numeric_limits<double>::quiet_NaN();  ///< F: median over the series; NaN: nothing was felt
-    /// U: lowest level called too strong, else the highest level that was answered; NaN before the first answer.
+    double felt = std::numeric_limits<double>::quiet_NaN();  ///< median of the series' first felt levels; NaN: none
+    /// Lowest level called too strong, else the highest level that was answered; NaN before the first answer.
     double tooStrong = std::numeric_limits<double>::quiet_NaN();
     bool saidTooStrong = false;
     std::vector<AscendingSeries> series;

@@ -34,8 +34,8 @@ inline constexpr Word<LevelLimit> kLevelLimits[] = {{"device", LevelLimit::Devic
                                                     {"cap", LevelLimit::Cap},
                                                     {"too-strong", LevelLimit::TooStrong},
                                                     {"confirmation", LevelLimit::Confirmation}};
-/// Step between the levels of a massager (choice: twenty levels make an ascending series as long as steps of 0.5 mA
-/// do).
+/// Step between the levels of a massager (choice: with twenty levels an ascending series is as long as with steps of
+/// 0.5 mA).
 inline constexpr double kIntensityStep = 0.05;
 
 [[nodiscard]] constexpr std::string_view nameOf(LevelUnit unit) noexcept { return wordFor(kLevelUnits, unit); }
@@ -88,7 +88,7 @@ public:
     /// Returns 1 to count(); of two equally near levels the weaker.
     [[nodiscard]] std::size_t nearest(double value) const noexcept;
 
-    /// "4.5 mA", "intensity 0.35".
+    /// Returns "4.5 mA" or "intensity 0.35".
     [[nodiscard]] std::string textOf(double level) const;
 
 private:

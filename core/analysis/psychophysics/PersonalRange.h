@@ -14,9 +14,9 @@
 namespace tacto {
 
 struct PersonalRangeSettings {
-    double detection = 0;       ///< estimate of α, in the grid's unit; > 0
-    double tooStrong = 0;       ///< U, the level that is too strong; > 0
-    bool saidTooStrong = true;  ///< the participant called U too strong; else U is the highest level presented
+    double detection = 0;       ///< estimated detection threshold, in the grid's unit; > 0
+    double tooStrong = 0;       ///< the level that is too strong; > 0
+    bool saidTooStrong = true;  ///< the participant said "too strong"; else `tooStrong` is the highest level presented
     double aboveDetection = 1.25;
     double belowTooStrong = 0.8;
     std::size_t leastSteps = 2;              ///< smallest number of steps between I_min and I_max

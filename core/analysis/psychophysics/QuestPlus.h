@@ -21,13 +21,13 @@
 namespace tacto {
 
 struct QuestPlusSettings {
-    double felt = 0;                   ///< F in the grid's unit: centre of the α grid and first estimate
-    double prior = 0;                  ///< median of the prior for α, in the grid's unit; 0: F − 1 dB
-    double priorSd_db = 4;             ///< > 0
-    double first = 0;                  ///< the first trial is at the level nearest to 1.5 times this; 0: F
-    std::size_t least = 24;            ///< smallest number of trials before the precision may end the run; ≥ 1
-    std::size_t most = 40;             ///< largest number of trials; ≥ least
-    double enough_db = 0.8;            ///< posterior standard deviation that ends the run; 0: only `most` ends it
+    double felt = 0;         ///< F, first felt level in the grid's unit: centre of the α grid, first estimate
+    double prior = 0;        ///< median of the prior for α, in the grid's unit; 0: F − 1 dB
+    double priorSd_db = 4;   ///< > 0
+    double first = 0;        ///< the first trial is at the level nearest to 1.5 times this; 0: F
+    std::size_t least = 24;  ///< smallest number of trials before the precision may end the run; ≥ 1
+    std::size_t most = 40;   ///< largest number of trials; ≥ least
+    double enough_db = 0.8;  ///< posterior standard deviation that ends the run; 0: only `most` ends it
     std::string stream = "detection";  ///< name of the random order of intervals
 };
 
@@ -78,16 +78,16 @@ private:
 
 // Drift check: tests before each later block whether the lowest condition is still felt (pilot.md section 4).
 //
-// Runs 12 QUEST+ trials with the last estimate as prior (2.5 dB). If P(1.1 α > I_min) ≥ 0.8, the participant rests for
-// 5 min and is checked again with the newest estimate as prior, at most three times. If the result stays the same, the
-// block is marked as adapted and still takes place. The range never changes within a session.
+// Runs 12 QUEST+ trials with the last estimate of the threshold α as prior (2.5 dB). If P(1.1 α > I_min) ≥ 0.8 (I_min:
+// lowest level), the participant rests for 5 min and is checked again with the newest estimate, up to three times. If
+// nothing changes, the block is marked as adapted and still takes place. The session's range never changes.
 //
 // The same settings, seed and answers give the same trials.
 
 struct DriftCheckSettings {
-    double felt = 0;        ///< F of the session's ascending limits, in the grid's unit: centre of the α grid
+    double felt = 0;        ///< first felt level of the ascending limits, in the grid's unit: centre of the α grid
     double last = 0;        ///< last estimate of α; > 0
-    double min = 0;         ///< I_min; > 0
+    double min = 0;         ///< I_min, the lowest level of the range; > 0
     std::size_t block = 0;  ///< number of the following block; part of the name of the interval order
     double priorSd_db = 2.5;
     std::size_t trials = 12;

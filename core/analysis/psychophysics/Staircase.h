@@ -18,7 +18,7 @@
 namespace tacto {
 
 struct StaircaseSettings {
-    double felt = 0;                   ///< F, in the grid's unit
+    double felt = 0;                   ///< F, the first felt level of the ascending limits, in the grid's unit
     std::size_t reversals = 8;         ///< number of reversals that ends the run; ≥ 2
     std::size_t averaged = 6;          ///< number of last reversals in the mean; 1 to `reversals`
     std::size_t most = 60;             ///< largest number of trials; ≥ 1

@@ -1,4 +1,4 @@
-// SensorCalibration.h - sets the scale of R with reference surfaces (science.md section 2.6).
+// SensorCalibration.h - sets the scale of the roughness R with reference surfaces (science.md section 2.6).
 //
 // The finger slides over each surface several times; a slide gives one value per feature. The first two surfaces are
 // the smooth and the rough reference. x_smooth and x_rough are geometric means over their slides, because g() uses

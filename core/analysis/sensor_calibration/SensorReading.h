@@ -27,7 +27,7 @@ struct SensorSamples {
 /// A fingertip at rest that touches nothing.
 struct SensorRest {
     RestLevels levels;
-    StreamUnit restUnit = StreamUnit::MetrePerSecondSquared;  ///< unit of levels.slidingMeanSquare, squared
+    StreamUnit restUnit = StreamUnit::MetrePerSecondSquared;  ///< levels.slidingMeanSquare is in this unit squared
     StreamUnit taxelUnit = StreamUnit::Pascal;                ///< unit of levels.taxelBaseline
 };
 
@@ -39,7 +39,7 @@ struct SensorRest {
 /// bench.measureReference()). NaN: the rig does not measure the feature, or no frame has it.
 struct SlideReading {
     double h = kNaN;
-    double hAbs = kNaN;  ///< (m/s2/N)2
+    double hAbs = kNaN;  ///< in (m/s2/N)2
     double vStatic = kNaN;
     double vDynamic = kNaN;
     double force_n = kNaN;  ///< in the force stream's unit; NaN without a force stream

@@ -5,8 +5,8 @@
 // t distribution with n1 + n2 - 2 degrees of freedom. At each end, the non-centrality puts t at the outer 2.5 %
 // (Steiger and Fouladi 1997; Cumming and Finch, Educ. Psychol. Meas. 61, 2001, 532-574).
 //
-// Two surfaces are told apart if d′ is at least 1 with 95 % confidence: the interval's end towards 0 is 1 or more. d′ =
-// 1 is the usual threshold of detection theory: an unbiased observer who must say which of two slides was rougher is
+// Two surfaces are told apart if d′ is at least 1 with 95 % confidence: the interval's end towards 0 is 1 or more. A d′
+// of 1 is the usual threshold of detection theory: an unbiased observer who must say which of two slides was rougher is
 // right in 76 % of trials, Φ(1/√2) (Green and Swets 1966; Macmillan and Creelman 2005). With less, the reference scale
 // would be a ratio of small differences and would turn noise into changes of R.
 #pragma once
@@ -19,12 +19,12 @@
 
 namespace tacto {
 
-inline constexpr double kToldApart = 1;       ///< d′
+inline constexpr double kToldApart = 1;       ///< smallest d′ that tells two surfaces apart
 inline constexpr std::size_t kMinSlides = 3;  ///< smallest number for each surface
 
 struct SurfaceDistance {
     Estimate d;             ///< second minus first, with sign; the ends may be infinite without scatter
-    double difference = 0;  ///< mean of the second less mean of the first
+    double difference = 0;  ///< mean of the second minus mean of the first
     double pooledSd = 0;
     std::size_t n1 = 0;
     std::size_t n2 = 0;

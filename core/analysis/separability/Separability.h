@@ -19,8 +19,8 @@
 
 namespace tacto {
 
-/// One measured presentation of a condition. Amplitude in V or mA, the same in all trials; NaN = not measured. Standard
-/// uncertainties (k = 1) have the same units. NaN = unknown, which prevents a pass; 0 = not stated (a table of
+/// One measured presentation of a condition. Amplitude in V or mA, in one unit for all trials; NaN = not measured.
+/// Standard uncertainties (k = 1) have the same units. NaN = unknown, which prevents a pass; 0 = not stated (a table of
 /// numbers), replaced by 0.1 % of the mean over all trials.
 struct SeparabilityTrial {
     std::string condition;
@@ -70,8 +70,8 @@ struct Separability {
     std::vector<std::vector<std::size_t>> confusion;  ///< [presented][classified], cross-validated
     Estimate accuracy;                                ///< of the cross-validation, Wilson 95 %
     std::size_t folds = 0;                            ///< 0: too few trials to cross-validate
-    double amplitudeFloor = 0;   ///< lower bound of the standard deviation, from the measurement's own uncertainty; NaN
-                                 ///< = unknown
+    double amplitudeFloor = 0;   ///< lower bound of the standard deviation, from the measurement's own uncertainty;
+                                 ///< unknown: NaN
     double intervalFloor_s = 0;  ///< from the reading and the time base
     Verdict verdict = Verdict::Indeterminate;
     std::vector<std::string> reasons;  ///< sentences; the deciding reasons come first

@@ -40,8 +40,8 @@ inline constexpr double kAboveChanceLevel = 0.05;
 /// Smallest k of `trials` with P(X ≥ k) ≤ kAboveChanceLevel by guessing; trials + 1 if no k is enough.
 [[nodiscard]] std::size_t aboveChanceFrom(std::size_t trials, double chance) noexcept;
 
-/// Clopper and Pearson's exact interval of a proportion, which is never too narrow, even for few trials. `successes` ≤
-/// n. For n = 0 the value is NaN and the interval 0 to 1.
+/// Clopper and Pearson's exact interval of a proportion, never too narrow even for few trials; `successes` ≤ n. For n =
+/// 0 the value is NaN and the interval 0 to 1.
 [[nodiscard]] Estimate clopperPearsonInterval(std::size_t successes, std::size_t n) noexcept;
 
 /// a/m - b/n of two independent samples, with Newcombe's hybrid score interval (Stat Med 17, 1998, 873, method 10):
@@ -51,8 +51,8 @@ inline constexpr double kAboveChanceLevel = 0.05;
 // Bayesian prevalence: what k of n people above chance say about the population (Ince et al. 2021,
 // doi:10.7554/eLife.62461).
 //
-// γ is the share of people who can do the task. The test also passes 5 % of the people who cannot, so that θ = 0.05 +
-// 0.95·γ of all people pass. With a uniform prior, θ has a Beta(k + 1, n - k + 1) distribution between 0.05 and 1.
+// γ is the share of people who can do the task. Of the others 5 % pass by chance. Therefore θ = 0.05 + 0.95·γ is the
+// share who pass. With a uniform prior, θ has a Beta(k + 1, n - k + 1) distribution between 0.05 and 1.
 
 /// Estimates γ if `k` of `n` people (k ≤ n) were above chance: the value at the mode of θ, (k/n - 0.05)/0.95 but at
 /// least 0, with the shortest 95 % interval. The interval begins at 0 if the mode is 0, and ends at 1 if k = n. Its low

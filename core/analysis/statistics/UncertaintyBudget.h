@@ -48,10 +48,10 @@ enum class CoverageMethod { WelchSatterthwaite, MonteCarlo };
 
 struct UncertaintyBudget {
     std::vector<Contribution> rows;
-    double combined = 0;          ///< u_c; NaN: a row is not stated
+    double combined = 0;          ///< u_c; NaN if a row is not stated
     double degreesOfFreedom = 0;  ///< effective; infinite if no row has a finite number
     double coverageFactor = 0;    ///< U / u_c; NaN if u_c is 0
-    double expanded = 0;          ///< U, 95 %; NaN: a row is not stated
+    double expanded = 0;          ///< U, 95 %; NaN if a row is not stated
     CoverageMethod method = CoverageMethod::WelchSatterthwaite;
 };
 

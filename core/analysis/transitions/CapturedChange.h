@@ -16,7 +16,7 @@ namespace tacto {
 struct CapturedTrain {
     double after_s = kNaN;  ///< seconds since the change began
     double amplitude_v = kNaN, interval_s = kNaN;
-    double onsetUncertainty_s = kNaN;      ///< standard
+    double onsetUncertainty_s = kNaN;      ///< standard uncertainty (k = 1)
     double amplitudeUncertainty_v = kNaN;  ///< standard, without the part common to neighbouring trains
     double amplitude_jnd = kNaN, interval_jnd = kNaN;
 };

@@ -105,7 +105,7 @@ double panel(const Region& region, const FeltPoint& stimulus, double sigma, doub
     return sum * half / (sigma * std::sqrt(2 * std::numbers::pi));
 }
 
-/// Nothing where the amplitude lies below detection.
+/// Index of the nearest given point; the number of points if none is given.
 std::size_t answerTo(const IdentificationTask& task, const FeltPoint& felt) noexcept {
     std::size_t best = task.points.size();
     double nearest = std::numeric_limits<double>::infinity();

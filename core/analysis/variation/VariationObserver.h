@@ -25,7 +25,7 @@ enum class GuessBehaviour {
 [[nodiscard]] std::string_view nameOf(GuessBehaviour guess) noexcept;  // "none", "uniform"
 [[nodiscard]] Result<GuessBehaviour> guessBehaviourFrom(std::string_view name);
 
-/// ln(amplitude) / ln(1 + w) and ln(interval) / ln(1 + w).
+/// The coordinates of a stimulus: ln(amplitude) / ln(1 + w) and ln(interval) / ln(1 + w), with the Weber fraction w.
 struct FeltPoint {
     double amplitude_jnd = 0;
     double interval_jnd = 0;

@@ -1,10 +1,10 @@
 // VariationTrials.h - computes how many trials a pilot needs before its accuracy is meaningful.
 //
-// The accuracies are the predicted ones of each participant. State these assumptions wherever a number of trials is
+// The accuracies are those predicted for each participant. State these assumptions wherever a number of trials is
 // shown: a participant's trials are independent with one probability of being right, and blocks are complete (each
-// condition equally often). For several participants the trials are pooled in one Wilson interval. The design effect 1
-// + (m - 1)·rho reduces the effective number of trials because people differ; m is the trials per participant and rho =
-// Var(accuracy) / (mean·(1 - mean)).
+// condition equally often). For several participants the trials are pooled in one Wilson interval. Because people
+// differ, the design effect 1 + (m - 1)·rho reduces the effective number of trials, with m trials per participant and
+// rho = Var(accuracy) / (mean·(1 - mean)).
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@
 namespace tacto {
 
 struct TrialsWanted {
-    double width = 0.1;            ///< width of the 95 % interval, upper end less lower; 0.02 to 1
+    double width = 0.1;            ///< width of the 95 % interval: upper end minus lower end; 0.02 to 1
     double chance = 0.25;          ///< chance level that the lower end must exceed; above 0, below 1
     double assurance = 0.8;        ///< probability that a pilot reaches its aim; 0.5 to 0.999
     std::size_t conditions = 4;    ///< each participant's number of trials is a multiple of this

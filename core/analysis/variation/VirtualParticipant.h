@@ -36,14 +36,14 @@ struct LogNormal {
 
 /// populationFields() lists the accepted values of each figure.
 struct PopulationModel {
-    LogNormal series_ohm{200, 1.5};     ///< R_s
-    LogNormal parallel_ohm{10e3, 1.5};  ///< R_p under `skinArea`; falls with the area
-    LogNormal capacitance_nf{50, 1.3};  ///< C under `skinArea`; grows with the area
+    LogNormal series_ohm{200, 1.5};     ///< series resistance R_s
+    LogNormal parallel_ohm{10e3, 1.5};  ///< parallel resistance R_p under `skinArea`; falls with the area
+    LogNormal capacitance_nf{50, 1.3};  ///< capacitance C under `skinArea`; grows with the area
     SquareCentimetres skinArea{1};
     /// Thresholds at `thresholdWidth` per phase; the medians rise in this order.
-    LogNormal detection_ma{3.5, 1.4};     ///< perception
-    LogNormal attention_ma{6.9, 1.4};     ///< attention
-    LogNormal intolerance_ma{13.8, 1.4};  ///< intolerance
+    LogNormal detection_ma{3.5, 1.4};     ///< perception threshold
+    LogNormal attention_ma{6.9, 1.4};     ///< attention threshold
+    LogNormal intolerance_ma{13.8, 1.4};  ///< intolerance threshold
     double thresholdCorrelation = 0.8;    ///< between the logarithms of a person's thresholds
     /// Level from which stimulation is too strong for a median person; must exceed the median of detection. Default:
     /// the geometric mean of attention and intolerance.

@@ -3,13 +3,13 @@
 // Each sample is the acceleration minus its mean in the quiet before the first burst (gravity and offset), as a
 // magnitude over the axes. The orientation of the board therefore does not matter:
 //   noise      root mean square in the quiet
-//   strength   root mean square over the burst's own length from its measured onset, less the noise (of the squares)
-//   peak       largest magnitude until the next burst, or for kRunDown after the command's end
-//   onset      the first sample after the command that reaches a tenth of the peak, or kAboveNoise times the noise
-//              where that is more
-//   latency    onset less command
+//   strength   root mean square over the burst's own length from its measured onset, after subtraction of the noise
+//   squares peak       largest magnitude until the next burst, or for kRunDown after the command's end onset      the
+//   first sample after the command that reaches a tenth of the peak, or kAboveNoise times the noise
+//              if this is more
+//   latency    onset minus command
 //   rise       from the onset to the first sample of nine tenths of the peak
-//   interval   between the onsets of two bursts that follow each other, mean over the presentation
+//   interval   time between the onsets of two successive bursts, mean over the presentation
 // A burst moved the motor if its peak exceeds kAboveNoise times the noise. A burst with missing samples was not
 // measured: it is neither moved nor still. A figure that was not measured is NaN, never zero.
 #pragma once
