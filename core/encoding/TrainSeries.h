@@ -95,7 +95,7 @@ private:
     };
     std::optional<Train> last_;   // delivered; its interval is as felt
     std::optional<Train> begun_;  // by begin(), not yet delivered
-    bool startsAgain_ = false;    // wantNothing() was called after the last train
+    bool startsAgain_ = false;    // true if wantNothing() was called after the last train
 };
 
 }  // namespace tacto

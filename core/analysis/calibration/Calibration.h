@@ -42,7 +42,7 @@ struct CalibrationReading {
     double measured = std::numeric_limits<double>::quiet_NaN();  ///< NaN: not measured
     SweepDirection direction = SweepDirection::None;
     double uncertainty = std::numeric_limits<double>::quiet_NaN();  ///< standard (k = 1); NaN or 0: not stated
-    bool outlier = false;                                           ///< set by fitCalibration()
+    bool outlier = false;                                           ///< true if fitCalibration() found an outlier
 };
 
 struct CalibrationLevel {

@@ -19,7 +19,7 @@ namespace tacto {
 /// The result of one person with one encoding.
 struct PersonResult {
     std::string name;            ///< displayed name: a code in the study, otherwise a label
-    bool usable = true;          ///< the person had a range between detection and discomfort
+    bool usable = true;          ///< true if the person had a range between detection and discomfort
     ConfusionFigures figures{};  ///< n = 0 if no test trial was answered
 };
 

@@ -32,7 +32,7 @@ inline constexpr Word<TrialPhase> kTrialPhases[] = {
 
 inline constexpr std::string_view kCatchCondition = "catch";      ///< nothing is presented
 inline constexpr std::string_view kNoneResponse = "none";         ///< "I felt nothing"; right only after a catch trial
-inline constexpr std::string_view kNotSureResponse = "not-sure";  ///< never right
+inline constexpr std::string_view kNotSureResponse = "not-sure";  ///< never a right answer
 
 struct IdentificationTrial {
     std::size_t number = 0;  ///< number in the plan; skipped training trials leave gaps

@@ -159,7 +159,7 @@ RecordFields<IdentificationTrial> answerFields() {
     return all;
 }
 
-/// The fields of a trial in a session's row: those of an answer and more.
+/// The fields of a trial in a session's row: those of a result, and more.
 RecordFields<IdentificationTrial> trialFields() {
     using T = IdentificationTrial;
     auto all = answerFields();

@@ -27,7 +27,7 @@ struct SessionFigures {
     Estimate itCorrected_bits;  ///< NaN without test trials
 };
 
-/// Changes since the first session with the figure. NaN for that session itself and for unmeasured figures.
+/// Changes relative to the first session that has the figure. NaN for that session and for unmeasured figures.
 struct SessionChange {
     std::size_t number = 0;
     Estimate accuracy;        ///< difference from the first session, Newcombe 95 %

@@ -33,7 +33,7 @@ struct LimitLine {
     double margin_pct = std::numeric_limits<double>::quiet_NaN();  ///< the smallest margin of all cells
     std::size_t worst = 0;                                         ///< index of the load with that margin
     RowVerdict verdict = RowVerdict::NotEvaluated;                 ///< summaryOf() of the cells; or attention
-    std::vector<std::optional<LimitCell>> cells;                   ///< in the order of the loads; empty: no limit
+    std::vector<std::optional<LimitCell>> cells;                   ///< one per load; empty if no limit applies there
 };
 
 struct LimitMatrix {

@@ -328,7 +328,7 @@ void addFineRange(LoadReading& out, const LoadFigures& figures, std::span<const 
         if (!rows.empty() && !(here > net)) continue;
         net = here;
         rows.clear();
-        // Steps average out while the level moves, but the step error of the baseline below it remains.
+        // Converter steps average out while the level moves, but the step error of the baseline remains.
         rows.push_back({"resolution of current", Distribution::Rectangular,
                         two->wide.channel->lsb > 0 ? two->wide.channel->lsb : kNaN, kSqrt12,
                         charge.wide_s / expected.pulses});

@@ -31,8 +31,8 @@ namespace tacto {
 /// A value with its uncertainty, all in one unit. A NaN value was not measured; a NaN uncertainty is not known.
 struct Reading {
     double value = kNaN;
-    double u = kNaN;         ///< standard, k = 1
-    double expanded = kNaN;  ///< 95 %
+    double u = kNaN;         ///< standard uncertainty, k = 1
+    double expanded = kNaN;  ///< expanded uncertainty U, 95 %
     /// True if both value and U are known, so that the reading can be judged.
     [[nodiscard]] bool measured() const noexcept;
 };
@@ -59,13 +59,13 @@ struct LoadReading {
     Reading rms_train_ma;   ///< over pulses / measured rate; for a single pulse over 1 / programmed rate
     /// For the following windows the trains are repeated at the measured interval. The values are upper bounds, because
     /// a train that is only partly inside the window counts as a whole train.
-    Reading rms_1s_ma;         ///< worst second
-    Reading rms_5s_ma;         ///< worst 5 s
-    Reading rms_5s_v;          ///< worst 5 s
+    Reading rms_1s_ma;         ///< in the worst second
+    Reading rms_5s_ma;         ///< in the worst 5 s
+    Reading rms_5s_v;          ///< worst 5 s, in volts
     Reading dc_ma;             ///< |net charge| of the trains in 5 s, divided by 5 s
     Reading power_1s_w;        ///< energy of the worst second / 1 s
-    double currentLsb = 0;     ///< A; 0 = unknown
-    bool biphasic = false;     ///< every pulse had a second phase
+    double currentLsb = 0;     ///< one converter step in A; 0 = unknown
+    bool biphasic = false;     ///< true if every pulse had a second phase
     bool underTenLsb = false;  ///< true if the current stays below 10 LSB; no current figure is then evaluated
     std::size_t trains = 0;    ///< number of measured captures
     /// Why some figures have no U, as the end of a sentence: "the oscilloscope does not state the gain of voltage".

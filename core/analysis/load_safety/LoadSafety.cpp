@@ -166,7 +166,7 @@ LoadSafety judgeLoadSafety(const LoadSafetyInput& input) {
     LoadSafety out;
     for (const auto& record : input.loads) {
         if (isTrip(record)) {
-            // Only the rows of its trips judge this record.
+            // This record is judged only by its trips; its rows are among the rows of the trips.
             LoadLine line;
             line.name = record.name;
             std::vector<RowVerdict> verdicts;

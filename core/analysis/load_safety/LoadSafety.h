@@ -66,8 +66,8 @@ struct LoadStep {
 struct RefusedStep {
     double command_v = kNaN;
     double interval_s = kNaN;
-    bool forbidden = false;  ///< predicted to exceed a limit, in the worst case of the declared load ± 20 %
-    bool refused = false;    ///< whether the program refused it
+    bool forbidden = false;  ///< true if a prediction exceeds a limit, in the worst case of the declared load ± 20 %
+    bool refused = false;    ///< true if the program refused the command
     std::string predicted;   ///< the predicted figure: "RMS current over 5 s 11.3 mA at 100 ohm, limit 10 mA"
     std::string reason;      ///< the sentence with which the program refused
     std::string what{};      ///< what was requested, if not a command

@@ -142,7 +142,7 @@ struct ShownReading {
     const char* key;
     const char* unit;
     Reading LoadReading::*reading;
-    bool keepsStandard = false;  ///< also shows u, not only U
+    bool keepsStandard = false;  ///< true if u is shown in addition to U
 };
 constexpr ShownReading kShownReadings[] = {
     {"Peak voltage", "peak_v", "V", &LoadReading::peak_v, true},

@@ -14,7 +14,7 @@ namespace tacto {
 
 struct LoadTrace {
     const CaptureChannel* channel = nullptr;
-    double dt = 0;       ///< s
+    double dt = 0;       ///< time between two samples in s
     double start_s = 0;  ///< time of sample 0
     double baseline = 0;
     double noise = 0;       ///< standard deviation around the baseline
@@ -36,7 +36,7 @@ struct LoadTrace {
 struct TraceSums {
     double peak = 0;       ///< largest magnitude
     double step = 0;       ///< smaller step from the peak to a neighbour: what may be hidden between two samples
-    double integral = 0;   ///< signed
+    double integral = 0;   ///< ∫x, with sign
     double magnitude = 0;  ///< ∫|x|
     double squares = 0;    ///< ∫x² minus the share of the noise
 };

@@ -109,7 +109,7 @@ private:
     std::size_t inFive_ = 0;      // Position in the current group of five
     std::size_t emptyPlace_ = 0;  // Position of the empty one in the group of five
     std::size_t fives_ = 0;
-    bool repeat_ = false;  // `last_` must be presented again
+    bool repeat_ = false;  // true if `last_` must be presented again
 };
 
 }  // namespace tacto

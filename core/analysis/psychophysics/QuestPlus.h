@@ -102,7 +102,7 @@ struct DriftResult {
     Estimate estimate;                                              ///< from the last check, in the grid's unit
     double probability = std::numeric_limits<double>::quiet_NaN();  ///< P(margin · α > I_min) in the last check
     std::size_t rests = 0;
-    bool adapted = false;                 ///< the threshold was still too high after the last rest
+    bool adapted = false;                 ///< true if the threshold was still too high after the last rest
     std::vector<QuestPlusResult> checks;  ///< all completed checks
 };
 

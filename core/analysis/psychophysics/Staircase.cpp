@@ -10,8 +10,8 @@ namespace tacto {
 
 namespace {
 
-constexpr double kStartTimes = 1.5;       // multiple of F
-constexpr double kStepShare = 0.05;       // share of F
+constexpr double kStartTimes = 1.5;       // start level as a multiple of F
+constexpr double kStepShare = 0.05;       // step size as a share of F
 constexpr std::size_t kUpSteps = 2;       // steps in a move up, for one step in a move down
 constexpr std::size_t kDoubledUntil = 2;  // number of reversals
 constexpr std::size_t kRightForDown = 2;

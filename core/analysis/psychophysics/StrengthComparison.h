@@ -45,7 +45,7 @@ struct AnsweredComparison {
 
 struct StrengthComparisonResult {
     Estimate weber;       ///< with its 95 % interval
-    bool atEdge = false;  ///< w may lie outside 0.01 to 1, and the interval is too narrow
+    bool atEdge = false;  ///< true if w may lie outside 0.01 to 1; the interval is then too narrow
     IntervalShares intervals;
     std::vector<AnsweredComparison> trials;
 };

@@ -77,7 +77,7 @@ public:
     static constexpr double kGuess = 0.5;
     /// Fixed, because a free lapse rate would favour the easiest trials.
     static constexpr double kLapse = 0.02;
-    static constexpr double kEqualEntropy = 1e-9;  ///< nats
+    static constexpr double kEqualEntropy = 1e-9;  ///< in nats
     static constexpr std::size_t kMaxAlike = 3;    ///< largest number of trials in a row with the same choice
 
     /// `prior`: one weight per cell, not all 0. `right`: the probability of a right answer, for every cell of the first

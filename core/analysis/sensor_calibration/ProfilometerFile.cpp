@@ -175,7 +175,7 @@ private:
     struct Found {
         std::vector<double> values;  // µm
         std::size_t line = 0;        // number of the last line
-        bool final = false;          // a row of means was found and is final
+        bool final = false;          // true if a row of means was found; it is final
     };
     struct Column {
         std::optional<std::size_t> index;

@@ -22,7 +22,7 @@ inline constexpr std::size_t kSmallRanking = 10;  ///< with fewer the interval i
 struct RankCorrelation {
     Estimate rho;
     std::size_t n = 0;
-    bool ties = false;  ///< some values were equal and shared ranks
+    bool ties = false;  ///< true if some values were equal and shared ranks
     std::string note;   ///< a sentence if n is small; else empty
 };
 

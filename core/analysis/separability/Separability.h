@@ -42,7 +42,7 @@ struct SeparabilityOptions {
 
 struct ConditionSummary {
     std::string name;
-    std::size_t n = 0;  ///< measured trials
+    std::size_t n = 0;  ///< number of measured trials
     std::size_t notMeasured = 0;
     Statistics amplitude;
     Statistics interval_s;

@@ -54,13 +54,13 @@ struct CapturedChange {
 struct ChangeLimits {
     double perTrain_jnd;        ///< largest wanted step from train to train
     double complete_s = 2;      ///< longest accepted time for a change
-    bool secondsAlone = false;  ///< judges only the time, even if wanted steps cannot be that fast
+    bool secondsAlone = false;  ///< true if only the time is judged, even if wanted steps cannot be that fast
 };
 
 /// The largest step from train to train in amplitude or interval.
 struct LargestStep {
     double jnd = kNaN;
-    double from = 0, to = 0;    ///< V or s
+    double from = 0, to = 0;    ///< in V or s
     double uncertainty = kNaN;  ///< expanded, of a step; NaN: unknown for a step, or no step was measured
     std::size_t unmeasured = 0;
 };

@@ -42,8 +42,8 @@ struct ParticipantPrediction {
     std::vector<std::vector<double>> responses;    ///< probabilities, as responseProbabilities()
     std::vector<std::vector<std::size_t>> counts;  ///< sampled, as sampleResponses()
     std::size_t presented = 0;                     ///< number of presented conditions
-    bool complete = false;                         ///< every condition was presented
-    bool served = false;                           ///< every condition was presented and is felt
+    bool complete = false;                         ///< true if every condition was presented
+    bool served = false;                           ///< true if every condition was presented and is felt
     double accuracy = 0;                           ///< expected accuracy over the presented conditions; NaN without any
     double information = 0;                        ///< expected information transfer, bits; NaN without any
 };
@@ -76,7 +76,7 @@ struct PredictedCondition {
 struct Variation {
     std::size_t asked = 0;
     std::size_t participants = 0;  ///< number predicted; less than `asked` after a cancel
-    bool partial = false;          ///< cancelled: only the first `participants` are included
+    bool partial = false;          ///< true if cancelled: only the first `participants` are included
     std::uint64_t seed = 0;
 
     std::vector<PredictedCondition> conditions;
@@ -98,12 +98,12 @@ struct Variation {
 
     // Over the served participants:
     std::vector<std::vector<std::size_t>> confusion;  ///< sampled, [presented][answered], "none" last
-    Estimate accuracy;                                ///< expected
-    Estimate information;                             ///< expected, bits
+    Estimate accuracy;                                ///< expected accuracy
+    Estimate information;                             ///< expected information transfer, bits
     double pooledAccuracy = 0;                        ///< accuracy over the sampled trials; NaN without any
     double pooledInformation = 0;                     ///< information in the sampled trials, bits, not corrected
     double pooledCorrected = 0;                       ///< the same without the chance contribution, bits
-    std::vector<double> accuracies;                   ///< sorted
+    std::vector<double> accuracies;                   ///< sorted accuracies of single participants
     std::optional<TrialsNeeded> trials;               ///< empty without served participants
     std::vector<PilotOutlook> pilots;  ///< for 3, 4, 5 and options.wanted.participants people; empty if none is served
 

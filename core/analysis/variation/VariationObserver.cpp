@@ -24,7 +24,7 @@ struct HalfPlane {
 };
 
 struct Region {
-    bool empty = false;  ///< not given, or an earlier point lies at the same place
+    bool empty = false;  ///< true if not given, or if an earlier point has the same coordinates
     std::vector<HalfPlane> sides;
 };
 

@@ -37,7 +37,7 @@ struct VibrationCondition {
 };
 
 struct VibrationSeparability {
-    bool measured = false;  ///< at least one burst was measured
+    bool measured = false;  ///< true if at least one burst was measured
     std::vector<VibrationCondition> conditions;
     std::vector<PairSummary> pairs;  ///< the amplitude of a pair is the strength
     Estimate accuracy;
