@@ -75,7 +75,7 @@ struct Calibration {
     std::vector<CalibrationReading> readings;                          ///< as given, with outliers marked
     std::size_t outliers = 0;
     std::size_t notMeasured = 0;
-    bool complete = false;              ///< 11 levels, 5 repeats each way, up and down, every reading measured
+    bool complete = false;              ///< true with 11 levels, 5 repeats up and down, and every reading measured
     std::vector<std::string> warnings;  ///< sentences on missing levels or repeats, and on marked or missing readings
 };
 
