@@ -16,7 +16,7 @@ namespace tacto {
 struct PersonalRangeSettings {
     double detection = 0;       ///< estimated detection threshold, in the grid's unit; > 0
     double tooStrong = 0;       ///< the level that is too strong; > 0
-    bool saidTooStrong = true;  ///< the participant said "too strong"; else `tooStrong` is the highest level presented
+    bool saidTooStrong = true;  ///< true if the participant called it too strong; else it is the highest level
     double aboveDetection = 1.25;
     double belowTooStrong = 0.8;
     std::size_t leastSteps = 2;              ///< smallest number of steps between I_min and I_max
