@@ -1,9 +1,9 @@
 // PersonalRange.h - finds the range of levels for a participant's conditions today (pilot.md section 4).
 //
-// I_min is 1.25 times the detection threshold, rounded up to the grid. I_max is the lowest of 0.8 U, the gate's highest
-// approved level at the shortest interval, and the cap, rounded down to the grid. The participant then feels I_max for
-// 4 s at the shortest interval and is asked "half an hour of this?". Each no lowers it by one step. Fewer than two
-// steps leave no usable range. This is a normal result: excluding such participants would make the study look better.
+// I_min is 1.25 times the detection threshold, rounded up to the grid. I_max is the lowest of the gate's highest level
+// at the shortest interval, the cap, and 0.8 times the "too strong" level, rounded down. The participant feels I_max
+// for 4 s at the shortest interval and is asked "half an hour of this?". Each no lowers I_max by a step. Fewer than two
+// steps are no usable range. This is a normal result: omitting such people would flatter the study.
 //
 // The same settings and answers give the same presentations.
 #pragma once
