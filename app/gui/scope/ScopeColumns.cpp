@@ -80,9 +80,9 @@ void ScopeColumns::fitControls() {
     parts_.controls.setVisible(on);
 }
 
-/// A line that the screen has instead where the tools leave enough room beside them.
+/// If the tools leave too little room for the status beside them, places the status on a line below.
 void ScopeColumns::placeStatus() {
-    constexpr int kWide = 1340;  // tools, lanes, trigger and captures
+    constexpr int kWide = 1340;  // pixels that the tools, lanes, trigger and captures need
     auto& row = *static_cast<QBoxLayout*>(head_->layout());
     const bool beside = head_->width() >= scaledPx(kWide);
     auto& here = beside ? row : *column_;
@@ -99,10 +99,10 @@ void ScopeColumns::save(QSettings& settings) const {
 }
 
 void ScopeColumns::restore(QSettings& settings) {
-    plots_->restoreState(settings.value("panels").toByteArray());  // says no to what it did not write
+    plots_->restoreState(settings.value("panels").toByteArray());  // refuses a state that it did not write
     plots_->setOrientation(Qt::Vertical);
     plots_->setChildrenCollapsible(false);
-    // At a first start the screen gets all the room; both panels are opened from the tools.
+    // At the first start the screen gets all the room; the user opens both panels with the tools.
     wanted_ = rememberedFlag(settings, "controls").value_or(false);
     parts_.table.setVisible(rememberedFlag(settings, "table").value_or(false));
     parts_.tools.tool(ScopeTool::Table).setChecked(!parts_.table.isHidden());

@@ -1,5 +1,5 @@
-// ScopeColumns.h - the oscilloscope's parts on the page: tools above, status beside them or below; screen, spectrum and
-// measurements below each other; the controls beside them, where there is room.
+// ScopeColumns.h - places the parts of the oscilloscope: tools at the top, status next to or below the tools, then
+// screen, spectrum and measurements, and the controls at the right if the page is wide enough.
 #pragma once
 
 #include <QWidget>
@@ -29,12 +29,12 @@ public:
         ScopeControls& controls;
     };
     ScopeColumns(const Parts& parts, QWidget* parent);
-    /// The tools, and the status beside them where there is room: above the columns unless a page takes it.
+    /// The tools, and in a wide window also the status. Stands above the columns unless a page takes it.
     [[nodiscard]] QWidget& head() { return *head_; }
-    /// Shows or hides the controls; here also where they take room from the screen.
+    /// Shows or hides the controls, even if they take room from the screen.
     void askForControls(bool on);
 
-    /// Goes back to the first start: the screen has all the room.
+    /// Restores the layout of the first start: the screen has all the room.
     void reset();
     void save(QSettings& settings) const;
     void restore(QSettings& settings);
@@ -48,7 +48,7 @@ private:
     QBoxLayout* column_ = nullptr;
     QSplitter* plots_;
     bool wanted_ = false;
-    bool forced_ = false;  ///< asked for where there is no room for them
+    bool forced_ = false;  ///< the user asked for the controls although they have too little room
 };
 
 }  // namespace tacto::gui

@@ -17,9 +17,9 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr std::size_t kMaxCopied = 200'000;  ///< samples a channel, as text on the clipboard
+constexpr std::size_t kMaxCopied = 200'000;  ///< most samples per channel that are copied as text
 
-/// The part in view, on the session's time base.
+/// The visible part, on the session's time base.
 std::pair<double, double> visible(const ScopeModel& model) {
     return {model.viewport().left_s + model.zero_s(), model.viewport().right_s() + model.zero_s()};
 }

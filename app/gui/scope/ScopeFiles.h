@@ -1,4 +1,4 @@
-// ScopeFiles.h - the oscilloscope's files and clipboard: the menu that opens, saves and copies.
+// ScopeFiles.h - the oscilloscope's menu for files and the clipboard: opens, saves and copies.
 #pragma once
 
 #include <QObject>
@@ -19,27 +19,27 @@ class ScopeScreen;
 class ScopeFiles final : public QObject {
     Q_OBJECT
 public:
-    /// `window` is the parent of menu and dialogs.
+    /// `window` is the parent of the menu and the dialogs.
     ScopeFiles(CapturePipe& pipe, ScopeModel& model, QWidget& window);
-    /// Set before the menu is used; both outlive this. `caption` says what a picture shows.
+    /// Must be called before the menu is used. Both references outlive this. `caption` describes what a picture shows.
     void show(ScopeScreen& screen, MeasurementTable& table, std::function<PictureCaption()> caption);
     [[nodiscard]] QMenu* menu() const noexcept { return menu_; }
 
-    /// "*.csv *.sr …": the files that can be opened, for a dialog's filter.
+    /// The files that can be opened, as a filter for a file dialog: "*.csv *.sr …".
     [[nodiscard]] static QString captureGlobs();
     void askOpen();
     void askSavePicture();
     void copyPicture();
-    /// Picture by its ending (.png, .svg, .pdf), or the visible data (.csv, in the background), of what is shown now.
+    /// Saves what is shown now: a picture (.png, .svg, .pdf) or, in the background, the visible data (.csv).
     void saveAs(const QString& path) { saveAs(path, still()); }
 
 signals:
     void openWanted(const QString& path);
-    /// A sentence about what was begun, done, or went wrong; an empty one clears what was said.
+    /// Reports what was begun or done, or a problem, as a sentence. Empty texts clear the previous report.
     void told(const QString& done, const QString& problem);
 
 private:
-    /// Saves the picture as it was when the dialog asked, even if the answer comes later.
+    /// Saves the picture as it was when the dialog opened, even if the user answers later.
     void askSave(const QString& filter, const QString& ending);
     void saveAs(const QString& path, const ScopeStill& still);
     [[nodiscard]] ScopeStill still() const { return stillOf(model_, *screen_, caption_()); }

@@ -63,8 +63,8 @@ ScopeWorkspace::ScopeWorkspace(BenchController& controller, QWidget* parent)
     benchChanged();
 }
 
-/// A screen that is taken down still gets events (it loses mouse and focus): what handles them goes before it, and it
-/// before the model.
+/// The screen still gets events while it is destroyed (it loses mouse and focus). So the objects that handle these
+/// events are destroyed before the screen, and the screen before the model.
 ScopeWorkspace::~ScopeWorkspace() {
     save();
     disconnect(&model_, nullptr, this, nullptr);
@@ -131,7 +131,7 @@ void ScopeWorkspace::connectTools() {
 void ScopeWorkspace::addKeys() {
     const auto onKey = [this](const QKeySequence& key, auto task) {
         auto* shortcut = new QShortcut(key, this);
-        // The tools may stand in another row than the workspace: its keys are its own wherever the focus is.
+        // The tools may be in a row outside this page; the keys work wherever the focus is.
         shortcut->setContext(Qt::WindowShortcut);
         connect(shortcut, &QShortcut::activated, this, task);
     };
@@ -204,10 +204,10 @@ void ScopeWorkspace::connectBench() {
         if (running()) pipe_.take(std::move(capture));
     });
     connect(&controller_, &BenchController::marked, this, [this](double at_s, const QString& word) {
-        const auto open = controller_.open();  // a run's session has a time of its own
+        const auto open = controller_.open();  // a run's session has its own time base
         if (open && open->session == feed_->session()) model_.addMark({at_s, word});
     });
-    connect(&controller_, &BenchController::loadFitted, this, [this] {  // a mean is of one load
+    connect(&controller_, &BenchController::loadFitted, this, [this] {  // a mean covers one load only
         pipe_.beginAnew();
         table_->clear();
     });
@@ -218,7 +218,7 @@ void ScopeWorkspace::connectBench() {
     connect(acquisition_.get(), &ScopeAcquisition::stopped, this, [this](const QString& why) { tell({}, why); });
     connect(&pipe_, &CapturePipe::prepared, this, &ScopeWorkspace::take);
     connect(&pipe_, &CapturePipe::recalculated, this, [this](const ShownPtr& shown) {
-        // A newer capture already has the new calculation.
+        // A newer capture already has the new calculations.
         if (model_.shown() && model_.shown()->capture == shown->capture) model_.replaceMath(shown);
     });
     connect(&pipe_, &CapturePipe::openingChanged, this, &ScopeWorkspace::showState);
@@ -228,8 +228,8 @@ void ScopeWorkspace::connectBench() {
     });
 }
 
-/// Without the column at the right, which is hidden where there is no room for it: large text must not make the window
-/// larger than its screen.
+/// Ignores the column at the right, which is hidden in a narrow window: large text must not make the window larger than
+/// its screen.
 QSize ScopeWorkspace::minimumSizeHint() const {
     return {screen_->minimumWidth() + fontMetrics().averageCharWidth() * 4, fontMetrics().height() * 16};
 }
@@ -299,7 +299,7 @@ ScopeSettings ScopeWorkspace::settings() const { return controls_->acquisition()
 
 void ScopeWorkspace::setWatched(bool watched) {
     watched_ = watched;
-    // Keeps running where it is watched. A dock says that it is hidden while the window, and the controller, goes.
+    // Captures go on while another view watches. While the window is destroyed a dock reports that it is hidden.
     if (watched) benchChanged();
 }
 
@@ -413,7 +413,7 @@ void ScopeWorkspace::sayCursors() {
     screen_->setAccessibleDescription(text.isEmpty() ? screen_->whatsThis() : text);
 }
 
-/// In roll mode captures stand side by side: a mean of them has no place.
+/// In roll mode captures stand one after the other, so they are not averaged.
 void ScopeWorkspace::average() {
     const int captures = model_.roll() ? 1 : controls_->view().average();
     pipe_.setAverage(static_cast<std::size_t>(captures));

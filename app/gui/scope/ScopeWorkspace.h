@@ -1,9 +1,9 @@
-// ScopeWorkspace.h - the oscilloscope: screen, controls beside it, spectrum and measurements below.
+// ScopeWorkspace.h - the oscilloscope page: the screen, with controls at its side, and spectrum and measurements below.
 //
-// Takes the captures of the open bench while it runs, opens captures from files, and shows what others hand it. "Hold"
-// keeps the picture and touches no output: only STOP does that.
+// Shows the captures of the open bench while it runs, captures from files, and captures from other parts of the
+// program. "Hold" freezes the picture and does not affect the output: only STOP does.
 //
-// The user's choices (mode, trigger, record, scales, panels) are remembered from one start to the next.
+// The user's choices (mode, trigger, record, scales, panels) are kept for the next start.
 #pragma once
 
 #include <QWidget>
@@ -36,24 +36,24 @@ public:
     explicit ScopeWorkspace(BenchController& controller, QWidget* parent = nullptr);
     ~ScopeWorkspace() override;
 
-    /// Called at 30 Hz while this is visible, and also while it is not, after setWatched().
+    /// Called at 30 Hz while this page is visible, and also while it is hidden if setWatched(true) was called.
     void refresh(const Telemetry& telemetry);
-    /// Panels and columns as at the first start.
+    /// Restores the panels and columns of the first start.
     void resetLayout();
-    /// Another view shows what captureShown() reports, so that captures are taken although this view is hidden.
+    /// True if another view shows what captureShown() reports: captures are then taken even while this page is hidden.
     void setWatched(bool watched);
-    /// Reads a capture file in the background and shows it; what goes wrong is said here. False when there is no such
-    /// file. The bench's captures are on hold from then on.
+    /// Reads a capture file in the background and shows it; puts the bench's captures on hold. Errors are shown on this
+    /// page. Returns false if the file does not exist.
     bool openCaptureFile(const QString& path);
-    /// Shows a capture that is not the bench's; holds the bench's.
+    /// Shows a capture that does not come from the bench, and puts the bench's captures on hold.
     void show(std::shared_ptr<const Capture> capture, const QString& source);
     void show(std::shared_ptr<const Capture> capture) { show(std::move(capture), tr("capture")); }
     using QWidget::show;
 
-    /// The row of tools above the screen; a page of tabs may take it into its own row.
+    /// The row of tools above the screen. A page of tabs can move this row into its own row.
     [[nodiscard]] QWidget* tools();
 
-    /// Picture by its ending (.png, .svg, .pdf), or the visible data (.csv, in the background).
+    /// Saves a picture (.png, .svg, .pdf) or, in the background, the visible data (.csv).
     void saveAs(const QString& path);
 
     [[nodiscard]] ScopeMode mode() const noexcept { return acquisition_->mode(); }
@@ -61,7 +61,7 @@ public:
     [[nodiscard]] ScopeModel& model() noexcept { return model_; }
     [[nodiscard]] ScopeScreen& screen() noexcept { return *screen_; }
     [[nodiscard]] MeasurementTable& table() noexcept { return *table_; }
-    /// Which readings are shown, here and wherever else: a MeasurementSummary follows them.
+    /// The readings that are shown on this page and in every MeasurementSummary.
     [[nodiscard]] ChosenReadings& readings() noexcept { return readings_; }
     [[nodiscard]] QSize minimumSizeHint() const override;
     /// The settings of the next capture.
@@ -73,14 +73,14 @@ public slots:
     void hold();
 
 signals:
-    /// Every capture that comes to the screen, measured: a MeasurementSummary takes it.
+    /// Reports every measured capture that comes to the screen; a MeasurementSummary shows it too.
     void captureShown(tacto::gui::ShownPtr shown);
-    /// The empty workspace's next step: the window opens the simulated bench.
+    /// The user asked for a bench on the empty page: the window opens the simulated bench.
     void openBenchWanted();
-    /// The key for the drive was pressed: the window shows its dock.
+    /// The user pressed the key for the drive: the window shows the drive's dock.
     void driveWanted();
     void markWanted();
-    /// The screen without what is around it, or back.
+    /// Asks the window to show the screen alone, or everything again.
     void plotOnlyWanted();
 
 protected:
@@ -92,9 +92,9 @@ protected:
 private:
     void layOut();
     void connectTools();
-    /// Wherever the focus is in the window while this is visible: R run or hold, A auto, N normal, S single, T and L
-    /// cursors, B box, D drive, Ctrl+S saves the picture, Ctrl+Z goes a zoom back. The screen's own are in
-    /// ScopeGestures.h.
+    /// Adds the keys, which work wherever the focus is in the window while this page is visible: R run or hold, A auto,
+    /// N normal, S single, T and L cursors, B box, D drive, Ctrl+S saves the picture, Ctrl+Z undoes a zoom. For the
+    /// keys of the screen see ScopeGestures.h.
     void addKeys();
     void connectModel();
     void connectPanels();
@@ -120,7 +120,7 @@ private:
     int averages_ = 1;
     bool watched_ = false;
 
-    // Constructed in the order of the tab key.
+    // Constructed in the order in which the tab key visits them.
     ScopeTools* tools_;
     ScopeStatus* status_;
     ScopeScreen* screen_;
@@ -131,7 +131,7 @@ private:
     SpectrumPanel* spectrum_;
     MeasurementTable* table_;
     QStackedWidget* stack_;
-    TroubleLine* notOpened_ = nullptr;  ///< why the last file was not opened, where nothing is shown
+    TroubleLine* notOpened_ = nullptr;  ///< says why the last file was not opened, if nothing is shown
     ScopeColumns* columns_ = nullptr;
 };
 

@@ -8,7 +8,7 @@ namespace tacto::gui {
 
 namespace {
 
-/// The interval from the previous capture's last train to this one's first; nothing where a pulse between is not known.
+/// Returns the interval from the previous capture's last train to this one's first; nothing if a pulse is not measured.
 std::optional<double> intervalAcross(double lastOnset_s, const ChannelMeasurement& measured) {
     if (std::isnan(lastOnset_s) || measured.trains.empty()) return std::nullopt;
     if (!measured.pulses.front().flags.measured()) return std::nullopt;
@@ -33,7 +33,7 @@ void RunningStatistics::add(double value) noexcept {
     min_ = n_ == 0 ? value : std::min(min_, value);
     max_ = n_ == 0 ? value : std::max(max_, value);
     ++n_;
-    // Welford: the difference of two large sums would lose the deviation.
+    // Welford's method: a difference of two large sums would lose precision.
     const double off = value - mean_;
     mean_ += off / static_cast<double>(n_);
     squares_ += off * (value - mean_);
@@ -51,7 +51,7 @@ double RunningStatistics::of(Statistic statistic) const noexcept {
 QString statisticText(Reading reading, Statistic statistic, const RunningStatistics& its, const QString& channelUnit) {
     if (statistic == Statistic::Count) return QString::number(its.n());
     if (statistic == Statistic::Last && its.upperBound()) return upperBoundText(*its.upperBound());
-    // A deviation is known to two digits at best.
+    // Two digits are enough: a standard deviation is not known better.
     return readingText(reading, its.of(statistic), channelUnit, statistic == Statistic::Sd ? 2 : 4);
 }
 
@@ -63,10 +63,10 @@ void CaptureStatistics::clear() {
     programmed_ = kNotMeasured;
 }
 
-/// A train may come as it was asked for earlier: its programmed values tell.
+/// A train may still follow an earlier order: its programmed values show this.
 bool CaptureStatistics::begins(const ShownCapture& shown) const {
     constexpr double kSameCommand = 1e-6;  // relative
-    constexpr double kSameOutput = 0.02;   // a current follows the impedance
+    constexpr double kSameOutput = 0.02;   // larger, as a current changes with the impedance
     const auto another = [](double a, double b, double share) { return std::abs(a - b) > share * std::abs(b); };
     if (captures_ == 0 || !shown.asked) return false;
     if (!asked_ || asked_->byHand != shown.asked->byHand) return true;

@@ -1,9 +1,9 @@
-// CaptureStatistics.h - what the captures seen so far say about each channel: every reading with its last value, mean,
-// standard deviation, extremes and number.
+// CaptureStatistics.h - statistics of each channel over the captures seen so far: last value, mean, standard deviation,
+// extremes and number of every reading.
 //
-// Readings are those of core/measure: one per measured pulse (one per train for the interval, one per capture for the
-// waveform), so that the statistics of one capture are measureChannel()'s own. Intervals also run from the last train
-// of a capture to the first of the next, where none was left out between them. "Last" is the mean over the newest
+// The readings come from core/measure: one per measured pulse (one per train for the interval, one per capture for the
+// waveform), so the statistics of one capture equal those of measureChannel(). Intervals also run from the last train
+// of a capture to the first train of the next if no train was left out between them. "Last" is the mean over the newest
 // capture.
 //
 // Thread-safety: one owner.
@@ -25,12 +25,12 @@ inline constexpr std::array kStatistics{Statistic::Last, Statistic::Mean, Statis
 /// "mean", "s.d.", "n".
 [[nodiscard]] QString nameOf(Statistic statistic);
 
-/// NaN where there is nothing: all but n without a reading, the deviation with one.
+/// NaN if there are too few readings: the deviation needs two, the others one. n is never NaN.
 class RunningStatistics {
 public:
     void add(double value) noexcept;
     void setLast(double value) noexcept { last_ = value; }
-    /// The newest capture tells only that the reading is no more than this.
+    /// The newest capture gives only an upper bound for the reading.
     void setUpperBound(std::optional<double> bound) noexcept { bound_ = bound; }
     [[nodiscard]] const std::optional<double>& upperBound() const noexcept { return bound_; }
     [[nodiscard]] double last() const noexcept { return last_; }
@@ -47,7 +47,7 @@ private:
     std::optional<double> bound_;
 };
 
-/// The text in a cell; the number of readings without a unit. The last may be an upper bound.
+/// The text of a table cell. The number of readings has no unit; the last value may be an upper bound ("≤").
 [[nodiscard]] QString statisticText(Reading reading, Statistic statistic, const RunningStatistics& its,
                                     const QString& channelUnit);
 
@@ -58,19 +58,19 @@ public:
         QString letter;  ///< "V"
         QString unit;
         std::array<RunningStatistics, kReadings> readings;
-        double lastOnset_s = kNotMeasured;  ///< the last train's onset, where an interval may begin
+        double lastOnset_s = kNotMeasured;  ///< onset of the last train, from which the next interval runs
         [[nodiscard]] const RunningStatistics& of(Reading r) const { return readings[static_cast<std::size_t>(r)]; }
     };
 
-    /// Statistics of channels that come or go restart, and all of them where another drive was asked for: another
-    /// amplitude or interval by hand, or the fingertip in place of the hand.
+    /// Adds a capture. Restarts the statistics if the channels changed or another drive was asked for: another
+    /// amplitude or interval by hand, or a change between hand and fingertip.
     void add(const ShownCapture& shown);
-    /// The next capture does not follow the last one: no interval runs across.
+    /// The next capture does not follow the last one directly: no interval is measured between them.
     void breakOff();
     void clear();
     [[nodiscard]] const std::vector<Channel>& channels() const noexcept { return channels_; }
     [[nodiscard]] std::size_t captures() const noexcept { return captures_; }
-    /// "since 16:59:12", of the first capture counted; empty where that is not known.
+    /// "since 16:59:12": the time of the first counted capture; empty if unknown.
     [[nodiscard]] QString sinceText() const;
 
 private:
@@ -79,8 +79,8 @@ private:
     std::vector<Channel> channels_;
     std::size_t captures_ = 0;
     QDateTime since_;
-    std::optional<AskedDrive> asked_;   ///< the drive that was asked for when these were counted
-    double programmed_ = kNotMeasured;  ///< the first one's, as it was programmed
+    std::optional<AskedDrive> asked_;   ///< the drive that was asked for when these captures were taken
+    double programmed_ = kNotMeasured;  ///< programmed value of the first capture's train
 };
 
 }  // namespace tacto::gui

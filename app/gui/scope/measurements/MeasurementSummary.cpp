@@ -17,12 +17,12 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr std::size_t kBesideTheName = 2;  ///< channels; more stand below it
-constexpr std::size_t kMaxInLine = 3;      ///< the most readings in a line; more stand in lines of two
+constexpr std::size_t kBesideTheName = 2;  ///< most channels at the side of the name; more stand below
+constexpr std::size_t kMaxInLine = 3;      ///< most readings in one line; more are set in lines of two
 constexpr int kRowHeight = 24;
-constexpr int kEdge = 1;  ///< edge of the names that are buttons
+constexpr int kEdge = 1;  ///< width of the frame around the name buttons
 
-/// Begins where the other lines of the column do: a tool button of its own keeps a blank on each side.
+/// Aligned with the other lines of the column; a plain tool button would add a blank on each side.
 class NameButton final : public QToolButton {
 public:
     using QToolButton::QToolButton;
@@ -32,8 +32,8 @@ public:
     [[nodiscard]] QSize minimumSizeHint() const override { return sizeHint(); }
 };
 
-/// The value at the end of the leading phase: the plateau is the mean around 60 % of the width, and the droop is the
-/// slope over the whole of it.
+/// Returns the value at the end of the leading phase: the plateau is the mean around 60 % of the width, and the droop
+/// is the slope over the whole width.
 double endOfPhase(const ChannelMeasurement& channel) {
     const double droop = std::isfinite(channel.droop.mean) ? channel.droop.mean : 0;
     return channel.amplitude.mean * (1 - 0.4 * droop);
@@ -128,7 +128,7 @@ void MeasurementSummary::take(const ShownPtr& shown) {
     shown_ = shown;
     since_.start();
     statistics_.add(*shown);
-    const bool begins = statistics_.captures() == 1;  // perhaps of channels in another order
+    const bool begins = statistics_.captures() == 1;  // the first capture may have its channels in another order
     begins || before != statistics_.channels().size() ? lay() : fill();
 }
 
@@ -175,7 +175,7 @@ void MeasurementSummary::lay() {
         for (const auto reading : chosen_->all()) layRow(reading);
     }
     rows_->setVisible(!channels.empty());
-    tabAfter(*note_, *rows_);  // the rows stand above the buttons
+    tabAfter(*note_, *rows_);  // in the tab order the rows come before the buttons
     restyle();
     fill();
 }
@@ -233,7 +233,7 @@ void MeasurementSummary::layFigures(Reading reading, Statistic statistic, int ro
 
 void MeasurementSummary::unfold(Reading reading) {
     unfolded_ = unfolded_ == reading ? std::nullopt : std::optional(reading);
-    // The button that was clicked goes with the rows: not in its own signal.
+    // Deferred, because laying out anew deletes the button that is sending this signal.
     QMetaObject::invokeMethod(this, &MeasurementSummary::lay, Qt::QueuedConnection);
 }
 
@@ -294,13 +294,13 @@ void MeasurementSummary::sayImpedance() {
 }
 
 void MeasurementSummary::restyle() {
-    // The numbers are the data; what stands around them is quiet. Roles and rich text follow a theme: a label's own
-    // palette is laid aside when the theme's style sheet comes.
+    // The numbers stand out and the text around them is quiet. Roles and rich text follow a change of theme; a palette
+    // set on a label would be lost when the theme's style sheet is applied.
     for (auto* label : {head_, note_, impedanceName_}) setTone(*label, Tone::Quiet);
     for (auto* label : quiet_) setTone(*label, Tone::Quiet);
     const auto numbers = digits(textFont(TextSize::Small));
     impedanceName_->setMinimumHeight(scaledPx(kRowHeight));
-    // Wide enough for every value: figures that jump cannot be read. Three and more share the width that there is.
+    // Wide enough for every value, because numbers that jump cannot be read. Three or more share the available width.
     const int wide = QFontMetrics(numbers).horizontalAdvance(QString("00.00\u202fmA"));
     for (const auto& figure : figures_) figure.label->setMinimumWidth(below() ? 0 : wide);
 }

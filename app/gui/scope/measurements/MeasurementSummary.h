@@ -1,9 +1,9 @@
-// MeasurementSummary.h - what the latest capture says, in a dock's width: the chosen readings as rows with the channels
-// as columns, statistics below the row that is unfolded, |Z| of the load, how old it is, and whether it is simulated.
+// MeasurementSummary.h - the latest capture in the width of a dock: a row for each chosen reading, a column for each
+// channel, statistics below the unfolded row, the load's |Z|, the capture's age, and whether it is simulated.
 //
-// A protocol's captures (RunFeed::captures) are handed to measure(), which measures them in the background.
-// An untriggered record changes no number: the figures keep their age, and it is said that no trigger came since.
-// Up to two channels stand beside the reading's name, more of them below it: nothing is cut.
+// The captures of a protocol (RunFeed::captures) go to measure(), which measures them in the background.
+// A record without a trigger changes no number: the ages go on, and a note says that no trigger has come since.
+// Up to two channels stand next to the reading's name; more stand below the name, so that nothing is cut off.
 #pragma once
 
 #include <QElapsedTimer>
@@ -25,8 +25,8 @@ class QVBoxLayout;
 
 namespace tacto::gui {
 
-/// Voltage over current at the end of the leading phase (science.md section 4), from the plateaus and their slope. NaN
-/// unless a channel in V and one in A were measured.
+/// Returns voltage over current at the end of the leading phase (science.md section 4), from plateau and slope. NaN
+/// unless one channel in V and one in A were measured.
 [[nodiscard]] double impedanceOf(const std::vector<ChannelMeasurement>& measured);
 
 class MeasurementSummary final : public QWidget {
@@ -34,15 +34,15 @@ class MeasurementSummary final : public QWidget {
 public:
     explicit MeasurementSummary(QWidget* parent = nullptr);
 
-    /// Shows what is chosen there, and chooses there. `chosen` outlives this.
+    /// Shows the readings of `chosen` and lets the user change them. `chosen` outlives this.
     void follow(ChosenReadings& chosen);
-    /// The age and |Z| of the impedance check, which stands in where the capture gives none. Cheap.
+    /// Updates the age, and shows the |Z| of the impedance check if the capture has no |Z|. Cheap.
     void refresh(const Telemetry& telemetry);
-    /// A capture that has not been measured yet. Some are left out when they come too fast.
+    /// Measures a capture and shows it. Skips captures that come too fast.
     void measure(std::shared_ptr<const Capture> capture);
 
 public slots:
-    /// A capture that has been measured: the oscilloscope's.
+    /// Shows a capture that the oscilloscope has measured.
     void take(const tacto::gui::ShownPtr& shown);
     void clear();
 
@@ -55,10 +55,10 @@ private:
     };
     void lay();
     void layRow(Reading reading);
-    /// The channels' figures stand below their reading's name, in lines of inLine().
+    /// True if the figures stand below the name of the reading, in lines of inLine() channels.
     [[nodiscard]] bool below() const;
     [[nodiscard]] int inLine() const;
-    /// Line and column of a channel among its figures.
+    /// Line and column of a channel's figure among all channels.
     [[nodiscard]] std::pair<int, int> placeOf(std::size_t channel) const;
     void layFigures(Reading reading, Statistic statistic, int row, int column);
     void unfold(Reading reading);
@@ -71,7 +71,7 @@ private:
     ChosenReadings* chosen_ = &own_;
     CapturePipe pipe_;
     CaptureStatistics statistics_;
-    ShownPtr shown_;  // the latest that was triggered
+    ShownPtr shown_;  // the latest triggered capture
     bool quietSince_ = false;
     QElapsedTimer since_;
     double checked_ohm_ = kNotMeasured;
@@ -80,7 +80,7 @@ private:
 
     QLabel* head_;
     QVBoxLayout* column_;
-    QWidget* rows_ = nullptr;  // rebuilt when channels, choice or fold change
+    QWidget* rows_ = nullptr;  // rebuilt when the channels, the chosen readings or the unfolded row change
     QGridLayout* grid_ = nullptr;
     std::vector<Figure> figures_;
     std::vector<QLabel*> quiet_;

@@ -23,7 +23,7 @@ namespace {
 
 constexpr int kPerChannel = static_cast<int>(kStatistics.size());
 constexpr int kMinRows = 2;
-/// The statistics that give way where there is no room, together and one after the other.
+/// The statistics that are hidden if the table is too narrow, group by group in this order.
 const std::vector<std::vector<Statistic>> kGiveWay{
     {Statistic::Count}, {Statistic::Min, Statistic::Max}, {Statistic::Sd}, {Statistic::Mean}};
 
@@ -74,12 +74,12 @@ MeasurementTable::MeasurementTable(ChosenReadings& chosen, QWidget* parent)
     layout->addLayout(line);
     layout->addWidget(table_, 1);
     layout->addWidget(warnings_);
-    layout->addStretch();  // takes the room of a table that is not there yet
+    layout->addStretch();  // fills the space while the table is still hidden
     restyle();
     refill();
     onLookChange(*this, [this] { restyle(); });
     onEvent(*this, QEvent::Resize, [this] {
-        QTimer::singleShot(0, this, &MeasurementTable::fitColumns);  // once the table has its width
+        QTimer::singleShot(0, this, &MeasurementTable::fitColumns);  // after the table got its width
     });
 }
 
@@ -174,7 +174,7 @@ void MeasurementTable::refill() {
     table_->setVisible(n > 0);
 }
 
-/// Hides the statistics that have no room, the same of every channel.
+/// Hides the statistics that do not fit, the same ones for every channel.
 void MeasurementTable::fitColumns() {
     const auto hide = [this](const std::vector<Statistic>& group, bool hidden) {
         for (const auto statistic : group)
@@ -183,21 +183,21 @@ void MeasurementTable::fitColumns() {
     };
     for (const auto& group : kGiveWay) hide(group, false);
     const auto margins = layout()->contentsMargins();
-    // The width with its edge, and with the scroll bar where there are more rows than are in sight.
+    // The width without the frame, and without the scroll bar, which shows if not all rows are in sight.
     const int room = width() - margins.left() - margins.right() - 2 -
                      style()->pixelMetric(QStyle::PM_ScrollBarExtent, nullptr, table_->verticalScrollBar());
     for (const auto& group : kGiveWay) {
         if (table_->horizontalHeader()->length() <= room) break;
         hide(group, true);
     }
-    // The table may be squeezed to these columns: the screen goes first.
+    // The table can shrink to these columns before the screen shrinks.
     const auto& header = *table_->horizontalHeader();
     table_->setMinimumHeight(std::max(header.height(), header.sizeHint().height()) +
                              kMinRows * table_->verticalHeader()->defaultSectionSize() + 4);
     refill();
 }
 
-/// "mean 12.99 V · s.d. 520 µV"; empty where all of it is in sight.
+/// Returns the hidden statistics: "mean 12.99 V · s.d. 520 µV"; empty if all are in sight.
 QString MeasurementTable::hiddenText(std::size_t channel, Reading reading) const {
     const auto& its = statistics_.channels()[channel];
     QStringList parts;
@@ -246,8 +246,8 @@ void MeasurementTable::keyPressEvent(QKeyEvent* event) {
 void MeasurementTable::restyle() {
     const auto plain = digits(textFont(TextSize::Small)), strong = digits(textFont(TextSize::Small, QFont::DemiBold));
     table_->verticalHeader()->setDefaultSectionSize(QFontMetrics(plain).height() + scaledPx(6));
-    // The newest reading stands out by weight and its channel's colour; the rest is quiet. Columns are wide enough for
-    // what may come: figures that jump cannot be read.
+    // The newest reading is bold and in its channel's colour; the rest is quiet. The columns are wide enough for every
+    // value, because numbers that jump cannot be read.
     const auto& channels = statistics_.channels();
     const int number = QFontMetrics(strong).horizontalAdvance("−000.0 mV") + scaledPx(12);
     for (int c = 0; c < table_->columnCount(); ++c) {

@@ -1,7 +1,7 @@
-// MeasurementTable.h - the chosen readings as rows, and for each channel its last value with the statistics over the
-// captures seen; a button that starts over, one that chooses, and in words what could not be measured and why.
+// MeasurementTable.h - a table with a row for each chosen reading: the last value of each channel and its statistics
+// over the captures seen. Also buttons to restart and to choose readings, and the reasons for missing values.
 //
-// Statistics that have no room stand in the tool tip of the last value: the table never scrolls sideways.
+// Statistics that do not fit stand in the tool tip of the last value: the table never scrolls sideways.
 #pragma once
 
 #include <QWidget>
@@ -23,18 +23,18 @@ public:
 
     /// Adds one more capture.
     void add(const ShownPtr& shown);
-    /// The newest record was not triggered: it is not counted, and that is said until the next capture. `held`: the
-    /// screen does not show it, but the last train.
+    /// The newest record was not triggered: it is not counted, and a note says this until the next capture. `held`: the
+    /// screen shows the last train instead of this record.
     void passOverUntriggered(bool held);
     void clear();
     [[nodiscard]] const CaptureStatistics& statistics() const noexcept { return statistics_; }
-    /// The table as tab-separated text, for the clipboard.
+    /// The table as tab-separated text for the clipboard.
     [[nodiscard]] QString asText() const;
-    /// The last values of the chosen readings in a line for each channel, for a picture.
+    /// One line for each channel with the last values of the chosen readings, for a picture.
     [[nodiscard]] QStringList asLines() const;
 
 signals:
-    /// The user restarted the statistics: the average restarts too.
+    /// The user restarted the statistics; the average then restarts too.
     void resetClicked();
 
 protected:

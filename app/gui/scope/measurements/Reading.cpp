@@ -16,13 +16,13 @@ namespace tacto::gui {
 
 namespace {
 
-// The place of a reading: a phase or the pulse around it, the waveform, the load.
+// Where a reading is stored: in a phase, in the pulse, in the waveform or in the load.
 struct OfLeading {
     double PhaseMeasurement::*its;
     bool magnitude = false;
 };
 struct OfSecond {
-    double PhaseMeasurement::*its;  ///< its magnitude
+    double PhaseMeasurement::*its;  ///< read as a magnitude
 };
 using ReadFrom = std::variant<std::monostate, OfLeading, OfSecond, double PulseMeasurement::*,
                               double WaveformMeasurement::*, double PulseLoad::*>;
@@ -37,7 +37,7 @@ struct ReadingRow {
 
 #define WORDS(text) QT_TRANSLATE_NOOP("QObject", text)
 
-/// The rows in Reading's order.
+/// The rows, in the order of Reading.
 const std::array<ReadingRow, kReadings> kDescribed{{
     {"amplitude", WORDS("Amplitude"),
      WORDS("Mean height of the leading phase above the baseline, from 30 to 90 % of its width."), "",
@@ -106,18 +106,18 @@ double ofPulse(Reading reading, const PulseMeasurement& pulse) {
     return its != nullptr ? pulse.**its : kNotMeasured;
 }
 
-/// Null for what is read elsewhere.
+/// Returns null if the reading does not come from the waveform.
 const double* ofWaveform(Reading reading, const WaveformMeasurement& waveform) {
     const auto* its = std::get_if<double WaveformMeasurement::*>(&described(reading).source);
     return its != nullptr ? &(waveform.**its) : nullptr;
 }
 
-/// Whether the reading needs the voltage and the current together.
+/// True if the reading needs voltage and current together.
 bool isOfLoad(Reading reading) { return std::holds_alternative<double PulseLoad::*>(described(reading).source); }
 
 bool isCharge(Reading reading) { return std::string_view(described(reading).unit) == "C"; }
 
-/// A share to a thousandth of a per cent: what is below that is noise.
+/// Shows at most thousandths of a per cent, because smaller digits are noise.
 QString percentText(double value) {
     const double size = std::abs(value);
     const int decimals = size >= 10 ? 1 : size >= 1 ? 2 : 3;
@@ -126,12 +126,12 @@ QString percentText(double value) {
 
 bool isEdge(Reading reading) { return reading == Reading::Rise || reading == Reading::Fall; }
 
-/// The time between two measured values, which are means of samples in a noisy record.
+/// Returns the time between two measured values. A measured value is the mean of several samples of a noisy record.
 double sampleInterval_s(const ChannelMeasurement& measured) {
     return static_cast<double>(std::max<std::size_t>(1, measured.quality.mean)) / measured.rate_hz;
 }
 
-/// An edge needs a sample on it and one beside it either way.
+/// The shortest edge that can be measured: it needs a sample on the edge and one on each side.
 double leastEdge_s(const ChannelMeasurement& measured) { return 2 * sampleInterval_s(measured); }
 
 }  // namespace
@@ -243,7 +243,7 @@ namespace {
 const std::vector<Reading> kStandard{Reading::Amplitude, Reading::PeakToPeak, Reading::Width,  Reading::Gap,
                                      Reading::Interval,  Reading::Rise,       Reading::Charge, Reading::Imbalance};
 
-/// Choosing one of several does not end the choice.
+/// A menu that stays open when the user chooses an entry.
 class StayingMenu final : public QMenu {
 public:
     using QMenu::QMenu;

@@ -1,5 +1,5 @@
-// Reading.h - the quantities that are measured of every capture (science.md section 8 and
-// core/measure/WaveformMeasurement.h), each described once: name, explanation, unit, and how it is stored as a choice.
+// Reading.h - the quantities measured in every capture (science.md section 8 and core/measure/WaveformMeasurement.h),
+// with name, explanation, unit and the key under which a choice is stored.
 //
 // Thread-safety: pure functions.
 #pragma once
@@ -19,7 +19,7 @@ class QWidget;
 
 namespace tacto::gui {
 
-/// In the order of the tables: what is looked at first stands first.
+/// In the order of the tables: the most important readings first.
 enum class Reading {
     Amplitude,
     PeakToPeak,
@@ -47,41 +47,41 @@ inline constexpr std::size_t kReadings = static_cast<std::size_t>(Reading::Pulse
 [[nodiscard]] std::array<Reading, kReadings> allReadings();
 
 struct ReadingName {
-    QString key;        ///< "amplitude": as it is stored
+    QString key;        ///< the key in the settings: "amplitude"
     QString title;      ///< "Amplitude"
-    QString explained;  ///< says in one or two sentences what it is, for a tool tip
-    QString unit;       ///< "s", "%", "Hz", "C", "J"; empty: the channel's own
+    QString explained;  ///< one or two sentences for a tool tip
+    QString unit;       ///< "s", "%", "Hz", "C", "J"; empty if it is the channel's unit
 };
 [[nodiscard]] ReadingName nameOf(Reading reading);
 [[nodiscard]] std::optional<Reading> readingOfKey(const QString& key);
 
-/// All readings of the channel in one capture: one per measured pulse, per train for the interval, one for the
-/// waveform. Net charge and energy belong to the current channel, where the capture has one voltage and one current.
-/// Edges that the samples do not resolve are left out.
+/// Returns all readings of a channel in one capture: one per measured pulse, or per train for the interval; one for the
+/// waveform. Net charge and energy belong to the current channel, if the capture has one voltage and one current.
+/// Leaves out edges that are too short for the sample rate.
 [[nodiscard]] std::vector<double> readingsOf(Reading reading, const ShownCapture& shown, std::size_t channel);
-/// Two sample intervals, where the rise or the fall of every pulse is shorter than that: the samples do not resolve it,
-/// and it lies below.
+/// Returns two sample intervals if the rise or fall of every pulse is shorter: the samples then show only that the true
+/// value is below this bound.
 [[nodiscard]] std::optional<double> upperBound(Reading reading, const ShownCapture& shown, std::size_t channel);
 /// "≤ 1 µs".
 [[nodiscard]] QString upperBoundText(double bound_s);
-/// "40.02 V", "0.05 %"; "–" for NaN, and for the charge of a channel that is not a current.
+/// Returns "40.02 V" or "0.05 %"; "–" for NaN, and for the charge of a channel that is not a current.
 [[nodiscard]] QString readingText(Reading reading, double value, const QString& channelUnit, int digits = 4);
-/// Why there is no reading, or only an upper bound, in a sentence or two.
+/// Says in one or two sentences why there is no reading, or only an upper bound.
 [[nodiscard]] QString whyMissing(Reading reading, const ShownCapture& shown, std::size_t channel);
 
-/// Which readings are shown, chosen freely and remembered; one choice for the table and the dock.
+/// The readings that the user chose, shared by the table and the dock and kept in the settings.
 class ChosenReadings final : public QObject {
     Q_OBJECT
 public:
     ChosenReadings();
-    /// The readings, in Reading's order.
+    /// The chosen readings, in the order of Reading.
     [[nodiscard]] const std::vector<Reading>& all() const noexcept { return chosen_; }
     [[nodiscard]] bool has(Reading reading) const;
     void choose(Reading reading, bool on);
     void chooseStandard();
 
     void save(QSettings& settings) const;
-    /// Names that are none are passed over; without any the choice stays.
+    /// Skips unknown names. Keeps the present choice if no name is known.
     void restore(const QSettings& settings);
 
 signals:
@@ -91,8 +91,8 @@ private:
     std::vector<Reading> chosen_;
 };
 
-/// A menu in which they are chosen; it stays open from one to the next, until its last row
-/// closes it: Esc would stop the output. `chosen` outlives it.
+/// Makes a menu for choosing readings. It stays open after each choice and closes with its last row: Esc would stop the
+/// output. `chosen` outlives the menu.
 [[nodiscard]] QMenu* makeReadingsMenu(ChosenReadings& chosen, QWidget* parent);
 
 }  // namespace tacto::gui

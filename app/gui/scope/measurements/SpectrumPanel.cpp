@@ -26,18 +26,18 @@ namespace tacto::gui {
 namespace {
 
 constexpr std::size_t kMinSamples = 16;
-constexpr double kPeakOverMedian = 10;  ///< 20 dB: noise alone comes to 10 or 12
+constexpr double kPeakOverMedian = 10;  ///< 20 dB; noise alone reaches 10 or 12
 
 void numberInPowers(QCPAxis& axis, int subTicks) {
     auto ticker = QSharedPointer<QCPAxisTickerLog>::create();
     ticker->setSubTickCount(subTicks);
     axis.setScaleType(QCPAxis::stLogarithmic);
     axis.setTicker(ticker);
-    axis.setNumberFormat("eb");  // each as a power of ten
+    axis.setNumberFormat("eb");  // each number as a power of ten
     axis.setNumberPrecision(0);
 }
 
-/// The window's name, and what it is good for.
+/// The name of a window, and what the window is good for.
 std::pair<QString, QString> wordsOf(SpectralWindow window) {
     switch (window) {
         case SpectralWindow::Rectangular:
@@ -121,7 +121,7 @@ SpectrumPanel::SpectrumPanel(QWidget* parent)
     onLookChange(*this, [this] {
         restyle();
         plot_->replot(QCustomPlot::rpQueuedReplot);
-        showModel();  // the lane's colour
+        showModel();  // with the new colour of the lane
     });
     onEvent(*this, QEvent::Show, [this] { showModel(); });
 }
@@ -156,7 +156,7 @@ void SpectrumPanel::calculate(const Trace& trace, double from_s, double to_s) {
         spectrum_.note = tr("Fewer than %1 samples are on the screen: zoom out.").arg(kMinSamples);
         return;
     }
-    // A power of two is quick at any zoom, and the same plan serves the next frame.
+    // A power of two is fast to transform at any zoom, and the next frame can reuse the transform.
     const std::size_t length = std::min(std::bit_floor(seen), kMaxSamples);
     first += (seen - length) / 2;
     if (trace.pyramid.over(first, first + length).gap) {
@@ -175,7 +175,7 @@ void SpectrumPanel::calculate(const Trace& trace, double from_s, double to_s) {
     const auto begin = trace.samples->begin() + static_cast<std::ptrdiff_t>(first);
     std::copy(begin, begin + static_cast<std::ptrdiff_t>(length), samples.begin());
     const double mean = std::accumulate(samples.begin(), samples.end(), 0.0) / static_cast<double>(length);
-    for (auto& x : samples) x -= mean;  // an offset would hide the lowest lines
+    for (auto& x : samples) x -= mean;  // an offset would hide the lowest frequencies
     const double* axis = samples.data();
     transform_->transform({&axis, 1});
     const double width = transform_->binWidth_hz();
@@ -193,7 +193,7 @@ void SpectrumPanel::findPeaks(const QString& unit) {
     for (const auto& peak : spectralPeaks(spectrum_.rms, 2 * mainLobe(window()), kPeakOverMedian, kMaxPeaks)) {
         spectrum_.peaks.push_back({(peak.bin + 1) * width, peak.level});  // the first line is bin 1
     }
-    // The line that its mark names; without a peak the highest line.
+    // The line to name: the highest peak, or the highest line if there is no peak.
     const auto line = std::max_element(spectrum_.rms.begin(), spectrum_.rms.end()) - spectrum_.rms.begin();
     const auto at = static_cast<std::size_t>(line);
     const auto top =
@@ -215,13 +215,13 @@ void SpectrumPanel::setFrequencyAxis() {
         axis.setNumberFormat("gb");
         axis.setNumberPrecision(6);
     }
-    shownTop_hz_ = 0;  // the zoom belongs to the other axis
+    shownTop_hz_ = 0;  // the old zoom does not fit the new axis
 }
 
 void SpectrumPanel::draw() {
     note_->setText(spectrum_.note);
     note_->setToolTip(spectrum_.note);
-    // Where there are more lines than pixels, each pixel shows the highest: a peak must not fall between two.
+    // If there are more lines than pixels, each pixel shows the highest, so that no peak is lost.
     const auto count = spectrum_.hz.size();
     const double columns = std::max(200, plot_->width());
     const auto next = [&](std::size_t at) {
@@ -266,7 +266,7 @@ void SpectrumPanel::draw() {
     plot_->replot(QCustomPlot::rpQueuedReplot);
 }
 
-/// Leaves room for the peaks' names above the highest.
+/// Leaves room for the names above the highest peak.
 void SpectrumPanel::fitLevels() {
     if (!(highest_ > 0)) return;
     const double name = QFontMetrics(textFont(TextSize::Small)).height() + 8;
@@ -274,7 +274,7 @@ void SpectrumPanel::fitLevels() {
     plot_->yAxis->setRange(highest_ * 1e-5, highest_ * std::pow(10, 5 * name / (height - name)));
 }
 
-/// The highest first; one that would lie on another is left out.
+/// Names the highest peaks first; leaves out a name that would overlap another.
 void SpectrumPanel::namePeaks() {
     const QFontMetrics metrics(textFont(TextSize::Small));
     const auto unit = axisUnit(logarithmic() ? 1 : shownTop_hz_ / 2, "Hz");
@@ -290,7 +290,7 @@ void SpectrumPanel::namePeaks() {
         const auto text = tr("%1 · %2").arg(quantityText(peak.hz, "Hz"), quantityText(peak.rms, unit_, 3));
         const double half = 0.5 * metrics.size(0, text).width() + 4;
         const double at = plot_->xAxis->coordToPixel(key);
-        // Half of a name may not leave the plot at its sides.
+        // No name may stick out of the plot at the side.
         const QRect area = plot_->axisRect()->rect();
         const auto side = at - half < area.left()    ? Qt::AlignLeft
                           : at + half > area.right() ? Qt::AlignRight

@@ -1,8 +1,8 @@
-// SpectrumPanel.h - the spectrum of what one lane shows on the screen, through a window of choice: one-sided, as the
-// RMS that a sine of that frequency would have (the window's equivalent noise bandwidth is taken out), over linear or
-// logarithmic frequency, with its peaks named.
+// SpectrumPanel.h - the one-sided spectrum of the visible part of one lane, with a window function that the user
+// chooses. Levels are the RMS of a sine at that frequency (corrected for the window's equivalent noise bandwidth), over
+// linear or logarithmic frequency; the peaks are named.
 //
-// Where more samples come than fit into one transform, the middle is taken, and the panel says which part that is.
+// If there are more samples than one transform takes, the middle is used, and the panel says which part.
 #pragma once
 
 #include <QWidget>
@@ -23,7 +23,7 @@ namespace tacto::gui {
 
 class ScopeModel;
 
-/// RMS over frequency, from the first bin above 0 up to half the rate.
+/// RMS over frequency, from the first bin above 0 to half the sample rate.
 struct Spectrum {
     struct Peak {
         double hz = 0;
@@ -32,9 +32,9 @@ struct Spectrum {
     std::vector<double> hz;
     std::vector<double> rms;
     std::vector<Peak> peaks;  ///< highest first
-    std::size_t samples = 0;  ///< how many samples were transformed
-    double bandwidth_hz = 0;  ///< equivalent noise bandwidth of a line
-    QString note;             ///< why there is none, or which part of the samples it covers
+    std::size_t samples = 0;  ///< number of samples transformed
+    double bandwidth_hz = 0;  ///< equivalent noise bandwidth of one line
+    QString note;             ///< why there is no spectrum, or which part of the samples it covers
 };
 
 class SpectrumPanel final : public QWidget {
@@ -46,17 +46,17 @@ public:
     explicit SpectrumPanel(QWidget* parent = nullptr);
     ~SpectrumPanel() override;
 
-    /// Shows the chosen lane's part that is on the screen, and follows the model from now on while visible. `model`
-    /// outlives this, or takes its leave with disconnect().
+    /// Shows the visible part of the chosen lane, and follows changes of the model while this panel is visible. `model`
+    /// outlives this, or is disconnected first.
     void follow(const ScopeModel& model);
     [[nodiscard]] QString lane() const;
     [[nodiscard]] SpectralWindow window() const;
     [[nodiscard]] bool logarithmic() const;
-    /// from..to on the session's time base.
+    /// from_s and to_s are on the session's time base.
     void show(const TracePtr& trace, double from_s, double to_s, const QColor& colour);
     using QWidget::show;
     [[nodiscard]] const Spectrum& spectrum() const noexcept { return spectrum_; }
-    /// The peaks whose names have room, as they are written.
+    /// The names of the peaks that have room for a name.
     [[nodiscard]] QStringList namedPeaks() const;
 
     void save(QSettings& settings) const;
@@ -81,16 +81,16 @@ private:
     QCPGraph* graph_;
     QCPItemText* watermark_;
     QCPGraph* peaks_;
-    std::vector<QCPItemText*> names_;  // enough for all peaks; owned by the plot
+    std::vector<QCPItemText*> names_;  // enough for all peaks; the plot owns them
     Spectrum spectrum_;
     QString unit_;
-    std::unique_ptr<PowerSpectrum> transform_;  // kept while length, window and rate stay
-    double bins_ = 1;                           // equivalent noise bandwidth
+    std::unique_ptr<PowerSpectrum> transform_;  // reused while length, window and rate stay the same
+    double bins_ = 1;                           // equivalent noise bandwidth in bins
     double transformRate_hz_ = 0;
     SpectralWindow transformWindow_ = SpectralWindow::Hann;
     double shownTop_hz_ = 0;
     double levelFactor_ = 1;  ///< factor from unit_ to the unit of the level axis
-    double highest_ = 0;      ///< level on that axis
+    double highest_ = 0;      ///< highest level, in the unit of the level axis
     QColor colour_;
 };
 

@@ -18,7 +18,7 @@ constexpr int kMaxPending = 8;
 
 struct Opened {
     ShownPtr shown;
-    QString why;  ///< why it could not be measured
+    QString why;  ///< the reason if the capture could not be measured
 };
 
 }  // namespace
@@ -91,7 +91,7 @@ void CapturePipe::open(const QString& path) {
             auto its = std::const_pointer_cast<ShownCapture>(
                 prepareCapture(std::make_shared<const Capture>(std::move(read->capture)), math));
             its->source = QFileInfo(path).fileName();
-            // The source says what is not evident: which instrument's table it was taken for.
+            // The source also names the instrument whose format was recognised.
             if (read->formatId != "csv") its->source += " (" + QString::fromStdString(read->formatName) + ")";
             its->warnings.insert(its->warnings.begin(), read->warnings.begin(), read->warnings.end());
             shown = its;
@@ -152,10 +152,10 @@ void CapturePipe::save(const ShownPtr& shown, double from_s, double to_s, const 
 namespace {
 
 constexpr double kCrossingReach =
-    1;  ///< samples: what an oscilloscope knows of its trigger without looking between them
-constexpr double kSameMoment = 1e-3;  ///< share of a sample
+    1;  ///< samples: how precisely an oscilloscope states its trigger
+constexpr double kSameMoment = 1e-3;  ///< share of a sample within which two moments are the same
 
-/// Where |signal| rises through `level` nearest to `stated`, in samples from the record's begin.
+/// Returns where |signal| rises through `level` nearest to `stated`, in samples from the start of the record.
 std::optional<double> crossingNear(const std::vector<float>& samples, double level, double stated) {
     std::optional<double> nearest;
     const double size = static_cast<double>(samples.size());

@@ -1,8 +1,8 @@
-// CapturePipe.h - from a capture to something that can be looked at, on a thread of its own: reading files, measuring,
-// averaging, judging by a mask, building pyramids. Nothing here makes the window wait.
+// CapturePipe.h - prepares captures for the screen on a thread of its own: reads files, measures, averages, tests
+// against a mask and builds pyramids. The window never waits for this work.
 //
-// Work is done in order. A bench that triggers faster than captures can be measured loses some of them here and reports
-// it by skipped(); the session file is not this one's business.
+// Work is done in order. If the bench triggers faster than captures can be measured, some are skipped here and reported
+// by skipped(). The session file is written elsewhere and loses none of them.
 //
 // Thread-safety: the GUI thread; results arrive there.
 #pragma once
@@ -23,10 +23,10 @@
 
 namespace tacto::gui {
 
-/// The same samples at the same times, with the trigger where the line between two samples of the trigger's channel
-/// rises through the level. The capture itself where no such crossing lies within a sample interval of the trigger that
-/// the oscilloscope states: then that one stays. What was measured of it stays as well. An edge
-/// stands still so from capture to capture, though the samples fall elsewhere on it each time.
+/// Returns the same samples and times with the trigger moved to where the straight line between two samples of the
+/// trigger's channel rises through the level. An edge then stands still from capture to capture. Returns the capture
+/// unchanged if no such crossing lies within one sample interval of the trigger that the oscilloscope states. Measured
+/// values do not change.
 [[nodiscard]] std::shared_ptr<const Capture> triggeredAtCrossing(std::shared_ptr<const Capture> capture,
                                                                  const ScopeSettings& settings);
 
@@ -34,35 +34,35 @@ class CapturePipe final : public QObject {
     Q_OBJECT
 public:
     explicit CapturePipe(QObject* parent = nullptr);
-    ~CapturePipe() override;  ///< waits for the work at hand
+    ~CapturePipe() override;  ///< waits until the present work is done
 
-    /// How many of the bench's captures are averaged from now on; 1: no averaging. Another number restarts the mean.
+    /// Sets how many of the bench's captures are averaged; 1: no averaging. Another number restarts the mean.
     void setAverage(std::size_t captures);
-    /// Judges the bench's captures from now on; null: none is.
+    /// Tests the bench's captures against this mask from now on; null: no test.
     void setMask(std::shared_ptr<const CaptureMask> mask) { mask_ = std::move(mask); }
-    /// Sets the trigger of the bench's captures: they are shown from where they cross its level. Nothing: from where
-    /// the oscilloscope states.
+    /// Sets the trigger of the bench's captures: time 0 is then where the signal crosses the trigger level. Nothing:
+    /// time 0 is where the oscilloscope states it.
     void setTrigger(const std::optional<ScopeSettings>& settings) { trigger_ = settings; }
-    /// Sets what is asked of the output while the next captures are taken.
+    /// Sets the drive that is asked of the output while the next captures are taken.
     void setAsked(const std::optional<AskedDrive>& asked) { asked_ = asked; }
-    /// The next capture does not follow the last one: the oscilloscope was set again.
+    /// The next capture does not follow the last one, because the oscilloscope's settings changed.
     void breakOff() { gap_ = true; }
-    /// Begins with another bench or another load: nothing from before goes into a mean, and captures that are on their
-    /// way are dropped.
+    /// Starts over with another bench or another load: earlier captures do not enter the mean, and captures still being
+    /// measured are dropped.
     void beginAnew();
     void setMathOptions(const MathOptions& math) { mathOptions_ = math; }
     void take(std::shared_ptr<const Capture> capture, const QString& source = {});
     void open(const QString& path);
-    /// Stops reading the file that is being read, and does not show it.
+    /// Stops reading the present file, and does not show it.
     void cancelOpen();
-    /// Measures the same capture with the present math.
+    /// Calculates the math of a measured capture again with the present options.
     void recalculate(const ShownPtr& shown);
 
-    /// saveData() in the background; ends with saved() or failed().
+    /// Saves with saveData() in the background; ends with saved() or failed().
     void save(const ShownPtr& shown, double from_s, double to_s, const QString& path);
 
     [[nodiscard]] bool opening() const noexcept { return opening_; }
-    /// Progress of the file that is being read, 0 to 100. openingChanged() reports each.
+    /// Progress of the file being read, in per cent. openingChanged() reports each change.
     [[nodiscard]] int percentRead() const noexcept { return percentRead_; }
     [[nodiscard]] std::uint64_t skippedCaptures() const noexcept { return skipped_; }
 
@@ -74,28 +74,28 @@ signals:
     void failed(const QString& what);
 
 private:
-    void tellRead(double part);  // called on the thread that reads
+    void tellRead(double part);  // called on the reading thread
 
     MathOptions mathOptions_;
     std::shared_ptr<const CaptureMask> mask_;
     std::optional<ScopeSettings> trigger_;
     std::optional<AskedDrive> asked_;
-    CaptureAverage average_;   // the thread's
-    bool gap_ = false;         // a capture was left out since the last
-    std::uint64_t epoch_ = 1;  // numbers the bench's captures; another since beginAnew()
+    CaptureAverage average_;   // used by the worker thread only
+    bool gap_ = false;         // a capture was left out after the last one
+    std::uint64_t epoch_ = 1;  // counts the calls of beginAnew(): captures of an earlier epoch are dropped
     int pending_ = 0;
     std::uint64_t skipped_ = 0;
     bool opening_ = false;
     std::uint64_t openNumber_ = 0;
     std::stop_source reading_;
     std::atomic<int> percentRead_{0};
-    std::atomic<std::uint64_t> wantedOpen_{0};  // read by the thread: a reading given up is not measured
-    SideWork work_;                             // last: it uses the others
+    std::atomic<std::uint64_t> wantedOpen_{0};  // also read by the worker thread: a cancelled file is not measured
+    SideWork work_;                             // the last member, as its thread uses the others
 };
 
-/// Channels and what is calculated from them, from..to on the session's time base, as a capture file
-/// (core/measure/CaptureFile.h). A file is replaced whole or not at all. Returns what went
-/// wrong, as a sentence.
+/// Writes channels and calculated curves between from_s and to_s (session's time base) to a capture file
+/// (core/measure/CaptureFile.h). An existing file is replaced completely or stays as it is. Returns an error as a
+/// sentence.
 [[nodiscard]] std::optional<QString> saveData(const ShownCapture& shown, double from_s, double to_s,
                                               const QString& path);
 

@@ -22,7 +22,7 @@ std::optional<bool> rememberedFlag(const QSettings& settings, const QString& key
 namespace {
 
 constexpr int kMaxLanes = 64;
-constexpr double kFurthest = 1000;  ///< divisions from the middle that a lane's zero may lie
+constexpr double kFurthest = 1000;  ///< farthest a lane's zero can lie from the middle, in divisions
 
 }  // namespace
 

@@ -1,7 +1,7 @@
-// Remembered.h - values read back from the settings file, which a person may have edited or a crash cut short: a value
-// that is missing, of another kind or out of range is nothing, and the reader's default stays.
+// Remembered.h - reads values from the settings file, which a person may have edited or a crash may have cut short. A
+// value that is missing, of another type or out of range reads as nothing, and the caller's default stays.
 //
-// Thread-safety: as QSettings, the GUI thread.
+// Thread-safety: only on the GUI thread, like QSettings.
 #pragma once
 
 #include <QSettings>
@@ -11,23 +11,23 @@
 
 namespace tacto::gui {
 
-/// A finite number from `low` to `high`.
+/// Reads a finite number from `low` to `high`.
 [[nodiscard]] std::optional<double> rememberedNumber(const QSettings& settings, const QString& key, double low,
                                                      double high);
-/// "true" or "false"; anything else is nothing, not true.
+/// Reads "true" or "false"; nothing for any other text.
 [[nodiscard]] std::optional<bool> rememberedFlag(const QSettings& settings, const QString& key);
 
-/// The user's choice of view for the bench's captures, kept from one start to the next; nothing: all of it is shown.
+/// The view of the bench's captures that the user chose, kept for the next start. Nothing: the whole record is shown.
 struct ChosenView {
     struct Time {
         double left_s = 0, perDivision_s = 0;
     };
     std::optional<Time> time;
-    std::map<QString, LaneScale> lanes;  ///< empty: fitted
+    std::map<QString, LaneScale> lanes;  ///< empty: the scales are fitted
 };
 
 void saveView(QSettings& settings, const ChosenView& chosen);
-/// Leaves out what is missing, or was not written by saveView().
+/// Reads the view. Leaves out values that are missing or that saveView() did not write.
 [[nodiscard]] ChosenView restoredView(QSettings& settings);
 
 }  // namespace tacto::gui

@@ -10,7 +10,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr double kEdgeShare = 0.1;  ///< share of the way between the levels at rest, over four samples
+constexpr double kEdgeShare = 0.1;  ///< least change over four samples on an edge, as a share of the whole step
 
 CursorValue::At valueOf(const Trace& trace, double time_s) {
     const double at = (time_s - trace.start_s) * trace.rate_hz;
@@ -100,7 +100,7 @@ std::vector<CursorValue> ScopeCursors::values(const std::vector<ScopeLane>& lane
 }
 
 double knownTime(double time_s, double rate_hz) {
-    // An edge between two samples is known to a small part of their distance, and no better.
+    // The time of an edge between two samples is known to a small part of the sample interval.
     constexpr double kTimeKnown = 0.02;
     if (!(rate_hz > 0)) return time_s;
     const double grain = std::pow(10, std::floor(std::log10(kTimeKnown / rate_hz)));
@@ -143,7 +143,7 @@ bool ScopeTrigger::set(const QString& lane, double level, bool held) {
 
 bool ScopeTrigger::dragLevel(double height, const LaneScale& scale, const QString& unit) {
     if (held_) return false;
-    // Whole hundredths of a division: a level is chosen with the eye, not to the last digit.
+    // Rounds to whole hundredths of a division, because a level set by eye needs no more digits.
     const double grain = scale.perDivision / 100;
     levelDragged_ = true;
     level_ = std::round(scale.levelAt(height) / grain) * grain;

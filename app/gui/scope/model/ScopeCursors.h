@@ -1,4 +1,4 @@
-// ScopeCursors.h - the oscilloscope's cursors: two across time, two across the active lane's level, one of them with
+// ScopeCursors.h - the oscilloscope's cursors: two for time, and two for the level of the active lane. One cursor has
 // the focus.
 //
 // Thread-safety: one owner.
@@ -14,33 +14,33 @@
 
 namespace tacto::gui {
 
-/// NaN where there is no cursor or no value.
+/// NaN stands for a missing cursor or a missing value.
 struct CursorReadout {
     double x1_s = kNotMeasured, x2_s = kNotMeasured;
-    double at1 = kNotMeasured, at2 = kNotMeasured;  ///< the active lane there, as CursorValue has it
+    double at1 = kNotMeasured, at2 = kNotMeasured;  ///< the active lane's values at x1_s and x2_s, as in CursorValue
     double y1 = kNotMeasured, y2 = kNotMeasured;
     QString unit;  ///< the active lane's unit
     [[nodiscard]] double dx_s() const noexcept { return x2_s - x1_s; }
     [[nodiscard]] double dy() const noexcept { return y2 - y1; }
 };
 
-/// The readings of a lane at the two cursors across time, between samples by straight line.
+/// The values of a lane at the two time cursors, with straight lines between samples.
 struct CursorValue {
     struct At {
         double value = kNotMeasured;
-        int slope = 0;  ///< 1 or -1 on an edge, as it rises or falls; else 0
+        int slope = 0;  ///< 1 on a rising edge, -1 on a falling edge, else 0
     };
     QString lane;
     std::array<At, 2> at;
 };
 
-/// Times as exact as samples of `rate_hz` know them; 0: not known.
+/// Rounds a time to what samples at `rate_hz` can resolve; 0: rate unknown, no rounding.
 [[nodiscard]] double knownTime(double time_s, double rate_hz);
-/// "17.5 V": a level that a cursor reads, written the same in flags, on the clipboard and in a picture's caption.
+/// "17.5 V": the level of a cursor, written the same way in flags, on the clipboard and in the caption of a picture.
 [[nodiscard]] QString levelText(double level, const QString& unit);
 /// "Δ 200.0 µs · 1/Δ 5.000 kHz".
 [[nodiscard]] QString spanText(const CursorReadout& readout, double rate_hz);
-/// "t₁ 0 s   t₂ 4.000 ms   Δ 4.000 ms   1/Δ 250.0 Hz …", for the clipboard and for those who do not see the flags.
+/// "t₁ 0 s   t₂ 4.000 ms   Δ 4.000 ms   1/Δ 250.0 Hz …", for the clipboard and for users who cannot see the flags.
 [[nodiscard]] QString readoutText(CursorReadout readout, double rate_hz);
 
 class ScopeCursors {
@@ -48,11 +48,11 @@ public:
     using Pair = std::array<double, 2>;
     static constexpr int kNone = -1;
 
-    /// Seconds on the axis.
+    /// The time cursors, in seconds on the screen's axis.
     [[nodiscard]] const std::optional<Pair>& time_s() const noexcept { return time_s_; }
-    /// The levels, in the active lane's unit.
+    /// The level cursors, in the active lane's unit.
     [[nodiscard]] const std::optional<Pair>& level() const noexcept { return level_; }
-    /// 0 and 1: time; 2 and 3: level; kNone.
+    /// The cursor with the focus: 0 or 1 for time, 2 or 3 for level, or kNone.
     [[nodiscard]] int focused() const noexcept { return focused_; }
     [[nodiscard]] bool timeFocused() const noexcept { return time_s_ && focused_ >= 0 && focused_ < 2; }
     [[nodiscard]] bool levelFocused() const noexcept { return level_ && focused_ >= 2; }
@@ -61,12 +61,12 @@ public:
     void hideTime();
     void showLevel(const LaneScale& scale);
     void hideLevel();
-    /// Does nothing where that cursor is not shown.
+    /// Does nothing if that cursor is hidden.
     void focus(int cursor);
 
     void placeTime(int which, double time_s) { (*time_s_)[static_cast<std::size_t>(which)] = time_s; }
     void placeLevel(int which, double level) { (*level_)[static_cast<std::size_t>(which)] = level; }
-    /// Level cursors stay where they are on the screen and read another lane.
+    /// Keeps the level cursors at their height on the screen, but converts their levels to another lane.
     void changeLane(const LaneScale& before, const LaneScale& after);
     [[nodiscard]] CursorReadout readout(const ScopeLane& active) const;
     [[nodiscard]] std::vector<CursorValue> values(const std::vector<ScopeLane>& lanes) const;
@@ -77,29 +77,29 @@ private:
     int focused_ = kNone;
 };
 
-/// The trigger on the screen: its level and its moment, and a drag of either.
+/// The trigger's level and moment on the screen, and the drag of either.
 class ScopeTrigger {
 public:
-    /// Empty: no level is shown.
+    /// The lane whose level is shown; empty: no level is shown.
     [[nodiscard]] const QString& lane() const noexcept { return lane_; }
     /// The level, in the lane's unit.
     [[nodiscard]] double level() const noexcept { return level_; }
     /// The level follows the command and cannot be dragged.
     [[nodiscard]] bool held() const noexcept { return held_; }
-    /// Where the moment was dragged to, in seconds on the axis.
+    /// The moment to which the user dragged the trigger, in seconds on the axis.
     [[nodiscard]] const std::optional<double>& moment_s() const noexcept { return moment_s_; }
-    /// The text shown while it is dragged.
+    /// The text shown during a drag.
     [[nodiscard]] const QString& text() const noexcept { return text_; }
 
-    /// Returns whether anything is another. A level that is being dragged stays: the hand on it knows better.
+    /// Returns true if anything changed. A level that the user is dragging is not changed.
     bool set(const QString& lane, double level, bool held);
-    /// The share of the record before the trigger; nothing: the record cannot be set.
+    /// Sets the share of the record before the trigger; nothing: this share cannot be set.
     void setFraction(std::optional<double> fraction) { fraction_ = fraction; }
-    /// False where it cannot be dragged; this holds below, too.
+    /// Drags the level. Returns false if the level cannot be dragged; dragMoment() does the same.
     bool dragLevel(double height, const LaneScale& scale, const QString& unit);
     bool dragMoment(double time_s, double length_s);
     void forgetMoment() { moment_s_.reset(); }
-    /// Ends a drag. Returns the fraction that was chosen by it.
+    /// Ends a drag. Returns the fraction that the user chose.
     std::optional<double> drop(double length_s);
 
 private:

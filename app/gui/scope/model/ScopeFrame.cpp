@@ -9,13 +9,13 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr double kRollPerDivision_s = 1;  ///< at least
+constexpr double kRollPerDivision_s = 1;  ///< shortest time base in roll mode
 
 }  // namespace
 
 double ScopeFrame::rollLeft(const Scene& scene, double perDivision_s) {
     const double left = onGrid(scene.shown->end_s() - perDivision_s * kDivisionsAcross, perDivision_s);
-    return std::max(left, std::min(0.0, scene.shown->capture->start_s));  // before a session there are no times
+    return std::max(left, std::min(0.0, scene.shown->capture->start_s));  // nothing exists before the session starts
 }
 
 void ScopeFrame::begin(const Scene& scene) {
@@ -137,7 +137,7 @@ void ScopeFrame::fit(const Scene& scene) {
     auto next = view_;
     framePulse(scene, next);
     scene.lanes.fit(*scene.shown, next);
-    constexpr double kSame = 0.08;  // a pulse that jitters is still the same
+    constexpr double kSame = 0.08;  // a pulse counts as unchanged despite some jitter
     const bool again = timeView_ == TimeView::Pulse && next.lanes == view_.lanes &&
                        std::abs(next.perDivision_s / view_.perDivision_s - 1) < kSame;
     if (again) fitTime(scene, next);
@@ -165,7 +165,7 @@ bool ScopeFrame::undo(const Scene& scene) {
     if (!before) return false;
     untouched_ = false;
     auto next = *before;
-    next.lanes.insert(view_.lanes.begin(), view_.lanes.end());  // lanes that came since keep their scale
+    next.lanes.insert(view_.lanes.begin(), view_.lanes.end());  // lanes that were added later keep their scale
     become(scene, next);
     return true;
 }

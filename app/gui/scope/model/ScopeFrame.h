@@ -1,5 +1,5 @@
-// ScopeFrame.h - which part of time and levels the oscilloscope's screen shows, and why: the whole record, a pulse, or
-// what the user chose. It follows the captures accordingly and knows the way back from a zoom.
+// ScopeFrame.h - which part of time and levels is on the oscilloscope's screen: the whole record, one pulse, or the
+// part that the user chose. The view follows new captures, and a zoom can be undone.
 //
 // Thread-safety: none; one owner, ScopeModel.
 #pragma once
@@ -13,47 +13,47 @@ namespace tacto::gui {
 
 class ScopeFrame {
 public:
-    /// Everything that can be shown; for the length of a call.
+    /// All that can be shown; valid only during a call.
     struct Scene {
         const ShownPtr& shown;  ///< may be null
         const std::deque<ShownPtr>& older;
         const ScopeLanes& lanes;
-        const QString& active;  ///< the lane whose pulse is framed
+        const QString& active;  ///< the lane whose pulse fills the screen
         bool roll = false;
     };
 
     [[nodiscard]] const Viewport& view() const noexcept { return view_; }
-    /// In roll mode the newest capture ends the screen; this is where the screen begins then. There must be a capture.
+    /// In roll mode the screen ends with the newest capture. Returns the time at its left edge. Needs a capture.
     [[nodiscard]] static double rollLeft(const Scene& scene, double perDivision_s);
 
-    /// The first capture of its kind: fitted, then shown as it was chosen for the bench.
+    /// Shows the first capture of its kind: fitted, or for the bench in the view that the user chose.
     void begin(const Scene& scene);
-    /// One more capture after `before`: a view of the whole record keeps showing the whole record when its length or
-    /// pre-trigger changes, a view of a pulse keeps showing the pulse when its width or place changes.
+    /// Follows a capture that comes after `before`: a view of the whole record still shows the whole record after its
+    /// length or pre-trigger changed; a view of a pulse still shows the pulse after its width or place changed.
     void follow(const Scene& scene, const ShownCapture& before);
-    /// A new lane begins with a scale of its own that shows it; what is there keeps its place.
+    /// Gives each new lane a scale that shows all of its signal; the other lanes do not move.
     void addLanes(const Scene& scene);
-    void changeMode(const Scene& scene);  ///< changes to roll mode, or back
+    void changeMode(const Scene& scene);  ///< enters or leaves roll mode
     void forgetHistory() { history_ = {}; }
 
-    /// The pulse nearest to the trigger in the middle third, every lane as large as it can be; asked again, the whole
-    /// record. Without a measured pulse always the whole. There must be a capture.
+    /// Shows the pulse nearest to the trigger in the middle third, with every lane as large as possible. A second call
+    /// shows the whole record, as does a call without a measured pulse. Needs a capture.
     void fit(const Scene& scene);
-    /// Time alone, if it is the whole record that is shown. Returns whether it did.
+    /// Frames the first pulse in time only, if the whole record is shown. Returns true if it did.
     bool frameFirstPulse(const Scene& scene);
 
-    /// Becomes the view, after remembering the present one under `kind`. Returns whether it is another.
+    /// Changes the view and keeps the old one for undo() under `kind`. Returns true if the view changed.
     bool go(const Scene& scene, const Viewport& next, const QString& kind);
-    /// Changes the view without remembering it.
+    /// Changes the view without an entry for undo().
     void become(const Scene& scene, const Viewport& next);
     void remember() { history_.remember(view_, {}); }
     bool undo(const Scene& scene);
     [[nodiscard]] bool canUndo() const noexcept { return !history_.empty(); }
 
-    /// The view for the bench's first capture, instead of a fitted one.
+    /// Sets the view for the bench's first capture, which is then not fitted.
     void setChosen(ChosenView chosen) { chosen_ = std::move(chosen); }
     [[nodiscard]] ChosenView chosen(const Scene& scene) const;
-    /// Another source comes: the bench's view is kept until it is back.
+    /// Keeps the view of the bench's captures while another source is shown.
     void keepChosen(const Scene& scene) { chosen_ = chosen(scene); }
 
 private:
@@ -67,10 +67,10 @@ private:
     Viewport view_;
     ChosenView chosen_;
     ViewHistory history_;
-    /// The part of time that the next captures show.
+    /// The part of the time axis that the next captures show.
     enum class TimeView { Whole, Pulse, Chosen };
     TimeView timeView_ = TimeView::Whole;
-    bool untouched_ = true;  ///< the scales are a fit and were not changed: they grow with the signal
+    bool untouched_ = true;  ///< the user has not changed the fitted scales: they grow with the signal
 };
 
 }  // namespace tacto::gui

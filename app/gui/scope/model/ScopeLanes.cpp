@@ -8,12 +8,12 @@ namespace tacto::gui {
 
 namespace {
 
-/// The trace on the axis whose 0 is the trigger.
+/// Places a trace on the axis on which the trigger is 0.
 TraceSpan fromTrigger(const TracePtr& trace) { return {trace, trace ? trace->start_s - trace->zero_s : 0}; }
 
-constexpr double kPairZero = 1.5;  // divisions
+constexpr double kPairZero = 1.5;  // divisions between the middle and each zero of a pair
 
-/// The shown range of its quantity; nothing for a reference, and where the capture lacks it.
+/// Returns the range of values to show; nothing for a reference or if the capture lacks this lane.
 std::optional<std::pair<double, double>> rangeOf(const ScopeLane& lane, const ShownCapture& newest) {
     const auto trace = lane.reference() ? nullptr : newest.trace(lane.key);
     if (!trace) return std::nullopt;
@@ -23,7 +23,7 @@ std::optional<std::pair<double, double>> rangeOf(const ScopeLane& lane, const Sh
     all.high = std::max(all.high, whole.high);
     double low = all.empty() ? 0 : static_cast<double>(all.low);
     double high = all.empty() ? 0 : static_cast<double>(all.high);
-    // A flat line is not blown up to its last bit.
+    // A flat line is not magnified until its smallest steps fill the screen.
     const double least = trace->low < trace->high ? (trace->high - trace->low) / 60
                          : low == high            ? std::max(1e-3, std::abs(low))
                                                   : 0;
@@ -160,7 +160,7 @@ void ScopeLanes::fit(const ShownCapture& newest, Viewport& view) const {
         std::count_if(lanes_.begin(), lanes_.end(), [](const ScopeLane& l) { return !l.reference() && l.shown; });
     const auto count = static_cast<double>(std::max<std::ptrdiff_t>(1, visible));
     const double room = kDivisionsUp / count;
-    // Zeros of two lanes stand 1.5 divisions above and below the middle, on lines of the grid.
+    // The zeros of two lanes stand 1.5 divisions above and below the middle.
     const bool pair = visible == 2 && std::all_of(lanes_.begin(), lanes_.end(), [&](const ScopeLane& lane) {
                           const auto range = lane.shown ? rangeOf(lane, newest) : std::nullopt;
                           return !range || (range->first <= 0 && range->second >= 0);
@@ -175,11 +175,11 @@ void ScopeLanes::fit(const ShownCapture& newest, Viewport& view) const {
             view.lanes[lane.key] = aroundZero(low, high, place++ == 0 ? kPairZero : -kPairZero);
             continue;
         }
-        // A hidden lane takes no room, but it must stand somewhere when it is shown: in the middle.
+        // A hidden lane needs no room. Its zero is set to the middle, for when it is shown.
         const double middle = lane.shown ? kHalfUp - (place++ + 0.5) * room : 0;
-        // Lanes may touch: half a division more would often halve them.
+        // Lanes may overlap a little: otherwise half a division would often halve their scale.
         auto scale = restingLevels(low, high, middle, room * (count > 1 ? 1.08 : 0.95));
-        // Zeros are whole divisions apart where they fit so: then the lines of the grid are round for every lane.
+        // If possible, zeros are whole divisions apart: the grid lines then have round values in every lane.
         if (first) {
             const double apart = *first + std::round(scale.position - *first);
             const auto fits = [&](double level) { return std::abs(level / scale.perDivision + apart) < kHalfUp; };

@@ -1,5 +1,5 @@
-// ScopeLanes.h - the oscilloscope's lanes: the channels of the captures, what is calculated from them, and stored
-// references; which records each one shows, and the scales that show them whole.
+// ScopeLanes.h - the oscilloscope's lanes: channels of the captures, curves calculated from them, and stored
+// references; the records each lane shows, and the scales that fit them to the screen.
 //
 // Thread-safety: one owner.
 #pragma once
@@ -17,49 +17,49 @@ struct ScopeLane {
     QString title;
     QString letter;  ///< the letter on its handle
     QString unit;
-    QString follows;  ///< the lane that a reference was stored from; it is drawn with that lane's scale
+    QString follows;  ///< for a reference: the lane it was stored from, and with whose scale it is drawn
     TracePtr stored;  ///< a reference's trace
     bool shown = true;
     std::vector<TraceSpan> spans;   ///< oldest first
-    std::vector<TraceSpan> behind;  ///< the captures that persist, oldest first; no trace where a capture lacks it
+    std::vector<TraceSpan> behind;  ///< older captures that stay, oldest first; null trace if a capture lacks this lane
     [[nodiscard]] bool reference() const noexcept { return stored != nullptr; }
-    /// The lowest and the highest of what it shows, in its unit.
+    /// The lowest and the highest value shown, in the lane's unit.
     [[nodiscard]] Envelope envelope() const;
-    /// The lane whose scale it is drawn with.
+    /// The key of the lane with whose scale this lane is drawn.
     [[nodiscard]] const QString& scaleKey() const noexcept { return follows.isEmpty() ? key : follows; }
 };
 
 class ScopeLanes {
 public:
     [[nodiscard]] const std::vector<ScopeLane>& all() const noexcept { return lanes_; }
-    /// Null without one.
+    /// Returns null if there is no such lane.
     [[nodiscard]] ScopeLane* find(const QString& key);
     [[nodiscard]] const ScopeLane* find(const QString& key) const;
 
-    /// The lanes of this capture, and the references. Returns whether they are others than before.
+    /// Takes over the lanes of a capture, and keeps the references. Returns true if the lanes changed.
     bool take(const ShownCapture& shown);
-    /// None but the references.
+    /// Removes all lanes except the references.
     void clear();
-    /// Sets which records each lane shows. In roll mode they follow each other on the session's time; else the newest
-    /// stands alone, from its trigger, with the `persistence` before it behind.
+    /// Sets the records that each lane shows. In roll mode the records follow each other on the session's time.
+    /// Otherwise the newest record starts at its trigger, with `persistence` older records behind it.
     void fill(const ShownPtr& newest, const std::deque<ShownPtr>& older, bool roll, int persistence);
-    /// Adds a reference with the trace of `source`. Returns its key.
+    /// Adds a reference with the trace of lane `source`. Returns the reference's key.
     QString store(const QString& source, const Trace& trace);
     void remove(const QString& key);
 
-    /// The records at whose edges a cursor stops: the lane's own, or those of the first lane that has edges.
+    /// The records whose edges attract a cursor: those of this lane, or of the first lane that has edges.
     [[nodiscard]] const std::vector<TraceSpan>& edgesFor(const QString& key) const;
-    /// The lane whose trace comes nearest to `height` between two times, within `reach`; empty without one.
+    /// Returns the lane whose trace is nearest to `height` between two times; empty if none is within `reach`.
     [[nodiscard]] QString nearest(const Viewport& view, double from_s, double to_s, double height, double reach) const;
 
-    /// Scales with which every lane is as large as it can be, below each other.
+    /// Sets scales that show each lane as large as possible, the lanes one below the other.
     void fit(const ShownCapture& newest, Viewport& view) const;
-    /// Whether a lane leaves the screen.
+    /// True if a lane extends beyond the screen.
     [[nodiscard]] bool outgrow(const ShownCapture& newest, const Viewport& view) const;
 
 private:
     std::vector<ScopeLane> lanes_;
-    int stored_ = 0;  ///< references so far
+    int stored_ = 0;  ///< number of references stored so far
 };
 
 }  // namespace tacto::gui

@@ -308,7 +308,7 @@ bool ScopeModel::nudgeTimeCursor(double by_s) {
     const int which = cursors_.focused();
     const double at = (*cursors_.time_s())[static_cast<std::size_t>(which)] + by_s;
     cursors_.placeTime(which, at);
-    hovered_ = edgesAround(lanes_.edgesFor(active_), at);  // the edges under the mouse
+    hovered_ = edgesAround(lanes_.edgesFor(active_), at);  // the edges around this cursor, as if the mouse were there
     tellCursors();
     return true;
 }

@@ -1,8 +1,8 @@
-// ScopeModel.h - what the oscilloscope shows, without a widget: captures and their lanes, the part of them that is on
-// the screen and the way back from a zoom, cursors, and the trigger. ScopeScreen draws it, ScopeGestures changes it.
+// ScopeModel.h - the contents of the oscilloscope's screen, without a widget: captures and lanes, the visible part and
+// its undo steps, cursors, and the trigger. ScopeScreen draws the model, ScopeGestures changes it.
 //
-// Times are seconds on the screen's axis: from the trigger, in roll mode the session's. Heights are divisions above the
-// middle.
+// Times are seconds on the screen's axis, on which the trigger is 0; in roll mode they are the session's times. Heights
+// are divisions above the middle.
 #pragma once
 
 #include <QObject>
@@ -23,35 +23,35 @@ public:
     static constexpr int kMaxBehind = ShownCaptures::kMaxBehind;
     using QObject::QObject;
 
-    /// A copy of all of it as it is now; what is shown later does not change it.
+    /// Returns a copy of the present contents, which does not change later.
     [[nodiscard]] std::unique_ptr<ScopeModel> still() const;
 
-    /// The newest capture. The first one, and one with other channels, is fitted.
+    /// Shows the newest capture. Fits the view for the first capture and for one with other channels.
     void show(ShownPtr shown);
-    /// Shows nothing any longer, as before the first capture; references stay.
+    /// Shows nothing, as before the first capture; keeps the references.
     void clear();
-    /// Shows the same captures with other calculations.
+    /// Replaces the newest capture by the same capture with other calculations.
     void replaceMath(ShownPtr shown);
     [[nodiscard]] const ShownPtr& shown() const noexcept { return captures_.newest(); }
-    /// Captures before the newest that stay, faded.
+    /// Sets how many older captures stay on the screen, faded.
     void setPersistence(int captures);
-    /// Captures one after the other on the session's time.
+    /// Roll mode: shows captures one after the other on the session's time.
     void setRoll(bool roll);
     [[nodiscard]] bool roll() const noexcept { return captures_.roll(); }
-    /// What is shown is the last train of an output that is off: faint, until another capture comes.
+    /// True if the output is off and its last train is shown, faintly, until the next capture.
     [[nodiscard]] bool held() const { return held_ || coming(); }
     void setHeld(bool held);
-    /// The train that follows first from an armed output; nothing: none is known.
+    /// Sets the first train that an armed output will give; nothing if that train is unknown.
     void setComing(const std::optional<ComingTrain>& coming);
-    /// The coming train, drawn over the bench's last one, on the time from the trigger; nothing where that is hidden.
+    /// The coming train, drawn over the bench's last train on the time from the trigger; nothing if it is hidden.
     [[nodiscard]] std::optional<ComingTrain> coming() const;
-    /// Time 0 of the axis on the session's time base.
+    /// The session time at which the screen's axis is 0.
     [[nodiscard]] double zero_s() const noexcept { return roll() || !shown() ? 0 : shown()->zero_s; }
 
     [[nodiscard]] const std::vector<ScopeLane>& lanes() const noexcept { return lanes_.all(); }
-    /// Null without one; so for all that take a key.
+    /// Returns null if there is no such lane; other functions with a key then return nothing or do nothing.
     [[nodiscard]] const ScopeLane* lane(const QString& key) const { return lanes_.find(key); }
-    /// The first channel in this unit; empty without one.
+    /// The key of the first channel in this unit; empty if there is none.
     [[nodiscard]] QString channelIn(const QString& unit) const;
     [[nodiscard]] LaneScale scaleOf(const ScopeLane& lane) const { return viewport().scale(lane.scaleKey()); }
     [[nodiscard]] TracePtr trace(const QString& lane) const;
@@ -62,28 +62,28 @@ public:
     void setLaneShown(const QString& lane, bool shown);
     void setLaneScale(const QString& lane, double perDivision);
     void setLanePosition(const QString& lane, double position);
-    /// The active lane as it is now. Returns its key; empty where there is nothing to store.
+    /// Stores the active lane as a reference. Returns the reference's key; empty if there is nothing to store.
     QString storeReference();
     void removeReference(const QString& key);
 
     [[nodiscard]] const Viewport& viewport() const noexcept { return frame_.view(); }
-    /// The time that stays in place under another time base: the trigger; where that is not in view, the middle.
+    /// The time that does not move when the time base changes: the trigger if it is in view, else the middle.
     [[nodiscard]] double restingTime_s() const;
     void setTimePerDivision(double perDivision_s);
-    /// Below this the samples shown have no shape: a zoom and a time base end there.
+    /// The smallest useful time base: below it the samples show no shape.
     [[nodiscard]] double leastTimePerDivision_s() const;
     void setTimeCentre(double centre_s);
-    void fit();              ///< as ScopeFrame's
-    void frameFirstPulse();  ///< as ScopeFrame's
-    /// Steps above 0 show more. Steps with the same `kind` that follow at once are undone together.
+    void fit();              ///< see ScopeFrame::fit()
+    void frameFirstPulse();  ///< see ScopeFrame::frameFirstPulse()
+    /// Zooms out if `steps` is above 0. Steps with the same `kind` in quick succession are undone together.
     void zoomTime(int steps, double anchor_s, const QString& kind);
     void zoomLevel(int steps, double anchorHeight, const QString& kind);
     void zoomToBox(double from_s, double to_s, double bottom, double top);
     void pan(double time_s, double height, const QString& kind);
-    /// A drag that began with the view `from` has come so far.
+    /// Moves the view during a drag that began with the view `from`.
     void dragView(const Viewport& from, double time_s, double height);
     void dragLane(const Viewport& from, const QString& lane, double height);
-    /// The present view is one to go back to.
+    /// Adds the present view to the undo steps.
     void remember() { frame_.remember(); }
     bool undoZoom();
     [[nodiscard]] bool canUndo() const noexcept { return frame_.canUndo(); }
@@ -94,27 +94,27 @@ public:
     void setTimeCursors(bool on);
     void setLevelCursors(bool on);
     void focusCursor(int cursor);
-    /// Drags it to a time or height, or to an edge or level of rest nearer than `reach`.
+    /// Drags a cursor to a time or height. An edge or resting level nearer than `reach` attracts the cursor.
     void dragTimeCursor(int which, double time_s, double reach_s);
     void dragLevelCursor(int which, double height, double reach);
-    /// Moves the focused cursor, if it is one across time (level). Returns whether it is.
+    /// Moves the focused cursor if it is a time (or level) cursor. Returns true if it is.
     bool nudgeTimeCursor(double by_s);
     bool nudgeLevelCursor(double byHeight);
-    /// Jumps to the next edge: `direction` is 1 or -1.
+    /// Moves the focused time cursor to the next edge: `direction` is 1 or -1.
     bool jumpTimeCursor(double direction);
     [[nodiscard]] CursorReadout readout() const;
-    /// The values at the time cursors in each lane shown, references excluded; empty without time cursors.
+    /// The values of each visible lane at the time cursors, without references; empty without time cursors.
     [[nodiscard]] std::vector<CursorValue> cursorValues() const;
-    /// Reads width and interval at a moment, or nothing.
+    /// Reads width and interval around a moment; nothing: the mouse left the plot.
     void hover(std::optional<double> time_s);
     [[nodiscard]] const std::optional<EdgeReading>& hovered() const noexcept { return hovered_; }
 
-    /// Marks of the bench's session.
+    /// Marks of moments in the bench's session.
     void addMark(MomentMark mark);
     void clearMarks();
-    /// The marks that the axis reaches, with their time on it; none where a file is shown.
+    /// The marks within the axis, with their time on the axis; none if a file is shown.
     [[nodiscard]] std::vector<MomentMark> marksOnAxis() const;
-    /// ScopeMarks::beside() for the capture that is shown; empty in roll mode.
+    /// Returns ScopeMarks::beside() for the shown capture; empty in roll mode.
     [[nodiscard]] QString markBeside() const;
 
     [[nodiscard]] const ScopeTrigger& trigger() const noexcept { return trigger_; }
@@ -125,29 +125,29 @@ public:
     void dropTrigger();
 
 signals:
-    void tracesChanged();  ///< lanes or what they show; viewChanged() follows
-    void lanesChanged();   ///< the lanes are other ones, or are shown differently
+    void tracesChanged();  ///< the lanes or their contents changed; viewChanged() follows
+    void lanesChanged();   ///< there are other lanes, or lanes are shown differently
     void viewChanged();    ///< scales, positions, time
     void activeLaneChanged();
     void cursorsChanged();
     void heldChanged();
-    void overlayChanged();  ///< cursors, trigger or what is hovered over
+    void overlayChanged();  ///< cursors, the trigger or the edge reading under the mouse changed
     void triggerLevelChosen(double level);
     void preTriggerChosen(double fraction);
 
 private:
     [[nodiscard]] const ScopeLane* active() const { return lanes_.find(active_); }
-    [[nodiscard]] bool takeLanes();  ///< whether the lanes are other ones than before
+    [[nodiscard]] bool takeLanes();  ///< returns true if the lanes changed
     void chooseActive();
     void fillLanes();
-    /// False for a file, which has a time of its own.
+    /// False for a file, which has its own time base.
     [[nodiscard]] bool showsBench() const { return shown() && shown()->source.isEmpty(); }
     void tellTraces(bool lanesToo);
     [[nodiscard]] ScopeFrame::Scene scene() const {
         return {captures_.newest(), captures_.behind(), lanes_, active_, captures_.roll()};
     }
     void movedBy(Viewport& view, double time_s, double height) const;
-    /// Becomes the view, after remembering the present one under `kind`.
+    /// Changes the view and keeps the old one for undo under `kind`.
     void go(const Viewport& next, const QString& kind);
     void become(const Viewport& next);
     void tellCursors();

@@ -1,5 +1,5 @@
-// ShownCaptures.h - the newest capture on an oscilloscope's screen and those behind it: faded, or in roll mode one
-// after the other.
+// ShownCaptures.h - the newest capture on the oscilloscope's screen and the older ones behind it: faded, or one after
+// the other in roll mode.
 //
 // Thread-safety: one thread at a time.
 #pragma once
@@ -16,21 +16,21 @@ class ShownCaptures {
 public:
     static constexpr int kMaxBehind = 32;
 
-    /// Null before the first.
+    /// Null before the first capture.
     [[nodiscard]] const ShownPtr& newest() const noexcept { return newest_; }
-    /// Newest first, without the newest of all.
+    /// The older captures, newest first; excludes newest().
     [[nodiscard]] const std::deque<ShownPtr>& behind() const noexcept { return behind_; }
-    /// How many of these are drawn faded, at most kMaxBehind.
+    /// Number of older captures that are drawn faded, at most kMaxBehind.
     [[nodiscard]] int persistence() const noexcept { return persistence_; }
     void setPersistence(int captures);
     [[nodiscard]] bool roll() const noexcept { return roll_; }
-    /// Leaving roll mode, and entering it with nothing shown, drops what is too old.
+    /// Leaving roll mode, or entering it with nothing shown, drops captures that are too old.
     void setRoll(bool roll);
 
-    /// Whether `next` would follow the newest: both come from the bench. Anything else starts over.
+    /// True if both `next` and the newest capture come from the bench. Otherwise `next` starts over.
     [[nodiscard]] bool isFollowedBy(const ShownCapture& next) const;
     void show(ShownPtr next);
-    /// Replaces it by the same capture with other calculations.
+    /// Replaces the newest capture by the same capture with other calculations.
     void replaceNewest(ShownPtr same) { newest_ = std::move(same); }
     void clear();
 
@@ -43,7 +43,7 @@ private:
     bool roll_ = false;
 };
 
-/// A moment that the operator marked, on the session's time base.
+/// A moment marked by the operator, on the session's time base.
 struct MomentMark {
     double at_s = 0;
     QString word;
@@ -53,13 +53,13 @@ class ScopeMarks {
 public:
     static constexpr std::size_t kMaxKept = 1000;
 
-    /// The newest kMaxKept stay.
+    /// Adds a mark; only the newest kMaxKept marks stay.
     void add(MomentMark mark);
     void clear() { marks_.clear(); }
-    /// The marks between `left_s` and `right_s` on an axis whose 0 is `zero_s`, with their time on it.
+    /// The marks between `left_s` and `right_s` on an axis with its 0 at `zero_s`, with their times on that axis.
     [[nodiscard]] std::vector<MomentMark> between(double left_s, double right_s, double zero_s) const;
-    /// The newest mark as a note on `shown`, where no capture holds it: it came between `before`, the previous capture
-    /// (null: none), and this one, or after this one. Else empty.
+    /// Returns a note about the newest mark if no capture contains it: the mark came between `before` (the previous
+    /// capture, null: none) and `shown`, or after `shown`. Otherwise empty.
     [[nodiscard]] QString beside(const ShownCapture& shown, const ShownCapture* before) const;
 
 private:

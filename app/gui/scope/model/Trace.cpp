@@ -60,7 +60,7 @@ void takeEdges(const ChannelMeasurement& measured, Trace& trace) {
 TracePtr channelTrace(const std::shared_ptr<const Capture>& capture, std::size_t c, const ChannelMeasurement& measured,
                       double zero_s) {
     const auto& channel = capture->channels[c];
-    // The samples stay where they are: the pointer keeps the whole capture.
+    // The samples are not copied: the pointer keeps the whole capture alive.
     std::shared_ptr<const std::vector<float>> samples(capture, &channel.samples);
     auto trace = makeTrace(channelKey(channel.name), titleOf(channel.name), QString::fromStdString(channel.unit),
                            std::move(samples), capture->rate_hz, capture->start_s, zero_s);
@@ -74,7 +74,7 @@ TracePtr channelTrace(const std::shared_ptr<const Capture>& capture, std::size_t
 }  // namespace
 
 double Trace::valueAt(double t_s) const noexcept {
-    constexpr double kOnTheGrid = 1e-6;  // share of a sample: nearer than a time on a long session's base is known
+    constexpr double kOnTheGrid = 1e-6;  // share of a sample; times on a long session's base are less precise
     double at = (t_s - start_s) * rate_hz;
     if (const double nearest = std::round(at); std::abs(at - nearest) < kOnTheGrid) at = nearest;
     if (!(at >= 0) || !(at <= static_cast<double>(size()) - 1)) return kNotMeasured;
@@ -176,7 +176,7 @@ TracePtr chargeTrace(const Trace& amps) {
 TracePtr differenceTrace(const Trace& a, const Trace& b) {
     std::vector<float> difference(a.size(), kMissing);
     const auto last = static_cast<double>(b.size()) - 1;
-    // Two records with their own triggers are aligned by them: matching samples are equally far from the trigger.
+    // Two records with separate triggers are aligned at their triggers.
     const double offset = ((a.start_s - a.zero_s) - (b.start_s - b.zero_s)) * b.rate_hz;
     const double step = b.rate_hz / a.rate_hz;
     for (std::size_t i = 0; i < difference.size(); ++i) {
@@ -213,7 +213,7 @@ void addMath(std::vector<TracePtr>& traces, const MathOptions& math) {
 
 namespace {
 
-/// The edge with the smallest `distanceTo(edge)` below `reach`; `otherwise` without one.
+/// Returns the edge with the smallest `distanceTo(edge)` below `reach`, or `otherwise` if there is none.
 template <class Distance>
 double nearestEdge(const std::vector<TraceSpan>& spans, double otherwise, double reach, Distance distanceTo) {
     double best = otherwise;
@@ -278,7 +278,7 @@ std::optional<EdgeReading> edgesAround(const std::vector<TraceSpan>& spans, doub
         read.to_s = (inside ? phase.end_s : after->onset_s) + shift;
         read.text =
             (inside ? QObject::tr("Width %1") : QObject::tr("Rest %1")).arg(quantityText(read.to_s - read.from_s, "s"));
-        // The interval runs from the leading edge before the moment to the next leading edge.
+        // The interval runs from the last leading edge before the moment to the next leading edge.
         auto before = std::prev(after);
         while (before != edges.begin() && !before->leading) --before;
         const auto next = std::find_if(after, edges.end(), [](const PhaseEdges& e) { return e.leading; });

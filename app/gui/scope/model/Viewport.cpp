@@ -8,9 +8,9 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr double kShortest_s = 1e-9;  // a division
+constexpr double kShortest_s = 1e-9;  // seconds per division
 constexpr double kLongest_s = 1e4;
-constexpr double kFinest = 1e-12;  // a division, in V, A, W or C
+constexpr double kFinest = 1e-12;  // per division, in V, A, W or C
 constexpr double kCoarsest = 1e6;
 constexpr qint64 kOneTurn_ms = 700;
 constexpr std::size_t kRemembered = 100;
@@ -38,7 +38,7 @@ Viewport withTimeBase(Viewport view, double perDivision_s, double anchor_s) {
 }
 
 Viewport zoomedInTime(const Viewport& view, int steps, double anchor_s, double least_s) {
-    // A view that is narrower already, because the last record had more samples, is not widened by a zoom into it.
+    // If the view is already narrower, because the last record had more samples, zooming in does not widen it.
     const double shortest_s = std::max(kShortest_s, std::min(least_s, view.perDivision_s));
     return withTimeBase(view, stepWithin(stepAlong(view.perDivision_s, steps), shortest_s, kLongest_s), anchor_s);
 }
@@ -88,7 +88,7 @@ LaneScale fittingLevels(double low, double high, double middle, double height) {
 }
 
 LaneScale aroundZero(double low, double high, double position) {
-    constexpr double kEitherWay = 2.45;  // 2.5 less the noise on it
+    constexpr double kEitherWay = 2.45;  // divisions; 2.5 less some room for noise
     const double most = std::max({std::abs(low), std::abs(high), kFinest});
     return {stepWithin(stepNotBelow(most / kEitherWay), kFinest, kCoarsest), position};
 }
@@ -132,8 +132,8 @@ namespace {
 
 constexpr std::array<int, 3> kMantissas{1, 2, 5};
 
-/// Step number n: 0 is 1, 1 is 2, 2 is 5, 3 is 10, -1 is 0.5. Decades are powers of ten made exactly, so that a step
-/// is the same number however it is reached.
+/// Returns step number n: 0 is 1, 1 is 2, 2 is 5, 3 is 10, -1 is 0.5. Powers of ten are exact, so a step is always the
+/// same number, whichever way it was reached.
 double stepNumber(int n) {
     const int decade = n >= 0 ? n / 3 : -((2 - n) / 3);
     const auto mantissa = static_cast<double>(kMantissas[static_cast<std::size_t>(n - 3 * decade)]);

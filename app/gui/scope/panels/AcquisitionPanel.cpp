@@ -21,8 +21,8 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr double kUsualSamples = 20'000;  ///< the number of samples that Auto aims at in a short record
-constexpr double kUsualRate_hz = 500e3;   ///< rate in a long record: 100 samples in a phase of 200 µs
+constexpr double kUsualSamples = 20'000;  ///< samples per record that Auto aims at for a short record
+constexpr double kUsualRate_hz = 500e3;   ///< sample rate for a long record: 100 samples in a phase of 200 µs
 constexpr double kLowestRate_hz = 1000;
 constexpr double kLowestLevel = 1e-6;
 constexpr double kMaxVolts = 200;
@@ -154,7 +154,7 @@ void AcquisitionPanel::sourceChanged() {
 }
 
 void AcquisitionPanel::setLevel(double level) {
-    // Three digits: it follows what is commanded; a fourth would not be read.
+    // Rounded to three digits: the level follows the commanded amplitude, and nobody reads a fourth digit.
     const QSignalBlocker quiet(level_);
     level_->setValue(QString::number(level, 'g', 3).toDouble());
 }

@@ -1,6 +1,6 @@
-// AcquisitionPanel.h - what the next capture is to be: on what it triggers, how long it is, how fine, in which ranges.
+// AcquisitionPanel.h - settings of the next capture: trigger, length, sample rate and ranges.
 //
-// In Auto the level follows the commanded amplitude and is shown, not set.
+// In Auto the level follows the commanded amplitude; the panel shows the level, and the user cannot set it.
 #pragma once
 
 #include <QWidget>
@@ -22,19 +22,19 @@ class AcquisitionPanel final : public QWidget {
 public:
     explicit AcquisitionPanel(QWidget* parent = nullptr);
 
-    /// Settings of the oscilloscope that is open; without one the last stay.
+    /// Takes over what the open oscilloscope can do; without an oscilloscope the last traits stay.
     void setTraits(const ScopeTraits& traits);
-    /// The settings chosen here, within what the oscilloscope can do.
+    /// The settings chosen here, limited to what the oscilloscope can do.
     [[nodiscard]] ScopeSettings settings() const;
     [[nodiscard]] bool triggersOnCurrent() const;
-    /// V or A.
+    /// Sets the level in V or A.
     void setLevel(double level);
     void setPreTrigger(double fraction);
-    /// The level is not the user's now.
+    /// True: the user cannot set the level now.
     void setLevelHeld(bool held);
 
     void save(QSettings& settings) const;
-    /// Values that are missing or not possible stay as they are. Does not send changed().
+    /// Skips values that are missing or not possible. Does not send changed().
     void restore(const QSettings& settings);
 
 signals:
@@ -48,7 +48,7 @@ private:
     [[nodiscard]] double rate_hz() const;
 
     ScopeTraits traits_;
-    double wantedRate_hz_ = 0;  ///< chosen, though the oscilloscope that is open may not offer it; 0: automatic
+    double wantedRate_hz_ = 0;  ///< the rate the user chose, even if the open oscilloscope lacks it; 0: automatic
     QComboBox* source_;
     QuantitySpin* level_;
     QSpinBox* preTrigger_;

@@ -21,7 +21,7 @@ namespace tacto::gui {
 
 namespace {
 
-/// Steps from a thousandth to a thousandfold of the present one's decade would be too many to choose from.
+/// Offers only the scales within three decades of the present one; the whole ladder would be too long.
 void offerScales(QComboBox& box, double now, const QString& unit) {
     const QSignalBlocker quiet(&box);
     if (box.findData(now) < 0) {
@@ -56,7 +56,7 @@ LanePanel::LanePanel(ScopeModel& model, ScopeScreen& screen, QWidget* parent)
 
 void LanePanel::build() {
     const auto& lanes = model_.lanes();
-    // The same lanes in other colours need no new widgets (and keep the focus).
+    // If only the colours changed, the widgets stay, and so does the focus.
     const bool same = lanes.size() == rows_.size() && std::all_of(lanes.begin(), lanes.end(), [&](const ScopeLane& l) {
                           return rows_.contains(l.key);
                       });
@@ -68,7 +68,7 @@ void LanePanel::build() {
         rows_.clear();
         int row = 0;
         for (const auto& l : lanes) addRow(l, row++);
-        // The widgets are made late, but the tab key must find them between the screen and the button below them.
+        // These widgets are made late; in the tab order they belong between the screen and the button below them.
         QWidget* before = &screen_;
         for (const auto& l : lanes) {
             const auto& its = rows_[l.key];

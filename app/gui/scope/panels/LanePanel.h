@@ -1,4 +1,4 @@
-// LanePanel.h - a row per lane: which one is worked with, whether it shows, its scale and offset; and the references.
+// LanePanel.h - a row for each lane: whether it is active and shown, its scale and offset; and the references.
 #pragma once
 
 #include <QWidget>

@@ -19,7 +19,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr double kVolts = 2, kAmps = 2e-3, kTime_s = 5e-6;  // at a first start: a twentieth of 40 V and 40 mA
+constexpr double kVolts = 2, kAmps = 2e-3, kTime_s = 5e-6;  // half-widths at the first start: 5 % of 40 V and of 40 mA
 
 }  // namespace
 
@@ -102,7 +102,7 @@ void MaskPanel::remove() {
     resetCounts();
 }
 
-/// A new test with the same band: a capture that is on its way is judged by the old test, and not counted.
+/// Starts a new test with the same band: a capture that was still tested by the old test is not counted.
 void MaskPanel::resetCounts() {
     if (mask_) {
         mask_ = std::make_shared<const CaptureMask>(*mask_);
@@ -115,7 +115,7 @@ void MaskPanel::resetCounts() {
 }
 
 void MaskPanel::take(const ShownPtr& shown) {
-    if (!mask_ || !shown->mask || shown->judgedBy != mask_) return;  // the check was of the mask before this one
+    if (!mask_ || !shown->mask || shown->judgedBy != mask_) return;  // tested against an earlier mask
     counts_.add(*shown->mask);
     if (shown->mask->verdict == MaskVerdict::Outside && !first_) first_ = shown;
     if (shown->mask->verdict == MaskVerdict::NotJudged) whyNot_ = qtext(shown->mask->why);

@@ -1,8 +1,8 @@
-// MaskPanel.h - a test of captures against a mask: the band around what is shown, how many lie inside, and the first
-// that does not, which is kept.
+// MaskPanel.h - tests captures against a mask, which is a band around a reference capture; counts the captures inside,
+// and keeps the first one outside.
 //
-// A capture outside stays said, in words and on the screen, until the counts are reset. A mask judges and does nothing
-// else: it never controls the output.
+// A capture outside the mask is reported in words and on the screen until the counts are reset. A mask only judges
+// captures and never controls the output.
 #pragma once
 
 #include <QPushButton>
@@ -24,29 +24,29 @@ public:
 
     /// Null while captures are not tested.
     [[nodiscard]] const std::shared_ptr<const CaptureMask>& mask() const noexcept { return mask_; }
-    /// A band around this capture, which is tested against from now on. Says here what is wrong with it.
+    /// Makes a band around `reference` and tests captures against this band from now on. Shows any error on the panel.
     void make(const ShownPtr& reference);
     void remove();
-    /// A capture that was judged, or was not.
+    /// Counts a capture, whether it was judged or not.
     void take(const ShownPtr& shown);
     [[nodiscard]] const MaskCounts& counts() const noexcept { return counts_; }
     /// The first capture outside; null before there is one.
     [[nodiscard]] const ShownPtr& firstOutside() const noexcept { return first_; }
-    /// "Mask: 24 of 24 captures inside"; empty without a mask.
+    /// "Mask: 24 of 24 captures inside"; empty if there is no mask.
     [[nodiscard]] QString said() const;
-    /// The alarm over the traces after a capture outside; else empty.
+    /// The alarm text over the traces after a capture outside the mask; otherwise empty.
     [[nodiscard]] QString alarm() const;
     void canMake(bool can) { make_->setEnabled(can); }
 
     void save(QSettings& settings) const;
-    /// The half-widths; a mask itself is not kept.
+    /// Restores the half-widths; masks are not saved.
     void restore(const QSettings& settings);
 
 public slots:
     void resetCounts();
 
 signals:
-    /// The user asks for a mask around what is shown.
+    /// The user asks for a mask around the shown capture.
     void makeWanted();
     void maskChanged();
     void countsChanged();

@@ -13,10 +13,10 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kDecimals = 12;  // digits of the value that is held
-constexpr int kDigits = 4;     // significant digits of it that are shown
+constexpr int kDecimals = 12;  // decimals of the stored value
+constexpr int kDigits = 4;     // significant digits that are shown
 
-/// No user sets or reads a level to a millionth.
+/// Rounds a value to the digits that are shown.
 double asShown(double value) { return QString::number(value, 'g', kDigits).toDouble(); }
 
 }  // namespace
@@ -57,7 +57,7 @@ QString QuantitySpin::textFromValue(double value) const {
 }
 
 double QuantitySpin::valueFromText(const QString& text) const {
-    // The digits that are not shown stay until the user types others.
+    // The digits that are not shown stay until the user types another number.
     if (text == textFromValue(value())) return value();
     return parseQuantity(text, unit_).value_or(value());
 }
@@ -68,7 +68,7 @@ QValidator::State QuantitySpin::validate(QString& text, int&) const {
 }
 
 void QuantitySpin::stepBy(int steps) {
-    // A tenth of the number's own size, a round one.
+    // A round step of about a tenth of the number.
     const double size = std::abs(value()) > 1e-9 ? std::abs(value()) : maximum() / 100;
     const double step = stepNotBelow(size / 20);
     setValue(std::round(value() / step + steps) * step);
@@ -103,7 +103,7 @@ namespace {
 
 constexpr QChar kMinus(0x2212);
 
-/// The text as Qt reads it.
+/// The text with a hyphen as the minus sign, which Qt can read.
 QString hyphened(QString text) { return text.replace(kMinus, '-'); }
 
 }  // namespace

@@ -1,7 +1,7 @@
-// QuantitySpin.h - a number with its unit, as people write it: "2 V", "15 mA", "-1.5 ms".
+// QuantitySpin.h - an input field for a number with its unit, as people write them: "2 V", "15 mA", "-1.5 ms".
 //
-// The value is in the unit given (V, A, s); any prefix may be typed. Four significant digits are shown; the value keeps
-// what it has. Steps follow the size of the number.
+// The value is in the unit given (V, A, s); the user can type any prefix. Four significant digits are shown, but the
+// value keeps all its digits. Steps grow with the number.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@ class QString;
 
 namespace tacto::gui {
 
-/// "1.5 ms" in s is 0.0015; a number alone is in `unit`. Nothing when it is not a quantity of that unit.
+/// Returns 0.0015 for "1.5 ms" in s; a number without a unit is in `unit`. Nothing if the text is not in that unit.
 [[nodiscard]] std::optional<double> parseQuantity(const QString& text, const QString& unit);
 
 class QuantitySpin final : public QDoubleSpinBox {
@@ -32,9 +32,9 @@ private:
     QString unit_;
 };
 
-/// Into a box of scales: "20 V/div", with its value as data.
+/// Adds a scale such as "20 V/div" to a box, with its value as data.
 void addStep(QComboBox& box, double perDivision, const QString& unit);
-/// Chooses the present scale. One that is not a step of the ladder stands last, as long as it is the present one.
+/// Selects the present scale. If it is not a step of the ladder, the box lists it last until another scale is chosen.
 void showStep(QComboBox& box, double now, const QString& unit);
 
 /// A position in divisions of the screen, "−1.50 div"; typed with a hyphen or a minus sign.

@@ -11,12 +11,12 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr double kLevelShare = 0.2;          ///< share of the commanded amplitude, in Auto
-constexpr double kFollowFrom = 1.3;          ///< the level is moved only when it would change by more than this factor
-constexpr qint64 kFollowEvery_ms = 300;      ///< the least time between two requests: each gives up the one under way
-constexpr qint64 kNoTriggerAfter_ms = 1500;  ///< how long no trigger may come before that is said
+constexpr double kLevelShare = 0.2;          ///< trigger level in Auto, as a share of the commanded amplitude
+constexpr double kFollowFrom = 1.3;          ///< factor of change from which the level follows
+constexpr qint64 kFollowEvery_ms = 300;      ///< least time between two requests, because each cancels the one before
+constexpr qint64 kNoTriggerAfter_ms = 1500;  ///< time without a trigger until the user is told
 constexpr Seconds kFreeRunAfter{0.4};        ///< how long to wait without a trigger, while no train can be one
-constexpr double kFreeRunIntervals = 1.25;   ///< while trains come: over the longest interval between two of them
+constexpr double kFreeRunIntervals = 1.25;   ///< the same while trains come, in longest intervals between trains
 
 bool sameSettings(const ScopeSettings& a, const ScopeSettings& b) {
     return a.sampleRate == b.sampleRate && a.samples == b.samples && a.preTrigger == b.preTrigger &&
@@ -44,7 +44,7 @@ bool ScopeAcquisition::benchChanged(bool seen) {
         return true;
     }
     const bool over = failed_;
-    if (running_ || failed_) wanted_ = true;  // continues with the next bench
+    if (running_ || failed_) wanted_ = true;  // run again when the next bench opens
     failed_ = running_ = false;
     return over;
 }
@@ -83,18 +83,18 @@ void ScopeAcquisition::request() {
     emit requested();
 }
 
-/// In Auto (and Roll) there is a picture even without a trigger. While trains are delivered it waits for the slowest
-/// of them first: a picture that jumps between triggered and not is worse than a late one.
+/// In Auto (and Roll) there is a picture even without a trigger. While trains come, waits long enough for the slowest
+/// ones: a late picture is better than a picture that jumps between triggered and untriggered.
 std::optional<Seconds> ScopeAcquisition::untriggeredAfter() const {
     if (!levelFollows() || !controller_.open() || !controller_.open()->untriggered) return {};
     if (telemetry_.state != InterlockState::Delivering) return kFreeRunAfter;
     return kFreeRunIntervals * controller_.profile().encoding.intervalMax;
 }
 
-/// The bench and the output continue: they are only not seen any longer.
+/// Only the oscilloscope has stopped: bench and output continue unseen.
 void ScopeAcquisition::fail(const QString& why) {
     running_ = false;
-    wanted_ = false;  // asking again is no use before the user has looked at it
+    wanted_ = false;  // no new attempt before the user has seen the error
     failed_ = true;
     auto what = why;
     while (what.endsWith('.')) what.chop(1);
@@ -107,11 +107,11 @@ void ScopeAcquisition::fail(const QString& why) {
                           : tr("The output was off.")));
 }
 
-/// In Auto (and Roll) the level is a fifth of what is commanded: above the noise, below the pulse.
+/// In Auto (and Roll) the level is a fifth of the commanded amplitude: above the noise, below the top of the pulse.
 void ScopeAcquisition::followAmplitude() {
     if (!levelFollows()) return;
     double level = kLevelShare * telemetry_.amplitude_v;
-    // On the current channel the commanded voltage is of use only with the impedance.
+    // For the current channel the commanded voltage must be divided by the impedance.
     if (panel_.triggersOnCurrent()) level /= telemetry_.impedance_ohm;
     if (!std::isfinite(level) || !(level > 0)) return;
     const double now = requested_.triggerLevel;
@@ -199,7 +199,7 @@ bool ScopeFeed::begin(const std::filesystem::path& session) {
     if (!acquisition_.possible() || std::exchange(session_, session) == session) return false;
     framed_ = false;
     model_.clearMarks();
-    // A bench that has just been opened is looked at, not the file that was.
+    // The new bench replaces a file that was shown before.
     if (model_.shown() && !model_.shown()->source.isEmpty()) {
         model_.clear();
         acquisition_.wantAgain();
@@ -216,12 +216,12 @@ ScopeFeed::Taken ScopeFeed::take(const ShownPtr& shown) {
     }
     const bool anew = !ours || !model_.shown() || model_.shown()->source != shown->source;
     model_.show(shown);
-    // At first the record is seen whole; then the first train in it is shown.
+    // The first record is shown whole. The first triggered record is zoomed to its first train.
     if (ours && !shown->capture->untriggered && !std::exchange(framed_, true)) model_.frameFirstPulse();
     return anew ? Taken::ShownAnew : Taken::Shown;
 }
 
-/// The last train stays when the output is off: noise in its place would say nothing.
+/// If the output is off, the last train stays on the screen, as a record of noise would be of no use.
 bool ScopeFeed::staysBefore(const ShownCapture& next) const {
     const auto& last = model_.shown();
     return next.capture->untriggered && !model_.roll() && !acquisition_.delivering() && last &&

@@ -1,5 +1,5 @@
-// ScopeAcquisition.h - when the oscilloscope takes captures of the open bench, and with which trigger: the four modes,
-// run and hold. "Hold" keeps the picture and touches no output: only STOP does that.
+// ScopeAcquisition.h - decides when the oscilloscope takes captures of the open bench, and with which trigger: four
+// modes, run and hold. "Hold" freezes the picture and does not affect the output: only STOP does.
 #pragma once
 
 #include <QElapsedTimer>
@@ -15,8 +15,8 @@ namespace tacto::gui {
 class AcquisitionPanel;
 
 enum class ScopeMode {
-    Auto,    ///< the level follows the commanded amplitude; untriggered when no trigger comes
-    Normal,  ///< the level is the user's
+    Auto,    ///< the level follows the commanded amplitude; takes untriggered captures if no trigger comes
+    Normal,  ///< the user sets the level
     Single,  ///< take one capture, then hold
     Roll,    ///< captures one after the other on the session's time
 };
@@ -28,34 +28,34 @@ public:
     ScopeAcquisition(BenchController& controller, AcquisitionPanel& panel);
 
     [[nodiscard]] ScopeMode mode() const noexcept { return mode_; }
-    /// Does not begin to run.
+    /// Sets the mode without starting to run.
     void setMode(ScopeMode mode);
-    /// The level is not the user's to set.
+    /// True if the level follows the amplitude and the user cannot set it.
     [[nodiscard]] bool levelFollows() const noexcept { return mode_ == ScopeMode::Auto || mode_ == ScopeMode::Roll; }
-    /// Whether telemetry last said so: trains are on their way, also between two of them.
+    /// True if the latest telemetry says that trains are being delivered, also between two trains.
     [[nodiscard]] bool delivering() const noexcept { return telemetry_.state == InterlockState::Delivering; }
     [[nodiscard]] bool running() const noexcept { return running_; }
-    /// Whether a bench is open with an oscilloscope that no protocol uses.
+    /// True if a bench with an oscilloscope is open and no protocol uses the oscilloscope.
     [[nodiscard]] bool possible() const;
     void run();
     void hold();
-    /// Runs as soon as it may, as at first: what held it is over.
+    /// Runs again as soon as possible, because the reason for holding is gone.
     void wantAgain() { wanted_ = true; }
-    /// Runs if it should and somewhere the captures are seen. Returns whether an earlier failure is over.
+    /// Runs if wanted and if the captures are seen somewhere. Returns true if an earlier failure is over.
     bool benchChanged(bool seen);
     void settingsChanged();
     void refresh(const Telemetry& telemetry);
-    /// A capture of the bench was measured. False: it was under way when the picture was held, and is not shown.
+    /// Notes a measured capture of the bench. False: it was taken before the user pressed Hold, and must not be shown.
     bool take(const ShownCapture& shown);
     /// The settings of the running capture.
     [[nodiscard]] const ScopeSettings& requestedSettings() const noexcept { return requested_; }
-    /// Its state in a sentence, while `shown` is on the screen.
+    /// The state as a sentence, for the time while `shown` is on the screen.
     [[nodiscard]] QString statusText(const ShownCapture* shown, std::uint64_t skipped) const;
 
 signals:
-    /// The oscilloscope was set again: what it takes from now on does not follow on what it took.
+    /// The oscilloscope's settings changed: the next capture does not follow the previous one.
     void requested();
-    /// The oscilloscope failed; why, and what that means for the output.
+    /// The oscilloscope failed. `problem` says why, and what that means for the output.
     void stopped(const QString& problem);
 
 private:
@@ -69,9 +69,9 @@ private:
     BenchController& controller_;
     AcquisitionPanel& panel_;
     ScopeMode mode_ = ScopeMode::Auto;
-    bool wanted_ = true;  ///< runs as soon as there is a bench
+    bool wanted_ = true;  ///< runs as soon as a bench is open
     bool running_ = false;
-    bool failed_ = false;  ///< the oscilloscope stopped by itself; until the user lets it run again
+    bool failed_ = false;  ///< the oscilloscope stopped by itself and waits until the user runs it again
     Telemetry telemetry_;
     ScopeSettings requested_;
     std::optional<Seconds> requestedWait_;
@@ -80,27 +80,27 @@ private:
     int taken_ = 0;
 };
 
-/// Chooses the captures for the screen: the bench's, from the open session, or those of a file; and the bench's last
-/// train, which stays while the output is off.
+/// Chooses the captures for the screen: from the open bench's session or from a file. The bench's last train stays on
+/// the screen while the output is off.
 class ScopeFeed {
 public:
     enum class Taken {
-        Nothing,   ///< nobody asked for it any more
-        Held,      ///< the shown capture stays: this one would say nothing
-        Shown,     ///< one more of its source is shown
-        ShownAnew  ///< the first of another source: what was counted is over
+        Nothing,   ///< not shown: no longer wanted
+        Held,      ///< not shown: it has nothing new, and the present capture stays
+        Shown,     ///< shown as the next capture of the same source
+        ShownAnew  ///< shown as the first capture of another source: counts start again
     };
 
-    /// Both arguments outlive it.
+    /// Both arguments outlive this.
     ScopeFeed(ScopeModel& model, ScopeAcquisition& acquisition) : model_(model), acquisition_(acquisition) {}
 
-    /// The bench's session is `session`; empty: none is open. Returns whether captures of another one come from now on:
-    /// then marks, and a file that was looked at, are gone from the screen.
+    /// Sets the session of the open bench; empty: no bench is open. Returns true if the session is a new one: the marks
+    /// and a shown file are then removed from the screen.
     [[nodiscard]] bool begin(const std::filesystem::path& session);
     /// The session of the bench that was open last.
     [[nodiscard]] const std::filesystem::path& session() const noexcept { return session_; }
 
-    /// Shows it, unless it was not asked for or the last train stays. Its first train is framed.
+    /// Shows a capture, unless it is no longer wanted or the last train stays. Zooms to the first train.
     [[nodiscard]] Taken take(const ShownPtr& shown);
 
 private:
@@ -109,7 +109,7 @@ private:
     ScopeModel& model_;
     ScopeAcquisition& acquisition_;
     std::filesystem::path session_;
-    bool framed_ = false;  // the first train of it was
+    bool framed_ = false;  // the view was zoomed to the session's first train
 };
 
 }  // namespace tacto::gui

@@ -1,5 +1,5 @@
-// ScopeControls.h - the column beside the oscilloscope's screen: lanes, view, mask, trigger and record; what is chosen
-// in it is remembered.
+// ScopeControls.h - the column at the side of the oscilloscope's screen: lanes, view, mask, trigger and record. The
+// user's choices are kept in the settings.
 #pragma once
 
 #include <QScrollArea>
@@ -14,7 +14,7 @@ namespace tacto::gui {
 class ScopeControls final : public QScrollArea {
     Q_OBJECT
 public:
-    /// Model and screen outlive this.
+    /// `model` and `screen` outlive this.
     ScopeControls(ScopeModel& model, ScopeScreen& screen, QWidget* parent);
 
     [[nodiscard]] ViewPanel& view() const { return *view_; }
@@ -24,7 +24,7 @@ public:
     void save(QSettings& settings) const;
     void restore(const QSettings& settings);
 
-    /// Always as wide as what is in it.
+    /// The column is always as wide as its contents.
     [[nodiscard]] QSize sizeHint() const override;
     [[nodiscard]] QSize minimumSizeHint() const override { return {sizeHint().width(), fontMetrics().height() * 6}; }
 

@@ -1,5 +1,5 @@
-// ScopeStatus.h - the line over the oscilloscope's screen: what went wrong, how far a file is read, what was saved, or
-// how the oscilloscope stands; the first of them that there is.
+// ScopeStatus.h - the line above the oscilloscope's screen. Shows the first of these that applies: an error, the
+// progress of reading a file, what was saved, the state of the oscilloscope.
 #pragma once
 
 #include <QElapsedTimer>
@@ -17,22 +17,22 @@ class ScopeModel;
 class ScopeStatus final : public QWidget {
     Q_OBJECT
 public:
-    /// `model` outlives this: its lanes stand before the words.
+    /// `model` outlives this. Its lanes are listed in front of the text.
     ScopeStatus(const ScopeModel& model, QWidget* parent);
 
-    /// Sentences; empty for nothing. They stay until they are forgotten, and long enough to be read.
+    /// Sets both sentences; empty for none. They stay until forget() or forgetProblem() is called.
     void tell(const QString& done, const QString& problem);
     void tellProblem(const QString& problem) { tell(done_, problem); }
     void forgetProblem() { problem_.clear(); }
     [[nodiscard]] const QString& problem() const { return problem_; }
-    /// Does nothing in the first seconds.
+    /// Clears both sentences, unless tell() was called in the last few seconds.
     void forget();
-    /// `percentRead`: of the file that is being read. `standing`: how the oscilloscope stands.
+    /// `percentRead`: progress of the file being read. `standing`: the state of the oscilloscope.
     void show(std::optional<int> percentRead, const QString& standing);
     using QWidget::show;
 
 signals:
-    /// The file is to be read no further.
+    /// The user cancelled reading the file.
     void cancelClicked();
 
 private:

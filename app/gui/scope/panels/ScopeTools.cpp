@@ -59,7 +59,7 @@ constexpr ToolWords kControls{ScopeTool::Controls, WORDS("Controls"),
 
 #undef WORDS
 
-/// Opens anywhere on it; the arrow has a place of its own.
+/// A button that opens its menu wherever it is clicked; the arrow has its own space.
 QToolButton* menuTool(const QString& text, const QString& tip, QWidget* parent) {
     auto* button = makeTool(text, tip, {}, parent);
     button->setText(text);
@@ -100,8 +100,8 @@ ScopeTools::ScopeTools(QMenu* files, QWidget* parent)
     row->addWidget(&pictures_->copy());
     add(kControls);
     row->addWidget(&pictures_->plotOnly());
-    pictures_->plotOnly().raise();  // the last of them for Tab, which goes by this order (TabbedPage.h)
-    // Its icon and its tip say it where a word would put other tools away.
+    pictures_->plotOnly().raise();  // last in the tab order, which follows the order of the widgets (TabbedPage.h)
+    // Shows only icon and tip if the word would push other tools out of the row.
     onEvent(*this, QEvent::Resize, [this] {
         const bool worded = single_->toolButtonStyle() == Qt::ToolButtonTextBesideIcon;
         const int word = fontMetrics().horizontalAdvance(single_->text()) + 2 * fontMetrics().averageCharWidth();
@@ -133,7 +133,7 @@ void ScopeTools::addModes(ToolRow& row) {
            "between them was not recorded and is hatched."));
     base_ = menuTool(tr("Time base"), tr("How much time one of the ten divisions is."), this);
     bases_ = new QActionGroup(base_);
-    bases_->setExclusionPolicy(QActionGroup::ExclusionPolicy::ExclusiveOptional);  // a base may lie beyond the list
+    bases_->setExclusionPolicy(QActionGroup::ExclusionPolicy::ExclusiveOptional);  // the present base may not be listed
     connect(base_->menu(), &QMenu::aboutToShow, this, &ScopeTools::markTimeBase);
     for (const double step : stepsBetween(100e-9, 1)) {
         auto* action = base_->menu()->addAction(tr("%1/div").arg(settingText(step, "s")), this,
@@ -164,7 +164,7 @@ void ScopeTools::showTimeBase(double perDivision_s, double least_s) {
     base_s_ = stepNotBelow(perDivision_s);
     leastBase_s_ = least_s;
     markTimeBase();
-    // The step between two lines of the grid, which stand at round numbers.
+    // The step between two grid lines, which lie at round numbers.
     base_->setText(tr("%1/div").arg(settingText(base_s_, "s")));
     base_->setAccessibleName(tr("Time base tool"));
     base_->setMinimumWidth(base_->fontMetrics().horizontalAdvance("000 µs/div") + scaledPx(24));

@@ -20,12 +20,12 @@ enum class ScopeTool { Fit, Undo, Box, TimeCursors, LevelCursors, Average, Mask,
 class ScopeTools final : public QWidget {
     Q_OBJECT
 public:
-    /// `files` is the menu of the button that saves.
+    /// `files` is the menu of the Save button.
     ScopeTools(QMenu* files, QWidget* parent);
-    /// The owner decides what a click on these does.
+    /// The owner decides what a click on these buttons does.
     [[nodiscard]] QPushButton& run() const { return *run_; }
     [[nodiscard]] QToolButton& tool(ScopeTool which) const { return *tools_.at(which); }
-    /// Save opens `files`; what Copy and Plot only do is the owner's.
+    /// Save opens the menu `files`; the owner decides what Copy and "Plot only" do.
     [[nodiscard]] PictureTools& pictures() const { return *pictures_; }
     void showMode(ScopeMode mode);
     void showRunning(bool running, bool possible);

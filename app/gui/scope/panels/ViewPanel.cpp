@@ -62,7 +62,7 @@ ViewPanel::ViewPanel(ScopeModel& model, QWidget* parent)
     }
     say(difference_, tr("Difference"), tr("One channel minus another, or minus a stored reference of the same unit."));
     spectrum_->setToolTip(tr("The spectrum of what a lane shows on the screen, below it."));
-    // The box is no wider than its words: a click beside them is not meant for it.
+    // Each check box is only as wide as its text, so that a click next to the text does nothing.
     for (auto* box : {power_, charge_, spectrum_}) box->setSizePolicy(QSizePolicy::Maximum, QSizePolicy::Fixed);
     auto* form = layoutIn<QFormLayout>(*this, -1, {});
     form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
@@ -94,7 +94,7 @@ ViewPanel::ViewPanel(ScopeModel& model, QWidget* parent)
 
 void ViewPanel::follow() {
     const auto& v = model_.viewport();
-    showStep(*base_, stepNotBelow(v.perDivision_s), "s");  // as the grid and the tool have it
+    showStep(*base_, stepNotBelow(v.perDivision_s), "s");  // the step that the grid and the tool show
     const QSignalBlocker quiet(centre_);
     centre_->setValue(v.left_s + v.width_s() / 2);
 }
@@ -154,7 +154,7 @@ void ViewPanel::save(QSettings& settings) const {
     settings.setValue("math/power", power_->isChecked());
     settings.setValue("math/charge", charge_->isChecked());
     settings.setValue("spectrum", wantsSpectrum());
-    // A reference is not kept, nor is what is taken from it.
+    // References are not saved, so a difference with a reference is not saved either.
     auto difference = wantedDifference_.isEmpty() ? difference_->currentData().toStringList() : wantedDifference_;
     if (difference.size() != 2 || difference[1].startsWith("reference/")) difference.clear();
     settings.setValue("math/difference", difference);

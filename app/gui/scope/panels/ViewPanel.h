@@ -1,5 +1,5 @@
-// ViewPanel.h - time base and position, how many captures stay on the screen or are averaged, what is calculated, the
-// spectrum.
+// ViewPanel.h - settings of the view: time base and position, how many captures stay on the screen or are averaged,
+// calculated curves, and the spectrum.
 #pragma once
 
 #include <QWidget>
@@ -23,14 +23,14 @@ public:
     [[nodiscard]] MathOptions mathOptions() const;
     [[nodiscard]] bool wantsSpectrum() const;
     void setSpectrum(bool on);
-    /// Captures that are averaged; 1: none.
+    /// Number of captures that are averaged; 1: no averaging.
     [[nodiscard]] int average() const;
     void setAverage(int captures);
-    /// The number that was chosen last.
+    /// The number of captures that the user last chose to average.
     [[nodiscard]] int lastAverage() const noexcept { return lastAverage_; }
 
     void save(QSettings& settings) const;
-    /// Values that are missing or not possible stay as they are.
+    /// Skips values that are missing or not possible.
     void restore(const QSettings& settings);
 
 signals:
@@ -52,7 +52,7 @@ private:
     QComboBox* difference_;
     QCheckBox* spectrum_;
     int lastAverage_ = 16;
-    QStringList wantedDifference_;  ///< remembered, until there are lanes to take it of
+    QStringList wantedDifference_;  ///< saved choice, used once its lanes exist
 };
 
 }  // namespace tacto::gui

@@ -10,16 +10,16 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr double kMinPerPixel = 2;      ///< samples; below it the samples themselves are drawn
-constexpr double kDotsFrom = 4;         ///< pixels between samples
+constexpr double kMinPerPixel = 2;      ///< samples; with fewer the samples themselves are drawn
+constexpr double kDotsFrom = 4;         ///< least distance between samples with dots, in pixels
 constexpr int kBlock = 16;              ///< columns
-constexpr double kManyPixels = 60'000;  ///< pixels in verticals, from which on filling rows is quicker
+constexpr double kManyPixels = 60'000;  ///< pixels in vertical lines, above which filling rows is faster
 
 std::size_t indexAt(double at, std::size_t size) {
     return static_cast<std::size_t>(std::clamp(std::ceil(at), 0.0, static_cast<double>(size)));
 }
 
-/// The part of a line inside a rectangle (Liang and Barsky); false when there is none.
+/// Clips a line to a rectangle (Liang and Barsky); returns false if no part is inside.
 bool clipLine(QLineF& line, const QRectF& area) {
     double from = 0, to = 1;
     const double dx = line.dx(), dy = line.dy();
@@ -74,7 +74,7 @@ void EnvelopeGraph::draw(QCPPainter* painter) {
     clips_.clear();
     painter->setAntialiasing(false);
     QPen pen(mPen.color(), 1);
-    // At 200 % a pen of width one is two pixels wide, which Qt draws as polygons; doubled flat hairlines look the same.
+    // At 200 % a pen of width 1 has two pixels, which Qt draws as slow polygons; two flat hairlines look the same.
     if (screen.thickness > 1) pen.setCosmetic(true);
     if (painter->modes().testFlag(QCPPainter::pmVectorized)) pen.setWidthF(0.75);
     for (const auto& span : spans_) {
@@ -99,7 +99,7 @@ void EnvelopeGraph::addVertical(double x, double top, double bottom, const Scree
     const double y1 = std::round(std::max(top, area.top()) / screen.pixel) * screen.pixel;
     const double y2 = std::round(std::min(bottom, area.bottom()) / screen.pixel) * screen.pixel +
                       (screen.thickness - 1) * screen.pixel;
-    // A flat stretch is one line, not a point per column.
+    // A flat stretch becomes one line instead of a point per column.
     if (y1 == y2 && !lines_.isEmpty()) {
         auto& last = lines_.last();
         if (last.y1() == y1 && last.y2() == y1 && last.x2() + screen.pixel * 1.5 > x && last.x2() < x) {
@@ -114,7 +114,7 @@ void EnvelopeGraph::addVertical(double x, double top, double bottom, const Scree
 void EnvelopeGraph::fillTall(QCPPainter& painter, const Screen& screen) {
     const auto device = [&](double length) { return static_cast<int>(std::lround(length / screen.pixel)); };
     const int width = device(screen.area.width()) + 1, height = device(screen.area.height()) + 1;
-    // Whole blocks, so that the compiler can fill them as vectors.
+    // Uses whole blocks, so that the compiler can fill them with vector instructions.
     const int blocks = (width + kBlock - 1) / kBlock;
     if (canvas_.width() != blocks * kBlock || canvas_.height() != height) {
         canvas_ = QImage(blocks * kBlock, height, QImage::Format_ARGB32_Premultiplied);
@@ -124,7 +124,7 @@ void EnvelopeGraph::fillTall(QCPPainter& painter, const Screen& screen) {
     tops_.assign(columns, kNone);
     bottoms_.assign(columns, -1);
     int top = height, bottom = -1;
-    // Each column has one vertical in the image; flat lines, and lines that share a column, stay lines.
+    // The image holds one vertical per column. Flat lines, and further lines in the same column, are drawn as lines.
     lines_.removeIf([&](const QLineF& line) {
         const int x = device(line.x1() - screen.area.left());
         if (line.x1() != line.x2() || x < 0 || x >= width) return false;
@@ -144,7 +144,7 @@ void EnvelopeGraph::fillTall(QCPPainter& painter, const Screen& screen) {
         const auto* from = tops_.data();
         const auto* to = bottoms_.data();
         for (int block = 0; block < blocks; ++block, row += kBlock, from += kBlock, to += kBlock) {
-            std::array<QRgb, kBlock> pixels;  // a block of its own: nothing it could overlap with
+            std::array<QRgb, kBlock> pixels;  // a local block cannot overlap other memory
             for (std::size_t x = 0; x < kBlock; ++x) {
                 pixels[x] = (0U - static_cast<QRgb>((from[x] <= y) & (y <= to[x]))) & colour;
             }
@@ -179,7 +179,7 @@ void EnvelopeGraph::drawColumns(const TraceSpan& span, const Screen& screen) {
             if (from >= n) break;
             continue;
         }
-        // Begins at the last sample of the column before, so that an edge between two columns is drawn.
+        // Starts at the last sample of the previous column, so that an edge between two columns is drawn.
         const auto seen = trace.pyramid.over(from > 0 ? from - 1 : 0, to);
         const bool missing = seen.gap && trace.pyramid.over(from, to).gap;
         from = to;
@@ -254,7 +254,7 @@ void EnvelopeGraph::drawMarks(QCPPainter& painter, const Screen& screen) const {
     for (auto gap : gaps_) {
         gap.setTop(screen.area.top());
         gap.setBottom(screen.area.bottom());
-        // A hatch narrower than its lines would vanish, and with it the gap.
+        // A gap narrower than the hatch lines is filled, or it would be invisible.
         painter.fillRect(gap, gap.width() < 6 ? QBrush(quiet) : QBrush(quiet, Qt::BDiagPattern));
     }
     for (const auto& clip : clips_) {
@@ -293,7 +293,7 @@ void MaskGraph::draw(QCPPainter* painter) {
     };
     const auto size = static_cast<double>(low_->size());
     QPolygonF top, bottom;
-    // Joins what belongs together: a gap in the reference ends one piece and begins another.
+    // Closes the present piece of the band; a gap in the reference separates two pieces.
     const auto flush = [&] {
         if (top.size() > 1) {
             QPolygonF whole = top;

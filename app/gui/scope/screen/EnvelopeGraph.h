@@ -1,13 +1,12 @@
-// EnvelopeGraph.h - draws traces of any length in the time of a screenful: a vertical of one pixel per column from the
-// pyramid's extremes, the samples themselves as a line with dots where there are fewer than two to a pixel.
+// EnvelopeGraph.h - draws a trace of any length as fast as one screenful: for each pixel column a vertical line between
+// the extremes from the pyramid; with fewer than two samples per pixel the samples themselves, as a line with dots.
 //
-// Few pixels of verticals are one drawLines(). A screen full of them (noise) is filled row by row into an image
-// instead: Qt's verticals stride through memory and take 3 ms where that takes a third of one.
+// A few vertical lines are drawn with one drawLines(). A screen full of them (noise) is filled row by row into an
+// image: Qt needs 3 ms for such lines, because they jump through memory, and the image a third of 1 ms.
 //
-// The key axis is in seconds from a zero that each span is given; the value axis is in divisions: a sample x stands at
-// x / perDivision + position. Nothing is antialiased, no pen is wider than a pixel, and nothing is drawn outside the
-// axes (an SVG would show it). Missing samples are left open and hatched; samples at the ends of the input's range are
-// marked.
+// The key axis is in seconds from the zero of each span; the value axis is in divisions: a sample x is drawn at x /
+// perDivision + position. Nothing is antialiased, no pen is wider than a pixel, and nothing is drawn outside the axes
+// (an SVG would show it). Missing samples leave a hatched gap; samples at the limits of the input's range are marked.
 #pragma once
 
 #include <QImage>
@@ -19,8 +18,8 @@
 
 namespace tacto::gui {
 
-/// What is drawn of a channel in divisions: a sample x stands at x / perDivision + position. It takes no clicks, and
-/// the view, not what is drawn, says what the axes show.
+/// Base of everything drawn for a channel in divisions: a sample x is drawn at x / perDivision + position. Ignores
+/// clicks and does not influence the range of the axes, which the view sets.
 class ChannelPlottable : public QCPAbstractPlottable {
 public:
     ChannelPlottable(QCPAxis* keyAxis, QCPAxis* valueAxis) : QCPAbstractPlottable(keyAxis, valueAxis) {
@@ -50,11 +49,11 @@ public:
 
     void setSpans(std::vector<TraceSpan> spans) { spans_ = std::move(spans); }
     [[nodiscard]] const std::vector<TraceSpan>& spans() const noexcept { return spans_; }
-    /// Hatches gaps and marks clipping; off for what lies behind (older captures).
+    /// Hatches gaps and marks clipping; off for older captures in the background.
     void setMarked(bool marked) { marked_ = marked; }
     void setClipColour(const QColor& colour) { clipColour_ = colour; }
 
-    /// The gaps of the last drawing, for those who cannot see it: columns with missing and with clipped samples.
+    /// For tests: how many columns of the last drawing had missing samples, and how many had clipped samples.
     [[nodiscard]] int gapColumns() const noexcept { return gapColumns_; }
     [[nodiscard]] int clippedColumns() const noexcept { return clippedColumns_; }
     [[nodiscard]] bool drewSamples() const noexcept { return drewSamples_; }
@@ -64,7 +63,7 @@ protected:
     void drawLegendIcon(QCPPainter* painter, const QRectF& rect) const override;
 
 private:
-    /// Pixels of this drawing: value → y, key → x, in the painter's units; `pixel` is one of the device.
+    /// Conversion for this drawing: value to y and key to x in the painter's units; `pixel` is one pixel of the device.
     struct Screen {
         QRectF area;
         double pixel = 1;
@@ -84,9 +83,9 @@ private:
     std::vector<TraceSpan> spans_;
     bool marked_ = true;
     QColor clipColour_;
-    // Scratch of the drawing under way; members so that a frame allocates nothing.
+    // Buffers for the present drawing; they are members so that a frame allocates no memory.
     QVector<QLineF> lines_;
-    double tallPixels_ = 0;  ///< pixels of the device in verticals
+    double tallPixels_ = 0;  ///< pixels of the device in vertical lines
     std::vector<std::int32_t> tops_, bottoms_;
     QImage canvas_;
     std::vector<QRectF> gaps_;
@@ -97,13 +96,13 @@ private:
 };
 
 /// The band of a mask around one channel, behind its trace: filled, with dashed edges. Drawn from the extremes of each
-/// pixel column, so that a long record costs a screenful.
+/// pixel column, so that a long record takes no longer than a screenful.
 class MaskGraph final : public ChannelPlottable {
     Q_OBJECT
 public:
-    /// `channel` as the mask has it.
+    /// `channel` is the index in the mask.
     MaskGraph(QCPAxis* keyAxis, QCPAxis* valueAxis, const CaptureMask& mask, std::size_t channel);
-    /// The lane that it belongs to.
+    /// The key of the lane to which this band belongs.
     [[nodiscard]] const QString& lane() const noexcept { return lane_; }
     void setColours(const QColor& band, const QColor& edge) {
         band_ = band;

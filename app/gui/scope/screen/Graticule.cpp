@@ -18,7 +18,7 @@ double RoundTicker::stepOver(const QCPRange& range) const {
     return stepNotBelow(std::max(range.size() / divisions_, least_) * perCoordinate_);
 }
 
-/// Writes as many decimals as the step has, so that all numbers of a row end alike.
+/// Writes as many decimals as the step has, so that all numbers of an axis have the same decimals.
 QString RoundTicker::written(double quantity, double step) const {
     constexpr int kMaxDecimals = 15;
     const double shownStep = step * factor_;
@@ -51,7 +51,7 @@ void RoundTicker::generate(const QCPRange& range, const QLocale&, QChar, int, QV
     if (numbered_) {
         lowest = std::floor(numbered_->first / step);
         highest = std::ceil(numbered_->second / step);
-        if (lowest <= 0 && highest >= 0) {  // a line that rests at zero has a scale, too
+        if (lowest <= 0 && highest >= 0) {  // a flat line at zero also gets a scale
             lowest = std::min(lowest, -1.0);
             highest = std::max(highest, 1.0);
         }
@@ -71,7 +71,7 @@ RecordGround::RecordGround(QCPAxis* keyAxis) : QCPLayerable(keyAxis->parentPlot(
 
 void RecordGround::draw(QCPPainter* painter) {
     const QRectF area(keys_->axisRect()->rect());
-    if (records_.empty() || area.isEmpty()) return;  // empty: not laid out yet
+    if (records_.empty() || area.isEmpty()) return;  // an empty area was not laid out yet
     const auto range = keys_->range();
     const auto x = [&](double key) {
         return std::clamp(area.left() + (key - range.lower) / range.size() * area.width(), area.left(), area.right());

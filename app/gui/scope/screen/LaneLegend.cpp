@@ -16,7 +16,7 @@ QColor laneColour(const ScopeModel& model, const ScopeLane& lane) {
     if (lane.key == "math/difference") return c.text;
     if (lane.letter == "V" || lane.letter == "V1") return c.voltage;
     if (lane.letter == "I" || lane.letter == "I1") return c.current;
-    // Further channels of an unusual instrument: the palette's others, in the order they come.
+    // Other channels get the remaining colours of the palette, in order.
     const auto& all = model.lanes();
     const auto at = std::find_if(all.begin(), all.end(), [&](const ScopeLane& l) { return l.key == lane.key; });
     return conditionInTheme({}, static_cast<int>(at - all.begin())).color;

@@ -1,4 +1,4 @@
-// LaneLegend.h - the lanes of an oscilloscope by their colour: a line, the letter and what a division is.
+// LaneLegend.h - a legend of the oscilloscope's lanes: a line in each lane's colour, its letter and its scale.
 #pragma once
 
 #include <QLabel>
@@ -9,7 +9,7 @@ namespace tacto::gui {
 
 /// The colour in which a lane is drawn, in the current theme.
 [[nodiscard]] QColor laneColour(const ScopeModel& model, const ScopeLane& lane);
-/// The lane's colour for words and numbers: at least 4.5:1 on the screen's ground.
+/// The lane's colour for text: contrast of at least 4.5:1 on the screen's background.
 [[nodiscard]] QColor laneInk(const ScopeModel& model, const ScopeLane& lane);
 
 class LaneLegend final : public QLabel {

@@ -12,7 +12,7 @@ namespace tacto::gui {
 
 namespace {
 
-/// Time 0 is the train's leading edge; a little of the rest before and after it.
+/// Returns the outline of a train: time 0 is its leading edge, with a short rest before and after it.
 std::vector<QPointF> linesOf(const PulseTrain& train, double perVolt, const LaneScale& scale) {
     const double rest_s = 0.03 * train.pulseDuration().count();
     const double zero = scale.heightOf(0);
@@ -48,7 +48,7 @@ void fillDrawn(const ScopeModel& model, OverlayState& o) {
         for (int column = 0; column < kColumns; ++column) {
             const double from_s = view.left_s + column * column_s, to_s = from_s + column_s;
             if (to_s < span.key_s || from_s > span.key_s + span.length_s()) continue;
-            // Takes one more on either side: the line to it is drawn as well.
+            // Takes one more sample on each side, because the line to that sample is drawn as well.
             const auto its = trace.pyramid.over(sample(from_s), std::min(sample(to_s) + 2, trace.size()));
             if (its.empty()) continue;
             o.drawn.push_back({from_s, to_s, scale.heightOf(static_cast<double>(its.low)),
@@ -113,7 +113,7 @@ void fillCursors(const ScopeModel& model, OverlayState& o) {
             (o.levelTexts.empty() ? QObject::tr("y₁ %1") : QObject::tr("y₂ %1")).arg(levelText(level, active->unit)));
     }
     o.levelSpan = QObject::tr("Δ %1").arg(levelText(read.dy(), active->unit));
-    // The reading between the time cursors keeps clear of these lines, too.
+    // The text between the time cursors avoids these lines, too.
     const auto& view = model.viewport();
     for (const double height : o.levelCursors) o.drawn.push_back({view.left_s, view.right_s(), height, height});
 }
@@ -134,7 +134,7 @@ void fillTrigger(const ScopeModel& model, OverlayState& o) {
     if (o.trigger) o.trigger->text = trigger.text();
 }
 
-/// Unmeasured pulses of the active lane, or of the first.
+/// Fills in the unmeasured pulses of the active lane, or of the first lane.
 void fillMarks(const ScopeModel& model, OverlayState& o) {
     if (o.lanes.empty()) return;
     const auto marked = std::find_if(o.lanes.begin(), o.lanes.end(), [](const auto& lane) { return lane.active; });

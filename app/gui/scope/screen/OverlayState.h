@@ -1,6 +1,6 @@
-// OverlayState.h - what lies over the traces of an oscilloscope, as ScopeOverlay draws it.
+// OverlayState.h - everything that ScopeOverlay draws over the oscilloscope's traces.
 //
-// Thread-safety: a value.
+// Thread-safety: a plain value.
 #pragma once
 
 #include <QColor>
@@ -15,7 +15,7 @@
 
 namespace tacto::gui {
 
-/// Times in seconds on the key axis, heights in divisions above the middle.
+/// Times are in seconds on the key axis, heights in divisions above the middle.
 struct OverlayState {
     struct Lane {
         QString key;
@@ -23,27 +23,27 @@ struct OverlayState {
         QColor colour;
         double height = 0;
         bool active = false;
-        bool right = false;  ///< its handle stands at the right edge
+        bool right = false;  ///< its handle is at the right edge
     };
     struct Trigger {
-        std::optional<double> height;  ///< nothing: its channel is not shown
+        std::optional<double> height;  ///< nothing: the trigger's channel is hidden
         std::optional<double> moment_s;
         QColor colour;
         bool held = false;  ///< the level follows the command and cannot be dragged
-        QString text;       ///< the text shown while it is dragged
+        QString text;       ///< the text shown during a drag
     };
     struct Mark {
         double from_s = 0, to_s = 0;
         QString why;
         QColor colour;
     };
-    /// A stretch of a trace, from its lowest to its highest.
+    /// A piece of a trace between two times, with its lowest and highest height.
     struct Drawn {
         double from_s = 0, to_s = 0;
         double low = 0, high = 0;
     };
-    /// A cursor's reading; it stands where it hides least of the traces: outside the two cursors, unless there is much
-    /// more room between them.
+    /// The values at a time cursor. The flag stands where it hides least of the traces: outside the two cursors, or
+    /// between them if there is much more room.
     struct Flag {
         struct Row {
             QString letter;  ///< the lane's letter
@@ -54,7 +54,7 @@ struct OverlayState {
         QString position;  ///< "200.0 µs"
         std::vector<Row> rows;
     };
-    /// The next train, or the one that a hand would ask for, in one lane.
+    /// One lane's curve of the next train, or of the train that manual control would ask for.
     struct Coming {
         std::vector<QPointF> line;  ///< times and heights
         QString text;               ///< "next train 30.7 V" or "by hand: 30.7 V", over the first phase
@@ -65,13 +65,13 @@ struct OverlayState {
     std::optional<Trigger> trigger;
     std::vector<double> timeCursors_s;  ///< two or none
     std::vector<Flag> flags;            ///< the time cursors' flags
-    QString timeSpan;                   ///< between them
-    std::vector<Drawn> drawn;           ///< the lanes shown, with time cursors
-    std::vector<double> levelCursors;   ///< two or none, heights
+    QString timeSpan;                   ///< the time between the time cursors
+    std::vector<Drawn> drawn;           ///< pieces of the shown lanes; filled with time cursors only
+    std::vector<double> levelCursors;   ///< heights of the level cursors; two or none
     std::vector<QString> levelTexts;    ///< the level cursors' texts: "y₁ 40.0 V"
-    QString levelSpan;                  ///< between them
+    QString levelSpan;                  ///< the difference between the level cursors
     int focusedCursor = -1;             ///< 0, 1: time; 2, 3: level
-    std::optional<QRectF> box;          ///< pixels
+    std::optional<QRectF> box;          ///< the box of a zoom, in pixels
     std::optional<EdgeReading> hover;
     std::vector<Mark> marks;          ///< in time order
     std::vector<MomentMark> moments;  ///< marks on the time axis
@@ -79,7 +79,7 @@ struct OverlayState {
     QString alarm;                    ///< the message of a failed mask test, until it is acknowledged
 };
 
-/// All but what belongs to one screen: the box of a zoom, and an alarm. Uses the current theme.
+/// Returns everything except the zoom box and the alarm, which belong to one screen. Uses the current theme.
 [[nodiscard]] OverlayState overlayOf(const ScopeModel& model);
 
 }  // namespace tacto::gui

@@ -8,8 +8,8 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr double kStillAClick = 3;  ///< pixels
-constexpr double kSnap = 8;         ///< pixels
+constexpr double kStillAClick = 3;  ///< pixels; a shorter movement is a click
+constexpr double kSnap = 8;         ///< pixels within which a cursor snaps
 constexpr double kPick = 8;         ///< pixels above or below a trace
 
 Qt::CursorShape shapeFor(Grip grip, bool held) {
@@ -162,7 +162,7 @@ void ScopeGestures::dragGrip(const QPointF& pixel) {
 void ScopeGestures::turn(const QWheelEvent& event) {
     const auto turned = event.angleDelta().y() != 0 ? event.angleDelta().y() : event.angleDelta().x();
     if (turned == 0 || !model_.shown()) return;
-    const int steps = turned > 0 ? -1 : 1;  // dragging towards the picture shows less of it
+    const int steps = turned > 0 ? -1 : 1;  // turning the wheel forward zooms in
     if (event.modifiers().testFlag(Qt::ControlModifier)) {
         model_.zoomLevel(steps, screen_.heightAt(event.position().y()), "level wheel");
     } else if (event.modifiers().testFlag(Qt::ShiftModifier)) {

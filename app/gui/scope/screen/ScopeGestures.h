@@ -1,9 +1,9 @@
-// ScopeGestures.h - what mouse and keys on a ScopeScreen do to its ScopeModel.
+// ScopeGestures.h - turns mouse and key input on a ScopeScreen into changes of its ScopeModel.
 //
-// Mouse: the wheel zooms time, Ctrl+wheel the level of the active lane, Shift+wheel pans; dragging pans, Shift+drag (or
-// the box tool) zooms into a box, a double click fits, handles are dragged, a click on a trace makes its lane active.
-// Keys: arrows nudge the focused cursor, or pan without one; + and - zoom, Home fits, Ctrl+Z goes back, 1 to 4 focus a
-// cursor.
+// Mouse: the wheel zooms time, Ctrl+wheel the level of the active lane, Shift+wheel pans. Dragging pans, or moves a
+// handle; Shift+drag (or the box tool) zooms into a box; a double click fits; a click on a trace activates its lane.
+// Keys: arrows nudge the focused cursor, or pan if there is none; + and - zoom, Home fits, Ctrl+Z undoes a zoom, 1 to 4
+// focus a cursor.
 #pragma once
 
 #include <QObject>
@@ -18,7 +18,7 @@ class ScopeGestures final : public QObject {
 public:
     /// Both arguments outlive this.
     ScopeGestures(ScopeModel& model, ScopeScreen& screen);
-    /// The next drag draws a box that becomes the whole screen.
+    /// True: the next drag draws a box, to which the screen then zooms.
     void setBoxZoom(bool on);
 
 signals:
@@ -28,21 +28,21 @@ protected:
     bool eventFilter(QObject* watched, QEvent* event) override;
 
 private:
-    /// The effect of dragging with the mouse.
+    /// What a drag with the mouse does.
     enum class Drag { None, Undecided, Pan, Box, Grip };
 
     void press(const QMouseEvent& event);
     void move(const QPointF& pixel);
     void release(const QMouseEvent& event);
     void turn(const QWheelEvent& event);
-    /// Returns whether the key means something here.
+    /// Returns true if the key has a function here.
     [[nodiscard]] bool keyPressed(const QKeyEvent& event);
     void nudge(int key, Qt::KeyboardModifiers modifiers);
     void zoomByKey(int steps, bool level);
     void dragGrip(const QPointF& pixel);
     void endBox();
     void hover(const QPointF& pixel);
-    /// The lane whose letter is the overlay's number so-and-so; empty without one.
+    /// The key of the lane at whose handle the mouse button went down; empty if there is none.
     [[nodiscard]] QString gripLane() const;
 
     ScopeModel& model_;

@@ -10,7 +10,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr double kReach = 5;  ///< pixels beside a line within which it is taken hold of
+constexpr double kReach = 5;  ///< pixels around a line within which the mouse can grip it
 constexpr int kWordChars = 24;
 
 }  // namespace
@@ -27,7 +27,7 @@ Pennant ScopeOverlay::lanePennant(int lane) const {
     return plane_.pennant(its.right ? Qt::RightEdge : Qt::LeftEdge, plane_.y(its.height), its.letter);
 }
 
-/// The pennant stands at the trigger's level; further in where a lane's handle stands there.
+/// The pennant at the trigger's level. Moves inwards if a lane's handle is at the same place.
 Pennant ScopeOverlay::triggerPennant() const {
     auto its = plane_.pennant(Qt::RightEdge, plane_.y(*state.trigger->height), "T");
     for (int lane = 0; lane < static_cast<int>(state.lanes.size()); ++lane) {
@@ -43,7 +43,7 @@ Pennant ScopeOverlay::triggerPennant() const {
 
 Pennant ScopeOverlay::levelTag(int cursor) const {
     const auto i = static_cast<std::size_t>(cursor);
-    // Opposite the handle of their lane.
+    // On the side opposite the handle of the active lane.
     const bool left = std::any_of(state.lanes.begin(), state.lanes.end(),
                                   [](const OverlayState::Lane& lane) { return lane.active && lane.right; });
     return plane_.pennant(left ? Qt::LeftEdge : Qt::RightEdge, plane_.y(state.levelCursors[i]), state.levelTexts[i]);
@@ -53,7 +53,7 @@ GripAt ScopeOverlay::at(const QPointF& pixel) const {
     const auto a = plane_.area();
     if (!a.adjusted(-1, -1, 1, 1).contains(pixel)) return {};
     const auto within = [&](const Pennant& p) { return p.shape.boundingRect().adjusted(-2, -2, 2, 2).contains(pixel); };
-    // Marks first, then lines: what is drawn last is found first.
+    // Searches marks before lines, and what was drawn last first.
     const auto flags = TimeFlags(plane_, state).boxes();
     for (int c = static_cast<int>(flags.size()) - 1; c >= 0; --c) {
         if (flags[static_cast<std::size_t>(c)].contains(pixel)) return {Grip::TimeCursor, c};
@@ -156,7 +156,7 @@ void ScopeOverlay::drawMarks(QCPPainter& painter) const {
     const QFontMetricsF metrics(plane_.font());
     const double line = metrics.height();
     const double top = a.top() + line * 1.6;
-    double written = -1e9;  // where the last word ends: words that would lie on it are left out
+    double written = -1e9;  // where the last word ends: a word that would overlap it is left out
     double marked = -1e9;
     for (const auto& mark : state.marks) {
         const double from = std::max(plane_.x(mark.from_s), a.left());
@@ -175,7 +175,7 @@ void ScopeOverlay::drawMarks(QCPPainter& painter) const {
     }
 }
 
-/// They look as in the live plots: a dashed line, with the word at its top on a ground of ink.
+/// Draws the marks as in the live plots: a dashed line, with its word at the top on a dark background.
 void ScopeOverlay::drawMoments(QCPPainter& painter) const {
     const auto a = plane_.area();
     const auto& c = colours();
@@ -192,7 +192,7 @@ void ScopeOverlay::drawMoments(QCPPainter& painter) const {
     }
 }
 
-/// The notes stand in the corner, one below the other: the middle belongs to the signal, the edges to handles.
+/// The notes stand in a corner, one below the other: the signal needs the middle, and the handles need the edges.
 void ScopeOverlay::drawNotes(QCPPainter& painter) const {
     const QFontMetricsF metrics(plane_.font());
     const auto a = plane_.area();
@@ -204,7 +204,7 @@ void ScopeOverlay::drawNotes(QCPPainter& painter) const {
     }
 }
 
-/// Ink, as every verdict that is not passed: red is for STOP and faults.
+/// Uses the ink colour, like every verdict that is not a pass: red is for STOP and faults.
 void ScopeOverlay::drawAlarm(QCPPainter& painter) const {
     if (state.alarm.isEmpty()) return;
     const auto& c = colours();
@@ -242,7 +242,7 @@ constexpr double kComingWidth = 2;  // pixels
 
 QFont comingFont() { return textFont(TextSize::Small, QFont::DemiBold); }
 
-/// Where the words of the coming train stand, inside the plot.
+/// Returns the place of the coming train's text, inside the plot.
 QRectF wordsBox(const OverlayState::Coming& coming, const ScopePlane& plane) {
     const QFontMetricsF metrics(comingFont());
     const auto a = plane.area();
@@ -262,7 +262,7 @@ void ScopeOverlay::drawComing(QCPPainter& painter) const {
     for (const auto& coming : state.coming) {
         QPolygonF line;
         for (const auto& point : coming.line) {
-            // Qt draws no dashes of a line that goes a million pixels beyond its device.
+            // Clamped, because Qt draws no dashes on a line that reaches a million pixels beyond its device.
             line << QPointF(std::clamp(plane_.x(point.x()), a.left() - 4, a.right() + 4),
                             std::clamp(plane_.y(point.y()), a.top() - 4, a.bottom() + 4));
         }

@@ -1,9 +1,9 @@
-// ScopeOverlay.h - what lies over the traces of an oscilloscope and can be taken hold of: the lanes' zero marks,
-// trigger level and moment, cursors with what they read as flags; and what only shows: the zoom box, the width under
-// the mouse, pulses that were not measured, and what is said about the whole record.
+// ScopeOverlay.h - draws everything over the oscilloscope's traces. The mouse can grip the lanes' zero marks, the
+// trigger's level and moment, and the cursors with their flags. Only shown are the zoom box, the width under the mouse,
+// pulses that were not measured, and notes about the whole record.
 //
-// Draws on a layer of its own, so that moving a cursor does not draw the traces again. It knows nothing of captures:
-// the view fills in `state` and asks what lies under the mouse.
+// Draws on a separate layer, so that moving a cursor does not redraw the traces. Has no access to captures: the view
+// fills in `state` and asks what is under the mouse.
 #pragma once
 
 #include "app/gui/scope/screen/OverlayState.h"
@@ -15,7 +15,7 @@ enum class Grip { None, Lane, TriggerLevel, TriggerMoment, TimeCursor, LevelCurs
 
 struct GripAt {
     Grip grip = Grip::None;
-    int which = 0;  ///< lane or cursor
+    int which = 0;  ///< index of the lane or cursor
 };
 
 class ScopeOverlay final : public QCPLayerable {
@@ -35,7 +35,7 @@ private:
     [[nodiscard]] Pennant lanePennant(int lane) const;
     [[nodiscard]] Pennant triggerPennant() const;
     [[nodiscard]] Pennant levelTag(int cursor) const;
-    /// The train that comes next over the last one: dashed, with what it will be.
+    /// Draws the coming train over the last one: dashed, with its description.
     void drawComing(QCPPainter& painter) const;
     void drawLevelCursors(QCPPainter& painter) const;
     void drawTrigger(QCPPainter& painter) const;

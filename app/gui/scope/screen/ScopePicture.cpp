@@ -15,7 +15,7 @@ QDateTime takenAt(const ScopeModel& model) {
     return shown && shown->taken.isValid() ? shown->taken : QDateTime::currentDateTime();
 }
 
-/// The picture is drawn by a screen of its own: what is on the window's stays as it is.
+/// A second screen draws the picture, so that the window's screen does not change.
 Still pictured(const ScopeStill& still) {
     auto screen = std::make_shared<ScopeScreen>(*still.model);
     screen->setMask(still.mask);

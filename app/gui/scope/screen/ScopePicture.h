@@ -1,5 +1,5 @@
-// ScopePicture.h - what is on the oscilloscope's screen as a picture that says about itself what it shows: title, date,
-// devices, scales, readings, and that it is simulated.
+// ScopePicture.h - a picture of the oscilloscope's screen with a caption: title, date, devices, scales, readings, and
+// whether the data are simulated.
 #pragma once
 
 #include <QDateTime>
@@ -22,25 +22,25 @@ class ScopeScreen;
 /// "V 20 V/div".
 [[nodiscard]] QString laneScaleText(const ScopeModel& model, const ScopeLane& lane);
 
-/// "V 20 V/div · I 20 mA/div · 100 µs/div · 20000 samples at 2 MS/s · averaged 16": as the model has it.
+/// Describes the model: "V 20 V/div · I 20 mA/div · 100 µs/div · 20000 samples at 2 MS/s · averaged 16".
 [[nodiscard]] QString scalesText(const ScopeModel& model);
 
-/// Title, date, the devices of the bench or the file's name, scales, then `more`. `bench` may be null.
+/// Title, date, the bench's devices or the file's name, scales, then `more`. `bench` may be null.
 [[nodiscard]] PictureCaption captionOf(const ScopeModel& model, const SessionAbout* bench, const QStringList& more);
 
-/// The screen at a moment: it is saved as it was then, however long a dialog asks for the file's name.
+/// The screen at one moment, saved unchanged even if the user takes long to choose a file name.
 struct ScopeStill {
     std::shared_ptr<const ScopeModel> model;
     std::shared_ptr<const CaptureMask> mask;
     QString alarm;
     QSize size;  ///< the screen's size
     PictureCaption caption;
-    QDateTime taken;  ///< when the capture came from the bench, or when this was made from a file's
+    QDateTime taken;  ///< when the bench took the capture; for a file, when this copy was made
 };
 [[nodiscard]] ScopeStill stillOf(const ScopeModel& model, const ScopeScreen& screen, const PictureCaption& caption);
 
-/// Saves by the path's ending: .png (twice the screen's resolution), .svg or .pdf, as large as the screen and its
-/// caption. Returns one sentence that says what went wrong.
+/// Saves in the format of the path's ending: .png (twice the screen's resolution), .svg or .pdf; large enough for
+/// screen and caption. Returns an error as one sentence.
 [[nodiscard]] std::optional<QString> saveScopePicture(const ScopeStill& still, const QString& path);
 [[nodiscard]] QImage scopePicture(const ScopeStill& still);
 

@@ -1,12 +1,12 @@
-// ScopePlane.h - the plane of an oscilloscope's screen in pixels: where times and heights lie, and how lines, words and
-// pennants are drawn over the traces.
+// ScopePlane.h - converts times and heights on the oscilloscope's screen to pixels, and draws lines, words and pennants
+// over the traces.
 #pragma once
 
 #include <qcustomplot.h>
 
 namespace tacto::gui {
 
-/// A handle at an edge, its word in `box`.
+/// A handle at an edge, with its word inside `box`.
 struct Pennant {
     QRectF box;
     QPolygonF shape;
@@ -14,7 +14,7 @@ struct Pennant {
 
 class ScopePlane {
 public:
-    /// The axes outlive it: times in seconds, heights in divisions above the middle.
+    /// The axes outlive this; they are in seconds and in divisions above the middle.
     ScopePlane(QCPAxis* keyAxis, QCPAxis* valueAxis) : keys_(keyAxis), values_(valueAxis) {}
 
     [[nodiscard]] QRectF area() const;
@@ -22,15 +22,15 @@ public:
     [[nodiscard]] double y(double height) const;
     [[nodiscard]] QFont font() const;
 
-    /// Held inside the area, so that what is off the screen can be fetched back.
+    /// Kept inside the area, so that the user can drag it back from beyond the edge.
     [[nodiscard]] Pennant pennant(Qt::Edge edge, double along, const QString& text) const;
-    /// The box of a word, held inside the area from left to right.
+    /// The box of a word, moved left or right to stay inside the area.
     [[nodiscard]] QRectF tagBox(const QPointF& centre, const QString& text) const;
 
     void drawLine(QCPPainter& painter, const QLineF& line, const QColor& colour, Qt::PenStyle style) const;
     void drawPennant(QCPPainter& painter, const Pennant& pennant, const QString& text, const QColor& colour,
                      bool filled) const;
-    /// The ground below words over the traces.
+    /// The background colour of words over the traces.
     [[nodiscard]] static QColor ground();
     void drawTag(QCPPainter& painter, const QPointF& centre, const QString& text, const QColor& colour) const;
 

@@ -12,14 +12,14 @@ namespace tacto::gui {
 
 namespace {
 
-/// The shown range, in its unit.
+/// The range of values shown in the lane, in the lane's unit.
 std::optional<std::pair<double, double>> shownRange(const ScopeLane& lane) {
     const auto its = lane.envelope();
     if (its.empty()) return std::nullopt;
     return std::pair(static_cast<double>(its.low), static_cast<double>(its.high));
 }
 
-constexpr double kHeld = 0.55;  // so much of the ground is in a trace that is held
+constexpr double kHeld = 0.55;  // share of background colour in a held trace
 
 QColor mixed(const QColor& a, const QColor& b, double share) {
     const auto part = [share](int x, int y) { return static_cast<int>(std::lround(x + (y - x) * share)); };
@@ -35,7 +35,7 @@ ScopeScreen::ScopeScreen(const ScopeModel& model, QWidget* parent)
       leftTicker_(new RoundTicker(kDivisionsUp)),
       rightTicker_(new RoundTicker(kDivisionsUp)) {
     setAccessibleName(tr("Oscilloscope screen"));
-    // This is no tool tip: one would lie over the traces wherever the mouse rests.
+    // Not a tool tip, which would cover the traces wherever the mouse rests.
     setWhatsThis(
         tr("Wheel: time. Ctrl+wheel: level of the active lane. Drag: pan. Shift+drag: zoom into a box. Double "
            "click or Home: fit to the pulse, once more to the whole record. Ctrl+Z: back. Arrows: nudge the focused "
@@ -153,8 +153,8 @@ void ScopeScreen::restyle() {
     for (auto* axis : {xAxis, yAxis}) axis->grid()->setVisible(true);
     for (auto* axis : {xAxis2, yAxis2}) axis->grid()->setVisible(false);
     const QFontMetrics small(xAxis->tickLabelFont());
-    // Room for the numbers of every usual scale, so that the screen does not jump while they change; for longer ones
-    // it grows.
+    // Room for the numbers of all usual scales, so that the screen keeps its size when they change. Longer numbers make
+    // the margin wider.
     const int side = small.horizontalAdvance("−0000") + small.height() + 12;
     axisRect()->setMinimumMargins(QMargins(side, small.height() / 2 + 1, side, small.height() * 2 + 6));
     for (auto* band : bands_) band->setColours(c.passCell, c.passText);
@@ -215,12 +215,12 @@ void ScopeScreen::applyAxes() {
     xAxis->setRange(view.left_s, view.right_s());
     const auto time = axisUnit(view.width_s() / 2, "s");
     timeTicker_->setQuantity(0, 1, time.factor);
-    // Computed from the widget's size: the axes' own size is that of the last drawing.
+    // Computed from the widget's size, because the axes still have the size of the last drawing.
     const auto edges = axisRect()->minimumMargins();
     const QFontMetrics small(xAxis->tickLabelFont());
     const double perPixel = view.width_s() / std::max(1, width() - edges.left() - edges.right());
     timeTicker_->setLeast(0);
-    // A wider step has other numbers: twice is enough, they do not grow longer.
+    // A wider step changes the numbers. Two rounds are enough, because the numbers do not grow longer.
     for (int i = 0; i < 2; ++i) {
         timeTicker_->setLeast(small.horizontalAdvance(timeTicker_->widestIn(xAxis->range()) + "  ") * perPixel);
     }
@@ -231,7 +231,7 @@ void ScopeScreen::applyAxes() {
                      : shown && !std::isfinite(shown->capture->trigger_s) ? tr("Time from the record's begin (%1)")
                                                                           : tr("Time from the trigger (%1)"))
                         .arg(time.unit));
-    // Left: the first lane that is shown. Right: the active one, or the second.
+    // Left axis: the first lane shown. Right axis: the active lane, or the second one shown.
     const ScopeLane *left = nullptr, *right = nullptr;
     for (const auto& lane : model_.lanes()) {
         if (!lane.shown || lane.reference()) continue;

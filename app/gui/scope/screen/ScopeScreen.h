@@ -1,5 +1,5 @@
-// ScopeScreen.h - draws a ScopeModel on ten by eight divisions: traces, the numbers of the axes, and what lies over
-// them (ScopeOverlay).
+// ScopeScreen.h - draws a ScopeModel on ten by eight divisions: traces, numbers of the axes, and the overlay over the
+// traces (ScopeOverlay).
 #pragma once
 
 #include <qcustomplot.h>
@@ -24,17 +24,17 @@ public:
     [[nodiscard]] double divisionsPerPixel() const;
     [[nodiscard]] QRect area() const { return axisRect()->rect(); }
     [[nodiscard]] GripAt gripAt(const QPointF& pixel) const { return overlay_->at(pixel); }
-    /// The box that is being drawn for a zoom, in pixels.
+    /// Sets the zoom box that the user is drawing, in pixels.
     void setBox(const std::optional<QRectF>& box);
 
-    /// Stands in large letters over the traces; empty: nothing does.
+    /// Shows a text in large letters over the traces; empty: no text.
     void setAlarm(const QString& alarm);
     [[nodiscard]] const QString& alarm() const noexcept { return alarm_; }
-    /// Its bands lie behind the traces; null: there is none.
+    /// Shows the bands of a mask behind the traces; null: no mask.
     void setMask(const std::shared_ptr<const CaptureMask>& mask);
     [[nodiscard]] const std::shared_ptr<const CaptureMask>& mask() const noexcept { return mask_; }
 
-    /// Null without such a lane.
+    /// Returns null if there is no such lane.
     [[nodiscard]] const EnvelopeGraph* graph(const QString& lane) const;
     [[nodiscard]] const OverlayState& overlay() const { return overlay_->state; }
 

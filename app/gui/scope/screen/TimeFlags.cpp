@@ -13,9 +13,9 @@ namespace {
 constexpr int kFlagWidth = 136;
 constexpr double kFlagPadding = 8;
 constexpr double kArrow = 6;
-constexpr double kBesideTheBox = 4;  // pixels: what runs along its side is not hidden by it
+constexpr double kBesideTheBox = 4;  // pixels; traces this close to the side of the box are not hidden by it
 
-/// How much of `drawn` lies under `whole`, in square pixels.
+/// Returns how much of `drawn` the box `whole` would hide, in square pixels.
 double hiddenBy(const QRectF& whole, const std::vector<QRectF>& drawn) {
     const auto box = whole.adjusted(kBesideTheBox, 0, -kBesideTheBox, 0);
     double area = 0;
@@ -26,11 +26,11 @@ double hiddenBy(const QRectF& whole, const std::vector<QRectF>& drawn) {
     return area;
 }
 
-/// `box`, moved up or down inside `within` to where it lies over least of `drawn`: as near to where it stands as that
-/// allows, for a box that jumps cannot be read.
+/// Moves `box` up or down within `within` to where it hides least of `drawn`. Prefers places near the present one,
+/// because a box that jumps cannot be read.
 QRectF atClearHeight(const QRectF& box, const QRectF& within, const std::vector<QRectF>& drawn) {
     constexpr double kStep = 8;           // pixels
-    constexpr double kClearlyLess = 0.8;  // share of what is hidden now: noise moves no box
+    constexpr double kClearlyLess = 0.8;  // share of what is hidden now: noise must not move the box
     std::vector<QRectF> below;
     std::copy_if(drawn.begin(), drawn.end(), std::back_inserter(below),
                  [&](const QRectF& its) { return its.right() > box.left() && its.left() < box.right(); });
@@ -96,7 +96,7 @@ std::vector<QRectF> TimeFlags::boxes() const {
 }
 
 std::vector<QRectF> TimeFlags::drawnBoxes() const {
-    constexpr double kBeside = 3;  // pixels: a line that is touched is hidden
+    constexpr double kBeside = 3;  // pixels; a line that touches the box is hidden too
     std::vector<QRectF> boxes;
     boxes.reserve(state_.drawn.size() + 1);
     for (const auto& its : state_.drawn) {

@@ -1,5 +1,5 @@
-// TimeFlags.h - the two time cursors of an oscilloscope with what they read, as flags that stand where they hide least
-// of the traces.
+// TimeFlags.h - the flags with the values at the oscilloscope's two time cursors, placed where they hide least of the
+// traces.
 #pragma once
 
 #include <QRectF>
@@ -12,17 +12,17 @@ namespace tacto::gui {
 
 class TimeFlags {
 public:
-    /// Both arguments outlive it.
+    /// Both arguments outlive this.
     TimeFlags(const ScopePlane& plane, const OverlayState& state) : plane_(plane), state_(state) {}
 
-    /// The boxes in the order of the cursors; empty without them.
+    /// The boxes in the order of the cursors; empty if there are no cursors.
     [[nodiscard]] std::vector<QRectF> boxes() const;
     void draw(QCPPainter& painter) const;
 
 private:
     /// The pixels that the traces cover.
     [[nodiscard]] std::vector<QRectF> drawnBoxes() const;
-    /// Where the words between the time cursors stand.
+    /// The place of the text between the time cursors.
     [[nodiscard]] QRectF spanBox(const std::vector<QRectF>& drawn) const;
     [[nodiscard]] QSizeF sizeOf(const OverlayState::Flag& flag) const;
     void drawFlag(QCPPainter& painter, const QRectF& box, const OverlayState::Flag& flag, bool focused) const;
