@@ -23,7 +23,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr int kPollInterval_ms = 100;
-constexpr int kArmChars = 64;  // wide
+constexpr int kArmChars = 64;  // width in characters
 constexpr std::chrono::seconds kAnswerWithin =
     std::chrono::duration_cast<std::chrono::seconds>(Interlock::kConfirmWithin);
 
@@ -32,14 +32,14 @@ constexpr std::chrono::seconds kAnswerWithin =
 ArmDialog::ArmDialog(BenchController& controller, Purpose purpose, const QString& load, QWidget* parent)
     : QDialog(parent), controller_(controller), purpose_(purpose), asked_(controller.mark()) {
     const auto open = controller.open();
-    readsBack_ = !open || !open->source || open->source->readsBack;  // reads back, or there is nothing to read
+    readsBack_ = !open || !open->source || open->source->readsBack;  // without a device there is nothing to read back
     massager_ = open && !open->source;
     auto* layout = new QVBoxLayout(this);
     addPurpose(*layout);
     addLoad(*layout, load);
     addWhatIsArmed(*layout);
     auto* cancel = addButtons(*layout);
-    // A stop between the two steps voids the first, and so does waiting.
+    // The first step becomes void if a stop comes or the operator waits too long.
     auto* look = new QTimer(this);
     connect(look, &QTimer::timeout, this, [this] {
         if (controller_.stoppedSince(asked_)) return reject();
@@ -78,7 +78,7 @@ void ArmDialog::addPurpose(QVBoxLayout& layout) {
 void ArmDialog::addLoad(QVBoxLayout& layout, const QString& load) {
     auto* form = new QFormLayout;
     form->setHorizontalSpacing(12);
-    static const QRegularExpression close("(\\d)([kM]?ohm)");  // the form that addresses have: "1kohm"
+    static const QRegularExpression close("(\\d)([kM]?ohm)");  // a load in an address: "1kohm"
     load_ = new QLineEdit(withOhmSigns(QString(load).replace(close, "\\1 \\2")), this);
     load_->setPlaceholderText(tr("what is connected, such as 1 kΩ"));
     load_->setToolTip(tr("What is connected, such as “1 kΩ” or “200 Ω + 10 kΩ || 50 nF”."));
@@ -140,7 +140,7 @@ void ArmDialog::judge() {
     arm_->setEnabled(parsed && (readsBack_ || connected_->isChecked()));
 }
 
-/// The first train comes as no surprise.
+/// Says what the first train will be, so that it surprises nobody.
 void ArmDialog::sayFirst() {
     const auto source = controller_.telemetry().driving;
     QString text = tr("Drive is off: no train follows until you choose one.");
@@ -178,7 +178,7 @@ void ArmDialog::confirm() {
 
 namespace {
 
-/// The load of a simulated stimulator. Only the operator can tell what is connected to a real one.
+/// Returns the load of a simulated stimulator. For a real one, only the operator knows what is connected.
 QString knownLoad(const SessionAbout& about) {
     for (const auto& device : about.devices) {
         const auto uri = DeviceUri::parse(device.uri);

@@ -1,6 +1,6 @@
-// ArmDialog.h - the second step of arming, and of checking the impedance: what will be connected, what the limits will
-// be held against, the text that the operator confirms, and a button that is not the default one (hazards H6, H12). It
-// closes when a stop comes and after 30 s.
+// ArmDialog.h - the second step of arming or of checking the impedance. Shows what will be connected, the limits that
+// apply, and the text that the operator confirms; its button is not the default one (hazards H6, H12). Closes after a
+// stop, or after 30 s.
 #pragma once
 
 #include <QCheckBox>
@@ -21,7 +21,7 @@ class ArmDialog final : public QDialog {
 public:
     enum class Purpose { Arm, CheckImpedance };
     ArmDialog(BenchController& controller, Purpose purpose, const QString& load, QWidget* parent);
-    /// The declared load, as written.
+    /// The load that the operator declared, as typed.
     [[nodiscard]] QString load() const { return load_->text(); }
 
 private:
@@ -36,28 +36,28 @@ private:
     BenchController& controller_;
     const Purpose purpose_;
     const StopMark asked_;  // when the operator took the first step
-    std::string text_;      // the text of confirmed_
+    std::string text_;      // the plain text shown in confirmed_
     QLineEdit* load_;
     QLabel* confirmed_;
-    QLabel* first_;  ///< the first output once it is armed
+    QLabel* first_;  ///< says what the first output after arming will be
     QLabel* trouble_;
     QCheckBox* connected_;
     QPushButton* arm_;
     bool readsBack_ = true;
-    bool massager_ = false;  // has no load
+    bool massager_ = false;  // massagers have no load
 };
 
-/// Asks before the bench that is open is armed or its impedance is checked, and keeps the load that was
-/// declared last for the next time.
+/// Asks the operator before the open bench is armed or its impedance is checked. Keeps the last declared load for the
+/// next question.
 class ArmQuestion final : public QObject {
     Q_OBJECT
 public:
     ArmQuestion(BenchController& controller, QWidget& window);
-    /// The first of the two steps. With another bench or profile the question is void.
+    /// Asks, as the first of the two steps. Another bench or profile makes the question void.
     void ask(ArmDialog::Purpose purpose);
 
 signals:
-    /// There is nothing to arm or to check: a sentence with what to do.
+    /// Nothing can be armed or checked. `why` is a sentence that says what to do.
     void refused(const QString& why);
 
 private:
@@ -65,8 +65,8 @@ private:
 
     BenchController& controller_;
     QWidget& window_;
-    QString load_;                  ///< declared last, or known of a simulated bench
-    std::filesystem::path loadOf_;  ///< the session of its bench
+    QString load_;                  ///< the load declared last, or the known load of a simulated bench
+    std::filesystem::path loadOf_;  ///< the session of the bench with this load
 };
 
 }  // namespace tacto::gui

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kAskDisplayEvery_ms = 200;
 
-/// Whether at least half of it is on the screen.
+/// True if at least half of the widget's area is on a screen.
 bool isOnScreen(const QWidget& widget) {
     const QRect place(widget.mapToGlobal(QPoint()), widget.size());
     const auto areaOf = [](const QRect& part) { return part.isEmpty() ? 0.0 : double(part.width()) * part.height(); };
@@ -21,7 +21,7 @@ bool isOnScreen(const QWidget& widget) {
 
 }  // namespace
 
-/// Asks the server for the rest. Some window managers call windows on another desktop minimised, too.
+/// Asks the X server what Qt does not know. Some window managers also call windows on another desktop minimised.
 QString Attendance::askDisplay(const StopInSight& shown) {
     coveredNow_ = false;
     if (display_.onAnotherDesktop(shown.window)) return QObject::tr("this window was on another desktop");
@@ -36,7 +36,7 @@ QString Attendance::askDisplay(const StopInSight& shown) {
 }
 
 QString Attendance::reason(const StopInSight& shown, bool outputOn) {
-    // A window that was never shown claims nothing of a screen.
+    // A window that was never shown cannot be out of sight.
     const bool isShown = shown.window.windowHandle() != nullptr && shown.window.isVisible();
     if (!isShown || !outputOn) {
         ofDisplay_.clear();

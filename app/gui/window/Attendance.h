@@ -1,9 +1,9 @@
-// Attendance.h - whether the operator can see STOP and reach it: not while the window is minimised, on another desktop
-// or off the screen, the screen is locked or blank, another program holds keyboard and mouse, or its windows lie over
-// each STOP while it has the keys (hazards H2, H12).
+// Attendance.h - checks that the operator can see and reach STOP. This is not so if the window is minimised, on another
+// desktop or off the screen, if the screen is locked or blank, if another program holds keyboard and mouse, or if
+// another program has the keys and its windows cover each STOP (hazards H2, H12).
 //
-// What of this the display does not tell is not known, and then it does not count: see DisplaySight and LockWatch, and
-// safety.md "Interlock".
+// What the display does not report is unknown and never makes STOP count as out of reach: see DisplaySight and
+// LockWatch, and safety.md "Interlock".
 #pragma once
 
 #include <QElapsedTimer>
@@ -18,27 +18,27 @@ namespace tacto::gui {
 struct StopInSight {
     const QWidget& window;           ///< a window that has to be on the screen
     const QWidget& stop;             ///< STOP in that window
-    const QWidget* small = nullptr;  ///< STOP by itself; null: it is not shown
+    const QWidget* small = nullptr;  ///< STOP in its small window; null: not shown
 };
 
 class Attendance final : public QObject {
 public:
-    /// How long STOP has to be out of reach before output pauses: a glance at another desktop, or a window that is
-    /// dragged, does not count.
+    /// How long STOP must be out of reach before output pauses. A glance at another desktop or a dragged window is
+    /// shorter.
     static constexpr int kAbsent_ms = 1500;
-    /// How long another program's window has to lie over STOP before that counts, and how long it has to be gone.
+    /// How long another program's window must cover STOP until covered_ is true, and leave STOP free until it is false.
     static constexpr int kCovered_ms = 500, kUncovered_ms = 2000;
 
     explicit Attendance(QWidget& window) : QObject(&window), window_(window), lock_(this) {}
-    /// Called thirty times a second, in every state of the output; the display is asked while it is on. Returns why
-    /// STOP has been out of reach for kAbsent_ms ("this window was minimised": read when it no longer is); empty while
-    /// it is in reach.
+    /// Called 30 times a second in every state of the output; asks the display only while output is on. Returns why
+    /// STOP has been out of reach for kAbsent_ms ("this window was minimised": in the past tense, because the operator
+    /// reads it afterwards); empty while STOP is in reach.
     [[nodiscard]] QString absence(const StopInSight& shown, bool outputOn);
-    /// Whether another program's window lies over STOP while output is on, whatever else is in reach.
+    /// True if another program's window covers STOP while output is on, even if another STOP is in reach.
     [[nodiscard]] bool isCovered() const { return covered_; }
-    /// Whether desktops, grabs and what lies on top are known.
+    /// True if the display reports desktops, grabs and covering windows.
     [[nodiscard]] bool displayTells() const { return display_.tells(); }
-    /// The operator has resumed by hand.
+    /// Call this after the operator has resumed by hand.
     void noteHand() { lock_.forget(); }
 
 private:
@@ -49,11 +49,11 @@ private:
     QWidget& window_;
     DisplaySight display_;
     LockWatch lock_;
-    QElapsedTimer asked_;  // the display
-    QString ofDisplay_;    // what the display answered last
+    QElapsedTimer asked_;  // time since the display was asked
+    QString ofDisplay_;    // the display's last answer
     QElapsedTimer since_;  // invalid while STOP is in reach
     bool coveredNow_ = false, covered_ = false;
-    QElapsedTimer turned_;  // how long the two have differed
+    QElapsedTimer turned_;  // how long coveredNow_ has differed from covered_
 };
 
 }  // namespace tacto::gui

@@ -67,7 +67,7 @@ void CloseQuestion::askAboutRun() {
     box->button(QMessageBox::Close)->setText(tr("&Close the window"));
     box->button(QMessageBox::Cancel)->setText(tr("&Keep it open"));
     box->setDefaultButton(QMessageBox::Cancel);
-    // The question is void once there is another bench or another run.
+    // Another bench or another run makes the question void.
     connect(&controller_, &BenchController::changed, box, [this, box] {
         if (controller_.activity() == Activity::Opening) box->reject();
     });
@@ -96,7 +96,7 @@ void CloseQuestion::askAboutScripts() {
     openDialog(box);
 }
 
-/// Goes one after the other: each may have to ask for its name.
+/// Saves the scripts one by one, because each may need a file name from the user.
 void CloseQuestion::saveNext() {
     const auto left = unsaved();
     if (left.empty()) {

@@ -1,7 +1,7 @@
-// CloseQuestion.h - what is asked before the window closes: a run that closing stopped, scripts that are not saved.
+// CloseQuestion.h - questions before the window closes: about a run that closing stopped, and about unsaved scripts.
 //
-// The output is off before anything is asked (hazard H2): MainWindow::closeEvent() stops it and then comes here. A
-// signal never asks (SignalClose.h).
+// The output is off before any question (hazard H2): MainWindow::closeEvent() stops it first. A signal closes the
+// window without questions (SignalClose.h).
 #pragma once
 
 #include <QMainWindow>
@@ -19,14 +19,14 @@ class CloseQuestion final : public QObject {
     Q_OBJECT
 public:
     using Runners = std::function<std::vector<ProtocolWorkspace*>()>;
-    /// The window owns this. `runners`: those that exist now. `otherRuns`: whether a run goes on that is not theirs.
+    /// The window owns this. `runners` returns the present ones; `otherRuns`: true if any other run is going on.
     CloseQuestion(BenchController& controller, QMainWindow& window, Runners runners, std::function<bool()> otherRuns);
-    /// Whether a run is going on or about to begin.
+    /// True if a run is going on or about to begin.
     [[nodiscard]] bool runs() const;
-    /// Whether the window may close at once. Otherwise a question is open, and its answer closes the window. `stopped`:
-    /// a run that the closing stopped.
+    /// Returns true if the window may close at once. Otherwise opens a question; its answer closes the window.
+    /// `stopped`: closing has stopped a run.
     [[nodiscard]] bool mayClose(bool stopped);
-    /// Closes without a question; unsaved text is lost.
+    /// Closes the window without a question; unsaved text is lost.
     void closeUnasked();
 
 private:

@@ -65,7 +65,7 @@ void DayButton::say() {
                                : tr("In every session and report of today. Press to change it."));
 }
 
-/// Midnight may have passed meanwhile.
+/// Updates the text, because midnight may have passed.
 void DayButton::changeEvent(QEvent* event) {
     QToolButton::changeEvent(event);
     if (event->type() == QEvent::ActivationChange) say();

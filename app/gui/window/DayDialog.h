@@ -1,4 +1,4 @@
-// DayDialog.h - asks who works today and on which sample; and the button in the menu bar that shows it and asks again.
+// DayDialog.h - asks for today's operator and sample; and a button in the menu bar that shows both and asks again.
 #pragma once
 
 #include <QDialog>
@@ -8,14 +8,14 @@
 
 namespace tacto::gui {
 
-/// Takes what is entered as it is entered. Closing it puts the question off for today.
+/// Takes over each entry as it is typed. Closing the dialog postpones the question for today.
 class DayDialog final : public QDialog {
     Q_OBJECT
 public:
     DayDialog(DayNotes& day, QWidget* parent);
 };
 
-/// "A. Weber · sample S-014", or the question.
+/// Shows "A. Weber · sample S-014", or asks for both.
 class DayButton final : public QToolButton {
     Q_OBJECT
 public:

@@ -17,13 +17,13 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kNamePad = 4, kBesideName = 24;  // above and below; with its box
+constexpr int kNamePad = 4, kBesideName = 24;  // pixels above and below a name; pixels for its check box
 constexpr int kUriRole = Qt::UserRole;
 constexpr int kOpenRole = Qt::UserRole + 1;
 constexpr int kObstacleRole = Qt::UserRole + 2;
-constexpr int kRoleRole = Qt::UserRole + 3;  // the role of a device that can be ticked
+constexpr int kRoleRole = Qt::UserRole + 3;  // the role of a device with a check box
 constexpr int kSerialRole = Qt::UserRole + 4;
-constexpr qint64 kDescribeEvery_ms = 500;  // how often devices report on themselves
+constexpr qint64 kDescribeEvery_ms = 500;  // how often devices are asked for their reports
 
 QString tr(const char* text) { return QCoreApplication::translate("DeviceDock", text); }
 
@@ -31,28 +31,28 @@ QString orDash(const std::string& text) { return text.empty() ? "–" : QString:
 
 std::string schemeOf(const std::string& uri) { return uri.substr(0, uri.find(':')); }
 
-/// Whether `present` is the device that was opened as `open`: by its URI, by its serial number, or as the one that a
-/// URI without a name ("sensor:") stands for.
+/// True if `present` is the device opened as `open`: the same URI, the same serial number, or the only device that a
+/// URI without a name ("sensor:") can mean.
 bool isSame(const SessionDevice& open, const DeviceIdentity& present) {
     if (present.placeholder || open.role != nameOf(present.role)) return false;
     if (open.uri == present.uri) return true;
     const auto uri = DeviceUri::parse(open.uri);
     if (!uri || uri->scheme != schemeOf(present.uri)) return false;
     if (present.simulated) return open.name == present.name;
-    // A terminal is not among what is plugged in.
+    // A device opened by its terminal is not in the list of plugged-in devices.
     const bool terminal = std::ranges::any_of(uri->parameters, [](const auto& one) { return one.first == "tty"; });
     if (terminal) return false;
     return uri->path.empty() || uri->path == present.serial || (!open.serial.empty() && open.serial == present.serial);
 }
 
-/// Whether an open device was among those plugged in (`seen`, URIs) and is gone.
+/// True if an open device was plugged in before (`seen` has its URI) and is now gone.
 bool unpluggedWhileOpen(const SessionDevice& open, const std::vector<DeviceIdentity>& present,
                         const std::set<std::string>& seen) {
     return seen.contains(open.uri) &&
            std::ranges::none_of(present, [&](const auto& device) { return isSame(open, device); });
 }
 
-/// Identity and abilities of an open device.
+/// Returns identity and abilities of an open device.
 QStringList factsOf(const SessionDevice& device, const OpenBench& open) {
     QStringList lines;
     lines << tr("Serial %1, firmware %2").arg(orDash(device.serial), orDash(device.firmware));
@@ -78,7 +78,7 @@ QStringList factsOf(const SessionDevice& device, const OpenBench& open) {
     return lines;
 }
 
-/// The device's own report, without counts of 0 and unknown values.
+/// Returns the device's report on itself, without counts of 0 and unknown values.
 QStringList rowsOf(const DeviceReport& report) {
     QStringList lines;
     for (const auto& row : report.rows()) {
@@ -108,13 +108,13 @@ DeviceDock::DeviceDock(BenchController& controller, const CalibrationBook& calib
     tree_->setHeaderHidden(true);
     tree_->setWordWrap(true);
     tree_->setTextElideMode(Qt::ElideNone);
-    // Queued: a header that is being destroyed says so too.
+    // Queued, because a header also sends this signal while it is being destroyed.
     connect(tree_->header(), &QHeaderView::sectionResized, this, &DeviceDock::fitNames, Qt::QueuedConnection);
     tree_->setToolTip(tr("Devices that are present; open ones are bold. Select the devices for the bench (Return)."));
     tree_->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
     tree_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Maximum);
     tree_->setUniformRowHeights(false);
-    tree_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);  // names wrap, and it is as high as its rows
+    tree_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);  // names wrap, and the list is as high as its rows
     layout->addWidget(tree_);
     facts_ = makeLabel({}, {.name = "deviceFacts", .wraps = true}, body);
     facts_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
@@ -145,7 +145,7 @@ DeviceDock::DeviceDock(BenchController& controller, const CalibrationBook& calib
     setContent(area);
 
     connect(open_, &QPushButton::clicked, this, &DeviceDock::openChosen);
-    // Space stops the output everywhere: Return ticks.
+    // Return ticks a device, because Space stops the output everywhere.
     connect(tree_, &QTreeWidget::itemActivated, this, [](QTreeWidgetItem* item) {
         if (item->data(0, kRoleRole).isValid())
             item->setCheckState(0, item->checkState(0) == Qt::Checked ? Qt::Unchecked : Qt::Checked);
@@ -172,7 +172,7 @@ DeviceDock::DeviceDock(BenchController& controller, const CalibrationBook& calib
 }
 
 void DeviceDock::list() {
-    // Without recordings and folders of captures: the user has to give their names first.
+    // Leaves out recordings and folders of captures, because the user must first choose a file for these.
     auto present = controller_.watch().devices();
     std::erase_if(present, [](const DeviceIdentity& device) { return device.placeholder; });
     const auto open = controller_.open();
@@ -238,7 +238,7 @@ void DeviceDock::list() {
 void DeviceDock::fitNames() {
     const int beside = kBesideName + tree_->style()->pixelMetric(QStyle::PM_IndicatorWidth, nullptr, tree_);
     const int width = std::max(1, tree_->columnWidth(0) - beside);
-    const QSignalBlocker quiet(tree_);  // a changed height ticks nothing
+    const QSignalBlocker quiet(tree_);  // a change of height must not count as a tick
     for (int i = 0; i < tree_->topLevelItemCount(); ++i) {
         auto* item = tree_->topLevelItem(i);
         const auto lines =
@@ -272,7 +272,7 @@ void DeviceDock::describe() {
             lines << tr("Serial %1").arg(serial.toHtmlEscaped());
         lines << tr("Not open.");
     }
-    // Setting the same text again would throw away the user's selection.
+    // Setting the same text again would remove the user's selection.
     if (const auto text = keptTogether(lines.join("<br>")); text != facts_->text()) facts_->setText(text);
 }
 
@@ -300,7 +300,7 @@ std::map<Role, DeviceUri> DeviceDock::chosen() const {
     return ticked;
 }
 
-/// Of each kind one is chosen: the new one takes the place of the other.
+/// Only one device of each role can be ticked: ticking another one clears the first.
 void DeviceDock::choose(QTreeWidgetItem* item) {
     if (item->checkState(0) == Qt::Checked) {
         const QSignalBlocker quiet(tree_);

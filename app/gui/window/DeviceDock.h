@@ -1,5 +1,5 @@
-// DeviceDock.h - what is present, what is open, and what can be done with it: identity, firmware, calibration, what a
-// device reports on itself, impedance check. A device that is open and was unplugged says so and stays open.
+// DeviceDock.h - lists the devices that are present and the open ones: identity, firmware, calibration, what a device
+// reports on itself, impedance check. An open device that was unplugged is marked and stays open.
 #pragma once
 
 #include <QElapsedTimer>
@@ -32,14 +32,14 @@ signals:
 private:
     void list();
     void choose(QTreeWidgetItem* item);
-    /// Gives each name as many lines as it needs: what tells two of a kind apart stands at its end.
+    /// Gives each name as many lines as it needs, because similar names differ only at their ends.
     void fitNames();
     void describe();
-    /// The roles of the devices that are ticked, with their URIs.
+    /// The roles of the ticked devices, with their URIs.
     [[nodiscard]] std::map<Role, DeviceUri> chosen() const;
     void openChosen();
     void nameOpen();
-    /// The values with which the bench was opened stay, even if others are entered.
+    /// Looks up the certificate with which the bench was opened; later entries do not change it.
     void lookForCertificate();
 
     BenchController& controller_;
@@ -49,10 +49,10 @@ private:
     QPushButton* open_;
     QPushButton* close_;
     QPushButton* check_;
-    QString certificate_;                  ///< the certificate of the open oscilloscope; empty: none is entered
-    std::filesystem::path certificateOf_;  ///< the session of the bench it was looked up for
+    QString certificate_;                  ///< the certificate of the open oscilloscope; empty: none was entered
+    std::filesystem::path certificateOf_;  ///< the session of the bench for which the certificate was looked up
     std::vector<std::string> listed_;
-    std::set<std::string> seen_;  ///< URIs of open devices that were among those plugged in
+    std::set<std::string> seen_;  ///< URIs of open devices that were seen plugged in
     QElapsedTimer described_;
 };
 

@@ -25,13 +25,13 @@ Owned<Reply> owned(Reply* reply) {
 }
 
 constexpr std::uint32_t kEveryDesktop = 0xFFFF'FFFF;
-constexpr int kAcross = 5, kDown = 3;  // how many places are tried within a part
+constexpr int kAcross = 5, kDown = 3;  // number of points tested within a widget
 
 bool isTaken(std::uint8_t status) {
     return status == XCB_GRAB_STATUS_ALREADY_GRABBED || status == XCB_GRAB_STATUS_FROZEN;
 }
 
-/// A place on the screen, in its pixels, and the window that a press there is followed down to.
+/// A point on the screen in pixels, and the window reached so far on the way down to the point.
 struct Pressed {
     std::int16_t x, y;
     xcb_window_t in;
@@ -58,7 +58,7 @@ struct DisplaySight::Server {
         std::memcpy(&value, xcb_get_property_value(reply.get()), sizeof value);
         return value;
     }
-    /// The deepest window under the pointer: a grab there moves the pointer into no other, and no window hears of it.
+    /// Returns the deepest window under the pointer. A grab there does not move the pointer and causes no event.
     [[nodiscard]] xcb_window_t underPointer() const {
         auto window = root;
         for (;;) {
@@ -69,7 +69,7 @@ struct DisplaySight::Server {
         }
     }
 
-    /// One step down for each: to the child of `in` that a press arrives at, by the shapes that the windows have.
+    /// Moves each point one step down, to the child of `in` that would get a press there (by the windows' shapes).
     void descend(std::vector<Pressed>& all) const {
         std::vector<xcb_translate_coordinates_cookie_t> asked;
         for (const auto& each : all)
@@ -81,7 +81,7 @@ struct DisplaySight::Server {
     }
 
     xcb_connection_t* connection;
-    std::uint8_t saver = 0;  // the opcode of MIT-SCREEN-SAVER; 0: there is none
+    std::uint8_t saver = 0;  // opcode of MIT-SCREEN-SAVER; 0: not available
     xcb_window_t root = XCB_WINDOW_NONE;
     xcb_atom_t windowsDesktop = XCB_ATOM_NONE, currentDesktop = XCB_ATOM_NONE;
 };
@@ -127,7 +127,7 @@ bool DisplaySight::isCovered(const QWidget& part) const {
         if (QGuiApplication::screenAt(part.mapToGlobal(at).toPoint()) == nullptr) continue;
         open.push_back({std::int16_t(origin->dst_x + in.x()), std::int16_t(origin->dst_y + in.y()), own_->root});
     }
-    // Each client's windows have numbers that differ by these bits alone.
+    // The window numbers of one client are equal in these bits, and differ from those of other clients.
     const auto ofClient = ~xcb_get_setup(own_->connection)->resource_id_mask;
     int arrive = 0;
     while (!open.empty()) {
@@ -138,7 +138,7 @@ bool DisplaySight::isCovered(const QWidget& part) const {
     return 2 * arrive < kAcross * kDown;
 }
 
-/// Asked by hand: its library (xcb-screensaver) would be another one to install for one request.
+/// Sends the request directly: the library xcb-screensaver would be one more to install for a single request.
 bool DisplaySight::isBlank() const {
     if (!own_ || own_->saver == 0) return false;
     struct {
@@ -147,7 +147,7 @@ bool DisplaySight::isBlank() const {
         std::uint32_t drawable;
     } request{own_->saver, 1, 2, own_->root};  // QueryInfo
     std::array<iovec, 3> parts{};
-    parts[2] = {&request, sizeof request};  // the two before it are xcb's
+    parts[2] = {&request, sizeof request};  // xcb uses the two parts before this one
     const xcb_protocol_request_t info{1, nullptr, own_->saver, 0};
     const auto asked = xcb_send_request(own_->connection, XCB_REQUEST_CHECKED, &parts[2], &info);
     xcb_generic_error_t* error = nullptr;
@@ -169,8 +169,8 @@ bool DisplaySight::grabbedByAnother() const {
     if (!own_ || QApplication::activePopupWidget() != nullptr || QWidget::mouseGrabber() != nullptr ||
         QGuiApplication::mouseButtons() != Qt::NoButton)
         return false;
-    // Given back before the answer is read, and frozen until then: the server keeps what is pressed meanwhile for whom
-    // it is meant.
+    // Grabs are released before the answer is read, and events are frozen until then: the server keeps each press for
+    // the window that it was meant for.
     auto* to = own_->connection;
     const auto press = xcb_grab_pointer(to, 1, own_->underPointer(), 0, XCB_GRAB_MODE_SYNC, XCB_GRAB_MODE_ASYNC,
                                         XCB_WINDOW_NONE, XCB_CURSOR_NONE, XCB_CURRENT_TIME);

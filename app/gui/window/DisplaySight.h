@@ -1,10 +1,10 @@
-// DisplaySight.h - what an X server says of a window beside what Qt knows: which desktop it is on, whether a press on
-// it arrives, whether the screen is blank, and whether another program holds keyboard and mouse.
+// DisplaySight.h - asks the X server what Qt does not know about a window: its desktop, whether a press on the window
+// arrives, whether the screen is blank, and whether another program holds keyboard and mouse.
 //
-// Where the display is not X (Wayland, offscreen) it says nothing of these: those functions return false, and whether a
-// window is on the screen is what QWindow::isExposed() says.
+// Without an X server (Wayland, offscreen) nothing of this is known and these functions return false. Only
+// QWindow::isExposed() then says whether a window is on the screen.
 //
-// Thread-safety: the GUI thread. Each call takes a few exchanges with the server.
+// Thread-safety: the GUI thread. Each call exchanges a few messages with the server.
 #pragma once
 
 #include <memory>
@@ -20,21 +20,21 @@ public:
     DisplaySight(const DisplaySight&) = delete;
     DisplaySight& operator=(const DisplaySight&) = delete;
 
-    /// Whether there is a server to ask.
+    /// True if there is an X server to ask.
     [[nodiscard]] bool tells() const { return own_ != nullptr; }
-    /// The window manager has the window on a desktop that is not shown (EWMH _NET_WM_DESKTOP).
+    /// True if the window manager has the window on a hidden desktop (EWMH _NET_WM_DESKTOP).
     [[nodiscard]] bool onAnotherDesktop(const QWidget& window) const;
-    /// At less than half of the places within `part`, a visible part of a window of this program, a press would arrive
-    /// at this program: what lies on top there is another program's, or a frame, or the screen ends. Windows that let
-    /// presses through (an empty input shape) do not count, invisible ones that take them do.
+    /// True if a press would arrive at this program at less than half of the points tested in `part`, a visible part of
+    /// its window: elsewhere another program's window or a frame lies on top, or the screen ends. Ignores windows that
+    /// let presses through (empty input shape), but not invisible windows that take presses.
     [[nodiscard]] bool isCovered(const QWidget& part) const;
-    /// The server's screen saver shows nothing, or a picture of its own (MIT-SCREEN-SAVER); it does not say whether the
+    /// True if the server's screen saver shows nothing or its own picture (MIT-SCREEN-SAVER). Does not know whether the
     /// monitor is off (DPMS).
     [[nodiscard]] bool isBlank() const;
-    /// Keys go to another program, whichever window has the focus.
+    /// True if keys go to another program, whichever window has the focus.
     [[nodiscard]] bool keysTakenByAnother() const;
-    /// Whether neither a press nor a key reaches a window of this program: it tries to take both, on a connection of
-    /// its own, and gives them back at once. What this program itself holds (an open menu, a drag) does not count.
+    /// True if neither presses nor keys can reach a window of this program: tries to grab both on a separate connection
+    /// and releases them at once. Grabs of this program itself (an open menu, a drag) are ignored.
     [[nodiscard]] bool grabbedByAnother() const;
 
 private:

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::array<const char*, 3> kDisplayVariables{"DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"};
 
-/// 'DISPLAY is ":77"': what names a display here.
+/// Returns the environment variables that name a display, such as 'DISPLAY is ":77"'.
 QString namedDisplays() {
     QStringList all;
     for (const char* name : kDisplayVariables) {
@@ -28,8 +28,8 @@ QString noDisplay(const QString& why) {
 
 struct Heard {
     QStringList all;
-    QStringList reasons;  // why each display that was asked cannot be seen
-    std::string timeout;  // ready for the signal
+    QStringList reasons;  // why each display that was tried cannot be used
+    std::string timeout;  // prepared text, because the signal handler must not build one
 };
 Heard& heard() {
     static Heard heard;
@@ -52,7 +52,7 @@ void hear(QtMsgType type, const QMessageLogContext& context, const QString& text
         endProgram(noDisplay(QString(" (%1)").arg(why)).toStdString() + '\n');
     }
     to.all << text;
-    // Qt says another time that the plugin did not start.
+    // Qt repeats in another message that the plugin did not start.
     const bool isOfDisplay = QString(context.category).startsWith("qt.qpa") || text.contains("display");
     const bool isReason = isOfDisplay && !text.contains("even though it was found");
     if (isReason && !to.reasons.contains(text)) to.reasons << text.simplified();

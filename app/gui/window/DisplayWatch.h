@@ -1,7 +1,7 @@
-// DisplayWatch.h - while QApplication is made: where it reaches no display, Qt would end the program with a core dump,
-// and where a display does not answer, it would wait for ever. Here both end it with one sentence and exit code 3.
+// DisplayWatch.h - watches the start of QApplication. Without a display Qt would end with a core dump, and with a
+// display that does not answer it would wait for ever. Here both end the program with one sentence and exit code 3.
 //
-// Thread-safety: main()'s thread, one at a time. The program is ended on the thread that Qt or SIGALRM finds.
+// Thread-safety: main()'s thread, one at a time. Qt's thread or the one that gets SIGALRM ends the program.
 #pragma once
 
 #include <QStringList>
@@ -11,15 +11,15 @@ namespace tacto::gui {
 
 class DisplayWatch {
 public:
-    /// How long a display has for its answer; the first start on a computer also makes the cache of fonts.
+    /// How long to wait for the display; the first start on a computer also builds the font cache.
     static constexpr unsigned kWait_s = 30;
 
-    /// The sentence for a program whose environment and arguments name no display at all.
+    /// Returns an error sentence if neither environment nor arguments name a display.
     [[nodiscard]] static std::optional<QString> noneIsNamed(const QStringList& arguments);
 
-    /// Keeps what Qt says to itself until the display is there.
+    /// Holds back Qt's messages until the display answers.
     DisplayWatch();
-    /// The display is there: what Qt said is printed.
+    /// The display has answered: prints Qt's messages.
     ~DisplayWatch();
     DisplayWatch(const DisplayWatch&) = delete;
     DisplayWatch& operator=(const DisplayWatch&) = delete;

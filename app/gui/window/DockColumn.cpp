@@ -18,7 +18,7 @@ namespace {
 constexpr int kStripIcon = 16;
 constexpr int kStripGap = 8;
 
-constexpr int kFewLines = 88;  ///< height of a dock that gives way to those above it: its header and a button
+constexpr int kFewLines = 88;  ///< least height of a dock that makes room for those above: header and a button
 
 QString settingOf(int workspace) { return QString("docks/collapsed%1").arg(workspace); }
 
@@ -32,7 +32,7 @@ QString settingOf(const QString& view, const FoldingDock& dock) {
 
 }  // namespace
 
-/// A dock's icon, and its name and key figure along the edge, to be read from top to bottom, where there is room.
+/// A button with a dock's icon and, if there is room, its name and key figure, written from top to bottom.
 class StripButton final : public QToolButton {
 public:
     StripButton(FoldingDock& dock, QWidget* parent) : QToolButton(parent), dock_(dock) {
@@ -41,7 +41,7 @@ public:
         setToolTip(DockColumn::tr("Show %1").arg(dock.windowTitle()));
         refresh();
     }
-    /// Returns whether the text has changed.
+    /// Returns true if the text has changed.
     bool refresh() {
         const auto figure = dock_.keyFigure();
         const auto text = figure.isEmpty() ? dock_.windowTitle() : dock_.windowTitle() + " · " + figure;
@@ -201,7 +201,7 @@ void DockColumn::refresh() {
     if (changed) fitStrip();
 }
 
-/// From below, parts keep their icons alone until all of them are in sight.
+/// Shows icons without names, starting from the lowest button, until all buttons are in sight.
 void DockColumn::fitStrip() {
     for (auto* button : buttons_) button->setWorded(true);
     for (auto button = buttons_.rbegin(); button != buttons_.rend(); ++button) {
@@ -210,9 +210,9 @@ void DockColumn::fitStrip() {
     }
 }
 
-/// Docks that were as narrow as they may be are so with another size of text, too.
+/// After a change of text size, docks that had the smallest width get the new smallest width.
 void DockColumn::fitWidth() {
-    constexpr int kNarrow = 8;  // more than that is a person's choice
+    constexpr int kNarrow = 8;  // a dock that is wider than this was widened by the user
     const int before = std::exchange(width_, scaledPx(FoldingDock::kWidth));
     if (before == width_) return;
     QList<QDockWidget*> narrow;
@@ -227,11 +227,11 @@ void DockColumn::apply() {
     }
     strip_->setVisible(collapsed_ && hidden_.empty());
     toggle_->setChecked(!collapsed_);
-    QTimer::singleShot(0, this, &DockColumn::share);  // once the docks are laid out
+    QTimer::singleShot(0, this, &DockColumn::share);  // after the docks are laid out
 }
 
-/// A window shares a change of its height among its docks. Here each has a few lines, then the first has a claim; what
-/// is left is the last one's. Where none is cut they stay as they are.
+/// Each open dock first gets a few lines. Then the docks get what they want, the first one first; the last one also
+/// gets the rest. If no dock is cut off, nothing changes.
 void DockColumn::share() {
     QList<QDockWidget*> open;
     QList<int> heights;
@@ -254,8 +254,8 @@ void DockColumn::share() {
     window_.resizeDocks(open, heights, Qt::Vertical);
 }
 
-/// Moves a floating dock off the safety bar: to below it, or above, or, where the screen has no room, back into the
-/// column.
+/// Moves a floating dock that covers the safety bar: to below the bar, else above it, or back into the column if the
+/// screen has no room.
 void DockColumn::leaveBar(FoldingDock& dock) {
     if (bar_ == nullptr || !dock.isFloating() || !dock.isVisible() || !window_.isVisible()) return;
     const QRect kept(bar_->mapToGlobal(QPoint()), bar_->size()), at = dock.frameGeometry();

@@ -1,7 +1,7 @@
-// DockColumn.h - the docks at the right: open, or collapsed to a strip that keeps their names and key figures.
+// DockColumn.h - the column of docks at the right: open, or collapsed to a strip with names and key figures.
 //
-// Each workspace remembers which: live work shows the docks, everything else gives the room to its plot. A dock that
-// floats never lies on the safety bar.
+// The column's state is kept for each workspace: live work starts with open docks, all other pages leave the room to
+// their plot. A floating dock never covers the safety bar.
 #pragma once
 
 #include <QAction>
@@ -20,33 +20,33 @@ class StripButton;
 class DockColumn final : public QObject {
     Q_OBJECT
 public:
-    /// The docks belong to the window, and are listed from top to bottom.
+    /// The window owns the docks. They are listed from top to bottom.
     DockColumn(QMainWindow& window, std::vector<FoldingDock*> docks);
-    /// The content beside the docks, and how these stand there at first.
+    /// The page next to the docks, and the state of the docks when the page is first shown.
     struct View {
         int workspace = 0;
-        QString name;  ///< a workspace may have several
+        QString name;  ///< a workspace can have several views
         bool open = false;
         std::vector<FoldingDock*> folded;
     };
-    /// Shows the docks as this view was left, else as it says.
+    /// Shows the docks as the user left them in this view, or at first as `view` says.
     void enter(const View& view);
     void setCollapsed(bool collapsed);
     [[nodiscard]] bool collapsed() const { return collapsed_; }
     [[nodiscard]] const std::vector<FoldingDock*>& docks() const { return docks_; }
-    /// Opens the column with this dock unfolded; waits until the column is no longer hidden.
+    /// Opens the column and unfolds this dock; waits while the column is hidden.
     void show(FoldingDock& dock);
-    /// Puts the docks back as at the first start: in their places, open where work is live.
+    /// Restores the first start: docks in their places, and open for live work.
     void reset();
-    /// Why neither docks nor strip are shown, floating docks included. Either is reason enough.
+    /// Reasons for hiding docks and strip, floating docks included. One reason is enough.
     enum class Hidden {
         PlotOnly,
-        Blind,  ///< hidden while the operator is blind: it would tell what is delivered
+        Blind,  ///< the operator is blind and must not see what is delivered
     };
     void setHidden(Hidden why, bool hidden);
-    /// The key figures, as often as telemetry is read.
+    /// Updates the key figures; called as often as telemetry is read.
     void refresh();
-    /// Collapses and opens the column; has a key.
+    /// The action that collapses or opens the column; has a key.
     [[nodiscard]] QAction* toggle() const { return toggle_; }
 
 protected:
@@ -67,11 +67,11 @@ private:
     QWidget* bar_ = nullptr;  // the window's safety bar
     QAction* toggle_;
     View view_;
-    bool entering_ = false;  // the view sets the folds, not the operator: they are not remembered
+    bool entering_ = false;  // true while enter() sets the folds, which are then not stored as the operator's choice
     bool collapsed_ = false;
-    int width_ = scaledPx(FoldingDock::kWidth);  // the least width of the docks
+    int width_ = scaledPx(FoldingDock::kWidth);  // the smallest width of the docks
     std::set<Hidden> hidden_;
-    std::vector<FoldingDock*> putAway_;  // floating ones, hidden meanwhile
+    std::vector<FoldingDock*> putAway_;  // floating docks that are hidden for now
 };
 
 }  // namespace tacto::gui

@@ -41,10 +41,10 @@ QString nextStep(std::optional<FaultCause> cause) {
     return FaultBanner::tr("Close the bench and open it again. Keep the session: it says what happened.");
 }
 
-/// A table of the gate holds what was booked in its last 5 s.
+/// The gate's table holds the trains of its last 5 s.
 constexpr double kKeptInTable_s = 4.5;
 
-/// Whether earlier trains may have been as the gate judged them.
+/// True if earlier trains may have been delivered just as the gate judged them.
 bool saysNothingOfTrains(std::optional<FaultCause> cause) {
     return cause == FaultCause::OpenElectrode || cause == FaultCause::DeviceLost || cause == FaultCause::LoopSilent ||
            cause == FaultCause::StaleSensor;
@@ -103,7 +103,7 @@ void FaultBanner::note(const Telemetry& telemetry, QTime now) {
     trains_ = telemetry.trainsDelivered;
 }
 
-/// Says that limits were kept only where the gate judged every train and the fault says nothing else.
+/// Says that the limits were kept only if the gate judged every train and the fault does not contradict this.
 QString FaultBanner::outputWords(const Telemetry& telemetry) const {
     const auto off = telemetry.fault == FaultCause::StuckOn
                          ? tr("The program has switched off; the device may still deliver.")

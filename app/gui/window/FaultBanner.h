@@ -1,5 +1,5 @@
-// FaultBanner.h - in the safety bar while the output is faulted: when it happened and what, what it means for the
-// output, and the next step. It takes the place of facts and limit bars, so nothing moves.
+// FaultBanner.h - shown in the safety bar while the output is faulted: time and cause of the fault, what it means for
+// the output, and the next step. It replaces facts and limit bars, so that nothing moves.
 #pragma once
 
 #include <QFrame>
@@ -14,12 +14,12 @@ class FaultBanner final : public QFrame {
     Q_OBJECT
 public:
     explicit FaultBanner(QWidget* parent);
-    /// Call it thirty times a second in every state: it notes when a fault comes, and whether the gate found every
-    /// train within its limits. Shows itself while the bench is faulted. `now`: the time of day.
+    /// Call it 30 times a second in every state: it notes when a fault comes, and whether the gate found every train
+    /// within its limits. Shows itself while the bench is faulted. `now`: the time of day.
     void refresh(const Telemetry& telemetry, QTime now = QTime::currentTime());
-    /// While blind, the telemetry says nothing of trains, and neither does this.
+    /// While the operator is blind, neither the telemetry nor this banner says anything about trains.
     void setBlind(bool blind) { blind_ = blind; }
-    /// The whole text, for a tool tip and for the log.
+    /// The full text for a tool tip and for the log.
     [[nodiscard]] QString text() const;
 
 private:
@@ -30,14 +30,14 @@ private:
     ElidedLabel* cause_;
     ElidedLabel* output_;
     ElidedLabel* next_;
-    // The refresh before had these:
+    // Values of the previous refresh:
     Instant at_{0};
     InterlockState state_ = InterlockState::Disconnected;
     std::uint64_t trains_ = 0;
-    QTime faultedAt_;            ///< invalid where the fault was there before the bench was opened
-    bool unseen_ = false;        ///< trains of this bench that left the gate's table before it was looked at
-    bool broken_ = false;        ///< a limit of this bench
-    bool notEvaluated_ = false;  ///< a limit of this bench
+    QTime faultedAt_;            ///< invalid if the fault existed before the bench was opened
+    bool unseen_ = false;        ///< some trains of this bench left the gate's table unread
+    bool broken_ = false;        ///< this bench exceeded a limit
+    bool notEvaluated_ = false;  ///< a limit of this bench was not evaluated
     bool blind_ = false;
 };
 

@@ -19,8 +19,8 @@ constexpr int kDockHeader = 32;
 constexpr int kDockPadding = 12;
 constexpr int kDockIcon = 16;
 
-/// A header as high and as wide as the designed one: a dock gives its title bar the height that it hints, and is no
-/// narrower, folded or not.
+/// A header with fixed height and width. The dock takes both from the header's size hint, and so is never narrower,
+/// folded or not.
 class DockHeader final : public QWidget {
 public:
     using QWidget::QWidget;
@@ -111,7 +111,7 @@ void FoldingDock::noteContent() {
     if (!folded_ && std::exchange(wanted_, wantedHeight()) != wantedHeight()) emit contentChanged();
 }
 
-/// The scroll bar takes its room from the padding: what is beside it keeps its width, and nothing is cut.
+/// The scroll bar takes the place of the padding, so that the content keeps its width and nothing is cut off.
 void FoldingDock::makeRoomForBar(bool shown) {
     inside_->layout()->setContentsMargins(0, 0, shown ? 0 : kDockPadding, 0);
 }

@@ -1,5 +1,5 @@
-// FoldingDock.h - a dock with a header of its own: icon, title, and a button that folds it to the header. It can be
-// moved and floats as any other.
+// FoldingDock.h - a dock with its own header: icon, title, and a button that folds the dock to its header. It can be
+// moved and floats like any other dock.
 #pragma once
 
 #include <QDockWidget>
@@ -11,28 +11,28 @@ namespace tacto::gui {
 class FoldingDock : public QDockWidget {
     Q_OBJECT
 public:
-    static constexpr int kWidth = 231;  ///< at least, at the usual size of text
-    /// `name` is the object's, by which its place is remembered.
+    static constexpr int kWidth = 231;  ///< least width at the normal text size, in pixels
+    /// `name` is the object name under which the dock's place is saved.
     FoldingDock(const QString& title, const QString& iconName, const QString& name, QWidget* parent);
-    /// The dock's place in its column. On a low screen every dock scrolls, so that none makes the window too large.
+    /// The dock's share of the column. On a low screen every dock scrolls, so that the window does not get too large.
     enum class Room {
         Shared,
-        First  ///< gets the height of its content, as far as the others can give way; they take what is left
+        First  ///< gets the height of its content as far as possible; the others share what is left
     };
-    /// Takes `content`, with the docks' margin around it.
+    /// Sets the content, with the usual margin of docks around it.
     void setContent(QWidget* content, Room room = Room::Shared);
     [[nodiscard]] Room room() const { return room_; }
-    /// The height that shows all of its content.
+    /// The height at which the whole content is visible.
     [[nodiscard]] int wantedHeight() const;
     void fold(bool folded);
     [[nodiscard]] bool folded() const { return folded_; }
     [[nodiscard]] const QString& iconName() const { return icon_; }
-    /// The figure that a collapsed dock still shows: "Off", "1.13 of 10 mA". May be empty.
+    /// A figure that the collapsed dock still shows: "Off", "1.13 of 10 mA". May be empty.
     [[nodiscard]] virtual QString keyFigure() const { return {}; }
 
 signals:
     void foldChanged();
-    /// The wanted height is another one.
+    /// The wanted height has changed.
     void contentChanged();
 
 protected:
@@ -51,8 +51,8 @@ private:
     QToolButton* toggle_;
     bool folded_ = false;
     Room room_ = Room::Shared;
-    QWidget* inside_ = nullptr;  ///< the content of the scroll area, or the content that scrolls by itself
-    QWidget* bar_ = nullptr;     ///< the scroll bar of the content
+    QWidget* inside_ = nullptr;  ///< the content of the scroll area, or content that scrolls by itself
+    QWidget* bar_ = nullptr;     ///< the content's scroll bar
     int wanted_ = 0;
 };
 

@@ -22,9 +22,9 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kGuideColumns = 130;  ///< average characters that the window is wide
+constexpr int kGuideColumns = 130;  ///< width of the window in average characters
 
-/// Shows Markdown pages, and pictures no wider than they.
+/// Shows Markdown pages. Pictures are never wider than the page.
 class GuideBrowser final : public QTextBrowser {
 public:
     using QTextBrowser::QTextBrowser;
@@ -38,7 +38,7 @@ protected:
     }
 };
 
-/// Wraps long commands, which Qt keeps on one line.
+/// Wraps long commands, which Qt would keep on one line.
 void wrapCommands(QTextDocument& page) {
     QTextCursor cursor(&page);
     for (auto block = page.begin(); block.isValid(); block = block.next()) {

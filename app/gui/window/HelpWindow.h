@@ -1,4 +1,4 @@
-// HelpWindow.h - the guide, with the keys and the limits, and what has the focus.
+// HelpWindow.h - the window with the guide, the keys and the limits; and the explanation of the focused widget.
 #pragma once
 
 #include <QWidget>
@@ -9,13 +9,13 @@ namespace tacto::gui {
 
 class Workspaces;
 
-/// The file of the guide (in resources/help/guide) that is about the workspace in front.
+/// Returns the guide's file (in resources/help/guide) about the shown workspace.
 [[nodiscard]] QString guidePageOf(const Workspaces& workspaces);
 
-/// Opens the guide at that file, beside the limit sets in force with their sources. A guide that is open turns to it.
+/// Opens the guide at that file, with the limit sets in force and their sources. An open guide goes to that page.
 void openGuide(const ShippedLimits& limits, const QString& page, QWidget* parent);
 
-/// Explains the focused widget: its tool tip, or that of the widget around it.
+/// Explains the focused widget with its tool tip, or with the tool tip of the widget around it.
 void explainFocus(QWidget* window);
 
 }  // namespace tacto::gui

@@ -16,7 +16,7 @@ namespace {
 constexpr int kBarWidth = 104;
 constexpr int kBarHeight = 8;
 constexpr int kBarLineGap = 2;
-constexpr double kTie = 1e-9;  // relative: shares that differ by less are equal, and the first row stays
+constexpr double kTie = 1e-9;  // relative; shares this close are equal, and the first row is kept
 
 QString whereJudged(const ExposureRow& row) {
     if (row.quantity == Quantity::NetCharge) return QObject::tr("measured, of the last pulse's phase charge");
@@ -33,7 +33,7 @@ std::optional<ExposureRow> tightest(std::span<const ExposureRow> rows, const std
     };
     for (const auto& row : rows) {
         if (std::find(quantities.begin(), quantities.end(), row.quantity) == quantities.end()) continue;
-        // Says what to print on a label; nothing is held to it.
+        // This limit only says what to print on a label; it restricts nothing.
         if (row.action == LimitAction::Disclose && !std::isnan(row.limit)) continue;
         if (!found || share(row) > share(*found) + kTie * std::abs(share(*found))) found = row;
     }
@@ -151,7 +151,7 @@ void LimitBar::paintEvent(QPaintEvent*) {
 
 namespace {
 constexpr int kGap = 16;
-constexpr double kStaysFor = 0.2;  // share of the limit
+constexpr double kStaysFor = 0.2;  // lead of the shown bars, as a share of the limit
 }  // namespace
 
 LimitBarRow::LimitBarRow(const QStringList& titles, QWidget* parent) : QWidget(parent) {
@@ -173,7 +173,7 @@ void LimitBarRow::arrange() {
     auto fit = std::min(bars_.size(), std::size_t((room.width() + kGap) / (one.width() + kGap)));
     if (fit == 0 && room.width() >= oneBarWidth()) fit = 1;
     std::vector<LimitBar*> nearest = bars_;
-    // A share that is not a number (no value yet, no limit) comes last; among equals the order of the row holds.
+    // NaN shares (no value yet, or no limit) come last; equal shares stay in the order of the row.
     std::stable_sort(nearest.begin(), nearest.end(), [this](const auto* a, const auto* b) {
         const auto rank = [this](const LimitBar* bar) {
             if (std::isnan(bar->share())) return -1.0;

@@ -1,7 +1,7 @@
 // LimitBar.h - one quantity against its limit: name, bar, value and limit in words.
 //
-// The bar fills towards the limit, amber from 80 %, red from the limit on. Hatched: not evaluated. No bar: a quantity
-// that is shown and has no limit. What was measured stands beside what was set, and is amber where it is not that.
+// The bar fills towards the limit: amber from 80 %, red from the limit on. Hatched: not evaluated. No bar: a quantity
+// without a limit. A measured value is shown next to the set value, in amber if the two do not match.
 #pragma once
 
 #include <QWidget>
@@ -18,24 +18,24 @@ class LimitBar final : public QWidget {
 public:
     /// Stacked: title, bar, numbers. Line: title and numbers in a line, the bar below, as docks have it.
     enum class Shape { Stacked, Line };
-    /// `title` is short: "RMS over 5 s". The tool tip has the full words.
+    /// `title` is short: "RMS over 5 s". The tool tip has the full name.
     LimitBar(const QString& title, QWidget* parent = nullptr, Shape shape = Shape::Stacked);
-    /// Sets the title where the bar shows another row.
+    /// Sets the title when the bar shows another row.
     void setTitle(const QString& title);
-    /// Shows a row; nothing: there is no row of this quantity yet (no output is configured). `sets` names the limit by
-    /// its title.
+    /// Shows a row; nothing: no row of this quantity exists yet (no output is configured). `sets` gives the limit's
+    /// title.
     void show(const std::optional<ExposureRow>& row, std::span<const LimitSet> sets = {});
     [[nodiscard]] QSize sizeHint() const override;
     [[nodiscard]] QSize minimumSizeHint() const override;
-    /// "0.82 of 10 mA", "not evaluated", "–": what is painted, and for screen readers.
+    /// "0.82 of 10 mA", "not evaluated", "–": the full text, also for screen readers.
     [[nodiscard]] const QString& title() const { return title_; }
     [[nodiscard]] QString text() const { return text_; }
-    /// The part of the text that is painted: where there is no room, it lacks the measured value, or has only that
-    /// where it differs; else the share in per cent.
+    /// The text as painted. With too little room: only the set value, or only the measured value if the two do not
+    /// match; with still less room the share in per cent.
     [[nodiscard]] QString shownText() const;
-    /// Whether there is room for title and numbers beside each other or, if stacked, above each other.
+    /// True if title and numbers fit, next to each other or, if stacked, one above the other.
     [[nodiscard]] bool fits() const;
-    /// Share of the limit, 0 to 1 and above; NaN without a limit or a value.
+    /// Share of the limit: 1 at the limit, above 1 beyond it; NaN without a limit or a value.
     [[nodiscard]] double share() const { return share_; }
 
 protected:
@@ -49,19 +49,19 @@ private:
     bool known_ = false;
     bool limited_ = false;
     bool evaluated_ = false;
-    bool broken_ = false;  ///< a limit that refuses is not kept
-    QString set_;          ///< the text without what was measured
-    QString measured_;     ///< empty where nothing was
+    bool broken_ = false;  ///< a limit that forbids output is exceeded
+    QString set_;          ///< the text without the measured value
+    QString measured_;     ///< empty if nothing was measured
     bool beyond_ = false;
 };
 
-/// The row of `quantities` that is nearest to its limit, the first of several that are equally near; one that should be
-/// evaluated and was not comes before all.
+/// Returns the row of `quantities` nearest to its limit, the first one if several are equally near. A row that should
+/// be evaluated but was not comes before all others.
 [[nodiscard]] std::optional<ExposureRow> tightest(std::span<const ExposureRow> rows,
                                                   const std::vector<Quantity>& quantities);
 
-/// Limit bars beside each other, as many as fit: those that are nearest to their limits. One that is
-/// seen stays until another is clearly nearer. Where there is room for one alone it is narrow, and says its share.
+/// A row of as many limit bars as fit, showing those nearest to their limits. A shown bar stays until another is
+/// clearly nearer. If only one fits, it may be narrow and show just its share.
 class LimitBarRow final : public QWidget {
 public:
     LimitBarRow(const QStringList& titles, QWidget* parent);
@@ -69,9 +69,9 @@ public:
         bars_[index]->show(row, sets);
     }
     void setTitle(std::size_t index, const QString& title) { bars_[index]->setTitle(title); }
-    /// Chooses which bars are seen, after the last show().
+    /// Chooses which bars are shown; call it after the last show().
     void arrange();
-    /// The least width in which the nearest limit is shown, in pixels.
+    /// The least width in pixels that shows the nearest limit.
     [[nodiscard]] int oneBarWidth() const;
     [[nodiscard]] QSize sizeHint() const override;
     [[nodiscard]] QSize minimumSizeHint() const override { return {0, sizeHint().height()}; }

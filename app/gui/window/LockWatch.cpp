@@ -15,7 +15,7 @@ constexpr const char* kLogind = "org.freedesktop.login1";
 constexpr const char* kLogindSession = "org.freedesktop.login1.Session";
 constexpr const char* kDBusProperties = "org.freedesktop.DBus.Properties";
 
-/// Calls `then` with the reply, unless `owner` is gone or no reply came.
+/// Calls `then` with the reply. Does nothing if `owner` is gone or no reply came.
 template <class Reply>
 void askBus(QObject& owner, const QDBusConnection& bus, const QDBusMessage& call,
             std::function<void(const Reply&)> then) {
@@ -43,7 +43,7 @@ void LockWatch::askSession() {
     if (!system.isConnected()) return;
     auto call = QDBusMessage::createMethodCall(kLogind, "/org/freedesktop/login1", "org.freedesktop.login1.Manager",
                                                "GetSession");
-    call << QString("auto");  // this program's, else the one that its user has on a screen
+    call << QString("auto");  // this program's session, else the user's session with a screen
     askBus<QDBusObjectPath>(*this, system, call, [this](const QDBusObjectPath& path) {
         session_ = path.path();
         auto bus = QDBusConnection::systemBus();

@@ -1,8 +1,8 @@
-// LockWatch.h - whether the screen is locked, or another session has it: what the desktop (org.freedesktop.ScreenSaver
-// and the names that desktops have for it) and logind say over D-Bus.
+// LockWatch.h - watches whether the screen is locked or another session is shown, as reported over D-Bus by the desktop
+// (org.freedesktop.ScreenSaver and similar names) and by logind.
 //
-// Where the bus or the service is missing, nothing is said, and says() is empty. A lock program without D-Bus (i3lock)
-// takes keyboard and mouse: see DisplaySight.
+// If the bus or the service is missing, nothing is known and says() is empty. A lock program without D-Bus (i3lock)
+// grabs keyboard and mouse: see DisplaySight.
 //
 // Thread-safety: the GUI thread. Nothing here waits for an answer.
 #pragma once
@@ -17,9 +17,9 @@ class LockWatch final : public QObject {
     Q_OBJECT
 public:
     explicit LockWatch(QObject* parent);
-    /// "the screen was locked"; empty while it is not, or where it is not known.
+    /// "the screen was locked"; empty if the screen is not locked or nothing is known.
     [[nodiscard]] QString says() const;
-    /// The operator is there after all: earlier reports do not count any longer.
+    /// The operator has proved to be there: drops earlier reports.
     void forget();
 
 private slots:
@@ -30,10 +30,10 @@ private:
     void readSession(const QVariantMap& properties);
     void askSession();
 
-    QSet<QString> lockedBy_;  // screen savers that are active
-    bool locked_ = false;     // logind says that it is locked
+    QSet<QString> lockedBy_;  // active screen savers
+    bool locked_ = false;     // logind reports a locked session
     bool elsewhere_ = false;  // another session is at the seat
-    QString session_;         // the session's path at logind; empty where there is none
+    QString session_;         // the session's path at logind; empty if there is none
 };
 
 }  // namespace tacto::gui

@@ -49,13 +49,12 @@ namespace tacto::gui {
 namespace {
 
 constexpr int kFrame_ms = 33;
-constexpr QSize kWanted(1440, 900);  // where the screen is large enough
-constexpr int kDocksFrom = 960;      // narrower windows, as with large text, begin with the docks in a strip
-constexpr int kAllDocksFrom = 480;   // in lower windows every dock but the drive's begins folded to its header
+constexpr QSize kWanted(1440, 900);  // size of the window on a large enough screen
+constexpr int kDocksFrom = 960;      // narrower windows, or windows with large text, start with the docks in a strip
+constexpr int kAllDocksFrom = 480;   // in lower windows all docks except the drive's start folded
 
-/// Moves and shrinks the window until it lies on its screen, for STOP is in its corner, even if the screen has changed
-/// since; a maximised one is left alone. Before a window is shown its frame is not known: called again after that, it
-/// takes the frame off.
+/// Moves and shrinks the window until it fits on its screen, because STOP is in its corner and the screen may have
+/// changed. Ignores maximised windows. The frame is not known before a window is shown, so call this again afterwards.
 void keepOnScreen(QWidget& window) {
     if (window.isMaximized() || window.isFullScreen()) return;
     const auto room = window.screen()->availableGeometry();
@@ -69,7 +68,7 @@ void keepOnScreen(QWidget& window) {
     if (place.topLeft() != window.frameGeometry().topLeft()) window.move(place.topLeft());
 }
 
-/// Shares the room as a splitter does at first: each part gets what it asks for, and the rest by stretch.
+/// Lays out a splitter as at first: each part gets its wanted size, and the stretch factors share the rest.
 void layOutAnew(QSplitter& splitter) {
     const bool across = splitter.orientation() == Qt::Horizontal;
     const int count = splitter.count();
@@ -94,8 +93,8 @@ MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry, std::function
     : controller_(std::move(makeRegistry), nullptr, std::move(today)) {
     setWindowTitle(tr("Tactoscope"));
     setAcceptDrops(true);
-    setDockOptions(AllowNestedDocks | AllowTabbedDocks);  // animated, they stop where another move cuts in
-    // Read before there is a widget: a later theme dresses each of them anew, which takes longer than all the rest.
+    setDockOptions(AllowNestedDocks | AllowTabbedDocks);  // not animated: another move would interrupt it
+    // Read before any widget exists: a later change of theme restyles each widget, which takes very long.
     const QSettings settings;
     applyTextSize(settings.value("textSize", 100).toInt());
     applyTheme(settings.value("theme").toString() == "dark" ? Theme::Dark : Theme::Light);
@@ -112,7 +111,7 @@ MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry, std::function
     top->setObjectName("safetyToolBar");
     top->setMovable(false);
     top->setFloatable(false);
-    top->toggleViewAction()->setEnabled(false);  // always there
+    top->toggleViewAction()->setEnabled(false);  // the bar cannot be hidden
     top->setContextMenuPolicy(Qt::PreventContextMenu);
     top->addWidget(safety_);
     addToolBar(Qt::TopToolBarArea, top);
@@ -179,8 +178,8 @@ MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry, std::function
 }
 
 MainWindow::~MainWindow() {
-    // Hiding notifies the workspaces, and they ask the controller: it is a member, and gone when Qt would hide the
-    // window.
+    // Hiding notifies the workspaces, and they use the controller. So hide now: the controller is a member, and gone by
+    // the time Qt would hide the window.
     hide();
 }
 
@@ -222,7 +221,7 @@ void MainWindow::buildDocks() {
 }
 
 void MainWindow::tick() {
-    // A window system may frame the window long after it is shown, and without moving it: the frame has to fit, too.
+    // The window system may add its frame long after the window is shown, without moving it. The frame must fit too.
     if (awaitsFrame_ && frameGeometry() != geometry()) {
         awaitsFrame_ = false;
         keepOnScreen(*this);
@@ -236,7 +235,7 @@ void MainWindow::tick() {
     showTitle();
     standIn();
     if (smallStop_) smallStop_->showState(safety_->shownState());
-    if (smallStop_ && smallStop_->isHidden()) {  // closed by its frame
+    if (smallStop_ && smallStop_->isHidden()) {  // the user closed it by its frame
         smallStop_.reset();
         findChild<QAction*>("smallStopShown")->setChecked(false);
     }
@@ -256,7 +255,7 @@ int MainWindow::workspace() const { return workspaces_->currentIndex(); }
 
 void MainWindow::showWorkspace(int index) { workspaces_->showPage(index); }
 
-/// Live work has the docks open, unfolding those for the page in view; everything else gives the room to its plot.
+/// Live work has open docks, with the docks of the present page unfolded; other pages give the room to their plot.
 void MainWindow::enterDocks() {
     const int page = workspace();
     const bool live = page == Workspaces::kLive, scope = workspaces_->showsScope();
@@ -277,7 +276,7 @@ void MainWindow::showPlotOnly(bool only) {
     menuBar()->setVisible(!only);
     workspaces_->showPlotOnly(only);
     docks_->setHidden(DockColumn::Hidden::PlotOnly, only);
-    // The widget with the keys may be hidden: Space must stop.
+    // The focused widget may now be hidden; another needs the focus, so that Space stops.
     if (only) workspaces_->takeFocus();
 }
 
@@ -289,7 +288,7 @@ void MainWindow::resetLayout() {
     line_->say(tr("Docks and columns are where they were at first."));
 }
 
-/// So that the state is read in the bar of tasks, too, where another window lies on this one.
+/// Puts the state into the title, to be read in the taskbar even if another window covers this one.
 void MainWindow::showTitle() {
     const auto open = controller_.open();
     const bool simulated = open && open->simulated();
@@ -297,7 +296,7 @@ void MainWindow::showTitle() {
     QString title = simulated ? tr("Simulated") : QString();
     if (isOn(state) || state == InterlockState::Faulted)
         title = simulated ? tr("%1, simulated").arg(stateStyle(state).word) : stateStyle(state).word;
-    // The program's name comes last: Qt adds it to a title that ends otherwise.
+    // The program's name stands last, because otherwise Qt would append the name.
     const auto whole = title.isEmpty() ? tr("Tactoscope") : tr("%1 – Tactoscope").arg(title);
     if (windowTitle() != whole) setWindowTitle(whole);
 }
@@ -309,7 +308,7 @@ void MainWindow::showSmallStop(bool shown) {
     smallStop_->show();
 }
 
-/// Where another program's window lies over STOP, a small STOP appears once, and goes when the large one is free.
+/// If another program's window covers STOP, a small STOP appears once. It goes when the large one is free again.
 void MainWindow::standIn() {
     const bool covered = attendance_->isCovered();
     if (covered == std::exchange(covered_, covered) || (covered ? smallStop_ != nullptr : !standsIn_)) return;
@@ -321,7 +320,7 @@ void MainWindow::standIn() {
 
 void MainWindow::askToArm() { arming_->ask(ArmDialog::Purpose::Arm); }
 
-/// Lanes, bars and docks show levels and trains as they are delivered.
+/// Hides levels and trains from lanes, bars and docks while the operator is blind.
 void MainWindow::noteBlind() {
     auto* pilot = workspaces_->pilot();
     const bool blind = pilot->blind();
@@ -392,12 +391,12 @@ void MainWindow::restore() {
     if (!restoreGeometry(settings.value("geometry").toByteArray())) resize(kWanted);
     keepOnScreen(*this);
     if (!restoreState(settings.value("state").toByteArray())) {
-        QTimer::singleShot(0, this, [this] { docks_->reset(); });  // once the window is laid out
+        QTimer::singleShot(0, this, [this] { docks_->reset(); });  // after the window is laid out
     }
-    // A window that was left with the plot only begins whole.
+    // A window that was closed with only the plot visible starts complete.
     rail_->show();
     statusBar()->show();
-    // A state that was damaged must not hide STOP.
+    // A damaged saved state must not hide STOP.
     if (auto* top = findChild<QToolBar*>("safetyToolBar")) {
         addToolBar(Qt::TopToolBarArea, top);
         top->show();
@@ -415,7 +414,7 @@ void MainWindow::showEvent(QShowEvent* event) {
 void MainWindow::attend(const Telemetry& telemetry) {
     const auto* pilot = workspaces_->pilot();
     const QWidget* theirs = pilot == nullptr ? nullptr : pilot->participantWindow();
-    // On a single screen the participant's window covers this one.
+    // On a single screen the participant's window covers this window.
     const bool covers = theirs != nullptr && theirs->isVisible() && theirs->screen() == screen();
     const bool on = isOn(telemetry.state);
     const auto* stop = covers ? theirs->findChild<QWidget*>("participantStop") : stop_;
@@ -429,7 +428,7 @@ void MainWindow::attend(const Telemetry& telemetry) {
 
 void MainWindow::closeEvent(QCloseEvent* event) {
     const bool ran = closing_->runs();
-    controller_.stop("the window closes");  // before anything is asked
+    controller_.stop("the window closes");  // before any question
     if (!closing_->mayClose(ran)) return event->ignore();
     QSettings settings;
     settings.setValue("geometry", saveGeometry());

@@ -1,6 +1,6 @@
-// MainWindow.h - the window: safety bar on top, workspaces at the left, the workspace, docks, the recording line.
+// MainWindow.h - the main window: safety bar at the top, workspaces chosen at the left, docks, recording line.
 //
-// Thirty times a second it pulls telemetry and lets what is visible redraw. Nothing here blocks.
+// Reads telemetry 30 times a second and lets the visible parts redraw. Nothing here blocks.
 #pragma once
 
 #include <QMainWindow>
@@ -35,40 +35,40 @@ class Workspaces;
 class MainWindow final : public QMainWindow {
     Q_OBJECT
 public:
-    /// `today` as of DayNotes.
+    /// For `today` see DayNotes.
     explicit MainWindow(BenchController::MakeRegistry makeRegistry, std::function<QDate()> today = {});
     ~MainWindow() override;
 
     [[nodiscard]] SafetyBar& safetyBar() { return *safety_; }
     [[nodiscard]] BenchController& controller() noexcept { return controller_; }
-    /// 0 to 6, in the order at the left.
+    /// Shows a workspace: 0 to 6, in the order of the buttons at the left.
     void showWorkspace(int index);
     [[nodiscard]] int workspace() const;
-    /// Opens a recording (a folder or its JSON), a session or a capture. Says so when it is none of them.
+    /// Opens a recording (a folder or its JSON), a session or a capture. Reports a file that is none of these.
     void openFile(const QString& path);
 
-    /// Closes at once, without a question about unsaved scripts or a run: for signals.
+    /// Closes at once, without questions about unsaved scripts or a run; used for signals.
     void closeUnasked();
 
-    // The orders of menus, docks and the tour:
+    // Commands of the menus, the docks and the tour:
     void chooseFile();
     void chooseRecording();
     void openSimulatedBench();
     void askForSimulatedBench();
-    /// The first of the two steps of arming.
+    /// Starts the first of the two steps of arming.
     void askToArm();
     void checkImpedance();
     void beginTour();
-    /// Marks this moment of the session that is being recorded, and asks for a word.
+    /// Marks this moment of the session being recorded, and asks for a word.
     void markMoment();
-    /// Operator and sample of today. `once`: unless the question was answered or put off today.
+    /// Asks for today's operator and sample. `once`: not if the question was answered or put off today.
     void askForDay(bool once);
-    /// Opens the docks with this one ("deviceDock") unfolded.
+    /// Opens the docks with the named dock ("deviceDock") unfolded.
     void showDock(const QString& name);
     void setTheme(Theme theme);
-    /// Safety bar and plot alone, without menus, tools and paths; STOP and the menus' keys stay.
+    /// Shows only safety bar and plot, without menus, tools and paths; STOP and the keys of the menus still work.
     void showPlotOnly(bool only);
-    /// STOP by itself, above the windows of other programs.
+    /// Shows STOP in a small window above the windows of other programs.
     void showSmallStop(bool shown);
     void resetLayout();
 
@@ -83,11 +83,11 @@ private:
     void buildDocks();
     void restore();
     void tick();
-    /// Output pauses while the operator cannot see STOP and reach it.
+    /// Pauses output while the operator cannot see and reach STOP.
     void attend(const Telemetry& telemetry);
     void standIn();
     void showTitle();
-    /// While a pilot session hides what is delivered, shows this workspace alone, without docks and bars.
+    /// Shows only this workspace, without docks and bars, while a pilot session hides what is delivered.
     void noteBlind();
     void enterDocks();
 
@@ -97,8 +97,8 @@ private:
     SafetyBar* safety_ = nullptr;
     const QWidget* stop_ = nullptr;  ///< the STOP of the safety bar
     std::unique_ptr<SmallStop> smallStop_;
-    bool covered_ = false;   ///< STOP, by another program's window
-    bool standsIn_ = false;  ///< the small STOP came by itself, and goes by itself
+    bool covered_ = false;   ///< another program's window covers STOP
+    bool standsIn_ = false;  ///< the small STOP appeared by itself and will go by itself
     NoticeBanner* banner_ = nullptr;
     Workspaces* workspaces_ = nullptr;
     DeviceDock* devices_ = nullptr;
@@ -114,7 +114,7 @@ private:
     ArmQuestion* arming_ = nullptr;
     WorkspaceRail* rail_ = nullptr;
     bool hasRoomForDocks_ = true, hasRoomForAllDocks_ = true;
-    bool awaitsFrame_ = false;  ///< a frame from the window system
+    bool awaitsFrame_ = false;  ///< the window system has not yet added its frame
     QTimer frame_;
 };
 

@@ -58,8 +58,8 @@ MarkLine::MarkLine(BenchController& controller, RecordingLine& line, QWidget& ov
 }
 
 void MarkLine::begin() {
-    const auto at = controller_.telemetry().at;  // first of all
-    if (isVisible()) finish();                   // the moment before
+    const auto at = controller_.telemetry().at;  // read first, so that nothing delays the moment
+    if (isVisible()) finish();                   // marks the earlier moment
     const auto open = controller_.open();
     if (!open) {
         emit refused(tr("There is nothing to mark: no bench is open, and nothing is recorded"));
@@ -89,7 +89,7 @@ void MarkLine::finish() {
     line_.say(tr("Marked at %1: %2").arg(minutesText(toSeconds(at_)), word));
 }
 
-/// The keys that follow are meant for what had them before: there Space stops again.
+/// Gives the focus back to the previous widget, where Space stops again.
 void MarkLine::leave() {
     hide();
     if (focusBefore_ && focusBefore_->isVisible())
@@ -112,7 +112,7 @@ bool MarkLine::eventFilter(QObject* watched, QEvent* event) {
 }
 
 void MarkLine::keyPressEvent(QKeyEvent* event) {
-    if (event->key() == Qt::Key_Escape) return leave();  // StopKeys has stopped by now
+    if (event->key() == Qt::Key_Escape) return leave();  // StopKeys has already stopped the output
     QFrame::keyPressEvent(event);
 }
 

@@ -1,8 +1,8 @@
-// MarkLine.h - a line for the word of a mark: the mark's moment is when its key was pressed, however long the typing
-// takes.
+// MarkLine.h - an input line for the word of a mark. The mark's time is the moment its key was pressed, however long
+// the typing takes.
 //
-// It lies over the lower edge of the workspace, so that nothing moves, and is not a dialog: all keys that stop do so in
-// it, and Esc closes it too. Return marks; a line left empty marks without a word of its own.
+// Lies over the lower edge of the workspace, so that nothing moves. It is not a dialog: all stop keys work in it, and
+// Esc also closes it. Return marks; an empty line gives the standard word.
 #pragma once
 
 #include <QFrame>
@@ -19,10 +19,10 @@ class RecordingLine;
 class MarkLine final : public QFrame {
     Q_OBJECT
 public:
-    /// `over`: the widget at whose lower edge it lies, above `notice` while that is there.
+    /// `over`: the widget at whose lower edge the line lies; above `notice` while that is shown.
     MarkLine(BenchController& controller, RecordingLine& line, QWidget& over, QWidget& notice);
-    /// Takes this moment, and asks for its word; a line that is still open marks the earlier moment. Where nothing is
-    /// recorded it says so by refused().
+    /// Notes the present moment and asks for its word. If the line is still open, marks its earlier moment first. If
+    /// nothing is being recorded, emits refused().
     void begin();
 
 signals:
@@ -44,7 +44,7 @@ private:
     QLabel* when_;
     QLineEdit* word_;
     Instant at_{0};
-    std::filesystem::path session_;  ///< the session that holds the moment
+    std::filesystem::path session_;  ///< the session in which the moment lies
     QPointer<QWidget> focusBefore_;
 };
 

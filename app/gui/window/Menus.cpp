@@ -25,7 +25,7 @@ Menus::Menus(MainWindow& window, const QActionGroup& workspaces, DockColumn& doc
     addBench();
     addView(workspaces, docks);
     addHelp();
-    // The keys of the menus work while the menu bar is hidden.
+    // The menus' keys also work while the menu bar is hidden.
     for (const auto* menu : window_.menuBar()->actions()) {
         for (auto* action : menu->menu()->actions())
             if (!action->shortcut().isEmpty()) window_.addAction(action);
@@ -71,7 +71,7 @@ void Menus::addBench() {
     auto* reset = bench->addAction(tr("&Reset fault"), controller, &BenchController::resetFault);
     auto* check = bench->addAction(tr("Check &impedance"), &window_, &MainWindow::checkImpedance);
     bench->setToolTipsVisible(true);
-    // The state of the output is looked up as the menu opens.
+    // The entries follow the output's state at the time the menu opens.
     const auto follow = [=, this](bool opens) {
         const auto activity = controller->activity();
         const auto state = controller->telemetry().state;
@@ -101,7 +101,7 @@ void Menus::addBench() {
     auto* mark = bench->addAction(tr("&Mark this moment…"), QKeySequence(Qt::CTRL | Qt::Key_M), &window_,
                                   &MainWindow::markMoment);
     mark->setAutoRepeat(false);
-    mark->setShortcutContext(Qt::ApplicationShortcut);  // the moment passes; any window may have the focus
+    mark->setShortcutContext(Qt::ApplicationShortcut);  // works in any window, because the moment passes quickly
     bench->addAction(tr("&Operator and sample…"), &window_, [this] { window_.askForDay(false); });
     bench->addSeparator();
     bench->addAction(tr("STOP (Esc)"), &window_, [controller] { controller->stop("operator (menu)"); });

@@ -14,7 +14,7 @@ class RecordingLine;
 class Menus final : public QObject {
     Q_OBJECT
 public:
-    /// The window owns this; `workspaces` and `docks` are offered in the view menu, `line` takes what is said.
+    /// The window owns this. The view menu offers `workspaces` and `docks`; `line` shows messages.
     Menus(MainWindow& window, const QActionGroup& workspaces, DockColumn& docks, RecordingLine& line);
 
 private:

@@ -17,7 +17,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kFramesForReason = 10;  // a third of a second
+constexpr int kFramesForReason = 10;  // a third of a second, in frames
 
 }  // namespace
 
@@ -56,7 +56,7 @@ NoticeBanner::NoticeBanner(BenchController& controller, RecordingLine& line, QWi
     });
 }
 
-/// A safety check provokes faults: the last of them is not what came of it.
+/// A safety check provokes faults, so the last fault is not its result.
 void NoticeBanner::sayEnd(const std::shared_ptr<const FinishedRun>& run) {
     saidArmed_ = false;
     const auto name = procedureText(run->order.script.name);
@@ -78,8 +78,8 @@ void NoticeBanner::refresh(const Telemetry& telemetry) {
     if (isVisible()) lieDown();
 }
 
-/// The last message must not say "Armed." when that is over. The state is there at once, its reason with the control
-/// loop's next step: that is waited for, for some frames.
+/// Replaces the message "Armed." when the bench is no longer armed. The new state is known at once, but its reason only
+/// after the control loop's next step: waits some frames for the reason.
 void NoticeBanner::sayState(const Telemetry& telemetry) {
     const auto state = telemetry.state;
     if (isOn(state) || !saidArmed_) {
@@ -96,15 +96,15 @@ void NoticeBanner::sayState(const Telemetry& telemetry) {
         line_.say(reason.isEmpty() ? tr("Disarmed. Output is off.") : tr("Disarmed: %1. Output is off.").arg(reason));
 }
 
-/// No message that the output is off stands on the line while it is on; the log keeps it, with its time.
+/// While output is on, removes a message from the line that says it is off; the log keeps the message with its time.
 void NoticeBanner::sayOn(InterlockState state) {
     if (outputIsOff(state) || !line_.saysOff()) return;
     if (state == InterlockState::Checking) return line_.say(tr("Checking the impedance."));
     line_.say(controller_.activity() == Activity::Running ? tr("Armed by the run.") : tr("Armed."));
 }
 
-/// Told in the second frame: the state is known at once, its reason with the control loop's next step. The safety bar
-/// shows it as long as it lasts.
+/// Reports in the second frame: the state is known at once, but its reason only after the control loop's next step. The
+/// safety bar shows the fault as long as it lasts.
 void NoticeBanner::sayFault(const Telemetry& telemetry) {
     if (telemetry.state != InterlockState::Faulted) {
         faultedFrames_ = 0;
@@ -141,7 +141,7 @@ QRect NoticeBanner::room() const {
     for (const auto* each : over_.findChildren<QWidget*>()) {
         if (!each->isVisible()) continue;
         const QRect at(each->mapTo(&over_, QPoint()), each->size());
-        const bool isColumn = at.width() < over_.width() / 2;  // else the path lies on top
+        const bool isColumn = at.width() < over_.width() / 2;  // otherwise the path is at the top
         if (each->objectName() == "path" && isColumn) room.setLeft(std::max(room.left(), at.right() + 1));
         const bool isBelow = at.top() > over_.height() / 2;
         if (isActionBar(*each) && isBelow) room.setBottom(std::min(room.bottom(), at.top() - 1));
@@ -160,7 +160,7 @@ bool NoticeBanner::eventFilter(QObject* watched, QEvent* event) {
     return QFrame::eventFilter(watched, event);
 }
 
-/// The text needs another height in another size.
+/// Another text size needs another height.
 bool NoticeBanner::event(QEvent* event) {
     const bool done = QFrame::event(event);
     if (event->type() == QEvent::LayoutRequest && !isHidden()) lieDown();

@@ -1,8 +1,8 @@
-// NoticeBanner.h - what went wrong, with what it means for the output, until it is dismissed or what it says of the
-// output is over; the line at the bottom says it too, and keeps it.
+// NoticeBanner.h - shows what went wrong and what that means for the output, until the user dismisses it or it is no
+// longer true. The line at the bottom shows and logs the same text.
 //
-// It lies over the lower edge of the workspace, so that nothing moves, beside a procedure's path with its Run and above
-// what can be done with a result.
+// Lies over the lower edge of the workspace, so that nothing moves; next to a procedure's path with its Run button, and
+// above the buttons for a result.
 #pragma once
 
 #include <QFrame>
@@ -19,12 +19,12 @@ class RecordingLine;
 class NoticeBanner final : public QFrame {
     Q_OBJECT
 public:
-    /// The arguments outlive this. Shows what the controller reports. `over`: the widget at whose lower edge it lies.
+    /// All arguments outlive this. Shows what the controller reports. `over`: the widget at whose lower edge it lies.
     NoticeBanner(BenchController& controller, RecordingLine& line, QWidget& over);
     void complain(const QString& what);
-    /// Shows the text until it is dismissed or `holds` turns from true to false; empty: until it is dismissed.
+    /// Shows the text until the user dismisses it or `holds` turns from true to false. `holds` may be empty.
     void sayWhile(const QString& text, std::function<bool(const Telemetry&)> holds);
-    /// Called as often as telemetry is read: puts states and faults into the log.
+    /// Called as often as telemetry is read. Logs states and faults.
     void refresh(const Telemetry& telemetry);
 
 protected:
@@ -32,7 +32,7 @@ protected:
     bool eventFilter(QObject* watched, QEvent* event) override;
 
 private:
-    /// The part of the workspace that it may lie over: the page may be another with each frame.
+    /// The part of the workspace that the banner may cover; it can change with the page in every frame.
     [[nodiscard]] QRect room() const;
     void lieDown();
     void sayState(const Telemetry& telemetry);
@@ -44,10 +44,10 @@ private:
     RecordingLine& line_;
     QWidget& over_;
     QLabel* text_;
-    std::function<bool(const Telemetry&)> holds_;  ///< the condition that the text tells of the output
-    bool held_ = false;                            ///< held at the last refresh()
-    bool saidArmed_ = false;                       ///< the bench was said to be armed, and not yet said to be over
-    int framesWithoutReason_ = 0;                  ///< frames without a reason since the bench disarmed
+    std::function<bool(const Telemetry&)> holds_;  ///< the condition of the output of which the text speaks
+    bool held_ = false;                            ///< the condition was true at the last refresh()
+    bool saidArmed_ = false;                       ///< "Armed." was shown, and its end was not yet reported
+    int framesWithoutReason_ = 0;                  ///< frames since the bench disarmed without a known reason
     int faultedFrames_ = 0;                        ///< frames since the bench faulted
 };
 

@@ -19,12 +19,12 @@ namespace {
 
 constexpr int kBetweenBars = 8;
 
-/// How much nearer to its limit another row has to be than the first to take its place, as a share of the limit.
+/// A row takes the first place only if it is nearer to its limit than the first row by this share of the limit.
 constexpr double kClearlyNearer = 0.05;
 
 double shareOf(const ExposureRow& row) { return row.evaluated ? row.value / row.limit : -1; }
 
-/// The tightest row of each quantity and place that something is held to.
+/// Returns the tightest row of each limited quantity and place.
 std::vector<ExposureRow> limitsIn(std::span<const ExposureRow> rows) {
     std::vector<ExposureRow> found;
     for (const auto& row : rows) {
@@ -65,7 +65,7 @@ ExposureDock::ExposureDock(const BenchController& controller, QWidget* parent)
     enterArea_->setToolTip(
         tr("Current and power density need the electrode’s area: opens the encoding profile there."));
     connect(enterArea_, &QPushButton::clicked, this, &ExposureDock::areaWanted);
-    column_->addWidget(now_);  // below the bars: the nearest limit comes first
+    column_->addWidget(now_);  // below the bars, because the nearest limit comes first
     column_->addWidget(enterArea_, 0, Qt::AlignLeft);
     for (QWidget* later : {static_cast<QWidget*>(now_), static_cast<QWidget*>(enterArea_)}) later->hide();
     column_->addStretch();
@@ -74,7 +74,7 @@ ExposureDock::ExposureDock(const BenchController& controller, QWidget* parent)
     setContent(rows);
 }
 
-/// Bars stay where they are and only their numbers change, until another one is clearly nearer to its limit than the
+/// Bars keep their order and only their numbers change, until another bar is clearly nearer to its limit than the
 /// first.
 void ExposureDock::putInOrder(std::vector<ExposureRow>& rows) const {
     const auto placeOf = [this](const ExposureRow& row) { return titles_.indexOf(titled(rowTitle(row))); };

@@ -1,4 +1,4 @@
-// OutputDocks.h - the docks of the output: how far it is from its limits, and what drives it.
+// OutputDocks.h - two docks about the output: its distance from the limits, and what drives it.
 #pragma once
 
 #include <QPushButton>
@@ -15,18 +15,18 @@ namespace tacto::gui {
 
 class DrivePanel;
 
-/// Every limit that holds for what the bench delivers, the nearest first, the unevaluated ones last, with a way to what
-/// those lack.
+/// All limits that apply to the output: the nearest first, unevaluated ones last, with a button to enter what those
+/// lack.
 class ExposureDock final : public FoldingDock {
     Q_OBJECT
 public:
     ExposureDock(const BenchController& controller, QWidget* parent);
     void refresh(const Telemetry& telemetry);
-    /// The limit that is nearest: "39.1 of 40 V".
+    /// The nearest limit: "39.1 of 40 V".
     [[nodiscard]] QString keyFigure() const override { return nearest_; }
 
 signals:
-    void areaWanted();  ///< asks for the electrode's area, which current and power density need
+    void areaWanted();  ///< asks for the electrode's area, which current density and power density need
 
 private:
     void putInOrder(std::vector<ExposureRow>& rows) const;
@@ -34,7 +34,7 @@ private:
 
     const BenchController& controller_;
     QLabel* empty_;
-    ElidedLabel* now_;  ///< whether any of it is delivered
+    ElidedLabel* now_;  ///< says whether any of this is delivered now
     QPushButton* enterArea_;
     QVBoxLayout* column_;
     std::vector<LimitBar*> bars_;
@@ -44,13 +44,13 @@ private:
     QString nearest_;
 };
 
-/// The drive of the output, in every workspace: off, two sliders, or the fingertip, and what that asks for.
+/// What drives the output, in every workspace: off, two sliders or the fingertip; and what is asked of the output.
 class DriveDock final : public FoldingDock {
     Q_OBJECT
 public:
     DriveDock(BenchController& controller, QWidget* parent);
     void refresh(const Telemetry& telemetry);
-    /// Puts the focus on what drives now: arrow keys choose from there. This itself chooses nothing.
+    /// Focuses the selected drive, so that arrow keys can choose another. Does not change the drive.
     void takeFocus();
     [[nodiscard]] QString keyFigure() const override;
 

@@ -17,18 +17,18 @@ namespace tacto::gui {
 
 namespace {
 constexpr int kLogLines = 2000;
-constexpr int kRecordingChars = 12;  // "● recording" is left where the message is long
+constexpr int kRecordingChars = 12;  // "● recording" stays even if the message is long
 }  // namespace
 
 RecordingLine::RecordingLine(BenchController& controller, QStatusBar& bar)
     : QObject(&bar), controller_(controller), bar_(bar) {
     recording_ = makeLabel<ElidedLabel>({}, {.name = "recording"}, &bar);
-    recording_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);  // gives way to the message
+    recording_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);  // makes room for the message
     bar.addWidget(recording_, 1);
     message_ = new QToolButton(&bar);
     message_->setObjectName("lastMessage");
     message_->setAutoRaise(true);
-    message_->setMinimumWidth(1);  // a long message does not keep the window wide
+    message_->setMinimumWidth(1);  // so that a long message does not widen the window
     message_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Preferred);
     message_->setToolTip(tr("The last message. Click for the log."));
     message_->setText(tr("No messages"));
@@ -83,7 +83,7 @@ void RecordingLine::sayRecording(const QString& text) {
                               "events and trials at once."));
 }
 
-/// A session that was moved or thrown away is not worth its name.
+/// Names a finished session only if it still exists.
 void RecordingLine::sayRecorded(const std::filesystem::path& session) {
     const QFileInfo file(QString::fromStdString(session.string()));
     sayRecording(file.exists()
@@ -118,7 +118,7 @@ void RecordingLine::fitMessage() {
     for (const auto* part : bar_.findChildren<QWidget*>(Qt::FindDirectChildrenOnly))
         if (part != message_ && part != recording_ && !part->isHidden()) room -= part->sizeHint().width();
     message_->setText(metrics.elidedText(said_, Qt::ElideRight, room));
-    if (auto* layout = bar_.layout()) layout->activate();  // else a longer text would be cut until the next turn
+    if (auto* layout = bar_.layout()) layout->activate();  // otherwise a longer text would be cut until the next layout
 }
 
 bool RecordingLine::eventFilter(QObject* watched, QEvent* event) {

@@ -1,5 +1,5 @@
-// RecordingLine.h - the bottom line: what is being recorded, how much, how safe it is; the last message with its time,
-// click for all.
+// RecordingLine.h - the line at the bottom: what is being recorded, how much, and how safely; and the last message with
+// its time. A click shows all messages.
 #pragma once
 
 #include <QElapsedTimer>
@@ -17,17 +17,17 @@ class RecordingLine final : public QObject {
 public:
     RecordingLine(BenchController& controller, QStatusBar& bar);
     void refresh();
-    /// While blind it says neither how much is written nor when, as both come with each train, and leaves numbers out
-    /// of messages.
+    /// While the operator is blind, leaves out how much was written and when, as both change with each train, and the
+    /// numbers in messages.
     void setBlind(bool blind);
-    /// A message as it may be shown now.
+    /// Returns a message in the form that may be shown now.
     [[nodiscard]] QString shown(const QString& text) const;
     /// Shows a message and keeps it in the log.
     void say(const QString& message, bool isError = false);
-    /// Whether the message on the line says that the output is off.
+    /// True if the message on the line says that the output is off.
     [[nodiscard]] bool saysOff() const;
     void showLog();
-    /// The message has the room that it needs; what is being recorded is elided before it.
+    /// Gives the message the room it needs; the text about the recording is shortened first.
     bool eventFilter(QObject* watched, QEvent* event) override;
     [[nodiscard]] const QStringList& log() const { return log_; }
 
@@ -40,7 +40,7 @@ private:
     QStatusBar& bar_;
     QLabel* recording_;
     QToolButton* message_;
-    QString said_;  // what was said, with its time
+    QString said_;  // the last message with its time
     QStringList log_;
     QElapsedTimer since_;
     QElapsedTimer looked_;

@@ -29,7 +29,7 @@ constexpr const char* kActions[] = {QT_TRANSLATE_NOOP("SafetyBar", "&Arm…"), Q
 
 struct Bar {
     const char* title;
-    std::vector<Quantity> quantities;  ///< none: the measured net charge
+    std::vector<Quantity> quantities;  ///< empty: the measured net charge
 };
 using Q = Quantity;
 const std::vector<Bar>& allBars() {
@@ -45,8 +45,8 @@ const std::vector<Bar>& allBars() {
     return bars;
 }
 
-/// The last pulse's measured net charge against what a person may receive. On bench loads it is only shown: amber
-/// above the limit, red from ten times it (safety.md H5).
+/// Compares the last pulse's measured net charge with the limit for a person. On bench loads it is for information:
+/// amber above the limit, red from ten times the limit (safety.md H5).
 std::optional<ExposureRow> netCharge(const Telemetry& telemetry) {
     if (telemetry.trainsDelivered == 0) return std::nullopt;
     const auto present = [](double value) { return std::isnan(value) ? std::nullopt : std::optional(value); };
@@ -72,7 +72,7 @@ SafetyBar::SafetyBar(BenchController& controller, const CalibrationBook& calibra
     setAutoFillBackground(true);
     setBackgroundRole(QPalette::Base);
     auto* row = rowIn(*this, 0);
-    row->setSizeConstraint(QLayout::SetNoConstraint);  // minimumSizeHint() says how narrow it may be
+    row->setSizeConstraint(QLayout::SetNoConstraint);  // minimumSizeHint() gives the smallest width
     facts_ = buildFacts();
     QStringList titles;
     for (const auto& bar : allBars()) titles << tr(bar.title);
@@ -151,7 +151,7 @@ void SafetyBar::setPauseInstead(std::optional<PauseInstead> instead) {
 
 void SafetyBar::setParticipantsStop(const QString& words) { participantsStop_->setText(words); }
 
-/// Says whether a limit is broken, and nothing of how far it is.
+/// Says only whether a limit is exceeded, not how far.
 void SafetyBar::showBlind(const Telemetry& telemetry) {
     const auto rows = telemetry.exposure();
     const auto broken = [](const ExposureRow& row) { return forbids(row); };
@@ -182,9 +182,9 @@ QWidget* SafetyBar::buildButtons() {
     return holder;
 }
 
-/// The buttons' words change with the state: the widest of them sets the width, so that nothing moves. Where there is
-/// little room bars go first, then facts, and the state's word gets smaller last; a word of more than 28 pt leaves the
-/// nearest limit its room.
+/// Buttons have the width of their widest word, so that nothing moves when the words change. In a narrow bar the limit
+/// bars go first, then the facts, and last the state's word shrinks; a word above 28 pt leaves room for the nearest
+/// limit.
 void SafetyBar::giveRoom() {
     const auto metrics = fontMetrics();
     int widest = 0;
@@ -195,12 +195,12 @@ void SafetyBar::giveRoom() {
     const int calibrated = QFontMetrics(textFont(TextSize::Small)).horizontalAdvance(tr(kFactsWidth));
     const int unmeasured = QFontMetrics(textFont(TextSize::Small, QFont::Bold)).horizontalAdvance(tr(kUnmeasured));
     const int facts = std::max(calibrated, unmeasured) + 2 * kBarGap;
-    // While blind no bar is shown, and its place would hold nothing but ellipses.
+    // While the operator is blind no bar is shown, so no room is kept.
     const int beside = width() - always, forBar = blind_ ? 0 : bars_->oneBarWidth() + kBarGap;
     block_->fit(std::max(beside - forBar, std::min(beside, block_->legibleWidth())));
     const int left = beside - block_->width();
     const bool barFirst = block_->width() > block_->legibleWidth();
-    factsFit_ = left >= facts / 2 + (barFirst ? forBar : 0);  // three ellipses say nothing
+    factsFit_ = left >= facts / 2 + (barFirst ? forBar : 0);  // too narrow, all texts would be cut to "…"
     facts_->setFixedWidth(std::min(left, facts));
     bars_->setContentsMargins(factsFit_ ? 0 : kBarGap, 0, 0, 0);
     facts_->setVisible(factsFit_ && state_ != InterlockState::Faulted);
@@ -238,10 +238,10 @@ void SafetyBar::showState(const Telemetry& telemetry) {
         refused_ = true;
     trainsSeen_ = telemetry.trainsDelivered;
     refusalsSeen_ = telemetry.trainsRefused;
-    // An empty presentation delivers nothing: while blind it looks as any other.
+    // An empty presentation delivers nothing, but must look like any other while the operator is blind.
     const bool closed = state_ == InterlockState::Disconnected && controller_.activity() == Activity::Closed;
     const bool hidden = blind_ && (state_ == InterlockState::Delivering || state_ == InterlockState::Armed);
-    // Armed and held back: nothing begins either.
+    // Armed but paused: no train comes either.
     const bool waits = telemetry.state == InterlockState::Armed && telemetry.paused;
     shown_ = hidden ? InterlockState::Armed : waits ? InterlockState::Paused : telemetry.state;
     if (hidden)
@@ -256,7 +256,7 @@ QString SafetyBar::closedWords() const {
                                      : tr("No bench is open. Ctrl+B opens a simulated one.");
 }
 
-/// The protocol that has the bench; empty while a person has it.
+/// The protocol that uses the bench; empty while a person uses it.
 QString SafetyBar::protocol() const {
     const auto open = controller_.open();
     return open && controller_.activity() == Activity::Running ? procedureText(open->about.protocol) : QString();
@@ -281,7 +281,7 @@ void SafetyBar::showDevice(const Telemetry& telemetry) {
     device_->setText(text);
     device_->setToolTip(text);
     const double age_s = noteImpedance(telemetry);
-    // The time of the last measurement tells when a train came, and the reading itself tells which.
+    // Hidden while blind: the time of a measurement would show when a train came, and the value which train.
     load_->setText(!open->source || blind_ ? QString()  // a massager has no impedance
                    : std::isfinite(measured_ohm_)
                        ? QString("%1 · %2").arg(quantityText(measured_ohm_, "ohm", 3), ageText(age_s))
@@ -294,8 +294,8 @@ void SafetyBar::showDevice(const Telemetry& telemetry) {
     showCalibration();
 }
 
-/// The bench forgets the impedance with each stop, for it arms on none that is old; what was measured stays to be read,
-/// with its age, until a fault or another bench. Returns that age in seconds.
+/// The bench forgets the impedance at each stop, so that it never arms on an old one. The measured value stays visible
+/// with its age until a fault or another bench. Returns this age in seconds.
 double SafetyBar::noteImpedance(const Telemetry& telemetry) {
     const auto bench = controller_.tap();
     const bool another = bench != measuredOn_.lock() || !bench;
@@ -308,14 +308,14 @@ double SafetyBar::noteImpedance(const Telemetry& telemetry) {
     return toSeconds(telemetry.at) - measuredAt_s_;
 }
 
-/// Amber where it does not count: a person may not be connected to what was never measured.
+/// Amber if the calibration does not count: a person may not be connected to an uncalibrated stimulator.
 void SafetyBar::showCalibration() {
     const auto stimulator = calibrations_.connected();
     const auto standing = stimulator ? std::optional(calibrations_.standing(*stimulator)) : std::nullopt;
     const bool counts = !standing || standing->state == CalibrationState::Valid;
     auto text = standing ? standingText(*standing) : QString();
     const auto whole = text;
-    // Where it counts, the bar has room for its end; the tip says how old it is.
+    // If it counts, the bar shows until when; the tool tip also says how old it is.
     if (standing && counts) text = tr("calibrated until %1").arg(qtext(dateText(standing->newest->validUntil)));
     if (!counts) text = "⚠ " + text;
     if (calibration_->text() != text) {
@@ -334,9 +334,9 @@ void SafetyBar::showExposure(const Telemetry& telemetry) {
         const auto& quantities = allBars()[i].quantities;
         const auto row = quantities.empty() ? netCharge(telemetry) : tightest(rows, quantities);
         bars_->show(i, row, controller_.limits().sets);
-        // The value was measured, and stays that of the last pulse.
+        // The measured value stays that of the last pulse.
         if (quantities.empty()) bars_->setTitle(i, off && row ? tr("Last net charge") : tr(allBars()[i].title));
-        // Named by the limit that it is beside, as in the dock: one name has one limit.
+        // Named after the limit shown, as in the dock: the same name always means the same limit.
         if (!quantities.empty()) bars_->setTitle(i, row ? shortRowTitle(*row) : tr(allBars()[i].title));
     }
     bars_->arrange();
@@ -368,7 +368,7 @@ void SafetyBar::showButtons(InterlockState state) {
 
 bool SafetyBar::held(InterlockState state) const {
     if (pauseInstead_) return pauseInstead_->paused();
-    // While it delivers, the state alone says so: it is known before the loop's next step.
+    // While trains are delivered only the state decides, which is known before the loop's next step.
     const bool mayBegin = controller_.activity() == Activity::Running || state == InterlockState::Checking ||
                           state == InterlockState::Armed;
     return state == InterlockState::Paused || (mayBegin && controller_.paused());

@@ -1,7 +1,7 @@
-// SafetyBar.h - the bar that is visible in every workspace: the interlock in word, shape and colour, what is connected,
-// how far the output is from its limits, and STOP.
+// SafetyBar.h - the bar at the top of every workspace: the interlock's state as word, shape and colour, what is
+// connected, how far the output is from its limits, and STOP.
 //
-// Where there is little room, the state's word shrinks first, then bars and facts go; STOP and the buttons stay.
+// In a narrow window the state's word shrinks first, then bars and facts go; STOP and the buttons stay.
 #pragma once
 
 #include <QFrame>
@@ -25,7 +25,7 @@ class LimitBarRow;
 class StateBlock;
 class StopButton;
 
-/// The actions of Pause and Resume in place of the bench's own, and whether it is paused so.
+/// Replaces the bench's own Pause and Resume, and says whether this other pause is on.
 struct PauseInstead {
     std::function<void(bool pause)> pause;
     std::function<bool()> paused;
@@ -35,29 +35,29 @@ class SafetyBar final : public QFrame {
     Q_OBJECT
 public:
     SafetyBar(BenchController& controller, const CalibrationBook& calibrations, QWidget* parent = nullptr);
-    /// Thirty times a second.
+    /// Called 30 times a second.
     void refresh(const Telemetry& telemetry);
-    /// During a blind session nothing here shows levels or trains: a word in place of the bars, no pulse with trains.
+    /// During a blind session hides levels and trains: a word replaces the bars, and trains make no flash.
     void setBlind(bool blind);
-    /// Adds to STOP's tool tip what this display does not tell.
+    /// Appends to STOP's tool tip what this display cannot report.
     void addToStopTip(const QString& sentence);
     void setParticipantsStop(const QString& words);
-    /// Whether a session pauses by itself. Nothing: the bench's own pause counts.
+    /// Sets a session's own pause; nothing: uses the bench's pause.
     void setPauseInstead(std::optional<PauseInstead> instead);
-    /// Does what the button Pause or Resume does.
+    /// Does the same as the button Pause (true) or Resume (false).
     void holdOutput(bool hold);
-    /// Whether Pause (true) or Resume (false) would do something, as of the last refresh().
+    /// True if Pause (true) or Resume (false) would have an effect, as of the last refresh().
     [[nodiscard]] bool canHold(bool hold) const;
-    /// Whether no train comes until Resume.
+    /// True if no train comes until Resume.
     [[nodiscard]] bool held(InterlockState state) const;
-    /// The state as the bar shows it: while blind, as armed whether or not a train is delivered.
+    /// The state as shown: while blind always "armed", whether a train is being delivered or not.
     [[nodiscard]] InterlockState shownState() const { return shown_; }
     [[nodiscard]] QSize minimumSizeHint() const override;
 
 signals:
     void armRequested();
-    void detailsRequested();  ///< the details of a fault are asked for
-    void resumed();           ///< by hand
+    void detailsRequested();  ///< the user wants to see the details of a fault
+    void resumed();           ///< resumed by hand
 
 protected:
     void changeEvent(QEvent* event) override;
@@ -92,22 +92,22 @@ private:
     QLabel* within_ = nullptr;
     QLabel* participantsStop_ = nullptr;
     bool blind_ = false;
-    QString moreOfStop_;  // the rest of STOP's tip
+    QString moreOfStop_;  // text appended to STOP's tool tip
     std::optional<PauseInstead> pauseInstead_;
-    bool paused_ = false;  ///< as shown
+    bool paused_ = false;  ///< the pause state as shown
     QWidget* buttons_ = nullptr;
-    ConfirmButton* action_ = nullptr;  ///< Arm…, Disarm, Reset…
+    ConfirmButton* action_ = nullptr;  ///< Arm…, Disarm or Reset…
     ConfirmButton* pause_ = nullptr;
-    QPushButton* details_ = nullptr;  ///< shown in its place while faulted
+    QPushButton* details_ = nullptr;  ///< shown instead of pause_ while faulted
     StopButton* stop_ = nullptr;
-    double measured_ohm_ = NAN;  ///< |Z| as last measured on this bench
-    double measuredAt_s_ = NAN;  ///< when it was measured, on the bench's clock
+    double measured_ohm_ = NAN;  ///< |Z| as last measured on this bench, in ohms
+    double measuredAt_s_ = NAN;  ///< time of that measurement on the bench's clock
     std::weak_ptr<BenchTap> measuredOn_;
     std::uint64_t trainsSeen_ = 0;
     std::uint64_t refusalsSeen_ = 0;
     bool refused_ = false;  // the newest train was refused
     bool factsFit_ = true;
-    int pulse_ = 0;  ///< frames left of the flash that goes with each train
+    int pulse_ = 0;  ///< frames left of the flash for the last train
     InterlockState state_ = InterlockState::Disconnected;
     InterlockState shown_ = InterlockState::Disconnected;
 };

@@ -7,7 +7,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kStopped = 4;  // the exit code of tactoscope-cli when it is stopped
+constexpr int kStopped = 4;  // exit code of a stopped program, as for tactoscope-cli
 
 }  // namespace
 
@@ -16,7 +16,7 @@ SignalClose::SignalClose(SignalStop& stops, MainWindow& window) : stops_(stops) 
         window.controller().stop("operator (signal)");
         const auto inTurn = [&window] {
             window.closeUnasked();
-            QCoreApplication::exit();  // this ends the program also where a dialog is open
+            QCoreApplication::exit();  // ends the program even if a dialog is open
         };
         QMetaObject::invokeMethod(&window, inTurn, Qt::QueuedConnection);
     };
@@ -24,7 +24,7 @@ SignalClose::SignalClose(SignalStop& stops, MainWindow& window) : stops_(stops) 
         close();
         note(first);
     });
-    if (stops_.signalled()) close();  // a signal came while the window was built
+    if (stops_.signalled()) close();  // a signal came while the window was being built
 }
 
 SignalClose::~SignalClose() {

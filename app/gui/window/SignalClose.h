@@ -1,6 +1,6 @@
-// SignalClose.h - Ctrl+C in the terminal of the window, termination and a terminal that closes: the output goes off at
-// once, even while the window is busy, and then the window closes without a question, so that the session is closed
-// (hazard H2).
+// SignalClose.h - handles Ctrl+C in the window's terminal, termination, and a closed terminal: the output goes off at
+// once, even while the window is busy. Then the window closes without a question, so that the session is closed (hazard
+// H2).
 #pragma once
 
 #include <chrono>
@@ -14,19 +14,19 @@ namespace tacto::gui {
 
 class SignalClose {
 public:
-    /// A signal that comes this long after the first one ends the program: the window does not close.
+    /// If the window has not closed by this time after the first signal, another signal ends the program.
     static constexpr std::chrono::seconds kExitTimeout{5};
 
-    /// `stops` was made before any other thread and outlives this; `window` does too.
+    /// `stops` was made before any other thread and outlives this; `window` outlives this too.
     SignalClose(SignalStop& stops, MainWindow& window);
-    /// Signals no longer reach the window; what kExitTimeout says still holds.
+    /// Signals no longer reach the window, but kExitTimeout still applies.
     ~SignalClose();
     SignalClose(const SignalClose&) = delete;
     SignalClose& operator=(const SignalClose&) = delete;
 
 private:
-    /// The moment of the first signal.
-    using First = std::shared_ptr<std::optional<std::chrono::steady_clock::time_point>>;  // the waiting thread's
+    /// The time of the first signal.
+    using First = std::shared_ptr<std::optional<std::chrono::steady_clock::time_point>>;  // used by the waiting thread
     static void note(const First& first);
 
     SignalStop& stops_;

@@ -12,7 +12,7 @@ namespace tacto::gui {
 
 namespace {
 
-/// Device, as the twin's URI names it, and what happens.
+/// A fault: the device, as named in the twin's URI, and what happens.
 struct Fault {
     const char* device;
     const char* key;
@@ -32,7 +32,7 @@ constexpr Fault kFaults[] = {
     {"oscilloscope", "unplug", QT_TRANSLATE_NOOP("Faults", "oscilloscope unplugged")},
 };
 
-constexpr int kBenchChars = 64;  // wide
+constexpr int kBenchChars = 64;  // width in characters
 
 }  // namespace
 

@@ -1,5 +1,5 @@
-// SimulatedBenchDialog.h - a simulated bench as the user sets it: source, load, flaws and a fault at a moment, for
-// training and demonstration.
+// SimulatedBenchDialog.h - lets the user set up a simulated bench for training and demonstration: source, load, flaws,
+// and a fault at a chosen time.
 #pragma once
 
 #include <QDialog>
@@ -17,7 +17,7 @@ public:
     explicit SimulatedBenchDialog(BenchController& controller, QWidget* parent);
 
 private:
-    /// `values`: the form's, typed.
+    /// `values`: the typed values of the form.
     [[nodiscard]] std::vector<std::string> uris(const nlohmann::json& values) const;
     void judge();
     void openBench();

@@ -23,7 +23,7 @@ StartedWith refused(const QString& sentence, int exitCode) {
 
 StartedWith StartedWith::read(const QStringList& arguments) {
     QCommandLineParser parser;
-    // Parses as Qt does its own, so that the h of "-stylesheet" is not "-h".
+    // Reads options as Qt does, so that the h in "-stylesheet" does not mean "-h".
     parser.setSingleDashWordOptionMode(QCommandLineParser::ParseAsLongOptions);
     const auto help = parser.addHelpOption();
     const auto version = parser.addVersionOption();

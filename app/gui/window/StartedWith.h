@@ -1,6 +1,6 @@
-// StartedWith.h - the command line of the window: `tactoscope [FILE]`, as the desktop's menu calls it.
+// StartedWith.h - reads the window's command line: `tactoscope [FILE]`, as called from the desktop's menu.
 //
-// Thread-safety: a value.
+// Thread-safety: a plain value.
 #pragma once
 
 #include <QString>
@@ -10,16 +10,16 @@
 namespace tacto::gui {
 
 struct StartedWith {
-    /// The text that is printed in place of a window.
+    /// A text to print instead of opening a window.
     struct Answer {
         QString text;
-        int exitCode = 0;  ///< as tactoscope-cli's: 0 help or version (stdout), 2 usage, 3 no such file (both stderr)
+        int exitCode = 0;  ///< as in tactoscope-cli: 0 help or version (stdout), 2 usage, 3 no such file (both stderr)
     };
-    QString file;  ///< opened as if it were dropped on the window; empty: none
+    QString file;  ///< opened like a file dropped on the window; empty: none
     std::optional<Answer> answer;
 
-    /// `arguments` begin with the program's name. Those that Qt understands (-platform, -style) are refused here:
-    /// QApplication takes them away first. Help and version are answered before that, where there is no display.
+    /// `arguments` begin with the program's name. Qt's own options (-platform, -style) are errors here, as QApplication
+    /// removes them before. Help and version are answered even before QApplication, which needs a display.
     static StartedWith read(const QStringList& arguments);
 };
 

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kSmallest = 1.5;
 constexpr double kStep = 0.1;
-constexpr double kLegible_pt = 28;  // to be read from two metres
-constexpr int kBeforeWord = 56;     // the shape in it
+constexpr double kLegible_pt = 28;  // large enough to be read from two metres
+constexpr int kBeforeWord = 56;     // room for the shape in front of the word
 constexpr int kBehindWord = 24;
 constexpr int kStateShape = 28;
 
@@ -89,7 +89,7 @@ void StateBlock::show(InterlockState state, const QString& reason, bool pulse) {
     showShape(pulse);
 }
 
-/// The dot of a delivering output grows with each train.
+/// While output is being delivered, the dot grows with each train.
 void StateBlock::showShape(bool pulse) {
     const auto style = stateStyle(state_);
     const int size = scaledPx(state_ == InterlockState::Delivering && !pulse ? kStateShape * 2 / 3 : kStateShape);
@@ -98,7 +98,7 @@ void StateBlock::showShape(bool pulse) {
     shape_->setPixmap(iconPixmap(style.icon, style.ink, size, devicePixelRatioF()));
 }
 
-/// The colour is set by a sheet: under the program's own sheet a label's palette does not hold.
+/// Set by a style sheet, because under the program's style sheet a label's palette has no effect.
 void StateBlock::colour() {
     const auto style = stateStyle(state_);
     const auto sheet = QString(
@@ -106,7 +106,7 @@ void StateBlock::colour() {
                            "QFrame#stateBlock QLabel { background: transparent; color: %2; }")
                            .arg(style.ground.name(), style.ink.name(),
                                 (style.ground == colours().base ? colours().line : style.ground).name());
-    if (styleSheet() != sheet) setStyleSheet(sheet);  // a new sheet changes the palette, too
+    if (styleSheet() != sheet) setStyleSheet(sheet);  // a new sheet also changes the palette
     showShape(false);
 }
 

@@ -1,4 +1,4 @@
-// StateBlock.h - the interlock in word, shape and colour, to be read from two metres: the left end of the safety bar.
+// StateBlock.h - the left end of the safety bar: the interlock's state in word, shape and colour, large enough for 2 m.
 #pragma once
 
 #include <QFrame>
@@ -16,11 +16,11 @@ public:
     explicit StateBlock(QWidget* parent);
     /// `reason` may be empty. `pulse`: a train has just been delivered.
     void show(InterlockState state, const QString& reason, bool pulse);
-    /// Takes the largest text at which the longest word needs at most `width` pixels; never below smallestWidth().
+    /// Takes the largest text whose longest word fits into `width` pixels; never narrower than smallestWidth().
     void fit(int width);
-    /// The width for the longest word at 28 pt, in pixels: above it the state makes room for what stands beside it.
+    /// Width in pixels of the longest word at 28 pt; a wider block gives way to its neighbours.
     [[nodiscard]] int legibleWidth() const;
-    /// The width for the longest word at 1.5 times the text's size, in pixels.
+    /// Width in pixels of the longest word at 1.5 times the text size.
     [[nodiscard]] int smallestWidth() const;
 
 private:
@@ -32,7 +32,7 @@ private:
     QLabel* shape_;
     QLabel* word_;
     ElidedLabel* reason_;
-    QString shown_;  // the shape, its colour and size
+    QString shown_;  // the shape with its colour and size
     InterlockState state_ = InterlockState::Disconnected;
 };
 

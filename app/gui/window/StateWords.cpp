@@ -10,7 +10,7 @@ namespace tacto::gui {
 
 namespace {
 
-/// Why the fingertip drives no train; empty where it does.
+/// Returns why the fingertip drives no train; empty if it does.
 QString fingerHolds(const Telemetry& telemetry) {
     switch (telemetry.finger) {
         case FingerStanding::Stale:

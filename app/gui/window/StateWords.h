@@ -1,7 +1,7 @@
-// StateWords.h - the state in words: what is being done, by whom, and what to do next; and the gate's exposure as
-// displays show it: what it holds now, and not what it was before the output went off.
+// StateWords.h - the state in words: what is being done, by whom, and what to do next; and the exposure as displays
+// show it: the gate's present values, without those from before the output went off.
 //
-// Thread-safety: pure.
+// Thread-safety: pure functions.
 #pragma once
 
 #include <QString>
@@ -11,22 +11,22 @@
 
 namespace tacto::gui {
 
-/// "A train every 500 ms, set by hand. Space stops." `protocol` names the one that has the bench; empty: a person has
-/// it. The sentence follows what was commanded, not what was last asked. `refused`: a limit refused the last train.
+/// "A train every 500 ms, set by hand. Space stops." `protocol`: the protocol that uses the bench; empty: a person
+/// does. The text shows what was commanded, not the latest request. `refused`: a limit refused the last train.
 [[nodiscard]] QString stateWords(const Telemetry& telemetry, const QString& protocol, bool refused = false);
 
-/// "stopped with Esc" of "operator (Esc)", as the bench keeps it; any other reason as it is.
+/// Returns "stopped with Esc" for "operator (Esc)", as the bench stores it; other reasons unchanged.
 [[nodiscard]] QString reasonWords(const QString& reason);
 
-/// Checking, armed, delivering or paused: there is something to disarm.
+/// True for checking, armed, delivering and paused: the states that can be disarmed.
 [[nodiscard]] bool isOn(InterlockState state) noexcept;
 
-/// Whether no train is delivered, and none follows before the operator arms: disconnected, disarmed, faulted.
+/// True if no train comes before the operator arms: disconnected, disarmed, faulted.
 [[nodiscard]] bool outputIsOff(InterlockState state);
 
-/// The rows of `telemetry`. While the output is off, a quantity of single pulses and trains is 0, as none is delivered;
-/// a quantity over a window still includes the trains of that window, as the gate counts them. Unevaluated rows stay
-/// so. There are no rows while the output is off and nothing has been judged against a limit yet: unknown is not 0.
+/// Returns the rows of `telemetry`. While the output is off, quantities of single pulses and trains are 0, because none
+/// is delivered; quantities over a time window still include the trains in that window, as in the gate. Unevaluated
+/// rows stay unevaluated. No rows while the output is off and nothing was judged yet: unknown is not 0.
 [[nodiscard]] std::vector<ExposureRow> exposureNow(const Telemetry& telemetry);
 
 }  // namespace tacto::gui

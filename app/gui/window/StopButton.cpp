@@ -30,13 +30,13 @@ StopButton::StopButton(std::function<void()> stop, QWidget* parent)
     nameWidget(*this, "stopButton", tr("STOP"));
     setAutoDefault(false);
     setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Expanding);
-    // Acts when the button goes down: the output does not wait for the finger to come up again.
+    // Acts on the press: the output does not wait until the finger is lifted.
     connect(this, &QPushButton::pressed, this, [this] { stop_(); });
     qApp->installEventFilter(this);
     onFontChange(*this, [this] { updateGeometry(); });
 }
 
-/// Where on the screen `event` puts a finger, a pen or a button of the mouse down.
+/// Returns where on the screen `event` presses a finger, a pen or a mouse button; nothing for other events.
 std::optional<QPoint> StopButton::pressedAt(const QEvent& event) {
     switch (event.type()) {
         case QEvent::MouseButtonPress:
@@ -56,7 +56,7 @@ bool StopButton::eventFilter(QObject* watched, QEvent* event) {
     if (!at) return false;
     taken_ = false;
     auto* pressed = QWidget::find(static_cast<QWindow*>(watched)->winId());
-    // A participant has a STOP of their own, and answers where this one may lie below.
+    // A participant's window has its own STOP, which must answer even if it lies over this one.
     const bool theirs = pressed != nullptr && pressed->property("stopsAs").toString() == "participant";
     if (!isVisible() || window()->isMinimized() || theirs || !rect().contains(mapFromGlobal(*at))) return false;
     auto* popup = QApplication::activePopupWidget();
@@ -64,10 +64,10 @@ bool StopButton::eventFilter(QObject* watched, QEvent* event) {
                        static_cast<QMouseEvent*>(event)->button() == Qt::LeftButton;
     const bool comesHere = pressed == window() && popup == nullptr && QWidget::mouseGrabber() == nullptr &&
                            window()->childAt(window()->mapFromGlobal(*at)) == this;
-    if (plain && comesHere) return false;  // goes down, and stops by that
+    if (plain && comesHere) return false;  // the button gets this press and stops
     stop_();
     event->accept();
-    taken_ = true;  // the release that belongs to it, too: a list chooses with that
+    taken_ = true;  // also takes the release, because a list would choose an entry on release
     if (popup != nullptr) popup->close();
     return true;
 }
@@ -83,12 +83,12 @@ QSize StopButton::sizeHint() const {
 }
 
 void StopButton::paintEvent(QPaintEvent*) {
-    const auto style = stateStyle(InterlockState::Faulted);  // the one red of the window
+    const auto style = stateStyle(InterlockState::Faulted);  // the same red as a fault
     QPainter painter(this);
     painter.fillRect(rect(), isDown() ? style.ground.darker(130) : style.ground);
     painter.setPen(style.ink);
     const QFontMetrics word(wordFont()), small(keysFont());
-    const int top = (height() - word.height() - small.height()) / 2 - 1;  // clear of the frame
+    const int top = (height() - word.height() - small.height()) / 2 - 1;  // keeps the text off the frame
     painter.setFont(wordFont());
     painter.drawText(QRect(0, top, width(), word.height()), Qt::AlignCenter, text());
     painter.setFont(keysFont());

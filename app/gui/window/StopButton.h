@@ -1,9 +1,9 @@
-// StopButton.h - STOP: calls `stop` the moment a press goes down within its rectangle, whatever lies on top.
+// StopButton.h - the STOP button: calls `stop` as soon as a press goes down within its rectangle, even if covered.
 //
-// Qt gives a press to what lies on top, a floating dock or a dialog, and every press to an open popup. So the button
-// looks at each press of the program before any widget does, and takes those that lie on it as its own: nothing else
-// sees them. Presses on a participant's window are not taken; it has a STOP of its own. Where the display does not say
-// how windows lie (Wayland), a press counts where Qt takes the windows to be.
+// Qt sends a press to the topmost widget (a floating dock or a dialog), and to an open popup always. So the button
+// looks at each press in the program before any widget and takes those within its rectangle; nothing else sees them. It
+// leaves presses on a participant's window, which has its own STOP. If the display does not report the windows'
+// positions (Wayland), the positions that Qt assumes decide.
 #pragma once
 
 #include <QPushButton>
@@ -19,9 +19,9 @@ class StopButton final : public QPushButton {
     Q_OBJECT
 public:
     StopButton(std::function<void()> stop, QWidget* parent);
-    /// Shows a hint in place of the keys below the word.
+    /// Shows a hint instead of the keys below the word.
     void setHint(const QString& hint);
-    /// Room for the word and the keys: never cut.
+    /// Large enough for word and keys, so that neither is cut off.
     [[nodiscard]] QSize sizeHint() const override;
     [[nodiscard]] QSize minimumSizeHint() const override { return sizeHint(); }
 
@@ -31,19 +31,19 @@ protected:
 
 private:
     [[nodiscard]] static std::optional<QPoint> pressedAt(const QEvent& event);
-    bool taken_ = false;  // the press whose release comes next
+    bool taken_ = false;  // the release of a taken press must be taken too
     const std::function<void()> stop_;
     QString hint_;
 };
 
-/// STOP in a small window by itself, with the state of the output below the word, that stays above the windows of other
-/// programs and takes no focus.
+/// STOP in a small window with the output's state below the word. It stays above the windows of other programs and
+/// never takes the focus.
 class SmallStop final : public QWidget {
 public:
-    /// `stop` as of StopButton. It begins at the lower right of the screen that `beside` is on.
+    /// For `stop` see StopButton. The window first appears at the lower right of the screen with `beside`.
     SmallStop(std::function<void()> stop, const QWidget& beside);
     void showState(InterlockState state);
-    /// Whether this display lets a program keep a window above others: Wayland does not.
+    /// True if the display lets a program keep a window above others; false on Wayland.
     [[nodiscard]] static bool staysAbove();
 
 private:

@@ -18,7 +18,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr int kFirstEvery_ms = 50;
-constexpr quint32 kBreak = 0xFF6B;  // X has this symbol for Pause with Ctrl, and Qt no key
+constexpr quint32 kBreak = 0xFF6B;  // X's symbol for Ctrl+Pause, for which Qt has no key
 
 bool takesText(const QWidget* widget) {
     if (const auto* line = qobject_cast<const QLineEdit*>(widget)) return !line->isReadOnly();
@@ -40,7 +40,7 @@ StopKeys::StopKeys(std::function<void(const char*)> stop, QObject* parent) : QOb
     connect(&returnReleased_, &QTimer::timeout, this, [this] { returnHeld_ = false; });
 }
 
-/// Installing it again moves it before the others.
+/// Installing the filter again puts it before all others.
 void StopKeys::timerEvent(QTimerEvent*) { qApp->installEventFilter(this); }
 
 StopKeys::~StopKeys() { qApp->removeEventFilter(this); }
@@ -55,7 +55,7 @@ bool StopKeys::eventFilter(QObject* watched, QEvent* event) {
     return pressed(watched, *static_cast<QKeyEvent*>(event));
 }
 
-/// The first press of Return presses the focused button; the others of a held key press no button and enter no line,
+/// The first press of Return presses the focused button. The repeats of a held key press no button and enter no line,
 /// wherever the focus is by then.
 bool StopKeys::returnPressed(QObject* watched, const QKeyEvent& key) {
     returnReleased_.stop();
@@ -68,25 +68,25 @@ bool StopKeys::returnPressed(QObject* watched, const QKeyEvent& key) {
     return true;
 }
 
-/// "participant" where the key went to a window of the participant's.
+/// True if the key went to a window of the participant.
 bool StopKeys::isParticipants(const QObject* watched) {
     const auto* widget = qobject_cast<const QWidget*>(watched);
     const QObject* window = widget == nullptr ? watched : widget->window();
     return window->property("stopsAs").toString() == "participant";
 }
 
-/// True when no other widget is to see the key. Called for the window, then for the widget: stopping twice does no
-/// harm.
+/// Returns true if no other widget may see the key. Called for the window, then for the widget: stopping twice is
+/// harmless.
 bool StopKeys::pressed(QObject* watched, const QKeyEvent& key) {
     const auto* focus = QApplication::focusWidget();
     const bool theirs = isParticipants(watched);
-    // Each press is one of their stops, and the third ends a session; a key that is held has stopped already.
+    // Each press is one stop by the participant, and the third ends the session; so repeats must not count.
     const bool held = key.isAutoRepeat();
     if (theirs && held) return false;
     switch (key.nativeVirtualKey() == kBreak ? Qt::Key_Pause : key.key()) {
         case Qt::Key_Escape:
             stop_(theirs ? "participant (Esc)" : held ? "operator (Esc, held)" : "operator (Esc)");
-            return false;  // Escape closes dialogs and popups too
+            return false;  // Esc must also close dialogs and popups
         case Qt::Key_Pause:
             stop_(theirs ? "participant (Pause)" : held ? "operator (Pause, held)" : "operator (Pause)");
             return true;

@@ -1,10 +1,10 @@
-// StopKeys.h - Esc, Pause and Space stop the output from wherever the focus is, dialogs included; Space types where
-// text is typed, and Return presses the focused button instead (hazard H6).
+// StopKeys.h - Esc, Pause and Space stop the output wherever the focus is, also in dialogs. In a text field Space types
+// a space. Return presses the focused button, because Space cannot (hazard H6).
 //
-// Installed on the application: it sees each key before any widget does. Qt would keep the keys and clicks of a window
-// behind a modal dialog from the application as well, so StopKeys takes the modality from every window before it is
-// shown, also from those that Qt opens by itself. While something is dragged Qt puts a filter of its own before all
-// others and takes every key; StopKeys puts itself first again twenty times a second.
+// Installed on the application, so that it sees each key before any widget. Qt would hide keys and clicks in a window
+// behind a modal dialog even from the application, so StopKeys makes every window non-modal before it is shown, also
+// those that Qt opens by itself. During a drag Qt puts its own filter before all others and takes every key, so
+// StopKeys puts itself first again 20 times a second.
 #pragma once
 
 #include <QObject>
@@ -15,13 +15,13 @@ class QKeyEvent;
 
 namespace tacto::gui {
 
-/// A held key repeats as presses and releases that X does not always mark as repeated: Return counts as released when
-/// no press has followed for kReleased_ms, and is one press until then.
+/// A held key repeats presses and releases, and X does not always mark them as repeats. So Return counts as one press
+/// until no further press has come for kReleased_ms.
 class StopKeys final : public QObject {
     Q_OBJECT
 public:
-    /// `stop` is called first thing, with "operator (Esc)" and the like, "operator (Esc, held)" while it repeats; with
-    /// "participant (Esc)" where the key went to a window whose property "stopsAs" is "participant".
+    /// `stop` is called before anything else, with a text such as "operator (Esc)", or "operator (Esc, held)" while the
+    /// key repeats; with "participant (Esc)" if the key went to a window whose property "stopsAs" is "participant".
     StopKeys(std::function<void(const char*)> stop, QObject* parent);
     ~StopKeys() override;
 

@@ -94,7 +94,7 @@ void Tour::look() {
     const auto& now = steps_[step_];
     const auto target = now.target ? now.target() : TourTarget{};
     bringIntoView(target.widget);
-    if (!frame_) frame_ = new TourFrame(window());  // the frame went with a dialog
+    if (!frame_) frame_ = new TourFrame(window());  // the frame was deleted with a dialog
     frame_->follow(target);
     if (const auto text = now.text(); !done_.isValid() && text_->text() != text) text_->setText(text);
     const bool isDone = now.done && now.done();
@@ -111,7 +111,7 @@ void Tour::showPlace(bool done) {
     place_->setText((done ? tr("%1 of %2 ✔ done") : tr("%1 of %2")).arg(step_ + 1).arg(steps_.size()));
 }
 
-/// Done once, when it becomes the one that is talked about: what the user scrolls afterwards stays.
+/// Done once when the tour comes to this control: the user may scroll away afterwards.
 void Tour::bringIntoView(QWidget* control) {
     if (control == shown_ || control == nullptr || !control->isVisible()) return;
     shown_ = control;
@@ -120,12 +120,12 @@ void Tour::bringIntoView(QWidget* control) {
     }
 }
 
-/// Placed where it hides least of the control, if possible at the lower right; below the safety bar: STOP stays free.
+/// Places the panel where it hides least of the control, preferably at the lower right, but never over STOP's bar.
 void Tour::place() {
-    // Never as wide as half the window: a control beside it has room.
+    // Less than half the window wide, so that a control beside the panel has room.
     const int wide =
         std::min(fontMetrics().averageCharWidth() * kWidthChars, parentWidget()->width() / 2 - 4 * kMargin);
-    // Measured here: the label itself still answers for the last size of text when that has just changed.
+    // Measured here, because after a change of text size the label still returns the old size.
     const QRect any(0, 0, wide, QWIDGETSIZE_MAX);
     text_->setFixedSize(wide, text_->fontMetrics().boundingRect(any, Qt::TextWordWrap, text_->text()).height() + 2);
     layout()->activate();
@@ -159,16 +159,16 @@ bool Tour::eventFilter(QObject* watched, QEvent* event) {
 
 namespace {
 
-constexpr int kLine = 3;  // px at the designed size of text
-constexpr int kHalo = 1;  // width on either side, so that it stands out on any ground
+constexpr int kLine = 3;  // pixels at the normal text size
+constexpr int kHalo = 1;  // width on each side, for contrast on any background
 
-/// The visible part, in the coordinates of its window; empty where nothing of it can be seen.
+/// Returns the visible part in the coordinates of its window; empty if nothing is visible.
 QRect visiblePart(const TourTarget& target) {
     auto* widget = target.widget;
     if (widget == nullptr || !widget->isVisible()) return {};
     auto seen = widget->rect();
     if (!target.part.isNull()) seen &= target.part;
-    // Leaves out what its ancestors cut off. visibleRegion() would also leave out what lies over it, as the frame does.
+    // Leaves out what its ancestors cut off. visibleRegion() would also leave out what covers it, such as the frame.
     for (auto* inside = widget; !inside->isWindow() && inside->parentWidget() != nullptr;) {
         seen.translate(inside->pos());
         inside = inside->parentWidget();
@@ -189,7 +189,7 @@ TourFrame::TourFrame(QWidget* window) : QWidget(window) {
 void TourFrame::follow(const TourTarget& target) {
     const auto seen = visiblePart(target);
     if (seen.isEmpty()) return hide();
-    // A dialog is a window of its own: the frame goes there. If it is deleted with the dialog, the tour makes another.
+    // A dialog is another window, so the frame moves there. If the dialog deletes the frame, the tour makes a new one.
     auto* window = target.widget->window();
     if (parentWidget() != window) setParent(window);
     const int line = scaledPx(kLine) + 2 * kHalo;

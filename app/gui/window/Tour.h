@@ -1,8 +1,8 @@
-// Tour.h - the first run's tour, on the simulated bench: steps that are done, not read.
+// Tour.h - the tour at the first start, on the simulated bench: the user does each step instead of reading about it.
 //
-// A panel in the window, where it covers neither the safety bar nor the control that it talks about; and a frame around
-// that control. A step is over when what it asks for was done at the window's own controls; Next passes it over, Back
-// returns. Never modal: STOP, its keys and all else stay within reach. What is left can be resumed.
+// A panel in the window, which covers neither the safety bar nor the control it explains, and a frame around that
+// control. A step is done when the user has done its task with the window's own controls; Next skips a step, Back
+// returns. Never modal: STOP, its keys and everything else stay usable. The tour can be resumed later.
 #pragma once
 
 #include <QElapsedTimer>
@@ -17,19 +17,19 @@
 
 namespace tacto::gui {
 
-/// A part of a widget, or all of it where `part` is null.
+/// A part of a widget, or the whole widget if `part` is null.
 struct TourTarget {
     QWidget* widget = nullptr;
     QRect part{};
 };
 
-/// A frame around a control that the tour talks about. It lies in the control's own window and takes neither clicks nor
+/// A frame around the control that the tour explains. It lies in the control's window and takes neither clicks nor
 /// keys.
 class TourFrame final : public QWidget {
     Q_OBJECT
 public:
     explicit TourFrame(QWidget* window);
-    /// Goes around what can be seen of it; hides where nothing can.
+    /// Surrounds the visible part of the target; hides if nothing is visible.
     void follow(const TourTarget& target);
 
 protected:
@@ -38,21 +38,21 @@ protected:
 
 struct TourStep {
     QString title;
-    std::function<QString()> text;       ///< as things stand now
-    std::function<void()> enter;         ///< brings the control into view and notes how things stand; may be empty
-    std::function<TourTarget()> target;  ///< as things stand now; may be empty
-    std::function<bool()> done;          ///< since enter()
-    int linger_ms = 1200;                ///< how long it stays when it is done, to be seen
+    std::function<QString()> text;       ///< for the present state
+    std::function<void()> enter;         ///< brings the control into view and notes the present state; may be empty
+    std::function<TourTarget()> target;  ///< for the present state; may be empty
+    std::function<bool()> done;          ///< true if the task was done since enter()
+    int linger_ms = 1200;                ///< milliseconds for which a finished step stays visible
 };
 
 class Tour final : public QFrame {
     Q_OBJECT
 public:
     Tour(std::vector<TourStep> steps, QWidget* window);
-    /// Begins at this step, from 0; at the first, where the number is too large.
+    /// Begins at this step, counted from 0, or at step 0 if the number is too large.
     void begin(int step);
     [[nodiscard]] int step() const { return int(step_); }
-    /// A text that stays as it is.
+    /// A text that never changes.
     [[nodiscard]] static std::function<QString()> always(const QString& text) {
         return [text] { return text; };
     }
@@ -60,7 +60,7 @@ public:
 signals:
     /// Another step is shown.
     void stepped(int step);
-    /// `finished`: to the last step; otherwise it was left at step().
+    /// `finished`: the last step was done; otherwise the user left at step().
     void ended(bool finished);
 
 protected:
@@ -77,11 +77,11 @@ private:
 
     std::vector<TourStep> steps_;
     std::size_t step_ = 0;
-    bool waits_ = false;  ///< the step was done when Back led here: it leads on only when it is done again
-    QElapsedTimer done_;  ///< how long ago it was seen to be done; invalid before
+    bool waits_ = false;  ///< the step was already done when Back led here: it must be done again to lead on
+    QElapsedTimer done_;  ///< time since the step was seen to be done; invalid before
     QTimer look_;
     QPointer<TourFrame> frame_;
-    QPointer<QWidget> shown_;  ///< the control in the frame
+    QPointer<QWidget> shown_;  ///< the control that the frame surrounds
     QLabel* title_;
     QLabel* text_;
     QLabel* place_;

@@ -17,7 +17,7 @@ namespace tacto::gui {
 
 namespace {
 
-// Indices in the rail.
+// Page numbers as in the rail at the left.
 constexpr int kLivePage = 0;
 constexpr int kSeparabilityPage = 3;
 constexpr int kSessionsPage = 5;
@@ -26,7 +26,7 @@ constexpr int kScopeTab = 1;
 constexpr int kOpenStep = 1;  // the tour's step that opens the simulated bench
 constexpr int kInside = 8;
 constexpr int kSee_ms = 1200;
-constexpr int kReadFor_ms = 6000;  // where something is to be read when it is done
+constexpr int kReadFor_ms = 6000;  // for steps whose result the user should read
 
 std::function<QString()> say(const char* text) { return Tour::always(WelcomeTour::tr(text)); }
 
@@ -43,7 +43,7 @@ WelcomeTour::WelcomeTour(MainWindow& window) : QObject(&window), window_(window)
             if (enter) enter();
         };
         if (int(i) <= kOpenStep) continue;
-        // The tour leads through arming and driving: on simulated devices alone.
+        // The tour includes arming and driving, so these steps work on simulated devices only.
         step.target = [this, target = std::move(step.target)] { return target && !isReal() ? target() : TourTarget{}; };
         step.done = [this, done = std::move(step.done)] { return done && !isReal() && done(); };
     }
@@ -66,7 +66,7 @@ WelcomeTour::WelcomeTour(MainWindow& window) : QObject(&window), window_(window)
     });
 }
 
-/// Resumes on a simulated bench what was left behind the opened one.
+/// Resumes a tour that was left after opening the bench only if the open bench is simulated.
 void WelcomeTour::begin() {
     const int left = QSettings().value("tourStep", 0).toInt();
     const auto open = controller_.open();
@@ -156,7 +156,7 @@ std::vector<TourStep> WelcomeTour::toTheVerdict() {
     };
 }
 
-/// A step that needs the output says how to get it again: a step back, a stop or a fault may have ended it.
+/// A step that needs the output on explains how to get it back, because a stop, a fault or Back may have ended it.
 std::function<QString()> WelcomeTour::whileOn(const QString& text) const {
     return [this, text] {
         return isOn(state()) ? text
@@ -164,12 +164,12 @@ std::function<QString()> WelcomeTour::whileOn(const QString& text) const {
     };
 }
 
-/// The newest session, once they are open.
+/// The newest session, or the button of the sessions page if another page is shown.
 TourTarget WelcomeTour::sessionsTarget() {
     if (window_.workspace() != kSessionsPage) return workspaceButton(kSessionsPage);
     if (!newest_.isEmpty()) window_.openFile(std::exchange(newest_, {}));
     auto* details = window_.findChild<SessionDetails*>();
-    return {details, details->rect().adjusted(kInside, kInside, -kInside, -kInside)};  // the frame stays off STOP
+    return {details, details->rect().adjusted(kInside, kInside, -kInside, -kInside)};  // the frame must not cover STOP
 }
 
 QWidget* WelcomeTour::named(const char* name) const { return window_.findChild<QWidget*>(name); }
@@ -180,7 +180,7 @@ TourTarget WelcomeTour::workspaceButton(int index) const {
     return {window_.findChildren<QWidget*>("workspaceButton").value(index)};
 }
 
-/// The second step stands in a window of its own.
+/// The second step of arming is in a window of its own.
 TourTarget WelcomeTour::armTarget() const {
     auto* second = named("armOutput");
     return {second != nullptr && second->isVisible() ? second : named("armButton")};

@@ -1,5 +1,5 @@
-// WelcomeTour.h - the tour that a first start begins with: from nothing to a measured pulse and a verdict, on the
-// simulated bench, in five minutes.
+// WelcomeTour.h - the tour of the first start: from nothing to a measured pulse and a verdict in five minutes, on the
+// simulated bench.
 #pragma once
 
 #include <QObject>
@@ -15,10 +15,10 @@ class TabbedPage;
 class WelcomeTour final : public QObject {
     Q_OBJECT
 public:
-    /// The window owns it. What was left or finished is not begun again by itself ("tourDone" in the settings); where
-    /// it was left is kept as well ("tourStep").
+    /// The window owns this. A tour that was finished or left does not start again by itself ("tourDone" in the
+    /// settings); the step at which it was left is kept ("tourStep").
     explicit WelcomeTour(MainWindow& window);
-    /// Begins where it was left, else at the first step; beyond the opened bench only while a simulated one is open.
+    /// Begins where the tour was left. Goes beyond the step that opens the bench only if a simulated bench is open.
     void begin();
 
 private:
@@ -33,18 +33,18 @@ private:
     [[nodiscard]] TourTarget runTarget() const;
     [[nodiscard]] bool showsScope() const;
     [[nodiscard]] InterlockState state() const;
-    /// Something is open that is not simulated.
+    /// True if the open bench is not simulated.
     [[nodiscard]] bool isReal() const;
 
     MainWindow& window_;
     BenchController& controller_;
     Tour* tour_ = nullptr;
-    // When the present step began:
+    // State when the present step began:
     StopMark begun_;
     int presented_ = 0;
     int captured_ = 0;
     int judged_ = 0;
-    QString newest_;  ///< session of a run, to be shown
+    QString newest_;  ///< the session of a run, which the tour will show
 };
 
 }  // namespace tacto::gui

@@ -12,7 +12,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr int kRailIcon = 24, kMaxRailIcon = 40;
-constexpr double kIconsAloneFrom_pt = 15;  // with text this large the words would take the room of the data
+constexpr double kIconsAloneFrom_pt = 15;  // with larger text the words would take the room of the data
 
 }  // namespace
 

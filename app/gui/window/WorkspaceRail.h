@@ -1,4 +1,4 @@
-// WorkspaceRail.h - the workspaces at the left of the window, one button each with its key, Ctrl+1 to Ctrl+7.
+// WorkspaceRail.h - the bar at the left of the window: one button for each workspace, with keys Ctrl+1 to Ctrl+7.
 #pragma once
 
 #include <QActionGroup>
@@ -11,10 +11,10 @@ class WorkspaceRail final : public QToolBar {
     Q_OBJECT
 public:
     explicit WorkspaceRail(QWidget* parent);
-    /// One action each, in the order of the window's pages; a menu may hold them too.
+    /// One action per workspace, in the order of the pages; a menu may contain them too.
     [[nodiscard]] const QActionGroup& workspaces() const noexcept { return *workspaces_; }
     void setCurrent(int index);
-    /// Puts all workspaces but one, or all, out of reach, for a reason that their tool tips give.
+    /// Disables all workspaces but one, or all; tool tips give the reason.
     void keepTo(std::optional<int> index, const QString& reason);
 
 signals:

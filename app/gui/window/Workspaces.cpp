@@ -22,7 +22,7 @@ namespace tacto::gui {
 
 namespace {
 
-/// A workspace, made where it stands.
+/// Makes a workspace inside its page.
 template <typename Workspace, typename... Arguments>
 Workspace* makeIn(ScrollingPage& page, Arguments&&... arguments) {
     auto* workspace = new Workspace(std::forward<Arguments>(arguments)..., page.viewport());
@@ -143,7 +143,7 @@ void Workspaces::takeFocus() {
         if (!page->isAncestorOf(next) || takesText || !next->isVisible() || !next->isEnabled()) continue;
         if ((next->focusPolicy() & Qt::TabFocus) != 0) return next->setFocus(Qt::ShortcutFocusReason);
     }
-    page->setFocus(Qt::ShortcutFocusReason);  // nothing but text: the page itself
+    page->setFocus(Qt::ShortcutFocusReason);  // without any control the page itself takes the focus
 }
 
 void Workspaces::showPlotOnly(bool only) {
@@ -156,10 +156,10 @@ void Workspaces::showPlotOnly(bool only) {
 }
 
 void Workspaces::refresh(const Telemetry& telemetry, bool measured) {
-    letYield(*this, telemetry.state == InterlockState::Faulted);  // to Reset
+    letYield(*this, telemetry.state == InterlockState::Faulted);  // makes room for Reset
     live_->refresh(telemetry, currentIndex() == kLive && !showsScope());
     if (measured || showsScope()) scope_->refresh(telemetry);
-    // One of them takes what a run says, namely the one that started it; they tell themselves apart.
+    // Only the workspace that started the run takes its reports; each recognises its own run.
     for (auto* protocol : runners()) protocol->refresh();
     if (pilot_ != nullptr) pilot_->refresh(telemetry);
 }
@@ -178,7 +178,7 @@ void Workspaces::openFile(const QString& path) {
         if (opened) showPage(kSessions);
     } else if (captureFormats()->knowsSuffix(path.toStdString())) {
         opened = scope_->openCaptureFile(path);
-        showLive(kScope);  // this also says why not
+        showLive(kScope);  // shows the capture, or why it was not opened
     } else {
         emit complained(tr("%1 is not a recording (a folder or recording.json), session (*.tacto) or capture (%2)")
                             .arg(path, ScopeFiles::captureGlobs()));

@@ -1,5 +1,5 @@
-// Workspaces.h - the window's seven workspaces, one of them shown. Live is there from the start; each other is made
-// when it is first needed: together they take as long as the rest of the window.
+// Workspaces.h - the window's seven workspaces, one shown at a time. Live exists from the start; the others are made
+// when first needed, because making all takes as long as the rest of the window.
 #pragma once
 
 #include <QStackedWidget>
@@ -23,41 +23,41 @@ class TabbedPage;
 class Workspaces final : public QStackedWidget {
     Q_OBJECT
 public:
-    /// The pages in their order at the left.
+    /// The pages, in the order of their buttons at the left.
     enum Page { kLive, kCalibrate, kSafetyCheck, kSeparability, kPilot, kSessions, kProtocols };
     enum LiveTab { kTouch, kScope };
-    /// Both arguments outlive it.
+    /// Both arguments outlive this.
     Workspaces(BenchController& controller, CalibrationBook& calibrations, QWidget* parent);
-    /// Does nothing for a number without a page, and for any page but Pilot's while a session there is blind.
+    /// Does nothing if there is no such page, or if a session in Pilot is blind and the page is another one.
     void showPage(int page);
     void showLive(LiveTab tab);
-    /// Whether the oscilloscope is shown.
+    /// True if the oscilloscope is shown.
     [[nodiscard]] bool showsScope() const;
-    /// The keys that follow are meant for the workspace. Not for a field of text in it: there Space would not stop.
+    /// Focuses the workspace, so that it gets the next keys. Avoids its text fields, in which Space would not stop.
     void takeFocus();
     /// Hides tabs, tools and paths.
     void showPlotOnly(bool only);
-    /// `measured`: the oscilloscope's readings are shown beside the workspace, whichever it is.
+    /// `measured`: the oscilloscope's readings are shown next to the present workspace.
     void refresh(const Telemetry& telemetry, bool measured);
-    /// Opens a recording (a folder or its JSON), a session or a capture; complained() says so when it is none of them.
+    /// Opens a recording (a folder or its JSON), a session or a capture; emits complained() if it is none of these.
     void openFile(const QString& path);
 
     [[nodiscard]] LiveWorkspace& live() const { return *live_; }
     [[nodiscard]] ScopeWorkspace& scope() const { return *scope_; }
-    /// Null until it is made.
+    /// Null until the workspace is made.
     [[nodiscard]] PilotWorkspace* pilot() const { return pilot_; }
-    /// The workspaces that run protocols, as far as they are made.
+    /// The existing workspaces that run protocols.
     [[nodiscard]] std::vector<ProtocolWorkspace*> runners() const;
 
 signals:
-    /// Another workspace is shown, or another page of Live.
+    /// Another workspace or another page of Live is now shown.
     void shown();
     void pilotMade();
-    void complained(const QString& why);  ///< about a file or a recording that was not opened
+    void complained(const QString& why);  ///< why a file or recording was not opened
     void markWanted();
     void plotOnlyWanted();
     void simulatedBenchWanted();
-    void captured(std::shared_ptr<const tacto::Capture> capture);  ///< a run has captured this
+    void captured(std::shared_ptr<const tacto::Capture> capture);  ///< a run took this capture
 
 private:
     void make(int page);
@@ -80,7 +80,7 @@ private:
     bool plotOnly_ = false;
 };
 
-/// The files that were opened last, newest first, from one start to the next.
+/// The files opened last, newest first; kept in the settings.
 [[nodiscard]] QStringList recentFiles();
 
 }  // namespace tacto::gui

@@ -15,7 +15,7 @@ constexpr double kLevelShare = 0.2;          ///< trigger level in Auto, as a sh
 constexpr double kFollowFrom = 1.3;          ///< factor of change from which the level follows
 constexpr qint64 kFollowEvery_ms = 300;      ///< least time between two requests, because each cancels the one before
 constexpr qint64 kNoTriggerAfter_ms = 1500;  ///< time without a trigger until the user is told
-constexpr Seconds kFreeRunAfter{0.4};        ///< how long to wait without a trigger, while no train can be one
+constexpr Seconds kFreeRunAfter{0.4};        ///< time without a trigger, while no train can come
 constexpr double kFreeRunIntervals = 1.25;   ///< the same while trains come, in longest intervals between trains
 
 bool sameSettings(const ScopeSettings& a, const ScopeSettings& b) {
