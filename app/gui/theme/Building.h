@@ -1,4 +1,4 @@
-// Building.h - what pages are built of: columns, rows, words and buttons, each in one line.
+// Building.h - functions that make the parts of a page (columns, rows, labels, buttons) in one line each.
 #pragma once
 
 #include <QBoxLayout>
@@ -11,7 +11,7 @@
 
 namespace tacto::gui {
 
-/// The layout of `in`. `spacing` -1: the style's own.
+/// Gives `in` a layout. `spacing` -1: the style's own spacing.
 template <class Layout>
 Layout* layoutIn(QWidget& in, int spacing, const QMargins& margins) {
     auto* made = new Layout(&in);
@@ -26,33 +26,33 @@ inline QHBoxLayout* rowIn(QWidget& in, int spacing = -1, const QMargins& margins
     return layoutIn<QHBoxLayout>(in, spacing, margins);
 }
 
-/// One after the other, without stretch.
+/// Adds all parts in order, without stretch.
 template <class Holder>
 void addAll(Holder& holder, std::initializer_list<QWidget*> parts) {
     for (auto* part : parts) holder.addWidget(part);
 }
 
-/// By what it is found, what a screen reader says of it, and its tip. An empty tip changes none.
+/// Sets the object name, the name for screen readers, and the tool tip. An empty `tip` leaves the tool tip as it is.
 inline void nameWidget(QWidget& widget, const QString& name, const QString& spoken, const QString& tip = {}) {
     widget.setObjectName(name);
     widget.setAccessibleName(spoken);
     if (!tip.isEmpty()) widget.setToolTip(tip);
 }
 
-/// Plain text that wraps.
+/// Shows the text without markup and wraps it.
 inline void wrapPlain(QLabel& label) {
     label.setTextFormat(Qt::PlainText);
     label.setWordWrap(true);
 }
-/// How a label looks, and what its words are: those that are not given stay as Qt has them.
+/// The look of a label. Members that are not given keep Qt's default.
 struct LabelLooks {
-    QString name = {};  ///< of the object
+    QString name = {};  ///< object name
     Tone tone = Tone::Text;
     std::optional<TextSize> size = {};
-    bool strong = false;  ///< with a size
+    bool strong = false;  ///< bold; only with a size
     bool wraps = false;
-    bool plain = false;       ///< its words are no markup
-    bool selectable = false;  ///< by the mouse
+    bool plain = false;       ///< the text is shown without markup
+    bool selectable = false;  ///< the text can be selected with the mouse
 };
 template <class Label = QLabel>
 Label* makeLabel(const QString& text, const LabelLooks& looks, QWidget* parent) {
@@ -65,11 +65,11 @@ Label* makeLabel(const QString& text, const LabelLooks& looks, QWidget* parent) 
     if (looks.tone != Tone::Text) setTone(*made, looks.tone);
     return made;
 }
-/// The title of a part of a page.
+/// Makes the title of a part of a page.
 inline QLabel* strongLabel(const QString& text, QWidget* parent) {
     return makeLabel(text, {.size = TextSize::Body, .strong = true}, parent);
 }
-/// No key but its own presses it.
+/// Makes a button that Return in another widget does not press.
 inline QPushButton* pageButton(const QString& text, const QString& name, const QString& tip, QWidget* parent) {
     auto* made = new QPushButton(text, parent);
     made->setObjectName(name);
@@ -78,7 +78,7 @@ inline QPushButton* pageButton(const QString& text, const QString& name, const Q
     return made;
 }
 
-/// A table that shows, whose rows have no numbers, and which Tab leaves.
+/// Makes a table read-only, hides its row numbers, and lets Tab leave it.
 template <class Table>
 void makeReadOnly(Table& table) {
     table.verticalHeader()->hide();

@@ -133,7 +133,7 @@ QPalette paletteOf(const Colours& c) {
 
 namespace {
 
-constexpr double kDesigned_pt = 10.5;  // lengths below are for text of this size
+constexpr double kDesigned_pt = 10.5;  // text size for which the lengths below are designed
 
 constexpr const char* kSheet = R"(
 QMainWindow, QDialog { background: @window; }
@@ -308,7 +308,7 @@ QFrame#safetyBar, QWidget#centre { background: @base; }
 QFrame#tour { background: @base; border: 2px solid @text; border-radius: 4px; }
 )";
 
-/// "~12" becomes 12 px and "^12" 12 pt at the designed size of text.
+/// Replaces "~12" by 12 px and "^12" by 12 pt, both scaled from the designed text size.
 QString scaled(const QString& sheet, double scale) {
     QString out;
     out.reserve(sheet.size());
@@ -331,7 +331,7 @@ QString scaled(const QString& sheet, double scale) {
 QString styleSheetOf(Theme theme, const QFont& text) {
     const auto& c = coloursOf(theme);
     const std::pair<const char*, QString> roles[] = {
-        // A name that begins with another one comes first.
+        // If one name begins with another, the longer name must come first.
         {"@primaryText", c.primaryText.name()},
         {"@primary", c.primary.name()},
         {"@window", c.window.name()},

@@ -27,9 +27,9 @@ namespace {
 
 using Wants = FileQuestion::Wants;
 
-/// Chooses icons by a file's name. Qt's own provider opens each one to see what it is, and a process that closes any
-/// descriptor of a file loses its locks on it: those by which SQLite keeps other programs from the index of a session
-/// that is being recorded (hazard H8).
+/// Chooses icons by file name. Qt's own provider opens each file to find its type, and closing any descriptor of a file
+/// releases the process's locks on that file: also the locks with which SQLite protects the index of a session being
+/// recorded from other programs (hazard H8).
 class UnopenedFiles final : public QFileIconProvider {
 public:
     using QFileIconProvider::icon;
@@ -40,15 +40,15 @@ public:
     }
 };
 
-/// Qt's own file dialog without the questions that it asks in modal boxes: those stand in its last line.
+/// Qt's own file dialog. Questions that Qt would ask in modal boxes appear in its last line instead.
 class FileChooser final : public QFileDialog {
 public:
-    // The dialog begins in a folder of folders alone: it opens what it lists before it has a provider of its own.
+    // Starts in the root folder, which has only folders: Qt opens the listed files until the icon provider is set.
     FileChooser(QWidget* parent, const FileQuestion& question) : QFileDialog(parent, question.title, QDir::rootPath()) {
         static UnopenedFiles files;
         setIconProvider(&files);
         setObjectName("fileChooser");
-        // The desktop's own dialog keeps its keys to itself, Esc and Pause too.
+        // The desktop's own dialog would keep all its keys, even Esc and Pause.
         setOptions(DontUseNativeDialog | DontConfirmOverwrite);
         const bool folder = question.wants == Wants::Folder || question.wants == Wants::NewFolder;
         makes_ = question.wants == Wants::NewFolder;
@@ -59,10 +59,10 @@ public:
         setDirectory(!question.folder.isEmpty() ? question.folder : lastFolder());
         if (!question.suffix.isEmpty()) setDefaultSuffix(question.suffix);
         if (!question.name.isEmpty()) selectFile(question.name);
-        // The dialog only chooses. Deleting files is not its work, and would ask in a box of its own.
+        // The dialog only chooses files. Deleting files from it would open a modal box.
         for (auto* view : findChildren<QAbstractItemView*>()) view->setContextMenuPolicy(Qt::NoContextMenu);
         if (auto* list = findChild<QTreeView*>("treeView"); list != nullptr) {
-            // Names have the room; what kind a file is says its name.
+            // Names need the room, and they already show the file type.
             constexpr int kType = 2, kSampled = 50;
             auto& header = *list->header();
             header.setSectionHidden(kType, true);
@@ -85,7 +85,7 @@ public:
             grid->addWidget(says_, grid->rowCount(), 0, 1, grid->columnCount());
         if (auto* name = findChild<QLineEdit*>("fileNameEdit"))
             connect(name, &QLineEdit::textChanged, says_, &QLabel::hide);
-        constexpr int kWidth = 110;  // characters: the names of sessions, with size and date
+        constexpr int kWidth = 110;  // characters; enough for the names of sessions with size and date
         resize(std::max(width(), kWidth * fontMetrics().averageCharWidth()), height());
     }
 
@@ -119,11 +119,11 @@ private:
         says_->show();
     }
     QLabel* says_;
-    bool makes_ = false;  ///< a folder that is not there
-    QString replaces_;    ///< the file that the operator was told about
+    bool makes_ = false;  ///< the dialog may make a folder that does not exist
+    QString replaces_;    ///< the file about whose replacement the operator was asked
 };
 
-/// The dialog that is open already, if any.
+/// Returns the same dialog if it is already open, else null.
 QDialog* openTwin(const QDialog& dialog) {
     for (auto* widget : QApplication::topLevelWidgets()) {
         auto* other = qobject_cast<QDialog*>(widget);
@@ -134,17 +134,17 @@ QDialog* openTwin(const QDialog& dialog) {
     return nullptr;
 }
 
-/// Room for the frame that a window manager puts above a window, and beside it.
+/// Pixels for the frame that a window manager adds above and at the sides of a window.
 constexpr int kTitleBar = 30, kFrame = 4;
 
-/// The height that shows all its content.
+/// Returns the height at which the whole content is visible.
 int neededHeight(const QWidget& dialog, int width) {
     const auto* layout = dialog.layout();
     if (layout == nullptr) return dialog.minimumHeight();
     return layout->hasHeightForWidth() ? layout->totalHeightForWidth(width) : layout->totalMinimumSize().height();
 }
 
-/// Narrower, with more lines of its words, where it would lie on STOP otherwise.
+/// Makes the dialog narrower, with more lines of text, if it would cover STOP otherwise.
 void makeRoomForStop(QWidget& dialog, const QRect& room, int stopsLeft) {
     const int beside = stopsLeft - kFrame - room.left();
     const int least = std::max(dialog.minimumWidth(), dialog.minimumSizeHint().width());
@@ -166,7 +166,7 @@ void place(QWidget& dialog) {
         if (room.contains(room.left(), below)) room.setTop(below);
     }
     int needed = neededHeight(dialog, dialog.width());
-    if (needed > room.height()) {  // it takes what it needs from the bar, beside STOP as far as that goes
+    if (needed > room.height()) {  // the dialog covers the bar next to STOP if it needs that height
         const int title = dialog.isVisible() ? dialog.geometry().top() - dialog.frameGeometry().top() : kTitleBar;
         room = screen.adjusted(0, title, 0, 0);
         if (const auto* stop = window->findChild<const QWidget*>("stopButton"); stop != nullptr) {

@@ -1,4 +1,4 @@
-// EntryFields.h - lines in which a file, a folder or a day is entered.
+// EntryFields.h - input fields for a file, a folder or a day.
 #pragma once
 
 #include <QLineEdit>
@@ -7,34 +7,34 @@
 
 namespace tacto::gui {
 
-/// A folder or file as text: a path without room is read from its beginning; the tool tip has all of it.
+/// The path of a folder or file. A path that is too long shows its beginning; the tool tip shows all of it.
 class PathField final : public QLineEdit {
 public:
-    /// `tip`: what is expected, below the path in the tool tip.
+    /// `tip`: what the user should enter, shown below the path in the tool tip.
     PathField(const QString& path, const QString& tip, QWidget* parent);
 };
 
-/// A folder that is to be made: its path as text, and a button that chooses it.
+/// The path of a folder that will be made, with a button to choose it.
 class FolderRow final : public QWidget {
     Q_OBJECT
 public:
-    /// `tip`: what is expected. `question`: the title of the dialog in which it is chosen.
+    /// `tip`: what the user should enter. `question`: the title of the dialog that chooses the folder.
     FolderRow(const QString& path, const QString& tip, const QString& question, QWidget* parent);
     [[nodiscard]] PathField& line() const { return *line_; }
-    /// Blanks trimmed.
+    /// The path without blanks at its ends.
     [[nodiscard]] QString folder() const { return line_->text().trimmed(); }
 
 private:
     PathField* line_;
 };
 
-/// A day: typed as 2027-03-01, or chosen in a calendar by the button beside it (in the line: Alt+Down).
+/// A day: typed as 2027-03-01, or chosen in a calendar that the button opens (Alt+Down in the field).
 ///
-/// Its owner checks what is typed and says what is wrong with it.
+/// The owner checks the typed text and reports errors.
 class DayField final : public QWidget {
     Q_OBJECT
 public:
-    /// The line is named `name`, the button "calendar-" and the name. `meansEmpty` stands in a line without a day.
+    /// Names the field `name` and the button "calendar-" plus `name`. An empty field shows `meansEmpty`.
     DayField(const QString& name, const QString& meansEmpty, QWidget* parent);
     [[nodiscard]] QLineEdit& line() const { return *line_; }
 
@@ -46,7 +46,7 @@ private:
     QToolButton* button_;
 };
 
-/// The line with a button that fills it, side by side in `holder`.
+/// Places the line and a button that fills it side by side in `holder`.
 void placeInLine(QWidget& holder, QLineEdit& line, QToolButton& button);
 
 }  // namespace tacto::gui

@@ -17,13 +17,13 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kShare = Qt::UserRole;          // double; none without a limit or a value
+constexpr int kShare = Qt::UserRole;          // double; invalid without a limit or a value
 constexpr int kEvaluated = Qt::UserRole + 1;  // bool
-constexpr int kBroken = Qt::UserRole + 2;     // bool: a limit that refuses is not kept
+constexpr int kBroken = Qt::UserRole + 2;     // bool: a limit that refuses output is exceeded
 constexpr int kQuantity = 0, kValue = 1, kLimit = 2, kUsed = 3;
-constexpr int kWideChars = 75;  // from this width on the bar has a column of its own
+constexpr int kWideChars = 75;  // width in characters from which the bar has its own column
 
-/// A thin bar of how much of a limit is used; hatched where that was not evaluated.
+/// A thin bar that shows the used share of a limit; hatched if the row was not evaluated.
 void paintShare(QPainter& painter, const QRectF& frame, const QModelIndex& index, const QPalette& palette) {
     const auto& c = colours();
     const auto used = index.data(kShare);
@@ -53,7 +53,7 @@ public:
     }
 };
 
-/// The quantity, and under it the bar while it has no column of its own.
+/// Paints the quantity, and the bar below it while the bar has no column of its own.
 class QuantityDelegate final : public QStyledItemDelegate {
 public:
     using QStyledItemDelegate::QStyledItemDelegate;
@@ -72,7 +72,7 @@ public:
     }
 };
 
-/// "< 10 mA", "≤ 2 mA/cm² (warning)", "–" without a limit.
+/// "< 10 mA", "≤ 2 mA/cm² (warning)"; "–" without a limit.
 QString limitText(const ExposureRow& row, bool compact = false) {
     if (std::isnan(row.limit)) return "–";
     const auto limit = (row.strict ? QString("< ") : QString("≤ ")) + settingText(row.limit, qtext(row.unit));
@@ -186,10 +186,10 @@ void ExposureTable::showRow(int line, const ExposureRow& row) {
     const auto missing = compact_ ? QString("–") : tr("not evaluated");
     auto* value = cell(line, kValue, row.evaluated ? valueText(row) : missing);
     value->setToolTip(row.evaluated ? measuredText(row) : tr("Not evaluated: %1").arg(qtext(row.reason.view())));
-    // Without it the palette's own colour is used, which follows the theme.
+    // An invalid brush selects the palette's colour, which follows the theme.
     value->setData(Qt::ForegroundRole, QVariant());
     cell(line, kLimit, limitText(row, compact_))->setToolTip(limitText(row));
-    // Both cells that may draw the bar have its data: a cell is painted again when data of its own change.
+    // Both cells that can paint the bar get the data, because a cell is repainted only when its own data change.
     const auto share = row.evaluated && !std::isnan(row.limit) ? QVariant(double(row.value / row.limit)) : QVariant();
     for (auto* drawn : {quantity, cell(line, kUsed, QString())}) {
         drawn->setData(kShare, share);
@@ -231,7 +231,7 @@ void ExposureTable::fill() {
 namespace {
 
 constexpr QChar kBeforeUnit(0x202f);
-constexpr int kMaxDecimals = 4;  // digits of a value just below its limit
+constexpr int kMaxDecimals = 4;  // most decimals used for a value just below its limit
 
 ExposureFigure split(const QString& quantity) {
     const auto end = quantity.indexOf(kBeforeUnit);
@@ -242,7 +242,7 @@ QString joined(const ExposureFigure& figure) {
     return figure.unit.isEmpty() ? figure.number : figure.number + kBeforeUnit + figure.unit;
 }
 
-/// Three digits, with no more decimals than matter beside `limit`.
+/// Returns the value with three digits, and with no more decimals than are useful next to `limit`.
 QString numberBeside(double value, double limit, int limitDecimals) {
     if (value == 0) return QStringLiteral("0");
     const int most = limit < 1 ? 3 : limit < 100 ? 2 : 1;
@@ -251,7 +251,7 @@ QString numberBeside(double value, double limit, int limitDecimals) {
     const int digits = value >= 99.95 ? 0 : value >= 9.995 ? 1 : 2;
     const int decimals = std::max(std::min(most, digits == 2 && limit < 1 ? 3 : digits), limitDecimals);
     const auto said = decimalText(value, decimals);
-    // A value that keeps its limit never reads as if it were at the limit.
+    // A value below its limit must never read as if it had reached the limit.
     for (int finer = decimals; value < limit && finer <= kMaxDecimals; ++finer) {
         if (const auto below = decimalText(value, finer); below.toDouble() < limit) return below;
     }
@@ -289,7 +289,7 @@ QString measuredText(const ExposureRow& row) {
     if (std::isnan(row.measured)) return {};
     auto shown = row;
     shown.value = row.measured;
-    // Beside its limit it would read "> 40 V": how far above it is said here.
+    // Without the limit, as "> 40 V" would not say how far above the limit the value is.
     shown.limit = std::nan("");
     return (row.beyond ? QObject::tr("⚠ %1 measured") : QObject::tr("%1 measured")).arg(valueText(shown));
 }

@@ -1,5 +1,5 @@
-// ExposureTable.h - exposure rows against their limits: quantity, value, limit, and a bar of how much of it is used;
-// hatched where a row was not evaluated. In a narrow place the bar stands under the quantity.
+// ExposureTable.h - a table of exposure and limits: quantity, value, limit, and a bar of the used share; hatched if a
+// row was not evaluated. In a narrow place the bar is below the quantity.
 #pragma once
 
 #include <QString>
@@ -15,7 +15,7 @@ class ExposureTable final : public QTableWidget {
     Q_OBJECT
 public:
     explicit ExposureTable(QWidget* parent = nullptr);
-    /// Rows of one limit set stand under its title, as `sets` has it.
+    /// Shows the rows grouped by limit set, each group under the set's title in `sets`.
     void show(std::span<const ExposureRow> rows, std::span<const LimitSet> sets);
 
 protected:
@@ -31,32 +31,32 @@ private:
 
     std::vector<ExposureRow> rows_;
     std::vector<std::pair<std::string, QString>> titles_;  ///< titles of the rows' sets, by id
-    bool compact_ = false;  ///< narrow: the bar under the quantity, what kind of limit it is in the tool tip
+    bool compact_ = false;  ///< narrow: the bar is below the quantity, and the kind of limit is in the tool tip
 };
 
 /// "RMS current over 5 s into 500 Ω".
 [[nodiscard]] QString rowTitle(const ExposureRow& row);
-/// "RMS into 500 Ω": for a dock, where the unit beside it tells a voltage from a current. A density's title has the
-/// "/cm²".
+/// "RMS into 500 Ω": for docks, in which the unit shows whether it is a voltage or a current. The title of a density
+/// includes "/cm²".
 [[nodiscard]] QString shortRowTitle(const ExposureRow& row);
 
-// An exposure against its limit in words: both in the unit of the limit, so that the eye compares numbers, with no more
-// decimals than matter beside the limit.
+// Texts for an exposure and its limit: both in the limit's unit, so that the numbers can be compared, with no more
+// decimals than are useful next to the limit.
 
-/// "0.69" and "mA" of 690 µA against 10 mA; "0" of nothing at all, "< 0.01" below what is told apart beside the limit,
-/// "> 10" where it is above the limit and would read as at it. Without a limit in its own unit.
+/// "0.69" and "mA" for 690 µA with a limit of 10 mA. "0" for exactly nothing; "< 0.01" for a value too small to show;
+/// "> 10" for a value above the limit that would be rounded to the limit. Without a limit: in the value's own unit.
 struct ExposureFigure {
     QString number;
-    QString unit;  ///< empty for a number without one
+    QString unit;  ///< empty if there is no unit
 };
 [[nodiscard]] ExposureFigure figureOf(const ExposureRow& row);
 
 /// "0.69 mA".
 [[nodiscard]] QString valueText(const ExposureRow& row);
-/// "0.69 of 10 mA", "> 10 mA". A density's limit is without "/cm²", which its title has.
+/// "0.69 of 10 mA", "> 10 mA". The limit of a density lacks "/cm²", which is in the title.
 [[nodiscard]] QString valueOfLimitText(const ExposureRow& row);
-/// "45.3 V measured": what an instrument showed of what was set; with "⚠" where the source's accuracy does not explain
-/// it. Empty where none did.
+/// "45.3 V measured": the value that an instrument measured; with "⚠" if it differs from the set value by more than the
+/// source's accuracy. Empty if nothing was measured.
 [[nodiscard]] QString measuredText(const ExposureRow& row);
 
 }  // namespace tacto::gui

@@ -18,13 +18,13 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kLabelWidth = 280;  // before a label wraps
+constexpr int kLabelWidth = 280;  // pixels up to which a label does not wrap
 
 QString shownUnit(const ProtocolParameter& parameter) {
     return axisUnit(0, QString::fromStdString(parameter.unit)).unit;
 }
 
-/// The range in the unit behind the label, in which one types: "0.5 to 10", never "500 ms to 10 s".
+/// The range in the unit of the label, in which the user types: "0.5 to 10", never "500 ms to 10 s".
 QString rangeText(const ProtocolParameter& parameter) {
     const auto text = [](double value) { return grouped(settingText(value, {})); };
     if (parameter.min && parameter.max) return QObject::tr("%1 to %2").arg(text(*parameter.min), text(*parameter.max));
@@ -44,7 +44,7 @@ QString scriptsTip(const ProtocolParameter& parameter) {
            zero;
 }
 
-/// The words of a refusal: a script's "load" has a label on the screen.
+/// Returns the words of a refusal with the parameter's label instead of its name in the script.
 QString refusalText(const ProtocolParameter& parameter, const Error& refused) {
     auto words = qtext(refused.message);
     const auto name = qtext(parameter.name) + ' ';
@@ -58,7 +58,7 @@ QString plain(const nlohmann::json& value) {
     return QString::fromStdString(dumpJson(value));
 }
 
-/// The value as a field shows it: empty where 0 stands for something.
+/// Returns the value as a field shows it; empty for 0 if 0 has a meaning of its own.
 QString shown(const ProtocolParameter& parameter, const nlohmann::json& value) {
     return !parameter.zero.empty() && value == 0 ? QString() : plain(value);
 }
@@ -68,7 +68,7 @@ void offer(QComboBox& box, const ProtocolParameter& parameter) {
         box.addItem(withOhmSigns(qtext(text.empty() ? key : text)), qtext(key));
 }
 
-/// As a parameter has them: key and words.
+/// Converts choices (key and words) to the type that a parameter has.
 std::vector<std::pair<std::string, std::string>> utf8(const std::vector<std::pair<QString, QString>>& choices) {
     std::vector<std::pair<std::string, std::string>> all;
     for (const auto& [key, words] : choices) all.emplace_back(key.toStdString(), words.toStdString());
@@ -79,7 +79,7 @@ QFormLayout* rowsIn(QWidget& part, FieldForm::Labels labels) {
     auto* form = layoutIn<QFormLayout>(part, -1, {});
     form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
     if (labels == FieldForm::Labels::Beside) form->setVerticalSpacing(8);
-    form->setRowWrapPolicy(labels == FieldForm::Labels::Above ? QFormLayout::WrapAllRows  // a narrow column
+    form->setRowWrapPolicy(labels == FieldForm::Labels::Above ? QFormLayout::WrapAllRows  // for a narrow column
                                                               : QFormLayout::WrapLongRows);
     return form;
 }
@@ -153,8 +153,7 @@ FieldForm::FieldForm(QWidget* parent, Labels labels)
     onFontChange(*this, [this] { fitLabels(); });
 }
 
-/// A label wraps where it is long, and not between two short words. Fields with a range end where the widest range
-/// begins.
+/// Wraps long labels, but not between two short words. Fields with a range end at the start of the widest range.
 void FieldForm::fitLabels() {
     int widest = 0;
     for (const auto& field : fields_) {
@@ -179,7 +178,7 @@ FieldForm::Field FieldForm::makeField(const FormField& described) {
         offer(*box, parameter);
         box->setCurrentIndex(box->findData(plain(parameter.value)));
         box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-        box->setMinimumContentsLength(8);  // characters; grows with the column
+        box->setMinimumContentsLength(8);  // characters; the box grows with the column
         box->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
         connect(box, &QComboBox::currentIndexChanged, this, &FieldForm::judge);
         field.text = [box] { return box->currentData().toString(); };
@@ -285,7 +284,7 @@ void FieldForm::showFields(const std::vector<FormField>& fields) {
 }
 
 void FieldForm::addOwn(const FormField& described) {
-    described.own->setParent(this);  // this sets its turn in the order of Tab
+    described.own->setParent(this);  // this also sets its place in the tab order
     if (described.parameter.label.empty())
         settingsRows_->addRow(described.own);
     else
@@ -313,7 +312,7 @@ void FieldForm::addRow(Field& field) {
     auto* rows = parameter.reference ? referenceRows_ : settingsRows_;
     if (ticks) {
         rows->addRow(column);
-        field.label->installEventFilter(this);  // a click on the label ticks the box; a box's own words would not wrap
+        field.label->installEventFilter(this);  // a click on the label ticks the box: the box's own text could not wrap
     } else {
         rows->addRow(label, column);
         field.label = qobject_cast<QLabel*>(rows->labelForField(column));
@@ -335,8 +334,8 @@ Result<ProtocolSettings> FieldForm::read() {
     askForAll();
     auto chosen = applySettings(declaration_, settings);
     if (!chosen) return chosen;
-    // A default that was left as it is stays the script's word, to the last digit and blank: what a field shows of it
-    // may read as another value, which the operator did not choose.
+    // A default that was not edited keeps the script's value exactly: its text in the field may be rounded, and would
+    // then read as a value that the operator did not choose.
     for (const auto& field : fields_) {
         auto& value = chosen->parameters[field.parameter.name];
         if (field.text() == field.atFirst) value = field.parameter.value;
@@ -370,7 +369,7 @@ void FieldForm::setChoices(const std::string& name, const std::vector<std::pair<
     const QSignalBlocker quiet(box);
     const auto before = field->text();
     field->parameter.choices = utf8(choices);
-    for (auto& each : declaration_.parameters)  // which reads what is chosen
+    for (auto& each : declaration_.parameters)  // read() uses the declaration
         if (each.name == name) each.choices = field->parameter.choices;
     box->clear();
     offer(*box, field->parameter);
@@ -412,7 +411,7 @@ void FieldForm::setKnown(std::set<std::string> names) {
     judge();
 }
 
-/// The verdict needs an answer: neither 0 nor an empty field is one.
+/// True if the verdict needs an answer and the field is empty or 0.
 bool FieldForm::lacks(const Field& field) const {
     if (field.parameter.needed.empty() || known_.contains(field.parameter.name)) return false;
     const auto value = parseSetting(field.parameter, field.text().trimmed().toStdString());

@@ -1,11 +1,11 @@
-// FieldForm.h - the one form of the program: a label, an editor, a range and a refusal for each field of a description.
+// FieldForm.h - the program's form: for each described field a label, an editor, a range and, if refused, the reason.
 //
-// A field is what a protocol declares of a parameter: name, label, unit, range, choices. Days are chosen in a calendar,
-// files by a dialog. What decides a verdict stands first. The parameters of the known reference are a part of their
-// own.
+// A field is described like a parameter in a protocol: name, label, unit, range, choices. Days are chosen in a
+// calendar, files in a dialog. Fields that decide a verdict come first. The parameters of the known reference form a
+// separate part.
 //
-// Every field is text checked by the same rules as the command line; a refusal stands below its field. Where the
-// description says what 0 stands for, those words stand in an empty field, which reads as 0.
+// Every field is text and is checked by the same rules as on the command line; the reason for a refusal stands below
+// the field. If 0 has a meaning, an empty field shows the words for this meaning and reads as 0.
 #pragma once
 
 #include <QFormLayout>
@@ -23,11 +23,11 @@ namespace tacto::gui {
 struct FormField {
     ProtocolParameter parameter;
     QString tip{};
-    QString hint{};          ///< stands in a line that is empty
-    QString range{};         ///< in place of what the parameter takes, where its owner judges it
-    QWidget* own = nullptr;  ///< in place of an editor: it is shown and placed, and not read; the form takes it
+    QString hint{};          ///< shown in an empty line
+    QString range{};         ///< shown instead of the parameter's own range if the owner checks the value
+    QWidget* own = nullptr;  ///< a widget shown instead of an editor; the form owns it and does not read it
 };
-/// `choices`: key and words; the first is chosen.
+/// `choices`: keys and words; the first one is selected.
 [[nodiscard]] FormField choiceField(const char* name, const QString& label,
                                     const std::vector<std::pair<QString, QString>>& choices, const QString& tip);
 [[nodiscard]] FormField textField(const char* name, const QString& label, const QString& value, const QString& tip,
@@ -38,47 +38,47 @@ struct FormField {
 [[nodiscard]] FormField wholeField(const char* name, const QString& label, int least, int most, int value,
                                    const QString& tip);
 [[nodiscard]] FormField tickField(const char* name, const QString& label, bool value, const QString& tip = {});
-/// A field without a label has the whole width.
+/// A field without a label takes the whole width.
 [[nodiscard]] FormField ownField(const QString& label, QWidget* own);
 
 class FieldForm final : public QWidget {
     Q_OBJECT
 public:
-    /// Labels above their fields, in a narrow column; or beside them where there is room.
+    /// Above: labels above their fields, for narrow columns. Beside: labels next to their fields if there is room.
     enum class Labels { Above, Beside };
     explicit FieldForm(QWidget* parent = nullptr, Labels labels = Labels::Above);
     void show(const ProtocolDeclaration& declaration);
     void show(const std::vector<FormField>& fields);
-    /// The fields of the known reference, to be placed and shown by the owner. Empty where the protocol has none.
+    /// The fields of the known reference, which the owner places and shows. Empty if the protocol has none.
     [[nodiscard]] QWidget& referencePart() { return *reference_; }
     [[nodiscard]] bool hasReference() const;
-    /// Errors: of the first field that is refused; all refusals are shown.
+    /// Errors: the error of the first refused field; the form shows all refusals.
     [[nodiscard]] Result<ProtocolSettings> read();
-    /// The text of a parameter as it stands; empty for none of that name.
+    /// The present text of a parameter; empty if there is no such parameter.
     [[nodiscard]] QString text(const std::string& name) const;
-    /// Writes into a field, as if it were typed; a name or a choice that is not there is left alone.
+    /// Writes into a field as if the text were typed. Does nothing for an unknown name or choice.
     void set(const std::string& name, const QString& text);
-    /// What a choice offers from now on: what was chosen stays where it is still there, else the first one is.
+    /// Replaces the choices of a field. Keeps the selected one if it still exists, else selects the first one.
     void setChoices(const std::string& name, const std::vector<std::pair<QString, QString>>& choices);
-    /// Says below a field why its owner refuses what stands there, until it is edited; an empty text: it is sound.
+    /// Shows below a field why its owner refuses the value, until it is edited; an empty text: the value is valid.
     void refuse(const std::string& name, const QString& why);
-    /// The field gets the focus, and all of its text is marked.
+    /// Focuses the field and selects all its text.
     void goTo(const std::string& name);
     void setRowVisible(const std::string& name, bool visible);
     void setRowVisible(QWidget& own, bool visible);
     [[nodiscard]] bool isRowVisible(QWidget& own) const;
     void setFieldEnabled(const std::string& name, bool enabled);
-    /// Parameters whose answer is known from elsewhere, as the electrode's area from the profile: for these 0 will do.
+    /// Parameters with an answer from elsewhere, such as the electrode's area from the profile: 0 is then accepted.
     void setKnown(std::set<std::string> names);
-    /// A missing entry is pointed out only once the operator has left the field, or read() or goToRefused() was called.
+    /// Reports a missing entry only after the operator has left the field, or after read() or goToRefused().
     void setMissingSaidOnceLeft() { missingSaidOnceLeft_ = true; }
-    /// The sentence about the first parameter that decides the verdict and has no answer; empty for none.
+    /// A sentence about the first missing parameter that decides the verdict; empty if none is missing.
     [[nodiscard]] QString unanswered() const;
-    /// The parameters that decide the verdict, and how many differ from the script's own: "4 cm² · 2 changed".
+    /// The parameters that decide the verdict, and how many differ from the script's defaults: "4 cm² · 2 changed".
     [[nodiscard]] QString summary() const;
-    /// How many fields of the part are refused as they stand, or have no answer though the verdict needs it.
+    /// Number of fields in this part that are refused, or that have no answer although the verdict needs one.
     [[nodiscard]] int refused(bool reference) const;
-    /// Gives the focus to the first such field. Returns whether it belongs to the reference; nothing without one.
+    /// Focuses the first such field. Returns true if it belongs to the reference; nothing if there is no such field.
     std::optional<bool> goToRefused();
 
 signals:
@@ -93,15 +93,15 @@ private:
         QString tip{}, hint{}, takes{};
         std::function<QString()> text;
         std::function<void(const QString&)> write;
-        QWidget* editor = nullptr;  // has the parameter's name
+        QWidget* editor = nullptr;  // has the parameter's name as object name
         QWidget* whole = nullptr;   // the editor with its buttons
         QWidget* row = nullptr;
         TroubleLine* trouble = nullptr;
         QLabel* label = nullptr;
-        QLabel* range = nullptr;  // empty where it has none
-        QString atFirst{};        // the text as the script's default shows it
-        QString why{};            // why it is refused as it stands
-        bool left = false;        // the user has left it, or was asked for what it lacks
+        QLabel* range = nullptr;  // empty if the field has no range
+        QString atFirst{};        // the text for the script's default
+        QString why{};            // why the present text is refused
+        bool left = false;        // the user has left the field, or was asked for its missing entry
     };
     [[nodiscard]] Field makeField(const FormField& described);
     void showFields(const std::vector<FormField>& fields);

@@ -13,7 +13,7 @@ namespace tacto::gui {
 
 namespace {
 
-// A verdict is told by its shape from afar: its lines are as heavy as the bold word beside it.
+// The shape of a verdict must be recognised from afar, so its lines are as heavy as the bold word next to it.
 constexpr const char kToolLine[] = R"(stroke-width="1.5")", kVerdictLine[] = R"(stroke-width="2.4")";
 
 QString fileOf(const QString& name) { return ":/icons/" + name + ".svg"; }
@@ -24,7 +24,7 @@ void paintIcon(QPainter& painter, const QString& name, const QColor& colour, con
     auto shape = file.readAll().replace("currentColor", colour.name().toLatin1());
     if (name.startsWith("verdict-")) shape.replace(kToolLine, kVerdictLine);
     QSvgRenderer drawing(shape);
-    // A wider picture has its room at the right.
+    // In a wider place the free room is at the right.
     const double side = std::min(place.width(), place.height());
     drawing.render(&painter, {place.left(), place.center().y() - side / 2, side, side});
 }

@@ -11,7 +11,7 @@
 namespace tacto::gui {
 
 namespace {
-constexpr int kMinLetters = 3;  // with fewer letters before the "…" it says nothing
+constexpr int kMinLetters = 3;  // least number of letters before the "…"; fewer would say nothing
 }
 
 QString ElidedLabel::shownText() const {
@@ -40,7 +40,7 @@ void TroubleLine::say(const QString& why) {
     setVisible(!why.isEmpty());
 }
 
-/// The words twice, each time clipped to the ground that they stand out from.
+/// Draws the text twice, in two colours, each time clipped to the part of the bar that needs this colour.
 void ProgressBar::paintEvent(QPaintEvent* /*event*/) {
     QStyleOptionProgressBar option;
     initStyleOption(&option);

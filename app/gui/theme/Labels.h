@@ -1,4 +1,4 @@
-// Labels.h - words that suit their room: a line that elides, what is in the way, and words over a progress bar.
+// Labels.h - labels that adapt to their room: a line that is shortened, a warning line, and text over a progress bar.
 #pragma once
 
 #include <QLabel>
@@ -6,8 +6,8 @@
 
 namespace tacto::gui {
 
-/// One line of text that ends in "…" where there is no room for all of it, is empty where there is room for a few
-/// letters alone, and asks for no room by itself. The whole text belongs into the tool tip, which the owner sets.
+/// One line of text that is shortened with "…" if the room is too small, and empty if only a few letters fit. Asks for
+/// no width by itself. The owner should put the whole text into the tool tip.
 class ElidedLabel final : public QLabel {
 public:
     using QLabel::QLabel;
@@ -19,16 +19,16 @@ protected:
     void paintEvent(QPaintEvent* event) override;
 };
 
-/// "⚠ " and why something cannot be done, in amber, below what it is about; not there while all is well.
+/// "⚠ " and the reason why something cannot be done, in amber, below the thing concerned; hidden while all is well.
 class TroubleLine final : public QLabel {
 public:
-    /// `name` as object name.
+    /// `name`: the object name.
     TroubleLine(const QString& name, QWidget* parent);
-    /// An empty text: all is well.
+    /// Shows the reason; an empty text hides the line.
     void say(const QString& why);
 };
 
-/// A progress bar whose words can be read over both its filled and its empty part.
+/// A progress bar with text that is readable over its filled and its empty part.
 class ProgressBar final : public QProgressBar {
 public:
     using QProgressBar::QProgressBar;

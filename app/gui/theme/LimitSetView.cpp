@@ -18,7 +18,7 @@ QString limitOf(const LimitRow& row) {
     return QString("%1 %2").arg(row.strict ? "<" : "≤", settingText(row.max, qtext(unitOf(row.quantity))));
 }
 
-/// Files are plain ASCII.
+/// Replaces the plain ASCII units of the files by proper symbols.
 QString shownUnits(std::string_view text) { return withOhmSigns(qtext(text)).replace("cm2", "cm²"); }
 
 QString overText(const LimitRow& row) {

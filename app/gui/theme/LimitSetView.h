@@ -1,7 +1,7 @@
-// LimitSetView.h - the limit sets in force, to be read: one at a time by its title, each limit with its value, the time
-// over which it is taken, where it is judged, what it does, and its source; then what the set asks to be stated.
+// LimitSetView.h - shows the limit sets in force, one at a time, chosen by title: for each limit its value, averaging
+// time, place, action and source; then what the set requires to be stated.
 //
-// All sets apply, not only the one shown.
+// All sets apply, not only the shown one.
 #pragma once
 
 #include <QComboBox>
@@ -18,9 +18,9 @@ namespace tacto::gui {
 class LimitSetView final : public QWidget {
     Q_OBJECT
 public:
-    /// `sets` outlives it.
+    /// `sets` outlives this.
     explicit LimitSetView(const std::vector<LimitSet>& sets, QWidget* parent);
-    /// Shows the set with that id; changes nothing if there is none.
+    /// Shows the set with this id; does nothing if there is none.
     void choose(const QString& id);
 
 private:
@@ -31,7 +31,7 @@ private:
     QLabel* stated_;
 };
 
-/// The view in a window of its own, with this set shown.
+/// Makes a window with this view, showing the set with this id.
 [[nodiscard]] QDialog* makeLimitSetWindow(const std::vector<LimitSet>& sets, const QString& id, QWidget* parent);
 
 }  // namespace tacto::gui

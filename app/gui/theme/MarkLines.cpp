@@ -10,7 +10,7 @@ namespace {
 constexpr int kWordChars = 24;
 constexpr int kWordPad = 3;
 
-/// Its time is the plot's, its height runs from 0 at the top to 1 at the bottom.
+/// Attaches a position to the plot: its time is the plot's, its height runs from 0 at the top to 1 at the bottom.
 void putInto(QCPItemPosition& position, QCPAxisRect& rect) {
     position.setAxisRect(&rect);
     position.setAxes(rect.axis(QCPAxis::atBottom), rect.axis(QCPAxis::atLeft));
@@ -52,7 +52,7 @@ void MarkLines::draw(const std::vector<PlotMark>& marks, const std::vector<QCPAx
         word->position->setCoords(mark.t_s, 0);
         const QFontMetrics metrics(word->font());
         word->setText(metrics.elidedText(qtext(mark.word), Qt::ElideRight, metrics.averageCharWidth() * kWordChars));
-        // Stands at the left of its line where it would leave the plot at the right.
+        // The word stands at the left of its line if it would leave the plot at the right.
         const double end = rects.front()->axis(QCPAxis::atBottom)->coordToPixel(mark.t_s) +
                            metrics.horizontalAdvance(word->text()) + 2 * kWordPad;
         word->setPositionAlignment((end > rects.front()->right() ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignTop);

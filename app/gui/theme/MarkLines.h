@@ -1,5 +1,5 @@
-// MarkLines.h - the operator's marks in plots over time: a dashed line at its moment through each of the axis rects,
-// the word at the top of the first.
+// MarkLines.h - the operator's marks in plots over time: a dashed line at the marked time through each axis rect, and
+// the word at the top of the first rect.
 #pragma once
 
 #include <qcustomplot.h>
@@ -16,13 +16,13 @@ struct PlotMark {
 
 class MarkLines {
 public:
-    /// The plot owns what is made here.
+    /// The plot owns the lines and words made here.
     explicit MarkLines(QCustomPlot& plot) : plot_(plot) {}
-    /// Draws those of `marks` that lie in the time that `rects` show.
+    /// Draws the marks that lie within the time range of `rects`.
     void draw(const std::vector<PlotMark>& marks, const std::vector<QCPAxisRect*>& rects);
     /// Takes the colours of the current theme.
     void colour();
-    /// The words that are drawn now.
+    /// The words drawn at present.
     [[nodiscard]] QStringList words() const;
 
 private:
@@ -33,7 +33,7 @@ private:
     void make(Drawn& drawn, std::size_t lines);
     void colour(const Drawn& drawn) const;
     QCustomPlot& plot_;
-    std::vector<Drawn> drawn_;  // kept for the next marks
+    std::vector<Drawn> drawn_;  // reused for the next marks
 };
 
 }  // namespace tacto::gui

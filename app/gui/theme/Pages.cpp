@@ -15,7 +15,7 @@ ScrollingPage::ScrollingPage(QWidget* parent) : QScrollArea(parent) {
 
 void ScrollingPage::hold(QWidget* page) {
     setWidget(page);
-    for (auto* ground : {page, viewport()}) ground->setAutoFillBackground(false);  // the workspace's own
+    for (auto* ground : {page, viewport()}) ground->setAutoFillBackground(false);  // the workspace's shows
 }
 
 void scrollDownOnly(QScrollArea& area) {

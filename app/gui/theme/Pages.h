@@ -1,4 +1,4 @@
-// Pages.h - pages that scroll, stacks that show one page, and the bar below a page.
+// Pages.h - pages that scroll, stacks that show one of several pages, and the bar at the foot of a page.
 #pragma once
 
 #include <QBoxLayout>
@@ -9,32 +9,32 @@
 
 namespace tacto::gui {
 
-/// A page with scroll bars where there is less room than it needs: no page makes the window larger than the screen.
+/// A page that scrolls if there is too little room, so that no page makes the window larger than the screen.
 class ScrollingPage final : public QScrollArea {
     Q_OBJECT
 public:
     explicit ScrollingPage(QWidget* parent);
-    /// Takes the page. One that was made with viewport() as its parent stays where it is; any other moves here, and
-    /// each widget in it takes its style again.
+    /// Sets the page. Make it with viewport() as its parent; otherwise it is moved here, and each widget in it must be
+    /// styled again.
     void hold(QWidget* page);
-    /// Whether it stands on the page itself: one that stands within another scrolls by itself.
+    /// Asks only for its least size, because its content can scroll.
     [[nodiscard]] QSize sizeHint() const override { return minimumSizeHint(); }
 };
 
-/// Of its page's width, without a frame; from top to bottom only.
+/// Makes the area as wide as its page, without a frame, and lets it scroll only up and down.
 void scrollDownOnly(QScrollArea& area);
-/// A list of rows that scrolls where it has less room than it needs, as wide as its place, and takes the arrow keys.
+/// Makes a list of rows that is as wide as its place, scrolls if there is too little room, and takes the arrow keys.
 [[nodiscard]] QScrollArea* scrollingRows(QWidget* rows, QWidget* parent);
 
-/// The width of the widget, or of the scrolling page around it if that is less: whatever has to suit the room goes by
-/// this, since a page is never narrower than its content.
+/// Returns the visible width: that of the widget, or of the scrolling page around it if that is smaller. Use it to fit
+/// things to the room, because a page is never narrower than its content.
 [[nodiscard]] int widthInSight(const QWidget& widget);
 
-/// How high a layout is at a width: words that wrap make it higher where it is narrow.
+/// Returns the height of a layout at a width, because wrapped text is higher in a narrow layout.
 [[nodiscard]] inline int wholeHeightAt(const QLayout& layout, int width) {
     return layout.hasHeightForWidth() ? layout.totalHeightForWidth(width) : layout.totalSizeHint().height();
 }
-/// The height with all that scrolls or stretches as low as it may be.
+/// Returns the height if everything that can scroll or stretch is as low as possible.
 [[nodiscard]] inline int leastHeightAt(const QLayout& layout, int width) {
     return layout.hasHeightForWidth() ? layout.totalMinimumHeightForWidth(width) : layout.totalMinimumSize().height();
 }
@@ -42,18 +42,18 @@ void scrollDownOnly(QScrollArea& area);
 /// The distance from the edges of a page to its content.
 inline constexpr int kPagePad = 16;
 
-/// Adds what stands below a page and stays in sight to `page`, the layout of `parent`, from edge to edge: a line, and
-/// below it a row for what can be done with the page.
+/// Adds a foot that stays visible below a page to `page`, the layout of `parent`, from edge to edge: a separating line,
+/// and below it a row for the page's buttons. Returns the row.
 [[nodiscard]] QBoxLayout* addPageFoot(QVBoxLayout& page, QWidget* parent,
                                       QBoxLayout::Direction direction = QBoxLayout::LeftToRight);
 
-/// Pages of which one is shown. It asks for the room of that page alone: a hidden wide or high page makes no other
+/// Shows one of several pages and asks only for that page's room, so that a large hidden page does not make others
 /// scroll.
 class PageStack : public QWidget {
     Q_OBJECT
 public:
     explicit PageStack(QWidget* parent = nullptr);
-    /// Takes it; the first one is shown.
+    /// Adds a page; the first one is shown.
     void addWidget(QWidget* page) { pages_->addWidget(page); }
     void setCurrentIndex(int index) { pages_->setCurrentIndex(index); }
     /// -1 without pages.

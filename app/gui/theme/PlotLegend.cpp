@@ -10,9 +10,9 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kBelow = 6;  // the axes stand close under it
+constexpr int kBelow = 6;  // pixels between the legend and the axes
 
-/// A grid keeps its cells where they were: they are put in again.
+/// Sets the number of columns. A grid does not move existing entries, so they are added again.
 void setWrap(QCustomPlot& plot, int columns) {
     auto* legend = plot.legend;
     if (legend->wrap() == columns) return;
@@ -37,7 +37,7 @@ void putLegendAbove(QCustomPlot& plot) {
     auto* legend = plot.legend;
     plot.axisRect()->insetLayout()->take(legend);
     plot.plotLayout()->insertRow(0);
-    // Stands in a grid of its own, beside something that takes the rest: a legend's greatest width would bind the axes.
+    // The legend needs its own grid with a filler next to it, or its maximum width would limit the axes.
     auto* line = new QCPLayoutGrid;
     plot.plotLayout()->addElement(0, 0, line);
     plot.plotLayout()->setRowStretchFactor(0, 0.001);
@@ -59,12 +59,12 @@ void fitLegend(QCustomPlot& plot) {
     legend->setBrush(QBrush(c.base));
     legend->setBorderPen(Qt::NoPen);
     legend->setFont(textFont(TextSize::Small));
-    legend->setIconSize(scaledPx(24), QFontMetrics(legend->font()).height());  // its mark is beside the word's middle
+    legend->setIconSize(scaledPx(24), QFontMetrics(legend->font()).height());  // the symbol is level with the text
     legend->setColumnSpacing(scaledPx(14));
     legend->setRowSpacing(0);
     legend->setMargins(QMargins(scaledPx(8), 2, scaledPx(8), 2));
     legend->setSizeConstraintRect(QCPLayoutElement::scrOuterRect);
-    // A hidden legend leaves its line to the axes.
+    // A hidden legend leaves its room to the axes.
     legend->setMinimumSize(legend->visible() ? QSize(0, 0) : QSize(1, 1));
     legend->setMaximumSize(legend->visible() ? legend->minimumOuterSizeHint() : QSize(1, 1));
 }

@@ -1,19 +1,19 @@
-// PlotLegend.h - a plot's legend above its axes, where it covers no data: as wide as its entries, at the left.
+// PlotLegend.h - a plot's legend at the left above its axes, where it covers no data; as wide as its entries.
 #pragma once
 
 #include <qcustomplot.h>
 
 namespace tacto::gui {
 
-/// Puts the legend of `plot` into a line of its own. Call once, before anything is drawn.
+/// Moves the legend of `plot` into its own line above the axes. Call once, before anything is drawn.
 void putLegendAbove(QCustomPlot& plot);
-/// Fits it to its entries, in the current theme: call again when they, the theme or the size of text change, and when
-/// it is shown or hidden.
+/// Fits the legend to its entries in the current theme. Call it again after a change of entries, theme or text size,
+/// and when the legend is shown or hidden.
 void fitLegend(QCustomPlot& plot);
-/// From now on its entries stand in one row where the plot is wide enough, else in as few rows of equal length as that
-/// takes.
+/// Arranges the entries from now on in one row if the plot is wide enough, else in as few rows of equal length as
+/// possible.
 void wrapLegend(QCustomPlot& plot);
-/// A trace's icon in the legend: a level line in its pen.
+/// Draws a trace's symbol in the legend: a horizontal line in its pen.
 void drawLineIcon(QCPPainter& painter, const QRectF& icon, const QPen& pen);
 
 }  // namespace tacto::gui

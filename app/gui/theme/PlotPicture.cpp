@@ -22,11 +22,11 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr double kPictureScale = 2;  // sharp on paper and on a screen of twice the density
+constexpr double kPictureScale = 2;  // sharp on paper and on high-density screens
 constexpr const char* kCaption = "pictureCaption";
 using CaptionOf = std::function<PictureCaption()>;
 
-/// The resolution of the layout: what is drawn stays vectors, and words stay as large as on the screen.
+/// The resolution of the layout: the drawing stays vectors, and text keeps its size on the screen.
 int pixelsPerInch() { return QPicture().logicalDpiX(); }
 
 std::function<void(QCPPainter&)> replaying(const QPicture& picture) {
@@ -206,7 +206,7 @@ constexpr int kAxisDigits = 4;
 
 QFont titleFont() { return textFont(TextSize::Large, QFont::DemiBold); }
 
-/// Words without room continue in another line.
+/// Text that is too wide continues in another line.
 constexpr int kWrapped = int(Qt::AlignLeft | Qt::AlignTop) | Qt::TextWordWrap;
 
 int heightOf(const QString& text, const QFont& font, int width) {
@@ -214,7 +214,7 @@ int heightOf(const QString& text, const QFont& font, int width) {
     return text.isEmpty() ? 0 : QFontMetrics(font).boundingRect(room, kWrapped, text).height();
 }
 
-/// A line is broken between its readings, three blanks apart, and not within one.
+/// Allows line breaks only between readings (which are three blanks apart), not within one.
 QString readingsKeptWhole(QString line) {
     static const QRegularExpression within("(?<! ) (?! )");
     return line.contains(QStringLiteral("   ")) ? line.replace(within, QString(QChar(QChar::Nbsp))) : line;

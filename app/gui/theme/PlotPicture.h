@@ -1,4 +1,4 @@
-// PlotPicture.h - every plot copies and saves. A file is replaced whole or not at all.
+// PlotPicture.h - copies and saves pictures of plots. A file is replaced completely or not at all.
 #pragma once
 
 #include <QDateTime>
@@ -17,7 +17,7 @@
 
 namespace tacto::gui {
 
-// The caption above a saved picture: title, date, devices, scale, readings, and that it is simulated.
+// The caption above a saved picture: title, date, devices, scale, readings, and whether the data are simulated.
 
 /// Empty lines are left out.
 struct PictureCaption {
@@ -25,7 +25,7 @@ struct PictureCaption {
     QString date;       ///< "2026-11-26 16:59:39 UTC+01:00"
     QStringList lines;  ///< devices, scale, readings
     [[nodiscard]] bool empty() const { return title.isEmpty() && date.isEmpty() && lines.isEmpty(); }
-    /// Around the plot, in px, so that plot and caption share an edge; 0 without a caption.
+    /// Margin around the plot in pixels, with which plot and caption line up; 0 without a caption.
     [[nodiscard]] int margin() const { return empty() ? 0 : kMargin; }
     static constexpr int kMargin = 16;
 };
@@ -36,16 +36,16 @@ struct PictureCaption {
 [[nodiscard]] QString pictureDate(const QDateTime& taken);
 /// "twin SIM-1 (simulated) · Demo device".
 [[nodiscard]] QString deviceNames(const std::vector<SessionDevice>& devices);
-/// "Interval (s) 0 to 2.2 · Amplitude (V) 0 to 44": the axes that have a title.
+/// "Interval (s) 0 to 2.2 · Amplitude (V) 0 to 44": the ranges of all axes with a title.
 [[nodiscard]] QString axesText(const QCustomPlot& plot);
 
-/// A caption laid out for a width: a line without room continues in another.
+/// A caption laid out for a given width: lines that are too long are wrapped.
 class CaptionLines {
 public:
     CaptionLines(const PictureCaption& caption, int width);
     /// 0 for an empty caption.
     [[nodiscard]] int height() const { return height_; }
-    /// Draws from the painter's origin on.
+    /// Draws the caption with its top left at the painter's origin.
     void draw(QPainter& painter) const;
 
 private:
@@ -53,20 +53,19 @@ private:
     int width_ = 0, height_ = 0;
 };
 
-/// The picture of a moment with its caption: it is saved as it was then, however long a dialog asks for the file's
-/// name.
+/// The picture of one moment with its caption, saved unchanged even if the user takes long to choose a file name.
 class Still {
 public:
-    /// The present picture of `plot`, with the caption of captionPictures().
+    /// The present picture of `plot`, with the caption set by captionPictures().
     Still(QCustomPlot& plot);  // NOLINT(google-explicit-constructor): a plot is saved as it is
     /// The present picture of `widget`.
     Still(QWidget& widget, PictureCaption caption);
-    /// `draw` paints `size` from the painter's origin on. `title` is for screen readers.
+    /// `draw` paints an area of `size` from the painter's origin. `title` is for screen readers.
     Still(QSize size, std::function<void(QCPPainter&)> draw, PictureCaption caption, QString title);
 
     /// Includes the caption and its margin.
     [[nodiscard]] QSize size() const;
-    /// Draws all of it, on its ground.
+    /// Draws the whole picture on its background.
     void draw(QCPPainter& painter) const;
     [[nodiscard]] const QString& title() const { return title_; }
 
@@ -79,21 +78,21 @@ private:
     QColor ground_;
 };
 
-/// Every picture of `plot` says this above it, also by its menu.
+/// Sets the caption for all pictures of `plot`, also those made with its menu.
 void captionPictures(QCustomPlot& plot, const std::function<PictureCaption()>& caption);
 
-/// Saves by the path's ending: .png (twice the screen's resolution), .svg or .pdf. Returns a sentence on any failure.
+/// Saves as the path's ending says: .png (twice the screen's resolution), .svg or .pdf. Returns errors as a sentence.
 [[nodiscard]] std::optional<QString> savePicture(const Still& still, const QString& path);
 [[nodiscard]] QImage pictureOf(const Still& still, double scale);
 
 void copyPicture(const Still& still);
-/// Asks where to; `name` is the file that is proposed.
+/// Asks for the file and saves; `name` is the suggested file name.
 void askSavePicture(QWidget& parent, const Still& still, const QString& name);
 
-/// A context menu, also by the menu key: copy as picture, save. `name` is the file that is proposed.
+/// Adds a context menu (also on the menu key) to copy or save the picture. `name` is the suggested file name.
 void addPlotMenu(QCustomPlot& plot, const QString& name);
 
-/// The buttons with which a plot is saved, copied and shown alone: the same ones in every workspace.
+/// The buttons that save, copy and enlarge a plot, the same in every workspace.
 class PictureTools final : public QObject {
     Q_OBJECT
 public:
@@ -104,11 +103,11 @@ public:
     [[nodiscard]] QToolButton& plotOnly() const { return *plotOnly_; }
     [[nodiscard]] std::array<QToolButton*, 3> buttons() const { return {save_, copy_, plotOnly_}; }
     void addTo(QLayout& row);
-    /// Save and copy take what `shown` gives when they are clicked; `name` is the file that is proposed.
+    /// Sets the picture that Save and Copy get when clicked; `name` is the suggested file name.
     void takeFrom(const std::function<Still()>& shown, const QString& name);
 
 signals:
-    /// The plot without what is around it, or back.
+    /// Asks the window to show the plot alone, or everything again.
     void plotOnlyWanted();
 
 private:

@@ -14,18 +14,18 @@ namespace {
 using nlohmann::json;
 
 constexpr int kHeaderPad = 10, kRow = 30;
-constexpr int kLongestText = 44;  // characters of a column of words that is not the last
-constexpr int kMinText = 10;      // the least text where numbers need the room
-constexpr int kMinTextTight = 6;  // the least text in a table narrower than a small window
-constexpr int kRoom = 860;        // pixels beside a path in a window of 1280: a wider table is set small
+constexpr int kLongestText = 44;  // most characters of a text column that is not the last
+constexpr int kMinText = 10;      // least characters of a text column if numbers need the room
+constexpr int kMinTextTight = 6;  // the same in a table narrower than a small window
+constexpr int kRoom = 860;        // pixels next to a path in a window of 1280; wider tables get small text
 
-/// Makes the header as high as its longest title needs.
+/// Sets the header's height for its longest title.
 void fitHeader(QTableWidget& table) {
     auto* header = table.horizontalHeader();
     setTextSize(*header, TextSize::Small);
     int lines = 1;
     for (int c = 0; c < table.columnCount(); ++c) {
-        const auto* item = table.horizontalHeaderItem(c);  // null: it has no title
+        const auto* item = table.horizontalHeaderItem(c);  // null: the column has no title
         if (item != nullptr) lines = std::max(lines, int(item->text().count('\n')) + 1);
     }
     header->setFixedHeight(lines * QFontMetrics(textFont(TextSize::Small)).height() + kHeaderPad);
@@ -39,7 +39,7 @@ bool isOfNumbers(const QTableWidget& table, int column) {
     return false;
 }
 
-/// The width of the table with columns as wide as what is in them, words up to their bound.
+/// Fits the columns to their content (text columns up to a limit) and returns the width of the table.
 int fitColumns(QTableWidget& table) {
     const int longest = table.fontMetrics().averageCharWidth() * kLongestText;
     table.resizeColumnsToContents();
@@ -51,7 +51,7 @@ int fitColumns(QTableWidget& table) {
     return width;
 }
 
-/// Takes what is missing from the columns of words, the widest first: a number is never cut. The last one takes the
+/// Narrows text columns, the widest first, until the table fits: numbers are never cut off. The last column takes the
 /// rest by itself. Returns the table's width.
 int narrowWords(QTableWidget& table, int width, int room) {
     const bool tight = room < scaledPx(kRoom);
@@ -70,7 +70,7 @@ int narrowWords(QTableWidget& table, int width, int room) {
     return width;
 }
 
-/// All rows are in sight; where numbers have no room the table scrolls sideways, with its bar below the last row.
+/// Makes all rows visible. If the numbers do not fit, the table scrolls sideways, with its bar below the last row.
 void keepWhole(QTableWidget& table, int height) {
     constexpr const char* kHeight = "heightOfRows";
     auto& bar = *table.horizontalScrollBar();
@@ -84,7 +84,7 @@ void keepWhole(QTableWidget& table, int height) {
     fit();
 }
 
-/// A title that is longer than its column's numbers stands in two lines.
+/// Breaks a title into two lines if it is longer than its column's numbers.
 QString inLines(const QString& header) {
     constexpr qsizetype kLine = 14;
     const auto end = header.indexOf('\n') < 0 ? header.size() : header.indexOf('\n');
@@ -146,15 +146,15 @@ void layOutRecordTable(QTableWidget& table, int room_px) {
     header->setHighlightSections(false);
     header->setSectionsClickable(false);
     fitHeader(table);
-    header->setStretchLastSection(false);  // else it is as wide as what is in it when the table is laid out again
+    header->setStretchLastSection(false);  // otherwise a new layout would give it the width of its content
     int width = fitColumns(table);
     if (width > std::min(kRoom, room_px)) {
         setTextSize(table, TextSize::Small);
         const int room = std::min(scaledPx(kRoom), room_px);
         width = narrowWords(table, fitColumns(table), room);
-        if (width > room) width = fitColumns(table);  // the table scrolls: no word gives way for nothing
+        if (width > room) width = fitColumns(table);  // it scrolls anyway, so text columns are not narrowed
     }
-    // A last column of words takes the rest; one of numbers stands beside the others.
+    // A last column of text takes the rest; a column of numbers stays next to the others.
     const bool words = !isOfNumbers(table, table.columnCount() - 1);
     header->setStretchLastSection(words);
     table.setMaximumWidth(words ? QWIDGETSIZE_MAX : width);

@@ -1,4 +1,4 @@
-// RecordColumns.h - records as a table of the window, by a list of columns. No key of a record is ever shown.
+// RecordColumns.h - shows records in a table, with the columns of a list. Keys of records are never shown.
 #pragma once
 
 #include <QTableWidget>
@@ -7,15 +7,15 @@
 
 namespace tacto::gui {
 
-/// A table that cannot be edited and has no scroll bars of its own: all rows are in sight, and the last column of words
-/// takes the room that is left and elides. Takes `parent`.
+/// Makes a table that cannot be edited and has no scroll bars: all rows are visible, and the last text column takes the
+/// remaining room and is shortened with "…". Takes ownership through `parent`.
 [[nodiscard]] QTableWidget* makeRecordTable(const std::vector<ResultColumn>& columns, const nlohmann::json& records,
                                             QWidget* parent);
-/// Headers and cells of a table that scrolls in its own place and has other rows now.
+/// Replaces headers and cells of a table that scrolls in its own place.
 void fillRecordTable(QTableWidget& table, const std::vector<ResultColumn>& columns, const nlohmann::json& records);
-/// Makes header, rows and columns of such a table as large as what is in them, in the current size of text.
+/// Fits header, rows and columns of such a table to their content in the current text size.
 void fitRecordTable(QTableWidget& table);
-/// Lays out a table that is filled by hand, with putText(), alike. `room_px`: no more than it has where it stands.
+/// Lays out a table filled with putText() in the same way. `room_px`: the width available to the table.
 void layOutRecordTable(QTableWidget& table, int room_px = QWIDGETSIZE_MAX);
 void putText(QTableWidget& table, int row, int column, const QString& text, bool right);
 

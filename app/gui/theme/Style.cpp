@@ -23,8 +23,8 @@ constexpr int kGrid = 8;
 
 MnemonicStyle::MnemonicStyle() : QProxyStyle("Fusion") { qApp->installEventFilter(this); }
 
-/// Fusion leaves 4 px between an icon and its word; the design has 8. The rest is room at the right of the icon, which
-/// is drawn square at the left of what it gets (Icons.cpp).
+/// Fusion leaves 4 px between an icon and its text; the design has 8. So the icon gets more room, and is drawn square
+/// at the left of this room (Icons.cpp).
 void MnemonicStyle::polish(QWidget* widget) {
     QProxyStyle::polish(widget);
     const auto* tool = qobject_cast<QToolButton*>(widget);
@@ -38,7 +38,7 @@ int MnemonicStyle::styleHint(StyleHint hint, const QStyleOption* option, const Q
     return hint == SH_UnderlineShortcut ? int(held_) : QProxyStyle::styleHint(hint, option, widget, returned);
 }
 
-/// Distances that a layout does not state lie on the grid, and small icons grow with the text.
+/// Margins and spacings that a layout does not set are multiples of the grid; small icons grow with the text.
 int MnemonicStyle::pixelMetric(PixelMetric metric, const QStyleOption* option, const QWidget* widget) const {
     switch (metric) {
         case PM_LayoutLeftMargin:
@@ -48,7 +48,7 @@ int MnemonicStyle::pixelMetric(PixelMetric metric, const QStyleOption* option, c
         case PM_LayoutHorizontalSpacing:
             return kGrid;
         case PM_LayoutVerticalSpacing:
-            return kGrid / 2;  // rows are high enough as they are
+            return kGrid / 2;  // rows are already high enough
         case PM_SmallIconSize:
         case PM_LineEditIconSize:
             return scaledPx(kButtonIcon);
@@ -60,7 +60,7 @@ int MnemonicStyle::pixelMetric(PixelMetric metric, const QStyleOption* option, c
 bool MnemonicStyle::eventFilter(QObject* watched, QEvent* event) {
     const bool key = event->type() == QEvent::KeyPress || event->type() == QEvent::KeyRelease;
     if (key && static_cast<QKeyEvent*>(event)->key() == Qt::Key_Alt) underline(event->type() == QEvent::KeyPress);
-    // Where Alt takes the focus elsewhere (Alt+Tab), its release does not come here.
+    // Alt+Tab moves the focus to another program, which then gets the release of Alt.
     if (event->type() == QEvent::ApplicationStateChange) underline(false);
     return QProxyStyle::eventFilter(watched, event);
 }
@@ -90,7 +90,7 @@ bool WheelGuard::isSetting(const QWidget& widget) {
 bool WheelGuard::eventFilter(QObject* watched, QEvent* event) {
     if (event->type() != QEvent::Wheel) return false;
     if (watched->isWindowType()) {
-        // Runs before Qt gives the focus to what is under the pointer, by its policy.
+        // Runs before Qt focuses the widget under the pointer, as its focus policy may ask for.
         const auto* window = QWidget::find(static_cast<QWindow*>(watched)->winId());
         auto* under =
             window == nullptr ? nullptr : window->childAt(static_cast<QWheelEvent*>(event)->position().toPoint());
@@ -101,7 +101,7 @@ bool WheelGuard::eventFilter(QObject* watched, QEvent* event) {
     if (!watched->isWidgetType()) return false;
     const auto* widget = static_cast<QWidget*>(watched);
     if (!isSetting(*widget) || widget->hasFocus()) return false;
-    event->ignore();  // so that the next widget around it gets it
+    event->ignore();  // so that the widget around it gets the event
     return true;
 }
 

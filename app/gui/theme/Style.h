@@ -1,5 +1,5 @@
-// Style.h - the program's style, Fusion with three changes: letters for Alt are underlined only while Alt is held,
-// icons grow with the text and stand a little before it, and layouts lie on the grid.
+// Style.h - the program's style: Fusion with three changes. Letters for Alt are underlined only while Alt is held;
+// icons grow with the text and have a wider gap to it; layouts use the grid.
 #pragma once
 
 #include <QProxyStyle>
@@ -26,13 +26,13 @@ private:
     bool held_ = false;
 };
 
-/// The wheel changes no setting that has not the focus, and gives none: a list, a number, a slider or the
-/// tabs under a pointer that scrolls by stay as they are, and what they stand in scrolls (hazard H12).
+/// The wheel changes only a setting that has the focus, and never gives it the focus. While the user scrolls, lists,
+/// numbers, sliders and tabs under the pointer keep their values, and the page around them scrolls (hazard H12).
 class WheelGuard final : public QObject {
 public:
-    /// Installs it for every window of the program from now on; a second call does nothing.
+    /// Installs the guard for every window of the program; a second call does nothing.
     static void install();
-    /// Whether a turn of the wheel would change its value.
+    /// True if a turn of the wheel would change the widget's value.
     [[nodiscard]] static bool isSetting(const QWidget& widget);
 
 protected:

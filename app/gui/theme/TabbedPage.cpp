@@ -7,9 +7,9 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kToolsApart = 8;  // from the tabs, and from the right edge
+constexpr int kToolsApart = 8;  // pixels between tools and tabs, and to the right edge
 
-/// Keeps all tabs whole, whatever room the tools want: those have a menu for what does not fit.
+/// A tab bar that always shows all tabs in full; tools that do not fit move into a menu.
 class WholeTabBar final : public QTabBar {
 public:
     using QTabBar::QTabBar;
@@ -41,7 +41,7 @@ TabbedPage::TabbedPage(QWidget* parent)
     column->addWidget(pages_, 1);
     tools_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
     connect(bar_, &QTabBar::currentChanged, this, [this](int index) {
-        bar_->updateGeometry();  // the chosen tab's title is bold, and wider
+        bar_->updateGeometry();  // the title of the chosen tab is bold, and so wider
         pages_->setCurrentIndex(index);
         tools_->setCurrentIndex(index);
         emit currentChanged(index);
@@ -67,11 +67,11 @@ void TabbedPage::setHeadVisible(bool visible) {
 
 namespace {
 
-/// Returns the last one.
+/// Puts the widgets in `place` after `before` in the tab order. Returns the last one.
 QWidget* chain(QWidget* before, const QWidget& place) {
     for (auto* each : place.findChildren<QWidget*>(Qt::FindDirectChildrenOnly)) {
         if (each->isWindow()) continue;
-        // A part that hands its focus on is reached with what it hands it to.
+        // Skips a widget with a focus proxy: the proxy has its own turn.
         if ((each->focusPolicy() & Qt::TabFocus) != 0 && each->focusProxy() == nullptr) {
             QWidget::setTabOrder(before, each);
             before = each;
@@ -84,7 +84,7 @@ QWidget* chain(QWidget* before, const QWidget& place) {
 }  // namespace
 
 void tabAfter(QWidget& before, QWidget& place) {
-    // setTabOrder() takes none that has no focus: the last one before it that has.
+    // setTabOrder() accepts only widgets that take the focus: goes back to the last one of these.
     auto* last = &before;
     do {
         if (last->focusPolicy() != Qt::NoFocus) break;

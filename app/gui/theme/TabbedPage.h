@@ -1,4 +1,4 @@
-// TabbedPage.h - pages behind tabs, each with its own tools in the row of the tabs, or below it where there is no room.
+// TabbedPage.h - pages with tabs, each with its own tools in the row of the tabs, or below it in a narrow window.
 #pragma once
 
 #include <QShortcut>
@@ -14,13 +14,13 @@ class TabbedPage final : public QWidget {
     Q_OBJECT
 public:
     explicit TabbedPage(QWidget* parent);
-    /// The parent to make a page with: a page that is moved here later takes longer.
+    /// The parent for a new page; moving a page here later takes longer.
     [[nodiscard]] QWidget* room() const { return pages_; }
-    /// Takes both; `tools` may be null.
+    /// Adds a page and its tools, and takes both over; `tools` may be null.
     void addTab(QWidget* page, const QString& title, QWidget* tools = nullptr);
-    /// The row of tabs and tools. The tabs' keys work without it.
+    /// Shows or hides the row of tabs and tools. The keys of the tabs still work without the row.
     void setHeadVisible(bool visible);
-    /// Takes the height that the window leaves: a page whose words wrap would ask for all that its plot likes to have.
+    /// Uses the height that the window leaves: a page with wrapped text would otherwise ask for far too much.
     [[nodiscard]] bool hasHeightForWidth() const override { return false; }
     void setCurrentIndex(int index) { bar_->setCurrentIndex(index); }
     [[nodiscard]] int currentIndex() const { return bar_->currentIndex(); }
@@ -36,14 +36,14 @@ private:
     QTabBar* bar_;
     PageStack* tools_;
     PageStack* pages_;
-    std::vector<QShortcut*> keys_;  ///< keys for the tabs while their row is hidden; otherwise the tab bar has them
+    std::vector<QShortcut*> keys_;  ///< keys for the tabs while their row is hidden; otherwise the tab bar handles them
 };
 
-/// The order of Tab where widgets are made late: Qt puts each one that is made at the end of its window. Tab goes from
-/// `before` through what stands in `place`, in the order in which that was made, and then to what came after `before`.
-/// Call it again when `place` holds something new. Neither has to take the focus itself.
+/// Sets the tab order for widgets that are made late, which Qt puts at the end of their window. Tab goes from `before`
+/// through the widgets in `place`, in the order in which they were made, and then to the former successor of `before`.
+/// Call it again after adding to `place`. Neither argument needs to take the focus itself.
 void tabAfter(QWidget& before, QWidget& place);
-/// Sets the order where `place` itself stands in it.
+/// The same if `place` itself is already at its place in the tab order.
 inline void tabInPlace(QWidget& place) { tabAfter(place, place); }
 
 }  // namespace tacto::gui

@@ -1,4 +1,4 @@
-// Text.h - the core's words as the window shows them.
+// Text.h - turns texts of the core into the form that the window shows.
 //
 // Thread-safety: pure functions.
 #pragma once
@@ -22,30 +22,30 @@ namespace tacto::gui {
     return QString::fromUtf8(utf8.data(), qsizetype(utf8.size()));
 }
 
-/// "Voltage" of "voltage", as a report has it.
+/// Returns "Voltage" for "voltage", as in a report.
 [[nodiscard]] inline QString titled(QString name) { return capitalised(std::move(name)); }
 
-/// Like decimalText() of the core, with a true minus and a narrow space before `unit`: "−0.98 %".
+/// Like decimalText() in core, with a true minus sign and a narrow space before `unit`: "−0.98 %".
 [[nodiscard]] inline QString decimalText(double value, int decimals, const QString& unit = {}) {
     const auto number = qtext(tacto::decimalText(value, decimals)).replace('-', QChar(0x2212));
     return unit.isEmpty() ? number : number + QChar(0x202f) + unit;
 }
 
-/// "1:02.3" of 62.3 s: minutes and seconds.
+/// Returns "1:02.3" for 62.3 s: minutes and seconds.
 [[nodiscard]] inline QString minutesText(double seconds) {
     const auto tenths = std::llround(seconds * 10);
     return QString("%1:%2").arg(tenths / 600).arg(static_cast<double>(tenths % 600) / 10, 4, 'f', 1, QChar('0'));
 }
 
-/// A protocol's name for people: "Encoding comparison" of "encoding-comparison"; "Live" of none. Sessions store the
-/// name alone; a shipped protocol is named as the kind of its results.
+/// Returns a protocol's display name: "Encoding comparison" for "encoding-comparison", "Live" for no protocol. Sessions
+/// store only the name. A shipped protocol is called after the kind of its results.
 [[nodiscard]] inline QString procedureText(std::string_view protocol) {
     if (protocol.empty()) return QObject::tr("Live");
     const auto spoken = resultTraits(protocol).procedure;
     return titled(qtext(spoken.empty() ? protocol : spoken).replace('-', ' '));
 }
 
-/// "the load of 2 kΩ" of "the load of 2 kohm".
+/// Returns "the load of 2 kΩ" for "the load of 2 kohm".
 [[nodiscard]] inline QString withOhmSigns(QString words) {
     static const QRegularExpression unit(R"((?<=\s)([kM]?)ohm\b)");
     return words.replace(unit, QStringLiteral("\\1Ω"));
@@ -61,23 +61,23 @@ namespace tacto::gui {
 /// "20 000".
 [[nodiscard]] inline QString countText(std::size_t count) { return grouped(QString::number(qulonglong(count))); }
 
-/// "The load is open." of "the load is open".
+/// Returns "The load is open." for "the load is open".
 [[nodiscard]] inline QString sentence(const QString& words) {
     const auto whole = titled(withOhmSigns(words));
     return whole.isEmpty() || whole.endsWith('.') ? whole : whole + '.';
 }
-/// Turns words at an end into the past, for reading them later: the output may be on again by then.
+/// Puts the last sentence into the past tense for later reading: the output may be on again by then.
 [[nodiscard]] inline QString inThePast(QString words) {
     return words.replace(QObject::tr("Output is off."), QObject::tr("The output was switched off."));
 }
 [[nodiscard]] inline QString sentence(const Error& error) { return sentence(qtext(error.message)); }
 
-/// Whether `why` says that the device may not obey.
+/// True if `why` says that the device may not obey.
 [[nodiscard]] inline bool saysMayBeOn(const QString& why) {
     return why.contains(qtext(outputAfter(FaultCause::StuckOn)));
 }
-/// `why` something ended, and what that leaves of the output, `off`, behind it, unless it says that or that the output
-/// may still be on.
+/// Appends `off`, which says that the output is off, to the reason `why`, unless `why` already says this or says that
+/// the output may still be on.
 [[nodiscard]] inline QString withOutput(const QString& why, const QString& off) {
     return saysMayBeOn(why) || why.contains(off) ? why : why + ' ' + off;
 }

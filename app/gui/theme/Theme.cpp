@@ -24,7 +24,7 @@ constexpr double kSmallestText_pt = 10.5;
 
 void applySheet() { qApp->setStyleSheet(styleSheetOf(currentTheme(), QApplication::font())); }
 
-/// A property that the style sheet knows.
+/// Sets a property that the style sheet uses.
 void setStyled(QWidget& widget, const char* name, const QString& value) {
     if (widget.property(name).toString() == value) return;
     widget.setProperty(name, value);
@@ -38,10 +38,10 @@ void applyTheme(Theme wanted) {
     WheelGuard::install();
     if (applied == wanted) return;
     applied = wanted;
-    qApp->setStyleSheet({});  // otherwise every widget is styled again by each of the three
+    qApp->setStyleSheet({});  // otherwise each of the three calls would restyle every widget
     QApplication::setStyle(new MnemonicStyle);
     QApplication::setPalette(paletteOf(colours()));
-    // Qt 6.8 lets a label keep the colour that the sheet of the other theme gave it.
+    // In Qt 6.8 a label can keep the colour from the other theme's style sheet.
     for (auto* widget : QApplication::allWidgets())
         if (widget->property("tone").isValid()) widget->setPalette(QPalette());
     applySheet();
@@ -50,16 +50,16 @@ void applyTheme(Theme wanted) {
 void applyTextSize(int percent) {
     static const double desktops_pt = QApplication::font().pointSizeF();
     auto font = QApplication::font();
-    // Debian's Noto Sans has no minus, ≤ or arrows; Noto Sans Math has them, of the same widths. Reports have the same
-    // faces (app/report/Fonts.cpp).
+    // Debian's Noto Sans lacks minus, ≤ and arrows; Noto Sans Math has them in the same widths. Reports use the same
+    // fonts (app/report/Fonts.cpp).
     font.setFamilies({"Noto Sans", "Noto Sans Math", "DejaVu Sans"});
     font.setPointSizeF(std::max(desktops_pt, kSmallestText_pt) * (percent < 100 || percent > 200 ? 100 : percent) /
                        100);
     if (font == QApplication::font()) return;
-    // A style sheet keeps the fonts it met: without it for a moment, widgets take the new one.
+    // Widgets keep the fonts set while a style sheet was active, so the sheet is removed for a moment.
     qApp->setStyleSheet({});
     QApplication::setFont(font);
-    // Widgets that were made but never polished, on a page not yet shown, would keep the old style for good.
+    // Widgets that were never shown would otherwise keep the old font.
     for (auto* widget : QApplication::allWidgets())
         if (!widget->testAttribute(Qt::WA_SetFont)) widget->setFont(QFont());
     applySheet();
@@ -119,7 +119,7 @@ ConditionStyle conditionInTheme(const QString& name, int index) {
     auto style = conditionStyle(name, index);
     if (currentTheme() != Theme::Dark) return style;
     if (const auto found = onDark.find(name); found != onDark.end()) style.color = found->second;
-    // The darkest of the others would sink into a dark ground.
+    // The darkest of the other colours would be invisible on a dark background.
     if (style.color.lightnessF() < 0.4) style.color = style.color.lighter(165);
     return style;
 }
@@ -161,7 +161,7 @@ QFont digits(QFont font, double scale) {
 
 namespace {
 
-/// Writes negative numbers with a minus, not a hyphen.
+/// A ticker that writes negative numbers with a minus sign instead of a hyphen.
 class MinusTicker final : public QCPAxisTicker {
 protected:
     QString getTickLabel(double tick, const QLocale& locale, QChar format, int precision) override {
@@ -196,7 +196,7 @@ void styleAxis(QCPAxis& axis) {
 
 namespace {
 
-/// The sides that have no scale of their own are edges, so that the frame is closed.
+/// Shows the sides without a scale as plain edges, so that the frame is closed.
 void closeFrame(QCPAxisRect& rect) {
     if (!rect.visible() || !rect.axis(QCPAxis::atLeft)->visible() || !rect.axis(QCPAxis::atBottom)->visible()) return;
     for (const auto side : {QCPAxis::atTop, QCPAxis::atRight}) {
@@ -226,7 +226,7 @@ void stylePlot(QCustomPlot& plot) {
 
 namespace {
 
-/// A word as large as its axes let it be: a cut word says nothing.
+/// A word as large as its axes allow, because a cut word says nothing.
 class Watermark final : public QCPItemText {
 public:
     Watermark(QCustomPlot* plot, bool outlined) : QCPItemText(plot), outlined_(outlined) {}
@@ -240,7 +240,7 @@ protected:
             QTransform().rotate(mRotation).mapRect(QRectF(QFontMetrics(mFont).boundingRect(mText))).size();
         const double fits = kRoomUsed * std::min(room.width() / needed.width(), room.height() / needed.height());
         if (fits > 0 && fits < 1) mFont.setPointSizeF(std::max(1.0, mFont.pointSizeF() * fits));
-        painter->save();  // restores the painter afterwards, as text leaves it elsewhere
+        painter->save();  // drawing text does not restore the painter
         QCPItemText::draw(painter);
         painter->restore();
         if (outlined_) outline(*painter);
@@ -248,7 +248,7 @@ protected:
     }
 
 private:
-    /// Draws two lines, so that one is seen on whatever lies below.
+    /// Draws two outlines, so that one is visible on any background.
     void outline(QCPPainter& painter) const {
         QPainterPath word;
         word.addText(0, 0, mFont, mText);
@@ -340,7 +340,7 @@ EmptyState::EmptyState(const QString& what, const QString& next, QWidget* parent
 
 namespace {
 
-/// Follows a change of the font, of the palette too with `all`; at once, or once in the turn after it.
+/// Calls `follow` on a change of font, and with `all` also of palette; at once or in the next turn of the event loop.
 class LookChange final : public QObject {
 public:
     LookChange(QWidget& widget, bool all, Qt::ConnectionType when, std::function<void()> follow)

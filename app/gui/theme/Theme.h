@@ -1,7 +1,7 @@
-// Theme.h - the window's theme, light and dark: colours by role, plots that share it, digits of equal width.
+// Theme.h - the window's theme, light or dark: colours by purpose, plots in the same colours, digits of equal width.
 //
-// Widgets take colours from their palette; plots take them from here, and again when the theme changes
-// (QEvent::PaletteChange). Conditions have the styles of the reports (conditionStyle()), numbers their text
+// Widgets take their colours from the palette; plots take them from here, again after each change of theme
+// (QEvent::PaletteChange). Conditions look as in the reports (conditionStyle()); numbers are written as in the reports
 // (quantityText()).
 #pragma once
 
@@ -24,30 +24,30 @@ namespace tacto::gui {
 /// Sets palette, style sheet and font of the whole program.
 void applyTheme(Theme theme);
 [[nodiscard]] Theme currentTheme();
-/// Text of the whole program at 100 to 200 % of its size, which is the desktop's and at least 10.5 pt; anything else is
-/// 100.
+/// Sets the text size of the whole program to 100 to 200 % of the desktop's, which counts as at least 10.5 pt; any
+/// other value means 100 %.
 void applyTextSize(int percent);
 
-/// The current theme's.
+/// The colours of the current theme.
 [[nodiscard]] const Colours& colours();
 
-/// Three sizes of text, and a fourth for one word of a screen: the state, the verdict, the code of a participant.
+/// Three text sizes, and a fourth for the one large word of a screen: the state, the verdict, a participant's code.
 enum class TextSize { Small, Body, Large, Display };
 [[nodiscard]] QFont textFont(TextSize size, QFont::Weight weight = QFont::Normal);
-/// The widget's text, kept when the size of text changes.
+/// Sets a widget's text size, which stays set when the program's text size changes.
 void setTextSize(QWidget& widget, TextSize size, bool strong = false);
 enum class Tone { Text, Quiet, Warning };
-/// The colour of a label's words, kept when the theme changes.
+/// Sets the colour of a label's text, which stays set when the theme changes.
 void setTone(QLabel& label, Tone tone);
-/// `px` at text of 10.5 pt, in the current size of text.
+/// Scales `px`, designed for 10.5 pt text, to the current text size.
 [[nodiscard]] int scaledPx(int px);
 
-/// The filled button of a screen; one that has no edge until the pointer is over it.
+/// Makes the filled button of a screen; makeQuiet() makes a button without an edge until the pointer is over it.
 void makePrimary(QPushButton& button, bool primary = true);
 void makeQuiet(QPushButton& button);
-/// While a page yields, its filled button looks like the others: the next step is elsewhere.
+/// While a page yields, its filled button looks like the others, because the next step is elsewhere.
 void letYield(QWidget& page, bool yields);
-/// The bar below a page that holds what can be done with it.
+/// The bar below a page with the page's buttons.
 void makeActionBar(QWidget& bar);
 [[nodiscard]] bool isActionBar(const QWidget& widget);
 
@@ -64,34 +64,34 @@ struct StateStyle {
 };
 [[nodiscard]] StateStyle stateStyle(InterlockState state);
 
-/// `font` at `scale` times its size, with digits of equal width (Noto Sans and DejaVu Sans have them).
+/// Returns `font` at `scale` times its size, with digits of equal width (Noto Sans and DejaVu Sans have them).
 [[nodiscard]] QFont digits(QFont font, double scale = 1);
 
-/// The word that is read from two metres, times the size of text: 28 pt where text has 10.5 pt.
+/// Size of a word to be read from two metres, relative to the text: 28 pt for 10.5 pt text.
 constexpr double kDisplayText = 28 / 10.5;
 
-/// Quiet axes of the current theme in a closed frame: call again on a PaletteChange. Fonts follow the application's.
+/// Gives axes the theme's quiet look in a closed frame. Call again on a PaletteChange. Fonts follow the application's.
 void styleAxis(QCPAxis& axis);
 void stylePlot(QCustomPlot& plot);
 
-/// "SIMULATED" across an axis rect. Returns the item, to be hidden where nothing is simulated. It stands above grid and
-/// fills (layers "grid" and "background") and below the data; or, where they fill the plot, in front as an outline that
-/// covers a pixel's width of them.
+/// Writes "SIMULATED" across an axis rect. Returns the item; hide it if nothing is simulated. Behind: above grid and
+/// fills (layers "grid" and "background") but below the data. InFront: an outline of one pixel over the data, for data
+/// that fill the plot.
 enum class WatermarkPlace { Behind, InFront };
 QCPItemText* addWatermark(QCPAxisRect& axes, WatermarkPlace place = WatermarkPlace::Behind);
-/// Shows or hides it, and draws its plot again where that changes it.
+/// Shows or hides the watermark, and redraws its plot if that changes anything.
 void showWatermark(QCPItemText& watermark, bool simulated);
 
 /// "just now", "2 s ago", "3 min ago"; "–" for NaN.
 [[nodiscard]] QString ageText(double seconds);
 
-/// A heading, and a quiet line of explanation that wraps.
+/// Make a heading, and a quiet explanation that wraps.
 [[nodiscard]] QWidget* heading(const QString& text, QWidget* parent = nullptr);
 [[nodiscard]] QWidget* explanation(const QString& text, QWidget* parent = nullptr);
-/// A line between what stands above and below it.
+/// A horizontal separating line.
 [[nodiscard]] QFrame* lineAcross(QWidget* parent);
 
-/// An empty workspace: what it is for, and a button with the next step. `next` may be empty.
+/// The page of an empty workspace: its purpose, and a button for the next step. `next` may be empty.
 class EmptyState : public QWidget {
     Q_OBJECT
 public:
@@ -100,21 +100,21 @@ signals:
     void nextStep();
 };
 
-/// Calls `follow` from now on whenever `widget` has another palette or another font.
+/// Calls `follow` whenever the palette or font of `widget` changes.
 void onLookChange(QWidget& widget, std::function<void()> follow);
-/// Calls it when the font changes, and for nothing else.
+/// Calls `follow` whenever the font of `widget` changes.
 void onFontChange(QWidget& widget, std::function<void()> follow);
 
-/// Calls `follow` whenever `widget` is shown or gets another size, with what is laid out in it in its new place.
-/// `event`: Show or Resize; another, such as Hide, comes also while the widget is destroyed.
+/// Calls `follow` whenever `widget` is shown or resized, after its contents were laid out. `event`: Show or Resize.
+/// Other events, such as Hide, also come while the widget is being destroyed.
 void onEvent(QWidget& widget, QEvent::Type event, std::function<void()> follow);
 
-/// Calls `follow` in the next turn of the event loop after a change of palette, font or style, when the widgets within
-/// have it too: for one that gives them fonts, places or a style sheet of its own. (The theme's new sheet takes them
-/// those fonts; a sheet that is set while the theme's is being laid may keep the colours of the theme before.)
+/// Calls `follow` in the next turn of the event loop after a change of palette, font or style, when the widgets inside
+/// have changed too. For widgets that set fonts, places or a style sheet on their contents: the theme's new sheet
+/// removes such fonts, and a sheet set during the change may keep the colours of the old theme.
 void afterLookChange(QWidget& widget, std::function<void()> follow);
 
-/// Bounds of a widget's width that grow and shrink with the size of text: pixels of text at 100 % (scaledPx()).
+/// Limits a widget's width in pixels for text at 100 %; the limits grow and shrink with the text size (scaledPx()).
 void boundWidth(QWidget& widget, int atMost_px);
 void fixWidth(QWidget& widget, int px);
 

@@ -60,7 +60,7 @@ Qt::Orientations ToolRow::expandingDirections() const {
     return between_ != nullptr ? Qt::Horizontal : Qt::Orientations();
 }
 
-/// The width that it wants, even where it is hidden.
+/// Returns the width that the item wants, even if it is hidden.
 QSize ToolRow::wishOf(const QLayoutItem& item) const {
     auto* part = const_cast<QLayoutItem&>(item).widget();
     if (part == nullptr) return item.sizeHint();
@@ -90,7 +90,7 @@ QSize ToolRow::sizeHint() const {
     return hint;
 }
 
-/// The first of them, and the way to the others.
+/// The first part and the "More" button.
 QSize ToolRow::minimumSize() const {
     if (items_.empty()) return {};
     return {wishOf(*items_.front()).width() + spacing() + more_->sizeHint().width(), sizeHint().height()};
@@ -105,8 +105,8 @@ std::size_t ToolRow::fitting(int width) const {
     return std::max<std::size_t>(fits, 1);
 }
 
-/// Parts that have room are placed now; what is shown or hidden for it changes in the next turn of the event loop,
-/// since that has the parent laid out anew.
+/// Places the parts that fit now. Shows or hides parts in the next turn of the event loop, because that makes the
+/// parent lay out again.
 void ToolRow::setGeometry(const QRect& area) {
     QLayout::setGeometry(area);
     const auto fits = fitting(area.width());

@@ -1,4 +1,4 @@
-// ToolRow.h - rows of parts that suit the room they have.
+// ToolRow.h - rows of widgets that adapt to the available width.
 #pragma once
 
 #include <QBoxLayout>
@@ -10,19 +10,19 @@
 
 namespace tacto::gui {
 
-/// A button without an edge until it is hovered. `name` is for screen readers and for the "More" menu; without an icon
-/// the text is the owner's.
+/// Makes a button without an edge until the pointer is over it. `name` is for screen readers and the "More" menu;
+/// without an icon the owner sets the text.
 [[nodiscard]] QToolButton* makeTool(const QString& name, const QString& tip, const QString& iconName, QWidget* parent);
 
-/// Buttons in a row; those that do not fit stand in the menu of a "More" button at its end.
+/// A row of buttons; those that do not fit move into the menu of a "More" button at the end.
 class ToolRow final : public QLayout {
 public:
-    /// The parts that are added are buttons.
+    /// All parts added to the row must be buttons.
     explicit ToolRow(QWidget* parent);
     ~ToolRow() override;
-    /// The next tools belong to another group.
+    /// Starts another group of tools.
     void addGap();
-    /// The next tools stand at the right end. `part` has the room between, and gives way to the tools; once a row.
+    /// Puts the next tools at the right end. `part` takes the space between and shrinks first. Call it once per row.
     void addBetween(QWidget* part);
 
     void addItem(QLayoutItem* item) override;
@@ -35,7 +35,7 @@ public:
     void setGeometry(const QRect& area) override;
 
 private:
-    /// How many of the parts have room in `width`, with the "More" button where not all of them do.
+    /// Number of parts that fit into `width`, together with the "More" button if not all fit.
     [[nodiscard]] std::size_t fitting(int width) const;
     [[nodiscard]] QSize wishOf(const QLayoutItem& item) const;
     void putAway(std::size_t from);
@@ -44,26 +44,26 @@ private:
     std::vector<std::unique_ptr<QLayoutItem>> items_;
     QToolButton* more_;
     QWidget* between_ = nullptr;
-    std::size_t fits_ = 0;     // so many have room
-    std::set<QWidget*> away_;  // hidden here, and shown again once there is room
+    std::size_t fits_ = 0;     // number of parts that fit
+    std::set<QWidget*> away_;  // hidden by this row until there is room again
 };
 
-/// Parts beside each other where there is room, else one below the other.
+/// Widgets side by side if there is room, else one below the other.
 class TurningRow final : public QBoxLayout {
     Q_OBJECT
 public:
-    /// `from`: the width from which its parts stand beside each other, asked whenever it is laid out: it may follow the
-    /// size of text. Without it: as wide as its parts like to be.
+    /// `from`: returns the width from which the parts stand side by side; called at each layout, because it may depend
+    /// on the text size. Without `from`: the width that the parts prefer.
     explicit TurningRow(std::function<int()> from = {}, QWidget* parent = nullptr)
         : QBoxLayout(LeftToRight, parent), from_(std::move(from)) {}
     void setGeometry(const QRect& room) override;
-    /// The size from which its parts stand beside each other, whichever way they stand now.
+    /// The size from which the parts stand side by side, however they stand now.
     [[nodiscard]] QSize sizeHint() const override;
-    /// The width of its widest part, whichever way it stands: it can always turn.
+    /// The width of the widest part, however the parts stand now: the row can always turn.
     [[nodiscard]] QSize minimumSize() const override;
 
 signals:
-    /// The row stands the other way now.
+    /// The direction of the row has changed.
     void turned(bool beside);
 
 private:

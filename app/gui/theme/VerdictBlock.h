@@ -1,4 +1,4 @@
-// VerdictBlock.h - a verdict in word, shape and colour: filled, to be read across a room, or as a word in a list.
+// VerdictBlock.h - a verdict as word, shape and colour: filled and readable across a room, or as a word in a list.
 //
 // FAIL is white on ink with a cross, never red: red is for STOP and faults.
 #pragma once
@@ -13,12 +13,12 @@ struct VerdictStyle {
     QString icon;   ///< "verdict-pass"
     QString word;   ///< "PASS"
     QColor fill;
-    QColor ink;     ///< colour of the words on the fill
-    QColor colour;  ///< the word's colour in a list
+    QColor ink;     ///< text colour on the fill
+    QColor colour;  ///< text colour in a list
 };
-/// `key` as RunResult::verdict(), as nameOf(RowVerdict), or "error".
+/// `key`: from RunResult::verdict() or nameOf(RowVerdict), or "error".
 [[nodiscard]] VerdictStyle verdictStyle(const QString& key);
-/// "✔ pass", as it stands in a table.
+/// "✔ pass": the text for a table.
 [[nodiscard]] QString verdictText(const QString& key);
 
 class VerdictBlock final : public QLabel {

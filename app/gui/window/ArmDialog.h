@@ -36,7 +36,7 @@ private:
     BenchController& controller_;
     const Purpose purpose_;
     const StopMark asked_;  // when the operator took the first step
-    std::string text_;      // the plain text shown in confirmed_
+    std::string text_;      // the text shown in confirmed_
     QLineEdit* load_;
     QLabel* confirmed_;
     QLabel* first_;  ///< says what the first output after arming will be

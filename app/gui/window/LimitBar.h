@@ -16,7 +16,7 @@ namespace tacto::gui {
 class LimitBar final : public QWidget {
     Q_OBJECT
 public:
-    /// Stacked: title, bar, numbers. Line: title and numbers in a line, the bar below, as docks have it.
+    /// Stacked: title, bar, numbers below each other. Line: title and numbers in a line above the bar, as in docks.
     enum class Shape { Stacked, Line };
     /// `title` is short: "RMS over 5 s". The tool tip has the full name.
     LimitBar(const QString& title, QWidget* parent = nullptr, Shape shape = Shape::Stacked);
