@@ -1,5 +1,5 @@
-// main() of every gui test: offscreen unless said otherwise, with the user's folders in a place of its own. A crash
-// says where it was.
+// The main() of every gui test: offscreen unless the environment says otherwise, and with separate user folders. After
+// a crash it prints where the crash happened.
 #include <QApplication>
 #include <QTemporaryDir>
 #include <array>
@@ -17,10 +17,10 @@ namespace {
 void sayWhere(int signal) {
     std::array<void*, 64> frames{};
     backtrace_symbols_fd(frames.data(), backtrace(frames.data(), int(frames.size())), STDERR_FILENO);
-    std::raise(signal);  // ends as if there were no handler
+    std::raise(signal);  // ends the program as if there were no handler
 }
 
-/// A test leaves theme and text as it likes: they are set again once its windows are gone, which takes no time then.
+/// Restores theme and text size after each test. By then the test's windows are gone, so this is quick.
 struct OwnLook final : testing::EmptyTestEventListener {
     OwnLook() { set(); }
     void OnTestEnd(const testing::TestInfo&) override { set(); }
@@ -28,7 +28,7 @@ struct OwnLook final : testing::EmptyTestEventListener {
 private:
     static void set() {
         tacto::gui::applyTheme(tacto::gui::Theme::Light);
-        tacto::gui::applyTextSize(100);  // the program's own font, as its window begins
+        tacto::gui::applyTextSize(100);  // the program's own font, as at its start
     }
 };
 
@@ -37,7 +37,7 @@ private:
 int main(int argc, char** argv) {
     testing::InitGoogleTest(&argc, argv);
     std::array<void*, 1> loaded{};
-    backtrace(loaded.data(), 1);  // the first call allocates
+    backtrace(loaded.data(), 1);  // the first call allocates memory, which a handler must not
     struct sigaction crash {};
     crash.sa_handler = sayWhere;
     crash.sa_flags = static_cast<int>(SA_RESETHAND | SA_NODEFER);

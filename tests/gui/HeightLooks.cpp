@@ -15,7 +15,7 @@ namespace tacto::test {
 
 namespace {
 
-/// A line of the font has `room` pixels; nothing where that is as high as its letters.
+/// Adds a text if a line of the font needs more than the `room` pixels it has.
 void addLow(const QString& text, const QWidget& at, const QFontMetrics& font, int room, QStringList& low) {
     const int needs = font.height() + font.lineSpacing() * int(text.count('\n'));
     if (!text.isEmpty() && room + 1 < needs) low << cutOf(text, at, room, needs);
@@ -23,7 +23,7 @@ void addLow(const QString& text, const QWidget& at, const QFontMetrics& font, in
 
 void addLowCells(const QAbstractItemView& view, QStringList& low) {
     const auto seen = view.viewport()->rect();
-    int least = 0;  // the lowest of the rows in sight
+    int least = 0;  // height of the lowest visible row
     forEachCell(view, view.rootIndex(), [&](const QModelIndex& cell) {
         const auto place = view.visualRect(cell);
         if (place.isEmpty() || !seen.intersects(place) || view.indexWidget(cell) != nullptr) return;
@@ -69,8 +69,8 @@ void addLowTitles(const QWidget& in, QStringList& low) {
     });
 }
 
-/// The part of it that its ancestors let one see, in its own coordinates. `mayScroll`: one of them shows a scroll bar
-/// that leads to the rest.
+/// Returns the part of the widget that its ancestors leave visible, in the widget's coordinates. Sets `mayScroll` if
+/// one of them shows a scroll bar that leads to the rest.
 QRect inSight(const QWidget& widget, bool& mayScroll) {
     QRect seen = widget.rect();
     QPoint to;
@@ -85,7 +85,7 @@ QRect inSight(const QWidget& widget, bool& mayScroll) {
     return seen;
 }
 
-/// Some of it is seen, but not all of its height.
+/// True if some of the widget is visible, but not its full height.
 bool isCutBelow(const QRect& whole, const QRect& seen) {
     const auto part = whole & seen;
     return !part.isEmpty() && part.height() + 1 < whole.height();

@@ -1,5 +1,5 @@
-// HeightLooks.h - text that is cut above or below: where it is higher than its place, and where an edge leaves a part
-// of it.
+// HeightLooks.h - finds text that is cut off at the top or the bottom: text higher than its place, and text cut by an
+// edge.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -9,11 +9,11 @@
 
 namespace tacto::test {
 
-/// Text that is higher than its place: in cells, fields, tabs, titles of columns and lines that elide; and lists,
-/// tables and texts in which not one line has room.
+/// Text higher than its place in cells, fields, tabs, column titles and lines that are shortened; also lists, tables
+/// and texts without room for a single line.
 [[nodiscard]] QStringList lowTexts(const QWidget& in);
-/// Rows, words and fields of which an edge leaves only the upper or the lower part, and what lies below an edge, where
-/// no scroll bar is seen that leads there.
+/// Rows, words and fields that an edge cuts horizontally, and anything below an edge, if no visible scroll bar leads
+/// there.
 [[nodiscard]] QStringList cutBelow(const QWidget& in);
 
 }  // namespace tacto::test

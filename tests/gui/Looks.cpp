@@ -60,7 +60,7 @@ std::vector<const QWidget*> textsIn(const QWidget& in) {
     return found;
 }
 
-/// The widest of its words: what cannot be broken.
+/// Returns the width of the widest word, which cannot be broken.
 int widestWord(const QFontMetrics& metrics, const QString& text) {
     int widest = 0;
     for (const auto& word : text.split(QRegularExpression("\\s+")))
@@ -96,7 +96,7 @@ void addCutTabs(const QTabBar& tabs, QStringList& cut) {
     }
 }
 
-/// Sections that are in sight as a whole; a title may break into lines.
+/// Adds titles that are cut off. Only sections that are fully in sight count; a title may have several lines.
 void addCutTitles(const QHeaderView& header, QStringList& cut) {
     if (header.orientation() != Qt::Horizontal || header.model() == nullptr) return;
     for (int i = 0; i < header.count(); ++i) {
@@ -155,14 +155,14 @@ QStringList cutTexts(const QWidget& in) {
 
 namespace {
 
-/// Whether the widget paints its whole ground itself.
+/// True if the widget paints its whole background itself.
 bool fills(const QWidget& widget) {
     if (widget.palette().color(widget.backgroundRole()).alpha() < 255) return false;
     return qobject_cast<const QAbstractButton*>(&widget) != nullptr || widget.autoFillBackground() ||
            widget.testAttribute(Qt::WA_StyledBackground);
 }
 
-/// Cells with an ink of their own.
+/// Adds cells that have their own text colour and too little contrast.
 void addPaleCells(const QAbstractItemView& view, QStringList& pale) {
     const auto* model = view.model();
     if (model == nullptr || !view.isEnabled()) return;
@@ -185,7 +185,7 @@ QStringList paleTexts(const QWidget& in) {
     QStringList pale;
     for (const auto* widget : textsIn(in)) {
         if (!widget->isEnabled()) continue;
-        // Takes the ground as drawn: that of the nearest ancestor that fills its own.
+        // Uses the background as drawn: that of the nearest ancestor that fills its own.
         const auto* ground = widget;
         while (!fills(*ground) && !ground->isWindow() && ground->parentWidget() != nullptr)
             ground = ground->parentWidget();
@@ -210,7 +210,7 @@ QStringList overlaps(const QWidget& in) {
         if (layout == nullptr || !parent->isVisible() || parent->window() != in.window()) continue;
         std::vector<const QWidget*> placed;
         for (const auto* child : parent->findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly)) {
-            // A nested layout's widgets too: indexOf() knows only the layout's own.
+            // Includes the widgets of nested layouts: indexOf() knows only the layout's own widgets.
             if (child->isVisible() && !child->isWindow() && child->objectName() != "qt_qmainwindow_extended_splitter")
                 placed.push_back(child);
         }
@@ -275,7 +275,7 @@ void looksRight(QWidget& widget, const QString& name, const LookedAtSizes& sizes
             gui::applyTheme(theme);
             if (sized.isValid()) pictured.resize(sized);
             letLive(40);
-            // Texts grow before their places do.
+            // Text grows before its place does, so wait.
             static_cast<void>(comesTrue([&] { return faultsOf(widget).empty(); }, 3000));
             EXPECT_EQ(faultsOf(widget), "") << name.toStdString() << " at " << percent << " %";
             shot(pictured, QString("%1-%2-%3").arg(name, theme == gui::Theme::Dark ? "dark" : "light").arg(percent));
@@ -293,7 +293,7 @@ std::string widgetName(const QWidget& widget) {
 std::string stepsBack(const std::vector<const QWidget*>& order) {
     std::string back;
     for (std::size_t i = 1; i < order.size(); ++i) {
-        if (order[i - 1]->isAncestorOf(order[i])) continue;  // into a page that scrolls
+        if (order[i - 1]->isAncestorOf(order[i])) continue;  // goes into a page that scrolls
         const auto place = [](const QWidget* of) { return QRect(of->mapToGlobal(QPoint(0, 0)), of->size()); };
         const auto from = place(order[i - 1]);
         const auto to = place(order[i]);

@@ -1,5 +1,5 @@
-// OffscreenScreen.h - the screen of a program that has none: full HD, at scale 2 with twice the pixels each way. Qt's
-// own offscreen screen has 800 x 800 pixels, and the window stays on its screen.
+// OffscreenScreen.h - the screen for a program without a display: full HD; at scale 2 twice as many pixels each way.
+// Qt's own offscreen screen has only 800 x 800 pixels, and windows stay within their screen.
 //
 // Thread-safety: call it before QApplication is made.
 #pragma once

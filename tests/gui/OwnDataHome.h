@@ -1,4 +1,4 @@
-// OwnDataHome.h - a data folder without anything of the tests before: no calibration, no session.
+// OwnDataHome.h - an empty data folder without calibrations and sessions of earlier tests.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -8,7 +8,7 @@
 
 namespace tacto::test {
 
-/// $XDG_DATA_HOME is a folder of its own while it lives.
+/// Sets $XDG_DATA_HOME to a new folder for its lifetime.
 class OwnDataHome {
 public:
     OwnDataHome() : before_(qgetenv("XDG_DATA_HOME")) { qputenv("XDG_DATA_HOME", folder_.path().toUtf8()); }

@@ -29,7 +29,7 @@ bool answersTo(const QWidget& widget, const QString& text) {
 }
 
 void click(QWidget& widget) {
-    // This button is read before it confirms.
+    // A person reads this button before pressing it.
     if (const auto* confirm = qobject_cast<const gui::ConfirmButton*>(&widget))
         static_cast<void>(comesTrue([&] { return confirm->listens(); }));
     QTest::mouseClick(&widget, Qt::LeftButton);
@@ -47,7 +47,7 @@ void shot(QWidget& widget, const QString& name) {
     const auto folder = qEnvironmentVariable("TACTO_SHOTS");
     if (folder.isEmpty()) return;
     QDir().mkpath(folder);
-    letLive(150);  // so that a viewer sees it laid out
+    letLive(150);  // time to lay out the widget
     widget.grab().save(folder + "/" + name + ".png");
 }
 

@@ -1,4 +1,4 @@
-// Person.h - what a test does at the window: waits for what it sees, finds by what is written, types and clicks.
+// Person.h - lets a test act like a person at the window: waits, finds widgets by their text, types and clicks.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -11,25 +11,25 @@
 
 namespace tacto::test {
 
-/// Lets the window live until `isSo`; false after `limit_ms`.
+/// Lets the window run until `isSo` is true; returns false after `limit_ms`.
 [[nodiscard]] bool comesTrue(const std::function<bool()>& isSo, int limit_ms = 10'000);
 
-/// Lets the window live for `ms`, and for as many turns of its event loop as an idle machine makes in that time: on a
-/// busy one a wait by the clock alone can end before anything is laid out.
+/// Lets the window run for `ms`, and for as many turns of its event loop as an idle machine makes in that time: on a
+/// busy machine a wait by the clock alone could end before anything is laid out.
 void letLive(int ms);
 
-/// The visible widget of a kind with this text (buttons, labels, tabs: without mnemonic), name or accessible name.
+/// Finds the visible widget of class T with this text (without mnemonic), object name or accessible name.
 template <class T>
 [[nodiscard]] T* find(const QWidget& in, const QString& text);
 [[nodiscard]] bool answersTo(const QWidget& widget, const QString& text);
 
-/// Clicks in the middle with the left button.
+/// Clicks the middle of the widget with the left button.
 void click(QWidget& widget);
 
-/// Simulated bench and recordings, as the program has them.
+/// A registry of the simulated bench and recordings, as in the program.
 [[nodiscard]] Registry simulatedRegistry();
 
-/// A PNG of the widget in $TACTO_SHOTS/NAME.png; nothing without that variable.
+/// Saves a picture of the widget as $TACTO_SHOTS/NAME.png; does nothing without that variable.
 void shot(QWidget& widget, const QString& name);
 
 template <class T>

@@ -13,9 +13,9 @@ namespace tacto::test {
 
 namespace {
 
-constexpr double kTouch = 1.5;  // pixels by which inks may meet
+constexpr double kTouch = 1.5;  // pixels by which two texts may overlap
 
-/// Notes words in place of drawing.
+/// A paint engine that records text instead of drawing it.
 class WordEngine final : public QPaintEngine {
 public:
     explicit WordEngine(QRectF plot) : QPaintEngine(AllFeatures), plot_(plot) {}
@@ -37,7 +37,7 @@ public:
         const bool aslant = std::min(std::abs(turned.m11()), std::abs(turned.m12())) > 1e-3;
         if (text.isEmpty() || aslant || painter()->pen().color().alpha() == 0) return;
         auto ink = QFontMetricsF(item.font()).tightBoundingRect(text).translated(at);
-        ink.setRight(std::min(ink.right(), at.x() + item.width()));  // another face may draw narrower letters
+        ink.setRight(std::min(ink.right(), at.x() + item.width()));  // another font may have narrower letters
         auto room = plot_;
         if (painter()->hasClipping()) room &= turned.mapRect(painter()->clipBoundingRect());
         words.push_back({text, turned.mapRect(ink), room, painter()->pen().color()});
@@ -93,7 +93,7 @@ void forEachPlot(const QWidget& in, Follow follow) {
         if (plot->isVisible() && plot->window() == in.window() && !plot->size().isEmpty()) follow(*plot);
 }
 
-/// Points of the data in pixels, in the order in which a line joins them.
+/// The points of the data in pixels, in the order in which the line connects them.
 QPolygonF pointsOf(const QCPAbstractPlottable& data) {
     QPolygonF points;
     const auto* values = const_cast<QCPAbstractPlottable&>(data).interface1D();
@@ -169,7 +169,7 @@ QStringList plotWordFaults(const QWidget& in) {
 
 namespace {
 
-/// The colour that most pixels of the place have: letters cover less of it than their ground does.
+/// Returns the most frequent colour of the place: the letters cover less of it than the background.
 QColor groundOf(const QImage& picture, const QRectF& place) {
     std::map<QRgb, int> count;
     const auto within = place.toAlignedRect().adjusted(-2, -2, 2, 2) & picture.rect();

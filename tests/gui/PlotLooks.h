@@ -1,4 +1,4 @@
-// PlotLooks.h - what can be judged of how plots look: words that are cut, pale or over each other, legends over data.
+// PlotLooks.h - finds visible faults of plots: text that is cut off, pale or overlapping, and legends over data.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -11,23 +11,23 @@
 
 namespace tacto::test {
 
-/// A word of a plot as it is drawn: tick label, title of an axis, legend entry, item.
+/// A text of a plot as drawn: tick label, axis title, legend entry or item.
 struct PlotWord {
     QString text;
-    QRectF ink;   ///< the area that its letters cover, in pixels of the plot
-    QRectF room;  ///< the area that it may cover: the plot, or its clip
+    QRectF ink;   ///< the area covered by the letters, in pixels of the plot
+    QRectF room;  ///< the area that the text may use: the plot, or its clip
     QColor colour;
 };
-/// All upright or quarter-turned words of the plot without its watermark, which lies behind them.
+/// All upright or quarter-turned texts of the plot, except the watermark, which lies behind them.
 [[nodiscard]] std::vector<PlotWord> wordsOf(QCustomPlot& plot);
 
-/// Words of visible plots that lie over each other, or that their plot's edge cuts.
+/// Texts of visible plots that overlap, or that the plot's edge cuts off.
 [[nodiscard]] QStringList plotWordFaults(const QWidget& in);
-/// Words of visible plots with a contrast below 4.5:1 to what is drawn around their letters.
+/// Texts of visible plots with a contrast below 4.5:1 to the colour drawn around their letters.
 [[nodiscard]] QStringList palePlotWords(const QWidget& in);
-/// Legends within axes that lie over points or lines of their plot.
+/// Legends inside the axes that cover points or lines of their plot.
 [[nodiscard]] QStringList legendsOverData(const QWidget& in);
-/// Axes of visible plots with a title that does not begin with a capital.
+/// Axes of visible plots with a title that does not start with a capital letter.
 [[nodiscard]] QStringList smallAxisTitles(const QWidget& in);
 
 }  // namespace tacto::test

@@ -27,7 +27,7 @@ QString plain(const QString& text) {
     return document.toPlainText();
 }
 
-/// Whether the tool tip has all the words, however they are broken into lines; a sign before them says nothing more.
+/// True if the tool tip has all the words, however broken into lines; a sign in front of them need not be repeated.
 bool tells(const QString& toolTip, const QString& text) {
     auto words = plain(text).simplified();
     if (words.startsWith("⚠ ") || words.startsWith("✔ ")) words.remove(0, 2);

@@ -1,4 +1,4 @@
-// RoomLooks.h - text that has no room in cells and fields, and pages that are cut sideways.
+// RoomLooks.h - finds text that does not fit into cells and fields, and pages that are cut off at the side.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -8,18 +8,18 @@
 
 namespace tacto::test {
 
-/// Cells in sight that are narrower than their text. One column of a view may elide, the last or the one that takes the
-/// rest, where the tool tip has the whole text.
+/// Visible cells that are narrower than their text. One column of a view (the last or the stretched one) may be
+/// shortened if the tool tip has the whole text.
 [[nodiscard]] QStringList cutCells(const QWidget& in);
-/// Line edits, also those of spin boxes and boxes of choices, with a text or placeholder wider than they are that does
-/// not stand in the tool tip.
+/// Line edits, also in spin boxes and combo boxes, that are narrower than their text or placeholder, if the tool tip
+/// does not have it.
 [[nodiscard]] QStringList cutFields(const QWidget& in);
-/// Pages, tables, lists and texts that are wider than their place, whether a scroll bar leads there or none does. An
-/// editor of text that does not wrap scrolls by right.
+/// Pages, tables, lists and texts that are wider than their place, with or without a scroll bar. Editors without line
+/// wrap are allowed to scroll.
 [[nodiscard]] QStringList cutSideways(const QWidget& in);
-/// Widgets that stand partly outside of what they stand in, where that is not a page that scrolls.
+/// Widgets that are partly outside their parent, unless the parent is a page that scrolls.
 [[nodiscard]] QStringList beyondTheirPlace(const QWidget& in);
-/// Labels that elide by design and do, without the whole text in their tool tip.
+/// Labels shortened by design, without the whole text in their tool tip.
 [[nodiscard]] QStringList untoldElisions(const QWidget& in);
 
 }  // namespace tacto::test

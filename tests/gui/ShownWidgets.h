@@ -1,4 +1,4 @@
-// ShownWidgets.h - what of a window is shown, as a walk of its looks goes through it: widgets, views, cells.
+// ShownWidgets.h - visits what is visible in a window when its looks are tested: widgets, views, cells.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -20,7 +20,7 @@ void forEachShown(const QWidget& in, Follow follow) {
 template <class Follow>
 void forEachCell(const QAbstractItemView& view, const QModelIndex& parent, Follow follow) {
     const auto* model = view.model();
-    constexpr int kRows = 500;  // more are not in sight
+    constexpr int kRows = 500;  // more rows are never in sight
     for (int row = 0; row < std::min(model->rowCount(parent), kRows); ++row) {
         for (int column = 0; column < model->columnCount(parent); ++column) follow(model->index(row, column, parent));
         const auto first = model->index(row, 0, parent);
@@ -29,7 +29,7 @@ void forEachCell(const QAbstractItemView& view, const QModelIndex& parent, Follo
     }
 }
 
-/// Views that show cells; a header is part of one.
+/// Visits views that show cells; a header is part of its view.
 template <class Follow>
 void forEachView(const QWidget& in, Follow follow) {
     forEachShown<QAbstractItemView>(in, [&](const QAbstractItemView& view) {
@@ -37,11 +37,11 @@ void forEachView(const QWidget& in, Follow follow) {
     });
 }
 
-/// "QTableWidget in QWidget sessionsPage": its class and name, or where it stands.
+/// Returns "QTableWidget in QWidget sessionsPage": class and name, or the parent if there is no name.
 [[nodiscard]] QString called(const QWidget& widget);
-/// "a text" in …: 12 of 17 px.
+/// Returns '"a text" in …: 12 of 17 px'.
 [[nodiscard]] QString cutOf(const QString& what, const QWidget& at, int has, int needs);
-/// The room without frame, margins and buttons.
+/// The room for text, without frame, margins and buttons.
 [[nodiscard]] QSize roomForText(const QLineEdit& edit);
 
 }  // namespace tacto::test

@@ -1,4 +1,4 @@
-// The safety bar's word on calibration, in the whole window.
+// Tests what the safety bar says about the calibration, in the whole window.
 #include <QScrollArea>
 #include <QScrollBar>
 #include <QTreeWidget>
@@ -20,7 +20,7 @@ class CalibrateWindow : public Window {
 protected:
     [[nodiscard]] QLabel& label() { return *window.findChild<QLabel*>("calibrationAge"); }
     [[nodiscard]] std::string says() { return label().text().toStdString(); }
-    /// Whether the label draws anything in the warning colour, as it stands on the screen.
+    /// True if the label on the screen contains the warning colour.
     [[nodiscard]] bool warns() {
         const auto drawn = label().grab().toImage();
         const auto amber = gui::colours().amberText;
@@ -107,7 +107,7 @@ TEST_F(CalibrateWindow, ARunTurnsTheWord) {
     EXPECT_IN_TIME(comesTrue([&] { return inSight("Sign report…"); })) << "what comes next stands below the plot";
     const auto frame = [errors] { return errors->axisRect()->rect().height(); };
     EXPECT_IN_TIME(comesTrue([&] { return frame() >= 300; })) << frame() << " px for the residuals, with it in sight";
-    // No line of it is cut, however much there is to say.
+    // However long the text is, no line of it is cut in half.
     auto* more = find<QLabel>(window, "verdictMore");
     const auto before = more->text();
     more->setText(QStringList(12, "Not evaluated: the width, whose uncertainty is not known.").join('\n'));

@@ -1,4 +1,4 @@
-// The Calibrate workspace on the simulated bench: from "never" to "calibrated today", and a check of it.
+// Tests the Calibrate workspace on the simulated bench: from "never" to "calibrated today", and a check afterwards.
 #include <QComboBox>
 #include <QTest>
 #include <QTimer>
@@ -39,7 +39,7 @@ protected:
         workspace.show();
         ASSERT_IN_TIME(comesTrue([this] { return workspace.runner().ready(); }));
     }
-    /// The one way to start.
+    /// The only button that starts a run.
     [[nodiscard]] QPushButton& run() { return *workspace.runner().findChild<QPushButton*>("runButton"); }
     template <class T>
     [[nodiscard]] T& the(const char* name) {
@@ -108,9 +108,9 @@ TEST_F(Calibrate, FromNeverToCalibratedAndChecked) {
     EXPECT_THAT(more, HasSubstr("Calibrated until 20"));
     EXPECT_THAT(more, Not(HasSubstr("(-"))) << "minus signs, as in the report";
     EXPECT_THAT(more, Not(HasSubstr("is not calibrated")));
-    letLive(20);  // drawn with the next event
+    letLive(20);  // drawn in the next turn of the event loop
     shot(workspace, "calibrate_done");
-    // The widget that chooses the plot stands in the row of tabs, with the plot alone.
+    // The box that chooses the plot is in the row of tabs, and visible only with the plot.
     const auto* kind = workspace.findChild<QWidget*>("tabRow")->findChild<QComboBox*>();
     EXPECT_TRUE(kind->isVisible());
     EXPECT_LT(kind->mapTo(&workspace, QPoint(0, kind->height())).y(), errors->mapTo(&workspace, QPoint()).y() - 60);
@@ -125,7 +125,7 @@ TEST_F(Calibrate, FromNeverToCalibratedAndChecked) {
     letLive(20);
     shot(workspace, "calibrate_done_dark");
 
-    // Next comes the short run, which stores nothing.
+    // Then the short run, which stores nothing.
     ended = nullptr;
     ASSERT_IN_TIME(comesTrue([this] { return button("checkButton")->isEnabled(); }));
     click(the<QPushButton>("Run check"));
@@ -190,7 +190,7 @@ TEST_F(Calibrate, AnExpiredOneWarnsAndCannotBeChecked) {
     ASSERT_IN_TIME(ends());
     EXPECT_THAT(says("calibrationState"), HasSubstr("✔ calibrated today"));
     EXPECT_EQ(workspace.findChild<QTableWidget*>("calibrationHistory")->rowCount(), 2);
-    letLive(20);  // drawn with the next event
+    letLive(20);  // drawn in the next turn of the event loop
     EXPECT_LE(workspace.minimumSizeHint().width(), 760) << "the window would be widened with one of the next events";
     EXPECT_LE(workspace.width(), 760);
     shot(workspace, "calibrate_done_small");
@@ -210,7 +210,7 @@ TEST_F(Calibrate, AWrongLoadStoresNothing) {
     shot(workspace, "calibrate_wrong_load");
 }
 
-/// Set before anything measures its text, as the program does it.
+/// Sets the text size before any text is measured, as the program does.
 class LargeText {
 protected:
     LargeText() { gui::applyTextSize(200); }
@@ -221,7 +221,7 @@ class CalibrateInLargeText : private LargeText, public Calibrate {};
 TEST_F(CalibrateInLargeText, FitsALargeWindow) {
     store(calibration(12, 365));
     show({1600, 1000});
-    letLive(50);  // the page is laid out again
+    letLive(50);  // the page needs another layout
     EXPECT_LE(workspace.width(), 1600);
     shot(workspace, "calibrate_200");
 }

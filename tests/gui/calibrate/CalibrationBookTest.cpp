@@ -1,4 +1,4 @@
-// The calibrations that the window takes from the store: which count, which do not, and why.
+// Tests which calibrations from the store the window accepts, which it rejects, and why.
 #include <fstream>
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-// CalibrationLab.h - a store of calibrations of the test's own, and calibrations to put into it.
+// CalibrationLab.h - a store of calibrations for one test, and calibrations to put into it.
 //
 // Thread-safety: the GUI thread.
 #pragma once

@@ -1,4 +1,4 @@
-// Readings of a calibration as they come: which way, which stand out, in which band.
+// Tests how readings of a calibration are shown as they come: direction, outliers, tolerance bands.
 #include <QClipboard>
 #include <QComboBox>
 #include <QGuiApplication>
@@ -40,7 +40,7 @@ protected:
     [[nodiscard]] CalibrationPlot& errors() { return *view.findChild<CalibrationPlot*>("calibrationErrors"); }
     [[nodiscard]] CalibrationPlot& measured() { return *view.findChild<CalibrationPlot*>("calibrationMeasured"); }
     [[nodiscard]] std::string says() { return view.findChild<QLabel*>("calibrationSays")->text().toStdString(); }
-    /// Five repeats of three levels, both ways, with one of them far off.
+    /// Sends five repeats of three levels in both directions, with one reading far off.
     void sweep() {
         for (int repeat = 0; repeat < 5; ++repeat) {
             for (const double volts : {10.0, 25.0, 40.0}) {
@@ -123,7 +123,7 @@ TEST_F(View, WaysAreToldApartAndWhatStandsOutIsMarkedAndKept) {
     EXPECT_EQ(errors().bandReach(), errors().xAxis->range()) << "to the plot's edges";
     EXPECT_TRUE(measured().hasLine());
     EXPECT_THAT(says(), HasSubstr("marked and kept"));
-    letLive(20);  // drawn with the next event
+    letLive(20);  // drawn in the next turn of the event loop
     shot(view, "calibrate_view");
 }
 
@@ -150,7 +150,7 @@ TEST_F(View, FollowsTheRunUntilOneIsChosen) {
     view.add(reading("width up", 40, 40));
     view.draw();
     EXPECT_EQ(view.quantityShown(), "Phase width");
-    letLive(20);  // laid out
+    letLive(20);  // time for the layout
     auto* amplitude = find<gui::ToleranceCard>(view, "Amplitude");
     ASSERT_NE(amplitude, nullptr);
     click(*amplitude);
@@ -223,10 +223,10 @@ TEST_F(View, TheResultHasTheLastWord) {
     EXPECT_EQ(errors().drawnMeans(), 3);
     EXPECT_EQ(errors().drawnUp(), 1);
     EXPECT_EQ(errors().drawnMarked(), 1);
-    // (0.03 + 0.07) of 0.2 V at 10 V; less of it at the others.
+    // (0.03 + 0.07) of 0.2 V at 10 V is 50 %; less at the other levels.
     EXPECT_THAT(errors().nearestShown().toStdString(), HasSubstr("50\u202f% used"));
     EXPECT_THAT(errors().nearestShown().toStdString(), HasSubstr("10\u202fV:"));
-    letLive(20);  // laid out
+    letLive(20);  // time for the layout
     auto* card = find<gui::ToleranceCard>(view, "Amplitude");
     ASSERT_NE(card, nullptr);
     EXPECT_THAT(card->accessibleDescription().toStdString(), HasSubstr("50\u202f% of the tolerance used"));

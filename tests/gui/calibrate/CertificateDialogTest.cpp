@@ -1,4 +1,4 @@
-// The certificates of oscilloscopes in the window: entered, refused in place, expired ones shown as such, withdrawn.
+// Tests the dialog for oscilloscope certificates: entering, refusing in place, marking expired ones, withdrawing.
 #include <QAbstractItemView>
 #include <QCalendarWidget>
 #include <QHeaderView>
@@ -67,10 +67,10 @@ TEST_F(CertificateWindow, EntersWhatIsComplete) {
     EXPECT_EQ(one.number, "4711");
     EXPECT_EQ(one.gain_pct, 0.5);
     EXPECT_EQ(one.probe_pct, 1.0);
-    EXPECT_FALSE(one.shunt_pct || one.timeBase_ppm);  // left empty: not stated
+    EXPECT_FALSE(one.shunt_pct || one.timeBase_ppm);  // empty fields: not stated
     ASSERT_EQ(table().rowCount(), 1);
     EXPECT_THAT(table().item(0, 0)->text().toStdString(), HasSubstr("in use"));
-    EXPECT_FALSE(enter().isEnabled());  // the next one has another number
+    EXPECT_FALSE(enter().isEnabled());  // the next certificate needs another number
 }
 
 TEST_F(CertificateWindow, TakesItsDaysFromACalendar) {
@@ -128,7 +128,7 @@ TEST_F(CertificateWindow, FitsASmallScreenWithLargeTextByScrolling) {
         EXPECT_EQ(page->horizontalScrollBar()->maximum(), 0) << percent << ": from top to bottom only";
         shot(*dialog, QString("certificates-1280-%1").arg(percent));
         for (auto* edit : dialog->findChildren<QLineEdit*>()) {
-            if (edit->window() != dialog.get()) continue;  // a calendar's own
+            if (edit->window() != dialog.get()) continue;  // belongs to a calendar
             edit->setFocus(Qt::TabFocusReason);
             page->ensureWidgetVisible(edit);
             EXPECT_EQ(edit->visibleRegion().boundingRect().size(), edit->size()) << edit->objectName().toStdString();

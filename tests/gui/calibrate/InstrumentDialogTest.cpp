@@ -1,4 +1,4 @@
-// Instruments by name: saved once, chosen in place; an expired one says so and is not used.
+// Tests instruments stored by name: saved once, chosen in place; an expired one is marked and not used.
 #include <QCalendarWidget>
 #include <QLineEdit>
 #include <QMenu>
@@ -56,7 +56,7 @@ TEST_F(InstrumentWindow, SavesOnceAndChoosesInPlace) {
     EXPECT_THAT(says("presetTrouble"), HasSubstr("is saved and chosen"));
     EXPECT_EQ(says("instrumentAddress"), "sigrok:rigol-ds:conn=x?gain_pct=2");
     EXPECT_THAT(says("instrumentSays"), HasSubstr("currents have no uncertainty"));
-    showDialog();  // another day
+    showDialog();  // as on another day
     the<QComboBox>("oscilloscope").setCurrentIndex(1);
     click(the<QPushButton>("useInstruments"));
     EXPECT_EQ(used, "sigrok:rigol-ds:conn=x?gain_pct=2");

@@ -1,4 +1,4 @@
-// The controller with a simulated bench: opening, driving, stopping, capturing, running.
+// Tests the controller with a simulated bench: opening, driving, stopping, capturing, running.
 #include <QSignalSpy>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -60,7 +60,7 @@ TEST_F(Controller, IsClosedUntilABenchIsOpened) {
     EXPECT_EQ(controller.activity(), Activity::Closed);
     EXPECT_EQ(controller.telemetry().state, InterlockState::Disconnected);
     EXPECT_FALSE(controller.open());
-    controller.stop("a test");  // does no harm
+    controller.stop("a test");  // must do no harm
     open();
     EXPECT_TRUE(controller.open()->simulated());
     EXPECT_TRUE(controller.open()->paced);
@@ -75,7 +75,7 @@ TEST_F(Controller, AnImpedanceCheckEndsDisarmedWhateverIsComplainedAboutMeanwhil
     open();
     double measured = 0;
     QObject::connect(&controller, &BenchController::checked, [&](double ohms) { measured = ohms; });
-    controller.drive(DriveSource::Manual, 2, 1);  // refused: a complaint of another kind, before the check ends
+    controller.drive(DriveSource::Manual, 2, 1);  // refused: another failure is reported before the check ends
     ArmRequest request{"1 kohm", true, true};
     controller.checkImpedance(request);
     ASSERT_IN_TIME(comesTrue([&] { return measured > 0; }));
@@ -258,7 +258,7 @@ TEST_F(Controller, NoRunBeginsBetweenTheEndOfOneAndWhatTellsIt) {
     std::uint64_t second = 0;
     QObject::connect(&controller, &BenchController::changed, [&] {
         if (controller.activity() != Activity::Closed || second != 0) return;
-        // Runs as soon as the window can: a click that waited until no run was going on.
+        // Runs at the first possible moment, like a click that was waiting for the end of a run.
         QMetaObject::invokeMethod(
             &controller, [&] { second = controller.run(order); }, Qt::QueuedConnection);
     });

@@ -1,5 +1,5 @@
-// A stop in every window between an operator's order and its output: while it waits, while devices open, between
-// opening and start, at any call after that, and with the window that closes (H2).
+// Tests a stop at every moment between an operator's order and its output: while the order waits, while devices open,
+// between opening and start, during any later call, and while the window closes (H2).
 #include <future>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ using gui::Activity;
 using gui::BenchController;
 using testing::HasSubstr;
 
-/// Holds a thread until the test lets it go. Opens by itself after 20 s, so that a failure ends.
+/// Holds a thread until the test opens the barrier. Opens by itself after 20 s, so that a failing test ends.
 class Barrier {
 public:
     void wait() {
@@ -77,7 +77,7 @@ protected:
         request.operatorConfirmed = true;
         controller->arm(request);
     }
-    /// Opens a bench with a thread that is held in a call of the stimulator until `barrier` is let go.
+    /// Opens a bench and holds its thread in a call of the stimulator until `barrier` opens.
     void openHeld(const std::shared_ptr<Barrier>& barrier) {
         const auto hold = std::make_shared<std::atomic<bool>>(false);
         watch->onCall = [barrier, hold, own = std::this_thread::get_id()](int) {
@@ -138,7 +138,7 @@ TEST_F(ControllerStop, WhileDevicesOpenEndsTheOpeningOfALiveBench) {
 TEST_F(ControllerStop, TheWindowThatClosesWhileDevicesOpenEndsTheOpening) {
     const auto stopSeen = std::make_shared<std::atomic<bool>>(false);
     const auto opening = std::make_shared<std::atomic<bool>>(false);
-    // The driver is slow until the window has closed.
+    // The driver takes until the window has closed.
     watch->onOpen = [=](const OpenContext& context) {
         *opening = true;
         const auto giveUp = std::chrono::steady_clock::now() + std::chrono::seconds(20);
@@ -154,7 +154,7 @@ TEST_F(ControllerStop, TheWindowThatClosesWhileDevicesOpenEndsTheOpening) {
 }
 
 TEST_F(ControllerStop, AtAnyCallFromOpeningToTheEndIsFollowedByNoTrain) {
-    // Counts from the first question to the opened device, between prepare and start, to the end of the run.
+    // Counts the calls from the first question to the device, through prepare and start, to the end of the run.
     int calls = 1'000;
     for (int at = 1; at <= calls; ++at) {
         watch->calls = 0;
@@ -167,13 +167,13 @@ TEST_F(ControllerStop, AtAnyCallFromOpeningToTheEndIsFollowedByNoTrain) {
         };
         controller->run(delivering());
         ASSERT_IN_TIME(comesTrue([this] { return ended != nullptr; })) << "stopped at call " << at;
-        if (trainsAtStop < 0) {  // the run was over before
+        if (trainsAtStop < 0) {  // the run ended before this call
             EXPECT_FALSE(ended->result.outcome.error) << ended->result.outcome.error->message;
             EXPECT_GE(watch->trains, 3);
             calls = at;
             break;
         }
-        // The call that was under way continues; a train in it is switched off behind it.
+        // The call in progress continues; a train that it starts is switched off afterwards.
         EXPECT_LE(watch->trains, trainsAtStop + 1) << "stopped at call " << at;
         EXPECT_GE(watch->offs, 1);
         EXPECT_EQ(ended->result.verdict(), "stopped") << "stopped at call " << at;

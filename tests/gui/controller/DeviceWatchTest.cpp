@@ -1,4 +1,4 @@
-// Plugging in and out, as the window sees it.
+// Tests how the window notices devices being plugged in and out.
 #include <QSignalSpy>
 #include <atomic>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// A socket that the operator plugs things into.
+/// A simulated socket into which the operator plugs devices.
 class Socket final : public Driver {
 public:
     explicit Socket(std::shared_ptr<std::atomic<int>> plugged) : plugged_(std::move(plugged)) {}

@@ -1,5 +1,5 @@
-// Stops at random moments of a run, from the click on Run to the end of closing: after the stop has returned no train
-// begins, whatever was happening. It is a race, so it is tried many times (H2).
+// Stops runs at random moments, from the click on Run to the end of closing: after the stop has returned, no train may
+// begin. Such races show only in many trials (H2).
 #include <gtest/gtest.h>
 #include <random>
 #include <thread>
@@ -30,14 +30,14 @@ RunOrder delivering(const BenchController& controller, DeviceUri uri) {
     order.settings = applySettings(order.declaration, {}).value();
     order.uris.push_back(std::move(uri));
     order.profile = controller.profile();
-    order.profile.encoding.train.pulses = 10;  // 100 ms of pulses: many a stop comes in the middle of a train
+    order.profile.encoding.train.pulses = 10;  // trains of 100 ms, so that many stops come during a train
     order.profile.encoding.train.rate = Hertz(100);
     order.limits = controller.limits();
     return order;
 }
 
-/// Each trial runs and is stopped after a random time. `heard` waits until the device has heard of it, where that takes
-/// time; `output` counts what the device was given, or has put out, so far.
+/// Each trial starts a run and stops it after a random time. `heard` waits until the device has received the stop, if
+/// that takes time; `output` counts what the device was told to deliver, or has delivered, so far.
 void stopAtRandomMoments(BenchController& controller, const DeviceUri& uri, const std::function<void()>& heard,
                          const std::function<int()>& output) {
     testing::Test::RecordProperty("hazard", "H2");
@@ -49,11 +49,11 @@ void stopAtRandomMoments(BenchController& controller, const DeviceUri& uri, cons
     testing::Test::RecordProperty("seed", std::to_string(seed));
     Random random(seed, "stops");
 
-    // How long an undisturbed run takes, from the click to the end.
+    // The duration of an undisturbed run, from click to end.
     const auto began = std::chrono::steady_clock::now();
     controller.run(order);
     ASSERT_IN_TIME(comesTrue([&] { return ended != nullptr; }));
-    // An emulated device answers from a thread of its own.
+    // An emulated device answers on its own thread.
     ASSERT_IN_TIME(!ended->result.outcome.error) << ended->result.outcome.error->message;
     ASSERT_IN_TIME(output() >= 1);
     const auto whole = std::chrono::steady_clock::now() - began;
@@ -63,7 +63,7 @@ void stopAtRandomMoments(BenchController& controller, const DeviceUri& uri, cons
         ended.reset();
         const auto moment = std::chrono::duration_cast<std::chrono::nanoseconds>(whole * 1.1 * random.uniform());
         controller.run(order);
-        // Runs on a thread of its own, as the window's thread must continue; stop() may be called from any thread.
+        // Runs on another thread, because the window's thread must continue; stop() is safe on any thread.
         int before = 0;
         std::thread hand([&] {
             std::this_thread::sleep_for(moment);
@@ -100,7 +100,7 @@ TEST(StopAtRandomMomentsInRealTime, OfAnEmulatedScienceModeStimulator) {
         drivers.push_back(makeScienceModeDriver(nullptr));
         return Registry(std::move(drivers));
     });
-    // The stop is on its way through the terminal when stop() returns; what counts is what the device does with it.
+    // When stop() returns, the stop may still be on its way through the terminal; the device's reaction counts.
     const auto quiet = [&] {
         const auto giveUp = clock.now() + std::chrono::seconds(5);
         while (clock.now() < giveUp &&

@@ -1,8 +1,8 @@
-// WatchedDriver.h - the simulated bench with an eye and a hand on its stimulator: a test sees every train that reaches
-// it, and may do something at any call of it, or while the driver opens it.
+// WatchedDriver.h - the simulated bench with a watched stimulator: a test sees every train that reaches the stimulator,
+// and can act at any of its calls or while the driver opens it.
 //
-// Thread-safety: what is atomic from any thread; the hooks are set before a bench is opened, and called by the
-// device's thread.
+// Thread-safety: atomic members from any thread. The hooks are set before a bench is opened, and the device's thread
+// calls them.
 #pragma once
 
 #include <atomic>
@@ -13,13 +13,13 @@
 
 namespace tacto::test {
 
-/// Shared by the test, the driver and its stimulator. The hooks are set before the controller is told anything.
+/// Shared by the test, the driver and the stimulator. Set the hooks before the first call of the controller.
 struct Watch {
-    std::atomic<int> calls{0};  ///< calls of the stimulator other than forceOff()
+    std::atomic<int> calls{0};  ///< number of calls of the stimulator, without forceOff()
     std::atomic<int> trains{0};
     std::atomic<int> offs{0};
-    std::function<void(const OpenContext&)> onOpen;  ///< the stimulator is open, and open() has not returned
-    std::function<void(int)> onCall;                 ///< before each call, with its number
+    std::function<void(const OpenContext&)> onOpen;  ///< called when the stimulator is open, before open() returns
+    std::function<void(int)> onCall;                 ///< called before each call, with the number of the call
     std::function<void()> onOff;
 };
 
@@ -58,7 +58,7 @@ private:
     const std::shared_ptr<Watch> watch_;
 };
 
-/// `virtualTime`: as sim: itself; else the bench runs on the steady clock.
+/// `virtualTime`: uses virtual time, like sim: itself; otherwise the bench runs on the steady clock.
 [[nodiscard]] inline std::function<Registry()> watchedRegistry(const std::shared_ptr<Watch>& watch,
                                                                bool virtualTime = true) {
     return [watch, virtualTime] {

@@ -1,5 +1,5 @@
-// LiveBench.h - a live workspace and what drives the output, on a controller with simulated devices, refreshed thirty
-// times a second as the window does.
+// LiveBench.h - a live workspace and the drive's dock, on a controller with simulated devices; refreshed 30 times a
+// second, as in the window.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -26,7 +26,7 @@ protected:
         });
         live.resize(1180, 800);
         drive.show();
-        live.show();  // this is the active one
+        live.show();  // the active window
         frame.start(33);
     }
     [[nodiscard]] bool opens() {
@@ -45,13 +45,13 @@ protected:
         ArmRequest request;
         request.operatorConfirmed = true;
         controller.arm(request);
-        // If something drives already, the first train follows at once.
+        // If a drive is already on, the first train follows at once.
         return comesTrue([this] {
             const auto state = controller.telemetry().state;
             return state == InterlockState::Armed || state == InterlockState::Delivering;
         });
     }
-    /// Lets `seconds` of the bench pass.
+    /// Waits until `seconds` have passed on the bench.
     [[nodiscard]] bool passes(double seconds) {
         const double until = toSeconds(controller.telemetry().at) + seconds;
         return comesTrue([this, until] { return live.history().now_s() >= until; });

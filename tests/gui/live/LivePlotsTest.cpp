@@ -1,5 +1,4 @@
-// The memory of the live plots, and the pictures from samples that the test knows: columns, gaps, old data,
-// frequencies.
+// Tests the memory of the live plots and their pictures with known samples: columns, gaps, old data, frequencies.
 #include <QTest>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -33,7 +32,7 @@ protected:
         plots.resize(900, 700);
         plots.show();
     }
-    /// Samples up to `until_s`: a tone of `hz` on the x axis.
+    /// Feeds samples up to `until_s`: a tone of `hz` on the x axis.
     void feel(double until_s, double hz = 250) {
         Telemetry telemetry;
         for (; t_s < until_s; t_s += 0.02) {
@@ -71,7 +70,7 @@ protected:
         plots.redraw();
         plots.replot(QCustomPlot::rpImmediateRefresh);
     }
-    /// Pixels of a strip's trace in a column of time, in any colour that is not the ground.
+    /// Number of pixels of a strip's trace in the column at a time, in any colour but the background.
     int inked(const QImage& image, double at_s) {
         auto* axes = plots.axisRects().first();
         const int x = int(axes->axis(QCPAxis::atBottom)->coordToPixel(at_s));
@@ -118,7 +117,7 @@ TEST_F(Plots, DrawTheWholeSwingOfAToneInEachColumn) {
     feel(6);
     draw();
     const auto image = plots.toPixmap().toImage();
-    // ±1 of an axis that reaches from about -2 to 12.
+    // The trace reaches ±1 on an axis from about -2 to 12.
     auto* axis = plots.axisRects().first()->axis(QCPAxis::atLeft);
     const double swing = std::abs(axis->coordToPixel(1) - axis->coordToPixel(-1));
     for (const double t : {2.0, 3.0, 4.5, 5.5}) EXPECT_GE(inked(image, t), int(0.8 * swing)) << t;
@@ -200,7 +199,7 @@ TEST_F(Plots, AFrozenPictureStandsStillWhileTheHistoryGoesOn) {
     plots.setFrozen(true);
     plots.replot(QCustomPlot::rpImmediateRefresh);
     const auto picture = plots.toPixmap().toImage();
-    feel(80);  // longer than anything is kept
+    feel(80);  // longer than the plots keep data
     draw();
     plots.replot(QCustomPlot::rpImmediateRefresh);
     EXPECT_EQ(plots.shownTime(), before);
@@ -269,7 +268,7 @@ TEST_F(Plots, WhileAFaultHoldsTheOutputOffTheTrainsAreShadedAndNoneIsCalledNotDe
     telemetry.at = toInstant(5);
     history.take(tap, telemetry);
     ask(5.5);
-    ask(4.98);  // the train that the fault took: its line says so
+    ask(4.98);  // the fault cut this train off, and its line says so
     telemetry.at = toInstant(6);
     history.take(tap, telemetry);
     t_s = 6;
@@ -294,7 +293,7 @@ TEST_F(Plots, EveryTraceIsNamedInANarrowWindowToo) {
     draw();
     for (const auto* name : {"x", "y", "z", "roughness R", "pressure P", "commanded", "delivered"})
         EXPECT_TRUE(written().contains(name)) << name << ": " << written().join('|').toStdString();
-    for (const int width : {390, 310}) {  // the first fits a window of 1024 pixels with open docks, the second less
+    for (const int width : {390, 310}) {  // 390 fits a window of 1024 pixels with open docks; 310 is narrower still
         plots.resize(width, 700);
         draw();
         const auto all = written();
@@ -318,7 +317,7 @@ TEST_F(Plots, WhatConfirmsTheTrainsIsNamedInANarrowWindowToo) {
     plots.addScopeReading(1, 19.9);
     const std::pair<const char*, const char*> keys[] = {
         {"commanded", "asked"}, {"delivered", "given"}, {"read back", "read"}, {"oscilloscope", "scope"}};
-    for (const int width : {900, 390}) {  // the second fits a window of 1024 pixels with open docks
+    for (const int width : {900, 390}) {  // 390 fits a window of 1024 pixels with open docks
         plots.resize(width, 700);
         draw();
         const auto all = written();

@@ -1,4 +1,4 @@
-// The live workspace and the drive as a person uses them: open, touch, drive, stop, replay, freeze.
+// Tests the live workspace and the drive as a person uses them: open, touch, drive, stop, replay, freeze.
 #include <QClipboard>
 #include <QComboBox>
 #include <QDoubleSpinBox>
@@ -75,10 +75,10 @@ TEST_F(LiveBench, TheSlidersDriveAfterArmingAndTheTrainsHaveTheirAmplitude) {
 
     ASSERT_IN_TIME(armed());
     pressure->setFocus();
-    for (int i = 0; i < 10; ++i) QTest::keyClick(pressure, Qt::Key_PageUp);  // tenths
+    for (int i = 0; i < 10; ++i) QTest::keyClick(pressure, Qt::Key_PageUp);  // steps of a tenth
     roughness->setFocus();
     for (int i = 0; i < 5; ++i) QTest::keyClick(roughness, Qt::Key_PageUp);
-    QTest::keyClick(roughness, Qt::Key_Right);  // hundredths
+    QTest::keyClick(roughness, Qt::Key_Right);  // steps of a hundredth
     QTest::keyClick(roughness, Qt::Key_Right);
     EXPECT_EQ(roughness->value(), 52);
     ASSERT_IN_TIME(
@@ -135,7 +135,7 @@ TEST_F(LiveBench, FromOffByHandBeginsAtNothingWhateverTheFingertipFelt) {
     EXPECT_EQ(controller.lastDrive().source, DriveSource::Manual);
     EXPECT_EQ(controller.lastDrive().roughness, 0);
     EXPECT_EQ(controller.lastDrive().pressure, 0);
-    // By hand begins the next time with what a person has set; the fingertip's values are not kept.
+    // "By hand" starts next time with the values that a person set, not with those of the fingertip.
     roughness->setFocus();
     for (int i = 0; i < 2; ++i) QTest::keyClick(roughness, Qt::Key_PageUp);
     click(*find<QPushButton>(drive, "Fingertip"));
@@ -159,7 +159,7 @@ TEST_F(LiveBench, ByHandGoesOnWithWhatTheFingertipDelivers) {
     click(*hand);
     ASSERT_IN_TIME(comesTrue([this] { return controller.telemetry().driving == DriveSource::Manual; }));
     EXPECT_GT(controller.telemetry().amplitude_v, 15) << "it does not jump";
-    // While lifted, the fingertip delivers nothing, and there is nothing to continue.
+    // While lifted, the fingertip delivers nothing, so there is nothing to continue.
     click(*find<QPushButton>(drive, "Fingertip"));
     controller.present("", 0, 0);
     ASSERT_IN_TIME(comesTrue([this] {
@@ -363,7 +363,7 @@ TEST_F(LiveBench, ASavedPictureIsOfTheMomentAndSaysWhatItShows) {
     for (const auto& said : {QString("Touch · simulated"), QString(" UTC"), QString("SIM-1"), QString("Force (N)"),
                              QString("SIMULATED"), QString("last 10")})
         EXPECT_TRUE(drawing.contains(said)) << said.toStdString();
-    // Words without room continue in another line; a minus comes from another face.
+    // Text that is too wide continues in another line; the minus comes from another font.
     for (const auto& part : before.split(" · ") + scales.split(" · ").filter(QRegularExpression("^[^−]*$")))
         EXPECT_TRUE(drawing.contains(part)) << part.toStdString() << ", though the bench went on";
     int alone = 0;
@@ -378,7 +378,7 @@ TEST_F(LiveBench, OldSamplesAreSaidAndMarked) {
     ASSERT_IN_TIME(comesTrue([this] { return textOf(live, "sensorHealth").contains("Old: the newest sample is"); }))
         << textOf(live, "sensorHealth").toStdString();
     EXPECT_IN_TIME(comesTrue([this] { return live.plots().stale(StreamKind::Acceleration); }));
-    // Each part is redrawn at its own pace.
+    // Each part is redrawn at its own rate.
     EXPECT_IN_TIME(comesTrue([this] { return live.findChild<gui::TaxelMap*>()->stale(); }));
     EXPECT_IN_TIME(comesTrue([this] { return !live.findChild<gui::TactilePlane*>()->point(); }));
     shot(live, "live_stale");
@@ -516,7 +516,7 @@ TEST_F(DriveThatWas, IsNamedAfterAStopAndStartsNothing) {
     EXPECT_EQ(controller.telemetry().driving, DriveSource::Off);
 }
 
-/// The reason why the fingertip drives no train is what is known of it, not more.
+/// The reason given why the fingertip drives no train says only what is known.
 TEST_F(LiveBench, TheDriveSaysOfTheFingertipWhatIsKnown) {
     RecordProperty("hazard", "H7");
     ASSERT_IN_TIME(openSimulated());

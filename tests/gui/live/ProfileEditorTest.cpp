@@ -1,4 +1,4 @@
-// The profile editor: refuses in the core's words, applies what is right, keeps files.
+// Tests the profile editor: refuses values in the core's words, applies valid ones, keeps files.
 #include <QComboBox>
 #include <QFile>
 #include <QPushButton>
@@ -25,7 +25,7 @@ protected:
         editor.setAttribute(Qt::WA_DeleteOnClose, false);
         editor.show();
     }
-    /// Types over a field as a person does.
+    /// Replaces the text of a field by typing.
     void type(const char* key, const QString& text) {
         auto* line = editor.findChild<QLineEdit*>(key);
         ASSERT_NE(line, nullptr) << key;
@@ -149,11 +149,11 @@ TEST_F(Editor, OnlyWhatMattersCanBeEdited) {
     EXPECT_FALSE(beta->isEnabled());
     auto* curve = editor.findChild<QComboBox*>("amplitude_curve");
     curve->setFocus();
-    QTest::keyClick(curve, Qt::Key_End);  // power
+    QTest::keyClick(curve, Qt::Key_End);  // selects "power"
     EXPECT_TRUE(beta->isEnabled());
     showTab(1);
     auto* shape = editor.findChild<QComboBox*>("shape");
-    QTest::keyClick(shape, Qt::Key_End);  // monophasic
+    QTest::keyClick(shape, Qt::Key_End);  // selects "monophasic"
     EXPECT_FALSE(editor.findChild<QLineEdit*>("inter_phase_gap_us")->isEnabled());
 }
 

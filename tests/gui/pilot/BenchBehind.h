@@ -1,7 +1,7 @@
-// BenchBehind.h - the bench behind a participant's window in a test: a simulated bench with a session's record on it,
-// where time passes at once, and a person at the window about whom the test knows what they feel.
+// BenchBehind.h - the bench behind a participant's window in a test: a simulated bench that records a session, with
+// time that passes at once, and a participant whose sensations the test knows.
 //
-// Thread-safety: BenchBehind as its parts; Feeling as PilotParticipant, felt() from any thread.
+// Thread-safety: BenchBehind like its parts; Feeling like PilotParticipant, felt() from any thread.
 #pragma once
 
 #include <mutex>
@@ -14,7 +14,7 @@
 
 namespace tacto::test {
 
-/// This has no test of its own.
+/// Contains no test itself.
 class BenchBehind final : public PersonFixture {
 public:
     BenchBehind() {
@@ -45,7 +45,7 @@ private:
     std::unique_ptr<PilotRecord> record_;
 };
 
-/// Passes everything on to the window, and knows what its person feels.
+/// Passes everything on to the window, and records what the participant feels.
 class Feeling final : public PilotParticipant {
 public:
     explicit Feeling(gui::ParticipantDesk& desk) : desk_(desk) {
@@ -65,12 +65,12 @@ public:
     [[nodiscard]] std::optional<Hindrance> hindrance() const override { return desk_.hindrance(); }
     [[nodiscard]] bool hasScreen() const noexcept override { return desk_.hasScreen(); }
     [[nodiscard]] bool answersInRealTime() const noexcept override { return true; }
-    /// The last presentation; nothing felt before there is one.
+    /// The last presentation; an empty one before the first.
     [[nodiscard]] FeltPresentation felt() const {
         const std::scoped_lock lock(mutex_);
         return all_.empty() ? FeltPresentation() : all_.back();
     }
-    /// All presentations in their order.
+    /// All presentations in order.
     [[nodiscard]] std::vector<FeltPresentation> all() const {
         const std::scoped_lock lock(mutex_);
         return all_;

@@ -1,6 +1,6 @@
-// A blind operator sees the same for every condition and level: a classifier that knows all texts and pixels of 200
-// trials, by time, does no better than chance. The same classifier on what an operator who is not blind sees tells them
-// apart, so that it would find a difference.
+// Tests that a blind operator sees the same for every condition and level: a classifier that gets all texts and pixels
+// of 200 trials, by time, does no better than chance. The same classifier can tell the trials apart from what a sighted
+// operator sees, so it would find a difference.
 #include <QAbstractButton>
 #include <QLabel>
 #include <QRegularExpression>
@@ -28,15 +28,15 @@ namespace {
 
 constexpr double kFrame_s = 0.25;
 
-/// One moment of a trial: each widget's texts, and the pixels.
+/// One moment of a trial: the texts of each widget, and the pixels.
 using Frame = std::vector<std::size_t>;
 
 struct SeenTrial {
-    int condition = 0;  ///< 0: nothing was given
+    int condition = 0;  ///< 0: nothing was delivered
     std::vector<Frame> frames;
 };
 
-/// All that a widget says: its texts, with those of its tip and for a screen reader, and whether it can be pressed.
+/// Returns everything that a widget says (text, tool tip, texts for screen readers) and whether it can be pressed.
 QString textOf(const QWidget& widget) {
     auto text = widget.toolTip() + '|' + widget.accessibleName() + '|' + widget.accessibleDescription() +
                 (widget.isEnabled() ? '+' : '-') + (widget.isVisible() ? '+' : '-');
@@ -47,7 +47,7 @@ QString textOf(const QWidget& widget) {
 
 std::size_t saidBy(const QWidget& widget) { return qHash(textOf(widget)); }
 
-/// How often the most similar of all other trials is of the same class; of several alike, one is drawn.
+/// Returns how often the most similar other trial has the same class; draws one if several are equally similar.
 double shareRight(const std::vector<SeenTrial>& trials, const std::vector<int>& classes, Random& random) {
     const auto apart = [](const SeenTrial& a, const SeenTrial& b) {
         std::size_t n = 0;
@@ -73,7 +73,7 @@ double shareRight(const std::vector<SeenTrial>& trials, const std::vector<int>& 
     return double(right) / double(trials.size());
 }
 
-/// The score of guessing by the frequency of the classes, and four standard deviations more.
+/// Returns the score of guessing by class frequency, plus four standard deviations.
 double mostByChance(const std::vector<int>& classes) {
     std::map<int, double> counts;
     for (const int each : classes) ++counts[each];
@@ -100,7 +100,7 @@ protected:
         screen.show();
         EXPECT_IN_TIME(QTest::qWaitForWindowExposed(&screen));
     }
-    /// The bar and the page as the window refreshes them, and what is seen of them.
+    /// Refreshes bar and page as the window does, and returns what can be seen of them.
     Frame seen(const Telemetry& telemetry, bool blind) {
         const auto shown = blind ? blinded(telemetry) : telemetry;
         bar->refresh(shown);
@@ -166,7 +166,7 @@ protected:
             waiting.state = ScreenState::Rest;
             page->show(waiting);
             wait(0.5 + 0.25 * double(random.below(4)));
-            trial.frames.resize(std::min<std::size_t>(trial.frames.size(), 30));  // the rest differs in length
+            trial.frames.resize(std::min<std::size_t>(trial.frames.size(), 30));  // later frames differ in number
             all.push_back(std::move(trial));
         }
         return all;
@@ -184,7 +184,7 @@ protected:
     gui::NoticeBanner* notices = new gui::NoticeBanner(controller, *line, *page);
 };
 
-// A fault, a stop and a complaint in words that name the train: what is seen of them is the same for every train.
+// Faults, stops and complaints whose words name the train must look the same for every train.
 TEST_F(BlindOperator, WhatIsSaidOfAFaultIsTheSameForEveryTrain) {
     RecordProperty("hazard", "H9");
     Random random(20, "faults of trains");
@@ -211,7 +211,7 @@ TEST_F(BlindOperator, WhatIsSaidOfAFaultIsTheSameForEveryTrain) {
                 std::vector<std::string> texts;
                 for (const auto* each : screen.findChildren<QWidget*>()) {
                     auto text = textOf(*each);
-                    text.remove(QRegularExpression(R"(\d\d:\d\d:\d\d)"));  // the time of the day
+                    text.remove(QRegularExpression(R"(\d\d:\d\d:\d\d)"));  // the time of day
                     texts.push_back(text.toStdString());
                 }
                 looks.insert(std::move(texts));

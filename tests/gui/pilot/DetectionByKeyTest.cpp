@@ -1,4 +1,4 @@
-// A person's thresholds at the participant's window: what is delivered is felt, every answer is a key.
+// Measures a person's thresholds at the participant's window: the person feels what is delivered and answers by key.
 #include "core/pilot/PilotThresholds.h"
 #include "tests/gui/pilot/BenchBehind.h"
 #include "tests/gui/pilot/SeatedPeople.h"
@@ -19,7 +19,7 @@ protected:
             if (prompt.name == kHoldPrompt) desk.answerAsOperator(id, {.keys = {"KL"}});
         });
     }
-    /// The key that this person presses for what stands on the screen.
+    /// The key that this person presses for the question on the screen.
     [[nodiscard]] Qt::Key answerTo(const FeltPresentation& felt) {
         const auto& targets = window.field().targets();
         const auto first = targets.empty() ? QString() : targets.front()->objectName();
@@ -29,12 +29,12 @@ protected:
                    : felt.level < kTooStrong_ma ? Qt::Key_3
                                                 : Qt::Key_4;
         if (first == "yes") return Qt::Key_1;
-        if (first != "first") return Qt::Key_H;  // to hold
+        if (first != "first") return Qt::Key_H;  // the answer to "hold"
         ++asked;
         const bool second = felt.level < kFelt_ma ? ++guesses % 2 == 0 : felt.inInterval == 2;
         return second ? Qt::Key_2 : Qt::Key_1;
     }
-    /// Answers until the session's thread has done `work`.
+    /// Answers until the session's thread has finished `work`.
     [[nodiscard]] Result<void> answering(const std::function<Result<void>()>& work) {
         auto running = std::async(std::launch::async, work);
         const bool done = comesTrue(

@@ -1,4 +1,4 @@
-// The operator's page: what it says, what it hides while blind, and that nothing of it is cut.
+// Tests the operator's page: what it says, what it hides while blind, and that nothing is cut off.
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
@@ -41,7 +41,7 @@ protected:
     void runTo(int trial) {
         Telemetry telemetry;
         for (int i = 1; i <= trial; ++i) {
-            telemetry.impedance_ohm = 1e6;  // the impedance during a train would tell which train it is
+            telemetry.impedance_ohm = 1e6;  // an impedance measured during a train would tell which train it is
             auto screen = testScreen(ScreenState::Feel, i);
             screen.impedance_ohm = 3400 + 6 * i + (i % 3) * 12;
             page.show(screen);

@@ -1,4 +1,4 @@
-// Here the session's thread and the windows meet: it waits, they answer, a stop ends the wait.
+// Tests where the session's thread and the windows meet: the thread waits, the windows answer, a stop ends the wait.
 #include <future>
 #include <gtest/gtest.h>
 
@@ -117,7 +117,7 @@ TEST_F(Desk, AStopBetweenTwoQuestionsEndsTheNextOne) {
     ASSERT_FALSE(said);
     EXPECT_EQ(said.error().code, ErrorCode::Stopped);
     EXPECT_TRUE(desk.stopBy("participant"));
-    desk.show({});  // the session knows of it, and has continued
+    desk.show({});  // the session has noticed the stop and continued
     ask(goOnPrompt("Go on?", PromptTo::Operator));
     desk.answerAsOperator(asked, with("go-on"));
     EXPECT_TRUE(answer.get());
@@ -138,7 +138,7 @@ TEST_F(Desk, AfterTheSessionAStopLeadsNowhere) {
     EXPECT_FALSE(desk.stopBy("participant"));
     EXPECT_TRUE(stops.empty());
     desk.begin(nullptr);
-    desk.show({});  // the next person's code is asked for
+    desk.show({});  // the session asks for the next person's code
     EXPECT_FALSE(desk.stopBy("participant")) << "a stop while devices open is the program's to hear";
 }
 

@@ -1,4 +1,4 @@
-// The participant's screen: the same pixels for every condition, targets of 20 mm, nothing cut, nothing red but STOP.
+// Tests the participant's screen: same pixels for every condition, targets of 20 mm, nothing cut, only STOP red.
 #include <QLabel>
 #include <set>
 
@@ -22,14 +22,14 @@ protected:
     void answerBy(Qt::Key pressed) {
         key(pressed);
         EXPECT_TRUE(answered());
-        letLive(160);  // long enough for no key to count as held
+        letLive(160);  // so that no key counts as held
     }
 };
 
 TEST_F(ParticipantLooks, EveryPhaseHasTheSamePixelsForEveryCondition) {
     RecordProperty("hazard", "H9");
     auto prompt = conditionPrompt(kFour);
-    prompt.within = Seconds(1e6);  // the time that is left is drawn, and stands still in these pictures
+    prompt.within = Seconds(1e6);  // so that the drawn remaining time stands still in these pictures
     std::vector<std::vector<QImage>> phases;
     const auto feel = [](double level, double interval_s) {
         FeltPresentation felt;
@@ -42,7 +42,7 @@ TEST_F(ParticipantLooks, EveryPhaseHasTheSamePixelsForEveryCondition) {
                                                                    {"smooth-high", feel(6.5, 2)},
                                                                    {"smooth-low", feel(4, 2)},
                                                                    {"catch", {}}};
-    // Shown once before it counts: letters of 92 px are drawn anew the first time, and then differ in their edges.
+    // The first showing does not count: Qt draws letters of 92 px anew the first time, with slightly different edges.
     desk.show(testScreen(ScreenState::Dot));
     ASSERT_NO_FATAL_FAILURE(ask(prompt));
     answerBy(Qt::Key_1);
@@ -76,7 +76,7 @@ TEST_F(ParticipantLooks, TheIntervalsOfADetectionTrialHaveTheSamePixelsWhichever
     marked.phase = "detection";
     marked.block = marked.blocks = 0;
     std::vector<std::vector<QImage>> seen;
-    for (const int holds : {1, 1, 2}) {  // the first does not count: letters are drawn anew then
+    for (const int holds : {1, 1, 2}) {  // the first round does not count: letters are drawn anew then
         std::vector<QImage> shown;
         for (const int interval : {0, 1, 0, 2}) {
             marked.interval = interval;
@@ -172,7 +172,7 @@ TEST_F(ParticipantLooks, TargetsHave20mmAndNothingIsCutInBothThemesAndSizes) {
                     EXPECT_LE(words_px.size(), 1U) << name.toStdString() << ": smaller words are chosen less";
                     desk.cancel();
                     EXPECT_FALSE(answered());
-                    desk.begin(nullptr);  // another session's
+                    desk.begin(nullptr);  // another session begins
                     desk.show(testScreen(ScreenState::Rest));
                 }
             }

@@ -1,4 +1,4 @@
-// The participant answers by key, mouse and finger, once, after the targets; and stops, from everywhere.
+// Tests the participant's answers by key, mouse and finger (once, after the targets), and stops from everywhere.
 #include <QPointingDevice>
 #include <algorithm>
 #include <gmock/gmock.h>
@@ -35,7 +35,7 @@ TEST_F(Seated, EachKeyOfEachSetAnswersItsTarget) {
 }
 
 TEST_F(Seated, KeysStandWhereTheTargetsDo) {
-    ASSERT_NO_FATAL_FAILURE(ask(conditionPrompt(kFour)));  // the targets stand in whatever order the study has them
+    ASSERT_NO_FATAL_FAILURE(ask(conditionPrompt(kFour)));  // the study decides the order of the targets
     const auto& firm = target("smooth-high");
     const auto& light = target("smooth-low");
     EXPECT_EQ(firm.x(), light.x());
@@ -105,7 +105,7 @@ TEST_F(Seated, AKeyHeldFromBeforeIsNoAnswer) {
     ASSERT_NO_FATAL_FAILURE(ask(conditionPrompt(kFour)));
     QKeyEvent marked(QEvent::KeyPress, Qt::Key_2, Qt::NoModifier, "2", true);
     QApplication::sendEvent(&window, &marked);
-    QKeyEvent unmarked(QEvent::KeyPress, Qt::Key_2, Qt::NoModifier, "2", false);  // X sends some like this
+    QKeyEvent unmarked(QEvent::KeyPress, Qt::Key_2, Qt::NoModifier, "2", false);  // X sends some repeats unmarked
     QApplication::sendEvent(&window, &unmarked);
     letLive(30);
     EXPECT_FALSE(isAnswered());
@@ -125,7 +125,7 @@ TEST_F(Seated, WithoutTheKeysNoPresentationStarts) {
     EXPECT_TRUE(desk.hindrance());
     ASSERT_FALSE(said.isEmpty());
     EXPECT_EQ(said.last().toStdString(), "the participant's window does not have the keys");
-    QTest::keyClick(other.windowHandle(), Qt::Key_1);  // the operator types: it answers nothing
+    QTest::keyClick(other.windowHandle(), Qt::Key_1);  // the operator types, which answers nothing
     window.takeKeys();
     ASSERT_IN_TIME(QTest::qWaitForWindowActive(&window));
     EXPECT_FALSE(desk.hindrance());
@@ -277,7 +277,7 @@ TEST_F(Seated, AKeyThatTheOperatorStillHoldsSaysSo) {
         QKeyEvent event(QEvent::KeyPress, Qt::Key_Escape, Qt::NoModifier, QString(), repeats);
         QApplication::sendEvent(&operators, &event);
     }
-    said.erase(std::unique(said.begin(), said.end()), said.end());  // a single press is heard several times
+    said.erase(std::unique(said.begin(), said.end()), said.end());  // each press is heard several times
     EXPECT_EQ(said, (std::vector<std::string>{"operator (Esc)", "operator (Esc, held)"}));
 }
 

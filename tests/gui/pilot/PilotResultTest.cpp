@@ -1,4 +1,4 @@
-// The outcome of a session, in the window's words.
+// Tests how the window words the outcome of a session.
 #include <QRegularExpression>
 #include <QTableWidget>
 #include <QTest>
@@ -115,7 +115,7 @@ RunResult endedBy(ErrorCode code, const char* why, nlohmann::json results = null
     return run;
 }
 
-/// Every page that there is: for each kind of result and each end.
+/// All pages: for each kind of result and each way to end.
 std::vector<std::pair<const char*, RunResult>> allPages() {
     auto massager = someResults();
     massager["modality"] = "massager";
@@ -145,7 +145,7 @@ std::vector<std::pair<const char*, RunResult>> allPages() {
             {"a fault with results", endedBy(ErrorCode::Device, "the stimulator is gone", someResults())}};
 }
 
-// The operator's STOP ended the program where a session with a matrix had been shown before.
+// Regression: the operator's STOP ended the program if a session with a matrix had been shown before.
 TEST(PilotResult, EveryPageIsShownAfterEveryOther) {
     RecordProperty("hazard", "H2");
     const auto pages = allPages();
@@ -156,7 +156,7 @@ TEST(PilotResult, EveryPageIsShownAfterEveryOther) {
     int width = 900;
     const auto look = [&](const std::pair<const char*, RunResult>& page, bool ofStudy) {
         view.show(page.second, "/home/lab/study-1", ofStudy);
-        view.resize(width = width == 900 ? 700 : 900, 700);  // the new size makes it lay the page out again
+        view.resize(width = width == 900 ? 700 : 900, 700);  // another size, so that the page is laid out again
         QCoreApplication::sendPostedEvents();
         view.grab();
         const auto& labels = memberAt(page.second.outcome.results, "labels");

@@ -1,4 +1,4 @@
-// PluggedButtons.h - game pads and pedals that a test plugs in and presses.
+// PluggedButtons.h - game pads and pedals that a test can plug in and press.
 //
 // Thread-safety: any thread.
 #pragma once
@@ -23,7 +23,7 @@ public:
         const std::scoped_lock lock(mutex_);
         plugged_ = std::move(plugged);
     }
-    /// Nothing happens unless a program has it open. `button`: from 1.
+    /// Does nothing unless a program has the device open. `button` counts from 1.
     void press(const std::string& name, std::size_t button, bool down = true,
                std::chrono::steady_clock::time_point at = std::chrono::steady_clock::now()) const {
         const std::scoped_lock lock(mutex_);

@@ -1,4 +1,4 @@
-// PluggedDevices.h - a driver of what a test plugs in, and of massagers that no gate can tell from real ones.
+// PluggedDevices.h - a driver for devices that a test plugs in, with massagers that no gate can tell from real ones.
 //
 // Thread-safety: Plugs from any thread; PluggedDevices one caller.
 #pragma once

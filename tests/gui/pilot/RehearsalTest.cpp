@@ -1,4 +1,4 @@
-// From "new rehearsal" to the result, in the whole window: with a virtual participant, and with the window's own.
+// Tests a rehearsal in the whole window, from "new rehearsal" to the result, with a virtual and a real participant.
 #include <QCheckBox>
 #include <QComboBox>
 #include <QLineEdit>
@@ -54,7 +54,7 @@ protected:
                 pilot->findChild<QLabel*>("pilotReason")->text())
             .toStdString();
     }
-    /// The rows of the only session.
+    /// The rows of the only session in the study.
     [[nodiscard]] Result<std::vector<SessionRow>> rows() const {
         const auto study = Study::open(folder.path() / "study", nullptr, Study::Access::Read);
         if (!study) return failure(study);
@@ -89,13 +89,13 @@ TEST_F(RehearsalInTheWindow, AVirtualParticipantComesToAResult) {
     shot(window, "pilot-virtual-running");
     ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 100'000));
     SCOPED_TRACE(headline());
-    // A session ends where a STOP that is tried is not seen off within 10 ms.
+    // A session ends early if the output is not seen to go off within 10 ms of the tested STOP.
     ASSERT_IN_TIME(headline().find("told the four apart in") != std::string::npos);
     const auto* matrix = pilot->findChild<QTableWidget*>("confusion");
     EXPECT_TRUE(matrix->isVisible());
     EXPECT_EQ(matrix->rowCount(), 4);
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "study" / "study.json"));
-    static_cast<void>(comesTrue([this] { return faultsOf(window).empty(); }, 2'000));  // its present words are laid out
+    static_cast<void>(comesTrue([this] { return faultsOf(window).empty(); }, 2'000));  // waits for the layout
     EXPECT_EQ(faultsOf(window), "");
     shot(window, "pilot-virtual-result");
     LargeBesideDocks(*this).fits("pilot-result", "confusion");
@@ -201,7 +201,7 @@ TEST_F(RehearsalInTheWindow, BothStopsAreTestedAndTheSessionIsEndedByTheOperator
         const auto* says = strip->findChild<QLabel*>("operatorQuestion");
         return strip->isVisible() && says != nullptr ? says->text().toStdString() : std::string();
     };
-    // A machine that stands still while the output is armed asks about that fault in its place.
+    // If the machine stalls while the output is armed, the program asks about that fault instead.
     const auto testsIt = [&] { return asked().find("the operator's is being tested") != std::string::npos; };
     ASSERT_IN_TIME(comesTrue([&] { return !runs() || testsIt(); }, 20'000)) << asked();
     ASSERT_IN_TIME(runs()) << headline();
@@ -211,17 +211,17 @@ TEST_F(RehearsalInTheWindow, BothStopsAreTestedAndTheSessionIsEndedByTheOperator
     EXPECT_GE(red->height(), 100) << "seen, and hit by a hand";
     const auto at = red->mapTo(theirs, red->rect().center());
     EXPECT_EQ(theirs->childAt(at), red);
-    letLive(100);  // so that it counts as another press than the participant's
+    letLive(100);  // so that it does not count as the participant's press
     ASSERT_IN_TIME(testsIt()) << asked();
     QTest::mousePress(theirs->windowHandle(), Qt::LeftButton, {}, at);
     ASSERT_IN_TIME(comesTrue([&] { return !pilot->running() || find<QPushButton>(*strip, "0") != nullptr; }, 20'000))
         << asked();
     ASSERT_TRUE(pilot->running()) << "a test of STOP ends no session: " << headline();
     letLive(150);
-    window.controller().stop("operator (Esc, held)");  // the press of the test, which continues
+    window.controller().stop("operator (Esc, held)");  // the same press as in the test, repeating
     letLive(150);
     ASSERT_TRUE(pilot->running()) << "a key that is held counts once: " << headline();
-    // Here nothing is armed that the control loop has to look after while pictures are made.
+    // Nothing is armed here, so the pictures do not disturb the control loop.
     looksRight(*pilot, "pilot-running", {QSize(1280, 720), QSize(1280, 720)}, &window);
     LargeBesideDocks(*this).fits("pilot-running");
     looksRight(*strip, "pilot-strip", {}, theirs);
@@ -229,7 +229,7 @@ TEST_F(RehearsalInTheWindow, BothStopsAreTestedAndTheSessionIsEndedByTheOperator
     ASSERT_IN_TIME(comesTrue(
         [&] { return !runs() || (strip->isVisible() && find<QPushButton>(*strip, "0") != nullptr); }, 20'000));
     ASSERT_IN_TIME(runs()) << headline();
-    letLive(150);  // so that it counts as another press than the test's
+    letLive(150);  // so that it does not count as the press of the test
     window.controller().stop("operator (STOP)");
     ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 20'000));
     EXPECT_EQ(pilot->participantWindow(), nullptr);
@@ -264,14 +264,14 @@ TEST_F(RehearsalInTheWindow, AnAbortIsNoTestOfTheOperatorsStop) {
     EXPECT_EQ(note->body["reason"], "fire alarm");
 }
 
-/// A stimulator that fails in words that name a train.
+/// A stimulator whose fault names a train.
 class FaultWhileBlind : public RehearsalInTheWindow {
 protected:
     FaultWhileBlind()
         : RehearsalInTheWindow([plug = plugged] {
               return unpluggableRegistry(plug, "12.34 mA was read back in pulse 7 of 98765, and 4.567 mA was sent");
           }) {}
-    /// Every text of every widget of all windows, including tips and texts for screen readers, and the log of messages.
+    /// All texts of all widgets in all windows, with tool tips and texts for screen readers, and the message log.
     [[nodiscard]] std::string allTexts() const {
         QStringList all;
         for (const auto* top : QApplication::topLevelWidgets()) {
@@ -304,7 +304,7 @@ TEST_F(FaultWhileBlind, NoTextInAnyWindowNamesANumberOfItsTrain) {
         *plugged = false;
         ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Faulted; }));
         std::string said;
-        // The line, the safety bar and the operator's question, as long as the fault stands.
+        // In the message line, the safety bar and the operator's question, while the fault lasts.
         const auto comes = [&](const char* words) {
             return comesTrue([&] {
                 const auto now = allTexts();
@@ -313,7 +313,7 @@ TEST_F(FaultWhileBlind, NoTextInAnyWindowNamesANumberOfItsTrain) {
             });
         };
         ASSERT_IN_TIME(comes("Fault: ")) << said;
-        QTest::keyClick(theirs->windowHandle(), Qt::Key_Escape);  // this ends their test
+        QTest::keyClick(theirs->windowHandle(), Qt::Key_Escape);  // ends the test of the participant's STOP
         ASSERT_IN_TIME(comes("See to the electrodes")) << said;
         EXPECT_NE(said.find("was read back in pulse"), std::string::npos) << "it says what happened";
         for (const char* number : {"12.34", "98765", "4.567"})
@@ -334,7 +334,7 @@ TEST_F(RehearsalInTheWindow, AScreenThatGoesIsAPauseUntilTheWindowIsSeatedAgain)
     auto* theirs = pilot->participantWindow();
     ASSERT_IN_TIME(comesTrue([&] { return theirs->asking(); }, 20'000));
     ASSERT_NE(theirs->title().indexOf("STOP"), -1);
-    for (auto* each : pilot->findChildren<gui::ScreenChoice*>()) emit each->lost("HDMI-1");  // one is the session's own
+    for (auto* each : pilot->findChildren<gui::ScreenChoice*>()) emit each->lost("HDMI-1");  // one is the session's
     EXPECT_FALSE(theirs->isVisible()) << "it would lie over the operator's";
     auto* asks = pilot->findChild<gui::OperatorAsk*>("operatorAsk");
     ASSERT_NE(asks, nullptr);
@@ -349,7 +349,7 @@ TEST_F(RehearsalInTheWindow, AScreenThatGoesIsAPauseUntilTheWindowIsSeatedAgain)
     ASSERT_IN_TIME(
         comesTrue([&] { return theirs->asking() && theirs->title().indexOf("being tested") != -1; }, 20'000));
     letLive(150);
-    window.controller().stop("operator (signal)");  // a press would be one of the wrong STOP
+    window.controller().stop("operator (signal)");  // a press would count for the wrong STOP
     ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 20'000));
     EXPECT_EQ(count(row::kPause), 1);
     EXPECT_EQ(count(row::kParticipantStop), 0);
@@ -409,7 +409,7 @@ TEST_F(RehearsalInTheWindow, AStopByTheirPadIsTheirsAndOneThatIsUnpluggedIsABrea
     const auto tests = [&] { return theirs->asking() && theirs->title().indexOf("being tested") != -1; };
     ASSERT_IN_TIME(comesTrue(tests, 20'000));
 
-    plugged->plug("pad", false);  // a STOP that is gone is not a STOP that was pressed
+    plugged->plug("pad", false);  // an unplugged STOP does not count as pressed
     ASSERT_IN_TIME(comesTrue([&] { return !theirs->asking(); }));
     EXPECT_EQ(window.controller().telemetry().state, InterlockState::Disarmed);
     const auto* obstacle = pilot->findChild<QLabel*>("presentationObstacle");
@@ -423,18 +423,18 @@ TEST_F(RehearsalInTheWindow, AStopByTheirPadIsTheirsAndOneThatIsUnpluggedIsABrea
     ASSERT_IN_TIME(comesTrue(tests, 20'000));
 
     letLive(150);
-    std::async(std::launch::async, [&] { plugged->press("pad", 6); }).get();  // this press is its test
+    std::async(std::launch::async, [&] { plugged->press("pad", 6); }).get();  // this press is the test of STOP
     const auto tested = [&] {
         const auto all = rows();
         return all && std::ranges::count(*all, std::string(row::kStopTest), &SessionRow::name) == 1;
     };
-    bool seen = false;  // whether it was seen while the window's thread was held and looked at no event
+    bool seen = false;  // whether the test was noticed while the window's thread was held and handled no events
     for (int i = 0; i < 500 && !(seen = tested()); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     EXPECT_IN_TIME(seen) << "a STOP waits for no window";
     const QPointer strip = theirs->findChild<gui::OperatorStrip*>();
     ASSERT_IN_TIME(comesTrue([&] { return strip->isVisible() && strip->question().open(); }, 20'000));
     letLive(150);
-    plugged->press("pedal", 1);  // the operator's press
+    plugged->press("pedal", 1);  // a press by the operator
     ASSERT_IN_TIME(comesTrue([&] { return !pilot->running() || find<QPushButton>(*strip, "0") != nullptr; }, 20'000));
     ASSERT_TRUE(pilot->running()) << headline();
     letLive(150);
@@ -458,7 +458,7 @@ TEST_F(RehearsalInTheWindow, ClosingTheParticipantsWindowPausesAndStopsNothingFo
     theirs->close();
     EXPECT_TRUE(theirs->isVisible());
     EXPECT_FALSE(theirs->asking());
-    // The first may be taken as the test of the operator's STOP; the next ends the session.
+    // The first press may count as the test of the operator's STOP; the next ends the session.
     ASSERT_IN_TIME(comesTrue(
         [this] {
             window.controller().stop("operator (STOP)");

@@ -1,6 +1,6 @@
-// SeatedPeople.h - a participant's window with a session behind it that asks what a test wants asked.
+// SeatedPeople.h - a participant's window, with a session behind it that asks what the test wants.
 //
-// Thread-safety: the GUI thread; ask() asks from another, as a session does.
+// Thread-safety: the GUI thread. ask() asks on another thread, as a session does.
 #pragma once
 
 #include <QTest>
@@ -51,7 +51,7 @@ protected:
         if (answer.valid()) answer.wait();
         window.hide();
     }
-    /// Asks as the session's thread does; the targets are there when it returns.
+    /// Asks on another thread, as a session does; returns when the targets are shown.
     void ask(const PilotPrompt& prompt) {
         answer = std::async(std::launch::async, [this, prompt] { return desk.ask(prompt); });
         ASSERT_IN_TIME(comesTrue([this] { return window.asking(); }));
@@ -75,7 +75,7 @@ protected:
     gui::ParticipantDesk desk;
     std::vector<std::string> stops;
     std::chrono::steady_clock::time_point stoppedAt;
-    std::chrono::milliseconds onePress{0};  ///< StopKeys hears one several times
+    std::chrono::milliseconds onePress{0};  ///< the time in which stops count as one press
     std::chrono::steady_clock::time_point lastPress;
     gui::ParticipantWindow window{desk, [this](const char* by) { press(by); }};
     gui::StopKeys keys{[this](const char* by) {

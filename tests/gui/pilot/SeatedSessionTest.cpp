@@ -1,5 +1,5 @@
-// A whole session at the two windows: every answer is a key of the participant's or a click of the operator's, and the
-// result is of exactly these answers. And what the participant's screen shows meanwhile tells none of them.
+// Runs a whole session at the two windows: every answer is a key of the participant or a click of the operator, and the
+// result contains exactly these answers. Nothing on the participant's screen gives an answer away.
 #include <QAbstractButton>
 #include <QLineEdit>
 #include <QTableWidget>
@@ -19,7 +19,7 @@
 namespace tacto::test {
 namespace {
 
-/// Both people, seated as they would be.
+/// Participant and operator, each at their window.
 class SeatedSession : public Seated {
 protected:
     SeatedSession() {
@@ -27,7 +27,7 @@ protected:
         page.setVisible(true);
         EXPECT_IN_TIME(QTest::qWaitForWindowExposed(&page));
         giveKeys();
-        onePress = std::chrono::seconds(2);  // they press STOP once, in its test
+        onePress = std::chrono::seconds(2);  // they press STOP once, when it is tested
         QObject::connect(&desk, &gui::ParticipantDesk::asked, &page, [this](const PilotPrompt& prompt, quint64 id) {
             asked = prompt;
             page.ask(prompt, id);
@@ -47,7 +47,7 @@ protected:
         window.takeKeys();
         EXPECT_IN_TIME(QTest::qWaitForWindowActive(&window));
     }
-    /// The key of a target; the mouse on one without a key.
+    /// Presses the key of a target, or clicks the target if it has no key.
     void pressTarget(std::size_t at) {
         const gui::AnswerKeys theirs(gui::KeySet::Figures, asked);
         for (int each = Qt::Key_0; each <= Qt::Key_Z; ++each) {
@@ -64,7 +64,7 @@ protected:
     }
     [[nodiscard]] bool isOf(PromptTo to) const { return asked.to == to || asked.to == PromptTo::Both; }
 
-    /// This person's report of what they felt: not always the truth, in a pattern that gives every answer.
+    /// Answers what this person felt, not always truthfully, in a pattern that uses every answer.
     void answerAsParticipant() {
         const auto felt = people.felt();
         if (asked.name == "stop-test") return key(Qt::Key_Escape);
@@ -90,7 +90,7 @@ protected:
                 return pressTarget(chosen);
             }
             case PromptKind::Several:
-                return pressTarget(window.field().targets().size() - 1);  // done
+                return pressTarget(window.field().targets().size() - 1);  // the button "done"
             case PromptKind::Scale:
                 return pressTarget(3);
             case PromptKind::YesNo:
@@ -114,7 +114,7 @@ protected:
         }
         ADD_FAILURE() << "the operator has no answer to: " << asked.text;
     }
-    /// The name that it had in familiarisation.
+    /// The name that this presentation had in the familiarisation.
     [[nodiscard]] std::string conditionOf(const FeltPresentation& felt) const {
         if (felt.level <= 0) return "none";
         for (const auto& each : people.all()) {
@@ -212,7 +212,7 @@ TEST_F(SeatedSession, TheParticipantsScreenIsTheSameInATrialWhateverIsPresented)
     RecordProperty("hazard", "H9");
     PilotStage stage(behind.bench(), people, behind.record(), behind.settings());
     auto prompt = conditionPrompt(kFour);
-    prompt.within = Seconds(1e6);  // the time that is left is drawn, and stands still in these pictures
+    prompt.within = Seconds(1e6);  // so that the drawn remaining time stands still in these pictures
     std::vector<QImage> shown;
     const auto look = [&] {
         const auto now = window.grab().toImage();
@@ -248,7 +248,7 @@ TEST_F(SeatedSession, TheParticipantsScreenIsTheSameInATrialWhateverIsPresented)
             return ready();
         }));
         look();
-        letLive(160);  // long enough for no key to count as held
+        letLive(160);  // so that no key counts as held
         const auto said = running.get();
         EXPECT_TRUE(said) << said.error().message;
         return shown;
@@ -256,7 +256,7 @@ TEST_F(SeatedSession, TheParticipantsScreenIsTheSameInATrialWhateverIsPresented)
     auto armed = std::async(std::launch::async, [&] { return stage.ready(); });
     ASSERT_IN_TIME(comesTrue([&] { return armed.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }));
     ASSERT_TRUE(armed.get());
-    static_cast<void>(trial("first", 0.5, 0.5));  // letters are drawn anew the first time
+    static_cast<void>(trial("first", 0.5, 0.5));  // Qt draws letters anew the first time
     const auto expected = trial("weak and slow", 0.5, 2);
     EXPECT_GE(expected.size(), 3U) << "the dot, the targets, and nothing";
     const std::tuple<const char*, double, double> others[] = {

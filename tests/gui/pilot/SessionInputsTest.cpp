@@ -1,5 +1,5 @@
-// Game pads and foot switches in a session: each press is its person's, by the door of the keys, and STOP comes in
-// time.
+// Tests game pads and foot switches in a session: each press counts for its own person, in the same way as a key, and
+// STOP comes in time.
 #include <QAbstractButton>
 #include <QComboBox>
 #include <QEventLoop>
@@ -58,7 +58,7 @@ protected:
         plugged->press(name, button, false);
         letLive(20);
     }
-    /// Reacts as the session's window does.
+    /// Reacts as the window of a session does.
     [[nodiscard]] gui::InputsAtOnce atOnce() {
         gui::InputsAtOnce all;
         all.stop = [this](PromptTo whose) {
@@ -96,7 +96,7 @@ TEST_F(SeatedWithPad, BeforeTheTargetsItIsEarlyAndHeldFromBeforeItIsNoAnswer) {
     ASSERT_TRUE(answered());
     desk.show(testScreen(ScreenState::Feel));
     QCoreApplication::processEvents();
-    plugged->press("theirs", 3);  // the button stays down
+    plugged->press("theirs", 3);  // the button is held down
     letLive(20);
     ASSERT_NO_FATAL_FAILURE(ask(conditionPrompt(kFour)));
     letLive(300);
@@ -278,7 +278,7 @@ TEST_F(SeatedWithPad, TheBounceOfAHeldContactSwitchesOffAndIsNoStopOfTheirs) {
     EXPECT_FALSE(desk.holding()) << "they let go and hold again before anything goes on";
     move(false, 6);
 
-    // A finger that lets go and presses again, and one that stays away.
+    // A finger that lets go and presses again after a time, and one that stays away (-1).
     for (const int back_ms : {25, 40, -1}) {
         stops.clear();
         desk.show(testScreen(ScreenState::Rest));
@@ -290,7 +290,7 @@ TEST_F(SeatedWithPad, TheBounceOfAHeldContactSwitchesOffAndIsNoStopOfTheirs) {
         EXPECT_FALSE(desk.letGoWasBounce()) << back_ms;
         move(false, 50);
     }
-    // Shows another STOP beside it.
+    // Shows another STOP at the side.
     desk.show(testScreen(ScreenState::Rest));
     QCoreApplication::processEvents();
     ASSERT_NO_FATAL_FAILURE(hold());
@@ -359,7 +359,7 @@ TEST_F(SeatedWithPad, ButtonsOnTheTargetsLookRightAndAreTheSameForEveryCondition
     std::vector<QImage> seen;
     for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
         gui::applyTheme(theme);
-        for (const double level : {4.0, 4.0, 6.5}) {  // the first does not count: letters are drawn anew then
+        for (const double level : {4.0, 4.0, 6.5}) {  // the first round does not count: letters are drawn anew then
             desk.show(testScreen(ScreenState::Feel));
             FeltPresentation felt;
             felt.level = level;
@@ -390,7 +390,7 @@ TEST_F(SeatedWithPad, ButtonsOnTheTargetsLookRightAndAreTheSameForEveryCondition
     }
 }
 
-/// A pad over its real driver, and what it told on its own thread.
+/// A game pad with its real driver; records what the driver reports on its own thread.
 class OwnThread : public testing::Test {
 protected:
     OwnThread() {
@@ -415,7 +415,7 @@ protected:
         at.push_back(std::chrono::steady_clock::now());
         changed.notify_all();
     }
-    /// Waits without an event of this thread, which is the window's.
+    /// Waits while the window's thread (this one) handles no events.
     [[nodiscard]] bool heldUntil(const std::function<bool()>& heard) {
         std::unique_lock lock(mutex);
         return changed.wait_for(lock, std::chrono::seconds(5), heard);
@@ -453,7 +453,7 @@ TEST_F(OwnThread, LettingGoAndUnpluggingDoNotWaitForTheWindowEither) {
     ASSERT_IN_TIME(heldUntil([&] { return releases.size() == 1; }));
     pad().send(padReport({5}));
     ASSERT_IN_TIME(heldUntil([&] { return stops.size() == 1; }));
-    pad().unplug();  // it is unplugged while STOP is held
+    pad().unplug();  // unplugged while STOP is held
     ASSERT_IN_TIME(heldUntil([&] { return !lost.empty(); }));
     EXPECT_EQ(lost, "the participant's Pad is unplugged");
     EXPECT_EQ(stops.size(), 1U);
@@ -461,7 +461,7 @@ TEST_F(OwnThread, LettingGoAndUnpluggingDoNotWaitForTheWindowEither) {
 
 TEST_F(OwnThread, AStopHeldWhileTheDeviceWasOpenedCountsWithItsFirstReport) {
     RecordProperty("hazard", "H2");
-    pad().send(padReport({5, 12}));  // 12 was pressed, 5 was down since before
+    pad().send(padReport({5, 12}));  // 12 is pressed now; 5 was already down
     ASSERT_IN_TIME(heldUntil([&] { return stops.size() == 1; }));
 }
 
@@ -470,7 +470,7 @@ TEST_F(OwnThread, ABouncingContactAmongReportsOfEachMillisecondIsHeardAtItsFirst
     const auto pressed = std::chrono::steady_clock::now();
     for (int i = 0; i < 200; ++i) {
         pad().send(i % 2 == 0 ? padReport({5}) : padReport({}));
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));  // as the device does it
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));  // as the device does
     }
     ASSERT_IN_TIME(heldUntil([&] { return !stops.empty(); }));
     EXPECT_IN_TIME(stops.front() - pressed <= std::chrono::milliseconds(10));
@@ -486,7 +486,7 @@ protected:
         ASSERT_IN_TIME(QTest::qWaitForWindowExposed(&rows));
     }
     [[nodiscard]] QComboBox* box(const QString& name) { return rows.findChild<QComboBox*>(name); }
-    /// Chooses as a person does it.
+    /// Chooses an entry as a person does.
     static void choose(QComboBox& box, int index) {
         box.setCurrentIndex(index);
         emit box.activated(index);
@@ -605,7 +605,7 @@ TEST_F(RememberedInputs, OneWithoutIsOfferedAndNeverAssumed) {
     ASSERT_EQ(rows.seats().size(), 1U);
     EXPECT_EQ(rows.seats()[0].uses, theirs(pad).uses);
     EXPECT_EQ(asLastTime()->text(), "As in the last session.");
-    rows.setPlace(kStudy);  // the next session
+    rows.setPlace(kStudy);  // begins the next session
     ASSERT_IN_TIME(comesTrue([this] { return box("inputOf 046d:c216") != nullptr; }));
     EXPECT_TRUE(rows.seats().empty());
 }

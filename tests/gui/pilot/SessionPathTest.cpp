@@ -1,4 +1,4 @@
-// The path of a session shows no step as done that the session does not have.
+// Tests that the path of a session shows no step as done that does not exist in the session.
 #include <QLabel>
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-// The steps before a session of a study: a checklist without defaults, and an interrupted session.
+// Tests the steps before a session of a study: a checklist without defaults, and an interrupted session.
 #include <QComboBox>
 #include <QLabel>
 #include <QLineEdit>
@@ -25,7 +25,7 @@ using testing::HasSubstr;
 
 class SessionStart : public testing::Test {
 protected:
-    /// A rehearsal has keys without a passphrase.
+    /// Prepares a rehearsal, whose keys need no passphrase.
     void prepare(std::optional<std::uint64_t> virtualSeed, Modality modality = Modality::Electrodes) {
         StudySettings settings;
         settings.modality = modality;
@@ -239,7 +239,7 @@ TEST_F(SessionStart, TabGoesThroughItInTheOrderOfReading) {
         order.push_back(at);
         QTest::keyClick(at, Qt::Key_Tab);
     }
-    // The page's first control, to which Tab came round from the last one.
+    // The page's first control, which Tab reaches after the last one.
     const QWidget* first = &page;
     do first = first->nextInFocusChain();
     while (std::ranges::find(order, first) == order.end());

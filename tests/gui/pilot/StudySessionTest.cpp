@@ -1,4 +1,4 @@
-// Sessions of a study in the whole window: what begins, what is refused with nothing made, what continues.
+// Tests sessions of a study in the whole window: which begin, which are refused without leaving files, which continue.
 #include <QLineEdit>
 #include <QRadioButton>
 #include <QTableWidget>
@@ -45,7 +45,7 @@ protected:
               drivers.push_back(std::make_unique<PluggedDevices>(plugs));
               return Registry(std::move(drivers));
           }) {}
-    /// One participant who has consented; `virtualSeed` nothing: a person.
+    /// Makes a study with one participant who has consented; `virtualSeed` nothing: a real person.
     void make(std::optional<std::uint64_t> virtualSeed, Modality modality = Modality::Electrodes) {
         StudySettings settings;
         settings.modality = modality;
@@ -54,7 +54,7 @@ protected:
         settings.approval.from = std::chrono::year(2020) / 1 / 1;
         settings.approval.expires = std::chrono::year(2090) / 12 / 31;
         settings.consentVersion = "2";
-        settings.blocks = 3;  // a session that is not over before it is stopped
+        settings.blocks = 3;  // long enough to be stopped before its end
         ASSERT_TRUE(stateProgram(settings, shippedProfile().value()));
         auto study = Study::create(place(), settings, Passphrase::from(kWords).value());
         ASSERT_TRUE(study) << study.error().message;
@@ -95,7 +95,7 @@ protected:
         for (const auto& item : exclusionItems())
             page().findChild<QRadioButton*>(QString::fromStdString(std::string(item.key)) + "-no")->click();
     }
-    /// A person's session of a massager study, begun: their own screen asks for the code.
+    /// Begins a session of a massager study with a real person: the participant's own screen asks for the code.
     void seatAtMassager() {
         ASSERT_NO_FATAL_FAILURE(make({}, Modality::Massager));
         ASSERT_NO_FATAL_FAILURE(plugIn(PluggedDevices::massager("M1")));
@@ -114,7 +114,7 @@ protected:
     void answer(Qt::Key key) { QTest::keyClick(pilot->participantWindow()->windowHandle(), key); }
     void confirmCode() {
         ASSERT_NO_FATAL_FAILURE(waitForCode());
-        answer(Qt::Key_1);  // yes
+        answer(Qt::Key_1);  // answers yes
     }
     [[nodiscard]] static std::set<std::string> filesIn(const std::filesystem::path& folder) {
         std::set<std::string> names;
@@ -135,7 +135,7 @@ protected:
                     HasSubstr("Simulated: answered by a virtual participant. In the study at " + place().string()));
         EXPECT_FALSE(pilot->findChild<gui::StepList*>()->isVisible()) << "nothing is under way";
         looksRight(*pilot, "pilot-reopened-result", {QSize(1280, 720), QSize(1280, 720)}, &window);
-        LargeBesideDocks(*this).fits("pilot-reopened-result", "confusion");  // the matrix scrolls by itself
+        LargeBesideDocks(*this).fits("pilot-reopened-result", "confusion");  // the matrix has its own scroll bars
         click(*pilot->findChild<QPushButton*>("backFromResult"));
         ASSERT_NO_FATAL_FAILURE(seeList());
         looksRight(*pilot, "pilot-study-with-a-session", {QSize(1280, 720), QSize(1280, 720)}, &window);
@@ -226,7 +226,7 @@ TEST_F(StudyInTheWindow, APersonConfirmsTheirCodeAndTheSessionRunsOnTheMassagerT
     EXPECT_EQ(theirs->title(), "Is " + code + " your code?");
     shot(*theirs, "pilot-code");
     EXPECT_EQ(faultsOf(*theirs), "");
-    answer(Qt::Key_2);  // no
+    answer(Qt::Key_2);  // answers no
     ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }));
     EXPECT_THAT(trouble(), HasSubstr("is not their code. Nothing was begun."));
     EXPECT_EQ(pilot->participantWindow(), nullptr);
@@ -234,7 +234,7 @@ TEST_F(StudyInTheWindow, APersonConfirmsTheirCodeAndTheSessionRunsOnTheMassagerT
 
     ASSERT_IN_TIME(comesTrue(
         [this] {
-            if (!pilot->running()) begin();  // unless the study is being opened again
+            if (!pilot->running()) begin();  // fails while the study is being opened again
             return pilot->running();
         },
         20'000));

@@ -1,4 +1,4 @@
-// The last capture, small: the numbers at its axes never run into each other.
+// Tests the small plot of the last capture: the numbers at its axes never overlap.
 #include <QTest>
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ std::shared_ptr<const Capture> captureOf(double seconds, double level) {
     return capture;
 }
 
-/// Labels of the axis that overlap, or have less than a space between them.
+/// Number of labels of the axis that overlap the next one, or are less than a space apart.
 int touching(QCustomPlot& plot, QCPAxis& axis) {
     QVector<double> ticks;
     QVector<QString> labels;

@@ -1,4 +1,4 @@
-// The form of a protocol's parameters.
+// Tests the form of a protocol's parameters.
 #include <QCheckBox>
 #include <QComboBox>
 #include <QFocusEvent>
@@ -13,7 +13,7 @@
 namespace tacto::test {
 namespace {
 
-/// The form shows less of it than the script wrote, and what it shows reads as another value.
+/// The form shows fewer digits than the script has, and the shown text would read as another value.
 TEST(FieldForm, ADefaultThatWasLeftAloneIsTheScriptsWordToTheLastDigitAndBlank) {
     RecordProperty("hazard", "H9");
     ProtocolDeclaration declaration;

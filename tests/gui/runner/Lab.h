@@ -1,5 +1,5 @@
-// Lab.h - a laboratory for tests: a folder for protocols of its own, a controller on the simulated bench, a workspace
-// that is refreshed as the window does it.
+// Lab.h - a laboratory for tests: a folder for its own protocols, a controller on the simulated bench, and a workspace
+// that is refreshed as in the window.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -30,13 +30,13 @@ protected:
         frame.start(33);
     }
 
-    /// A protocol of the lab's own.
+    /// Writes a protocol of the laboratory's own.
     static void write(const std::string& name, const std::string& script) {
         std::filesystem::create_directories(userProtocolsFolder());
         std::ofstream(userProtocolsFolder() / (name + ".js")) << script;
     }
 
-    /// Shows the workspace; waits until it can run.
+    /// Shows the workspace, and waits until it can run.
     void open(const QString& protocol, QSize size = {1300, 820}) {
         workspace = std::make_unique<gui::ProtocolWorkspace>(controller, protocol);
         workspace->resize(size);
@@ -53,18 +53,18 @@ protected:
     bool ready() {
         return comesTrue([this] { return the<QPushButton>("runButton").isEnabled(); });
     }
-    /// Chooses a protocol in the workspace of all of them.
+    /// Chooses a protocol in the workspace for all protocols.
     void choose(const QString& protocol) {
         auto& chooser = the<QComboBox>("chooser");
         const int index = chooser.findData(protocol);
         ASSERT_GE(index, 0) << protocol.toStdString();
         chooser.setCurrentIndex(index);
     }
-    /// Types into a field, on the page of whichever step has it.
+    /// Types into a field, on the page of the step that has it.
     void type(const QString& field, const QString& text) {
         const auto seen = [&] { return find<QLineEdit>(*workspace, field) != nullptr; };
         constexpr int kLaidOut_ms = 100, kRounds = 25;
-        for (int round = 0; round < kRounds && !seen(); ++round) {  // the form is there once the script has been read
+        for (int round = 0; round < kRounds && !seen(); ++round) {  // the form appears after the script was read
             for (const auto step : {gui::kSettings, gui::kReference, gui::kWiring, gui::kSign}) {
                 if (comesTrue(seen, kLaidOut_ms)) break;
                 workspace->goTo(step);
@@ -80,9 +80,9 @@ protected:
                comesTrue([this] { return !says("verdict").isEmpty(); });
     }
     gui::ScriptEditor* editor() { return find<gui::ScriptEditor>(*workspace, "scriptEditor"); }
-    /// A step of the path, as it stands there.
+    /// A step in the path.
     gui::StepButton& step(const QString& name) { return the<gui::StepButton>(name); }
-    /// Filled buttons that are in sight.
+    /// The names of the visible filled buttons.
     std::vector<QString> primaries() {
         std::vector<QString> found;
         for (const auto* button : workspace->findChildren<QPushButton*>()) {

@@ -1,4 +1,4 @@
-// The rows of a load-safety check while it runs: what each trial says that it is.
+// Tests the rows of a load-safety check while it runs: what each trial is labelled as.
 #include <gtest/gtest.h>
 
 #include "app/gui/runner/LoadRows.h"

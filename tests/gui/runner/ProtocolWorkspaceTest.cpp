@@ -1,4 +1,4 @@
-// The workspace of a protocol, used as a person does: from a click to a report.
+// Tests the workspace of a protocol as a person uses it: from a click to a report.
 #include <QCalendarWidget>
 #include <QFileDialog>
 #include <QMenu>
@@ -183,7 +183,7 @@ TEST_F(Workspace, CannotRunWhatALimitWouldRefuse) {
     open("separability");
     ASSERT_IN_TIME(ready()) << says("runObstacle").toStdString();
     type("load", "50");
-    // Runs it at once, by the key: the table may still show the load of a moment ago.
+    // Starts the run at once by key, while the table may still show the previous load.
     QTest::keyClick(&the<QLineEdit>("load"), Qt::Key_F5);
     EXPECT_FALSE(workspace->running());
     auto& run = the<QPushButton>("runButton");
@@ -470,7 +470,7 @@ function run(p) {
     ASSERT_IN_TIME(ready()) << says("runObstacle").toStdString();
     workspace->goTo(gui::kWiring);
     auto& realtime = the<QCheckBox>("realtime");
-    QTest::mouseClick(&realtime, Qt::LeftButton, {}, QPoint(8, realtime.height() / 2));  // its box, and not its row
+    QTest::mouseClick(&realtime, Qt::LeftButton, {}, QPoint(8, realtime.height() / 2));  // on its box, not its row
     ASSERT_TRUE(realtime.isChecked());
     click(the<QPushButton>("runButton"));
     ASSERT_IN_TIME(comesTrue([this] { return controller.telemetry().trainsDelivered > 0 || ended; }));
@@ -500,7 +500,7 @@ TEST_F(Workspace, ARunsEndIsThatOfThePageThatBeganIt) {
     open("short");
     ASSERT_IN_TIME(ready()) << says("runObstacle").toStdString();
     QObject::connect(&controller, &gui::BenchController::changed, &other, [&] {
-        // The earliest moment at which another run may begin: the end of this one is not told yet.
+        // The earliest moment for another run: the end of this run has not been reported yet.
         if (controller.activity() == gui::Activity::Closed && !ended) other.runAsked();
     });
     click(the<QPushButton>("runButton"));

@@ -1,4 +1,4 @@
-// Columns of a table of records: units, prefixes, words for what is missing.
+// Tests the columns of a table of records: units, prefixes, words for missing values.
 #include <gmock/gmock.h>
 
 #include "app/gui/theme/RecordColumns.h"
@@ -96,7 +96,7 @@ TEST(RecordColumns, ANumberIsNeverCutAndWordsGiveWayFirst) {
     Json row{{"words", "a surface of many words that go on for longer than any column has room"},
              {"many", {{"value", 123456.7}, {"low", 123456.6}, {"high", 123456.8}}},
              {"far", {{"value", 1e-6}, {"low", 0.999999e-6}, {"high", 1.000001e-6}}}};
-    columns.push_back({"Far", "many", As::Number, "ohm"});  // longer than words may be
+    columns.push_back({"Far", "many", As::Number, "ohm"});  // longer than a text column may be
     for (int i = 0; i < 2; ++i) {
         row["v" + std::to_string(i)] = {{"mean", 40.12}, {"sd", 0.46}};
         columns.push_back({"Amplitude as measured", "v" + std::to_string(i), As::Number, "V"});

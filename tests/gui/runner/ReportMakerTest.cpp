@@ -1,4 +1,4 @@
-// Reports drawn by a child process.
+// Tests reports that a child process draws.
 #include <fstream>
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-// A report on paper: the pages that were chosen, or why there are none.
+// Tests printing a report: the chosen pages, or why there are none.
 #include <QMenu>
 #include <QPainter>
 #include <QPdfDocument>
@@ -24,7 +24,7 @@ protected:
         QPainter painter(&writer);
         for (int page = 1; page <= 3; ++page) {
             if (page > 1) writer.newPage();
-            // Each page has its mark at another height.
+            // The mark has a different height on each page.
             painter.fillRect(QRect(0, page * writer.height() / 5, writer.width(), writer.height() / 20), Qt::black);
         }
     }

@@ -1,4 +1,4 @@
-// Results as tables: every shipped protocol is run, and nothing that is shown of its result is a key.
+// Runs every shipped protocol and tests that the tables of its result show no internal key.
 #include <QFormLayout>
 #include <QHeaderView>
 #include <QPushButton>
@@ -21,7 +21,7 @@ using gui::NextStep;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// The texts of the tables that a reader sees: headers, cells, words.
+/// The texts that a reader sees in the tables: headers, cells, words.
 std::vector<QString> textsIn(const gui::ResultTables& tables) {
     std::vector<QString> texts;
     for (const auto* table : tables.findChildren<QTableWidget*>()) {
@@ -45,7 +45,7 @@ class Results : public Lab, public testing::WithParamInterface<const char*> {};
 TEST_P(Results, ShowNoKeyAndNeedNoScrollingSideways) {
     open("", {1150, 600});  // the workspace in a window of 1280 x 720
     choose(GetParam());
-    type("devices", "sim:");  // by now the form is there
+    type("devices", "sim:");  // after this the form exists
     const std::pair<const char*, const char*> quick[] = {{"area", "4"},   {"steps", "2"},   {"warm_up_s", "0"},
                                                          {"levels", "3"}, {"repeats", "2"}, {"participants", "20"}};
     for (const auto& [field, text] : quick) {

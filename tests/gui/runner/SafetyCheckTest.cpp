@@ -1,4 +1,4 @@
-// The safety check in its workspace: the electrode's area first, loads as rows that turn to verdicts, limits x loads.
+// Tests the safety check in its workspace: the electrode's area first, a row per load with its verdict, limits x loads.
 #include <QClipboard>
 #include <QFileDialog>
 #include <QHeaderView>
@@ -24,7 +24,7 @@ using testing::HasSubstr;
 
 class SafetyCheck : public Lab {
 protected:
-    /// Saves what is shown by the tool and the dialog; what is in the file then.
+    /// Saves the shown picture with tool and dialog, and returns the content of the file.
     std::string savedPicture(const QString& path) {
         click(the<QToolButton>("Save picture"));
         auto* dialog = workspace->findChild<QFileDialog*>("fileChooser");
@@ -79,7 +79,7 @@ TEST_F(SafetyCheck, LoadsAreRowsThatTurnToVerdictsAndAMatrixOfLimits) {
     EXPECT_EQ(endsItself, 2) << "on an open and on a short circuit";
     EXPECT_THAT(primaries(), testing::ElementsAre("Sign report…"));
     shot(*workspace, "safety_result");
-    // A picture has all limits, those too that are scrolled out of sight, and says what it is of.
+    // A picture contains all limits, also those scrolled out of sight, and names its content.
     click(the<QToolButton>("Copy picture"));
     EXPECT_GT(QGuiApplication::clipboard()->image().height(), 2 * matrix.heightOf(matrix.rowCount()));
     if (const auto shots = qEnvironmentVariable("TACTO_SHOTS"); !shots.isEmpty())
@@ -97,7 +97,7 @@ TEST_F(SafetyCheck, LoadsAreRowsThatTurnToVerdictsAndAMatrixOfLimits) {
     click(the<QToolButton>("Plot only"));
     EXPECT_EQ(alone, 1);
     EXPECT_NE(find<QPushButton>(*workspace, "Tracing"), nullptr) << "of its own: the limits have the page";
-    // In a high window it stands below the limits; the outputs join it where there is room for both.
+    // In a high window it is below the limits; if there is room for both, the outputs are next to it.
     workspace->resize(1150, 1200);
     auto& below = *workspace->findChild<gui::DisclosedPanel*>();
     auto* strip = below.findChild<gui::CaptureStrip*>();
@@ -132,7 +132,7 @@ TEST_F(SafetyCheck, LoadsAreRowsThatTurnToVerdictsAndAMatrixOfLimits) {
     EXPECT_TRUE(outputs->item(1, 3)->text().endsWith("mA")) << outputs->item(1, 3)->text().toStdString();
     EXPECT_THAT(says("strongestOutput").toStdString(), HasSubstr("mA at its peak"));
     EXPECT_LE(matrix.horizontalHeader()->length(), matrix.viewport()->width());
-    // The tracing belongs to the chosen cell's load.
+    // The tracing shows the load of the chosen cell.
     const auto choose = [&](const char* load) {
         int column = 1;
         while (column < matrix.columnCount() && matrix.horizontalHeaderItem(column)->toolTip() != load) ++column;

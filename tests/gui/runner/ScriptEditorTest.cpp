@@ -1,4 +1,4 @@
-// The editor of the lab's own protocols, by keys and mouse.
+// Tests the editor of the laboratory's own protocols with keys and mouse.
 #include <gmock/gmock.h>
 
 #include "tests/gui/runner/Lab.h"

@@ -1,4 +1,4 @@
-// How much longer a run takes, from the steps that it counts.
+// Tests the estimate of a run's remaining time, which uses the number of steps.
 #include <gtest/gtest.h>
 
 #include "app/gui/runner/RunPanel.h"

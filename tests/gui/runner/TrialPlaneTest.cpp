@@ -1,4 +1,4 @@
-// Trials in the plane of their features: every condition is named at its points.
+// Tests the plot of trials in the plane of their features: each condition is named at its points.
 #include <QTest>
 #include <gmock/gmock.h>
 
@@ -31,7 +31,7 @@ protected:
     void draw() {
         for (int i = 0; i < 2; ++i) plane.replot(QCustomPlot::rpImmediateRefresh);
     }
-    /// The place of a condition's words.
+    /// The place of the label of a condition.
     [[nodiscard]] QRectF boxOf(const QString& condition) const {
         for (int i = 0; i < plane.itemCount(); ++i) {
             auto* words = qobject_cast<QCPItemText*>(plane.item(i));

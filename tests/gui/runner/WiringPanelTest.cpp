@@ -1,4 +1,4 @@
-// Devices as a person writes them.
+// Tests devices as a person writes them.
 #include <gtest/gtest.h>
 
 #include "app/gui/runner/WiringPanel.h"

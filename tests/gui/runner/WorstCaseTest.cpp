@@ -1,4 +1,4 @@
-// The worst case that a run's limits are shown with before it begins.
+// Tests the worst case that is shown with a run's limits before the run begins.
 #include <QCoreApplication>
 #include <QElapsedTimer>
 #include <QProcess>
@@ -12,7 +12,7 @@
 namespace tacto::test {
 namespace {
 
-/// The command line's output on the shipped profile's strongest command.
+/// The command line's result for the strongest command of the shipped profile.
 nlohmann::json encoded(const std::string& ohms) {
     QProcess cli;
     cli.start(
@@ -48,7 +48,7 @@ TEST(WorstCase, IsWhatTheCommandLineSays) {
         EXPECT_EQ(said["approved"].get<bool>(), shown.empty()) << ohms << ": " << shown;
         if (shown.empty()) continue;
         ++refused;
-        // Both begin with the quantity that is beyond its limit.
+        // Both texts begin with the quantity that exceeds its limit.
         const auto refusal = said["refusal"].get<std::string>();
         EXPECT_EQ(shown.substr(0, shown.find(" would be")), refusal.substr(0, refusal.find(" would be"))) << ohms;
     }

@@ -1,4 +1,4 @@
-// Captures.h - captures with a known truth for the oscilloscope's tests, and what a hand does on its screen.
+// Captures.h - captures with known values for the oscilloscope's tests, and positions for the mouse on its screen.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -10,8 +10,8 @@
 
 namespace tacto::test {
 
-/// Two biphasic pulses 4 ms apart (40 V and 40 mA, 200 µs a phase, 100 µs gap) in 10 ms, triggered at 1 ms: on a
-/// session's clock at 100 s.
+/// Returns two biphasic pulses 4 ms apart (40 V and 40 mA, 200 µs per phase, 100 µs gap) in a record of 10 ms,
+/// triggered at 1 ms, at 100 s on the session's clock.
 inline Capture twoPulses(double start_s = 99.999, double level = 40) {
     std::vector<SyntheticPhase> phases;
     append(phases, biphasic(start_s + 1e-3, level));
@@ -39,14 +39,14 @@ inline gui::ShownPtr prepared(Capture capture, const gui::MathOptions& math = {}
     return gui::prepareCapture(std::make_shared<const Capture>(std::move(capture)), math);
 }
 
-/// Places on the screen, in divisions from the left and above the middle.
+/// The pixel of a place on the screen, in divisions from the left and above the middle.
 inline QPoint at(const gui::ScopeScreen& screen, double across, double up) {
     const auto area = screen.area();
     return {static_cast<int>(std::lround(area.left() + across / 10 * area.width())),
             static_cast<int>(std::lround(area.top() + (0.5 - up / 8) * area.height()))};
 }
 
-/// The place of a time (on the axis) and a height.
+/// The pixel of a time on the axis and a height.
 inline QPoint atTime(const gui::ScopeScreen& screen, double time_s, double up) {
     return at(screen,
               (time_s - screen.timeAt(screen.area().left())) / (screen.area().width() * screen.secondsPerPixel()) * 10,

@@ -1,5 +1,5 @@
-// The work on captures before they are drawn: calculated traces, time 0 at the crossing of the trigger level, and which
-// of them are on the screen and behind it.
+// Tests the work on captures before they are drawn: calculated traces, time 0 at the crossing of the trigger level, and
+// the choice of the captures on the screen and behind.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -43,7 +43,7 @@ TEST(TraceMath, ADifferenceIsTakenAtTheSameTimeFromTheTrigger) {
     const auto difference = gui::differenceTrace(*a->traces[0], *b->traces[0]);
     EXPECT_NEAR(difference->valueAt(a->zero_s + 0.1e-3), 10, 0.2);
     EXPECT_NEAR(difference->valueAt(a->zero_s + 2e-3), 0, 0.2);
-    // Half the rate: between its samples by straight line.
+    // A trace at half the rate, read with straight lines between its samples.
     auto ramp = std::make_shared<std::vector<float>>();
     auto coarse = std::make_shared<std::vector<float>>();
     for (int i = 0; i < 100; ++i) ramp->push_back(static_cast<float>(i));
@@ -59,8 +59,8 @@ using gui::triggeredAtCrossing;
 
 constexpr double kSample_s = 500e-9;
 
-/// One steep pulse (an edge of 200 ns on samples 500 ns apart) with an onset `late` of a sample after one of them; the
-/// oscilloscope states its trigger there.
+/// A steep pulse (edge of 200 ns, samples 500 ns apart). Its onset, which is also the stated trigger, is the fraction
+/// `late` of a sample interval after a sample.
 std::shared_ptr<const Capture> steepPulse(double late, double level = 40) {
     const double onset_s = 1e-3 + late * kSample_s;
     std::vector<SyntheticPhase> phases;

@@ -1,4 +1,4 @@
-// The train that comes first from an armed output, drawn over the last one before it comes.
+// Tests the first train of an armed output, drawn over the last train before it comes.
 #include <gmock/gmock.h>
 
 #include "app/gui/theme/Theme.h"
@@ -13,7 +13,7 @@ using testing::HasSubstr;
 
 class Coming : public Scope {
 protected:
-    /// The last train of an output that is off.
+    /// Leaves the last train of an output that is off on the screen.
     void holdATrain() {
         openBench();
         deliver();
@@ -56,7 +56,7 @@ TEST_F(Coming, TheFirstTrainOfAnArmedOutputIsDrawnDashedOverTheLastOne) {
         draw();
         shot(scope, theme == gui::Theme::Dark ? "coming-dark" : "coming");
     }
-    // Ink beside the traces, where the train's plateau is and the last one's is not.
+    // Looks for ink where only the coming train has its plateau.
     const auto picture = scope.screen().grab().toImage();
     const auto first = scope.model().scaleOf(volts).heightOf(30.7);
     int coloured = 0;

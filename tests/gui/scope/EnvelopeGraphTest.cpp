@@ -1,4 +1,4 @@
-// The envelope on the raster engine, pixel by pixel: what is drawn is the extremes, whichever way it is drawn.
+// Tests the envelope pixel by pixel on the raster engine: the extremes are drawn, whichever method draws them.
 #include <gtest/gtest.h>
 
 #include "app/gui/scope/screen/EnvelopeGraph.h"
@@ -7,7 +7,7 @@
 namespace tacto::test {
 namespace {
 
-/// A plot that is nothing but its axis rect, 400 by 200 pixels, value 0 in the middle, ±4 divisions.
+/// A plot that consists only of its axis rect, 400 by 200 pixels, with value 0 in the middle and ±4 divisions.
 class Envelopes : public testing::Test {
 protected:
     Envelopes() {
@@ -31,7 +31,7 @@ protected:
         plot.xAxis->setRange(0, n);
         return plot.toPixmap(400, 200).toImage().convertToFormat(QImage::Format_RGB32);
     }
-    /// First and last blue row of a column; {-1, -1} without one.
+    /// The first and last blue row of a column; {-1, -1} if there is none.
     static std::pair<int, int> rows(const QImage& image, int x) {
         int first = -1, last = -1;
         for (int y = 0; y < image.height(); ++y) {
@@ -41,7 +41,7 @@ protected:
         }
         return {first, last};
     }
-    /// Checks every column against the samples that belong to it, and the one before.
+    /// Compares every column with its own samples and the one before.
     void expectExtremes(const std::vector<float>& samples) {
         const auto image = drawn(samples);
         const auto area = plot.axisRect()->rect();
@@ -54,7 +54,7 @@ protected:
                 low = std::min(low, samples[i]);
                 high = std::max(high, samples[i]);
             }
-            // The lowest row belongs to the axis: QCustomPlot clips it.
+            // The lowest row belongs to the axis, so QCustomPlot clips it.
             const auto y = [&](float v) {
                 return std::min(198.0, 200 - (static_cast<double>(v) + 4) / 8 * area.height());
             };
@@ -111,7 +111,7 @@ TEST_F(Envelopes, FewSamplesAreALineWithDotsAndAGapBreaksIt) {
     const auto image = drawn({0, 2, -2, NAN, 1, 1, 0, 0});
     EXPECT_TRUE(graph->drewSamples());
     EXPECT_EQ(graph->gapColumns(), 1);
-    const auto dot = rows(image, 50);  // the second sample, a dot of three pixels on the line's corner
+    const auto dot = rows(image, 50);  // the second sample: a dot of three pixels on the corner of the line
     EXPECT_NEAR(dot.first, 49, 1.01);
     for (int x = 104; x < 196; ++x) ASSERT_EQ(rows(image, x).first, -1) << "open from " << 100 << " to " << 200;
 }

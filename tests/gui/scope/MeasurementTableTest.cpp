@@ -1,4 +1,4 @@
-// The oscilloscope's readings of its captures: the chosen ones, their statistics, and the table of them.
+// Tests the oscilloscope's readings of its captures: the chosen readings, their statistics, and their table.
 #include <QMenu>
 #include <QScrollBar>
 #include <QSettings>
@@ -69,7 +69,7 @@ TEST_F(MeasurementTable, ShowsWhatCoreMeasures) {
     EXPECT_NEAR(volts.of(gui::Reading::SecondAmplitude).mean(), 40, 0.1);
     EXPECT_NEAR(volts.of(gui::Reading::SecondWidth).mean(), 200e-6, 1e-6);
 
-    // A row for each reading; for each channel the last value, mean, deviation, extremes and n.
+    // One row per reading; for each channel the last value, mean, deviation, extremes and n.
     ASSERT_EQ(cells->rowCount(), int(gui::kReadings));
     ASSERT_EQ(cells->columnCount(), 1 + 2 * 6);
     EXPECT_EQ(cells->horizontalHeaderItem(1)->text(), "Voltage");
@@ -98,7 +98,7 @@ TEST_F(MeasurementTable, ShowsWhatCoreMeasures) {
     EXPECT_EQ(table.statistics().captures(), 0U);
 }
 
-/// A voltage alone, with edges of 200 ns on samples 500 ns apart.
+/// A capture with a voltage only, with edges of 200 ns and samples 500 ns apart.
 Capture steepVoltage(double start_s = 99.999, double edge_s = 200e-9) {
     std::vector<SyntheticPhase> phases;
     append(phases, biphasic(start_s + 1e-3, 40, 200e-6, 100e-6, edge_s));
@@ -262,11 +262,11 @@ TEST(ChosenReadings, AreAddedRemovedAndRemembered) {
 }
 
 TEST(ChosenReadings, TheListStaysOpenUntilItsLastRowClosesIt) {
-    RecordProperty("hazard", "H2");  // otherwise Esc would be the natural way out, and Esc stops the output
+    RecordProperty("hazard", "H2");  // if Esc were needed to leave the list, it would stop the output
     gui::ChosenReadings chosen;
     QWidget window;
     window.show();
-    QTest::mouseMove(&window, {0, 0});  // a pointer that was nowhere has not moved to a row, says Qt 6.8
+    QTest::mouseMove(&window, {0, 0});  // Qt 6.8 ignores the first move of the mouse
     auto* menu = makeReadingsMenu(chosen, &window);
     menu->popup(window.mapToGlobal(QPoint(0, 0)));
     const auto place = [&](QAction* action) { return menu->actionGeometry(action).center(); };

@@ -1,4 +1,4 @@
-// Scales of the oscilloscope (steps, values as people write them, numbers on an axis), and the counts of its mask.
+// Tests the oscilloscope's scales (steps, values as people write them, numbers on an axis) and its mask counts.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -47,7 +47,7 @@ TEST(ScopeQuantity, IsReadAsPeopleWriteIt) {
     EXPECT_EQ(spin.text(), "150\u202fmV");
 }
 
-/// Over nine decades of spans, wherever they begin and whatever is least.
+/// Tries spans over nine decades with any start and any least distance.
 TEST(RoundTicker, NumbersAreRoundAndStandWhereTheyBelongAtEveryZoom) {
     Random random(7, "spans");
     for (int i = 0; i < 3000; ++i) {

@@ -1,4 +1,4 @@
-// ScopeBench.h - the oscilloscope on a simulated bench, at the first start of a program that remembers nothing.
+// ScopeBench.h - the oscilloscope on a simulated bench, as at the first start without stored settings.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -42,7 +42,7 @@ protected:
         ASSERT_IN_TIME(comesTrue([this] { return controller.telemetry().state == InterlockState::Armed; }));
         controller.drive(DriveSource::Manual, 0.5, 0.8);
     }
-    /// The first train of a bench that delivers is on the screen.
+    /// Opens a bench that delivers, and waits until its first train is on the screen.
     void showATrain() {
         openBench();
         deliver();
@@ -52,7 +52,7 @@ protected:
         scope.show(std::make_shared<const Capture>(twoPulses()));
         ASSERT_IN_TIME(comes([this] { return scope.model().shown() != nullptr; }));
     }
-    /// Looks as the window does, at 30 Hz.
+    /// Waits while refreshing at 30 Hz, as the window does.
     bool comes(const std::function<bool()>& isSo) {
         return comesTrue([&] {
             scope.refresh(controller.telemetry());
@@ -64,7 +64,7 @@ protected:
         return shown && !shown->capture->untriggered;
     }
     std::string status() { return scope.findChild<QLabel*>("scopeStatus")->text().toStdString(); }
-    /// Whether any label says so.
+    /// True if any label has this text.
     bool says(const QString& words) {
         const auto labels = scope.findChildren<QLabel*>();
         return std::any_of(labels.begin(), labels.end(),
@@ -72,7 +72,7 @@ protected:
     }
     void draw() { scope.screen().replot(QCustomPlot::rpImmediateRefresh); }
 
-    /// At a first start the screen has all the room: here everything else is switched on, too.
+    /// At the first start the screen has all the room; this switches everything else on.
     struct EverythingShown {
         EverythingShown() {
             QSettings().clear();

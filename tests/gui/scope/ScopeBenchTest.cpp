@@ -1,4 +1,4 @@
-// The oscilloscope when things do not go as wished: no trigger, no oscilloscope; and figures for other workspaces.
+// Tests the oscilloscope if things go wrong (no trigger, no oscilloscope), and its figures for other workspaces.
 #include <QLabel>
 #include <QPushButton>
 #include <QScrollBar>

@@ -1,4 +1,4 @@
-// Pictures and data that leave the oscilloscope as files.
+// Tests pictures and data that the oscilloscope saves as files.
 #include <QFile>
 #include <QImage>
 #include <QTemporaryDir>

@@ -1,4 +1,4 @@
-// The oscilloscope's content by itself: no widget is made here.
+// Tests the oscilloscope's content by itself, without any widget.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -52,7 +52,7 @@ TEST_F(Model, ATimeBaseKeepsTheTriggerWhereItStandsOnTheScreen) {
         EXPECT_NEAR(share(), before, 0.01) << base_s;
     }
     EXPECT_EQ(model.restingTime_s(), 0) << "so do + and -";
-    // Where it is out of view, the middle stays.
+    // If the trigger is out of view, the middle stays in place.
     model.setTimePerDivision(100e-6);
     model.setTimeCentre(4.2e-3);
     model.setTimePerDivision(10e-6);

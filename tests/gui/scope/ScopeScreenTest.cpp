@@ -1,4 +1,4 @@
-// The oscilloscope's screen, driven by mouse and keys on captures with known truth.
+// Tests the oscilloscope's screen with mouse and keys, on captures with known values.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ protected:
     }
     void draw() { screen.replot(QCustomPlot::rpImmediateRefresh); }
     gui::LaneScale scaleOf(const QString& key) { return model.scaleOf(*model.lane(key)); }
-    /// Voltage at the left edge, current at the right.
+    /// The lane's letter: voltage at the left edge, current at the right.
     QPoint letterOf(const QString& key) { return at(screen, key == amps ? 9.9 : 0.1, scaleOf(key).position); }
 
     gui::ScopeModel model;
@@ -178,8 +178,8 @@ TEST_F(Screen, TimeCursorsSnapToEdgesAndReadWhatIsBetween) {
         const auto& place = screen.overlay().timeCursors_s[static_cast<std::size_t>(cursor)];
         drag(screen, atTime(screen, place, 3), atTime(screen, to_s, 3));
     };
-    grab(0, 0.02e-3);  // two pixels off the first onset
-    grab(1, 3.98e-3);  // two pixels off the second pulse's
+    grab(0, 0.02e-3);  // two pixels beyond the first onset
+    grab(1, 3.98e-3);  // two pixels before the second pulse's onset
     const auto read = model.readout();
     EXPECT_NEAR(read.dx_s(), 4e-3, 1e-7);
     EXPECT_NEAR(1 / read.dx_s(), 250, 0.01);
@@ -204,7 +204,7 @@ TEST_F(Screen, CursorsReadEveryLaneInFlagsBeyondThePulse) {
     EXPECT_THAT(o.flags[1].rows[1].text.toStdString(), testing::AllOf(HasSubstr("mA ↓")));
     EXPECT_EQ(o.timeSpan, "Δ 200.0\u202fµs · 1/Δ 5.000\u202fkHz");
     shot(screen, "flags");
-    // A flag is a handle; on the plateau there is no edge.
+    // A flag can be gripped; there is no edge on the plateau.
     const auto grip = screen.gripAt(atTime(screen, -10e-6, 3.3));
     EXPECT_EQ(grip.grip, Grip::TimeCursor);
     EXPECT_EQ(grip.which, 0);
@@ -213,7 +213,7 @@ TEST_F(Screen, CursorsReadEveryLaneInFlagsBeyondThePulse) {
     EXPECT_THAT(screen.overlay().flags[0].rows[0].text.toStdString(), HasSubstr("40."));
     model.setLaneShown(amps, false);
     EXPECT_EQ(screen.overlay().flags[0].rows.size(), 1U);
-    // At the screen's edge, and when crossed, they stay on the screen and apart.
+    // At the edge and when crossed, the flags stay on the screen and do not overlap.
     model.dragTimeCursor(0, model.viewport().right_s(), 0);
     model.dragTimeCursor(1, model.viewport().left_s, 0);
     draw();
@@ -261,7 +261,7 @@ TEST_F(Screen, FlagsLeaveTheTracesInSightWhereThereIsRoom) {
     model.dragTimeCursor(1, 380e-9, 0);
     draw();
     shot(screen, "flags-on-one-edge");
-    // The right one stood over the top of the positive phase.
+    // The right flag once covered the top of the positive phase.
     const auto grip = [&](const QString& lane, double time_s, double level) {
         return screen.gripAt(atTime(screen, time_s, scaleOf(lane).heightOf(level))).grip;
     };
@@ -278,7 +278,7 @@ TEST_F(Screen, FlagsLeaveTheTracesInSightWhereThereIsRoom) {
 TEST_F(Screen, TicksAreRoundWhateverABoxMakesOfThem) {
     const auto roundOn = [&](const QCPAxis& axis) {
         auto labels = axis.tickVectorLabels();
-        labels.removeAll(QString());  // beside the other lane's part
+        labels.removeAll(QString());  // no numbers in the other lane's part
         ASSERT_GE(labels.size(), 3);
         const double first = QString(labels[0]).replace(QChar(0x2212), '-').toDouble();
         const double step = QString(labels[1]).replace(QChar(0x2212), '-').toDouble() - first;
@@ -353,7 +353,7 @@ TEST_F(Screen, LevelCursorsSnapToWhereTheSignalRests) {
     const double y2 = read.y2;
     QTest::keyClick(&screen, Qt::Key_Up);
     EXPECT_GT(model.readout().y2, y2);
-    // On the current they stay in place and read amperes.
+    // On the current's lane the cursors stay in place and read amperes.
     model.setActiveLane(amps);
     EXPECT_EQ(model.readout().unit, "A");
 }
@@ -370,7 +370,7 @@ TEST_F(Screen, BetweenTwoEdgesTheMouseReadsWidthAndInterval) {
         << "the rest between pulses";
     hoverAt(screen, atTime(screen, -0.5e-3, 0.2));
     EXPECT_FALSE(screen.overlay().hover);
-    // Moved by arrows, a cursor reads the same: back over the edges of the first pulse, then into its leading phase.
+    // A cursor moved by arrow keys reads the same: back over the edges of the first pulse, then into its leading phase.
     model.setTimeCursors(true);
     QTest::keyClick(&screen, Qt::Key_1);
     for (int i = 0; i < 4; ++i) QTest::keyClick(&screen, Qt::Key_Left, Qt::ControlModifier);

@@ -1,4 +1,4 @@
-// The oscilloscope's memory: choices are there again at the next start; and nonsense does no harm.
+// Tests that the oscilloscope's choices return at the next start, and that damaged settings do no harm.
 #include <QCheckBox>
 #include <QComboBox>
 #include <QSpinBox>
@@ -49,7 +49,7 @@ TEST_F(Scope, WhatWasChosenIsThereAgainAtTheNextStart) {
     scope.readings().choose(gui::Reading::Rms, true);
     chooseItem(scope, "Captures that stay", "and 8 before");
     ASSERT_IN_TIME(comes([&] { return find<QDoubleSpinBox>(scope, "Offset of Power") != nullptr; }));
-    chooseItem(scope, "Time base", "100\u202fµs/div");  // a fitting view shows the step above it: first another one
+    chooseItem(scope, "Time base", "100\u202fµs/div");  // the box may already show 200 µs: chooses another first
     chooseItem(scope, "Time base", "200\u202fµs/div");
     auto* offset = find<QDoubleSpinBox>(scope, "Offset of Current");
     offset->setFocus();

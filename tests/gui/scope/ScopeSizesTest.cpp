@@ -1,4 +1,4 @@
-// The oscilloscope in small and large windows, with small and large text, light and dark.
+// Tests the oscilloscope in small and large windows, with small and large text, light and dark.
 #include <QMenu>
 #include <QScrollArea>
 #include <QScrollBar>
@@ -15,7 +15,7 @@
 namespace tacto::test {
 namespace {
 
-/// The screen of a window of 1024x640 and 1440x900 with its docks, at every size of text.
+/// The page's size in windows of 1024x640 and 1440x900 with docks, at every text size.
 class ScopeSizes : public Scope, public testing::WithParamInterface<std::tuple<QSize, int>> {
 protected:
     ScopeSizes() : before_(QApplication::font()) { writeAt(before_.pointSizeF() * std::get<1>(GetParam()) / 100); }
@@ -24,7 +24,7 @@ protected:
         gui::applyTheme(gui::Theme::Light);
     }
 
-    /// Tools that have no room stand in the menu of the last button of their row.
+    /// True if a tool without room is in the menu of the last button in its row.
     bool isInMoreTools(const char* name) {
         auto* more = scope.findChild<QToolButton*>("moreTools");
         if (more == nullptr || !more->isVisible()) return false;
@@ -33,7 +33,7 @@ protected:
     }
 
 private:
-    /// Writes in another size as the window does: a style sheet would keep the fonts it met.
+    /// Changes the text size as the window does: a style sheet would keep its first fonts.
     void writeAt(double points) {
         auto font = before_;
         font.setPointSizeF(points);
@@ -50,7 +50,7 @@ TEST_P(ScopeSizes, NothingIsCutOrFoldedAway) {
     const auto [size, percent] = GetParam();
     scope.resize(size);
     showTwoPulses();
-    for (int i = 0; i < 5; ++i) QCoreApplication::processEvents();  // layouts settle
+    for (int i = 0; i < 5; ++i) QCoreApplication::processEvents();  // the layouts settle
     EXPECT_EQ(scope.size(), size) << "nothing forces it to be larger";
     draw();
     const QRect all = scope.rect();
@@ -67,7 +67,7 @@ TEST_P(ScopeSizes, NothingIsCutOrFoldedAway) {
     const auto* cells = scope.findChild<QTableWidget*>("measurements");
     for (int row = 0; row < cells->rowCount(); ++row) {
         for (int c = 0; c < cells->columnCount(); ++c) {
-            if (cells->isColumnHidden(c)) continue;  // the tool tip has what a hidden column would show
+            if (cells->isColumnHidden(c)) continue;  // the tool tip shows what a hidden column contains
             const auto* item = cells->item(row, c);
             EXPECT_GE(cells->columnWidth(c) - 4, QFontMetrics(item->font()).horizontalAdvance(item->text()))
                 << item->text().toStdString();
@@ -76,7 +76,7 @@ TEST_P(ScopeSizes, NothingIsCutOrFoldedAway) {
     EXPECT_EQ(cells->horizontalScrollBar()->maximum(), 0);
     EXPECT_GT(scope.screen().axisRect()->width(), 100);
     EXPECT_GT(scope.screen().axisRect()->height(), 60);
-    // The column of controls scrolls; what is in it has its full width.
+    // The column of controls scrolls down; its contents have their full width.
     auto* controls = scope.findChild<QScrollArea*>("scopeControls");
     ASSERT_NE(controls, nullptr);
     if (controls->isVisible()) {
@@ -104,7 +104,7 @@ TEST_F(Scope, TheControlsColumnGoesWhereThereIsNoRoomAndComesWhenAskedFor) {
     showTwoPulses();
     auto* button = find<QToolButton>(scope, "Controls");
     auto* controls = scope.findChild<QScrollArea*>("scopeControls");
-    // Without room the button is in the More menu, which clicks it.
+    // If the button has no room, the More menu has an entry that clicks it.
     const auto ask = [&] { button->isVisible() ? click(*button) : button->click(); };
     EXPECT_TRUE(controls->isVisible());
     scope.resize(420, 480);

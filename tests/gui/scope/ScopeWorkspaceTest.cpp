@@ -1,4 +1,4 @@
-// The oscilloscope as a person uses it: with the simulated bench, with files, by keys and mouse.
+// Tests the oscilloscope as a person uses it: with the simulated bench, with files, by keys and mouse.
 #include <QClipboard>
 #include <QComboBox>
 #include <QFileDialog>
@@ -54,7 +54,7 @@ TEST_F(Scope, WaitsForATriggerAndSaysSoThenShowsWhatIsDelivered) {
     ASSERT_IN_TIME(comes([&] { return triggered(); }));
     EXPECT_TRUE(scope.model().shown()->capture->simulated);
     ASSERT_IN_TIME(comes([&] { return scope.table().statistics().captures() >= 3; }));
-    // Auto: a fifth of what is commanded.
+    // In Auto the level is a fifth of the commanded amplitude.
     const double commanded = controller.telemetry().amplitude_v;
     EXPECT_IN_TIME(comes([&] {
         const double level = scope.settings().triggerLevel;
@@ -89,7 +89,7 @@ TEST_F(Scope, SingleTakesOneAndHoldKeepsThePicture) {
 TEST_F(Scope, DraggingTheTriggerChangesItsLevelInNormal) {
     openBench();
     deliver();
-    // Once the amplitude has settled, the level lies on the screen.
+    // After the amplitude has settled, the level is on the screen.
     ASSERT_IN_TIME(comes([&] { return scope.table().statistics().captures() >= 5; }));
     auto& screen = scope.screen();
     QTest::keyClick(&screen, Qt::Key_N);
@@ -103,7 +103,7 @@ TEST_F(Scope, DraggingTheTriggerChangesItsLevelInNormal) {
     const double perDivision = scope.model().viewport().lanes.at("channel/voltage").perDivision;
     drag(screen, at(screen, 9.95, height), at(screen, 9.95, height + 0.3));
     EXPECT_NEAR(scope.settings().triggerLevel - before, 0.3 * perDivision, 0.05 * perDivision);
-    // In Auto the level follows the command: there is nothing to drag.
+    // In Auto the level follows the command and cannot be dragged.
     QTest::keyClick(&screen, Qt::Key_A);
     scope.refresh(controller.telemetry());
     EXPECT_TRUE(screen.overlay().trigger->held);
@@ -172,7 +172,7 @@ TEST_F(Scope, CalculationsSpectrumAndReferencesAreSwitchedOnByHand) {
     click(*find<QCheckBox>(scope, "Spectrum"));
     scope.model().fit();
     EXPECT_IN_TIME(comes([&] { return find<QWidget>(scope, "Spectrum") != nullptr; }));
-    QCoreApplication::processEvents();  // layouts settle
+    QCoreApplication::processEvents();  // the layouts settle
     QCoreApplication::processEvents();
     shot(scope, "workspace-everything");
 }
@@ -243,7 +243,7 @@ TEST_F(Scope, TheListOfTimeBasesMarksThePresentOneAndEndsWhereSamplesHaveNoShape
     }
     EXPECT_EQ(marked, QStringList("500\u202fµs/div"));
     EXPECT_EQ(refused, QStringList("100\u202fns/div")) << "samples 500 ns apart";
-    scope.model().setTimePerDivision(150e-6);  // between two steps, tool and view show the grid's step
+    scope.model().setTimePerDivision(150e-6);  // between two steps: tool and view show the grid's step
     EXPECT_EQ(find<QToolButton>(scope, "Time base tool")->text(), "200\u202fµs/div");
     EXPECT_EQ(find<QComboBox>(scope, "Time base")->currentText(), "200\u202fµs/div");
 }
@@ -258,7 +258,7 @@ TEST_F(Scope, CursorsReadInFlagsAndForThoseWhoDoNotSeeThem) {
     EXPECT_EQ(screen.overlay().flags.size(), 2U);
     EXPECT_EQ(screen.overlay().levelTexts.size(), 2U);
     EXPECT_THAT(read(), testing::AllOf(HasSubstr("1/Δ"), HasSubstr("y₂")));
-    // The keys put t₁ on the first onset, and t₂ on the second pulse's.
+    // The keys put t₁ on the first onset and t₂ on the second pulse's onset.
     QTest::keyClick(&screen, Qt::Key_1);
     for (int i = 0; i < 4; ++i) QTest::keyClick(&screen, Qt::Key_Left, Qt::ControlModifier);
     QTest::keyClick(&screen, Qt::Key_2);
@@ -266,7 +266,7 @@ TEST_F(Scope, CursorsReadInFlagsAndForThoseWhoDoNotSeeThem) {
     EXPECT_THAT(read(),
                 testing::AllOf(HasSubstr("t₁ 0"), HasSubstr("Δ 4.000\u202fms"), HasSubstr("1/Δ 250.0\u202fHz")));
     EXPECT_EQ(screen.overlay().timeSpan, "Δ 4.000\u202fms · 1/Δ 250.0\u202fHz");
-    QCoreApplication::processEvents();  // layouts settle
+    QCoreApplication::processEvents();  // the layouts settle
     QCoreApplication::processEvents();
     shot(scope, "workspace-cursors");
 }
@@ -399,7 +399,7 @@ TEST_F(Scope, EveryStepOfTheWorkHasAKey) {
     for (auto* dialog : QApplication::topLevelWidgets()) {
         if (dialog != &scope && dialog->isVisible()) dialog->close();
     }
-    // In a field these keys are letters.
+    // In an input field these keys type letters.
     auto* level = find<gui::QuantitySpin>(scope, "Mask: Voltage ±");
     level->setFocus();
     const bool running = scope.running();

@@ -1,4 +1,4 @@
-// The spectrum of a trace: frequencies, levels and peaks of sines with a known truth.
+// Tests the spectrum of a trace: frequencies, levels and peaks of known sines.
 #include <QCheckBox>
 #include <QComboBox>
 #include <gmock/gmock.h>
@@ -14,7 +14,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// `n` samples of `of(i)`.
+/// A trace of `n` samples with the values of(i).
 gui::TracePtr traceOf(int n, double rate_hz, const std::function<double(int)>& of) {
     auto samples = std::make_shared<std::vector<float>>();
     for (int i = 0; i < n; ++i) samples->push_back(static_cast<float>(of(i)));
@@ -22,7 +22,7 @@ gui::TracePtr traceOf(int n, double rate_hz, const std::function<double(int)>& o
 }
 
 TEST(SpectrumPanel, EachWindowReadsASineRightAndNamesItsPeaks) {
-    // 1 kHz and 2.5 kHz on lines of 8192 samples, some noise.
+    // 1 kHz and 2.5 kHz, exactly on lines for 8192 samples, with some noise.
     constexpr double kRate = 81'920;
     Random random(3, "spectrum");
     const auto trace = traceOf(8192, kRate, [&](int i) {

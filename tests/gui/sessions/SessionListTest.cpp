@@ -1,4 +1,4 @@
-// The list of sessions: five thousand at once, found by what was said of them, and never believed against a session.
+// Tests the list of sessions: five thousand at once, found by their texts, and never trusted against a session itself.
 #include <QComboBox>
 #include <QDir>
 #include <QElapsedTimer>
@@ -57,7 +57,7 @@ protected:
         choose(row);
         ASSERT_IN_TIME(comesTrue([&] { return field("labelOperator").isVisible(); }));
     }
-    /// The only session, chosen.
+    /// Shows the only session, selected.
     void showOne() {
         begin();
         ASSERT_NO_FATAL_FAILURE(listed(1));
@@ -85,7 +85,7 @@ TEST_F(Sessions, WhereALongNameLeavesNoRoomForTheNoteItsColumnGoes) {
     begin({1200, 640});
     listed(1);
     letLive(100);
-    for (const int width : {748, 1200}) {  // the least that it may have
+    for (const int width : {748, 1200}) {  // 748 is the smallest possible width
         workspace.resize(width, 640);
         EXPECT_IN_TIME(comesTrue([&] { return table().horizontalScrollBar()->maximum() == 0; })) << width;
     }
@@ -117,7 +117,7 @@ TEST_F(Sessions, ACellThatIsTooNarrowSaysAllOfItInItsTip) {
 }
 
 TEST_F(Sessions, FiveThousandAreListedInUnderASecond) {
-    // Fifty that differ, a hundred names each: what a listing does for a name does not depend on whose bytes they are.
+    // Fifty different sessions under a hundred names each: equal contents do not make the listing any faster.
     constexpr int kDifferent = 50, kNames = 100;
     for (int i = 0; i < kDifferent; ++i) {
         const auto path = sessions.write({.name = fmt::format("run-{:02}-00", i),
@@ -257,7 +257,7 @@ TEST_F(Sessions, WhatAnIndexSaysWrongIsCorrectedBeforeItIsReadTwice) {
     listed(1);
     ASSERT_EQ(cell(0, 0), "fail");
     workspace.hide();
-    // A lie that fits: as if the session had said "pass".
+    // A false entry that looks right: as if the session's verdict were "pass".
     const auto file =
         fs::path(QDir(qEnvironmentVariable("XDG_CACHE_HOME")).filePath("tactoscope/sessions.index").toStdString());
     sqlite3* database = nullptr;

@@ -1,4 +1,4 @@
-// Sessions in sentences: what happened in one, and what differs between two; its picture.
+// Tests sessions in sentences (what happened, and what differs between two) and the picture of a session.
 #include <QLabel>
 #include <QRegularExpression>
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// Sessions as files and as a workspace: listed, searched, exported, replayed, verified.
+// Tests sessions as files and in their workspace: listed, searched, exported, replayed, verified.
 #include <QPdfDocument>
 #include <QPdfView>
 #include <QPushButton>
@@ -30,7 +30,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Whether the plot's watermark is seen.
+/// True if the plot's watermark is visible.
 bool saysSimulated(const QCustomPlot& plot) {
     for (int i = 0; i < plot.itemCount(); ++i)
         if (plot.item(i)->objectName() == "watermark") return plot.item(i)->visible();
@@ -43,7 +43,7 @@ protected:
     void TearDown() override {
         for (const auto& made : made_) std::filesystem::remove(made);
     }
-    /// The session of a simulated bench that ran for so long.
+    /// Records a session on a simulated bench for so many seconds.
     std::filesystem::path record(const std::vector<const char*>& uris, int seconds, const QString& mark = {}) {
         gui::LiveOrder order;
         for (const auto* uri : uris) order.uris.push_back(*DeviceUri::parse(uri));
@@ -69,12 +69,12 @@ protected:
         workspace_->show();
         return *workspace_;
     }
-    /// The workspace with the session chosen.
+    /// Shows the workspace with the session selected.
     gui::SessionsWorkspace& opened() {
         EXPECT_TRUE(show().openSession(QString::fromStdString(session.string())));
         return *workspace_;
     }
-    /// Presses it once it can be pressed.
+    /// Waits until the button can be pressed, then presses it.
     void press(const char* name) {
         auto* button = find<QPushButton>(*workspace_, name);
         ASSERT_NE(button, nullptr) << name;
@@ -198,10 +198,10 @@ TEST_F(Recorded, IsFoundVerifiedAndSearchedInTheWorkspace) {
 TEST(Background, NewWorkWaitsForTheOldAndTheWindowForNeither) {
     gui::Background background;
     std::atomic<bool> let{false};
-    std::vector<std::string> order;  // the threads' turns, one after the other
+    std::vector<std::string> order;  // filled by the threads in the order of their turns
     bool first = false, second = false;
     background.start(
-        [&](const gui::WorkPort&) -> Result<void> {  // deaf to cancel
+        [&](const gui::WorkPort&) -> Result<void> {  // ignores a cancel
             while (!let) std::this_thread::yield();
             order.emplace_back("first");
             return {};
@@ -213,7 +213,7 @@ TEST(Background, NewWorkWaitsForTheOldAndTheWindowForNeither) {
             return {};
         },
         [&](const Result<void>&) { second = true; });
-    let = true;  // never reached if start() waited
+    let = true;  // not reached if start() waits
     ASSERT_IN_TIME(comesTrue([&] { return second; }));
     EXPECT_EQ(order, (std::vector<std::string>{"first", "second"}));
     EXPECT_FALSE(first) << "its result is not wanted any more";

@@ -1,4 +1,4 @@
-// WrittenSessions.h - sessions as a laboratory has them, written into the sessions folder and removed afterwards.
+// WrittenSessions.h - realistic sessions, written into the sessions folder and removed afterwards.
 //
 // Thread-safety: the test's own thread.
 #pragma once
@@ -19,7 +19,7 @@ struct WrittenSession {
     std::string name;
     std::string protocol = "separability";
     std::string verdict = "pass";
-    double amplitude_v = 39.8;  ///< amplitude of the condition rough-high
+    double amplitude_v = 39.8;  ///< of the condition rough-high
     std::string wallStart = "2026-11-20T10:02:05Z";
     bool simulated = true;
 };
@@ -36,7 +36,7 @@ public:
 
     [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
 
-    /// 25 trials of each condition, a mark, a refusal, and what a run says of itself; closed, and ten seconds old.
+    /// Writes 25 trials of each condition, a mark, a refusal and a run's own records; closed, and ten seconds old.
     std::filesystem::path write(const WrittenSession& wanted) const {
         const auto path = folder_ / (wanted.name + ".tacto");
         VirtualClock clock;
@@ -70,7 +70,7 @@ public:
         for (int trial = 0; wanted.protocol == "separability" && trial < 100; ++trial) {
             pass(1);
             const auto& [condition, features] = conditions[trial % 4];
-            const double noise = 0.02 * (trial / 4 % 5 - 2);  // noise with mean 0
+            const double noise = 0.02 * (trial / 4 % 5 - 2);  // with mean 0
             EXPECT_TRUE(session.trial(clock.now(), condition,
                                       {{"amplitude_v", features.first + noise}, {"interval_s", features.second}}));
         }
@@ -90,7 +90,7 @@ public:
         age(path);
         return path;
     }
-    /// A session that was changed a while ago.
+    /// Makes a session look as if it was last changed ten seconds ago.
     static void age(const std::filesystem::path& path) {
         std::filesystem::last_write_time(path, std::filesystem::last_write_time(path) - std::chrono::seconds(10));
     }

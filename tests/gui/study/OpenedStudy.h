@@ -1,4 +1,4 @@
-// OpenedStudy.h - a study in a scratch folder with cheap keys, and the page that shows it.
+// OpenedStudy.h - a study in a scratch folder whose keys are quick to derive, and the page that shows it.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -28,7 +28,7 @@ inline constexpr const char* kWords = "correct horse 4711";
 
 class StudyInThePage : public testing::Test {
 protected:
-    /// `cheap`: keys in a place of their own that cost no second; else where the command line's program finds them.
+    /// `cheap`: quick keys in a separate place; otherwise keys where the command line's program finds them.
     explicit StudyInThePage(bool cheap = true) : cheap_(cheap) {
         page.resize(1100, 640);
         page.show();
@@ -50,7 +50,7 @@ protected:
         if (!cheap_) return {};
         return {&SystemTime::real(), scratch.path() / "keys", PassphraseCost::least()};
     }
-    /// Made elsewhere, and closed.
+    /// Makes the study elsewhere and closes it.
     void make() {
         const auto words = Passphrase::from(kWords).value();
         const auto made = Study::create(folder().toStdString(), settings(), words, around());

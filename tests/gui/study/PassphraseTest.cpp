@@ -1,4 +1,4 @@
-// A passphrase at the window: typed into locked memory, shown as dots, wrong ones refused in place.
+// Tests a passphrase in the window: typed into locked memory, shown as dots, refused in place if wrong.
 #include <QClipboard>
 #include <QDialogButtonBox>
 #include <QSettings>

@@ -1,4 +1,4 @@
-// The form of a new study derives from the core's table, and a study is made of it.
+// Tests that the form of a new study follows the core's table, and that a study can be made from it.
 #include <QScrollArea>
 #include <set>
 
@@ -12,7 +12,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Fields of the core that the program fills in by itself.
+/// Fields of the core's table that the program fills in.
 const std::vector<std::string> kOfTheProgram{"id",
                                              "kind",
                                              "approval.protocol_sha256",

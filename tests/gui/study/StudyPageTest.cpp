@@ -1,4 +1,4 @@
-// A study in the window: enrolled, consented, left, withdrawn, reported and exported, as a person does it.
+// Tests a study in the window as a person uses it: enrol, consent, leave, withdraw, report, export.
 #include <QComboBox>
 #include <QFileDialog>
 
@@ -21,7 +21,7 @@ protected:
         make();
         open();
     }
-    /// Returns the code as the dialog shows it.
+    /// Enrols a participant and returns the code that the dialog shows.
     QString enrol(bool isVirtual, int seed = 1) {
         press("enrol");
         auto* asks = dialog("enrolDialog");
@@ -171,10 +171,10 @@ TEST_F(StudyPageTest, AnOlderLedgerIsRefusedAndGoneBackToByItsWordAndThePassphra
     EXPECT_TRUE(study.study()->enrol(another));
 }
 
-/// A virtual participant's study, with one session that began some days ago and has ended.
+/// A virtual participant's study with one finished session that began some days ago.
 class StudyWithASession : public StudyInThePage {
 protected:
-    /// Makes it and opens it in the window; the value is the session's id.
+    /// Makes the study, opens it in the window and returns the session's id.
     QString withSession(int days) {
         HandTime then;
         then.now =
@@ -345,7 +345,7 @@ TEST_F(StudyWithASession, TheDayAfterIsRefusedOnTheSameDay) {
 class StudyOfThisUser : public StudyInThePage {
 protected:
     StudyOfThisUser() : StudyInThePage(false) {}
-    /// The command line's program writes a report into a file of that name.
+    /// Lets the command line's program write a report into a file of this name.
     void report(const char* action, const QString& name) {
         ASSERT_NO_FATAL_FAILURE(make());
         ASSERT_NO_FATAL_FAILURE(open());

@@ -1,4 +1,4 @@
-// A second step takes no press that was made before it was in sight (H12).
+// Tests that the button of a second step ignores presses made before it was visible (H12).
 #include <QMouseEvent>
 #include <QSignalSpy>
 #include <QTest>
@@ -21,7 +21,7 @@ protected:
         page.show();
         ASSERT_IN_TIME(QTest::qWaitForWindowExposed(&page));
     }
-    /// Pressed so long ago; the window has heard of it only now.
+    /// Sends a press that was made some time ago but arrives only now.
     void pressed(steady_clock::duration ago) {
         const QPointF middle = button.rect().center();
         const auto at = (steady_clock::now() - ago).time_since_epoch();

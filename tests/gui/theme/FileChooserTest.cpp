@@ -1,4 +1,4 @@
-// The program's file chooser beside a session that is being recorded.
+// Tests the program's file chooser while a session is being recorded.
 #include <QFileDialog>
 #include <QPointer>
 #include <QTemporaryDir>
@@ -17,7 +17,7 @@
 namespace tacto::test {
 namespace {
 
-/// Whether another process would find the first byte of the file locked.
+/// True if another process would find the first byte of the file locked.
 bool isLocked(const QByteArray& path) {
     const pid_t child = ::fork();
     if (child == 0) {
@@ -34,8 +34,8 @@ bool isLocked(const QByteArray& path) {
     return WIFEXITED(status) && WEXITSTATUS(status) == 1;
 }
 
-/// A process that closes any descriptor of a file loses its locks on it, SQLite's among them: then the next program
-/// that opens the session cuts its index off under the writer, which ends by SIGBUS.
+/// A process that closes any descriptor of a file loses all its locks on it, also SQLite's. The next program to open
+/// the session would then truncate its index during writing, and the writer would end with SIGBUS.
 TEST(FileChooser, OpensNoneOfTheFilesThatItLists) {
     RecordProperty("hazard", "H8");
     const QTemporaryDir folder;
@@ -56,7 +56,7 @@ TEST(FileChooser, OpensNoneOfTheFilesThatItLists) {
 
     QWidget asking;
     asking.show();
-    for (const auto& shown : {folder.path(), QString()}) {  // the second round begins where the first ended
+    for (const auto& shown : {folder.path(), QString()}) {  // the second round starts in the folder of the first
         gui::FileQuestion question;
         question.title = "Open";
         question.folder = shown;
@@ -67,7 +67,7 @@ TEST(FileChooser, OpensNoneOfTheFilesThatItLists) {
         ASSERT_IN_TIME(comesTrue([&] { return dialog->isVisible(); }));
         for (const auto view : {QFileDialog::Detail, QFileDialog::List}) {
             dialog->setViewMode(view);
-            letLive(500);  // the chooser looks at files on a thread of its own
+            letLive(500);  // the chooser reads files on its own thread
         }
         EXPECT_TRUE(isLocked(path)) << shown.toStdString();
         dialog->selectFile(folder.filePath("capture.csv"));

@@ -1,4 +1,4 @@
-// The walk of looks finds a fault that is put there, and accepts what is sound.
+// Tests that the search for visible faults finds faults made on purpose, and accepts sound widgets.
 #include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>

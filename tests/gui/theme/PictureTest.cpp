@@ -1,4 +1,4 @@
-// Pictures of plots: of the moment that they were asked for, with a caption that says what they show; and their tools.
+// Tests pictures of plots: taken at the moment of asking, with a caption of what they show; and their tools.
 #include <QClipboard>
 #include <QFile>
 #include <QHBoxLayout>

@@ -1,4 +1,4 @@
-// The core's words as the window shows them.
+// Tests how the window shows texts of the core.
 #include <gtest/gtest.h>
 
 #include "app/gui/theme/Text.h"

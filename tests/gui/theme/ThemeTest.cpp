@@ -1,4 +1,4 @@
-// The promises of the design about colour: told apart by dash as well, legible, and red for STOP and faults alone.
+// Tests the design's rules on colour: lines also differ by dash, text is legible, only STOP and faults are red.
 #include <QApplication>
 #include <QCheckBox>
 #include <QComboBox>
@@ -39,7 +39,7 @@ protected:
 INSTANTIATE_TEST_SUITE_P(Both, InTheme, testing::Values(Theme::Light, Theme::Dark),
                          [](const auto& theme) { return theme.param == Theme::Dark ? "Dark" : "Light"; });
 
-/// A hue that a person calls red, like STOP's; vermilion (#D55E00) and purple (#CC79A7) are none.
+/// True for hues that a person calls red, like STOP's; not for vermilion (#D55E00) and purple (#CC79A7).
 bool isRed(const QColor& colour) {
     return colour.hsvSaturationF() > 0.4 && (colour.hsvHue() >= 345 || (colour.hsvHue() >= 0 && colour.hsvHue() <= 12));
 }
@@ -228,7 +228,7 @@ TEST_P(InTheme, TextHasAContrastOfFourAndAHalf) {
     const auto& c = gui::colours();
     for (const auto& words : {c.text, c.quiet, c.amberText, c.fault, c.passText, c.currentText})
         EXPECT_GE(contrast(words, c.base), 4.5) << words.name().toStdString();
-    // The colours of delegates: cells near and beyond their limit, those within it, chosen rows.
+    // Colours used in cells: near and beyond the limit, within the limit, and selected rows.
     const std::pair<QColor, QColor> cells[] = {
         {c.text, c.passCell}, {c.passText, c.passCell}, {c.text, c.amberCell}, {c.amberText, c.amberCell},
         {c.failText, c.fail}, {c.amberInk, c.amber},    {c.text, c.selection}};
@@ -248,7 +248,7 @@ TEST_P(InTheme, TextHasAContrastOfFourAndAHalf) {
     }
 }
 
-/// The colours of a shown widget's picture that are at least 3:1 from that at `at`, as a share of its pixels.
+/// Returns the share of the pixels with a contrast of at least 3:1 to the colour at `at`.
 double shareSeenOn(QWidget& widget, const QPoint& at) {
     const auto picture = widget.grab().toImage();
     const auto ground = picture.pixelColor(at);

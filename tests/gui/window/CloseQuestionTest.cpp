@@ -1,4 +1,4 @@
-// Closing the window: the output goes off first, then comes the question; nothing that was written is lost unasked.
+// Tests closing the window: the output goes off first, then comes the question; no text is lost without asking.
 #include <QCheckBox>
 #include <QLineEdit>
 #include <QMessageBox>
@@ -32,7 +32,7 @@ protected:
         click(*asked()->button(button));
         QCoreApplication::processEvents();
     }
-    /// Words in a new protocol's script that are not saved.
+    /// Types unsaved text into the script of a new protocol.
     gui::ScriptEditor* writeScript() {
         visit(6);
         QPushButton* button = nullptr;
@@ -45,10 +45,10 @@ protected:
             }
             return editor != nullptr;
         }));
-        QTest::keyClicks(&editor->code(), "//mine");  // not Space, which stops wherever no text is written
+        QTest::keyClicks(&editor->code(), "//mine");  // without Space, which stops the output outside text fields
         return editor;
     }
-    /// A run that delivers for as long as it likes.
+    /// Starts a run that delivers until it is stopped.
     void runSlowly() {
         visit(3);
         QPushButton* run = nullptr;
@@ -144,7 +144,7 @@ TEST_F(Closing, WhoGoesBackToTheTextKeepsTheWindow) {
     window.close();
     answer(QMessageBox::Save);
     click(*find<QPushButton>(*editor, "Do not save"));
-    // A later save is a save and nothing else.
+    // Saving later only saves and does not close the window.
     QTest::keyClick(&editor->code(), Qt::Key_S, Qt::ControlModifier);
     QTest::keyClick(editor->findChild<QLineEdit*>("protocolName"), Qt::Key_Return);
     EXPECT_TRUE(std::filesystem::exists(userProtocolsFolder() / "my-protocol.js"));
@@ -180,7 +180,7 @@ TEST_F(Closing, EscThatStopsTheOutputLeavesTheSearchOfTheScriptOpen) {
     QTest::keyClick(words, Qt::Key_Escape);
     EXPECT_IN_TIME(comesTrue([this] { return state() == InterlockState::Disarmed; }));
     EXPECT_TRUE(words->isVisible());
-    letLive(300);  // the editor looks at the output
+    letLive(300);  // time for the editor to see the state of the output
     QTest::keyClick(words, Qt::Key_Escape);
     EXPECT_FALSE(words->isVisible()) << "there was nothing to stop";
     EXPECT_TRUE(editor->isVisible());

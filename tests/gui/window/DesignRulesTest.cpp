@@ -1,4 +1,4 @@
-// The rules of the design that hold for everything shown: the grid, the sizes of text, icons, one of each control.
+// Tests the design's rules for everything shown: grid, text sizes, icons, one variant of each control.
 #include <QAbstractItemView>
 #include <QAbstractSpinBox>
 #include <QComboBox>
@@ -26,7 +26,7 @@ namespace {
 class DesignRules : public Window {
 protected:
     ~DesignRules() override { QSettings().clear(); }
-    /// Follows each workspace, and the oscilloscope; the live one with every dock.
+    /// Calls `follow` on each workspace and the oscilloscope; on the live one with every dock open.
     template <class Follow>
     void onEachPage(Follow follow) {
         for (int page = 0; page < 8; ++page) {
@@ -45,7 +45,7 @@ protected:
             if (widget->isVisible() && widget->window() == &window) all.push_back(widget);
         return all;
     }
-    /// Small, body, large and display, each `times` as large; the state's word gives way where it has no room.
+    /// Expects small, body, large and display text, each `times` as large; the state's word may be smaller.
     void expectSizesOfText(double times) {
         std::map<std::string, std::string> others;
         const double designed[] = {9 * times, 10.5 * times, 15 * times, 28 * times};
@@ -113,8 +113,8 @@ TEST_F(DesignRules, APageHasOneFilledButtonAtMost) {
     const auto check = [this](int page) {
         QStringList filled;
         for (auto* button : shown<QPushButton>()) {
-            if (button->property("role") == "segment") continue;  // this chooses one of several and is no action
-            // Beside its words.
+            if (button->property("role") == "segment") continue;  // chooses one of several, which is no action
+            // Looks next to the text.
             const auto ground = button->grab().toImage().pixelColor(QPoint(6, button->height() / 2));
             if (button->isEnabled() && ground == gui::colours().primary) filled << button->text();
         }

@@ -1,4 +1,4 @@
-// Dialogs open in one way, beside the window: no click and no key is kept from STOP.
+// Tests that all dialogs open in the same way, next to the window, and take no click or key from STOP.
 #include <QAbstractButton>
 #include <QDir>
 #include <QFile>
@@ -109,7 +109,7 @@ TEST_F(Asking, AFileThatIsNotThereIsSaidInPlace) {
     EXPECT_THAT(trouble().toStdString(), HasSubstr("missing.json is not there"));
 }
 
-// Qt lists no such name: it comes from elsewhere, with a mark in place of the byte that UTF-8 does not have.
+// Qt does not list such a name. It comes from elsewhere, with a replacement for the byte that is invalid in UTF-8.
 TEST_F(Asking, AFileWhoseNameIsNotUtf8IsSaidInPlace) {
     static_cast<void>(folder.write("caf\xE9.json", "{}"));
     ask(gui::FileQuestion::Wants::ExistingFile);
@@ -149,7 +149,7 @@ TEST_F(Asking, AFolderThatCannotBeMadeIsSaidInPlace) {
 }
 
 TEST(OnDesktop, WithoutAProgramForItThePlaceIsSaid) {
-    // Off screen there is no desktop.
+    // There is no desktop on the offscreen platform.
     EXPECT_EQ(gui::openOnDesktop("/home/lab/report.pdf"),
               "This desktop has no program that opens /home/lab/report.pdf.");
 }

@@ -1,4 +1,4 @@
-// Once the output is off, no bar shows what was delivered as if it were still on.
+// Tests that after the output went off, no bar shows what was delivered as if it were still on.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// The bars of the exposure table match the numbers beside them.
+// Tests that the bars in the exposure table match the numbers next to them.
 #include <QPaintEvent>
 #include <QTest>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace tacto::test {
 namespace {
 
-/// The painted part of a widget.
+/// Records the painted part of a widget.
 class Painted final : public QObject {
 public:
     QRegion region;
@@ -47,7 +47,7 @@ TEST(ExposureTable, ANewValueDrawsItsBarAgainAlsoWhereItStandsUnderTheQuantity) 
         table.viewport()->installEventFilter(&painted);
         table.show(after, {});
         letLive(50);
-        constexpr int kRow = 1;  // below the set's name
+        constexpr int kRow = 1;  // the row below the set's name
         const int barColumn = table.isColumnHidden(3) ? 0 : 3;
         const auto cell = table.visualRect(table.model()->index(kRow, barColumn));
         EXPECT_TRUE(painted.region.contains(cell.center())) << "the bar of 10 V stands beside 30.7 V, width " << width;
@@ -88,7 +88,7 @@ TEST(ExposureTable, LimitSetsStandUnderTheirTitles) {
     EXPECT_EQ(table.item(0, 0)->text().toStdString(), "The paper's own limits");
     EXPECT_TRUE(table.item(1, 0)->toolTip().endsWith("limit of The paper's own limits"));
     EXPECT_EQ(table.item(2, 0)->text().toStdString(), "The encoding profile");
-    table.resize(300, 300);  // the table is written again, narrow
+    table.resize(300, 300);  // narrow: the table is filled again
     EXPECT_EQ(table.item(0, 0)->text().toStdString(), "The paper's own limits");
 }
 

@@ -1,4 +1,4 @@
-// The words on the banner of a fault: when, what, what was delivered, and what it may not claim.
+// Tests the text of the fault banner: time, cause, what was delivered, and what it must not claim.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ protected:
         row.evaluated = evaluated;
         row.within = evaluated && value <= limit;
     }
-    /// A third of a second later.
+    /// Refreshes a third of a second later.
     void refresh(InterlockState state, std::uint64_t trains, std::optional<FaultCause> cause = {}) {
         now.at += std::chrono::milliseconds(333);
         now.state = state;

@@ -1,4 +1,4 @@
-// Where results are, without a mouse: Tab goes from STOP through each page once, in the order of reading.
+// Tests the keyboard on pages with results: Tab goes from STOP through each page once, in reading order.
 #include <QComboBox>
 #include <QDockWidget>
 #include <QLineEdit>
@@ -29,17 +29,17 @@ protected:
     [[nodiscard]] QWidget& page() {
         return *window.findChild<QWidget*>("centre")->findChild<QStackedWidget*>()->currentWidget();
     }
-    /// Tab from STOP until it comes round: every enabled control once, each part of the window as it is read.
+    /// Presses Tab from STOP until it comes back: expects every enabled control once, in reading order in each part.
     void expectReadInOrder(const std::string& name) {
         SCOPED_TRACE(name);
         window.activateWindow();
         ASSERT_IN_TIME(comesTrue([this] { return QApplication::activeWindow() == &window; }));
-        letLive(100);  // laid out
+        letLive(100);  // time for the layout
         std::vector<const QWidget*> order;
         const auto reached = tabFrom(*window.findChild<QPushButton*>("stopButton"),
                                      [&order](const QWidget& at) { order.push_back(&at); });
         expectAllReached(window, reached);
-        // The order begins where the window does: STOP is the last in its bar.
+        // Starts the order at the start of the window: STOP is the last control in its bar.
         const auto first = std::ranges::find(order, window.findChild<QPushButton*>("armButton"));
         if (first != order.end()) std::ranges::rotate(order, first);
         std::vector<const QWidget*> parts{window.findChild<QWidget*>("safetyBar"), &page(), window.statusBar()};
@@ -62,7 +62,7 @@ protected:
         }
         EXPECT_TRUE(std::ranges::any_of(order, [this](auto* at) { return page().isAncestorOf(at); }));
     }
-    /// Reads each view of a result.
+    /// Tests each view of a result.
     void expectResultReadInOrder(const std::string& name) {
         expectReadInOrder(name);
         for (const auto* view : {"Tables", "Log"}) {

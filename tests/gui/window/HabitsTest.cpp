@@ -1,5 +1,5 @@
-// The habits of every good program: files can be dropped on it and found again, help is at hand, and it looks tomorrow
-// as it was left today.
+// Tests what users expect of any program: it opens dropped files, lists recent ones, offers help, and starts as it was
+// left.
 #include <QComboBox>
 #include <QDockWidget>
 #include <QDropEvent>
@@ -173,7 +173,7 @@ TEST_F(Habits, F1OpensTheGuideAtTheWorkspaceInFront) {
     EXPECT_FALSE(back->isEnabled());
     contents->click();
     EXPECT_EQ(pageOf(*guide), "index.md");
-    // A link of the contents leads to every page, which has a heading.
+    // The links in the contents lead to all pages, and each page has a heading.
     std::set<QString> linked;
     for (auto block = browser->document()->begin(); block.isValid(); block = block.next())
         for (auto part = block.begin(); !part.atEnd(); ++part)
@@ -191,7 +191,7 @@ TEST_F(Habits, F1OpensTheGuideAtTheWorkspaceInFront) {
         EXPECT_EQ(pageOf(*guide), "index.md");
     }
     guide->close();
-    window.showWorkspace(0);  // the next window begins where this one ends
+    window.showWorkspace(0);  // the next window starts on the page where this one ends
 }
 
 TEST_F(Habits, DefinitionsAndLimitsAreTheOnesThatJudge) {
@@ -292,7 +292,7 @@ TEST_F(Habits, ADamagedWindowStateDoesNotHideStop) {
     ASSERT_NE(top, nullptr);
     top->hide();
     window.addToolBar(Qt::BottomToolBarArea, top);
-    window.close();  // keeps its state so
+    window.close();  // saves this state
     {
         gui::MainWindow again(simulatedRegistry);
         again.show();

@@ -1,7 +1,7 @@
-// HardwareBench.h - the whole window with a stimulator and a sensor board plugged in, both emulated: what a person sees
-// of hardware, and what happens to them when a plug is pulled.
+// HardwareBench.h - the whole window with an emulated stimulator and sensor board plugged in: what a person sees of
+// hardware, and what happens when a plug is pulled.
 //
-// Thread-safety: the GUI thread; plugs are seen by the threads of the drivers.
+// Thread-safety: the GUI thread. The drivers' threads see changes of the plugs.
 #pragma once
 
 #include <QLabel>
@@ -18,7 +18,7 @@
 
 namespace tacto::test {
 
-/// Sockets that stimulators are plugged into; each registry has its own of these on the one line.
+/// Sockets for stimulators. Each registry has its own sockets, all on the same line.
 class StimulatorSockets final : public TransportPorts {
 public:
     struct Plugs {
@@ -43,7 +43,7 @@ private:
     const std::shared_ptr<Plugs> plugs_;
 };
 
-/// The devices that are plugged in.
+/// The devices plugged in at present.
 struct Hardware {
     [[nodiscard]] Registry registry() const {
         std::vector<std::unique_ptr<Driver>> drivers;
@@ -62,7 +62,7 @@ struct Hardware {
     }
 
     const SteadyClock clock;
-    const OwnSerial serial{"EMU"};  // taken for a device all the same: it has a record of its own
+    const OwnSerial serial{"EMU"};  // recognised as a device, because it has its own record
     std::shared_ptr<EmulatedLine> stimulator = std::make_shared<EmulatedLine>(clock, nullptr);
     std::shared_ptr<StimulatorSockets::Plugs> plugs = std::make_shared<StimulatorSockets::Plugs>();
     std::shared_ptr<sensorboard::EmulatedBoardLine> board =
@@ -78,7 +78,7 @@ protected:
     }
 
     [[nodiscard]] QTreeWidget& tree() { return *window.findChild<gui::DeviceDock*>()->findChild<QTreeWidget*>(); }
-    /// The dock's line for a URI, as soon as there is one. The test ends after 10 s.
+    /// Returns the dock's line for a URI as soon as it exists. Fails after 10 s.
     [[nodiscard]] QTreeWidgetItem& row(const QString& uri) {
         QTreeWidgetItem* found = nullptr;
         const bool came = comesTrue([&] {
@@ -95,7 +95,7 @@ protected:
         const auto where = tree().visualItemRect(&item);
         QTest::mouseClick(tree().viewport(), Qt::LeftButton, Qt::NoModifier, where.center());
     }
-    /// Moves to the line and presses Return, as an operator without a mouse does.
+    /// Selects the line and presses Return, as an operator without a mouse does.
     void tick(const QString& uri) {
         choose(row(uri));
         QTest::keyClick(&tree(), Qt::Key_Return);

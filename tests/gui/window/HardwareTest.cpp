@@ -1,4 +1,4 @@
-// Hardware as a person meets it in the window: ticked, opened, not permitted, unplugged, plugged in again.
+// Tests hardware in the window as a person meets it: ticked, opened, not permitted, unplugged, plugged in again.
 #include <QHeaderView>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -57,13 +57,13 @@ TEST_F(HardwareWindow, ANameHasAsManyLinesAsItNeeds) {
     const QFontMetrics metrics(row(kStimulator).font(0));
     const auto high = [this] { return tree().visualItemRect(&row(kStimulator)).height(); };
     for (const QString name : {"Pad", "Vibrating pad of the second laboratory, number 2"}) {
-        // The dock gets another width. The name may bring a scroll bar, and the column is narrower then.
+        // The name can bring a scroll bar, which makes the column narrower.
         QRect lines;
         EXPECT_IN_TIME(comesTrue([&] {
             row(kStimulator).setText(0, name);
             emit tree().header()->sectionResized(0, 0, tree().columnWidth(0));
             QCoreApplication::processEvents();
-            // Its box and the edges take some of the width.
+            // Check box and edges take part of the width.
             const int beside = 2 * tree().style()->pixelMetric(QStyle::PM_IndicatorWidth);
             lines = metrics.boundingRect({0, 0, tree().columnWidth(0) - beside, 1000}, Qt::TextWordWrap, name);
             return high() >= lines.height() && high() < lines.height() + metrics.height();
@@ -90,7 +90,7 @@ TEST_F(HardwareWindow, OneThatMayNotBeOpenedSaysWhatHelpsAndCannotBeTicked) {
 }
 
 TEST_F(HardwareWindow, OneThatDoesNotAnswerIsABannerAndNoBench) {
-    stimulator->unplug();  // the list still has it, being up to a second old
+    stimulator->unplug();  // the list is up to a second old and still has it
     tick(kStimulator);
     click(*window.findChild<QPushButton*>("openBench"));
     ASSERT_IN_TIME(comesTrue([this] { return !banner().isEmpty(); }));
@@ -198,7 +198,7 @@ TEST_F(HardwareWindow, AMinimisedWindowDeliversNothing) {
     deliver();
     window.showMinimized();
     ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Paused; }, 2000));
-    letLive(500);  // a train that was under way ends
+    letLive(500);  // time for a train in progress to end
     const auto pulses = stimulator->pulses();
     letLive(700);
     EXPECT_EQ(stimulator->pulses(), pulses);

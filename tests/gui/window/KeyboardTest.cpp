@@ -1,4 +1,4 @@
-// Without a mouse, Tab reaches every control of the window and of its dialogs and comes round, the focus is seen, and
+// Tests use without a mouse: Tab reaches every control of the window and its dialogs once, the focus is visible, and
 // Shift+F1 explains the focused control.
 #include <QDialog>
 #include <QLineEdit>
@@ -21,14 +21,14 @@ constexpr int kWorkspaces = 7;
 
 class Keyboard : public Window {
 protected:
-    /// QTest takes a dialog for active where its parent is.
+    /// Activates a window. QTest takes a dialog for active if its parent is.
     static void activate(QWidget& top) {
         top.activateWindow();
         ASSERT_IN_TIME(comesTrue([&] { return QApplication::activeWindow() == &top; }));
     }
     void show(int workspace) {
         visit(workspace);
-        letLive(100);  // laid out, and drawn once
+        letLive(100);  // time for the layout and a first drawing
     }
     [[nodiscard]] QPushButton& stopButton() { return *window.findChild<QPushButton*>("stopButton"); }
     [[nodiscard]] QDialog* visibleDialog() {
@@ -37,7 +37,7 @@ protected:
         }
         return nullptr;
     }
-    /// Opens a dialog by its place in the menus.
+    /// Opens a dialog with its entry in the menus.
     void choose(const QString& menu, const QString& entry) {
         for (auto* action : window.menuBar()->actions()) {
             if (action->text().remove('&') != menu) continue;
@@ -136,11 +136,11 @@ TEST_F(Keyboard, TabReachesEveryControlOfADialogAndComesRound) {
     }
 }
 
-/// The bench is closed, so that nothing moves by itself.
+/// The bench is closed, so nothing changes by itself.
 TEST_F(Keyboard, TheFocusIsSeen) {
     ASSERT_NO_FATAL_FAILURE(activate(window));
     stopButton().setFocus();
-    QTest::keyClick(&stopButton(), Qt::Key_Tab);  // before the first Tab, Qt assumes that the mouse is used
+    QTest::keyClick(&stopButton(), Qt::Key_Tab);  // before the first Tab, Qt assumes that a mouse is used
     for (int workspace = 0; workspace < kWorkspaces; ++workspace) {
         SCOPED_TRACE(workspace);
         show(workspace);
@@ -193,7 +193,7 @@ TEST_F(Keyboard, ShiftF1ExplainsWhateverHasTheFocus) {
         for (auto* at : reached) {
             if (!at->isVisible() || !at->isEnabled()) continue;
             at->setFocus(Qt::TabFocusReason);
-            // A part that says nothing of itself is explained by what it is a part of.
+            // A part without a text of its own is explained by the widget around it.
             const QWidget* says = at;
             while (says != nullptr && says->toolTip().isEmpty() && says->whatsThis().isEmpty())
                 says = says->parentWidget();

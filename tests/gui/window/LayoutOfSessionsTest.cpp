@@ -1,5 +1,5 @@
-// The pages of a session and the comparison of two, in a small window and in large text: no text is cut, nothing lies
-// over anything else, and no page scrolls sideways.
+// Tests the pages of a session and of a comparison, in a small window and with large text: no text is cut off, nothing
+// overlaps, and no page scrolls sideways.
 #include <QTabWidget>
 #include <QTableView>
 #include <QTableWidget>
@@ -30,7 +30,7 @@ protected:
         QTest::mouseClick(table.viewport(), Qt::LeftButton, modifiers,
                           table.visualRect(table.model()->index(row, 0)).center());
     }
-    /// Shows each of the pages in both themes and sizes of text; `frame` is as large as a small screen allows.
+    /// Shows each page in both themes and text sizes; `frame` has the size that a small screen allows.
     void walk(QTabWidget& pages, QWidget& frame, const QSize& size, const QString& name) {
         for (const int percent : {100, 200}) {
             gui::applyTextSize(percent);
@@ -45,7 +45,7 @@ protected:
                                              theme == gui::Theme::Dark ? "dark" : "light")
                                         .arg(percent);
                     shot(frame, at);
-                    shot(pages, at + "-whole");  // a page that scrolls shows a part of them
+                    shot(pages, at + "-whole");  // the whole page, as a scrolled page shows only a part
                     EXPECT_EQ(faultsOf(frame), "") << at.toStdString();
                     EXPECT_LE(frame.width(), size.width()) << at.toStdString();
                     EXPECT_LE(frame.height(), size.height()) << at.toStdString();
@@ -100,7 +100,7 @@ TEST_F(LayoutOfSessions, TheComparisonOfTwoIsReadWhole) {
                                    [](const auto* plot) { return plot->graphCount() >= 2; });
     };
     ASSERT_IN_TIME(comesTrue(drawn)) << "trials and a stream of both";
-    ASSERT_NO_FATAL_FAILURE(walk(pages, *both, {1200, 560}, "compare"));  // below the safety bar of a small screen
+    ASSERT_NO_FATAL_FAILURE(walk(pages, *both, {1200, 560}, "compare"));  // as below a small screen's safety bar
     both->close();
 }
 

@@ -1,4 +1,4 @@
-// The places of things in the window, and that data get the room: plots, docks, the rail, F11, keys and their focus.
+// Tests where things are in the window, and that data get the room: plots, docks, the rail, F11, keys and focus.
 #include <QAbstractSpinBox>
 #include <QDockWidget>
 #include <QLineEdit>
@@ -58,7 +58,7 @@ protected:
             EXPECT_EQ(texts.size(), 1) << where << ", " << key.toStdString() << ": " << texts.join(" / ").toStdString();
     }
     gui::FoldingDock& dock(const char* name) { return *window.findChild<gui::FoldingDock*>(name); }
-    /// The workspace that is shown.
+    /// The present workspace.
     [[nodiscard]] QWidget& page() {
         return *window.findChild<QWidget*>("centre")->findChild<QStackedWidget*>()->currentWidget();
     }
@@ -99,7 +99,7 @@ TEST_F(Layout, F11LeavesSafetyBarAndPlotAlone) {
     EXPECT_TRUE(path->isVisible());
     visit(3);
     EXPECT_TRUE(free->isVisible());
-    visit(0);  // the next window begins where this one was
+    visit(0);  // the next window starts where this one ends
 }
 
 TEST_F(Layout, TheOscilloscopesToolsHaveTheKeysForAMarkAndForThePlotAlone) {
@@ -186,7 +186,7 @@ TEST_F(Layout, WithThePlotAloneASessionOfAPilotHasNoPath) {
     click(*begin);
     const auto* path = page().findChild<QWidget*>("path");
     ASSERT_IN_TIME(comesTrue([&] { return path->isVisible(); }));
-    // A run that is stopped while its bench opens has no result.
+    // A run stopped while its bench opens has no result, so wait.
     ASSERT_IN_TIME(comesTrue([this] { return window.controller().activity() == gui::Activity::Running; }));
     letLive(300);
     key(Qt::Key_F11);
@@ -216,7 +216,7 @@ TEST_F(Layout, AClickInTheRailGivesTheKeysToTheWorkspace) {
             EXPECT_FALSE(qobject_cast<const QLineEdit*>(at) || qobject_cast<const QAbstractSpinBox*>(at)) << name;
         }
     }
-    visit(0);  // the next window begins where this one was
+    visit(0);  // the next window starts where this one ends
 }
 
 TEST_F(Layout, WhatABlindSessionHidesNoKeyAndNoMenuBringsBack) {
@@ -366,12 +366,12 @@ TEST_F(Layout, InLargeTextADockThatIsOpenedMakesTheWindowNoWiderThanASmallScreen
 
 TEST_F(Layout, InLargeTextTheNearestLimitStandsBesideTheState) {
     RecordProperty("hazard", "H9");
-    // The layout is done before anything is delivered: beside other work it takes longer than the control loop may be
-    // silent.
+    // Lays out before anything is delivered: next to other work, the layout would take longer than the control loop is
+    // allowed to be silent.
     gui::applyTextSize(200);
     window.resize(1280, 720);
     open();
-    visit(5);  // the docks are folded
+    visit(5);  // here the docks are folded
     letLive(300);
     arm();
     deliver();
@@ -455,7 +455,7 @@ TEST_F(Layout, TheNearestLimitStandsFirstAndTheAreaCanBeEnteredThere) {
         std::ranges::sort(bars, {}, [](const gui::LimitBar* bar) { return bar->y(); });
         return bars;
     };
-    // The commanded voltage: at its limit of 40 V.
+    // The commanded voltage comes first, at its limit of 40 V.
     ASSERT_IN_TIME(comesTrue([&] { return !inOrder().empty() && inOrder().front()->share() > 0.9; }));
     EXPECT_TRUE(std::isnan(inOrder().back()->share())) << "what is not evaluated stands last";
     EXPECT_GE(inOrder().size(), 6U);
@@ -521,7 +521,7 @@ TEST_F(Layout, AFaultSaysCauseOutputAndNextStepAndMovesNothing) {
     ASSERT_NO_FATAL_FAILURE(open());
     arm();
     deliver();
-    letLive(200);  // by then all that comes with a delivery has its place
+    letLive(200);  // by now everything that a delivery shows has its place
     const auto stopAt = window.findChild<QPushButton*>("stopButton")->geometry();
     const auto resetAt = window.findChild<QPushButton*>("armButton")->geometry();
     const auto pagesAt = window.centralWidget()->geometry();
@@ -539,7 +539,7 @@ class LayoutUnderANotice : public Layout {
 protected:
     using Places = std::map<const QWidget*, QRect>;
     LayoutUnderANotice() : notice(*window.findChild<QFrame*>("banner")) { RecordProperty("hazard", "H12"); }
-    /// The places of the page and of all that is in it, docks, bars, STOP and "Arm…".
+    /// The places of the page and everything in it, docks, bars, STOP and "Arm…".
     [[nodiscard]] Places places() {
         Places all;
         const auto add = [&](const QWidget& each) {
@@ -560,7 +560,7 @@ protected:
         }));
         return before;
     }
-    /// The widgets that have moved, by name.
+    /// The names of the widgets that have moved.
     [[nodiscard]] std::string movedSince(const Places& before) {
         std::string moved;
         const auto now = atRest();
@@ -582,7 +582,7 @@ protected:
             EXPECT_FALSE(covered.intersects(QRect(each->mapTo(&window, QPoint()), each->size()))) << widgetName(*each);
         }
     }
-    /// The load is another one than the connected one: refused once it is measured.
+    /// Declares a load that is not the connected one; arming is refused after the measurement.
     void armOnAnotherLoad(Places& before) {
         click(*window.findChild<QPushButton*>("armButton"));
         auto* second = window.findChild<QPushButton*>("armOutput");
@@ -630,7 +630,7 @@ TEST_F(LayoutUnderANotice, AnArmingThatTheBenchRefusesMovesNothing) {
     ASSERT_NO_FATAL_FAILURE(open());
     Places before;
     ASSERT_NO_FATAL_FAILURE(armOnAnotherLoad(before));
-    // The words of what is felt change by themselves, and the exposure of the measuring pulse has rows of its own.
+    // Ignores the words about touch, which change by themselves, and the exposure, as the measuring pulse adds rows.
     std::erase_if(before, [this](const auto& each) {
         const auto* widget = each.first;
         return widget != &page() && qobject_cast<const QCustomPlot*>(widget) == nullptr &&
@@ -650,7 +650,7 @@ TEST_F(LayoutUnderANotice, ItStaysAtTheLowerEdgeBelowAMarksLine) {
     const auto* centre = window.centralWidget();
     EXPECT_IN_TIME(comesTrue(
         [&] { return notice.width() == centre->width() && notice.geometry().bottom() == centre->rect().bottom(); }));
-    window.activateWindow();  // the arming dialog had the keys
+    window.activateWindow();  // the arming dialog had the focus
     ASSERT_IN_TIME(comesTrue([this] { return window.isActiveWindow(); }));
     key(Qt::Key_M, Qt::ControlModifier);
     const auto* mark = window.findChild<QFrame*>("markLine");

@@ -1,5 +1,5 @@
-// The screens that take a run or a fault to come to: results of a calibration, a safety check and a separability run,
-// the faulted state, the second step of arming, the drive panel; in both themes, small and large.
+// Tests the looks of screens that need a run or a fault first: results of a calibration, a safety check and a
+// separability run, the faulted state, the second step of arming, the drive panel; in both themes, small and large.
 #include <QClipboard>
 #include <QComboBox>
 #include <QDoubleSpinBox>
@@ -64,7 +64,7 @@ protected:
         ASSERT_IN_TIME(comesTrue([&] { return (line = find<QLineEdit>(window, field)) != nullptr; })) << field;
         line->setText(text);
     }
-    /// Drives as a person does, in the drive's dock.
+    /// Drives by hand in the drive's dock, as a person does.
     void driveByHand(double roughness, double pressure) {
         click(*find<QPushButton>(window, "By hand"));
         find<QDoubleSpinBox>(window, "Roughness R")->setValue(roughness);
@@ -72,7 +72,7 @@ protected:
         ASSERT_IN_TIME(comesTrueWhileOn([this] { return state() == InterlockState::Delivering; }))
             << banner().toStdString();
     }
-    /// Gives up once the output is off: a machine that stands still trips the loop, and nothing comes any longer.
+    /// Gives up when the output is off: on a stalled machine the control loop faults, and then nothing more comes.
     [[nodiscard]] bool comesTrueWhileOn(const std::function<bool()>& isSo, int limit_ms = 10'000) {
         const auto isOff = [this] { return state() == InterlockState::Faulted || state() == InterlockState::Disarmed; };
         return comesTrue([&] { return isSo() || isOff(); }, limit_ms) && !isOff();
@@ -94,7 +94,7 @@ TEST_F(ResultsInTheWindow, ACalibrationLooksRight) {
     const LargeBesideDocks large(*this);
     large.fits("calibrate-result");
     click(*find<QPushButton>(window, "Tables"));
-    large.fits("calibrate-tables", "QTableWidget");  // they scroll
+    large.fits("calibrate-tables", "QTableWidget");  // the tables scroll
     click(*find<QPushButton>(window, "Log"));
     large.fits("calibrate-log");
     for (const auto* step : {"Wiring", "Known reference", "Settings", "Run"}) {
@@ -111,7 +111,7 @@ TEST_F(ResultsInTheWindow, ASafetyCheckLooksRight) {
     visit(2);
     ASSERT_NO_FATAL_FAILURE(type("area", "4"));
     ASSERT_NO_FATAL_FAILURE(runsToItsEnd());
-    // The message is neither about the last fault that the check provoked, nor about the bench that it closed.
+    // The message must not be about the last fault that the check provoked, or about the bench that it closed.
     EXPECT_EQ(lastMessage(), "Safety check finished: pass. Output is off.");
     EXPECT_TRUE(recorded().startsWith("Recorded to load-safety-")) << recorded().toStdString();
     looksRight("result-safety");
@@ -134,12 +134,12 @@ TEST_F(ResultsInTheWindow, InLargeTextASafetyCheckAndItsReportAreReadWhole) {
     };
     gui::applyTextSize(200);
     isWhole("safety-result");
-    LargeBesideDocks(*this).fits("safety-result", "limitMatrix");  // the matrix scrolls by itself there
+    LargeBesideDocks(*this).fits("safety-result", "limitMatrix");  // the matrix has its own scroll bars
     click(*find<QPushButton>(window, "Tables"));
     const auto numbersCut = [this] { return cutCells(window).filter("no tool tip"); };
     EXPECT_IN_TIME(comesTrue([&] { return numbersCut().isEmpty(); })) << numbersCut().join('\n').toStdString();
     shot(window, "large-safety-tables");
-    LargeBesideDocks(*this).fits("safety-tables", "QTableWidget");  // numbers are not cut: they scroll
+    LargeBesideDocks(*this).fits("safety-tables", "QTableWidget");  // numbers are not cut off: the tables scroll
     click(*find<QPushButton>(window, "Sign report…"));
     isWhole("sign");
     LargeBesideDocks(*this).fits("sign");
@@ -153,7 +153,7 @@ TEST_F(ResultsInTheWindow, ThePlaneOfTrialsLooksRight) {
     visit(3);
     ASSERT_NO_FATAL_FAILURE(runsToItsEnd());
     looksRight("result-separability");
-    window.resize(1440, 900);  // room for both beside each other
+    window.resize(1440, 900);  // room for both side by side
     letLive(100);
     const auto* plane = find<gui::TrialPlane>(window, "Trials");
     const auto* train = find<gui::CaptureStrip>(window, "Last capture");
@@ -257,7 +257,7 @@ TEST_F(ResultsInTheWindow, TheDialogOfFaultsLooksRightAndDoesWhatTheReadmePromis
         after->setText(refused);
         EXPECT_FALSE(open->isEnabled()) << refused;
     }
-    after->setText("4");  // of the thirty seconds
+    after->setText("4");  // seconds; the default is thirty
     click(*open);
     ASSERT_IN_TIME(comesTrue([this] { return window.controller().activity() == gui::Activity::Live; }));
     arm();
@@ -271,7 +271,7 @@ TEST_F(ResultsInTheWindow, InLargeTextTheDialogsOfTheBenchFitASmallScreen) {
     gui::applyTextSize(200);
     window.resize(1280, 720);
     letLive(100);
-    // Where they stand on a screen of that size is tested in tests/e2e.
+    // tests/e2e tests where the dialogs stand on such a screen.
     const auto fits = [](QWidget& dialog) {
         static_cast<void>(comesTrue([&] { return dialog.isVisible() && faultsOf(dialog).empty(); }, 3000));
         EXPECT_EQ(faultsOf(dialog), "");
@@ -302,14 +302,14 @@ TEST_F(ResultsInTheWindow, TheDrivePanelLooksRight) {
         for (const bool byHand : {true, false}) {
             if (byHand) {
                 driveByHand(0.69, 0.8);
-                // Step by step, as the limits on a step let it.
+                // The output rises in steps, because the limits bound each step.
                 ASSERT_IN_TIME(comesTrueWhileOn(
                     [&] { return dock->findChild<QLabel*>("driveOutput")->text().startsWith("30.7"); }, 60'000))
                     << banner().toStdString();
             } else {
                 click(*find<QPushButton>(window, "driveFingertip"));
             }
-            letLive(300);  // the panel follows
+            letLive(300);  // time for the panel to follow
             const auto file = QString("drive-%1-%2")
                                   .arg(theme == gui::Theme::Dark ? "dark" : "light", byHand ? "by-hand" : "fingertip");
             EXPECT_IN_TIME(comesTrue([&] { return faultsOf(*dock).empty(); })) << faultsOf(*dock);
@@ -318,7 +318,7 @@ TEST_F(ResultsInTheWindow, TheDrivePanelLooksRight) {
     }
 }
 
-/// The pictures of the README (./dev readme-pictures).
+/// Makes the pictures of the README (./dev readme-pictures).
 TEST_F(ResultsInTheWindow, TheReadmesPicturesLookRight) {
     open();
     auto* tabs = window.findChild<gui::TabbedPage*>("livePage");
@@ -339,7 +339,7 @@ TEST_F(ResultsInTheWindow, TheReadmesPicturesLookRight) {
     tabs->setCurrentIndex(1);
     gui::applyTheme(gui::Theme::Dark);
     ASSERT_IN_TIME(delivered(8));
-    window.activateWindow();  // the arming dialog had the keys
+    window.activateWindow();  // the arming dialog had the focus
     ASSERT_IN_TIME(QTest::qWaitForWindowActive(&window));
     key(Qt::Key_T);
     auto& model = window.findChild<gui::ScopeWorkspace*>()->model();

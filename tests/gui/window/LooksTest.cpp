@@ -1,5 +1,5 @@
-// The design's promises for the whole window: it is legible, says what is simulated, keeps its messages, and is red
-// where STOP and faults are.
+// Tests the design's rules in the whole window: text is legible, simulated data are marked, messages are kept, and only
+// STOP and faults are red.
 #include <QDialog>
 #include <QDockWidget>
 #include <QPlainTextEdit>
@@ -60,7 +60,7 @@ TEST_F(Window, LooksRightWithTextAtTwiceTheSize) {
         gui::applyTheme(theme);
         for (const auto size : sizesIn(theme, {QSize(1280, 720), QSize(1440, 900), QSize(1920, 1080)})) {
             window.resize(size);
-            for (int page = 0; page < 8; ++page) {  // the oscilloscope is the last
+            for (int page = 0; page < 8; ++page) {  // page 7 is the oscilloscope
                 visit(page % 7);
                 window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(page / 7);
                 static_cast<void>(comesTrue([this] { return faultsOf(window).empty(); }, 1500));
@@ -87,7 +87,7 @@ protected:
             if (dock->isVisible() && !dock->folded()) open.push_back(dock);
         return open;
     }
-    /// Delivers with the oscilloscope in sight, until it has `captures` of them.
+    /// Delivers with the oscilloscope visible, until it has taken `captures` captures.
     void deliverToTheScope(int captures) {
         open();
         arm();
@@ -123,7 +123,7 @@ TEST_F(DocksOfTheWindow, TheOscilloscopeLooksRightWithWhatItReads) {
     auto& model = scope.model();
     const double width = model.viewport().width_s();
     EXPECT_NEAR(500e-6 / width, 1.0 / 3, 0.05) << "the first train is what one sees";
-    window.activateWindow();  // the arming dialog had the keys
+    window.activateWindow();  // the arming dialog had the focus
     ASSERT_IN_TIME(QTest::qWaitForWindowActive(&window));
     key(Qt::Key_T);
     ASSERT_TRUE(model.cursors().time_s());
@@ -134,7 +134,7 @@ TEST_F(DocksOfTheWindow, TheOscilloscopeLooksRightWithWhatItReads) {
         for (const auto size : sizesIn(theme, {QSize(1280, 720), QSize(1920, 1080)})) {
             window.resize(size);
             letLive(200);
-            // Docks share the column again in turns of the event loop, as many as their contents change.
+            // The docks share their column anew after each change of content, over several turns of the event loop.
             static_cast<void>(comesTrue([&] { return faultsOf(window).empty(); }));
             shot(window, QString("scope-%1-%2").arg(theme == gui::Theme::Dark ? "dark" : "light").arg(size.width()));
             EXPECT_EQ(faultsOf(window), "");
@@ -151,7 +151,7 @@ TEST_F(DocksOfTheWindow, TheOscilloscopeLooksRightWithWhatItReads) {
 
 TEST_F(DocksOfTheWindow, TheOscilloscopesPanelsLookRight) {
     ASSERT_NO_FATAL_FAILURE(deliverToTheScope(3));
-    window.controller().disarm();  // the last trains stay
+    window.controller().disarm();  // the last trains stay on the screen
     const auto set = [&](const char* panel, bool on) {
         auto* tool = find<QToolButton>(window, panel);
         ASSERT_NE(tool, nullptr) << panel;
@@ -179,7 +179,7 @@ TEST_F(DocksOfTheWindow, TheOscilloscopesPanelsLookRight) {
     }
 }
 
-/// The list of sessions is empty: the word for one that ended in a fault is rightly red.
+/// A window with an empty list of sessions: the word for a session that ended in a fault is rightly red.
 class WindowWithoutSessions : private OwnDataHome, public Window {};
 
 TEST_F(WindowWithoutSessions, NothingIsRedButStop) {

@@ -1,4 +1,4 @@
-// The whole window, driven by keys and mouse.
+// Tests the whole window with keys and mouse.
 #include <QAbstractButton>
 #include <QDialog>
 #include <QLineEdit>
@@ -33,7 +33,7 @@ namespace {
 using gui::Activity;
 using testing::HasSubstr;
 
-/// A program that was moved without its resources.
+/// A program that was moved without its resource files.
 class WithoutResources : public Window {
 protected:
     WithoutResources()
@@ -92,7 +92,7 @@ TEST_F(Window, ArmingTakesTwoSteps) {
     click(*window.findChild<QPushButton*>("armButton"));
     auto* second = window.findChild<QPushButton*>("armOutput");
     ASSERT_NE(second, nullptr);
-    key(Qt::Key_Return);  // the default of the dialog is not to arm
+    key(Qt::Key_Return);  // the dialog's default is not to arm
     letLive(200);
     EXPECT_EQ(state(), InterlockState::Disarmed);
     arm();
@@ -139,7 +139,7 @@ TEST_F(Window, AKeyHeldSinceTheFirstStepDoesNotTakeTheSecond) {
     open();
     auto* first = window.findChild<QPushButton*>("armButton");
     first->setFocus();
-    // X sends a held key so: presses and releases, most of them not marked as repeated.
+    // X sends a held key like this: presses and releases, most of them not marked as repeats.
     const auto press = [](QWidget* widget) {
         QKeyEvent down(QEvent::KeyPress, Qt::Key_Return, Qt::NoModifier, "\r");
         QCoreApplication::sendEvent(widget, &down);
@@ -301,7 +301,7 @@ TEST(WindowsStart, AWorkspaceIsMadeWhenItIsFirstShown) {
     }
     window.showWorkspace(6);
     window.close();
-    // The window is as it was left; and a window that closes before it was ever shown has its questions, too.
+    // The window returns as it was left. A window closed before it was ever shown also asks its questions.
     gui::MainWindow again(simulatedRegistry);
     EXPECT_EQ(again.workspace(), 6);
     EXPECT_EQ(again.findChildren<gui::ProtocolWorkspace*>().size(), 1);
@@ -336,7 +336,7 @@ TEST(WindowsStart, AFrameThatComesLateFitsTheScreenToo) {
     letLive(100);
     ASSERT_EQ(window.geometry(), screen);
     ASSERT_EQ(window.frameGeometry(), screen) << "no frame yet";
-    // A busy window manager does the same: a frame around the window, and the window moved into it.
+    // A busy window manager does this late: it frames the window and moves it into the frame.
     window.windowHandle()->setFlag(Qt::FramelessWindowHint, false);
     window.windowHandle()->setPosition(screen.topLeft() + QPoint(4, 4));
     ASSERT_IN_TIME(comesTrue([&] { return window.frameGeometry() != window.geometry(); })) << "there is a frame";
@@ -352,7 +352,7 @@ TEST_F(Window, AnUnplugDuringDeliveryIsSaidWithWhatItMeans) {
     ASSERT_NO_FATAL_FAILURE(unplugWhile(1, 1));
     auto* word = window.findChild<QLabel*>("interlockState");
     EXPECT_IN_TIME(comesTrue([&] { return word->text() == "FAULTED"; }));
-    click(*window.findChild<QPushButton*>("armButton"));  // Reset fault
+    click(*window.findChild<QPushButton*>("armButton"));  // the button "Reset fault"
     EXPECT_IN_TIME(comesTrue([this] { return banner().contains("ot reset"); })) << banner().toStdString();
     EXPECT_THAT(banner().toStdString(), HasSubstr("Output is off"));
 }
@@ -362,7 +362,7 @@ TEST_F(Window, ASessionThatCannotBeWrittenIsSaidAndTheWindowLives) {
     const auto folder = userSessionsFolder();
     std::filesystem::create_directories(folder.parent_path());
     std::filesystem::remove_all(folder);
-    { std::ofstream file(folder); }  // a file where the folder should be
+    { std::ofstream file(folder); }  // a file instead of the folder
     key(Qt::Key_B, Qt::ControlModifier);
     EXPECT_IN_TIME(comesTrue([this] { return !banner().isEmpty(); }));
     EXPECT_THAT(banner().toStdString(), HasSubstr("sessions"));
@@ -406,7 +406,7 @@ TEST_F(Window, EveryControlHasAToolTipOrALabelOfItsOwn) {
     }
 }
 
-/// Counts when a widget is hidden, and how often the controller was gone by then.
+/// Counts how often a widget was hidden, and how often the controller was already gone then.
 class Witness final : public QObject {
 public:
     explicit Witness(gui::BenchController& controller) : controller_(&controller) {}

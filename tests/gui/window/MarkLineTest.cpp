@@ -1,4 +1,4 @@
-// A mark is of the moment of its key, stands in plots, session, export and report, and is in the way of no stop.
+// Tests that a mark has the time of its key press, appears in plots, session, export and report, and blocks no stop.
 #include <QLineEdit>
 #include <QSettings>
 #include <QToolButton>
@@ -27,7 +27,7 @@ class Marks : public Window {
 protected:
     ~Marks() override { QSettings().clear(); }
     [[nodiscard]] QLineEdit& word() { return *window.findChild<QLineEdit*>("markWord"); }
-    /// The platform of the tests leaves no window active where a dialog was closed.
+    /// Activates the window: on the tests' platform no window is active after a dialog closes.
     void comeBack() {
         window.activateWindow();
         ASSERT_IN_TIME(comesTrue([this] { return window.isActiveWindow(); }));
@@ -37,7 +37,7 @@ protected:
         key(Qt::Key_M, Qt::ControlModifier);
         ASSERT_IN_TIME(comesTrue([this] { return word().isVisible() && word().hasFocus(); }));
     }
-    /// Closes the bench and gives its session's marks.
+    /// Closes the bench and returns the marks of its session.
     [[nodiscard]] std::vector<SessionRow> marksOf(const std::filesystem::path& session) {
         window.controller().close();
         EXPECT_IN_TIME(comesTrue([this] { return window.controller().activity() == gui::Activity::Closed; }));
@@ -98,7 +98,7 @@ TEST_F(Marks, EveryStopWorksWhileTheWordIsTyped) {
         arm();
         deliver();
         ASSERT_NO_FATAL_FAILURE(begin());
-        QTest::keyClicks(&word(), "the lead came off");  // a blank types here
+        QTest::keyClicks(&word(), "the lead came off");  // here a blank is typed
         ASSERT_EQ(word().text(), "the lead came off") << name;
         ASSERT_EQ(state(), InterlockState::Delivering) << name << ": typing is not a stop";
         hand();
@@ -264,7 +264,7 @@ TEST_F(ANewDay, IsAskedForBeforeAProtocolRunsAndNeverDuringTheRun) {
     ASSERT_NE(question(), nullptr);
     letLive(200);
     EXPECT_EQ(activity(), gui::Activity::Closed);
-    question()->close();  // put off for today
+    question()->close();  // postponed for today
     click(run());
     ASSERT_IN_TIME(comesTrue([this] { return activity() == gui::Activity::Running; }));
     passMidnight();

@@ -1,4 +1,4 @@
-// A measured value stands beside the one that was set, and is amber where they differ.
+// Tests that a measured value stands next to the set value, in amber if they differ.
 #include <QImage>
 #include <gmock/gmock.h>
 
@@ -50,7 +50,7 @@ TEST(MeasuredRow, StandsBesideWhatWasSetAndIsAmberWhereItIsNotThat) {
             EXPECT_THAT(bar.shownText().toStdString(), HasSubstr("⚠ 23.0"));
             EXPECT_TRUE(hasColour(bar.grab().toImage(), gui::colours().amber));
             shot(bar, QString("measured_%1_%2").arg(theme == gui::Theme::Light ? "light" : "dark").arg(int(shape)));
-            // Where there is room for only one of them, it is the one that matters.
+            // If only one of them fits, it is the more important one.
             bar.resize(110, bar.height());
             EXPECT_TRUE(bar.shownText().startsWith("⚠ 23.0")) << bar.shownText().toStdString();
         }

@@ -1,4 +1,4 @@
-// A notice ends with the state that it describes, a name has one limit, and words of the output are true (H2, H7, H12).
+// Tests that a notice ends with its state, each name has one limit, and texts about the output are true (H2, H7, H12).
 #include <QCheckBox>
 #include <QRegularExpression>
 #include <QToolButton>
@@ -21,7 +21,7 @@
 namespace tacto::test {
 namespace {
 
-/// Everything that can be read in the program's windows now, except the log, whose lines have their time.
+/// All text visible in the program's windows, without the log, whose lines have a time.
 std::vector<std::string> textsInSight() {
     std::vector<std::string> all;
     for (auto* top : QApplication::topLevelWidgets()) {
@@ -100,7 +100,7 @@ TEST_F(Notices, WhatARunEndedWithIsSaidOfThen) {
     EXPECT_NE(inSightWith("was switched off"), "") << "the result says it of its run";
 }
 
-/// However a run ends so, no message says that the output is off.
+/// If the stimulator stays on, no message may say that the output is off, however the run ended.
 TEST_F(Notices, ARunThatLeavesAStimulatorStuckOnSaysSo) {
     RecordProperty("hazard", "H2");
     auto* line = window.findChild<QToolButton*>("lastMessage");
@@ -139,7 +139,7 @@ TEST(WordsOfTheOutput, OfAStimulatorThatIsStuckOnNeitherSayThatItIsOffNorBlameTh
         }
         EXPECT_TRUE(banner.text().contains("its own switch")) << banner.text().toStdString();
     }
-    // With every other cause the output is off.
+    // After all other faults the output is off.
     for (int cause = 0; cause < kFaultCauseCount; ++cause) {
         if (FaultCause(cause) == FaultCause::StuckOn) continue;
         telemetry.fault = FaultCause(cause);
@@ -162,7 +162,7 @@ TEST(WordsOfTheOutput, WhatTheFingertipDoesNotDriveIsNotCalledFreshOrDriven) {
         const auto health = gui::healthWords(telemetry, true, 0);
         const bool drives =
             telemetry.finger == FingerStanding::Fresh && telemetry.sensorAge_s <= StreamHealth::kStale_s;
-        if (telemetry.finger == FingerStanding::Fresh && !drives) continue;  // the loop calls none of these fresh
+        if (telemetry.finger == FingerStanding::Fresh && !drives) continue;  // the loop calls no such fingertip fresh
         EXPECT_EQ(health.text.contains("fresh"), drives) << health.text.toStdString();
         const bool warns = telemetry.finger == FingerStanding::Implausible ||
                            telemetry.sensorAge_s > StreamHealth::kStale_s || telemetry.sensorAge_s < 0;
@@ -176,7 +176,7 @@ TEST(WordsOfTheOutput, WhatTheFingertipDoesNotDriveIsNotCalledFreshOrDriven) {
     }
 }
 
-/// A fingertip that gives no numbers, on the bench: what is read while nothing is sent.
+/// A fingertip without numbers, on the bench: the text while nothing is sent.
 TEST_F(Notices, AFingertipWithoutReadingsIsSaidWhereTheStateStands) {
     RecordProperty("hazard", "H7");
     gui::LiveOrder order;
@@ -203,7 +203,7 @@ TEST_F(Notices, AFingertipWithoutReadingsIsSaidWhereTheStateStands) {
     EXPECT_NE(inSightWith("gives no readings: no train"), "") << "in the dock of the drive";
 }
 
-/// In the bar and in the dock, one name stands beside one limit, whatever is judged.
+/// In bar and dock, the same name always stands next to the same limit, whatever is judged.
 TEST(NamesOfLimits, EachHasOneLimit) {
     testing::Test::RecordProperty("hazard", "H12");
     std::map<QString, std::pair<Quantity, JudgedAt>> named;
@@ -222,7 +222,7 @@ TEST_F(Notices, ALimitIsNamedAboveAsInTheDock) {
     ASSERT_NO_FATAL_FAILURE(open());
     ASSERT_NO_FATAL_FAILURE(arm());
     static const QRegularExpression limit(QString::fromUtf8(R"(of\s([^,]+))"));
-    std::map<std::string, std::set<std::string>> limits;  // the limits by the name that stands beside them
+    std::map<std::string, std::set<std::string>> limits;  // the limits by the name next to them
     std::mt19937 random(47);
     for (int i = 0; i < 8; ++i) {
         window.controller().drive(DriveSource::Manual, std::uniform_real_distribution(0.0, 1.0)(random), 1);

@@ -1,4 +1,4 @@
-// The texts in the plots of the window, at each size: the watermark whole, nothing twice.
+// Tests the texts in the window's plots at each size: the watermark is whole, and nothing is written twice.
 #include <QSettings>
 #include <QStackedWidget>
 #include <gmock/gmock.h>
@@ -10,7 +10,7 @@
 namespace tacto::test {
 namespace {
 
-/// The area that the watermark changes in the plot's picture; it is clipped at the axes, so a cropped one reaches them.
+/// Returns the area that the watermark changes in the plot's picture; a cropped watermark reaches the axes.
 QRect inkOf(QCustomPlot& plot, QCPItemText& mark) {
     const bool before = mark.visible();
     const auto picture = [&](bool visible) {
@@ -39,7 +39,7 @@ protected:
             if (plot->isVisible() && plot->height() > 0) visible.push_back(plot);
         return visible;
     }
-    /// `look` at every workspace and at each size, in turn, told where that is.
+    /// Calls `look` for every workspace at each size, with the name of the place.
     void everywhere(const std::function<void(const std::string&)>& look) {
         auto& live = *window.findChild<gui::TabbedPage*>("livePage");
         for (const auto& size : {QSize(1024, 640), QSize(1280, 720), QSize(1920, 1080)}) {
@@ -70,7 +70,7 @@ TEST_F(PlotTexts, AWatermarkStandsWhollyInsideItsPlotAtEachSize) {
                 ++seen;
                 const QRect room = mark->clipAxisRect()->rect().adjusted(1, 1, -1, -1);
                 QRect ink = inkOf(*plot, *mark);
-                // Other changes between the two pictures count as well: a word that is cut is so in each pair.
+                // Other changes between two pictures count too, so tries again: a cropped word is cropped every time.
                 for (int again = 0; again < 3 && !room.contains(ink); ++again) ink = inkOf(*plot, *mark);
                 EXPECT_FALSE(ink.isEmpty()) << where << ": " << plot->accessibleName().toStdString();
                 EXPECT_TRUE(room.contains(ink)) << where << ": " << plot->accessibleName().toStdString() << ", cropped";

@@ -1,4 +1,4 @@
-// The content and actions of the safety bar, in each state.
+// Tests content and actions of the safety bar in each state.
 #include <QTest>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -46,7 +46,7 @@ TEST(LimitBar, IsNoFinerThanAHundredthOfALimitInPercentThatIsFar) {
 TEST(LimitBarRow, ABarThatIsSeenStaysUntilAnotherIsClearlyNearer) {
     RecordProperty("hazard", "H12");
     gui::LimitBarRow bars({"Energy", "Charge"}, nullptr);
-    bars.resize(bars.sizeHint().width() / 2 + 20, 60);  // room for one
+    bars.resize(bars.sizeHint().width() / 2 + 20, 60);  // room for one bar
     const auto seen = [&](double energy, double charge) {
         bars.show(0, row(Quantity::PulseEnergy, energy, 1, "J"));
         bars.show(1, row(Quantity::NetCharge, charge, 1, "%"));
@@ -93,12 +93,12 @@ TEST(LimitBar, InADockNoRowIsCutAtTheUsualWidth) {
             const auto quantity = static_cast<Quantity>(i);
             for (const auto judged : {JudgedAt::LoadRange, JudgedAt::Ohm500}) {
                 for (const double limit : {0.25, 1.0, 10.0, 80.0, 300.0}) {
-                    // Tried unevaluated, small, and at a limit.
+                    // Not evaluated, small, medium, and around the limit.
                     for (const double share : {std::nan(""), 1e-6, 0.0123, 0.745, 0.9987, 1.5}) {
                         auto shown = row(quantity, share * limit, limit, unitOf(quantity).data());
                         shown.judged = judged;
                         gui::LimitBar bar(gui::shortRowTitle(shown), nullptr, gui::LimitBar::Shape::Line);
-                        // The dock's width without its edges, and without a scroll bar.
+                        // The width inside the dock, without edges and scroll bar.
                         bar.resize(gui::scaledPx(gui::FoldingDock::kWidth - 2 * 12 - 10), 30);
                         bar.show(shown);
                         EXPECT_TRUE(bar.fits()) << gui::shortRowTitle(shown).toStdString() << ": "
@@ -366,7 +366,7 @@ TEST_F(Bar, ADoubleClickOnPauseLeavesItPaused) {
     controller.drive(DriveSource::Manual, 0.5, 1);
     const auto is = [this](InterlockState state) {
         return comesTrue([this, state] {
-            const auto now = controller.telemetry();  // read once: what the bar shows is what is asked for
+            const auto now = controller.telemetry();  // read once, so that the bar shows the tested state
             bar.refresh(now);
             return now.state == state;
         });
@@ -404,7 +404,7 @@ TEST_F(Bar, PauseHoldsAProtocolBetweenItsTrainsToo) {
     EXPECT_TRUE(controller.paused());
     bar.refresh(controller.telemetry());
     EXPECT_EQ(pause->text().remove('&'), "Resume");
-    letLive(100);  // the step that was under way
+    letLive(100);  // time for the step in progress to end
     (void)controller.takeRunFeed();
     letLive(100);
     EXPECT_TRUE(controller.takeRunFeed().log.empty()) << "it went on while paused";
@@ -419,7 +419,7 @@ TEST_F(Bar, APressMeantForDisarmDoesNotResetTheFaultThatCameFirst) {
     ASSERT_TRUE(armed({"sim:stimulator?fault=unplug@1s", "sim:"}));
     controller.drive(DriveSource::Manual, 0.5, 1);
     ASSERT_IN_TIME(comesTrue([this] { return controller.telemetry().state == InterlockState::Faulted; }));
-    QStringList refused;  // an unplugged device cannot be reset
+    QStringList refused;  // resetting an unplugged device fails
     QObject::connect(&controller, &gui::BenchController::failed, [&](const QString& what) {
         if (what.contains("ot reset")) refused << what;
     });

@@ -1,4 +1,4 @@
-// Ctrl+C in the terminal of the window and its like, in a process of its own: they go to all of a process.
+// Tests Ctrl+C in the terminal and similar signals, in a separate process, because signals reach the whole process.
 #include <QProcess>
 #include <csignal>
 #include <fstream>
@@ -16,14 +16,14 @@ namespace {
 
 constexpr const char* kPart = "TACTO_SIGNALLED_WINDOW";
 
-/// The window of main(), delivering.
+/// The window of main() while it delivers.
 class SignalledWindow : public Window {
 public:
     void beginDelivery() {
         open();
         arm();
         deliver();
-        // A script that is not saved: a signal does not ask about it.
+        // Leaves a script unsaved: a signal must not ask about it.
         visit(6);
         QPushButton* button = nullptr;
         ASSERT_IN_TIME(comesTrue([&] { return (button = find<QPushButton>(window, "New…")) != nullptr; }));
@@ -45,7 +45,7 @@ void block(int how) {
     pthread_sigmask(how, &set, nullptr);
 }
 
-/// The work of the process whose window gets the signal.
+/// Runs in the process whose window gets the signal.
 void deliverUntilSignalled() {
     std::string session;
     {
@@ -59,7 +59,7 @@ void deliverUntilSignalled() {
             EXPECT_EQ(QApplication::exec(), 0);
         }
         EXPECT_EQ(app.state(), InterlockState::Disarmed);
-        // The reason comes with the control loop's next step.
+        // The reason comes with the next step of the control loop.
         EXPECT_IN_TIME(comesTrue([&] {
             return std::string_view(app.window.controller().telemetry().reason.c_str()) == "operator (signal)";
         })) << app.window.controller().telemetry().reason.c_str();
@@ -85,7 +85,7 @@ TEST(SignalClose, ASignalEndsTheOutputAndClosesTheWindowAndItsSession) {
             environment.remove(gtest);
         other.setProcessEnvironment(environment);
         other.setProcessChannelMode(QProcess::MergedChannels);
-        other.setChildProcessModifier([] { block(SIG_BLOCK); });  // blocked as before the first thread in main()
+        other.setChildProcessModifier([] { block(SIG_BLOCK); });  // as main() blocks them before its first thread
         other.start(QCoreApplication::applicationFilePath(),
                     {"--gtest_filter=SignalClose.ASignalEndsTheOutputAndClosesTheWindowAndItsSession"});
         ASSERT_TRUE(other.waitForStarted());
@@ -107,7 +107,7 @@ TEST(SignalClose, WhatTheWindowOpensTakesSignalsAsUsual) {
     ASSERT_TRUE(QProcess::startDetached(
         "/bin/sh", {"-c", QString("grep SigBlk /proc/self/status > %1.part; mv %1.part %1").arg(path.c_str())}));
     ASSERT_IN_TIME(comesTrue([&] { return std::filesystem::exists(path); }));
-    block(SIG_UNBLOCK);  // for this thread, for the sake of the tests after it
+    block(SIG_UNBLOCK);  // restores this thread for later tests
     std::ifstream stream(path);
     std::string name;
     std::uint64_t mask = 0;

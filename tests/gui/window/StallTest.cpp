@@ -1,5 +1,5 @@
-// The window answers while long work runs beside it: a protocol, its report, an export. What is wanted is 50 ms, and
-// ./dev bench measures it; half a second is a window that hangs, on any machine.
+// Tests that the window answers during long work: a protocol, its report, an export. The goal is 50 ms, which ./dev
+// bench measures; this test fails from half a second, when a window hangs on any machine.
 #include <QLabel>
 #include <QPushButton>
 #include <filesystem>

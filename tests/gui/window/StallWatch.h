@@ -1,5 +1,5 @@
-// StallWatch.h - how long the window could not answer: the longest gap between the beats of a 5 ms timer in its event
-// loop, while something runs. A gap of 5 ms is an idle window.
+// StallWatch.h - measures how long the window could not answer: the longest gap between two beats of a 5 ms timer in
+// its event loop. An idle window has gaps of 5 ms.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -16,15 +16,15 @@ namespace tacto::test {
 
 struct Stalls {
     static constexpr double kBeat_ms = 5;
-    static constexpr double kNoticed_ms = 50;  ///< from here on a person notices it
+    static constexpr double kNoticed_ms = 50;  ///< from this length a person notices a gap
     double longest_ms = 0;
-    std::size_t noticed = 0;  ///< gaps above kNoticed_ms
+    std::size_t noticed = 0;  ///< number of gaps above kNoticed_ms
     std::size_t beats = 0;
     double lasted_s = 0;
 };
 
-/// Does `begin` from inside the event loop, then lets the window live until `isSo`. Nothing when that did not come
-/// true within `limit_ms`. `isSo` is asked at each beat and its time is not counted: it stands for no part of the
+/// Calls `begin` inside the event loop, then lets the window run until `isSo` is true. Returns nothing if that takes
+/// longer than `limit_ms`. `isSo` is called at each beat, and its time is not counted, because it is not work of the
 /// window.
 [[nodiscard]] inline std::optional<Stalls> stallsWhile(const std::function<void()>& begin,
                                                        const std::function<bool()>& isSo, int limit_ms) {

@@ -40,7 +40,7 @@ TEST(StartedWithTest, AFileThatDoesNotExistIsNamed) {
 TEST(StartedWithTest, SaysItsHelpAndVersion) {
     for (const auto* word : {"--help", "-h"}) expectAnswer({word, "/nowhere"}, 0, "usage: tactoscope [FILE]");
     for (const auto* word : {"--version", "-v"}) expectAnswer({word}, 0, "tactoscope " TACTOSCOPE_VERSION);
-    // An option of Qt's own with an h in it.
+    // An option of Qt that contains an h.
     expectAnswer({"-stylesheet", "x.qss"}, 2, "tactoscope: Unknown option 'stylesheet'");
 }
 

@@ -1,4 +1,4 @@
-// The state in one glance: its word from two metres, and a sentence that says what is being done and what to do.
+// Tests the state block: its word is readable from two metres, and a sentence says what is being done and what to do.
 #include <QTest>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -79,7 +79,7 @@ protected:
     gui::SafetyBar bar{controller, calibrations};
 };
 
-/// Rows of pixels between the highest and the lowest in this colour.
+/// Height in pixels between the highest and the lowest row in this colour.
 int heightOfInk(const QImage& drawn, const QColor& ink) {
     int top = drawn.height(), bottom = -1;
     for (int y = 0; y < drawn.height(); ++y) {
@@ -110,7 +110,7 @@ TEST_F(StateOnTheBar, ItsWordIsReadFromTwoMetresInEverySizeStateAndTheme) {
                     const QFontMetrics metrics(word().font());
                     EXPECT_GE(word().font().pointSizeF(), 28 - 1e-6);
                     EXPECT_GE(word().width(), metrics.horizontalAdvance(word().text())) << "it is cut";
-                    // Measured as it is drawn, in the sheet's font too, on the block's own ground.
+                    // Measured as drawn, also in the style sheet's font, on the block's own background.
                     EXPECT_GE(heightOfInk(word().grab().toImage(), style.ink), 0.9 * metrics.capHeight());
                     EXPECT_GE(contrast(style.ink, style.ground), 4.5);
                     shot(bar, QString("state-%1-%2-%3-%4")
@@ -124,7 +124,7 @@ TEST_F(StateOnTheBar, ItsWordIsReadFromTwoMetresInEverySizeStateAndTheme) {
     }
 }
 
-/// While every train is refused, no message says that another one follows, whatever drives them.
+/// While every train is refused, no message may say that another one follows, whatever drives the output.
 TEST_F(StateOnTheBar, NoTrainIsSaidToFollowWhileALimitRefusesThem) {
     RecordProperty("hazard", "H12");
     std::mt19937 draw(47);

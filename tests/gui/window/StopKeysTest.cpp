@@ -1,4 +1,4 @@
-// Esc, Pause and Space stop from wherever the focus is; Space types where text is typed (H6).
+// Tests that Esc, Pause and Space stop wherever the focus is, and that Space types a space in text fields (H6).
 #include <QCheckBox>
 #include <QDialog>
 #include <QLineEdit>
@@ -30,7 +30,7 @@ protected:
         for (QWidget* widget : std::initializer_list<QWidget*>{&button, &check, &line, &spin})
             widget->setParent(nullptr);
     }
-    /// Presses as a keyboard does: in the window, which hands it to the focus.
+    /// Presses a key as a keyboard does: the window gets it and passes it to the focused widget.
     void press(Qt::Key key, QWidget& focus, const QString& text = {}) {
         focus.setFocus();
         QTest::sendKeyEvent(QTest::Click, focus.window()->windowHandle(), key, text, Qt::NoModifier);
@@ -55,7 +55,7 @@ TEST_F(Keys, EscAndPauseStopFromEveryFocus) {
     }
 }
 
-/// Works whatever is held beside it. Pause with Ctrl is another symbol in an X server, and Qt has no key for it.
+/// Works with every modifier. X has another symbol for Ctrl+Pause, for which Qt has no key.
 TEST_F(Keys, EscAndPauseStopWithEveryModifier) {
     const Qt::KeyboardModifier each[] = {Qt::ShiftModifier, Qt::ControlModifier, Qt::AltModifier, Qt::MetaModifier,
                                          Qt::KeypadModifier};
@@ -102,7 +102,7 @@ TEST_F(Keys, SpaceStopsInATextFieldThatTakesNoText) {
 TEST_F(Keys, ReturnPressesTheFocusedButton) {
     press(Qt::Key_Return, button);
     EXPECT_EQ(clicks, 1);
-    letLive(250);  // a key that is released longer than a held one repeats
+    letLive(250);  // longer than the pause between repeats of a held key
     press(Qt::Key_Return, check);
     EXPECT_TRUE(check.isChecked());
     EXPECT_EQ(stops, 0);
@@ -111,7 +111,7 @@ TEST_F(Keys, ReturnPressesTheFocusedButton) {
 TEST_F(Keys, AHeldReturnIsOnePress) {
     RecordProperty("hazard", "H12");
     for (int i = 0; i < 10; ++i) {
-        press(Qt::Key_Return, button);  // not marked as repeated: X sends most of them so
+        press(Qt::Key_Return, button);  // not marked as a repeat, like most that X sends
         letLive(30);
     }
     EXPECT_EQ(clicks, 1);

@@ -1,4 +1,4 @@
-// TabRound.h - Tab pressed until it comes round: what it reaches, in which order, and what it should have reached.
+// TabRound.h - presses Tab until the focus comes back: which controls it reaches, in which order, and which it misses.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -20,8 +20,8 @@
 
 namespace tacto::test {
 
-/// The controls that a person works: buttons and fields that Tab should reach by themselves. Radio buttons are reached
-/// as a group; a box's own field has its focus.
+/// Returns the controls that Tab should reach: buttons and fields. Radio buttons are reached as a group; the field of a
+/// combo box gives its focus to the box.
 inline std::vector<QWidget*> controlsOf(const QWidget& in) {
     std::vector<QWidget*> controls;
     for (auto* control : in.findChildren<QWidget*>()) {
@@ -38,7 +38,7 @@ inline std::vector<QWidget*> controlsOf(const QWidget& in) {
     return controls;
 }
 
-/// Presses Tab from `first` until it comes round, each widget once, and shows each on the way to `look`.
+/// Presses Tab from `first` until the focus comes back, and calls `look` with each widget reached.
 inline std::set<const QWidget*> tabFrom(
     QWidget& first, const std::function<void(QWidget&)>& look = [](QWidget&) {}) {
     first.setFocus(Qt::TabFocusReason);

@@ -1,4 +1,4 @@
-// TickingRun.h - the run of a protocol that waits and says so, on the simulated bench, until it is stopped.
+// TickingRun.h - a run, on the simulated bench, of a protocol that waits and logs this until it is stopped.
 //
 // Thread-safety: the GUI thread.
 #pragma once

@@ -1,5 +1,5 @@
-// The tour as newcomers of five speeds walk it, to its end: how long they read before the fingertip drives makes no
-// fault. From 5 s after arming on a second check pulse goes before the first train.
+// Tests the tour with newcomers of five speeds: however long they read before the fingertip drives, no fault occurs.
+// From 5 s after arming a second check pulse comes before the first train.
 #include <QComboBox>
 #include <QSettings>
 #include <QTabBar>

@@ -1,4 +1,4 @@
-// The tour: each step is done at the window's own controls, and the tour sees it.
+// Tests the tour: each step is done with the window's own controls, and the tour notices it.
 #include <QComboBox>
 #include <QSettings>
 #include <QTabBar>
@@ -29,14 +29,14 @@ protected:
     [[nodiscard]] bool comesTo(const QString& step, int limit_ms = 20'000) {
         return comesTrue([&] { return title() == step; }, limit_ms);
     }
-    /// The frame, in whichever window it is.
+    /// The tour's frame, in whichever window it is.
     [[nodiscard]] static QWidget* frame() {
         for (auto* widget : QApplication::allWidgets()) {
             if (widget->objectName() == "tourFrame" && widget->isVisible()) return widget;
         }
         return nullptr;
     }
-    /// Whether the frame is around this widget.
+    /// Waits until the frame is around this widget.
     [[nodiscard]] bool frames(const QWidget& widget) {
         return comesTrue([&] {
             const auto* now = frame();
@@ -85,7 +85,7 @@ TEST_F(TourOfTheWindow, IsWalkedByDoingEachThing) {
     ASSERT_IN_TIME(frames(second)) << "the second step stands in a dialog";
     EXPECT_EQ(state(), InterlockState::Disarmed) << "the tour arms nothing by itself";
     shot(*second.window(), "tour-4b-second-step");
-    letLive(600);  // the second step is deaf at first
+    letLive(600);  // the second step ignores presses at first
     click(second);
 
     ASSERT_IN_TIME(comesTo("Let the fingertip drive"));
@@ -162,7 +162,7 @@ TEST_F(TourOfTheWindow, GoesBackAndStaysThere) {
     EXPECT_FALSE(find<QPushButton>(tour(), "Back")->isEnabled());
 }
 
-/// Whoever stops on the way, or goes back to a step that needs the output, is told how to get it again.
+/// A user who stops on the way, or goes back to a step that needs the output, is told how to get the output back.
 TEST_F(TourOfTheWindow, SaysThatTheOutputIsOffWhereAStepNeedsIt) {
     RecordProperty("hazard", "H12");
     ASSERT_NO_FATAL_FAILURE(open());
@@ -192,10 +192,10 @@ TEST_F(TourOfTheWindow, IsLeftAndResumed) {
     EXPECT_EQ(frame(), nullptr);
     window.beginTour();
     EXPECT_EQ(title(), "Put a surface under the finger");
-    QSettings().setValue("tourStep", 99);  // as a version with more steps left it
+    QSettings().setValue("tourStep", 99);  // as left by a version with more steps
     window.beginTour();
     EXPECT_EQ(title(), "First, how to stop");
-    QSettings().setValue("tourStep", 3);  // arming
+    QSettings().setValue("tourStep", 3);  // the step that arms
     window.controller().close();
     ASSERT_IN_TIME(comesTrue([this] { return window.controller().activity() == gui::Activity::Closed; }));
     window.beginTour();
@@ -238,8 +238,8 @@ TEST_F(TourOfTheWindow, LooksRightInEverySizeAndTheme) {
                     letLive(80);
                     const auto& bar = named<QWidget>("safetyBar");
                     const auto covers = [&](const QRect& what) { return tour().geometry().intersects(what); };
-                    // The page that a step opens is laid out first; then the panel finds its place. A completed step
-                    // leads on by itself after longer than this.
+                    // Waits until the step's page is laid out and the panel has found its place. A completed step leads
+                    // on only after a longer time.
                     const auto stands = [&] { return frame() != nullptr && !covers(frame()->geometry()); };
                     static_cast<void>(comesTrue(stands, 1000));
                     EXPECT_TRUE(stands()) << "no control is framed, or the panel hides it at " << percent << " %";
@@ -253,7 +253,7 @@ TEST_F(TourOfTheWindow, LooksRightInEverySizeAndTheme) {
                                 .arg(step + 1)
                                 .toUtf8()
                                 .constData());
-                    // On a busy machine a completed step has moved on by itself.
+                    // On a busy machine a completed step may have led on already.
                     if (title() == now) press(find<QPushButton>(tour(), "Next") != nullptr ? "Next" : "Done");
                 }
             }

@@ -1,7 +1,7 @@
-// Unpluggable.h - the simulated bench with a stimulator that a test unplugs when it wants to, however long the machine
-// took until then.
+// Unpluggable.h - the simulated bench with a stimulator that a test can unplug at any moment, however slow the machine
+// is.
 //
-// Thread-safety: Plug from any thread; the rest as Driver and Stimulator.
+// Thread-safety: Plug from any thread; the other classes like Driver and Stimulator.
 #pragma once
 
 #include <atomic>
@@ -14,7 +14,7 @@
 
 namespace tacto::test {
 
-using Plug = std::shared_ptr<std::atomic<bool>>;  ///< true: it is in
+using Plug = std::shared_ptr<std::atomic<bool>>;  ///< true: plugged in
 
 class UnpluggableStimulator final : public WrappedStimulator {
 public:
@@ -40,7 +40,7 @@ private:
     const std::string says_;
 };
 
-/// Like simulatedRegistry(); a stimulator that is out fails with what it `says`.
+/// Like simulatedRegistry(); an unplugged stimulator fails with the text `says`.
 [[nodiscard]] inline Registry unpluggableRegistry(const Plug& plug,
                                                   const std::string& says = "the simulated stimulator is unplugged") {
     std::vector<std::unique_ptr<Driver>> drivers;

@@ -1,4 +1,4 @@
-// The wheel changes no setting that has not the focus, wherever it is turned (H12).
+// Tests that the wheel changes no setting without the focus, wherever it is turned (H12).
 #include <QAbstractSlider>
 #include <QAbstractSpinBox>
 #include <QComboBox>
@@ -19,7 +19,7 @@
 namespace tacto::test {
 namespace {
 
-/// Turns as the mouse does: through the window, which gives the focus by policy and finds the widget.
+/// Turns the wheel as a mouse does: through the window, which sets the focus by policy and finds the widget.
 void turn(const QWidget& widget, int notches) {
     auto& top = *widget.window();
     const auto at = widget.mapTo(&top, widget.rect().center());
@@ -29,7 +29,7 @@ void turn(const QWidget& widget, int notches) {
     qApp->notify(top.windowHandle(), &event);
 }
 
-/// The present value, whoever set it.
+/// The present value of a setting.
 QString settingOf(const QWidget& widget) {
     if (const auto* list = qobject_cast<const QComboBox*>(&widget))
         return QString("%1 %2").arg(list->currentIndex()).arg(list->currentText());
@@ -39,7 +39,7 @@ QString settingOf(const QWidget& widget) {
     return {};
 }
 
-/// Kept apart from WheelGuard::isSetting(), which is under test.
+/// Finds the settings without WheelGuard::isSetting(), which is being tested.
 std::vector<QWidget*> settingsIn(const QWidget& in) {
     std::vector<QWidget*> found;
     for (auto* each : in.findChildren<QWidget*>()) {

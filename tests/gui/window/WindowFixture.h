@@ -1,4 +1,4 @@
-// WindowFixture.h - the whole window on the simulated bench, and what a person does first with it.
+// WindowFixture.h - the whole window on the simulated bench, and the first actions of a person there.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -27,7 +27,7 @@ namespace tacto::test {
 class Window : public testing::Test {
 protected:
     Window() : Window(nullptr) {}
-    /// nullptr: the simulated bench, with the stimulator that unplug() takes away.
+    /// nullptr: the simulated bench with the stimulator that unplug() unplugs.
     explicit Window(std::function<Registry()> makeRegistry)
         : window(makeRegistry ? std::move(makeRegistry) : [plug = plug_] { return unpluggableRegistry(plug); }) {
         window.resize(1440, 900);
@@ -43,14 +43,14 @@ protected:
     }
     [[nodiscard]] InterlockState state() { return window.controller().telemetry().state; }
     [[nodiscard]] QString banner() {
-        // A fault stands in the safety bar, all else above the workspaces.
+        // Faults are shown in the safety bar, everything else above the workspaces.
         QString all;
         const auto* fault = window.findChild<QLabel*>("faultText");
         if (fault->isVisible()) all = "Fault: " + fault->parentWidget()->toolTip();
         const auto* label = window.findChild<QLabel*>("bannerText");
         return label->isVisible() ? all + label->text() : all;
     }
-    /// Shows a workspace, and waits for the scripts of its procedures: their forms are made once they are read.
+    /// Shows a workspace, and waits until the scripts of its procedures are read and their forms made.
     void visit(int page) {
         window.showWorkspace(page);
         ASSERT_IN_TIME(comesTrue([this] {
@@ -62,7 +62,7 @@ protected:
         ASSERT_IN_TIME(comesTrue([this] { return window.controller().activity() == gui::Activity::Live; }));
         letLive(80);  // the next frame enables the buttons
     }
-    /// Unplugs in the midst of delivery, as `drive` says, until the bench has faulted and says why.
+    /// Unplugs the stimulator during delivery, and waits until the bench has faulted and gives the reason.
     void unplugWhile(double roughness, double pressure) {
         arm();
         window.controller().drive(DriveSource::Manual, roughness, pressure);
@@ -70,7 +70,7 @@ protected:
         ASSERT_IN_TIME(comesTrue([&] { return word->text() == "DELIVERING"; })) << "the window has seen it";
         unplug();
     }
-    /// The state is there at once, its reason and what to do with the control loop's next steps.
+    /// Waits for the state, which comes at once, and for the reason and advice, which come with the loop's next steps.
     void unplug() {
         *plug_ = false;
         ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Faulted; }));
@@ -80,7 +80,7 @@ protected:
                    !says.contains("Fix the cause");
         })) << banner().toStdString();
     }
-    /// Takes both steps, as a person does.
+    /// Arms in both steps, as a person does.
     void arm() {
         auto* first = window.findChild<QPushButton*>("armButton");
         ASSERT_IN_TIME(comesTrue([&] { return first->isEnabled() && first->text().contains("…"); }));
@@ -97,7 +97,7 @@ protected:
         window.controller().drive(DriveSource::Manual, 0.5, 1);
         ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Delivering; }));
     }
-    /// The procedure of the workspace that is shown, from its Run button to its verdict.
+    /// Runs the procedure of the present workspace, from its Run button to its verdict.
     void runsToItsEnd() {
         QPushButton* run = nullptr;
         ASSERT_IN_TIME(comesTrue([&] {
@@ -112,7 +112,7 @@ protected:
         ASSERT_IN_TIME(comesTrue([&] { return *over; }, 120'000));
         ASSERT_IN_TIME(comesTrue([&] { return find<QLabel>(window, "verdict") != nullptr; }));
     }
-    /// The visible widgets that ask for much of a small window's width, a line each.
+    /// Returns the visible widgets that need much of a small window's width, one per line.
     [[nodiscard]] std::string wide() const {
         std::string all;
         for (const auto* each : window.findChildren<QWidget*>())
@@ -120,7 +120,7 @@ protected:
                 all += fmt::format("{} {} {}\n", widgetName(*each), each->minimumSizeHint().width(), each->width());
         return all;
     }
-    /// While it lives, text is at 200 % (as it stays), the window 1280 x 720, and the docks are opened by hand.
+    /// During its lifetime text is at 200 % (and stays so), the window is 1280 x 720, and the docks are opened by hand.
     class LargeBesideDocks {
     public:
         explicit LargeBesideDocks(Window& of)
@@ -139,7 +139,7 @@ protected:
         LargeBesideDocks(const LargeBesideDocks&) = delete;
         LargeBesideDocks& operator=(const LargeBesideDocks&) = delete;
 
-        /// Nothing shown is cut sideways. `scrolls`: the one table that has a scroll bar of its own there.
+        /// Expects that nothing is cut off at the side. `scrolls`: the one table that has its own scroll bar.
         void fits(const QString& name, const char* scrolls = nullptr) const {
             auto& shown = of_.window;
             const auto faults = [&] {
