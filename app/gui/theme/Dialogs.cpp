@@ -120,7 +120,7 @@ private:
     }
     QLabel* says_;
     bool makes_ = false;  ///< the dialog may make a folder that does not exist
-    QString replaces_;    ///< the file about whose replacement the operator was asked
+    QString replaces_;    ///< the existing file that the operator was warned about
 };
 
 /// Returns the same dialog if it is already open, else null.

@@ -34,7 +34,7 @@ private:
     bool compact_ = false;  ///< narrow: the bar is below the quantity, and the kind of limit is in the tool tip
 };
 
-/// "RMS current over 5 s into 500 Ω".
+/// Returns the full title: "RMS current over 5 s into 500 Ω".
 [[nodiscard]] QString rowTitle(const ExposureRow& row);
 /// "RMS into 500 Ω": for docks, in which the unit shows whether it is a voltage or a current. The title of a density
 /// includes "/cm²".
@@ -51,7 +51,7 @@ struct ExposureFigure {
 };
 [[nodiscard]] ExposureFigure figureOf(const ExposureRow& row);
 
-/// "0.69 mA".
+/// Returns the value with its unit: "0.69 mA".
 [[nodiscard]] QString valueText(const ExposureRow& row);
 /// "0.69 of 10 mA", "> 10 mA". The limit of a density lacks "/cm²", which is in the title.
 [[nodiscard]] QString valueOfLimitText(const ExposureRow& row);

@@ -30,11 +30,11 @@ struct PictureCaption {
     static constexpr int kMargin = 16;
 };
 
-/// "Oscilloscope · simulated".
+/// Returns a title such as "Oscilloscope · simulated".
 [[nodiscard]] QString pictureTitle(const QString& title, bool simulated);
-/// The date with its time zone.
+/// Returns the date with its time zone.
 [[nodiscard]] QString pictureDate(const QDateTime& taken);
-/// "twin SIM-1 (simulated) · Demo device".
+/// Returns the names in one line: "twin SIM-1 (simulated) · Demo device".
 [[nodiscard]] QString deviceNames(const std::vector<SessionDevice>& devices);
 /// "Interval (s) 0 to 2.2 · Amplitude (V) 0 to 44": the ranges of all axes with a title.
 [[nodiscard]] QString axesText(const QCustomPlot& plot);

@@ -58,7 +58,7 @@ namespace tacto::gui {
     return words.replace(between, QStringLiteral("\u202f"));
 }
 
-/// "20 000".
+/// Returns a count with grouped digits: "20 000".
 [[nodiscard]] inline QString countText(std::size_t count) { return grouped(QString::number(qulonglong(count))); }
 
 /// Returns "The load is open." for "the load is open".

@@ -82,7 +82,7 @@ QCPItemText* addWatermark(QCPAxisRect& axes, WatermarkPlace place = WatermarkPla
 /// Shows or hides the watermark, and redraws its plot if that changes anything.
 void showWatermark(QCPItemText& watermark, bool simulated);
 
-/// "just now", "2 s ago", "3 min ago"; "–" for NaN.
+/// Returns an age as text: "just now", "2 s ago", "3 min ago"; "–" for NaN.
 [[nodiscard]] QString ageText(double seconds);
 
 /// Make a heading, and a quiet explanation that wraps.

@@ -18,7 +18,7 @@ struct VerdictStyle {
 };
 /// `key`: from RunResult::verdict() or nameOf(RowVerdict), or "error".
 [[nodiscard]] VerdictStyle verdictStyle(const QString& key);
-/// "✔ pass": the text for a table.
+/// Returns the text for a table: "✔ pass".
 [[nodiscard]] QString verdictText(const QString& key);
 
 class VerdictBlock final : public QLabel {

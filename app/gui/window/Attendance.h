@@ -51,7 +51,7 @@ private:
     LockWatch lock_;
     QElapsedTimer asked_;  // time since the display was asked
     QString ofDisplay_;    // the display's last answer
-    QElapsedTimer since_;  // invalid while STOP is in reach
+    QElapsedTimer since_;  // time since STOP went out of reach; invalid while it is in reach
     bool coveredNow_ = false, covered_ = false;
     QElapsedTimer turned_;  // how long coveredNow_ has differed from covered_
 };

@@ -27,7 +27,7 @@ public:
 signals:
     void simulatedBenchRequested();  ///< asks for a simulated bench with flaws and faults
     void recordingRequested();
-    void checkRequested();  ///< the impedance check
+    void checkRequested();  ///< asks for the impedance check
 
 private:
     void list();

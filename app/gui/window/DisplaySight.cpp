@@ -145,7 +145,7 @@ bool DisplaySight::isBlank() const {
         std::uint8_t major, minor;
         std::uint16_t words;
         std::uint32_t drawable;
-    } request{own_->saver, 1, 2, own_->root};  // QueryInfo
+    } request{own_->saver, 1, 2, own_->root};  // the request QueryInfo
     std::array<iovec, 3> parts{};
     parts[2] = {&request, sizeof request};  // xcb uses the two parts before this one
     const xcb_protocol_request_t info{1, nullptr, own_->saver, 0};

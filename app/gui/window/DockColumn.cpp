@@ -212,7 +212,7 @@ void DockColumn::fitStrip() {
 
 /// After a change of text size, docks that had the smallest width get the new smallest width.
 void DockColumn::fitWidth() {
-    constexpr int kNarrow = 8;  // a dock that is wider than this was widened by the user
+    constexpr int kNarrow = 8;  // a dock wider by more than this was widened by the user
     const int before = std::exchange(width_, scaledPx(FoldingDock::kWidth));
     if (before == width_) return;
     QList<QDockWidget*> narrow;

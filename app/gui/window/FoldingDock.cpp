@@ -19,7 +19,7 @@ constexpr int kDockHeader = 32;
 constexpr int kDockPadding = 12;
 constexpr int kDockIcon = 16;
 
-/// A header with fixed height and width. The dock takes both from the header's size hint, and so is never narrower,
+/// A header with the designed height and width. The dock takes both from the header's size hint and is never narrower,
 /// folded or not.
 class DockHeader final : public QWidget {
 public:

@@ -1,4 +1,4 @@
-// LimitBar.h - one quantity against its limit: name, bar, value and limit in words.
+// LimitBar.h - shows one quantity and its limit: name, bar, and both values as text.
 //
 // The bar fills towards the limit: amber from 80 %, red from the limit on. Hatched: not evaluated. No bar: a quantity
 // without a limit. A measured value is shown next to the set value, in amber if the two do not match.

@@ -32,7 +32,7 @@ private:
 
     QSet<QString> lockedBy_;  // active screen savers
     bool locked_ = false;     // logind reports a locked session
-    bool elsewhere_ = false;  // another session is at the seat
+    bool elsewhere_ = false;  // the seat shows another session
     QString session_;         // the session's path at logind; empty if there is none
 };
 

@@ -18,7 +18,7 @@ public:
     void keepTo(std::optional<int> index, const QString& reason);
 
 signals:
-    /// chosen by click, key or menu
+    /// The user chose a workspace by click, key or menu.
     void chosen(int index);
 
 private:

@@ -120,7 +120,7 @@ TEST_F(CertificateWindow, FitsASmallScreenWithLargeTextByScrolling) {
         gui::applyTextSize(percent);
         showDialog();
         writeAll("K-2026-19", -1, 364);
-        dialog->resize(QSize(1270, percent == 200 ? 500 : 580).boundedTo(dialog->size()));  // below the safety bar
+        dialog->resize(QSize(1270, percent == 200 ? 500 : 580).boundedTo(dialog->size()));  // the room below the bar
         letLive(50);
         EXPECT_LE(dialog->width(), 1270) << percent;
         EXPECT_LE(dialog->height(), percent == 200 ? 500 : 580) << percent;

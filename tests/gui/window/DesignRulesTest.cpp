@@ -137,7 +137,7 @@ TEST_F(DesignRules, UnitsAndLimitSetsAreWrittenForPeople) {
     for (const auto& set : window.controller().limits().sets)
         if (set.id != "paper") forbidden << QRegularExpression::escape(QString::fromStdString(set.id));
     const QRegularExpression inTips(forbidden.join('|'));
-    const QRegularExpression machine((forbidden << R"(\b[a-z]+_[a-z_]+\b)").join('|'));  // tips name a script's words
+    const QRegularExpression machine((forbidden << R"(\b[a-z]+_[a-z_]+\b)").join('|'));  // tips name script words
     std::set<std::string> found;
     int looked = 0;
     const auto lookFor = [&](const QRegularExpression& words, const QString& text) {

@@ -22,7 +22,7 @@ namespace tacto::gui {
 enum class Statistic { Last, Mean, Sd, Min, Max, Count };
 inline constexpr std::array kStatistics{Statistic::Last, Statistic::Mean, Statistic::Sd,
                                         Statistic::Min,  Statistic::Max,  Statistic::Count};
-/// "mean", "s.d.", "n".
+/// Returns the statistic's name as shown: "mean", "s.d.", "n".
 [[nodiscard]] QString nameOf(Statistic statistic);
 
 /// NaN if there are too few readings: the deviation needs two, the others one. n is never NaN.
@@ -55,7 +55,7 @@ class CaptureStatistics {
 public:
     struct Channel {
         QString name;
-        QString letter;  ///< "V"
+        QString letter;  ///< unit letter of the channel: "V"
         QString unit;
         std::array<RunningStatistics, kReadings> readings;
         double lastOnset_s = kNotMeasured;  ///< onset of the last train, from which the next interval runs

@@ -48,7 +48,7 @@ inline constexpr std::size_t kReadings = static_cast<std::size_t>(Reading::Pulse
 
 struct ReadingName {
     QString key;        ///< the key in the settings: "amplitude"
-    QString title;      ///< "Amplitude"
+    QString title;      ///< the name as shown: "Amplitude"
     QString explained;  ///< one or two sentences for a tool tip
     QString unit;       ///< "s", "%", "Hz", "C", "J"; empty if it is the channel's unit
 };
@@ -62,7 +62,7 @@ struct ReadingName {
 /// Returns two sample intervals if the rise or fall of every pulse is shorter: the samples then show only that the true
 /// value is below this bound.
 [[nodiscard]] std::optional<double> upperBound(Reading reading, const ShownCapture& shown, std::size_t channel);
-/// "≤ 1 µs".
+/// Returns the text of an upper bound: "≤ 1 µs".
 [[nodiscard]] QString upperBoundText(double bound_s);
 /// Returns "40.02 V" or "0.05 %"; "–" for NaN, and for the charge of a channel that is not a current.
 [[nodiscard]] QString readingText(Reading reading, double value, const QString& channelUnit, int digits = 4);

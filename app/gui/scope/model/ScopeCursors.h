@@ -38,9 +38,9 @@ struct CursorValue {
 [[nodiscard]] double knownTime(double time_s, double rate_hz);
 /// "17.5 V": the level of a cursor, written the same way in flags, on the clipboard and in the caption of a picture.
 [[nodiscard]] QString levelText(double level, const QString& unit);
-/// "Δ 200.0 µs · 1/Δ 5.000 kHz".
+/// Returns the distance of the time cursors as text: "Δ 200.0 µs · 1/Δ 5.000 kHz".
 [[nodiscard]] QString spanText(const CursorReadout& readout, double rate_hz);
-/// "t₁ 0 s   t₂ 4.000 ms   Δ 4.000 ms   1/Δ 250.0 Hz …", for the clipboard and for users who cannot see the flags.
+/// All readings in one line, for the clipboard and screen readers: "t₁ 0 s   t₂ 4.000 ms   Δ 4.000 ms   1/Δ 250.0 Hz …"
 [[nodiscard]] QString readoutText(CursorReadout readout, double rate_hz);
 
 class ScopeCursors {
@@ -82,9 +82,9 @@ class ScopeTrigger {
 public:
     /// The lane whose level is shown; empty: no level is shown.
     [[nodiscard]] const QString& lane() const noexcept { return lane_; }
-    /// The level, in the lane's unit.
+    /// The trigger level, in the lane's unit.
     [[nodiscard]] double level() const noexcept { return level_; }
-    /// The level follows the command and cannot be dragged.
+    /// True if the level follows the commanded amplitude and cannot be dragged.
     [[nodiscard]] bool held() const noexcept { return held_; }
     /// The moment to which the user dragged the trigger, in seconds on the axis.
     [[nodiscard]] const std::optional<double>& moment_s() const noexcept { return moment_s_; }

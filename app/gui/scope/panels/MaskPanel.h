@@ -30,7 +30,7 @@ public:
     /// Counts a capture, whether it was judged or not.
     void take(const ShownPtr& shown);
     [[nodiscard]] const MaskCounts& counts() const noexcept { return counts_; }
-    /// The first capture outside; null before there is one.
+    /// The first capture outside the mask; null if there is none yet.
     [[nodiscard]] const ShownPtr& firstOutside() const noexcept { return first_; }
     /// "Mask: 24 of 24 captures inside"; empty if there is no mask.
     [[nodiscard]] QString said() const;
@@ -63,7 +63,7 @@ private:
     MaskCounts counts_;
     ShownPtr first_;
     QString problem_;
-    QString whyNot_;  ///< why the last capture was not judged
+    QString whyNot_;  ///< why the last capture was not tested
     QuantitySpin* volts_;
     QuantitySpin* amps_;
     QuantitySpin* time_;

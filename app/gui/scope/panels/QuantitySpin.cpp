@@ -77,7 +77,7 @@ void QuantitySpin::stepBy(int steps) {
 
 namespace {
 
-constexpr double kSame = 1e-6;  // relative
+constexpr double kSame = 1e-6;  // relative difference up to which two values are equal
 
 bool onLadder(double value) { return std::abs(stepNotBelow(value * (1 - kSame)) - value) <= kSame * value; }
 

@@ -18,7 +18,7 @@ enum class ScopeMode {
     Auto,    ///< the level follows the commanded amplitude; takes untriggered captures if no trigger comes
     Normal,  ///< the user sets the level
     Single,  ///< take one capture, then hold
-    Roll,    ///< captures one after the other on the session's time
+    Roll,    ///< shows captures one after the other on the session's time
 };
 
 class ScopeAcquisition final : public QObject {

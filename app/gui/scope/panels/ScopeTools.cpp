@@ -171,7 +171,7 @@ void ScopeTools::showTimeBase(double perDivision_s, double least_s) {
 }
 
 void ScopeTools::markTimeBase() {
-    constexpr double kSameBase = 1e-6;  // relative
+    constexpr double kSameBase = 1e-6;  // relative difference up to which two values are equal
     for (auto* action : bases_->actions()) {
         const double step_s = action->data().toDouble();
         action->setChecked(std::abs(step_s - base_s_) < kSameBase * base_s_);

@@ -29,7 +29,7 @@ struct OverlayState {
         std::optional<double> height;  ///< nothing: the trigger's channel is hidden
         std::optional<double> moment_s;
         QColor colour;
-        bool held = false;  ///< the level follows the command and cannot be dragged
+        bool held = false;  ///< the level follows the commanded amplitude and cannot be dragged
         QString text;       ///< the text shown during a drag
     };
     struct Mark {

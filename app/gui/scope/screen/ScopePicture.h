@@ -19,7 +19,7 @@ class ScopeModel;
 struct ScopeLane;
 class ScopeScreen;
 
-/// "V 20 V/div".
+/// Returns the lane's scale as text: "V 20 V/div".
 [[nodiscard]] QString laneScaleText(const ScopeModel& model, const ScopeLane& lane);
 
 /// Describes the model: "V 20 V/div · I 20 mA/div · 100 µs/div · 20000 samples at 2 MS/s · averaged 16".

@@ -17,7 +17,7 @@ public:
     /// `model` outlives this.
     explicit ScopeScreen(const ScopeModel& model, QWidget* parent = nullptr);
 
-    /// Convert a pixel to the model's axes.
+    /// Convert a pixel position to time and height on the model's axes.
     [[nodiscard]] double timeAt(double x) const;
     [[nodiscard]] double heightAt(double y) const;
     [[nodiscard]] double secondsPerPixel() const;
