@@ -23,7 +23,7 @@ void addLow(const QString& text, const QWidget& at, const QFontMetrics& font, in
 
 void addLowCells(const QAbstractItemView& view, QStringList& low) {
     const auto seen = view.viewport()->rect();
-    int least = 0;  // height of the lowest visible row
+    int least = 0;  // the least height of a visible row
     forEachCell(view, view.rootIndex(), [&](const QModelIndex& cell) {
         const auto place = view.visualRect(cell);
         if (place.isEmpty() || !seen.intersects(place) || view.indexWidget(cell) != nullptr) return;

@@ -29,7 +29,7 @@ public:
         ScopeControls& controls;
     };
     ScopeColumns(const Parts& parts, QWidget* parent);
-    /// The tools, and in a wide window also the status. Stands above the columns unless a page takes it.
+    /// The row of the tools, in a wide window also of the status. It is above the columns unless a page takes it.
     [[nodiscard]] QWidget& head() { return *head_; }
     /// Shows or hides the controls, even if they take room from the screen.
     void askForControls(bool on);

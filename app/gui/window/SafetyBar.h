@@ -25,7 +25,7 @@ class LimitBarRow;
 class StateBlock;
 class StopButton;
 
-/// Replaces the bench's own Pause and Resume, and says whether this other pause is on.
+/// A pause that replaces the bench's own Pause and Resume; `paused` returns true while this pause is on.
 struct PauseInstead {
     std::function<void(bool pause)> pause;
     std::function<bool()> paused;

@@ -1,6 +1,6 @@
 // Tests that a blind operator sees the same for every condition and level: a classifier that gets all texts and pixels
-// of 200 trials, by time, does no better than chance. The same classifier can tell the trials apart from what a sighted
-// operator sees, so it would find a difference.
+// of 200 trials, by time, does no better than chance. The same classifier tells the trials apart if the operator is not
+// blind, so it would find a difference.
 #include <QAbstractButton>
 #include <QLabel>
 #include <QRegularExpression>

@@ -70,7 +70,7 @@ protected:
         ASSERT_IN_TIME(comesTrue([&] { return word->text() == "DELIVERING"; })) << "the window has seen it";
         unplug();
     }
-    /// Waits for the state, which comes at once, and for the reason and advice, which come with the loop's next steps.
+    /// Unplugs the stimulator; waits for the fault, then for its reason and advice (from the loop's next steps).
     void unplug() {
         *plug_ = false;
         ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Faulted; }));

@@ -65,8 +65,8 @@ void CaptureStatistics::clear() {
 
 /// A train may still follow an earlier order: its programmed values show this.
 bool CaptureStatistics::begins(const ShownCapture& shown) const {
-    constexpr double kSameCommand = 1e-6;  // relative difference from which a command is another one
-    constexpr double kSameOutput = 0.02;   // larger, as a current changes with the impedance
+    constexpr double kSameCommand = 1e-6;  // relative; smaller differences are ignored
+    constexpr double kSameOutput = 0.02;   // relative; a current changes with the impedance
     const auto another = [](double a, double b, double share) { return std::abs(a - b) > share * std::abs(b); };
     if (captures_ == 0 || !shown.asked) return false;
     if (!asked_ || asked_->byHand != shown.asked->byHand) return true;

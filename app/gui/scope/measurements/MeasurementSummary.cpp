@@ -300,7 +300,7 @@ void MeasurementSummary::restyle() {
     for (auto* label : quiet_) setTone(*label, Tone::Quiet);
     const auto numbers = digits(textFont(TextSize::Small));
     impedanceName_->setMinimumHeight(scaledPx(kRowHeight));
-    // Wide enough for every value, because numbers that jump cannot be read. Three or more share the available width.
+    // Wide enough for every value, because numbers that jump cannot be read. Three or more channels share the room.
     const int wide = QFontMetrics(numbers).horizontalAdvance(QString("00.00\u202fmA"));
     for (const auto& figure : figures_) figure.label->setMinimumWidth(below() ? 0 : wide);
 }

@@ -109,7 +109,7 @@ public:
     void hover(std::optional<double> time_s);
     [[nodiscard]] const std::optional<EdgeReading>& hovered() const noexcept { return hovered_; }
 
-    /// Marks of moments in the bench's session.
+    /// Adds a mark for a moment in the bench's session.
     void addMark(MomentMark mark);
     void clearMarks();
     /// The marks within the axis, with their time on the axis; none if a file is shown.

@@ -12,11 +12,11 @@ namespace tacto::gui {
 namespace {
 
 constexpr double kLevelShare = 0.2;          ///< trigger level in Auto, as a share of the commanded amplitude
-constexpr double kFollowFrom = 1.3;          ///< factor of change from which the level follows
+constexpr double kFollowFrom = 1.3;          ///< the level follows only changes by more than this factor
 constexpr qint64 kFollowEvery_ms = 300;      ///< least time between two requests, because each cancels the one before
 constexpr qint64 kNoTriggerAfter_ms = 1500;  ///< time without a trigger until the user is told
 constexpr Seconds kFreeRunAfter{0.4};        ///< time without a trigger, while no train can come
-constexpr double kFreeRunIntervals = 1.25;   ///< the same while trains come, in longest intervals between trains
+constexpr double kFreeRunIntervals = 1.25;   ///< the same while trains come, as a multiple of the longest interval
 
 bool sameSettings(const ScopeSettings& a, const ScopeSettings& b) {
     return a.sampleRate == b.sampleRate && a.samples == b.samples && a.preTrigger == b.preTrigger &&

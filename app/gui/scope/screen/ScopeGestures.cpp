@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kStillAClick = 3;  ///< pixels; a shorter movement is a click
 constexpr double kSnap = 8;         ///< pixels within which a cursor snaps
-constexpr double kPick = 8;         ///< pixels above or below a trace
+constexpr double kPick = 8;         ///< pixels from a trace within which a click picks it
 
 Qt::CursorShape shapeFor(Grip grip, bool held) {
     switch (grip) {
