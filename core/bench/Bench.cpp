@@ -58,13 +58,13 @@ StopCounter& Bench::stops() noexcept { return state_->order.stops(); }
 void Bench::pause() noexcept {
     state_->order.pause();
     state_->loop->pauseOutput(true);
-    // Refused unless Delivering: a bench that delivers nothing has nothing to pause, and the wish is kept anyway.
+    // The interlock refuses a pause unless it is Delivering. The error is ignored: the pause flags above hold anyway.
     static_cast<void>(state_->interlock.pause());
-    state_->gate.latchStop();  // a train already handed over does not come after the pause
+    state_->gate.latchStop();  // a train already handed over is not put out after the pause
 }
 
 void Bench::resume() noexcept {
-    static_cast<void>(state_->interlock.resume());  // refused when it was not Paused: nothing to leave
+    static_cast<void>(state_->interlock.resume());  // refused unless Paused; then there is no pause to end
     state_->loop->pauseOutput(false);
     state_->order.resume();
 }
@@ -82,7 +82,7 @@ Result<void> Bench::arm(const ArmRequest& request) {
     if (const auto well = s.health(); !well) return well;
     if (const auto holds = s.calibration.checkDate(); !holds) return holds;
     const auto command = s.terms.commandFor(request, *load, s.order.asked());
-    // Unless the operator has confirmed the load, arming is refused, and no pulse is sent.
+    // If the operator has not confirmed the load, arming is refused and no pulse is sent, so no capture is needed.
     std::optional<CheckCapture> look;
     if (command.confirmByCapture && command.evidence.declaredLoadConfirmed) {
         look.emplace(*s.scope, s.time, *s.loop, command);
@@ -116,7 +116,7 @@ Result<void> Bench::arm(const ArmRequest& request) {
     });
     if (look) cancelCaptures();
     if (outcome) return *outcome;
-    // A fault ends arming and health() sees it first: say why in arming's own words if it has any.
+    // A fault ends arming, and health() sees the fault first. If arming gave its own reason, return that reason.
     if (auto late = s.loop->armed()) return *late;
     disarm();
     if (!finished) return failure(finished);
@@ -185,7 +185,7 @@ Result<void> Bench::drive(DriveSource source, double roughness, double pressure)
     s.driving.store(source, std::memory_order_release);
     s.refusalsSeen = s.loop->refusals();
     s.loop->drive({source, roughness, pressure});
-    // A stop in between made the loop drive nothing; the command set before it is not kept for the next arming.
+    // After a stop in between, the loop drives nothing: drop the new command, so that no later arming uses it.
     if (source != DriveSource::Off && s.order.stopped()) {
         s.driving.store(DriveSource::Off, std::memory_order_release);
         s.loop->drive({});
@@ -208,7 +208,7 @@ Result<void> Bench::setProfile(const Profile& profile, RBefore before) {
     auto finger = s.makeFinger(profile);
     if (!finger) return failure(finger);
     if (const auto noted = s.notes.profile(s.config.profile, profile); !noted) return noted;
-    if (s.config.profile.roughness == profile.roughness) before = RBefore::Measuring;  // the next one has its flags
+    if (s.config.profile.roughness == profile.roughness) before = RBefore::Measuring;  // nothing new to flag
     s.config.profile = profile;
     if (*finger) s.loop->replaceFinger(std::move(*finger), before);
     if (!armed) s.loop->replacePlanner(s.makePlanner(profile));
@@ -268,7 +268,7 @@ Result<Presented> Bench::present(const Presentation& presentation,
     };
     const Instant until = std::max(now, presentation.notBefore) + toInstant(presentation.duration);
     const auto passed = s.time.advance(until + kPresentedGrace, isOver);
-    // A stop or a fault ends the wait first: the loop says what was delivered until then.
+    // A stop or a fault ends the wait early: the loop then still reports what was delivered until then.
     for (const Instant last = s.time.now() + kPresentedGrace; !ended && !isOver() && s.time.now() < last;)
         s.time.pass(last, kPresentedPoll);
     if (!ended) {
@@ -295,7 +295,7 @@ void Bench::idle(Seconds duration) noexcept {
     const Instant until = s.time.now() + toInstant(duration);
     constexpr Instant kPollInterval = std::chrono::milliseconds(100);
     while (s.time.now() < until) {
-        attend();  // whoever lets time pass is there
+        attend();  // a caller that lets time pass is looking after the output
         s.time.pass(until, kPollInterval);
     }
 }
@@ -353,7 +353,7 @@ Result<std::vector<Capture>> Bench::capture(int trains, const ScopeSettings& set
     if (!taken) return taken;
     if (refused) return failure(s.refusal());
     if (taken->size() < wanted) {
-        // The cause, not its consequence: a train that a limit refuses triggers nothing.
+        // Report the cause, not the effect: a train that a limit refuses triggers nothing.
         if (s.loop->refusals() != refusalsBefore) return failure(s.refusal());
         return fail(ErrorCode::Timeout, "the oscilloscope was triggered {} times in {:.1f} s; {} were expected",
                     taken->size(), toSeconds(longest), trains);
@@ -369,7 +369,7 @@ WorstExposure Bench::worstExposure() const noexcept { return state_->loop->worst
 
 Telemetry Bench::telemetry() const {
     auto seen = state_->loop->telemetry();
-    seen.state = state_->interlock.state();  // a stop shows before the loop's next step
+    seen.state = state_->interlock.state();  // so that a stop shows before the loop's next step
     seen.uncalibratedStimulator = state_->output.stimulator() != nullptr && !state_->calibration.held();
     if (seen.state == InterlockState::Faulted) seen.reason = FixedText<200>(state_->interlock.reason().view());
     return seen;

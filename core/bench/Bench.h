@@ -1,12 +1,12 @@
-// Bench.h - the running bench: reads the sensors, encodes, has every train judged, drives the stimulator,
-// watches its answers, captures what came out, records all of it.
+// Bench.h - the running bench: reads the sensors, encodes, has the gate judge every train, drives the stimulator,
+// watches its answers, captures the output and records everything.
 //
-// On the virtual clock wait(), capture() and arm() run the control loop on the caller's thread and time
-// moves only inside them. On the steady clock the loop and one session thread per device run by
-// themselves and the same calls wait. The step code is the same.
+// On the virtual clock, wait(), capture() and arm() run the control loop on the caller's thread, and time moves only
+// inside these calls. On the steady clock, the loop and each device have a thread of their own, and the same calls
+// wait. The step code is the same.
 //
-// Every call that starts output is done for an order of the operator, which begin() names by the moment at which it was
-// given. A stop ends that order for good; only an order from after the stop runs.
+// Every call that starts output belongs to an order of the operator. begin() identifies the order by the moment at
+// which it was given. A stop ends that order for good; only an order given after the stop runs.
 //
 // Thread-safety: stop(), pause(), resume(), markMoment(), stops(), telemetry() and deviceReport() from any thread;
 // everything else has one caller (a script's thread, or the program).
@@ -37,185 +37,185 @@ class SystemTime;
 
 struct BenchConfig {
     DeviceSet devices;
-    std::shared_ptr<Clock> clock;  ///< a VirtualClock makes the bench step itself
+    std::shared_ptr<Clock> clock;  ///< with a VirtualClock the bench steps itself
     Profile profile;
     std::vector<LimitSet> limits;
     OutputMode mode = OutputMode::BenchLoad;
     std::optional<PersonSetup> person;  ///< required in person mode
-    /// Whom `person` describes: a virtual participant, who is refused on any device that is not simulated, or a human
-    /// being, who is refused on a simulated one outside a rehearsal.
+    /// True: `person` is a virtual participant, who is refused on any real device. False: a human being, who is refused
+    /// on a simulated device outside a rehearsal.
     bool virtualParticipant = false;
     bool rehearsal = false;
-    SessionWriter* session = nullptr;  ///< not owned; where null, nothing is recorded
-    BenchTap* tap = nullptr;           ///< not owned; where null, nothing is shown
-    /// The last known calibration of the stimulator. The gate judges by it in any case; a stimulator that is out of
-    /// order by it is not armed.
+    SessionWriter* session = nullptr;  ///< not owned; if null, nothing is recorded
+    BenchTap* tap = nullptr;           ///< not owned; if null, nothing is shown
+    /// The last known calibration of the stimulator. The gate always uses it and does not arm a stimulator that is out
+    /// of order by it.
     KnownLines calibration;
-    bool calibrationHolds = true;  ///< applied to every train; without it commands go out as they are, and to no person
-    std::string calibrationText;   ///< what the session says of the calibration, or of having none; empty: nothing
-    /// The last day on which it holds: later nothing is armed for a person, however long the bench has been open.
+    bool calibrationHolds = true;  ///< applied to every train; if false, commands go out uncorrected, and to no person
+    std::string calibrationText;   ///< the session's note on the calibration, or on having none; empty: no note
+    /// The calibration's last valid day: afterwards nothing is armed for a person, even on a bench that stays open.
     std::optional<std::chrono::sys_days> calibratedUntil;
     std::chrono::sys_days (*today)() = nullptr;  ///< UTC; null asks the system
-    /// The counter of the stops that end the orders of this bench; null: its own. `asked` is when the operator asked
-    /// for the bench, and its first order; without `stops` that is now.
+    /// Counts the stops that end this bench's orders; null: the bench has its own counter. `asked` is when the operator
+    /// asked for the bench and gave the first order; without `stops` that is now.
     std::shared_ptr<StopCounter> stops;
     StopMark asked = {};
-    /// Whether the operator can reach the stop now (the window runs); empty: always. While it says no, nothing counts
-    /// as looking after the output: see Bench::attend(). Called from any thread; does not block.
+    /// True if the operator can reach the stop now (the window runs); empty: always. While it returns false,
+    /// Bench::attend() does nothing. Called from any thread; does not block.
     std::function<bool()> watched;
-    /// Where the exposure and the faults of units are kept (UnitRecord.h): a stimulator continues from there, and other
-    /// processes cannot use it meanwhile. Where empty, nothing is kept; a simulated stimulator never has one.
+    /// Where the exposure and faults of units are kept (UnitRecord.h); empty: nowhere. A stimulator continues from its
+    /// record, and no other process can use it meanwhile. A simulated stimulator never has a record.
     UnitFolders units;
-    const SystemTime* systemTime = nullptr;  ///< the record's clock; null: the system's own. Outlives the bench
+    const SystemTime* systemTime = nullptr;  ///< the unit record's clock; null: the system's clock. Outlives the bench
 };
 
 /// The operator's statements when arming.
 struct ArmRequest {
     std::string load = "1 kohm";         ///< declared load, as parseLoad() reads it (bench loads)
-    bool declaredLoadConfirmed = false;  ///< the operator's word, where the device cannot read back
+    bool declaredLoadConfirmed = false;  ///< the operator's word, needed if the device cannot read back
     bool operatorConfirmed = false;      ///< deliberate: not a default button, not a key that repeats
-    /// The text that the operator was shown and confirmed: armingText() of the load. Where the output is real, nothing
-    /// else confirms it; for a simulated one it may be empty.
+    /// The text that the operator was shown and confirmed: armingText() of the load. Required for real output; may be
+    /// empty for simulated output.
     std::string confirmed{};
 };
 
-/// The highest level that is permitted at all.
+/// The highest level that the limits permit.
 struct PermittedLevel {
-    Milliamps level{0};     ///< 0: none is
+    Milliamps level{0};     ///< 0: no level is permitted
     std::string limitedBy;  ///< one phrase: "commanded voltage (paper)", "the study's cap", "the device's largest", ...
 };
 
 class Bench {
 public:
-    /// Errors: of the profile and the devices; Device when another process drives the stimulator; Io when its record
-    /// cannot be kept or the session not be written.
+    /// Errors: as the profile and the devices; Device if another process drives the stimulator; Io if the stimulator's
+    /// record cannot be kept or the session cannot be written.
     [[nodiscard]] static Result<std::unique_ptr<Bench>> create(BenchConfig config);
     ~Bench();  ///< outputs off, threads joined
 
-    /// The order for which everything is done from now on; the operator gave it at `asked`, a mark of stops().
-    /// Errors: Stopped when a stop has come since. Then the bench keeps its order from before.
+    /// Starts the order to which all later calls belong; the operator gave it at `asked`, a mark of stops().
+    /// Errors: Stopped if a stop has come since `asked`; the bench then keeps its earlier order.
     [[nodiscard]] Result<void> begin(StopMark asked);
     /// The counter that stop() raises.
     [[nodiscard]] StopCounter& stops() noexcept;
 
-    /// Disarmed → Checking (one small pulse) → Armed. Where the stimulator does not read back and an oscilloscope is
-    /// open, that has to show the pulse, within 20 %, and a load in the declared range; it replaces a request for
-    /// captures. Errors: NotArmed with what is missing; LimitExceeded; Device; Stopped.
+    /// Disarmed → Checking (one small pulse) → Armed. If the stimulator does not read back and an oscilloscope is
+    /// open, the capture must show the pulse, within 20 %, and a load in the declared range; it replaces a request
+    /// for captures. Errors: NotArmed with what is missing; LimitExceeded; Device; Stopped.
     [[nodiscard]] Result<void> arm(const ArmRequest& request);
-    /// Checks the load in the same way, and always disarms the bench afterwards. Nothing but the check pulse is
-    /// delivered. The value is |Z|, or nothing where the stimulator does not read back. Errors: as arm().
+    /// Checks the load as arm() does, and always disarms afterwards. Only the check pulse is delivered. Returns |Z|,
+    /// or nothing if the stimulator does not read back. Errors: as arm().
     [[nodiscard]] Result<std::optional<Ohms>> checkImpedance(const ArmRequest& request);
-    /// The text that the operator confirms before this load is armed. See core/bench/arming/CommandPreview.h.
+    /// Returns the text that the operator confirms before this load is armed. See core/bench/arming/CommandPreview.h.
     [[nodiscard]] std::string armingText(const Load& load) const;
-    /// Whether arming would arm a device and not a simulation: then arm() takes no request without its text.
+    /// True if arm() would arm a real device; arm() then refuses a request without the confirmed text.
     [[nodiscard]] bool outputIsReal() const noexcept;
     /// Ends output and goes to Disarmed (a fault stays). Never fails.
     void disarm() noexcept;
-    /// Output off, every approval void, Disarmed, and every waiting call returns Stopped until begin() names an order
-    /// from after it. Bypasses every queue.
+    /// Switches output off, voids every approval and disarms. Waiting calls return Stopped until begin() names an
+    /// order given after this stop. Bypasses every queue.
     void stop(const char* by) noexcept;
     void pause() noexcept;
     void resume() noexcept;
-    /// Notes in the session that the operator marked the moment `at` with a word. Touches no output, and waits for no
-    /// disk. False where nothing is recorded.
+    /// Notes in the session that the operator marked the moment `at` with a word. Does not affect output or wait for
+    /// the disk. False if nothing is recorded.
     [[nodiscard]] bool markMoment(Instant at, std::string word);
-    /// Leaves Faulted. A device that was unplugged is looked for again, by identity, which may take two seconds.
+    /// Leaves Faulted. Searches again, by identity, for a device that was unplugged, which may take two seconds.
     /// Errors: NotArmed while the cause persists.
     [[nodiscard]] Result<void> resetFault();
 
-    /// Whether `cause` is among those of the present fault.
+    /// True if `cause` is one of the causes of the present fault.
     [[nodiscard]] bool faultPersists(FaultCause cause) const noexcept;
     /// The same as Interlock::faultCode(). Any thread.
     [[nodiscard]] ErrorCode faultCode() const noexcept;
 
-    /// Lets `duration` pass without the control loop, as in a hang, on purpose: the dead-man check of a bench load
-    /// needs that. The device threads continue, and end the output when they notice; the loop then finds a fault.
+    /// Deliberately lets `duration` pass without the control loop, as in a hang: the dead-man check of a bench load
+    /// needs this. The device threads notice the silence and end the output; the loop then finds a fault.
     /// Errors: Unsupported outside bench loads; InvalidArgument unless above 0 and at most 10 s; Stopped.
     [[nodiscard]] Result<void> withholdHeartbeat(Seconds duration);
-    /// How long the loop had been silent when the stimulator was switched off for it; nothing if that never happened.
+    /// Returns how long the loop had been silent when that switched the stimulator off; nothing if it never did.
     [[nodiscard]] std::optional<Seconds> silencedAfter() const noexcept;
     /// Records of the session that were lost because the disk was too slow. Any thread.
     [[nodiscard]] std::uint64_t recordsLost() const noexcept;
 
-    /// Tells the control loop that the script or window that ordered the output still runs. Without another call
-    /// `within` that time the loop ends driven output as by a stop (hazard H2). begin(), drive() and every function
-    /// that waits call it. Any thread.
+    /// Tells the control loop that the script or window that ordered the output still runs. Without a further call
+    /// `within` that time, the loop ends driven output as a stop does (hazard H2). begin(), drive() and every function
+    /// that waits call attend(). Any thread.
     void attend(Seconds within = kAttended) noexcept;
     static constexpr Seconds kAttended{2};
 
-    /// Sets what drives the encoder from the next train on. `roughness` and `pressure` (0..1) serve Manual only.
+    /// Sets the source that drives the encoder from the next train on. `roughness`, `pressure` (0..1): Manual only.
     /// Errors: InvalidArgument outside 0..1 or NaN; Unsupported for Sensor without a sensor; Stopped, unless Off.
     [[nodiscard]] Result<void> drive(DriveSource source, double roughness = 0, double pressure = 0);
-    /// One presentation, in the kind of train that the profile describes: waits for its end. Every train
-    /// is approved by the gate, delivered, read back and judged as any other. Where the last impedance reading would be
-    /// more than 5 s old by the last onset, one check pulse comes first, also before an empty one.
-    /// Nothing else may drive the output. A stop, a pause or a fault ends it (see Presented::end) and makes it void.
-    /// `passing` is called repeatedly, on the caller's thread, with the time since it began and when that was, for a
-    /// screen to show. It depends on nothing else, least of all on when a train comes. May be empty.
-    /// Errors, with which nothing was begun: InvalidArgument as validate(), and for a current that is not on the
-    /// device's grid; Unsupported where the output takes no such level; NotArmed unless armed; Stopped; Device; Io.
+    /// Makes one presentation with the profile's kind of train and waits for its end. Every train is approved by the
+    /// gate, delivered, read back and judged as usual. If the last impedance reading would be more than 5 s old by the
+    /// last onset, one check pulse comes first, even before an empty presentation. Nothing else may drive the output.
+    /// A stop, pause or fault ends the presentation (see Presented::end) and makes it void. `passing` may be empty; for
+    /// a screen, it is called repeatedly on the caller's thread with the time since the beginning and the moment of the
+    /// beginning. Its calls do not depend on when trains come. Errors (nothing was begun): InvalidArgument as
+    /// validate(), and for a current off the device's grid; Unsupported if the output takes no such level; NotArmed
+    /// unless armed; Stopped; Device; Io.
     [[nodiscard]] Result<Presented> present(const Presentation& presentation,
                                             const std::function<void(Seconds since, Instant began)>& passing = {});
 
-    /// The participant accepted the level that was presented last: without it the next may not rise (hazard H6).
+    /// Notes that the participant accepted the last level presented; otherwise the next may not rise (hazard H6).
     /// Recorded as `level-accepted`. Errors: InvalidArgument unless the last presentation was complete, not empty and
     /// at this level; NotArmed outside person mode; LimitExceeded as SafetyGate::accept(); Io.
     [[nodiscard]] Result<void> accept(const StimulusLevel& level);
-    /// The participant called this level too strong: from now on nothing exceeds it, also when the bench is armed
-    /// again. Passed to the gate before it is recorded as `level-too-strong`; also after a stop. Errors:
-    /// InvalidArgument unless finite and ≥ 0, and an intensity at most 1; Unsupported for a level that the output does
-    /// not take; NotArmed outside person mode; Io, when it holds all the same.
+    /// Notes that the participant called this level too strong: no level exceeds it from now on, even after arming
+    /// again. Tells the gate before recording `level-too-strong`; also works after a stop. Errors: InvalidArgument
+    /// unless finite and ≥ 0, and an intensity at most 1; Unsupported for a level that the output does not take;
+    /// NotArmed outside person mode; Io, in which case the new limit still applies.
     [[nodiscard]] Result<void> reportDiscomfort(const StimulusLevel& level);
-    /// A series of ascending limits: its ceiling is its own last accepted level plus one step. Errors: NotArmed outside
-    /// person mode.
+    /// Begins a series of ascending limits: its ceiling is one step above the last level accepted in the series.
+    /// Errors: NotArmed outside person mode.
     [[nodiscard]] Result<void> beginAscending();
     [[nodiscard]] Result<void> endAscending();
-    /// The highest level that a presentation may have now: the ramp, what was too strong, the cap. Errors: NotArmed
-    /// outside person mode, and before it was armed.
+    /// Returns the highest level that a presentation may have now, by the ramp, the levels that were too strong and
+    /// the cap. Errors: NotArmed outside person mode, and before the first arming.
     [[nodiscard]] Result<StimulusLevel> levelCeiling();
-    /// The highest level of the device's grid that the limits, the cap and the discomfort limit permit at `interval` on
-    /// the last measured impedance, whatever was accepted; and what stands against the next one. Errors: NotArmed
-    /// outside person mode, and where no impedance is known.
+    /// Returns the highest level on the device's grid that the limits, the cap and the discomfort limit permit at
+    /// `interval` and the last measured impedance, whatever was accepted; and what forbids the next level. Errors:
+    /// NotArmed outside person mode, and if no impedance is known.
     [[nodiscard]] Result<PermittedLevel> levelLimit(Seconds interval) const;
 
     /// Replaces the profile at the next step of the loop. While armed only its `roughness` section may change.
     /// Errors: NotArmed for another change while armed; InvalidArgument for a profile that is not valid.
-    /// `before`: what R was shown for until now; see the session's marks.
+    /// `before`: the purpose for which R was shown until now (see RBefore).
     [[nodiscard]] Result<void> setProfile(const Profile& profile, RBefore before = RBefore::Shown);
     /// The calibration that is applied now.
     [[nodiscard]] const KnownLines& calibration() const noexcept;
-    /// Leaves the stimulator's calibration aside, or takes it up again: a new one must see the stimulator as it is.
+    /// Stops or resumes applying the stimulator's calibration: a new one must measure the uncorrected stimulator.
     /// Errors: NotArmed unless disarmed.
     [[nodiscard]] Result<void> useCalibration(bool use);
     [[nodiscard]] const Profile& profile() const noexcept;
     [[nodiscard]] const std::vector<LimitSet>& limits() const noexcept;
-    /// The setup that the gate receives when this load is armed: for previews.
+    /// The setup that the gate would receive if this load were armed; for previews.
     [[nodiscard]] GateSetup setupFor(const Load& load) const;
 
-    /// Lets `duration` pass on the bench's clock. Errors: Stopped; Device after a fault, Timeout where lateness caused
-    /// it; Device when the sensor that drives failed; LimitExceeded when a manually driven train was refused (driven by
-    /// a sensor it is skipped and counted).
+    /// Lets `duration` pass on the bench's clock. Errors: Stopped; Device after a fault, Timeout if lateness caused the
+    /// fault; Device if the driving sensor failed; LimitExceeded if a manually driven train was refused (a refused
+    /// sensor-driven train is only skipped and counted).
     [[nodiscard]] Result<void> wait(Seconds duration);
-    /// Lets time pass as wait() does, but also after a stop or a fault: a display continues when output does not. Never
-    /// fails. For a bench whose virtual clock has no other mover.
+    /// Lets time pass as wait() does, but also after a stop or fault, so that a display continues without output.
+    /// Never fails. For a bench on a virtual clock that nothing else moves.
     void idle(Seconds duration) noexcept;
     /// Arms the oscilloscope and returns the captures of the next `trains` trains. Errors: Unsupported without an
     /// oscilloscope; Timeout when fewer came; as wait().
     [[nodiscard]] Result<std::vector<Capture>> capture(int trains, const ScopeSettings& settings);
-    /// capture() in two halves, for a caller that goes on meanwhile: the next `trains` triggers, whenever they come.
-    /// A new request replaces one that is under way. With `untriggeredAfter` a record comes untriggered (and is marked
-    /// so) whenever no trigger has come for that long; capture() never takes one.
-    /// Errors: Unsupported, also where the oscilloscope takes no record without a trigger; InvalidArgument for the
-    /// number or the wait.
+    /// Like capture(), but returns at once; takeCaptures() then fetches the records of the next `trains` triggers. A
+    /// new request replaces a pending one. With `untriggeredAfter`, a record is taken untriggered (and marked so)
+    /// whenever no trigger has come for that long; capture() never takes such a record.
+    /// Errors: Unsupported, also if the oscilloscope takes no untriggered record; InvalidArgument for the number or the
+    /// wait.
     [[nodiscard]] Result<void> requestCaptures(int trains, const ScopeSettings& settings,
                                                std::optional<Seconds> untriggeredAfter = {});
-    /// Whether requestCaptures() may be asked for untriggered records.
+    /// True if requestCaptures() accepts `untriggeredAfter`.
     [[nodiscard]] bool canCaptureUntriggered() const noexcept;
-    /// The captures of a request so far, or why the oscilloscope failed. Empties it.
+    /// Takes out the captures made so far for a request, or returns why the oscilloscope failed.
     [[nodiscard]] Result<std::vector<Capture>> takeCaptures();
     void cancelCaptures() noexcept;
-    /// Also pushes the sensor's samples into `tap`, not owned, until null is passed; for a caller that wants them
-    /// itself and takes them between waits. On return nothing is pushed into the earlier tap.
+    /// Also pushes the sensor's samples into `tap` (not owned) until null is passed; for a caller that takes them
+    /// between waits. On return nothing is pushed into the earlier tap.
     void listen(BenchTap* tap);
     /// True when a replayed sensor has no more samples.
     [[nodiscard]] bool sensorFinished() const noexcept;
@@ -225,12 +225,12 @@ public:
     [[nodiscard]] Telemetry telemetry() const;
     /// Faults since the bench was made. Any thread.
     [[nodiscard]] std::uint64_t faults() const noexcept;
-    /// The device's own report in that role; nothing where there is no device, or it reports nothing. Any thread.
+    /// Returns that device's own report; nothing if there is no such device or it reports nothing. Any thread.
     [[nodiscard]] std::optional<DeviceReport> deviceReport(Role role) const noexcept;
     [[nodiscard]] DeviceSet& devices() noexcept;
     [[nodiscard]] OutputMode mode() const noexcept;
     [[nodiscard]] const Clock& clock() const noexcept;
-    /// Asked in loops of waiting calls; lets a script host report progress. May be null.
+    /// Sets a callback that waiting calls make repeatedly, so that a script host can report progress. May be null.
     void onProgress(void (*callback)(void* context), void* context) noexcept;
 
 private:

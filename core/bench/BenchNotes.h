@@ -1,7 +1,7 @@
-// BenchNotes.h - what a bench itself writes into the session, past the recorder, whose only caller is the control loop:
-// the file alone must tell how each train was made and judged.
+// BenchNotes.h - the records that a bench writes into the session itself, because only the control loop may call the
+// recorder: the session file alone must tell how each train was made and judged.
 //
-// Without a session it is a null object: nothing is written, and nothing fails.
+// Without a session, nothing is written and nothing fails.
 //
 // Thread-safety: one caller, the bench's.
 #pragma once
@@ -25,17 +25,17 @@ public:
     /// `session` and `clock` outlive the notes; `session` may be null.
     BenchNotes(SessionWriter* session, const Clock& clock) noexcept : session_(session), clock_(clock) {}
 
-    /// The lines that are applied; `text`: which calibration that is, or why there is none. Empty notes nothing.
+    /// Notes the calibration lines in use; `text` names the calibration or says why there is none. Empty: no note.
     void calibration(const KnownLines& applied, const std::string& text) const;
-    /// Notes the differences of the profile. Errors: as SessionWriter::event().
+    /// Notes how the profile changes. Errors: as SessionWriter::event().
     [[nodiscard]] Result<void> profile(const Profile& before, const Profile& next) const;
-    /// Load range, area, limits and calibration that every train of this arming is judged by. Errors: the same.
+    /// Notes the load range, area, limits and calibration that judge every train of this arming. Errors: as profile().
     [[nodiscard]] Result<void> arming(const ArmRequest& request, const GateSetup& setup, const Profile& profile) const;
-    /// `kind`, one of the above: a level that a participant accepted, or called too strong, and the ceiling after it.
-    /// Errors: the same.
+    /// Notes a level that a participant accepted or called too strong (`kind`, see above), and the ceiling after it.
+    /// Errors: as profile().
     [[nodiscard]] Result<void> level(const char* kind, const StimulusLevel& level, const StimulusLevel& ceiling) const;
-    /// Last of all, since counts grow until the end. Without this event the marks of a session are not known.
-    /// `calibrated`: of the stimulator, if there is one.
+    /// Called last of all, because counts grow until the end. A session without this event has no known marks.
+    /// `calibrated`: whether the stimulator is calibrated; nothing without a stimulator.
     void marks(const RoughnessFlags& flags, std::optional<bool> calibrated, const Profile& profile) const noexcept;
 
 private:

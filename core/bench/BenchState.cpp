@@ -12,8 +12,8 @@ namespace tacto {
 
 namespace {
 
-/// Where the time of a record allows more than one command: the only one whose size all of its pulses have, within 20
-/// %, which faults nothing.
+/// If the time of a record allows several commands, returns the only command whose size all pulses match within 20 %.
+/// This guess causes no fault.
 std::optional<ProgrammedTrain> commandOfItsSize(const Capture& capture, const SourceTraits& source,
                                                 std::span<const ProgrammedTrain> programmed) {
     constexpr double kOff = 0.2;
@@ -28,14 +28,14 @@ std::optional<ProgrammedTrain> commandOfItsSize(const Capture& capture, const So
         if (measured.amplitude.min >= (1 - kOff) * expected && measured.amplitude.max <= (1 + kOff) * expected)
             fitting.push_back(command);
     }
-    fitting.emplace_back();  // others are missing between them
+    fitting.emplace_back();  // commands may be missing between these
     return commandShownIn(capture, fitting);
 }
 
-/// Asks one device's session how its device is, and waits for the answer.
+/// Asks the session of one device for the device's health, and waits for the answer.
 template <class Session>
 Result<void> ask(BenchTime& time, Session& session, Role role, Instant within, const char* who) {
-    static_cast<void>(session.health());  // an old answer
+    static_cast<void>(session.health());  // discards an old answer
     session.askHealth();
     std::optional<Result<void>> answer;
     const Instant until = time.now() + within;
@@ -57,7 +57,7 @@ Bench::State::~State() {
     off("the bench closes");
     time.endLoop();
     heartbeat.end();
-    off("the bench closes");  // including what the loop's last step may have handed over
+    off("the bench closes");  // also withdraws what the loop's last step may have handed over
     time.endDevices();
     output.off();
     if (loop) loop->noteState(config.clock->now());
@@ -113,7 +113,7 @@ Result<void> Bench::State::open() {
     return {};
 }
 
-/// The stimulator continues from what it delivered before, and no other process drives it meanwhile.
+/// Continues the exposure from the stimulator's record, and keeps other processes from driving the stimulator.
 Result<void> Bench::State::takeUpRecord() {
     const auto& stimulating = config.devices.stimulator;
     if (!stimulating || stimulating->identity().simulated || config.units.records.empty()) return {};
@@ -149,7 +149,7 @@ void Bench::State::openScope() {
                                            [this](Capture& capture) { noteCapture(capture); });
 }
 
-/// Beside the capture stands what was programmed, and the loop judges what came out of it.
+/// Adds the programmed values to the capture, and lets the loop judge the captured output.
 void Bench::State::noteCapture(Capture& capture) {
     applyStatement(capture, config.devices.scopeStatement);
     const auto programmed = loop->telemetry().programmed;
@@ -196,10 +196,10 @@ Result<void> Bench::State::rest() {
     return rested ? Result<void>{} : failure(rested);
 }
 
-/// A report from the time when the device was gone (a keep-alive that failed) belongs to the fault that is being left;
-/// judged after the reset it would be the next one.
+/// Waits until old reports are judged. A report from the time when the device was gone (such as a failed keep-alive)
+/// belongs to the fault that is being left; judged after the reset, it would cause a new fault.
 Result<void> Bench::State::letReportsBeJudged() {
-    constexpr std::uint64_t kSteps = 2;  // one step may be under way
+    constexpr std::uint64_t kSteps = 2;  // two, because one step may be under way
     constexpr Instant kStepsTimeout = std::chrono::milliseconds(500);
     constexpr Instant kPollInterval = std::chrono::milliseconds(1);
     const auto begin = loop->telemetry().steps;
@@ -215,7 +215,7 @@ Result<void> Bench::State::leaveFault() {
         return fail(ErrorCode::NotArmed, "a fault of the program itself is not reset: {}. Restart the program",
                     interlock.reason().view());
     }
-    // A massager is not asked anything: the next burst shows whether it is there.
+    // A massager cannot be asked for its health: the next burst shows whether it is there.
     if (auto* massager = output.massager()) massager->forceOff();
     if (auto* stimulator = output.stimulator()) {
         constexpr Instant kStimulatorTimeout = std::chrono::milliseconds(500);

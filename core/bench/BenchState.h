@@ -1,7 +1,6 @@
-// BenchState.h - the parts that a bench is made of, how they are put together, and in which order they end. Private to
-// core/bench.
+// BenchState.h - the parts of a bench, how they are put together, and in which order they end. Private to core/bench.
 //
-// Thread-safety: as Bench.h says of the calls that use it.
+// Thread-safety: as Bench.h states for the calls that use each part.
 #pragma once
 
 #include <atomic>
@@ -22,48 +21,48 @@ namespace tacto {
 
 struct Bench::State {
     explicit State(BenchConfig given);
-    ~State();  ///< outputs off before the threads end, and after
+    ~State();  ///< switches outputs off before the threads end, and again afterwards
     State(const State&) = delete;
     State& operator=(const State&) = delete;
 
-    /// Puts the parts together; time passes from then on. Errors: as Bench::create().
+    /// Puts the parts together; from then on time passes. Errors: as Bench::create().
     [[nodiscard]] Result<void> open();
 
-    /// Disarmed first: see ControlLoop::mayPost().
+    /// The caller disarms first: see ControlLoop::mayPost().
     void off(const char* why) noexcept;
-    /// Whether the bench may continue. Errors: Stopped; Device after a fault or when the sensor that drives failed; Io
-    /// when the session cannot be written.
+    /// Checks that the bench may continue. Errors: Stopped; Device after a fault or if the driving sensor failed; Io if
+    /// the session cannot be written.
     [[nodiscard]] Result<void> health() const;
     void attend(Seconds within) noexcept {
         if (!config.watched || config.watched()) loop->attend(config.clock->now() + toInstant(within));
     }
-    /// Waits until the unit has rested, where what it delivered before is not known. Errors: as health().
+    /// If the unit's earlier deliveries are not known, waits until the unit has rested. Errors: as health().
     [[nodiscard]] Result<void> rest();
-    /// The way out of Faulted. Each cause is looked at again, here or before anything else can be delivered:
+    /// Leaves Faulted. Each cause is checked again, here or before anything else can be delivered:
     ///   device lost, device fault, status missing   the device is asked, and must answer and deliver nothing
     ///   stale sensor, a failed sensor               the sensor is asked
     ///   loop silent                                 the loop must take its steps again
-    ///   open, short, net charge, limit broken       the check pulse with which arming begins:
-    ///   ControlLoop::judgeCheck();
+    ///   open, short, net charge, limit broken       the check pulse with which arming begins shows it, see
+    ///                                               ControlLoop::judgeCheck();
     ///                                               a source that does not read back arms on the operator's word
-    ///   internal error                              is never gone: the program is restarted
+    ///   internal error                              never goes away: the program must be restarted
     /// Errors: NotArmed while the cause persists.
     [[nodiscard]] Result<void> leaveFault();
-    /// A train driven by hand was refused since the caller last heard of one.
+    /// True if a manually driven train was refused after the caller last saw a refusal.
     [[nodiscard]] bool refusedByHand() const noexcept {
         return driving.load(std::memory_order_acquire) == DriveSource::Manual && loop->refusals() != refusalsSeen;
     }
     [[nodiscard]] Result<void> refusal();
-    /// Whether something may be presented now. Errors: NotArmed; as health().
+    /// Checks that a presentation may begin now. Errors: NotArmed; as health().
     [[nodiscard]] Result<void> readyToPresent() const;
     [[nodiscard]] Result<std::unique_ptr<FingerInput>> makeFinger(const Profile& profile);
     [[nodiscard]] std::unique_ptr<TrainPlanner> makePlanner(const Profile& profile);
-    /// Null where there is no such device, or it reports nothing.
+    /// Returns null if there is no such device or it reports nothing.
     [[nodiscard]] const ReportingDevice* reportingDevice(Role role) const noexcept;
 
     BenchConfig config;
     BenchCalibration calibration{config};
-    std::unique_ptr<UnitRecord> record;  // the stimulator's record, where one is kept; outlives those that write to it
+    std::unique_ptr<UnitRecord> record;  // the stimulator's record, if one is kept; outlives the parts that write to it
     BenchNotes notes;
     SafetyGate gate;
     Interlock interlock;
@@ -79,7 +78,7 @@ struct Bench::State {
     std::atomic<DriveSource> driving{DriveSource::Off};
     std::uint64_t refusalsSeen = 0;  // refusals that the caller of drive(), wait() and capture() has seen
 
-    BenchTime time{*config.clock, output, order};  // The threads in it end first
+    BenchTime time{*config.clock, output, order};  // last, so that its threads end first
     BenchLevels levels{config, output, calibration, terms, notes, gate, time, loop};
 
 private:

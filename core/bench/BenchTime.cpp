@@ -32,7 +32,7 @@ void BenchTime::startThreads() {
     loopThread_ = std::make_unique<DeviceThread>(clock_, [this, due = clock_.now()](Instant now) mutable {
         if (withheld_.load(std::memory_order_acquire)) return now + ControlLoop::kPeriod;
         loop_->step(now);
-        // More than a step behind (a stall): continue from now rather than catch up in a burst.
+        // After a delay of more than a step, continue from now instead of making the missed steps in a burst.
         due = std::max(due + ControlLoop::kPeriod, now);
         return due;
     });
@@ -44,7 +44,7 @@ void BenchTime::endDevices() noexcept {
     outputThread_.reset();
 }
 
-/// Virtual clock: moves time to the next thing that happens, at most to `until`, and does it.
+/// On the virtual clock, moves time to the next event, at most to `until`, and handles that event.
 void BenchTime::turn(Instant until) noexcept {
     const Instant next = std::min(until, output_.isOpen() ? std::min(nextTick_, outputDue_) : nextTick_);
     virtual_->advanceTo(next);
@@ -85,7 +85,7 @@ void BenchTime::pass(Instant until, Instant longest) noexcept {
 void BenchTime::withholdLoop(Instant until) {
     if (isVirtual()) {
         while (!order_.stopped() && clock_.now() < until) {
-            // The output alone is served, as its own thread would do while the loop hangs.
+            // Serves only the devices, as their own threads would do while the loop hangs.
             virtual_->advanceTo(output_.isOpen() ? std::min(until, outputDue_) : until);
             const Instant now = clock_.now();
             if (output_.isOpen() && now >= outputDue_) outputDue_ = output_.serve(now);

@@ -1,6 +1,6 @@
-// BenchTime.h - how time passes on a bench. On the virtual clock it moves only in here, on the caller's thread, which
-// serves the devices and steps the control loop in the order of time; on the steady clock each of them has a thread of
-// its own, and the caller waits. The step code is the same.
+// BenchTime.h - how time passes on a bench. On the virtual clock, time moves only in here, on the caller's thread,
+// which serves the devices and steps the control loop in order of time. On the steady clock, the loop and each device
+// have their own threads, and the caller waits. The step code is the same.
 //
 // Thread-safety: wakeOutput() any thread; the rest has one caller, the bench's.
 #pragma once
@@ -23,8 +23,8 @@ namespace tacto {
 
 // Runs one device's step code on a thread of its own (steady clock only).
 //
-// The step returns when it wants to run again; wake() makes it run at once. On the virtual clock the bench
-// calls the same steps itself and no DeviceThread exists.
+// The step returns the time of its next run; wake() makes it run at once. On the virtual clock the bench calls the same
+// steps itself, and no DeviceThread exists.
 
 class DeviceThread {
 public:
@@ -56,28 +56,28 @@ public:
 
     [[nodiscard]] bool isVirtual() const noexcept { return virtual_ != nullptr; }
     [[nodiscard]] Instant now() const noexcept { return clock_.now(); }
-    /// Asked at each look of advance().
+    /// Sets the callback that advance() calls each time it checks its conditions.
     void onProgress(void (*callback)(void* context), void* context) noexcept;
 
-    /// Time begins to pass for these; all outlive this, and all but the loop may be null. `watch` comes first at each
-    /// look of advance(): its error ends the wait.
+    /// Starts time for these parts. All outlive this object; all but the loop may be null. advance() calls `watch`
+    /// first at each check; an error from `watch` ends the wait.
     void start(ControlLoop& loop, SensorSession* sensor, ScopeSession* scope, SessionRecorder* recorder,
                std::function<Result<void>()> watch);
-    /// On return the loop takes no further step.
+    /// After this returns, the loop takes no further step.
     void endLoop() noexcept { loopThread_.reset(); }
-    /// After this returns nothing is served any longer. The loop is ended first.
+    /// After this returns, no device is served any longer. End the loop first.
     void endDevices() noexcept;
 
-    /// Lets time pass until `done` or `until`; the value says whether it was done. On the virtual clock a pause holds
-    /// it up. Errors: those of `watch`.
+    /// Lets time pass until `done` returns true or `until` is reached; returns whether `done` did. A pause holds up the
+    /// virtual clock. Errors: as `watch`.
     [[nodiscard]] Result<bool> advance(Instant until, const std::function<bool()>& done);
-    /// Lets a turn pass, or on the steady clock up to `longest`; at most to `until`, in any state of the order.
+    /// Lets one turn pass (steady clock: up to `longest`), at most to `until`, in any state of the order.
     void pass(Instant until, Instant longest) noexcept;
-    /// Until then, or until a stop, the loop takes no step, as in a hang; the devices continue.
+    /// Until `until` or a stop, the loop takes no step, as if it hung; the devices continue.
     void withholdLoop(Instant until);
-    /// Serves the output or the sensor once, out of turn; on the steady clock its thread does, within a millisecond.
+    /// Serves the output or the sensor once, out of turn; on the steady clock the device's thread does so within 1 ms.
     void prompt(Role role) noexcept;
-    /// The output has something to do before its time.
+    /// Tells the output's thread that the output has something to do at once.
     void wakeOutput() noexcept {
         if (outputThread_) outputThread_->wake();
     }
@@ -87,7 +87,7 @@ private:
     void startThreads();
 
     Clock& clock_;
-    VirtualClock* const virtual_;  // null when the clock is the steady one
+    VirtualClock* const virtual_;  // null if the clock is steady
     BenchOutput& output_;
     StandingOrder& order_;
     ControlLoop* loop_ = nullptr;
@@ -102,8 +102,8 @@ private:
     Instant nextTick_{0};
     Instant outputDue_{0};
 
-    // Steady clock only. Last: they end first.
-    std::atomic<bool> withheld_{false};  // the loop's thread does nothing
+    // Steady clock only. Declared last, so that the threads end first.
+    std::atomic<bool> withheld_{false};  // while true, the loop's thread does nothing
     std::unique_ptr<DeviceThread> outputThread_, sensorThread_, scopeThread_, loopThread_;
 };
 

@@ -10,7 +10,7 @@ namespace tacto {
 namespace {
 
 constexpr Instant kUnrecorded = std::chrono::seconds(2);
-constexpr Instant kSlept = std::chrono::seconds(1);  // shorter is a silence as any other
+constexpr Instant kSlept = std::chrono::seconds(1);  // a shorter sleep is treated as a silence of the loop
 
 bool mayPutOut(InterlockState state) noexcept {
     return state == InterlockState::Checking || state == InterlockState::Armed || state == InterlockState::Delivering ||
@@ -49,7 +49,7 @@ void ControlLoop::present(Presentation presentation) {
     inbox_.present(std::move(presentation));
 }
 
-/// First of all: what was approved before a silence must not be written after it, no matter which thread wakes first.
+/// Runs first in a step: a train approved before a silence must not be written after it, whichever thread wakes first.
 void ControlLoop::beat(Instant now) noexcept {
     const bool inTime = parts_.heartbeat.beat(parts_.clock.elapsed());
     const Instant asleep = parts_.clock.asleep();
@@ -77,7 +77,7 @@ void ControlLoop::wakeFromSleep(Instant now, Instant slept) noexcept {
     endOrder(now, "sleep", why.data());
 }
 
-/// Output continues only while its owner waits for it and it is recorded.
+/// Ends the output unless its owner still looks after it and the session is still being recorded.
 void ControlLoop::watchOwner(Instant now) noexcept {
     if (!mayPutOut(parts_.interlock.state())) return;
     if ((drive_.source != DriveSource::Off || presentation_.active()) && !order_.attended(now))
@@ -86,7 +86,7 @@ void ControlLoop::watchOwner(Instant now) noexcept {
         endOrder(now, "unrecorded", "the disk stood still for 2 s, and nothing is put out that is not recorded");
 }
 
-/// An order from before is over, as by a stop.
+/// Ends the present order as a stop does.
 void ControlLoop::endOrder(Instant now, const char* kind, std::string_view why) noexcept {
     order_.end(why);
     parts_.interlock.disarm(FixedText<159>(why).c_str());
@@ -231,7 +231,7 @@ void ControlLoop::judgeCheck(const TrainReport& report) noexcept {
         return arming_.refuse(judgement.reason.c_str(),
                               {ErrorCode::NotArmed, fmt::format("not armed: {}", judgement.reason.view())});
     }
-    // A fault of before may have been reset, and its cause still be there: nothing is armed on it.
+    // The cause of an earlier, reset fault may still be there: then the check pulse shows it, and nothing is armed.
     if (const auto fault = judge_.readBack(report)) return trip(fault, report.statusAt);
     arming_.checkRead(report);
 }
@@ -248,7 +248,7 @@ void ControlLoop::judgeBurst(const TrainReport& report) noexcept {
     rests_.burst(report.onset, report.end);
 }
 
-/// A fingertip that drives is not watched: what it feels begins and ends with the bursts.
+/// While the fingertip drives, it is not watched: what it feels begins and ends with the bursts.
 void ControlLoop::watchMassager(Instant now) noexcept {
     const auto* finger = finger_.input();
     if (parts_.massager == nullptr || finger == nullptr) return;
@@ -317,7 +317,7 @@ void ControlLoop::sendDue(Instant now) noexcept {
     if (!sent) refused(now, sent.error().message);
 }
 
-/// Sends one check pulse; the train follows when it was judged.
+/// Sends one check pulse; the train follows once that pulse was judged.
 void ControlLoop::renewReading(Instant now) noexcept {
     if (const auto sent = dispatch_.sendCheck(now, shown_); !sent)
         trip(FaultCause::LimitBroken, sent.error().message, now);
@@ -329,7 +329,7 @@ void ControlLoop::goOnPresenting(Instant now) noexcept {
     const auto due = presentation_.next(
         {now, parts_.interlock.state(), reason.view(), order_.stopped(), paused, dispatch_.idle(), reading_.until()});
     if (due == PresentationRun::Due::Check) return renewReading(now);
-    // Done before an empty presentation, too: what the bench shows must not tell them apart.
+    // Also done before an empty presentation: what the bench shows must not reveal which presentations are empty.
     if (!presentation_.begun() || !dispatch_.beginDelivery()) return;  // the next turn finds out why
     if (due != PresentationRun::Due::Train) return;
     if (const auto sent = dispatch_.sendPresented(presentation_, *planner_, now, shown_); !sent)
@@ -339,7 +339,7 @@ void ControlLoop::goOnPresenting(Instant now) noexcept {
 void ControlLoop::refused(Instant now, std::string_view why) noexcept {
     ++shown_.trainsRefused;
     shown_.lastRefusal = why;
-    latest_.write(shown_);  // written before a caller who saw the count asks for the reason
+    latest_.write(shown_);  // written first, so that a caller who sees the count finds the reason
     refusals_.store(shown_.trainsRefused, std::memory_order_release);
     journal_.refused(now, why);
 }
@@ -351,13 +351,13 @@ void ControlLoop::trip(FaultCause cause, std::string_view reason, Instant now) n
 void ControlLoop::trip(FaultCause cause, std::string_view reason, Instant now, ErrorCode code) noexcept {
     parts_.gate.latchStop();
     dispatch_.forceOff();
-    parts_.interlock.fault(cause, reason, code);  // keeps it in a file, whose disk may be slow
+    parts_.interlock.fault(cause, reason, code);  // saves the fault in a file; the disk may be slow, so this comes last
     faults_.fetch_add(1, std::memory_order_acq_rel);
     journal_.fault(now, reason);
     noteState(now);
 }
 
-/// Noted once each time the output leaves what the source states.
+/// Notes the deviation once, each time the output leaves the stated accuracy of the source.
 void ControlLoop::noteMeasured(Instant now) noexcept {
     const bool before = shown_.measured.beyond;
     shown_.measured = judge_.measured();
@@ -383,7 +383,7 @@ void ControlLoop::publish(Instant now) noexcept {
 }
 
 Telemetry ControlLoop::telemetry() const noexcept {
-    Telemetry all{latest_.read(), {}, 0};  // the table after it: never older than the step says
+    Telemetry all{latest_.read(), {}, 0};  // the exposure table is read afterwards, so it is never older than the step
     exposure_.show(all);
     return all;
 }

@@ -1,10 +1,10 @@
-// ControlLoop.h - one turn of the bench: read all sources → roughness and pressure → encode → gate → hand the
-// train to the stimulator's session → commands → telemetry.
+// ControlLoop.h - one turn of the bench: read all sources → roughness and pressure → encode → gate → hand the train to
+// the stimulator's session → commands → telemetry.
 //
-// It is the gate's only caller, and the only one to move the interlock forward; any thread may stop it. Its parts: the
-// inbox of what other threads set, the participant's word on levels, the order and the presentation that it carries
-// out, the finger, the arming sequence, the judge of what was delivered, the reading of |Z| and its age, the dispatch
-// of trains, the exposure, the journal, and the taps of displays.
+// The loop alone calls the gate and advances the interlock; any thread may stop the interlock. Its parts: the inbox
+// for other threads' settings, the participant's word on levels, the order and its current presentation, the finger,
+// the arming sequence, the judge of deliveries, the reading of |Z| and its age, the dispatch of trains, the exposure,
+// the journal, and the taps of displays.
 //
 // Thread-safety: step() has one caller. arm(), armed(), drive(), replaceFinger() and replacePlanner() may be called
 // from another thread; the newest setting wins and takes effect in the next step. telemetry() any thread.
@@ -46,69 +46,69 @@ public:
         SessionRecorder* recorder;      ///< may be null
         int frameStream;                ///< the recorder's stream for roughness frames
         std::vector<int> sensorStreams;
-        BenchTap* tap = nullptr;                        ///< may be null: no view is open
-        MassagerSession* massager = nullptr;            ///< null unless a massager takes the place of the stimulator
+        BenchTap* tap = nullptr;                        ///< null if no view is open
+        MassagerSession* massager = nullptr;            ///< null unless a massager replaces the stimulator
         const ReportingDevice* sensorReport = nullptr;  ///< the sensor, if it reports on itself
-        /// A stop after the order to arm holds back every check pulse and train of it. Null: only the interlock does.
+        /// A stop after the order to arm holds back all its check pulses and trains. Null: only the interlock does.
         StopCounter* stops = nullptr;
     };
     ControlLoop(Parts parts, std::unique_ptr<FingerInput> finger, std::unique_ptr<TrainPlanner> planner);
 
-    /// Begins the check; the interlock is in Checking. armed() reports the end.
+    /// Begins the check; the interlock must be in Checking. armed() returns the outcome.
     void arm(ArmCommand command);
-    /// Hands in the oscilloscope's view of the check pulse: |Z|, or why it does not confirm it. Arming with
-    /// `confirmByCapture` waits for it. From another thread.
+    /// Hands in |Z| as the oscilloscope saw it in the check pulse, or why the pulse is not confirmed. Arming with
+    /// `confirmByCapture` waits for this call. From another thread.
     void confirmCheck(const Result<Ohms>& seen) { inbox_.confirm(seen); }
-    /// Nothing while the check is going on, then success or why it failed. Taken once.
+    /// Returns nothing during the check, then success or the reason for failure. Can be taken once.
     [[nodiscard]] std::optional<Result<void>> armed() { return arming_.result(); }
     void drive(const DriveCommand& command) { inbox_.drive(command); }
-    /// Presents at once what has passed validate(), if the bench is armed and drives nothing. presented() tells the
-    /// end: nothing before it. Taken once.
+    /// Presents at once a presentation that passed validate(), if the bench is armed and drives nothing. presented()
+    /// returns nothing until the end, then the result, once.
     void present(Presentation presentation);
     [[nodiscard]] std::optional<Presented> presented() { return presentation_.result(); }
     /// As PresentationRun::beganAt().
     [[nodiscard]] std::optional<Instant> presentationBegan() { return presentation_.beganAt(); }
-    /// Takes the participant's word on levels.
+    /// The queue for the participant's statements about levels.
     [[nodiscard]] LevelRequests& levels() noexcept { return levels_; }
     void pauseOutput(bool paused) noexcept {
         dispatch_.pause(paused);
         if (paused) pausedSince_.store(true, std::memory_order_release);
     }
-    /// The earlier flags stay, except those of calibration where R was not shown and drove nothing.
+    /// Keeps the earlier flags, except the calibration flags if R was neither shown nor driving.
     void replaceFinger(std::unique_ptr<FingerInput> finger, RBefore before) {
         inbox_.finger({std::move(finger), before});
     }
     void replacePlanner(std::unique_ptr<TrainPlanner> planner) { inbox_.planner(std::move(planner)); }
-    /// Also pushes the finger's samples (not frames, not trains) into `tap`, not owned; null ends it, and on return
-    /// nothing pushes into the one before. From another thread.
+    /// Also pushes the finger's samples (not frames, not trains) into `tap`, not owned, until null is passed. On return
+    /// nothing is pushed into the earlier tap. From another thread.
     void listen(BenchTap* tap) { taps_.listen(tap); }
-    /// Hands in a capture's view of the load while trains are delivered. Judged where the stimulator cannot read it
-    /// back: a load outside its range, and an open one, end delivery. From another thread.
+    /// Hands in the load that a capture showed during delivery. Judged only if the stimulator cannot read it back: an
+    /// open load, or one outside its range, ends delivery. From another thread.
     void noteLoad(const SeenLoad& seen) { inbox_.load(seen); }
-    /// How large a train came out, from a capture. Any thread; judged at the next step.
+    /// Hands in the amplitude of a train as a capture showed it; judged at the next step. Any thread.
     void noteAmplitude(const SeenAmplitude& seen) { inbox_.amplitude(seen); }
 
-    /// Makes one turn at `now`. Does not allocate in a steady state. A turn that comes more than 100 ms after the one
-    /// before (the process was stopped, the machine stood still) finds a fault and switches off before anything else; a
-    /// turn after the computer slept for more than a second disarms, and counts as a stop.
+    /// Makes one turn at `now`. Does not allocate in a steady state. If the turn comes more than 100 ms late (the
+    /// process or the machine was halted), it first switches off and reports a fault; the first turn after the
+    /// computer slept for more than a second disarms, as a stop does.
     void step(Instant now) noexcept;
-    /// Records a change of the interlock that came from outside, for a bench that will not step again.
+    /// Records a state change of the interlock that came from outside; for a bench that will not step again.
     void noteState(Instant now) noexcept;
 
     [[nodiscard]] Telemetry telemetry() const noexcept;
     /// Trains refused so far. Any thread.
     [[nodiscard]] std::uint64_t refusals() const noexcept { return refusals_.load(std::memory_order_acquire); }
-    /// The owner of the output (a script, a window) looks after it until then. Output that is driven for longer ends as
-    /// by a stop: its owner may hang while the loop runs on (hazard H2). Any thread; does not block.
+    /// Confirms that the owner of the output (a script, a window) looks after it until `until`. Later, driven output
+    /// ends as by a stop: its owner may hang while the loop runs on (hazard H2). Any thread; does not block.
     void attend(Instant until) noexcept { order_.attend(until); }
-    /// Why the loop itself ended the order: a sleep, or an owner or a recording that stood still. Empty where it did
-    /// not. Any thread.
+    /// Returns why the loop itself ended the order: the computer slept, or the owner or the recording stood still.
+    /// Empty if it did not. Any thread.
     [[nodiscard]] FixedText<159> endedBecause() const noexcept { return order_.endedBecause(); }
-    /// From now on another order holds, which the loop has not ended and which has delivered nothing yet.
+    /// Starts a new order, which the loop has not ended and which has delivered nothing yet.
     void beginOrder() noexcept;
-    /// The largest exposure since then, row by row, over every train. Any thread.
+    /// The largest exposure since beginOrder(), row by row, over every train. Any thread.
     [[nodiscard]] WorstExposure worstExposure() const noexcept { return exposure_.worst(); }
-    /// See Telemetry::flags, as of the profile that was set last. For when no step runs any more.
+    /// See Telemetry::flags; for the profile that was set last. For use when no step runs any more.
     [[nodiscard]] RoughnessFlags flags() noexcept;
     /// Faults so far. Any thread.
     [[nodiscard]] std::uint64_t faults() const noexcept { return faults_.load(std::memory_order_acquire); }
@@ -122,7 +122,7 @@ private:
     void takeCommands(Instant now) noexcept;
     void postCheckOfArming(Instant now) noexcept;
     void judgeReports() noexcept;
-    /// Shows the report. False for one that only says that the loop was silent, which is a fault and nothing to judge.
+    /// Shows the report. False if it only says that the loop was silent, which is a fault with nothing to judge.
     [[nodiscard]] bool hear(const TrainReport& report) noexcept;
     void judge(const TrainReport& report) noexcept;
     void judgeBurst(const TrainReport& report) noexcept;
@@ -133,7 +133,7 @@ private:
     void renewReading(Instant now) noexcept;
     void refused(Instant now, std::string_view why) noexcept;
     void trip(FaultCause cause, std::string_view reason, Instant now) noexcept;
-    /// `code`: of the error that tells of the fault.
+    /// `code`: the code of the error that reports the fault.
     void trip(FaultCause cause, std::string_view reason, Instant now, ErrorCode code) noexcept;
     void trip(const std::optional<LoopFault>& fault, Instant now) noexcept {
         if (fault) trip(fault->cause, fault->reason.view(), now);
@@ -143,7 +143,7 @@ private:
     void publish(Instant now) noexcept;
 
     Parts parts_;
-    std::atomic<bool> pausedSince_{false};  // the presentation was asked for
+    std::atomic<bool> pausedSince_{false};  // true if a pause came since the presentation was requested
     std::atomic<std::uint64_t> refusals_{0};
     std::atomic<std::uint64_t> faults_{0};
     LoopInbox inbox_;
@@ -152,7 +152,7 @@ private:
     OwnerWatchdog order_;
     ExposureWatch exposure_;
 
-    // The loop's own:
+    // Used by the loop only:
     std::unique_ptr<TrainPlanner> planner_;
     ArmedLoad load_;
     ArmingSequence arming_;
@@ -163,7 +163,7 @@ private:
     ReadingWatch reading_;
     MassagerWatch rests_;
     TrainDispatch dispatch_;
-    Instant asleepSeen_{0};  // what the clock said at the last look after a silence
+    Instant asleepSeen_{0};  // the clock's total sleep time when last checked
     DriveCommand drive_;
     InterlockState seenState_ = InterlockState::Disconnected;
     bool staleSeen_ = false;

@@ -89,7 +89,7 @@ Result<void> tell(SafetyGate& gate, const LevelRequest& request) {
     return {};
 }
 
-/// Nothing before the first arming in person mode.
+/// Returns nothing before the first arming in person mode.
 std::optional<StimulusLevel> ceilingOf(const SafetyGate& gate, const LevelRequest& request) {
     if (std::holds_alternative<VibrationIntensity>(request.level)) {
         const auto intensity = gate.intensityCeiling();

@@ -1,6 +1,6 @@
-// LoopInbox.h - what other threads hand to the control loop: the newest of each kind takes effect in the next step.
+// LoopInbox.h - settings from other threads for the control loop: the newest of each kind is used in the next step.
 //
-// Thread-safety: take() has one caller, the control loop, which never waits; the rest any thread.
+// Thread-safety: take() is called only by the control loop and never waits; the rest any thread.
 #pragma once
 
 #include <atomic>
@@ -18,7 +18,7 @@
 
 namespace tacto {
 
-/// The meaning that R had before another profile takes over.
+/// What R was used for before the next profile takes over.
 enum class RBefore {
     Shown,     ///< allowed: the session is marked as not calibrated
     Measuring  ///< allowed only for measuring the references and scales of the new profile
@@ -40,24 +40,24 @@ public:
         std::optional<Result<Ohms>> confirmed;
         std::optional<SeenLoad> load;
         std::optional<SeenAmplitude> amplitude;
-        std::optional<SeenAmplitude> unasked;  ///< seen, though no command asked for it
+        std::optional<SeenAmplitude> unasked;  ///< seen in the output, although no command asked for it
     };
 
     void arm(ArmCommand command);
     void drive(const DriveCommand& command);
     void present(Presentation presentation);
-    /// If two arrive in one step, the first is dropped; the R before it counts.
+    /// If two arrive in one step, the first is dropped, but its `before` still counts.
     void finger(NextFinger next);
     void planner(std::unique_ptr<TrainPlanner> next);
     void confirm(const Result<Ohms>& seen);
     void load(const SeenLoad& seen);
-    /// If several arrive in one step, the one furthest off counts; of those of no one command the largest.
+    /// If several arrive in one step, the one furthest from its command wins; without a command, the largest.
     void amplitude(const SeenAmplitude& seen);
 
-    /// All that came since the last call. Nothing when there is nothing, or while another thread hands something in:
-    /// that is there in the next step.
+    /// Returns all settings since the last call. Returns nothing if there are none, or while another thread hands one
+    /// in: the next step then gets it.
     [[nodiscard]] std::optional<Settings> take() noexcept;
-    /// The finger alone, for when no step runs any more; waits for a thread that hands something in.
+    /// Returns the finger alone, for use when no step runs any more; waits for a thread that is handing something in.
     [[nodiscard]] std::optional<NextFinger> takeFinger() noexcept;
 
 private:
@@ -69,26 +69,26 @@ private:
     std::atomic<bool> full_{false};
 };
 
-// Carries a participant's word on levels from the bench's caller to the gate, which has the control loop for its only
-// caller, and back.
+// Carries a participant's statements about levels from the bench's caller to the gate, which only the control loop may
+// call, and carries the answers back.
 
 struct LevelRequest {
     enum class What { Accept, Discomfort, BeginAscending, EndAscending, Ceiling };
     What what = What::Ceiling;
-    PulseTrain train;                    ///< the study's kind of train: the level to accept, or any; none of a massager
-    StimulusLevel level = Milliamps(0);  ///< the level that was accepted or uncomfortable; an intensity is a massager's
+    PulseTrain train;                    ///< the study's kind of train (accept: at that level); unused for a massager
+    StimulusLevel level = Milliamps(0);  ///< the level that was accepted or uncomfortable; an intensity for a massager
 };
 
 class LevelRequests {
 public:
     void ask(const LevelRequest& request);
-    /// Nothing until it was served; then the ceiling that holds afterwards, or why it was refused. Taken once.
+    /// Returns nothing until served, then the ceiling that now holds or the reason for refusal. Can be taken once.
     [[nodiscard]] std::optional<Result<StimulusLevel>> answer();
 
     void serve(SafetyGate& gate) noexcept;
 
 private:
-    std::mutex mutex_;  // guards the two below; held for a call of the gate at most
+    std::mutex mutex_;  // guards request_ and answer_; held at most for one call of the gate
     std::optional<LevelRequest> request_;
     std::optional<Result<StimulusLevel>> answer_;
     std::atomic<bool> asked_{false};

@@ -10,7 +10,7 @@ namespace tacto {
 
 namespace {
 
-/// The shape in words, all of them literals: the loop does not allocate.
+/// Returns the shape in words. All texts are literals, because the loop must not allocate.
 std::string_view shapeText(const PulseTrain& train) noexcept {
     const bool positive = train.polarity == Polarity::Positive;
     switch (train.shape) {

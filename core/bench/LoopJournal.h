@@ -1,8 +1,8 @@
-// LoopJournal.h - what the control loop writes into the session, one function for each kind of record.
+// LoopJournal.h - the records that the control loop writes into the session, one function for each kind of record.
 //
-// Without a recorder it is a null object that writes nothing; callers need no null check.
+// Without a recorder the journal writes nothing; callers need no null check.
 //
-// Thread-safety: one caller, the control loop. Never blocks; allocates at a change of the interlock alone.
+// Thread-safety: one caller, the control loop. Never blocks; allocates only if the interlock changes its state.
 #pragma once
 
 #include <string_view>
@@ -17,18 +17,18 @@
 
 namespace tacto {
 
-/// A device's report on itself as an event of the session: "device report", its rows as fields. Thread-safety: as
-/// SessionRecorder::event(). Never allocates.
+/// Records a device's report on itself as the session event "device report", with the report's rows as fields.
+/// Thread-safety: as SessionRecorder::event(). Never allocates.
 void recordReport(SessionRecorder& recorder, Instant at, const DeviceReport& report, std::string_view text) noexcept;
 
 class LoopJournal {
 public:
-    /// `recorder` may be null and outlives the journal. The streams are its own: roughness frames, and one for each
-    /// stream of the sensor.
+    /// `recorder` may be null and outlives the journal. The recorder has one stream for roughness frames, and one for
+    /// each stream of the sensor.
     LoopJournal(SessionRecorder* recorder, int frameStream, std::vector<int> sensorStreams)
         : recorder_(recorder), frameStream_(frameStream), sensorStreams_(std::move(sensorStreams)) {}
 
-    /// How long the disk has stood still; 0 without a recorder.
+    /// Returns how long the disk has stood still; 0 without a recorder.
     [[nodiscard]] std::chrono::nanoseconds standsStillFor() const noexcept;
 
     /// The samples and frames of the finger's last update.
@@ -42,14 +42,14 @@ public:
     void refused(Instant at, std::string_view why) noexcept;
     void fault(Instant at, std::string_view reason) noexcept;
     void measuredBeyond(Instant at, const MeasuredOutput& measured, const char* unit) noexcept;
-    /// `kind`, a literal: what ended the operator's order.
+    /// `kind`, a literal, says what ended the operator's order.
     void orderEnded(Instant at, const char* kind, std::string_view why) noexcept;
 
-    /// Notes what was planned from R and P, before it is handed over.
+    /// Notes what was planned from R and P, before the plan is handed over.
     void planned(const PlannedTrain& train, double roughness, double pressure) noexcept;
     void planned(const PlannedLevel& train) noexcept;  ///< a train that a presentation has planned
     void planned(const PlannedBurst& burst, double roughness, double pressure) noexcept;
-    /// One row for each train: what was programmed, by which approval, and what was read back. `name`: a literal.
+    /// Writes one row for each train: the programmed values, the approval, and the values read back. `name`: a literal.
     void train(const TrainReport& report, const char* name) noexcept;
     void burst(const TrainReport& report, const char* name) noexcept;
 

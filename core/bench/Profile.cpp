@@ -11,7 +11,7 @@ using nlohmann::json;
 
 constexpr AcceptedNumbers aboveZero(std::string_view unit = {}) { return {.low = 0, .openLow = true, .unit = unit}; }
 
-/// {"peak_current": 20}: any of the quantities.
+/// Reads ceilings such as {"peak_current": 20}; any quantity may be a key.
 ValueKind<Ceilings> ceilingsKind() {
     ValueKind<Ceilings> kind;
     kind.reads([](const json& value, Ceilings& into, const RecordPlace& place, std::string_view key) -> Result<void> {

@@ -8,7 +8,7 @@ namespace tacto {
 Telemetry blinded(const Telemetry& telemetry) {
     Telemetry seen;
     seen.at = telemetry.at;
-    // The output is on while a train is written, and armed in between and in an empty presentation.
+    // Delivering shows as Armed: otherwise the display would tell a train from an empty presentation.
     seen.state = telemetry.state == InterlockState::Delivering ? InterlockState::Armed : telemetry.state;
     if (seen.state != InterlockState::Armed) seen.reason = std::string_view(withoutNumbers(telemetry.reason.view()));
     seen.fault = telemetry.fault;
@@ -17,7 +17,7 @@ Telemetry blinded(const Telemetry& telemetry) {
     for (const auto& row : telemetry.exposure()) {
         if (!forbids(row)) continue;
         ExposureRow broken = row;
-        broken.value = broken.limit;  // it is not known how far beyond
+        broken.value = broken.limit;  // shows the limit itself, to hide how far the value is beyond it
         seen.exposureRows[seen.exposureCount++] = broken;
     }
     return seen;
