@@ -33,7 +33,7 @@ void Bench::disarm() noexcept {
 }
 
 void Bench::stop(const char* by) noexcept {
-    state_->order.stops().raise();  // first: see ControlLoop::mayPost()
+    state_->order.stops().raise();  // first: see TrainDispatch::mayPost()
     state_->off(by);
     state_->order.wakeWaiting();
 }

@@ -28,7 +28,7 @@ struct Bench::State {
     /// Puts the parts together; from then on time passes. Errors: as Bench::create().
     [[nodiscard]] Result<void> open();
 
-    /// The caller disarms first: see ControlLoop::mayPost().
+    /// Switches all output off. Disarms first: see TrainDispatch::mayPost().
     void off(const char* why) noexcept;
     /// Checks that the bench may continue. Errors: Stopped; Device after a fault or if the driving sensor failed; Io if
     /// the session cannot be written.

@@ -41,7 +41,7 @@ std::optional<ApprovedTrain> ArmingSequence::checkPulse(Instant now, bool hasSti
     return std::move(*check);
 }
 
-/// Arms on the operator's word alone; a massager, too, as nothing measures its load.
+/// Arms on the operator's word alone; also arms a massager, because nothing measures its load.
 void ArmingSequence::armWithoutCheck(Instant now) noexcept {
     command_->evidence.impedanceAt = now;
     const auto permitted = interlock_.arm(command_->evidence, now);
@@ -54,7 +54,7 @@ void ArmingSequence::armWithoutCheck(Instant now) noexcept {
 
 void ArmingSequence::checkRead(const TrainReport& report) noexcept {
     if (command_->confirmByCapture) {
-        checkRead_ = true;  // the rest is for armOnCapture()
+        checkRead_ = true;  // armOnCapture() does the rest
         return;
     }
     auto evidence = command_->evidence;
@@ -99,7 +99,7 @@ void ArmingSequence::refuse(const char* reason, Error error) noexcept {
 }
 
 void ArmingSequence::stop() noexcept {
-    // The stop itself may have come before Checking was entered.
+    // The stop may have come before the interlock entered Checking; so the arming is refused here, too.
     refuse("stopped", {ErrorCode::Stopped, "arming ended: stopped. Output is off."});
 }
 

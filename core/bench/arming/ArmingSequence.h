@@ -1,5 +1,5 @@
 // ArmingSequence.h - from the operator's second step to Armed: configures the gate, has the check pulse approved, and
-// arms the interlock on what the check pulse, an oscilloscope or the operator's word says about the load.
+// arms the interlock if the check pulse, an oscilloscope or the operator's word confirms the load.
 //
 // The control loop posts the check pulse and hands over its report; any error disarms.
 //
@@ -20,51 +20,51 @@ namespace tacto {
 struct ArmCommand {
     GateSetup setup;
     ArmingEvidence evidence;  ///< the check pulse fills in its impedance
-    /// |Z| of the declared load, where captures will tell what becomes of it and the stimulator does not: what a
-    /// profile that holds charge or energy refers to.
+    /// |Z| of the declared load, if captures will show the load and the stimulator cannot. A profile that holds charge
+    /// or energy refers to this value.
     std::optional<Ohms> declared{};
     StopMark asked = {};  ///< when the operator gave the order to arm
-    /// The source does not read back and an oscilloscope looks: the check pulse is delivered all the same, and armed is
-    /// what confirm() says.
+    /// True if the source does not read back and an oscilloscope can see the pulse. The check pulse is then delivered,
+    /// and confirm() decides whether the output is armed.
     bool confirmByCapture = false;
 };
 
-/// The load that the output was armed on, as measured then and since.
+/// The load into which the output was armed, as measured then and since.
 struct ArmedLoad {
-    std::optional<Ohms> reference;  ///< |Z| when the output was armed: what a profile that holds charge refers to
+    std::optional<Ohms> reference;  ///< |Z| when the output was armed; a profile that holds charge refers to it
     Instant armedAt{0};
-    Ohms high{0};  ///< end of the range that was declared when arming
+    Ohms high{0};  ///< upper end of the range that was declared when arming
     std::optional<Ohms> impedance;
     Instant impedanceAt{0};
 };
 
 class ArmingSequence {
 public:
-    /// All arguments outlive the sequence; what is armed is written to `load`.
+    /// All arguments outlive the sequence, which writes the armed load to `load`.
     ArmingSequence(SafetyGate& gate, Interlock& interlock, ArmedLoad& load) noexcept
         : gate_(gate), interlock_(interlock), load_(load) {}
 
-    /// Another arming is asked for, which has no result yet.
+    /// Announces a new arming, which has no result yet.
     void expect();
-    /// Nothing while the arming is going on, then success or why it failed. Taken once.
+    /// Returns nothing while arming continues, then success or the reason for failure. Can be taken once.
     [[nodiscard]] std::optional<Result<void>> result();
 
     void begin(ArmCommand command) noexcept;
     [[nodiscard]] bool active() const noexcept { return command_.has_value(); }
-    /// The check pulse is still to be posted: checkPulse() is due.
+    /// True if the check pulse must still be posted: the caller then calls checkPulse().
     [[nodiscard]] bool checkDue() const noexcept { return command_ && !checkPosted_; }
-    /// The approved check pulse, to be posted now. Nothing where the arming ended, with or without success: nothing
-    /// measures this load, or it is refused. `hasStimulator`: else a massager is armed.
+    /// Returns the approved check pulse, to be posted now. Returns nothing if this call ended the arming: nothing can
+    /// measure this load (success), or the load is refused. If `hasStimulator` is false, a massager is armed.
     [[nodiscard]] std::optional<ApprovedTrain> checkPulse(Instant now, bool hasStimulator) noexcept;
-    /// The device has reported the check pulse, and it is sound.
+    /// Takes the device's report on a sound check pulse.
     void checkRead(const TrainReport& report) noexcept;
-    /// Takes the oscilloscope's view of the check pulse; arms once the device has reported, too.
+    /// Takes the oscilloscope's view of the check pulse; armed only after the device has reported, too.
     void confirm(Result<Ohms> seen) noexcept;
     void armOnCapture(Instant now) noexcept;
 
-    /// Ends the arming without success; `reason` is the interlock's. Requires active().
+    /// Ends the arming without success; the interlock gets `reason`. Requires active().
     void refuse(const char* reason, Error error) noexcept;
-    /// Ends it for a stop.
+    /// Ends the arming because of a stop.
     void stop() noexcept;
     void finish(Result<void> result) noexcept;
 
@@ -77,7 +77,7 @@ private:
     ArmedLoad& load_;
     std::optional<ArmCommand> command_;
     bool checkPosted_ = false;
-    bool checkRead_ = false;                 // the device has reported, the capture has not come
+    bool checkRead_ = false;                 // true once the device has reported and while the capture is missing
     std::optional<Result<Ohms>> confirmed_;  // the load that the capture showed
 
     std::mutex resultMutex_;

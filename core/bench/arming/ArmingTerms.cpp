@@ -33,7 +33,7 @@ std::string ArmingTerms::text(const Load& load) const {
     return armingText(output->identity(), stimulated, config_.profile, config_.mode, load);
 }
 
-/// A confirmation of another text does not count: a device, profile or area may have changed since it was shown.
+/// Rejects a confirmation of any other text: a device, profile or area may have changed since the text was shown.
 Result<void> ArmingTerms::checkConfirmed(const ArmRequest& request, const Load& load) const {
     if (request.confirmed.empty() && !output_.isReal()) return {};
     const auto shown = text(load);
@@ -48,7 +48,7 @@ ArmCommand ArmingTerms::commandFor(const ArmRequest& request, const Load& load, 
     ArmCommand command;
     command.asked = asked;
     command.setup = setupFor(load);
-    // |Z| depends on the pulse: the range is that of the check pulse on the two ends of the load range.
+    // |Z| depends on the pulse: the range comes from the check pulse at both ends of the load range.
     const auto& source = output_.source();
     const auto leading = segmentsOf(checkTrainOf(command.setup), source.gap).items[0];
     auto& evidence = command.evidence;
@@ -60,7 +60,7 @@ ArmCommand ArmingTerms::commandFor(const ArmRequest& request, const Load& load, 
     evidence.readsBack = source.readsBack;
     evidence.impedanceLow = effectiveImpedance(command.setup.load.min, leading);
     evidence.impedanceHigh = effectiveImpedance(command.setup.load.max, leading);
-    // Files show what they always showed: they confirm no pulse.
+    // A replayed oscilloscope always shows its file, so it cannot confirm a pulse.
     const auto* scope = config_.devices.oscilloscope.get();
     const bool sees = scope != nullptr && dynamic_cast<const ReplayedDevice*>(scope) == nullptr;
     command.confirmByCapture = sees && config_.devices.stimulator && !source.readsBack;

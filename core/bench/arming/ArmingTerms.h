@@ -1,5 +1,5 @@
-// ArmingTerms.h - on which terms the output is armed into a load: what the gate judges every train by, the evidence
-// that arming needs, and the text that the operator has to have confirmed.
+// ArmingTerms.h - the terms on which the output is armed into a load: the values by which the gate judges every train,
+// the evidence that arming needs, and the text that the operator must have confirmed.
 //
 // Thread-safety: one caller, the bench's.
 #pragma once
@@ -13,8 +13,8 @@
 
 namespace tacto {
 
-// The known calibration of the stimulator, and whether it is applied: every train is judged by the known one, and
-// programmed by the applied one.
+// The known calibration of the stimulator, and whether it is applied: the gate judges every train with the known
+// calibration; the planner programs trains with the applied one.
 
 class BenchCalibration {
 public:
@@ -22,13 +22,13 @@ public:
     explicit BenchCalibration(const BenchConfig& config)
         : config_(config), applied_(config.calibrationHolds ? config.calibration : std::nullopt) {}
 
-    /// Whether a calibration is known, and holds.
+    /// True if a calibration is known and holds.
     [[nodiscard]] bool held() const noexcept { return config_.calibration && config_.calibrationHolds; }
-    /// Nothing while the calibration is left aside.
+    /// Nothing while the calibration is not applied.
     [[nodiscard]] const KnownLines& applied() const noexcept { return applied_; }
-    /// Takes it up, where it holds, or leaves it aside. False where that changes nothing.
+    /// Applies the calibration, if it holds, or stops applying it. Returns false if that changes nothing.
     [[nodiscard]] bool apply(bool wanted);
-    /// Errors: NotArmed in person mode, after the last day on which it holds.
+    /// Errors: NotArmed in person mode after the calibration's last valid day.
     [[nodiscard]] Result<void> checkDate() const;
     /// Notes the applied calibration for the session.
     void note(const BenchNotes& notes) const;
@@ -40,16 +40,16 @@ private:
 
 class ArmingTerms {
 public:
-    /// All arguments outlive this; they are asked each time, since profile and calibration change.
+    /// All arguments outlive this; they are read at each call, because profile and calibration change.
     ArmingTerms(const BenchConfig& config, const BenchOutput& output, const BenchCalibration& calibration) noexcept
         : config_(config), output_(output), calibration_(calibration) {}
 
     [[nodiscard]] GateSetup setupFor(const Load& load) const;
     /// The text that the operator confirms (CommandPreview.h); empty without an output.
     [[nodiscard]] std::string text(const Load& load) const;
-    /// Errors: NotArmed unless the request confirms that text; for a simulated output it may confirm none.
+    /// Errors: NotArmed unless the request confirms text(load); for a simulated output the confirmation may be empty.
     [[nodiscard]] Result<void> checkConfirmed(const ArmRequest& request, const Load& load) const;
-    /// The second step of arming, for the order that was given at `asked`.
+    /// Prepares the second step of arming, for the order given at `asked`.
     [[nodiscard]] ArmCommand commandFor(const ArmRequest& request, const Load& load, StopMark asked) const;
 
 private:
@@ -58,15 +58,14 @@ private:
     const BenchCalibration& calibration_;
 };
 
-// Which devices a participant, human or virtual, may be stimulated with, and what replaces a
-// calibration there.
+// Checks which devices may stimulate a participant, human or virtual, and what replaces a missing calibration.
 
-/// Errors: InvalidArgument for a virtual participant on a device, and for a human being on a simulation outside a
-/// rehearsal; with one sentence.
+/// Errors, in one sentence: InvalidArgument for a virtual participant on a real device, and for a human being on a
+/// simulated device outside a rehearsal.
 [[nodiscard]] Result<void> checkWhere(const BenchConfig& config);
 
-/// In person mode a simulated stimulator without a known calibration states its own. Nothing else is changed, and no
-/// other device is asked.
+/// In person mode, gives a simulated stimulator without a known calibration the calibration that it states itself.
+/// Changes nothing else and asks no other device.
 [[nodiscard]] BenchConfig withStatedCalibration(BenchConfig config);
 
 }  // namespace tacto

@@ -46,7 +46,7 @@ Result<void> BenchLevels::checkSettable(const StimulusLevel& level) const {
     if (auto fits = checkKind(level); !fits) return fits;
     const auto* current = std::get_if<Milliamps>(&level);
     if (current == nullptr) return {};
-    // An empty one asks the same of the output.
+    // An empty level needs the same kind of output, so one step is checked instead.
     const auto train = trainAt(isEmpty(level) ? step() : *current);
     return train ? Result<void>{} : failure(train);
 }
@@ -56,7 +56,7 @@ void BenchLevels::presented(const StimulusLevel& level, const Presented& ended) 
     if (!isEmpty(level) && !ended.isVoid()) presented_ = level;
 }
 
-/// A request with a train of the study's kind where the output is a stimulator.
+/// Makes a request; for a stimulator it includes a train of the study's kind.
 Result<LevelRequest> BenchLevels::requestFor(LevelRequest::What what, const StimulusLevel& level) const {
     LevelRequest request{.what = what, .train = {}, .level = level};
     if (takesIntensities()) return request;
@@ -90,7 +90,7 @@ Result<void> BenchLevels::reportDiscomfort(const StimulusLevel& level) {
         return invalid("{} too strong; {} is accepted", textOf(level),
                        current != nullptr ? "a finite current of 0 or more" : "an intensity from 0 to 1");
     }
-    gate_.latchStop();  // so that nothing approved earlier comes after the word
+    gate_.latchStop();  // so that no train approved earlier follows the report
     StimulusLevel limit = level;
     if (current != nullptr) {
         auto& known = config_.person->discomfortLimit;
@@ -101,7 +101,7 @@ Result<void> BenchLevels::reportDiscomfort(const StimulusLevel& level) {
     }
     const auto request = requestFor(LevelRequest::What::Discomfort, level);
     if (!request) return failure(request);
-    // A gate that was not configured for a person yet learns it from the limit when it is armed.
+    // A gate that was not yet configured for a person gets the level through the limit at the next arming.
     const auto ceiling = tell(*request);
     if (!ceiling && ceiling.error().code != ErrorCode::NotArmed) return failure(ceiling);
     return notes_.level(row::kLevelTooStrong, level, ceiling ? *ceiling : limit);
@@ -123,7 +123,7 @@ Result<StimulusLevel> BenchLevels::ceiling() {
     return tell(*request);
 }
 
-/// Told after a stop or a fault, too: what a participant says counts at any time.
+/// Tells the loop even after a stop or fault: a participant's word is taken at any time.
 Result<StimulusLevel> BenchLevels::tell(const LevelRequest& request) {
     auto& desk = loop_->levels();
     desk.ask(request);
@@ -134,7 +134,7 @@ Result<StimulusLevel> BenchLevels::tell(const LevelRequest& request) {
     return fail(ErrorCode::Timeout, "the control loop does not run: it has not heard of a level within 0.5 s");
 }
 
-/// The reason against a level, accepted or not; empty without one.
+/// Returns why the level is not permitted, whether accepted or not; empty if it is permitted.
 std::string BenchLevels::hindranceTo(Milliamps level, Seconds interval, const GateSetup& setup) const {
     const auto& person = *config_.person;
     if (!(level.value() <= output_.source().amplitudeMax)) return "the device's largest";
@@ -161,7 +161,7 @@ Result<PermittedLevel> BenchLevels::limit(Seconds interval) const {
     GateSetup setup = terms_.setupFor(Load::resistor(Ohms(ohm)));
     setup.load = LoadRange::measured(Ohms(ohm));
     const Seconds kept = programmedFor(interval, calibration_.applied());
-    // What hinders one level hinders all higher levels, too.
+    // Search by halving: if one level is hindered, all higher levels are, too.
     int permitted = 0;
     int hindered = static_cast<int>(output_.source().amplitudeMax / step().value()) + 2;
     std::string by = "the device's largest";

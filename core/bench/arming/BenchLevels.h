@@ -1,4 +1,4 @@
-// BenchLevels.h - passes what the participant says about levels to the gate and records it; knows which levels exist.
+// BenchLevels.h - passes the participant's word on levels to the gate and records it; knows which levels exist.
 //
 // Thread-safety: one caller, the bench's.
 #pragma once
@@ -11,8 +11,8 @@ namespace tacto {
 
 class BenchLevels {
 public:
-    /// All arguments outlive this; `loop` is there before the first call. A level that was too strong lowers the limit
-    /// in `config`, so that it holds at every arming.
+    /// All arguments outlive this; `loop` is set before the first call. A level that was too strong lowers the limit in
+    /// `config`, so that the limit holds at every arming.
     BenchLevels(BenchConfig& config, const BenchOutput& output, const BenchCalibration& calibration,
                 const ArmingTerms& terms, const BenchNotes& notes, SafetyGate& gate, BenchTime& time,
                 const std::unique_ptr<ControlLoop>& loop) noexcept
@@ -25,12 +25,12 @@ public:
           time_(time),
           loop_(loop) {}
 
-    /// Errors: Unsupported where the output takes no such level; InvalidArgument off the device's grid.
+    /// Errors: Unsupported if the output takes no such level; InvalidArgument for a level off the device's grid.
     [[nodiscard]] Result<void> checkSettable(const StimulusLevel& level) const;
-    /// A presentation ended: only the level of one that was complete may be accepted.
+    /// Notes that a presentation ended: only the level of a complete presentation may be accepted.
     void presented(const StimulusLevel& level, const Presented& ended) noexcept;
 
-    /// Bench.h describes these.
+    /// See Bench.h.
     [[nodiscard]] Result<void> accept(const StimulusLevel& level);
     [[nodiscard]] Result<void> reportDiscomfort(const StimulusLevel& level);
     [[nodiscard]] Result<void> ascend(bool begin);

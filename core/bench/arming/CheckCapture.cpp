@@ -7,7 +7,7 @@
 namespace tacto {
 
 namespace {
-constexpr double kCheckRecord = 4;  // lengths of the pulse in the record of it
+constexpr double kCheckRecord = 4;  // length of the record, in lengths of the pulse
 }
 
 CheckCapture::CheckCapture(ScopeSession& scope, BenchTime& time, ControlLoop& loop, const ArmCommand& command)
@@ -27,7 +27,7 @@ ScopeSettings CheckCapture::settings() const {
     settings.preTrigger = 0.3;
     settings.triggerLevel = 0.3 * volts;
     settings.voltageRange = Volts(2 * volts);
-    settings.currentRange = Milliamps(4e3 * volts / ohm_);  // a load far below the declared one is shown too
+    settings.currentRange = Milliamps(4e3 * volts / ohm_);  // shows a load far below the declared one, too
     return settings;
 }
 

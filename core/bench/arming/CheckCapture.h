@@ -1,5 +1,5 @@
-// CheckCapture.h - an oscilloscope's capture of the check pulse, where the source does not read back: the load that it
-// shows confirms the arming or ends it.
+// CheckCapture.h - an oscilloscope's capture of the check pulse, for a source that does not read back: the load in the
+// capture confirms the arming or ends it.
 //
 // Thread-safety: one caller, the bench's.
 #pragma once
@@ -13,16 +13,16 @@ namespace tacto {
 
 class CheckCapture {
 public:
-    /// An oscilloscope may be slow to arm, and as slow to read.
+    /// An oscilloscope may need this long to arm, and as long again to be read.
     static constexpr Seconds kTimeout{5};
 
-    /// The pulse that `command` begins with. All but it outlive this.
+    /// Captures the pulse with which `command` begins. All arguments but `command` outlive this.
     CheckCapture(ScopeSession& scope, BenchTime& time, ControlLoop& loop, const ArmCommand& command);
 
-    /// Arms the oscilloscope, and waits until it takes a trigger. Errors: NotArmed, saying that it failed or is not
-    /// ready; those of BenchTime::advance().
+    /// Arms the oscilloscope and waits until it can trigger. Errors: NotArmed if the oscilloscope failed or is not
+    /// ready; as BenchTime::advance().
     [[nodiscard]] Result<void> begin();
-    /// Hands over to the control loop what the oscilloscope shows; true when it was handed over.
+    /// Hands the oscilloscope's result to the control loop; false if there is no result yet.
     [[nodiscard]] bool passOn();
 
 private:

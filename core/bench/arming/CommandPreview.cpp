@@ -13,7 +13,7 @@ namespace tacto {
 
 namespace {
 
-/// It has no grid, and no ceiling of its own but the standard's 500 V.
+/// Makes an ideal source: no amplitude steps, and no ceiling except the standard's 500 V.
 SourceTraits idealVoltageSource() {
     SourceTraits source;
     source.drive = Drive::Voltage;
@@ -55,7 +55,7 @@ std::optional<std::string> beyondReach(const Profile& profile, const SourceTrait
     if (source.drive == Drive::Voltage) {
         most = std::min(most, source.amplitudeMax);
     } else {
-        // A current source reaches the voltage most easily where the load is highest.
+        // A current source reaches the highest voltage at the highest load.
         const double byCurrent = source.amplitudeMax * 1e-3 * profile.loadHigh.value();
         if (byCurrent < most) {
             most = byCurrent;
@@ -83,7 +83,7 @@ std::optional<std::string> madeWithAnother(const Profile& profile, std::string_v
 
 namespace {
 
-/// A device's own words, with everything replaced that is more than a name.
+/// Returns the device's own text with every character replaced that could do more than name it.
 std::string plain(std::string_view said) {
     constexpr std::string_view kKept = " ._:+,()/#=-";
     std::string out(said);
@@ -99,12 +99,12 @@ LoadRange rangeOf(const Profile& profile, OutputMode mode, const Load& load) {
                                          : LoadRange::between(profile.loadLow, profile.loadHigh);
 }
 
-/// The largest peaks that the encoding can ask for at any |Z| in the range.
+/// Returns the largest peaks that the encoding can request at any |Z| in the range.
 std::string mostOf(const SourceTraits& source, const EncodingProfile& encoding, const LoadRange& range) {
     double volts = encoding.amplitudeMax.value();
     const double low = impedanceOf(range.min, encoding.train, source).value();
     const double high = impedanceOf(range.max, encoding.train, source).value();
-    // An encoding that holds charge or energy follows the impedance up, at most to twice what it was: see
+    // An encoding that holds charge or energy raises the voltage with the impedance, at most to twice its value: see
     // heldAmplitude().
     if (encoding.hold != Hold::Voltage && std::isfinite(high / low)) volts *= std::min(2.0, high / low);
     double most_mA = 1e3 * volts / low;

@@ -1,5 +1,5 @@
-// StandingOrder.h - the order of the operator for which a bench does everything, and how those who wait for the bench
-// learn of its end: a stop ends it for good, a pause holds it up.
+// StandingOrder.h - the operator's order under which a bench works, and how waiting calls learn of its end: a stop ends
+// the order for good, a pause delays it.
 //
 // Thread-safety: any thread.
 #pragma once
@@ -18,16 +18,16 @@ namespace tacto {
 
 class StandingOrder {
 public:
-    /// The first order, given at `asked`, a mark of `stops`. Without `stops` the bench has its own, and that is now.
+    /// Holds the first order, given at `asked`, a mark of `stops`. Without `stops` the bench counts its own: from now.
     StandingOrder(const std::shared_ptr<StopCounter>& stops, StopMark asked)
         : stops_(stops ? stops : std::make_shared<StopCounter>()), asked_(stops ? asked : stops_->mark()) {}
 
     [[nodiscard]] StopCounter& stops() noexcept { return *stops_; }
     /// When the operator gave the order.
     [[nodiscard]] StopMark asked() const noexcept { return asked_.load(std::memory_order_acquire); }
-    /// A stop has come since.
+    /// True if a stop has come since the order.
     [[nodiscard]] bool stopped() const noexcept { return stops_->movedSince(asked()); }
-    /// Another order takes its place.
+    /// Replaces the order.
     void begin(StopMark asked) noexcept { asked_.store(asked, std::memory_order_release); }
 
     void pause() noexcept { paused_.store(true, std::memory_order_release); }
@@ -38,13 +38,13 @@ public:
         }
         changed_.notify_all();
     }
-    /// Wakes a waiting call after a stop: it looks at once.
+    /// Wakes waiting calls after a stop: they check their condition at once.
     void wakeWaiting() noexcept {
         { const std::scoped_lock lock(mutex_); }
         changed_.notify_all();
     }
 
-    /// Returns when there is no pause, or a stop has come.
+    /// Returns once there is no pause, or a stop has come.
     void waitWhilePaused() {
         std::unique_lock lock(mutex_);
         changed_.wait(lock, [this] { return !paused_ || stopped(); });
@@ -60,7 +60,7 @@ private:
     std::atomic<StopMark> asked_;
     std::atomic<bool> paused_{false};
     std::mutex mutex_;
-    std::condition_variable changed_;  // a stop, a pause or its end
+    std::condition_variable changed_;  // notified of a stop, a pause or its end
 };
 
 // The operator's order that the control loop carries out: whether it was stopped, whether its owner still looks after
@@ -69,21 +69,21 @@ private:
 
 class OwnerWatchdog {
 public:
-    /// `stops` outlives this; null: nothing stops an order but the interlock.
+    /// `stops` outlives this; if null, only the interlock stops an order.
     explicit OwnerWatchdog(StopCounter* stops) noexcept : stops_(stops) {}
 
-    /// The owner of the output looks after it until then.
+    /// Confirms that the owner of the output looks after it until `until`.
     void attend(Instant until) noexcept { attendedUntil_.store(until.count(), std::memory_order_release); }
     [[nodiscard]] bool attended(Instant now) const noexcept {
         return now.count() <= attendedUntil_.load(std::memory_order_acquire);
     }
 
-    /// From now on an order holds that the loop has not ended.
+    /// Starts an order that the loop has not ended.
     void begin() noexcept {
         const std::scoped_lock lock(mutex_);
         endedBecause_ = {};
     }
-    /// Ends every earlier order, as by a stop.
+    /// Ends the order as a stop does.
     void end(std::string_view why) noexcept {
         {
             const std::scoped_lock lock(mutex_);
@@ -91,15 +91,15 @@ public:
         }
         if (stops_ != nullptr) stops_->raise();
     }
-    /// Empty where the loop did not end it.
+    /// Empty if the loop did not end the order.
     [[nodiscard]] FixedText<159> endedBecause() const noexcept {
         const std::scoped_lock lock(mutex_);
         return endedBecause_;
     }
 
-    /// The output is armed for the order that was given at `asked`.
+    /// Notes that the output is armed for the order given at `asked`.
     void armFor(StopMark asked) noexcept { armedFor_ = asked; }
-    /// A stop has come since that order was given.
+    /// True if a stop has come since that order.
     [[nodiscard]] bool stopped() const noexcept { return stops_ != nullptr && stops_->movedSince(armedFor_); }
 
 private:
@@ -107,7 +107,7 @@ private:
     std::atomic<Instant::rep> attendedUntil_{0};
     mutable std::mutex mutex_;
     FixedText<159> endedBecause_;  // guarded by mutex_
-    StopMark armedFor_;            // the loop's own
+    StopMark armedFor_;            // used by the loop only
 };
 
 }  // namespace tacto

@@ -1,5 +1,5 @@
-// BenchOutput.h - the one output of a bench: a stimulator, a massager in its place, or none. Its callers
-// switch it off, serve it and name it without knowing which of them it is.
+// BenchOutput.h - the one output of a bench: a stimulator, a massager in its place, or none. Its callers switch it off,
+// serve it and name it without knowing which kind it is.
 //
 // Thread-safety: open() comes before all other threads. serve() has one caller, the device's thread (on the virtual
 // clock, the bench); the rest any thread.
@@ -16,29 +16,29 @@ namespace tacto {
 
 class BenchOutput {
 public:
-    /// `devices` outlive the output. Nothing is open yet.
+    /// `devices` outlives the output. Nothing is open after construction.
     explicit BenchOutput(const DeviceSet& devices);
 
-    /// There is one output at a time: a massager is opened only where there is no stimulator. All outlive the output;
-    /// `wake` is OutputSession's.
+    /// Opens the stimulator, or a massager only if there is no stimulator. All arguments outlive the output; `wake` is
+    /// passed to OutputSession.
     void open(SafetyGate& gate, const Heartbeat& heartbeat, const Clock& clock, std::function<void()> wake);
     [[nodiscard]] bool isOpen() const noexcept { return stimulator_ || massager_; }
-    /// Null where the output is of another kind, or there is none.
+    /// Null if the output is of another kind, or there is none.
     [[nodiscard]] StimulatorSession* stimulator() const noexcept { return stimulator_.get(); }
     [[nodiscard]] MassagerSession* massager() const noexcept { return massager_.get(); }
 
-    /// Switches off now, and again after a write that is in flight; a massager that is plugged in and not open, too.
+    /// Switches off now, and again after a write in progress; also a massager that is connected but not open.
     void off() noexcept;
-    /// An order is with its session.
+    /// True while an order is with the output's session.
     [[nodiscard]] bool busy() const noexcept;
-    /// Does what is due and returns when it wants to be called again. Requires isOpen().
+    /// Does what is due and returns the time of the next call. Requires isOpen().
     Instant serve(Instant now) noexcept;
 
-    /// The source that the bench encodes for: the stimulator; without one no limit, for display alone.
+    /// The source that the bench encodes for: the stimulator; without one a source without limits, for display only.
     [[nodiscard]] const SourceTraits& source() const noexcept { return source_; }
     /// Null without an output.
     [[nodiscard]] const Device* device() const noexcept;
-    /// A device and no simulation.
+    /// True for a real device, false for a simulated one.
     [[nodiscard]] bool isReal() const noexcept;
 
 private:

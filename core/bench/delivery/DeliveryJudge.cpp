@@ -7,8 +7,8 @@ namespace tacto {
 
 namespace {
 
-/// IEC 60601-2-10 asks for an amplitude within 20 %; more than that beside the command, and the limits were judged on
-/// a train that is not the one delivered, or the device does not do what is programmed.
+/// IEC 60601-2-10 asks for an amplitude within 20 %. With a larger deviation, the limits were judged on another train
+/// than the delivered one, or the device does not do what is programmed.
 constexpr double kMaxDeviation = 0.20;
 
 ElectrodeReading readingOf(ElectrodeState state) noexcept {
@@ -25,7 +25,7 @@ ElectrodeReading readingOf(ElectrodeState state) noexcept {
     return ElectrodeReading::NotMeasured;
 }
 
-/// How far off a stimulator may be that still counts as calibrated up to its limit; the gate judges others by that.
+/// The largest error of a calibrated stimulator at its limit; the gate uses larger errors for other stimulators.
 constexpr double kCommandTolerance = 0.05;
 
 template <class... Values>
@@ -53,9 +53,9 @@ std::optional<LoopFault> DeliveryJudge::delivered(const TrainReport& report, boo
     return permitted ? reading(report) : std::nullopt;
 }
 
-/// A source that reads must read every train: not knowing its electrode is no reason to continue.
+/// A source that reads back must read every train: delivery must not continue without knowing the electrode.
 std::optional<LoopFault> DeliveryJudge::reading(const TrainReport& report) {
-    const bool put = report.isCheck || expected_ > 0;  // without output nothing is read
+    const bool put = report.isCheck || expected_ > 0;  // without output there is nothing to read
     const bool unread = std::isnan(report.measured);
     if (put && unread && readsAmplitude_)
         return LoopFault{FaultCause::StatusMissing,
@@ -68,13 +68,13 @@ std::optional<LoopFault> DeliveryJudge::reading(const TrainReport& report) {
     if (report.amplitude >= check)
         return LoopFault{FaultCause::StatusMissing,
                          "the stimulator's answer has no reading of the electrode of its train"};
-    // Too small to be read: a check pulse goes before the next.
+    // The train was too small to be read: a check pulse comes before the next train.
     load_.impedanceAt = std::min(load_.impedanceAt, report.onset - Interlock::kImpedanceAge);
     return std::nullopt;
 }
 
-/// A stop disarms before it switches off: what was being delivered may then read as the pulse before it. Whether too
-/// much came out is judged all the same, and so is a train that a pause let end.
+/// True if a stop cut the train off: a stop disarms before it switches off, and the status may then show the pulse
+/// before. Too much output is judged anyway, and so is a train that ended during a pause.
 bool DeliveryJudge::wasCutOff(const TrainReport& report) const noexcept {
     const auto state = interlock_.state();
     return state == InterlockState::Disarmed || state == InterlockState::Disconnected ||
@@ -85,13 +85,13 @@ TrainJudgement DeliveryJudge::status(const TrainReport& report) const noexcept {
     return judgeTrain(mode_, readBackOf(report), report.end, report.statusAt);
 }
 
-/// A programmed value proves nothing: a calibration may have made it so. The command must come out, read back in the
-/// device's own steps; a check pulse is so small that a step would excuse anything.
+/// The programmed value may be corrected, so compare with the command, and allow one step of the device. A check pulse
+/// is so small that one step would excuse any error.
 std::optional<LoopFault> DeliveryJudge::readBack(const TrainReport& report) {
     if (std::isnan(report.measured)) return std::nullopt;  // the device does not read it back
     readsAmplitude_ = true;
     const double expected = report.isCheck ? report.amplitude : expected_;
-    // Less than that share of the command is noise, whatever a step excuses.
+    // Less than this share of the command is noise; then no step is allowed for.
     constexpr double kAbsent = 0.1;
     const bool absent = report.measured < kAbsent * expected;
     const double step = report.isCheck || absent ? 0 : source_.amplitudeStep;
@@ -111,8 +111,8 @@ std::optional<LoopFault> DeliveryJudge::amplitude(const SeenAmplitude& seen) {
                                seen.amplitude, unit(), seen.expected, unit())};
 }
 
-/// More than the gate has judged by is a fault where it passes a limit: the gate's worst case times the excess, or its
-/// square for a squared quantity. The commanded voltage is held against its limit as it was measured.
+/// Output above the gate's assumption is a fault if it breaks a limit: the gate's worst case times the excess, or times
+/// its square for a squared quantity. The commanded voltage is compared with its limit as measured.
 std::optional<LoopFault> DeliveryJudge::overLimit(const SeenAmplitude& seen) {
     if (seen.isCheck) return std::nullopt;
     const auto judged = gate_.amplitudes(seen.programmed);
@@ -140,7 +140,7 @@ std::optional<LoopFault> DeliveryJudge::overLimit(const SeenAmplitude& seen) {
     return fault;
 }
 
-/// An output without a command is held against the limit of commands alone, whatever became of it.
+/// An output without a command is compared only with the limit on the commanded voltage, whatever its cause.
 std::optional<LoopFault> DeliveryJudge::unasked(const SeenAmplitude& seen) {
     const auto state = interlock_.state();
     if (state == InterlockState::Disarmed || state == InterlockState::Disconnected) return std::nullopt;
@@ -158,9 +158,9 @@ std::optional<LoopFault> DeliveryJudge::unasked(const SeenAmplitude& seen) {
 }
 
 void DeliveryJudge::keep(const SeenAmplitude& seen, bool beyond) noexcept {
-    constexpr Instant kStays = std::chrono::seconds(5);  // as the windows of the limits
+    constexpr Instant kStays = std::chrono::seconds(5);  // as long as the windows of the limits
     const bool another = std::isnan(measured_.amplitude) || seen.onset - measured_.at > kStays;
-    // A deviation stays in sight.
+    // A deviation stays visible.
     if (!another && (measured_.beyond != beyond ? measured_.beyond : measured_.amplitude > seen.amplitude)) return;
     measured_ = {
         seen.by, seen.onset, seen.amplitude, seen.uncertainty + seen.unstated, seen.expected, voltsOf(seen.amplitude),
@@ -176,7 +176,7 @@ double DeliveryJudge::voltsOf(double amplitude) const noexcept {
 std::optional<LoopFault> DeliveryJudge::load(const SeenLoad& seen, bool permitted, Instant now) {
     if (source_.readsBack || !permitted || seen.at < load_.armedAt) return std::nullopt;
     if (!seen.atLeast) return updateImpedance(seen.impedance, now);
-    if (!(seen.impedance > load_.high)) return std::nullopt;  // too little current to be seen anyway
+    if (!(seen.impedance > load_.high)) return std::nullopt;  // then the current is too small to be seen in any case
     return LoopFault{
         FaultCause::OpenElectrode,
         faultText("the oscilloscope shows voltage and no current: the load is above {:.3g} ohm, open or not connected",

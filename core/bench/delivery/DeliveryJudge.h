@@ -1,7 +1,7 @@
-// DeliveryJudge.h - judges what the stimulator and the oscilloscope say about a train that was delivered: its status,
-// its amplitude, its load. The control loop acts on the fault that is found.
+// DeliveryJudge.h - judges what the stimulator and the oscilloscope report about a delivered train: its status, its
+// amplitude, its load. The control loop acts on any fault found.
 //
-// Thread-safety: none; the control loop owns it. Allocates for a fault alone.
+// Thread-safety: none; the control loop owns it. Allocates only for a fault.
 #pragma once
 
 #include <optional>
@@ -17,44 +17,44 @@
 
 namespace tacto {
 
-/// The end of delivery, and its reason.
+/// A fault that ends delivery, and its reason.
 struct LoopFault {
     FaultCause cause;
-    FixedText<255> reason;  ///< no heap before the output is off
+    FixedText<255> reason;  ///< fixed text, to allocate nothing before the output is off
 };
 
-/// The train as the report's status tells it.
+/// Returns the train as the status in the report describes it.
 [[nodiscard]] TrainReadBack readBackOf(const TrainReport& report) noexcept;
 
 class DeliveryJudge {
 public:
-    /// All arguments outlive the judge, which keeps `load` up to date. `source`: the stimulator's.
+    /// All arguments outlive the judge, which keeps `load` up to date. `source` is the stimulator's.
     DeliveryJudge(OutputMode mode, SafetyGate& gate, const Interlock& interlock, ArmedLoad& load,
                   const SourceTraits& source)
         : mode_(mode), gate_(gate), interlock_(interlock), load_(load), source_(source) {
         rows_.reserve(kMaxExposureRows);
     }
 
-    /// The amplitude that the train that was posted last should come out with, V or mA.
+    /// Sets the amplitude at which the last posted train should come out, V or mA.
     void expect(double amplitude) noexcept { expected_ = amplitude; }
 
-    /// Judges a train or a check pulse; `permitted`: trains like it may still be posted, so its reading counts.
+    /// Judges a train or a check pulse. `permitted`: similar trains may still be posted, so this reading is used.
     [[nodiscard]] std::optional<LoopFault> delivered(const TrainReport& report, bool permitted);
-    /// Judges its status.
+    /// Judges the status in the report.
     [[nodiscard]] TrainJudgement status(const TrainReport& report) const noexcept;
     [[nodiscard]] bool wasCutOff(const TrainReport& report) const noexcept;
-    /// Whether the amplitude that is read back is the one that was commanded.
+    /// Checks that the amplitude read back equals the commanded one.
     [[nodiscard]] std::optional<LoopFault> readBack(const TrainReport& report);
-    /// Judges the amplitude in a capture in the same way.
+    /// Checks the amplitude in a capture in the same way.
     [[nodiscard]] std::optional<LoopFault> amplitude(const SeenAmplitude& seen);
-    /// The measurements of the output since it was armed; before the first: NaN.
+    /// The largest recent measurement of the output since it was armed; NaN before the first.
     [[nodiscard]] const MeasuredOutput& measured() const noexcept { return measured_; }
     void forgetMeasured() noexcept { measured_ = {}; }
     /// The unit of amplitudes: "V" or "mA".
     [[nodiscard]] const char* unit() const noexcept { return amplitudeUnit(source_.drive); }
-    /// Judges the load in a capture, where the stimulator does not read back.
+    /// Judges the load in a capture if the stimulator does not read back.
     [[nodiscard]] std::optional<LoopFault> load(const SeenLoad& seen, bool permitted, Instant now);
-    /// A train that should have ended at `trainEnd`; by `now` nothing is known of it, or only that it continues.
+    /// Returns a fault if a train due to end at `trainEnd` has no status by `now`, or only says that it goes on.
     [[nodiscard]] std::optional<LoopFault> silence(Instant trainEnd, bool goesOn, Instant now) const;
 
 private:
@@ -71,13 +71,13 @@ private:
     ArmedLoad& load_;
     const SourceTraits& source_;
     double expected_ = NAN;
-    bool readsAmplitude_ = false;  // the device has read it back at least once
+    bool readsAmplitude_ = false;  // true once the device has read an amplitude back
     MeasuredOutput measured_;
     std::vector<ExposureRow> rows_;
 };
 
-// The reading of |Z| that delivery rests on: whether the stimulator's status is overdue, and when the
-// reading grows old.
+// Watches the reading of |Z| that delivery relies on: whether the stimulator's status is overdue, and when the reading
+// becomes too old.
 
 class ReadingWatch {
 public:
@@ -85,12 +85,12 @@ public:
     ReadingWatch(const StimulatorSession* stimulator, const ArmedLoad& load, const DeliveryJudge& judge) noexcept
         : stimulator_(stimulator), load_(load), judge_(judge) {}
 
-    /// A train that ended without a status in time.
+    /// Returns a fault for a train that ended without a status in time.
     [[nodiscard]] std::optional<LoopFault> silence(Instant now) const {
         if (stimulator_ == nullptr || stimulator_->idle()) return std::nullopt;
         return judge_.silence(stimulator_->trainEnd(), stimulator_->saysItDelivers(), now);
     }
-    /// When the reading grows old; nothing where none is taken.
+    /// Returns when the reading becomes too old; nothing if the source takes none.
     [[nodiscard]] std::optional<Instant> until() const noexcept {
         if (stimulator_ == nullptr || !stimulator_->device().traits().readsBack) return std::nullopt;
         return load_.impedanceAt + Interlock::kImpedanceAge;

@@ -1,5 +1,5 @@
-// ExposureWatch.h - what the gate has booked, as displays see it: the table of now, ten times a second and after each
-// train, and the largest of each row since the order began.
+// ExposureWatch.h - the exposure that the gate has recorded, for displays: the present table, ten times a second and
+// after each train, and the largest value of each row since the order began.
 //
 // Thread-safety: beginOrder(), show() and worst() any thread; the rest has one caller, the control loop. Never
 // allocates after construction.
@@ -19,12 +19,12 @@
 
 namespace tacto {
 
-// The largest value that each row of the exposure table has had during an order. Trivially copyable. Where limits of a
-// set on one quantity differ by frequency, the value counts against the limit in force then.
+// The largest value of each row of the exposure table during an order. Trivially copyable. If a set limits one
+// quantity differently by frequency, the value is compared with the limit in force at that time.
 
 class WorstExposure {
 public:
-    /// Takes what is larger than before, and what could not be evaluated: once unknown is worse than any number.
+    /// Keeps larger values than before. A row that could once not be evaluated outranks any number.
     void take(std::span<const ExposureRow> now) noexcept {
         for (const auto& row : now) {
             const auto known = std::span(rows_).first(count_);
@@ -38,7 +38,7 @@ public:
                 if (at->evaluated && (!row.evaluated || !(row.value <= at->value))) *at = row;
                 at->measured = measured;
                 at->beyond = beyond;
-            } else if (count_ < rows_.size()) {  // always: the gate refuses more
+            } else if (count_ < rows_.size()) {  // always true: the gate refuses more rows
                 rows_[count_++] = row;
             }
         }
@@ -55,14 +55,14 @@ public:
     /// `gate` outlives this.
     explicit ExposureWatch(const SafetyGate& gate) : gate_(gate) { rows_.reserve(kMaxExposureRows); }
 
-    /// The worst is of another order from the next look on.
+    /// Starts the worst table anew for another order, at the next look().
     void beginOrder() noexcept { anotherOrder_.store(true, std::memory_order_release); }
-    /// A window is fullest when a train has just been booked: the next look() is one.
+    /// Makes the next look() due at once: exposure in a window peaks just after a train was recorded.
     void lookNext() noexcept { at_ = Instant(0); }
-    /// Looks where a look is due. `measured` stands beside what was commanded.
+    /// Takes the table if a look is due. `measured` is added to the commanded values.
     void look(Instant now, const MeasuredOutput& measured) noexcept;
 
-    /// The table of the last look, into `all`.
+    /// Copies the table of the last look into `all`.
     void show(Telemetry& all) const noexcept;
     [[nodiscard]] WorstExposure worst() const noexcept { return latestWorst_.read(); }
 
@@ -73,8 +73,8 @@ private:
     };
 
     const SafetyGate& gate_;
-    std::atomic<bool> anotherOrder_{false};  // another order has come, and worst_ belongs to the one before
-    // The loop's own:
+    std::atomic<bool> anotherOrder_{false};  // true if a new order has begun and worst_ is the previous order's
+    // Used by the loop only:
     std::vector<ExposureRow> rows_;
     Instant at_{0};
     Table now_;

@@ -1,8 +1,8 @@
-// OutputSession.h - what the sessions of a stimulator and of a massager share: one approved order at a time from the
-// control loop, a report of each back to it, output off at any moment, and off when the loop is silent.
+// OutputSession.h - the shared part of the sessions of a stimulator and a massager: takes one approved order at a time
+// from the control loop, reports on each, and switches off at any moment, also if the loop falls silent.
 //
 // Thread-safety: idle() and forceOff() any thread. takeReport() and post() have one caller, the control loop; the
-// protected rest has one, the device's thread (on the virtual clock, the bench).
+// protected rest has one caller, the device's thread (on the virtual clock, the bench).
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@
 
 namespace tacto {
 
-/// `Order`: an approval and its `onset`, and what its report needs.
+/// `Order` contains an approval, its `onset`, and what its report needs.
 template <class Device, class Order>
 class OutputSession {
 public:
@@ -31,13 +31,13 @@ public:
     [[nodiscard]] bool idle() const noexcept { return !busy_.load(std::memory_order_acquire); }
     [[nodiscard]] std::optional<TrainReport> takeReport() noexcept { return reports_.pop(); }
 
-    /// Output off now, and again after a write that is in flight. The bench latches the gate first.
+    /// Switches output off now, and again after a write in progress. The bench latches the gate first.
     void forceOff() noexcept {
         offs_.fetch_add(1, std::memory_order_acq_rel);
         device_.forceOff();
     }
 
-    /// How long the loop had been silent when the output was last switched off for it; 0 = never. Any thread.
+    /// Returns how long the loop had been silent when that last switched the output off; 0: never. Any thread.
     [[nodiscard]] Instant silencedAfter() const noexcept {
         return Instant(silencedAfter_.load(std::memory_order_relaxed));
     }
@@ -45,8 +45,8 @@ public:
     [[nodiscard]] const Device& device() const noexcept { return device_; }
 
 protected:
-    /// All arguments outlive the session. `wake` is called after post(), so that a thread waiting for serve()'s
-    /// due time looks again; may be empty.
+    /// All arguments outlive the session. post() calls `wake`, so that a thread that waits for serve()'s due time
+    /// checks again; may be empty.
     OutputSession(Device& device, const SafetyGate& gate, const Heartbeat& heartbeat, const Clock& clock,
                   std::function<void()> wake)
         : device_(device), clock_(clock), gate_(gate), heartbeat_(heartbeat), wake_(std::move(wake)) {}
@@ -61,7 +61,7 @@ protected:
         if (wake_) wake_();
     }
 
-    /// The order whose onset has come; else `next` is that onset at the latest.
+    /// Returns the order if its onset has come; otherwise lowers `next` to that onset if it is earlier.
     [[nodiscard]] std::optional<Order> takeDue(Instant now, Instant& next) noexcept {
         const std::scoped_lock lock(mailbox_);
         if (pending_ && now >= pending_->onset) return std::exchange(pending_, std::nullopt);
@@ -69,21 +69,21 @@ protected:
         return std::nullopt;
     }
 
-    /// Has `write` carry out what is approved, and switches off where that failed. Nothing, and nothing written, when
-    /// the approval is void or the loop silent.
+    /// Calls `write` for an approved order, and switches off if the write failed. If the approval is void or the loop
+    /// silent, writes nothing and returns nothing.
     template <class Approved, class Write>
     [[nodiscard]] std::optional<Result<void>> writeIfCurrent(const Approved& approved, Write write) noexcept {
         const auto offsBefore = offs_.load(std::memory_order_acquire);
         if (!gate_.isCurrent(approved) || !loopAlive()) return std::nullopt;
         Result<void> written = write();
-        // A stop that came while the write was in flight may have reached the device before it: off again. So may a
-        // standstill of the process, or of the computer, that the write waited through.
+        // A stop during the write may have reached the device before the write: switch off again. Do the same if
+        // the process or the computer was halted during the write.
         if (!written || offs_.load(std::memory_order_acquire) != offsBefore || !loopAlive()) device_.forceOff();
         return written;
     }
 
-    /// False while the loop is silent. Then what the device still does on its own has to end; reported once, for the
-    /// loop to find when it comes back.
+    /// Returns false while the loop is silent, and then switches the device off. Reports this once, for the loop to
+    /// find when it returns.
     [[nodiscard]] bool watchLoop(Instant now) noexcept {
         if (loopAlive()) {
             everServed_ = true;
@@ -102,7 +102,7 @@ protected:
         return false;
     }
 
-    /// A report that belongs to no order.
+    /// Adds a report that belongs to no order.
     void note(const TrainReport& made) noexcept { reports_.push(made); }
     void report(const TrainReport& made) noexcept {
         reports_.push(made);
@@ -121,20 +121,20 @@ private:
     const std::function<void()> wake_;
 
     std::atomic<bool> busy_{false};
-    std::atomic<std::uint64_t> offs_{0};  // forceOff() calls; a write that saw one pass switches off again
+    std::atomic<std::uint64_t> offs_{0};  // counts forceOff() calls; a write during which it changes switches off again
     std::atomic<Instant::rep> silencedAfter_{0};
     std::optional<Order> pending_;
     SpscRing<TrainReport> reports_{16};
 
-    // The device thread's own:
-    bool silenced_ = false;    // the heartbeat was found dead and the output switched off
-    bool everServed_ = false;  // the heartbeat was once alive
+    // Used by the device thread only:
+    bool silenced_ = false;    // true once the heartbeat was found dead and the output was switched off
+    bool everServed_ = false;  // true once the heartbeat has been alive
 };
 
-// The only caller of a massager that stands in for the electrodes: sends approved bursts at their
-// onset, and switches it off when the control loop is silent.
+// The only caller of a massager that replaces the electrodes: sends approved bursts at their onset, and switches the
+// massager off if the control loop is silent.
 //
-// One burst is in the session at a time: it is idle again when its report was made. serve() has one caller, the
+// The session holds one burst at a time and is idle again once its report was made. serve() has one caller, the
 // device's thread (on the virtual clock, the bench); post() has one, the control loop.
 
 struct BurstOrder {
@@ -150,13 +150,13 @@ public:
                     std::function<void()> wake)
         : OutputSession(device, gate, heartbeat, clock, std::move(wake)) {}
 
-    /// Hands over a burst to be sent at `onset`. The session must be idle(). `interval` is for the report, whose
-    /// `amplitude` is the intensity, 0 to 1; a burst is not read back.
+    /// Hands over a burst to be sent at `onset`. The session must be idle(). The report keeps `interval`; its
+    /// `amplitude` is the intensity, 0 to 1. A burst is not read back.
     void post(ApprovedBurst&& burst, Instant onset, Seconds interval) noexcept {
         OutputSession::post({std::move(burst), onset, interval});
     }
 
-    /// Does what is due and returns when it wants to be called again.
+    /// Does what is due and returns the time of the next call.
     Instant serve(Instant now) noexcept;
 
 private:

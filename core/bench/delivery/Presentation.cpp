@@ -10,7 +10,7 @@ namespace tacto {
 
 namespace {
 
-constexpr double kRounding = 1e-9;  // covers what decimal times lose in binary
+constexpr double kRounding = 1e-9;  // covers the rounding of decimal times in binary
 constexpr Seconds kDetectionInterval{0.8};
 constexpr Seconds kDetectionPause{0.6};
 constexpr int kAscendingTrains = 3;
@@ -37,7 +37,7 @@ double numberOf(const StimulusLevel& level) noexcept {
     return current != nullptr ? current->value() : std::get<VibrationIntensity>(level).value;
 }
 
-/// Checks each train's level where it has its own.
+/// Checks the level of each train if the presentation has `levels`.
 Result<void> checkLevels(const Presentation& presentation) {
     const auto& levels = presentation.levels;
     if (levels.empty()) return {};
@@ -96,7 +96,7 @@ std::string_view nameOf(PresentationEnd end) noexcept { return wordFor(kPresenta
 
 Presentation testPresentation(StimulusLevel level, Seconds interval, Seconds window) {
     Presentation made{.level = level, .interval = interval, .duration = window + Presentation::kTail};
-    // Goes one beyond the most: validate() then says so, and a wrong interval does not run on forever.
+    // Makes one train more than allowed at most: validate() then rejects it, and a wrong interval cannot loop forever.
     for (std::size_t k = 0; k <= Presentation::kMaxTrains; ++k) {
         const Seconds onset = static_cast<double>(k) * interval;
         if (!(onset <= window * (1 + kRounding))) break;

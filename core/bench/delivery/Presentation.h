@@ -1,8 +1,8 @@
-// Presentation.h - one presentation of a pilot session: trains of the profile's own kind at given onsets, all at one
-// level or, to be compared, each at its own; and what became of it. Bench::present() carries it out.
+// Presentation.h - one presentation of a pilot session: trains of the profile's kind at given onsets, all at one level
+// or, for a comparison, each at its own; and its result. Bench::present() carries it out.
 //
-// An empty presentation has the level 0: its onsets pass and nothing is delivered at them. It takes the same time, asks
-// the same of the bench and is recorded as any other, but for the rows of trains.
+// An empty presentation has the level 0: its onsets pass and nothing is delivered. It takes as long, needs the same of
+// the bench and is recorded like any other, except that it has no rows of trains.
 //
 // Thread-safety: values; pure functions.
 #pragma once
@@ -23,18 +23,18 @@ struct VibrationIntensity {
     double value = 0;
     bool operator==(const VibrationIntensity&) const = default;
 };
-/// 0 of either is an empty presentation. A current lies on the device's grid.
+/// A level; 0 means an empty presentation. A current must lie on the device's grid.
 using StimulusLevel = std::variant<Milliamps, VibrationIntensity>;
 [[nodiscard]] bool isEmpty(const StimulusLevel& level) noexcept;
 [[nodiscard]] std::string textOf(const StimulusLevel& level);  // "4.5 mA", "intensity 0.4"
 
 struct Presentation {
-    StimulusLevel level = Milliamps(0);  ///< every train's level; where `levels` says otherwise, the highest of those
+    StimulusLevel level = Milliamps(0);  ///< level of every train; with `levels`, the highest of them
     std::vector<Seconds> onsets{};       ///< from the beginning, ascending, at least `interval` apart; 1 to kMaxTrains
-    Seconds interval{0};   ///< > 0, that each train is judged at: the shortest at which another may follow
+    Seconds interval{0};   ///< > 0; the shortest time to the next train, used to judge each train
     Seconds duration{0};   ///< the whole presentation, at least kTail after the last onset, at most kLongest
-    Instant notBefore{0};  ///< by the bench's clock: it begins then, or as soon after as the bench is ready
-    std::vector<StimulusLevel> levels{};  ///< one for each onset, none of them empty; empty: all at `level`
+    Instant notBefore{0};  ///< on the bench's clock: begins then, or later once the bench is ready
+    std::vector<StimulusLevel> levels{};  ///< one per onset, none of them 0; if empty, all trains use `level`
     /// `train` < onsets.size().
     [[nodiscard]] const StimulusLevel& levelOf(std::size_t train) const noexcept {
         return levels.empty() ? level : levels[train];
@@ -46,31 +46,31 @@ struct Presentation {
     bool operator==(const Presentation&) const = default;
 };
 
-/// Trains every `interval` from 0 as long as they fall into `window`; ends kTail after the window, whatever the
+/// Trains at every `interval` from 0 to the end of `window`. The presentation ends kTail after the window, whatever the
 /// interval.
 [[nodiscard]] Presentation testPresentation(StimulusLevel level, Seconds interval, Seconds window = Seconds(4));
-/// Three trains at `interval`, the shortest of the study.
+/// Three trains, one every `interval`, which is the shortest of the study.
 [[nodiscard]] Presentation ascendingPresentation(StimulusLevel level, Seconds interval);
-/// Two intervals of 0.8 s, 0.6 s apart; one train, of `trainLength`, in the middle of the first or the second. It is
-/// judged at `interval`.
+/// Two intervals of 0.8 s, 0.6 s apart, and one train of length `trainLength` in the middle of the first or second. The
+/// gate judges the train with `interval`.
 [[nodiscard]] Presentation detectionPresentation(StimulusLevel level, bool inSecond, Seconds trainLength,
                                                  Seconds interval);
-/// Two intervals with a train in each, to be compared: `first` in the first, `second` in the second. Both are above 0
-/// and of one kind.
+/// Two intervals with one train in each, for a comparison: `first` in the first, `second` in the second. Both levels
+/// are above 0 and of the same kind.
 [[nodiscard]] Presentation comparisonPresentation(StimulusLevel first, StimulusLevel second, Seconds trainLength,
                                                   Seconds interval);
-/// Which of its two intervals passes that long after its beginning: 1 or 2; 0 before the first and between them. The
-/// second lasts until the presentation has ended.
+/// Returns which of the two intervals is passing at `since` after the beginning: 1 or 2; 0 before the first and between
+/// them. The second lasts until the presentation has ended.
 [[nodiscard]] int detectionIntervalAt(Seconds since) noexcept;
 
-/// Errors: InvalidArgument naming the value and what is accepted: NaN and negative levels, an intensity above 1, onsets
-/// that do not ascend or come nearer than the interval, a duration that is too short or too long; levels of another
-/// kind or number, an empty one among them, and a highest that is not `level`. The device's grid is the bench's matter.
+/// Errors: InvalidArgument naming the value and what is accepted, for a NaN or negative level, an intensity above 1,
+/// onsets that do not ascend or are closer than the interval, a too short or long duration, `levels` of a wrong kind or
+/// number, a 0 among them, or a highest that is not `level`. The bench checks the device's grid.
 [[nodiscard]] Result<void> validate(const Presentation& presentation);
 
-/// How a presentation ended. Every end but Complete makes it void.
+/// How a presentation ended. Every end except Complete makes the presentation void.
 enum class PresentationEnd {
-    Complete,  ///< every train was delivered and judged good, or there was none to deliver
+    Complete,  ///< every train was delivered and judged good, or none was to be delivered
     Refused,   ///< the gate refused a train; nothing more was delivered
     Stopped,   ///< a stop came, or the output was disarmed
     Paused,    ///< the output was paused
@@ -80,24 +80,24 @@ enum class PresentationEnd {
 [[nodiscard]] std::string_view nameOf(PresentationEnd end) noexcept;  // "complete", "refused", ...
 
 struct PresentedTrain {
-    Instant onset{0};                       ///< when it was written to the device, on the bench's clock
+    Instant onset{0};                       ///< when the train was written to the device, on the bench's clock
     StimulusLevel approved = Milliamps(0);  ///< as programmed
-    std::optional<Milliamps> readBack{};    ///< nothing where the device does not read back
-    Seconds interval{0};                    ///< the interval that it was approved for
-    std::optional<Ohms> impedance{};        ///< |Z|, read back with it
+    std::optional<Milliamps> readBack{};    ///< nothing if the device does not read back
+    Seconds interval{0};                    ///< the interval for which it was approved
+    std::optional<Ohms> impedance{};        ///< |Z|, read back with the train
     bool operator==(const PresentedTrain&) const = default;
 };
 
 struct Presented {
-    /// Later than that after its onset a train is not sent: a tenth of the shortest interval of the paper (choice).
+    /// A train is not sent later than this after its onset: a tenth of the paper's shortest interval (choice).
     static constexpr Instant kLatest = std::chrono::milliseconds(50);
 
     PresentationEnd end = PresentationEnd::Stopped;
     std::string reason;  ///< one sentence; empty when complete
-    Instant began{0};    ///< its onsets count from here; never before `notBefore`; meaningless if it never began
+    Instant began{0};    ///< time 0 of the onsets; never before `notBefore`; meaningless if it never began
     Instant ended{0};
-    std::vector<PresentedTrain> trains;  ///< trains delivered and read before its end, those of a void one included
-    std::optional<Ohms> impedance;       ///< the last reading of |Z|, even from before it; nothing without one
+    std::vector<PresentedTrain> trains;  ///< trains delivered and read before the end, even if void
+    std::optional<Ohms> impedance;       ///< last reading of |Z|, even from before the beginning; nothing without one
     [[nodiscard]] bool isVoid() const noexcept { return end != PresentationEnd::Complete; }
 };
 

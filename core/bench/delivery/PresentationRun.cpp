@@ -40,7 +40,7 @@ void PresentationRun::begin(Presentation presentation, const TrainPlanner& plann
 
 PresentationRun::Due PresentationRun::next(const Sight& sight) noexcept {
     endIfHindered(sight);
-    // A train or the check pulse is still being read, or was read a moment ago and is not judged.
+    // A train or check pulse is still being read, or was just read and is not judged yet.
     if (!active() || !sight.idle || awaited_ > 0) return Due::Nothing;
     if (!began_) {
         if (const Due due = beforeBegin(sight); due != Due::Nothing || !began_) return due;
@@ -87,11 +87,11 @@ Result<PlannedStimulus> PresentationRun::plan(TrainPlanner& planner, SafetyGate&
     return PlannedVibration{std::move(*burst), at, what_->interval};
 }
 
-/// An empty presentation takes the same steps: nothing may tell them apart.
+/// An empty presentation takes the same steps, so that nothing reveals it.
 PresentationRun::Due PresentationRun::beforeBegin(const Sight& sight) noexcept {
     const Instant begin = std::max(what_->notBefore, sight.now + ControlLoop::kPeriod);
     const Instant first = begin + what_->onsets.front();
-    // The first onset is no measure: it may come later than a check takes, and `begin` would recede forever.
+    // Do not use the first onset here: it may come later than a check takes, and `begin` would recede forever.
     if (sight.now < begin - kCheckAhead) return Due::Nothing;
     if (sight.readingUntil && *sight.readingUntil < first) return Due::Check;
     began_ = begin;
@@ -104,14 +104,14 @@ PresentationRun::Due PresentationRun::beforeBegin(const Sight& sight) noexcept {
 void PresentationRun::read(const TrainReport& report) noexcept {
     if (!active()) return;
     if (!std::isnan(report.impedance_ohm)) made_.impedance = Ohms(report.impedance_ohm);
-    // A train left under way by an earlier presentation does not belong to this one.
+    // A train still under way from an earlier presentation does not belong to this presentation.
     if (report.isCheck || report.outcome == TrainOutcome::LoopSilent || awaited_ == 0) return;
     --awaited_;
     if (report.outcome == TrainOutcome::Voided) lost_ = true;
     if (report.outcome != TrainOutcome::Delivered) return;
     PresentedTrain train;
     train.onset = report.onset;
-    train.approved = what_->levels[next_ - 1];  // none is posted while one is awaited
+    train.approved = what_->levels[next_ - 1];  // no train is posted while another is awaited
     train.interval = what_->interval;
     if (!std::isnan(report.measured)) train.readBack = Milliamps(report.measured);
     if (!std::isnan(report.impedance_ohm)) train.impedance = Ohms(report.impedance_ohm);

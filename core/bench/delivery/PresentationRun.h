@@ -1,11 +1,11 @@
 // PresentationRun.h - the presentation that the control loop carries out: when it begins, what is due next, what was
-// delivered, and how it ended. The loop has every train judged and posts it, and hands over the reports.
+// delivered, and how it ended. The loop has every train judged, posts it, and hands over the reports.
 //
-//   waiting (for `notBefore`, and for a check pulse where the reading of |Z| would be too old by the first onset)
-//   → trains at their onsets → the time that is left → complete; anything else ends it before.
+//   waiting (for `notBefore`, and for a check pulse if the reading of |Z| would be too old by the first onset)
+//   → trains at their onsets → the remaining time → complete; any hindrance ends the presentation early.
 //
-// Thread-safety: expect(), result() and beganAt() any thread; the rest has one caller, the control loop. Allocates at
-// the end of a presentation alone.
+// Thread-safety: expect(), result() and beganAt() any thread; the rest has one caller, the control loop. Allocates only
+// at the end of a presentation.
 #pragma once
 
 #include <mutex>
@@ -30,10 +30,10 @@ using PlannedStimulus = std::variant<PlannedLevel, PlannedVibration>;
 
 class PresentationRun {
 public:
-    /// The check pulse comes at most that long before the first onset (choice).
+    /// The check pulse comes at most this long before the beginning (choice).
     static constexpr Instant kCheckAhead = std::chrono::seconds(1);
 
-    /// What the loop sees when it asks what to do.
+    /// The state that the loop passes to next().
     struct Sight {
         Instant now{0};
         InterlockState state = InterlockState::Armed;
@@ -41,43 +41,43 @@ public:
         bool stopped = false;                 ///< a stop has come since the order
         bool paused = false;                  ///< a pause has come since the presentation was asked for
         bool idle = true;                     ///< no train is being written or read
-        std::optional<Instant> readingUntil;  ///< when the reading of |Z| grows old; nothing where none is taken
+        std::optional<Instant> readingUntil;  ///< when the reading of |Z| becomes too old; nothing if none is taken
     };
     enum class Due { Nothing, Check, Train };
 
-    /// Another presentation is asked for, which has no result yet.
+    /// Announces a new presentation, which has no result yet.
     void expect();
-    /// Nothing while it is going on. Taken once.
+    /// Returns nothing while the presentation continues. Can be taken once.
     [[nodiscard]] std::optional<Presented> result();
-    /// When the trains of the last presentation asked for begin to pass, even if all are empty; known a moment before.
-    /// Nothing while it waits.
+    /// Returns when the trains of the last requested presentation begin to pass, even if all are empty; known shortly
+    /// before. Returns nothing while it waits.
     [[nodiscard]] std::optional<Instant> beganAt();
 
-    /// `presentation` has passed validate(). `planner` says how its times are kept, for now.
+    /// `presentation` has passed validate(). `planner`, used only in this call, corrects its times.
     void begin(Presentation presentation, const TrainPlanner& planner);
     [[nodiscard]] bool active() const noexcept { return what_.has_value(); }
-    /// The next step. Begins and completes the presentation when it is time.
+    /// Returns what is due now. Begins and completes the presentation in time.
     [[nodiscard]] Due next(const Sight& sight) noexcept;
-    /// Whether its trains have begun to pass, even if all are empty.
+    /// True once the onsets of the presentation have begun to pass, even if all trains are empty.
     [[nodiscard]] bool begun() const noexcept { return began_.has_value(); }
-    /// Has the train judged that is due: next() said Train. A refusal ends the presentation. Errors: as
+    /// Has the due train judged; call it after next() returned Train. A refusal ends the presentation. Errors: as
     /// TrainPlanner::planLevel() and SafetyGate::approve().
     [[nodiscard]] Result<PlannedStimulus> plan(TrainPlanner& planner, SafetyGate& gate, Instant now);
-    /// The train was handed over.
+    /// Notes that the train was handed over.
     void posted() noexcept {
         ++next_;
         ++awaited_;
     }
-    /// Takes the outcome of a train or of a check pulse.
+    /// Takes the report on a train or a check pulse.
     void read(const TrainReport& report) noexcept;
-    /// Ends it. `reason`: one sentence. Does nothing when none is active.
+    /// Ends the presentation. `reason`: one sentence. Does nothing if none is active.
     void end(Instant now, PresentationEnd end, std::string_view reason) noexcept;
 
 private:
     struct Timed {
-        std::vector<StimulusLevel> levels;  // each train's level; empty in an empty presentation
-        Seconds interval;                   // the interval that was asked for
-        std::vector<Instant> onsets;        // onsets from the beginning, to be kept
+        std::vector<StimulusLevel> levels;  // level of each train; all 0 in an empty presentation
+        Seconds interval;                   // the interval as requested
+        std::vector<Instant> onsets;        // times from the beginning, corrected by the calibration
         Instant duration, notBefore;
     };
     [[nodiscard]] Instant onset() const noexcept { return *began_ + what_->onsets[next_]; }
@@ -87,8 +87,8 @@ private:
     std::optional<Timed> what_;
     std::optional<Instant> began_;
     std::size_t next_ = 0;
-    std::size_t awaited_ = 0;  // posted trains whose report has not come
-    bool lost_ = false;        // a train was taken back before it was written
+    std::size_t awaited_ = 0;  // posted trains that were not reported yet
+    bool lost_ = false;        // true if a train was taken back before it was written
     Presented made_;
 
     std::mutex mutex_;

@@ -13,12 +13,12 @@ constexpr Instant kStimulatorPoll = std::chrono::milliseconds(20);
 constexpr Instant kStatusDelay = std::chrono::milliseconds(2);
 constexpr Instant kStatusRetry = std::chrono::milliseconds(5);
 
-/// The time from the onset of the first pulse to the end of the last.
+/// Returns the time from the onset of the first pulse to the end of the last pulse.
 Instant durationOf(const PulseTrain& train) noexcept {
     return toInstant((train.pulses - 1) / train.rate.value()) + toInstant(train.pulseDuration());
 }
 
-/// An open electrode may read as infinite; NaN and negative numbers are not readings.
+/// True if the values are readings: an open electrode may read as infinite, but not as NaN or negative.
 bool isPlausible(const StimulatorStatus& status) noexcept {
     const auto fine = [](double value) { return value >= 0; };
     return (!status.amplitude || fine(*status.amplitude)) && (!status.impedance || fine(status.impedance->value())) &&
@@ -77,7 +77,7 @@ void StimulatorSession::deliver(TrainOrder&& order, Instant now) noexcept {
         made.fail(delivered->error());
         return report(made);
     }
-    // The device may have taken its time to be programmed: the train began when it had, not when it was ordered.
+    // Programming the device may have taken time: the train began after that, not when it was ordered.
     made.end = std::max(now, clock_.now()) + duration;
     trainEnd_.store(made.end.count(), std::memory_order_release);
     awaitingStatus_ = made;
@@ -94,7 +94,7 @@ void StimulatorSession::readStatus(Instant now) noexcept {
             trainEnd_.store(made.end.count(), std::memory_order_release);
         }
         if (now < made.end + kStatusDeadline) {
-            // A device that is merely slow to end has until the deadline.
+            // A device that is only slow to finish has until the deadline.
             statusDue_ = std::max(now + kStatusRetry, made.end + kStatusDelay);
             return;
         }

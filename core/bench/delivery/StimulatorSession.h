@@ -1,11 +1,11 @@
-// StimulatorSession.h - the only caller of a stimulator: writes approved trains at their onset, reads the
-// device's status after each, keeps its dead-man switch fed while the control loop is alive.
+// StimulatorSession.h - the only caller of a stimulator: writes approved trains at their onset, reads the device's
+// status after each, and feeds the device's dead-man switch while the control loop is alive.
 //
-// One train is in the session at a time: it is idle again when its report was made, so a status that was
-// not read holds back the next train.
+// The session holds one train at a time and is idle again once its report was made, so the next train waits until the
+// status was read.
 //
-// Thread-safety: askHealth(), health(), trainEnd() and saysItDelivers() any thread; serve() has one caller, the
-// device's thread (on the virtual clock, the bench); post() has one, the control loop. The rest as OutputSession.
+// Thread-safety: askHealth(), health(), trainEnd() and saysItDelivers() any thread; serve() only the device's thread
+// (on the virtual clock, the bench); post() only the control loop. The rest as OutputSession.
 #pragma once
 
 #include "core/bench/delivery/OutputSession.h"
@@ -13,7 +13,7 @@
 
 namespace tacto {
 
-/// The record of a real stimulator, from which `gate` continues. Both, `clock` and `time` outlive the use of it.
+/// Opens the record of a real stimulator, from which `gate` continues. `gate`, `clock` and `time` outlive the record.
 /// Errors: as UnitRecord::open().
 [[nodiscard]] Result<std::unique_ptr<UnitRecord>> takeUpUnit(const DeviceIdentity& stimulator,
                                                              const UnitFolders& folders, const Clock& clock,
@@ -27,38 +27,38 @@ struct TrainOrder {
 
 class StimulatorSession : public OutputSession<Stimulator, TrainOrder> {
 public:
-    /// All arguments outlive the session. `wake` is called after post(), so that a thread waiting for serve()'s
-    /// due time looks again; may be empty.
+    /// All arguments outlive the session. post() calls `wake`, so that a thread that waits for serve()'s due time
+    /// checks again; may be empty.
     StimulatorSession(Stimulator& device, const SafetyGate& gate, const Heartbeat& heartbeat, const Clock& clock,
                       std::function<void()> wake)
         : OutputSession(device, gate, heartbeat, clock, std::move(wake)) {}
 
-    /// How long deliver() may take until the train begins: a device is programmed first.
+    /// The longest time from deliver() to the start of the train, because a device is programmed first.
     static constexpr Instant kBeginsWithin = std::chrono::milliseconds(200);
-    /// The latest time at which a train that is to be written at `onset` has ended.
+    /// Returns the latest time at which a train that is written at `onset` ends.
     [[nodiscard]] static Instant latestEnd(const PulseTrain& train, Instant onset) noexcept;
-    /// The latest end of the train that is in the session, as far as it is known: its status is due from then on. Any
+    /// Returns the latest end of the train in the session, as far as known: its status is due from then on. Any
     /// thread.
     [[nodiscard]] Instant trainEnd() const noexcept { return Instant(trainEnd_.load(std::memory_order_acquire)); }
 
-    /// The last answer about that train was that it is still being delivered. Any thread.
+    /// True if the device last answered that this train was still being delivered. Any thread.
     [[nodiscard]] bool saysItDelivers() const noexcept { return saysItDelivers_.load(std::memory_order_acquire); }
 
     /// Hands over a train to be written at `onset`. The session must be idle().
     void post(ApprovedTrain&& train, Instant onset, bool isCheck) noexcept;
 
-    /// Asks the device how it is, outside any train: for leaving a fault. Answered by the next serve().
+    /// Asks for the device's health outside any train, to leave a fault. The next serve() answers.
     void askHealth() noexcept { healthAsked_.store(true, std::memory_order_release); }
-    /// Nothing while unanswered; then success when the device answers and delivers nothing, else why it failed.
+    /// Returns nothing until answered; then success if the device answers and delivers nothing, else the failure.
     [[nodiscard]] std::optional<Result<void>> health();
 
-    /// The longest time between two keep-alives of a device with a dead-man switch, while the loop was alive. Any
-    /// thread.
+    /// Returns the longest time between two keep-alives of a device with a dead-man switch, while the loop was alive.
+    /// Any thread.
     [[nodiscard]] Instant longestKeepAliveGap() const noexcept {
         return Instant(longestGap_.load(std::memory_order_relaxed));
     }
 
-    /// Does what is due and returns when it wants to be called again.
+    /// Does what is due and returns the time of the next call.
     Instant serve(Instant now) noexcept;
 
 private:
@@ -73,7 +73,7 @@ private:
     std::atomic<Instant::rep> longestGap_{0};
     std::optional<Result<void>> health_;  // guarded by mailbox_
 
-    // The device thread's own:
+    // Used by the device thread only:
     std::optional<TrainReport> awaitingStatus_;
     Instant statusDue_{0};
     Instant keepAliveDue_{0};

@@ -85,7 +85,7 @@ void TrainDispatch::post(ApprovedTrain&& train, Instant onset, std::optional<dou
                          StepTelemetry& shown) noexcept {
     const auto& amplitude = train.train().amplitude;
     const double programmed = siValue(amplitude) * (isCurrent(amplitude) ? 1e3 : 1);
-    // Check pulses too: a capture of one belongs to no train that was delivered shortly before.
+    // Count check pulses too, so that a capture of one is not assigned to a train delivered shortly before.
     ++posted_;
     lastPosted(shown) = {
         onset,    programmed, expected.value_or(programmed), onset, StimulatorSession::latestEnd(train.train(), onset),
@@ -99,7 +99,7 @@ void TrainDispatch::reported(const TrainReport& report, StepTelemetry& shown) co
     if (posted_ == 0) return;
     auto& train = lastPosted(shown);
     if (report.outcome == TrainOutcome::Voided) train.amplitude = NAN;
-    if (report.end == Instant(0)) return;  // it is not known better when it was put out
+    if (report.end == Instant(0)) return;  // no better time of output is known
     train.from = report.onset;
     train.until = report.end;
     train.acknowledged = report.outcome == TrainOutcome::Delivered;

@@ -9,7 +9,7 @@ namespace tacto {
 
 namespace {
 
-/// The programmed value stays this near to the command with any calibration.
+/// With any calibration, the programmed value deviates from the command by at most this share.
 constexpr double kMaxCorrection = 0.2;
 
 double levelOf(const PulseTrain& train) noexcept {
@@ -35,7 +35,7 @@ Result<void> staysNear(const PulseTrain& programmed, const PulseTrain& command) 
     return timesStayNear(programmed, command);
 }
 
-/// The tolerance is SafetyGate's: what decimal steps lose in binary.
+/// The tolerance, the same as in SafetyGate, covers the rounding of decimal steps in binary.
 bool isOnGrid(double value, double step) noexcept {
     return step == 0 || std::abs(value / step - std::round(value / step)) <= 1e-6;
 }
@@ -103,7 +103,7 @@ Result<PlannedLevel> TrainPlanner::planLevel(Milliamps level, Seconds interval, 
     return PlannedLevel{std::move(*approved), onset, expected};
 }
 
-/// A correction to the nearest step, unless more than the profile's largest amplitude, `top`, would come out.
+/// Rounds to the nearest step, or toward zero if more than the profile's largest amplitude, `top`, would come out.
 Result<RoundedTrain> TrainPlanner::onGrid(PulseTrain programmed, double top) const {
     if (!calibration_) return roundToDevice(programmed, gridOf(source_));
     const double wanted = levelOf(programmed), step = source_.amplitudeStep;

@@ -1,8 +1,8 @@
-// BenchTap.h - a look into the running bench for displays: samples, roughness frames and trains as they pass through
-// the control loop.
+// BenchTap.h - lets displays follow the running bench: samples, roughness frames and trains as they pass through the
+// control loop.
 //
-// The loop pushes without waiting; a display that looks too rarely loses the oldest and nothing else. What must not be
-// lost is in the session file.
+// The loop pushes without waiting; a display that reads too rarely loses the oldest entries and nothing else. Data that
+// must not be lost are in the session file.
 //
 // Thread-safety: the control loop pushes; pop from one thread.
 #pragma once
@@ -16,9 +16,9 @@
 
 namespace tacto {
 
-/// One sample of one stream, in the unit that the sensor's StreamInfo names.
+/// One sample of one stream, in the unit given by the sensor's StreamInfo.
 struct TapSample {
-    static constexpr std::size_t kMaxChannels = 32;  ///< as many as a display can show; channels beyond are left out
+    static constexpr std::size_t kMaxChannels = 32;  ///< the most that a display can show; further ones are left out
     double t_s = 0;
     std::uint32_t stream = 0;  ///< index into the sensor's streams()
     std::uint32_t channels = 0;
@@ -28,7 +28,7 @@ struct TapSample {
 struct BenchTap {
     SpscRing<TapSample> samples{16'384};  ///< about 4 s of a 4 kHz finger
     SpscRing<RoughnessFrame> frames{2048};
-    SpscRing<TrainReport> trains{256};  ///< every outcome, impedance checks included
+    SpscRing<TrainReport> trains{256};  ///< with every outcome; includes impedance checks
 };
 
 }  // namespace tacto

@@ -9,12 +9,12 @@ namespace tacto {
 
 namespace {
 
-/// Below this a current is not distinguished from none (the limit of the load-safety check too).
+/// A current of fewer steps cannot be told from no current (the load-safety check uses the same limit).
 constexpr double kMinSteps = 10;
 
-/// For an instrument that does not say how well it knows the time of its records.
+/// Used if an instrument does not state how accurately it stamps its records.
 constexpr Instant kUnknownStamp = std::chrono::milliseconds(50);
-/// The time from a write to its onset, on top of a driver's own waiting.
+/// Delay from a write to the onset, in addition to the driver's own waiting.
 constexpr Instant kOutputDelay = std::chrono::milliseconds(2);
 
 struct Stretch {
@@ -31,13 +31,13 @@ Instant stampSlack(const Capture& capture) {
     return std::isfinite(stated_s) ? toInstant(Seconds(stated_s)) + kOutputDelay : kUnknownStamp;
 }
 
-/// Whether one reading of both is one reading of each.
+/// True if both commands should give the same reading.
 bool alike(const ProgrammedTrain& a, const ProgrammedTrain& b) {
     constexpr double kSame = 1e-9;
     return std::abs(a.expected - b.expected) <= kSame * std::abs(b.expected) && a.isCheck == b.isCheck;
 }
 
-/// Whether no pulse of the command could be missed: it was put out within the record, and the samples lie close enough.
+/// True if no pulse of the command could be missed: the record covers its output, and the samples are close enough.
 bool mustShow(const Capture& capture, const SourceTraits& source, const ProgrammedTrain& command) {
     constexpr double kSamplesInPhase = 2;
     const auto [from, until] = stretchOf(capture);
@@ -46,7 +46,7 @@ bool mustShow(const Capture& capture, const SourceTraits& source, const Programm
            capture.rate_hz * Seconds(source.widthMin).count() >= kSamplesInPhase;
 }
 
-/// The span of a channel that knows its resolution, from least to greatest; nothing where samples are missing.
+/// Returns the span of a channel with a known resolution, from least to greatest; nothing if samples are missing.
 std::optional<double> mostIn(const CaptureChannel& channel) {
     if (!(channel.lsb > 0) || channel.samples.empty()) return std::nullopt;
     const auto [low, high] = std::minmax_element(channel.samples.begin(), channel.samples.end());
@@ -54,7 +54,7 @@ std::optional<double> mostIn(const CaptureChannel& channel) {
     return std::isfinite(most) ? std::optional(most) : std::nullopt;
 }
 
-/// The least that |Z| can be where `current` stays within its channel's last steps.
+/// Returns the smallest possible |Z| if `current` stays within the last steps of its channel.
 std::optional<Ohms> leastImpedance(const Capture& capture, std::size_t voltage, const CaptureChannel& current) {
     const double visible = kMinSteps * current.lsb;
     const auto swing = mostIn(current);
@@ -64,7 +64,7 @@ std::optional<Ohms> leastImpedance(const Capture& capture, std::size_t voltage, 
     return Ohms(amplitude / visible);
 }
 
-/// IEC 60601-2-10 asks this of an amplitude.
+/// The limit of IEC 60601-2-10 for the deviation of an amplitude.
 constexpr double kMaxOff = 0.20;
 
 }  // namespace
@@ -121,7 +121,7 @@ std::optional<ProgrammedTrain> commandShownIn(const Capture& capture, std::span<
         if (shown != nullptr && !(alike(command, *shown))) return std::nullopt;
         if (shown == nullptr || command.from > shown->from) shown = &command;
     }
-    // Before the oldest remembered one there was another.
+    // The record begins before the oldest remembered command, so it may show a forgotten one.
     if (shown == nullptr || (full && from < oldest - slack)) return std::nullopt;
     return *shown;
 }
@@ -138,12 +138,12 @@ std::optional<SeenAmplitude> amplitudeSeenIn(const Capture& capture, const Sourc
     SeenAmplitude seen;
     const auto measured = measureChannel(capture, index);
     const double mean = measured.amplitude.mean, most = measured.amplitude.max;
-    // The largest pulse counts: one that is larger than the others is enough.
+    // Use the largest pulse if it is further off: one pulse that is too large is enough.
     double amplitude = !(std::abs(mean - expected) > std::abs(most - expected)) ? most : mean;
     const auto swing = mostIn(channel);
     const bool clipped =
         std::ranges::any_of(measured.pulses, [](const PulseMeasurement& pulse) { return pulse.flags.clipped; });
-    // The two phases of a pulse are as large: the signal moves by both.
+    // Both phases of a pulse are equally large, so the signal swings by twice the amplitude.
     if (clipped && swing && !(amplitude > *swing / 2)) {
         amplitude = *swing / 2;
         if (amplitude < expected) return std::nullopt;
@@ -155,7 +155,7 @@ std::optional<SeenAmplitude> amplitudeSeenIn(const Capture& capture, const Sourc
         amplitude = *swing;
     }
     seen.amplitude = scale * amplitude;
-    // Unstated accuracy excuses nothing: a fault is then found sooner (hazard H3).
+    // An unstated accuracy excuses no deviation, so that a fault is found sooner (hazard H3).
     const auto stated = [](double tolerance) { return std::isfinite(tolerance) ? tolerance : 0; };
     seen.uncertainty = scale * ((stated(channel.gainTolerance) + stated(channel.probeTolerance)) * amplitude +
                                 stated(channel.offsetTolerance) + channel.linearityTolerance + channel.lsb);

@@ -8,8 +8,8 @@
 namespace tacto {
 
 namespace {
-constexpr std::size_t kFramesPerStep = 256;  // a step after a stall of seconds still finds room
-// A frame stands for the middle of its window: half of 64 ms, one hop, and the next force sample behind.
+constexpr std::size_t kFramesPerStep = 256;  // leaves room for a step after a stall of seconds
+// A frame shows the middle of its window: half of 64 ms late, plus one hop, plus the wait for the next force sample.
 constexpr double kFrameLatency_s = 0.032 + 0.016 + 0.03;
 }  // namespace
 
@@ -26,7 +26,7 @@ FingerInput::FingerInput(SensorSession& session, std::unique_ptr<RoughnessChain>
         health_.emplace_back(stream.rate_hz);
         still_.emplace_back(stream.channels, stream.kind == StreamKind::Acceleration);
         blocks_.emplace_back();
-        // A second's worth, so that a step never has to grow it.
+        // Reserve one second of samples, so that no step has to allocate.
         const auto samples = static_cast<std::size_t>(std::max(64.0, stream.rate_hz));
         blocks_.back().t_s.reserve(samples);
         blocks_.back().values.reserve(samples * stream.channels);
@@ -35,7 +35,7 @@ FingerInput::FingerInput(SensorSession& session, std::unique_ptr<RoughnessChain>
 }
 
 void FingerInput::update() {
-    const bool over = session_.finished();  // asked first: what it left behind is collected now
+    const bool over = session_.finished();  // asked first, so that the remaining samples are collected now
     session_.collect(blocks_);
     const auto streams = session_.device().streams();
     for (std::size_t s = 0; s < blocks_.size(); ++s) {
@@ -59,12 +59,12 @@ double FingerInput::age_s(double now_s) const noexcept {
     return since ? std::max(oldest, now_s - *since) : oldest;
 }
 
-/// No axis of an accelerometer is still by itself: its noise is larger than its steps. Force and taxels may be still,
-/// except an array that is touched and has moved all the time.
+/// A working accelerometer never stands still: its noise is larger than its steps. Force and taxels may stand still,
+/// except an array that is touched and has changed all the time.
 std::optional<double> FingerInput::standsStillSince() const noexcept {
-    constexpr std::size_t kArray = 4;  // taxels that are not all filtered to the same values
+    constexpr std::size_t kArray = 4;  // the least number of taxels that a filter does not make all equal
     const auto streams = session_.device().streams();
-    std::optional<double> latest;  // when the last of them stopped changing
+    std::optional<double> latest;  // when the last stream stopped changing
     bool all = !still_.empty();
     for (std::size_t s = 0; s < still_.size(); ++s) {
         const auto since = still_[s].since();
@@ -80,7 +80,7 @@ std::optional<double> FingerInput::standsStillSince() const noexcept {
 
 FingerStanding FingerInput::standing(double now_s) const noexcept {
     if (std::abs(now_s - implausible_s_) <= StreamHealth::kStale_s) return FingerStanding::Implausible;
-    // A stamp ahead of time says nothing of how old the data are: as bad as a stale one.
+    // A stamp in the future does not tell how old the data are, so it is as bad as a stale one.
     const auto current = [&](double age_s, double allowed_s) {
         return age_s <= StreamHealth::kStale_s + allowed_s && age_s >= -StreamHealth::kStale_s;
     };

@@ -1,4 +1,4 @@
-// FingerInput.h - the control loop's sense of touch: collects samples, judges their continuity and age, and
+// FingerInput.h - the control loop's input from the fingertip: collects samples, judges their continuity and age, and
 // keeps the newest roughness frame.
 //
 // Thread-safety: none; the control loop owns it. update() does not allocate in a steady state.
@@ -20,18 +20,18 @@ public:
     [[nodiscard]] static Result<std::unique_ptr<FingerInput>> create(SensorSession& session,
                                                                      const RoughnessSettings& settings);
 
-    /// Takes what arrived. frames() and blocks() are of this call until the next.
+    /// Takes the samples that arrived. frames() and blocks() stay valid until the next update().
     void update();
     [[nodiscard]] const std::vector<RoughnessFrame>& frames() const noexcept { return frames_; }
     [[nodiscard]] std::span<const SampleBlock> blocks() const noexcept { return blocks_; }
-    /// The newest frame; its R is NaN before the first.
+    /// The newest frame; before the first, its R is NaN.
     [[nodiscard]] const RoughnessFrame& latest() const noexcept { return latest_; }
 
-    /// Age of the oldest stream's newest sample; infinite before the first. While all streams stand still, or one axis
-    /// of the acceleration or a touched array of taxels does, it is the age of the first sample that stood still.
+    /// Returns the age of the newest sample in the oldest stream; infinite before the first. If all streams, one axis
+    /// of the acceleration or a touched array of taxels stand still, returns the age of the first unchanged sample.
     [[nodiscard]] double age_s(double now_s) const noexcept;
-    /// Fresh when no sample stands still, every stream, and the newest frame allowing for its window, is at most 100 ms
-    /// old, none is stamped in the future, and no value of the last 100 ms was outside what a fingertip can give
+    /// Fresh if no signal stands still, each stream and the newest frame (allowing for its window) are at most 100 ms
+    /// old, no stamp lies in the future, and no value of the last 100 ms was outside the range of a fingertip
     /// (hazard H7).
     [[nodiscard]] FingerStanding standing(double now_s) const noexcept;
     [[nodiscard]] std::uint64_t gaps() const noexcept;
@@ -51,7 +51,7 @@ private:
     std::vector<SampleBlock> blocks_;
     std::vector<RoughnessFrame> frames_;
     RoughnessFrame latest_;
-    double implausible_s_ = -1;  // stamp of the newest value outside its range
+    double implausible_s_ = -1;  // time stamp of the newest value outside its range
     bool finished_ = false;
 };
 

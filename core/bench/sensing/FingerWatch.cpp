@@ -8,7 +8,7 @@ namespace tacto {
 
 namespace {
 constexpr Instant kReportPoll = std::chrono::milliseconds(100);
-constexpr Instant kReportEvery = std::chrono::seconds(10);  // how often a line that goes on losing is reported
+constexpr Instant kReportEvery = std::chrono::seconds(10);  // how often continuing losses are reported
 }  // namespace
 
 void FingerWatch::replace(NextFinger next) noexcept {

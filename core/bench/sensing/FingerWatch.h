@@ -1,7 +1,7 @@
-// FingerWatch.h - what the control loop makes of its finger: what displays see of it, the flags of R, which stay when a
-// profile brings another finger, and what the sensor failed at or lost.
+// FingerWatch.h - the control loop's view of its finger: what displays see of it, the flags of R, which stay when a
+// profile brings another finger, and the sensor's failures and losses.
 //
-// Thread-safety: none; the control loop owns it. Allocates for a failure and for a report alone.
+// Thread-safety: none; the control loop owns it. Allocates only for a failure or a report.
 #pragma once
 
 #include <atomic>
@@ -18,17 +18,17 @@
 
 namespace tacto {
 
-// Where the control loop shows what passes through it: the tap of the display that the bench was opened
-// with, and a listener that comes and goes (BenchTap.h). Either may be missing.
+// Where the control loop pushes passing data: the tap of the display with which the bench was opened, and a listener
+// that may come and go (BenchTap.h). Either may be missing.
 
 class SampleTaps {
 public:
     explicit SampleTaps(BenchTap* display) noexcept : display_(display) {}
 
-    /// `tap` gets samples alone; null ends it. On return nothing pushes into the one before.
+    /// Sets the listener, which gets samples only; null ends it. On return the earlier tap gets nothing more.
     void listen(BenchTap* tap);
 
-    /// The samples of the finger's last update, and its frames for the display.
+    /// Pushes the samples of the finger's last update, and its frames for the display.
     void push(const FingerInput& finger) noexcept;
     void push(const TrainReport& report) noexcept {
         if (display_ != nullptr) display_->trains.push(report);
@@ -50,19 +50,18 @@ public:
 
     /// Null without a sensor.
     [[nodiscard]] const FingerInput* input() const noexcept { return finger_.get(); }
-    /// The earlier flags stay, except those of calibration where R was not shown and drove nothing.
+    /// Keeps the earlier flags, except the calibration flags if R was neither shown nor driving.
     void replace(NextFinger next) noexcept;
 
-    /// Takes what arrived, for journal, taps and `shown`.
+    /// Takes the samples that arrived, for journal, taps and `shown`.
     void read(Instant now, StepTelemetry& shown) noexcept;
-    /// The failure since the last call: a missing sensor ends the output of any source. A plug was pulled at the
-    /// finger.
+    /// Returns a failure since the last call, such as a pulled plug: without the sensor, output from any source ends.
     [[nodiscard]] std::optional<LoopFault> failure() noexcept;
-    /// Notes the losses that the sensor reports, once in ten seconds while it keeps losing.
+    /// Notes the losses that the sensor reports, at most once in ten seconds.
     void noteLosses(Instant now) noexcept;
-    /// R drives the output: every flag of it is in the session before the bench closes, since it may never close.
+    /// Notes every flag of R at once while R drives the output, because the bench may never close properly.
     void noteFlags(Instant now) noexcept;
-    /// Flags of all fingers so far.
+    /// The flags of all fingers so far.
     [[nodiscard]] RoughnessFlags flags() const noexcept;
 
 private:
@@ -70,10 +69,10 @@ private:
     const ReportingDevice* const report_;
     LoopJournal& journal_;
     SampleTaps& taps_;
-    RoughnessFlags flagsKept_;  // flags of earlier fingers, and of what has driven the output
+    RoughnessFlags flagsKept_;  // flags of earlier fingers, and flags that applied while R drove
     std::uint64_t failuresSeen_ = 0;
     std::uint64_t lossesNoted_ = 0;
-    Instant lossesDue_{0};  // losses are not reported before then
+    Instant lossesDue_{0};  // the time before which losses are not reported again
 };
 
 }  // namespace tacto

@@ -6,13 +6,13 @@
 namespace tacto {
 
 namespace {
-constexpr double kWindow_s = 0.05;  // some turns of a motor
-constexpr double kQuiet = 3;        // times the floor
+constexpr double kWindow_s = 0.05;  // a few turns of a motor
+constexpr double kQuiet = 3;        // in multiples of the lowest strength
 constexpr std::size_t kEnough = 20;
-constexpr double kSteady = 0.1;  // standard deviation of windows, of their mean
-constexpr double kTone = 2.1;    // kurtosis: 1.5 of a tone, 3 of noise
-constexpr double kFalls = 0.01;  // from window to window; a larger fall is a motor that runs down
-constexpr int kTries = 6;        // more: a slow motor is not steady at once
+constexpr double kSteady = 0.1;  // standard deviation of the windows, relative to their mean
+constexpr double kTone = 2.1;    // upper limit of the kurtosis: a tone has 1.5, noise 3
+constexpr double kFalls = 0.01;  // relative fall per window; with a larger fall the motor is running down
+constexpr int kTries = 6;        // several, because a slow motor is not steady at once
 }  // namespace
 
 void MassagerWatch::Axis::add(double value, bool begins) noexcept {
@@ -30,7 +30,7 @@ std::pair<double, double> MassagerWatch::Axis::moments(double n) const noexcept 
 
 void MassagerWatch::burst(Instant begin, Instant end) noexcept {
     begin_s_ = toSeconds(begin);
-    // A window may have closed on its first milliseconds before it was told of.
+    // A window may have included the first milliseconds of the burst before burst() was called.
     if (begin_s_ - quiet_s_ < 3 * kWindow_s) follows_ = true;
     end_s_ = std::max(end_s_, toSeconds(end));
 }
@@ -49,7 +49,7 @@ void MassagerWatch::feed(const SampleBlock& block, std::size_t axes) noexcept {
     }
 }
 
-/// The kurtosis belongs to the axis that moves most.
+/// Takes the kurtosis from the axis that moves most.
 void MassagerWatch::close(const Window& window) noexcept {
     double all = 0, most = 0, kurtosis = 0;
     for (const auto& axis : window.axes) {
@@ -62,7 +62,7 @@ void MassagerWatch::close(const Window& window) noexcept {
     take(window.begin_s, std::sqrt(all), kurtosis);
 }
 
-/// A window counts where it lies in a rest: long enough after a burst, and before the next.
+/// Uses only windows during a rest: long enough after a burst, and before the next.
 void MassagerWatch::take(double begin_s, double strength, double kurtosis) noexcept {
     if (!std::isfinite(strength)) return forget();
     if (strength > 0) floor_ = std::min(floor_, strength);
@@ -88,7 +88,7 @@ void MassagerWatch::take(double begin_s, double strength, double kurtosis) noexc
     const double deviation = std::sqrt(std::max(0.0, squares_ / static_cast<double>(count_) - mean * mean));
     const bool holds = std::abs(fall_) <= kFalls * mean * static_cast<double>(pairs_);
     const bool goesOn = deviation <= kSteady * mean && holds && kurtosis_ / static_cast<double>(count_) < kTone;
-    // In rests too short to see a motor run down, an unsteady one may be a slow one.
+    // If rests are too short to show a motor running down, an unsteady motion may come from a slow motor.
     const bool sees = pairs_ >= kEnough * 3 / 4;
     if (++tries_ > (sees ? kTries : 0) && !goesOn) return forget();
     count_ = pairs_ = 0;

@@ -71,10 +71,10 @@ Instant ScopeSession::serve(Instant now) noexcept {
     try {
         serveDevice(now);
     } catch (const std::bad_alloc&) {
-        // A record may be the largest thing that the program holds. Its memory is given back, and the run learns of it.
+        // A record may be the program's largest object. Free its memory and report the error to the run.
         device_.disarm();
         const std::scoped_lock lock(mutex_);
-        error_ = Error{ErrorCode::Device, "no memory left"};  // short enough to need none
+        error_ = Error{ErrorCode::Device, "no memory left"};  // too short to need an allocation
         active_ = waiting_ = false;
     }
     return now + kPollEvery;

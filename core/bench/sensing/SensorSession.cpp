@@ -9,7 +9,7 @@ namespace tacto {
 
 namespace {
 constexpr Instant kReadEvery = std::chrono::milliseconds(2);
-constexpr Instant kRecoveryPollInterval = std::chrono::milliseconds(100);  // how often a failed device is asked for
+constexpr Instant kRecoveryPollInterval = std::chrono::milliseconds(100);  // how often a failed device is tried
 constexpr double kRingSeconds = 1;
 }  // namespace
 
@@ -50,7 +50,7 @@ Instant SensorSession::serve(Instant now) noexcept {
     return now + kReadEvery;
 }
 
-/// Puts what was read into the rings.
+/// Puts the samples read into the rings.
 void SensorSession::hand() noexcept {
     for (std::size_t s = 0; s < streams_.size(); ++s) {
         const auto& block = blocks_[s];

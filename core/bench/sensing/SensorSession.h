@@ -1,7 +1,7 @@
-// SensorSession.h - the only caller of a fingertip: reads it and hands its samples to the control loop
-// through one ring per stream (overflow drops the oldest and counts).
+// SensorSession.h - the only caller of a fingertip: reads its samples and hands them to the control loop through one
+// ring per stream (which, when full, drops and counts the oldest sample).
 //
-// A device that failed is not read again until askHealth(), which looks for it by identity.
+// A failed device is not read again until askHealth(), which searches for it by identity.
 //
 // Thread-safety: serve() has one caller, the device's thread (on the virtual clock, the bench); collect()
 // has one caller, the control loop; the rest any thread.
@@ -24,30 +24,30 @@ namespace tacto {
 
 class SensorSession {
 public:
-    static constexpr std::size_t kMaxChannels = 63;  // as many as the session recorder takes
+    static constexpr std::size_t kMaxChannels = 63;  // the most that the session recorder takes
 
     /// Errors: Unsupported for a stream of more than kMaxChannels channels. `device` outlives the session.
     [[nodiscard]] static Result<std::unique_ptr<SensorSession>> create(TactileSensor& device);
 
-    /// Reads what the device has and returns when to call again.
+    /// Reads the available samples and returns the time of the next call.
     Instant serve(Instant now) noexcept;
 
-    /// Moves what arrived since the last call into `blocks`, one per stream, cleared first.
+    /// Moves the samples since the last call into `blocks`, one per stream, each cleared first.
     void collect(std::span<SampleBlock> blocks) noexcept;
 
-    /// Samples lost because the loop did not collect for a second.
+    /// Number of samples lost because the loop did not collect for a second.
     [[nodiscard]] std::uint64_t samplesLost() const noexcept;
-    /// True from when the device failed until it answers again; why is in error().
+    /// True from a failure of the device until it answers again; error() gives the reason.
     [[nodiscard]] bool failed() const noexcept { return failed_.load(std::memory_order_acquire); }
-    /// Times that the device failed while it was read.
+    /// How often the device failed while it was read.
     [[nodiscard]] std::uint64_t failures() const noexcept { return failures_.load(std::memory_order_acquire); }
-    /// Asks a device that failed to be opened again: for leaving a fault. Answered by the next serve(), which may wait
-    /// for the device.
+    /// Asks a failed device to be opened again, to leave a fault. The next serve() answers and may wait for the
+    /// device.
     void askHealth() noexcept { healthAsked_.store(true, std::memory_order_release); }
-    /// Nothing while unanswered; then success when the device answers, else why it does not.
+    /// Returns nothing until answered; then success if the device answers, else the reason.
     [[nodiscard]] std::optional<Result<void>> health();
     [[nodiscard]] FixedText<160> error() const noexcept;
-    /// True when the device has no more samples and all were collected.
+    /// True if the device has no more samples and all were collected.
     [[nodiscard]] bool finished() const noexcept { return finished_.load(std::memory_order_acquire); }
     [[nodiscard]] const TactileSensor& device() const noexcept { return device_; }
 
@@ -72,12 +72,12 @@ private:
 
     TactileSensor& device_;
     std::vector<Stream> streams_;      // Constant after construction
-    std::vector<SampleBlock> blocks_;  // the device thread's
+    std::vector<SampleBlock> blocks_;  // used by the device's thread
     std::atomic<bool> failed_{false};
     std::atomic<std::uint64_t> failures_{0};
     std::atomic<bool> finished_{false};
     std::atomic<bool> healthAsked_{false};
-    mutable std::mutex told_;  // guards what follows; held for a copy only
+    mutable std::mutex told_;  // guards error_ and health_; held for a copy only
     FixedText<160> error_;
     std::optional<Result<void>> health_;
 };
