@@ -1,8 +1,8 @@
-// Device.h - what every device has. A device is opened by its driver, owned by one session thread and
-// closed by destruction. What it can do is which of the interfaces below it implements: a missing
-// ability is a missing interface.
+// Device.h - the common part of every device. A device is opened by its driver, owned by one session thread and closed
+// by destruction. The interfaces below that it implements show what it can do; a missing ability is a missing
+// interface.
 //
-// Thread-safety: identity() is constant while the device is open; the rest as its interface says.
+// Thread-safety: identity() is constant while the device is open; the rest as each interface states.
 #pragma once
 
 #include <array>
@@ -20,15 +20,15 @@
 namespace tacto {
 
 struct DeviceIdentity {
-    std::string uri;  ///< opens this device again
+    std::string uri;  ///< the address that opens this device again
     Role role;
     std::string name;
     std::string serial;
     std::string firmware;
     bool simulated = false;
-    /// Why a listed device cannot be opened now and what helps, one sentence; empty where it can.
+    /// One sentence: why a listed device cannot be opened now and what helps; empty if it can be opened.
     std::string obstacle = {};
-    bool placeholder = false;  ///< listed as a kind: the path of `uri` has to be filled in
+    bool placeholder = false;  ///< listed as a kind of device: the user must complete the path of `uri`
     bool operator==(const DeviceIdentity&) const = default;
 };
 
@@ -38,21 +38,21 @@ public:
     [[nodiscard]] virtual const DeviceIdentity& identity() const noexcept = 0;
 };
 
-// A device that gives back what was taken before: a recording, captures in files. Whether that was
-// measured or simulated only its files can say (hazard H9).
+// A device that replays earlier data: a recording, captures in files. Only its files can say whether the data were
+// measured or simulated (hazard H9).
 
 enum class StatedOrigin { NotStated, Measured, Simulated };
 
-/// Implemented beside Device by those that replay; DeviceIdentity::simulated is set where it is Simulated.
+/// Implemented, in addition to Device, by replaying devices; DeviceIdentity::simulated is set for origin Simulated.
 class ReplayedDevice {
 public:
     virtual ~ReplayedDevice() = default;
     [[nodiscard]] virtual StatedOrigin statedOrigin() const noexcept = 0;
 };
 
-// The error for what a driver was handed after its approval had expired.
+// The error for an order that a driver receives after its approval expired.
 
-/// `who` is the device within a sentence, `what` the train or burst: "the stimulator", "a train". Errors: Timeout where
+/// `who` is the device within a sentence, `what` the train or burst: "the stimulator", "a train". Errors: Timeout if
 /// `expires` is before `now`.
 [[nodiscard]] inline Result<void> notExpired(Instant expires, Instant now, std::string_view who,
                                              std::string_view what) {
@@ -61,27 +61,27 @@ public:
                 toSeconds(now - expires) * 1e3);
 }
 
-// What a device and its line have been like since it was opened, as rows that a session keeps and a
-// window shows: losses, clock drift, delays. A device that knows such things of itself is a ReportingDevice as well.
+// A device's report on itself and its line since it was opened: losses, clock drift, delays. Sessions store its rows
+// and windows show them. Devices that can report this also implement ReportingDevice.
 
-/// The texts live forever: literals.
+/// The texts must be literals, because they are kept as pointers.
 struct ReportRow {
     const char* key = "";   ///< the key in sessions and JSON, with its unit: "drift_ppm"
     const char* name = "";  ///< the name that people read: "clock drift"
-    double value = 0;       ///< NaN: not known
-    const char* unit = "";  ///< the unit that people read; empty for a count
+    double value = 0;       ///< NaN: unknown
+    const char* unit = "";  ///< the unit shown to people; empty for a count
 };
 
 struct DeviceReport {
-    static constexpr std::size_t kMaxRows = 12;  ///< as many as fit into an event of a session
+    static constexpr std::size_t kMaxRows = 12;  ///< as many as an event of a session can hold
 
-    /// More than kMaxRows are left out.
+    /// Ignores rows beyond kMaxRows.
     constexpr void add(const ReportRow& row) noexcept {
         if (count < kMaxRows) all[count++] = row;
     }
     [[nodiscard]] std::span<const ReportRow> rows() const noexcept { return {all.data(), count}; }
 
-    std::uint64_t losses = 0;  ///< things lost or spoilt so far: when it has grown, the operator should know
+    std::uint64_t losses = 0;  ///< lost or damaged items so far; the operator should learn of any increase
     std::array<ReportRow, kMaxRows> all{};
     std::size_t count = 0;
 };

@@ -133,8 +133,8 @@ namespace {
 
 struct Key {
     std::string_view name;
-    double scale;  ///< factor to the unit that a statement holds
-    double most;   ///< as written
+    double scale;  ///< factor from the written unit to the stored unit
+    double most;   ///< largest value, in the written unit
     std::string_view accepted;
 };
 constexpr std::array<Key, 10> kKeys{{{"gain_pct", 1e-2, 50, "0 to 50 %"},
@@ -188,7 +188,7 @@ Result<std::optional<InstrumentStatement>> takeStatement(DeviceUri& uri) {
         put(out, known->name, *value * known->scale);
     }
     uri.parameters = std::move(others);
-    // A gain that is stated of full scale alone leaves nothing of the reading.
+    // If only an error of full scale is stated, the gain has no error relative to the reading.
     for (auto* channel : {&out.voltage, &out.current}) {
         if (channel->linearity.known() && !channel->gain.known()) channel->gain = {0, channel->linearity.by};
     }

@@ -1,6 +1,6 @@
-// DeviceUri.h - how a device is named on a command line: scheme:path?key=value&key=value
+// DeviceUri.h - the address of a device on a command line: scheme:path?key=value&key=value
 //
-//   sim:                                                  every role that is still needed, simulated
+//   sim:                                                  simulates every role that is still needed
 //   sim:stimulator?mode=current&gain=1.02&fault=open@12s  one simulated device and its flaws
 //   recording:../data/mat1_1                              a recording replayed as a fingertip
 #pragma once
@@ -26,60 +26,60 @@ struct DeviceUri {
     [[nodiscard]] static Result<DeviceUri> parse(std::string_view text);
     [[nodiscard]] std::string text() const;
 
-    /// Builds the error arm of a Result, as fail(), for what is wrong with this device: it is named in front.
+    /// Builds the error of a Result, as fail() does; the message begins with the device's address.
     template <class... Args>
     [[nodiscard]] tl::unexpected<Error> refuse(ErrorCode code, fmt::format_string<Args...> format,
                                                Args&&... args) const {
         return fail(code, "device \"{}\": {}", text(), fmt::format(format, std::forward<Args>(args)...));
     }
-    /// Refuses with an error that does not name the device.
+    /// Refuses this device with an error whose message does not name it.
     [[nodiscard]] tl::unexpected<Error> refuse(const Error& error) const {
         return refuse(error.code, "{}", error.message);
     }
-    /// Refuses an address that means several devices: lists what it could be.
+    /// Refuses an address that fits several devices: the message lists their addresses.
     [[nodiscard]] tl::unexpected<Error> refuseChoice(const std::vector<std::string>& addresses) const;
 };
 
-/// A unit by name, whichever of its outputs is used: its driver and its serial number ("sciencemode 1234"); without one
-/// the whole of `uri`.
+/// Returns the name of a unit, the same for all its outputs: driver and serial number ("sciencemode 1234"); without a
+/// serial number, the whole `uri`.
 [[nodiscard]] std::string unitOf(std::string_view serial, std::string_view uri);
 
-/// What a calibration counts for: one output of one unit. The serial number, followed by the channel and connector
-/// that `uri` chooses ("PP-7 channel=2"). Empty without a serial number: what cannot be told apart is not
-/// calibrated.
+/// Returns the name of the one output of one unit that a calibration covers: the serial number, then the channel and
+/// connector that `uri` chooses ("PP-7 channel=2"). Empty without a serial number, because such units cannot be told
+/// apart.
 [[nodiscard]] std::string calibratedOutput(std::string_view serial, std::string_view uri);
 
-// Reads a device URI's parameters, each exactly once, each checked against its range.
+// Reads the parameters of a device URI: each exactly once, and each checked against its range.
 //
-// The first fault is kept and given by finish(), so that a driver reads all of its parameters in a row; a parameter
-// that nobody has asked for by then is unknown, and is refused with the list of known ones.
+// finish() returns the first fault, so that a driver can read all its parameters in a row. A parameter not read by then
+// is unknown; finish() refuses it and lists the known ones.
 
 class UriParameters {
 public:
     /// `uri` must outlive this.
     explicit UriParameters(const DeviceUri& uri) : uri_(uri) {}
 
-    /// A number with an optional engineering prefix and `unit` ("500ohm", "2ms", "0.5"), from `low` to `high`.
+    /// Reads a number with an optional engineering prefix and `unit` ("500ohm", "2ms", "0.5"), from `low` to `high`.
     [[nodiscard]] std::optional<double> quantity(std::string_view key, std::string_view unit, double low, double high);
     [[nodiscard]] double quantity(std::string_view key, std::string_view unit, double otherwise, double low,
                                   double high) {
         return quantity(key, unit, low, high).value_or(otherwise);
     }
-    /// A whole number from `low` to `high`.
+    /// Reads a whole number from `low` to `high`.
     [[nodiscard]] std::optional<int> integer(std::string_view key, int low, int high);
     [[nodiscard]] int integer(std::string_view key, int otherwise, int low, int high) {
         return integer(key, low, high).value_or(otherwise);
     }
-    /// Takes any text, for the caller to judge.
+    /// Reads any text; the caller checks it.
     [[nodiscard]] std::optional<std::string> text(std::string_view key);
     [[nodiscard]] std::string choice(std::string_view key, std::string_view otherwise,
                                      std::initializer_list<std::string_view> accepted);
-    /// The values of a key that may be given several times.
+    /// Returns the values of a key that may be given several times.
     [[nodiscard]] std::vector<std::string_view> each(std::string_view key);
 
-    /// Notes a problem that the caller found with `key`.
+    /// Notes a fault that the caller found in `key`.
     void refuse(std::string_view key, std::string_view value, std::string_view accepted);
-    /// Notes a problem in words of the caller's own.
+    /// Notes a fault in the caller's own words.
     void refuse(std::string_view sentence);
     /// Errors: InvalidArgument naming the key, its value and what is accepted.
     [[nodiscard]] Result<void> finish() const;
@@ -91,20 +91,20 @@ private:
     std::optional<Error> problem_;
 };
 
-// The keys of a device's address that state how accurate its oscilloscope is.
+// The keys of a device's address that state the accuracy of its oscilloscope.
 //
 //   sigrok:rigol-ds:conn=...?shunt=100ohm&gain_pct=2&probe_pct=1&shunt_pct=0.1&timebase_ppm=50
 //   capture:FOLDER?gain_pct=2&probe_pct=0&shunt_pct=0.1&timebase_ppm=50
 //
-// gain_pct (both channels, of the reading), fs_pct (of full scale: for data sheets that state the gain so), offset_v,
-// offset_a, probe_pct (0: a plain cable), shunt_pct, timebase_ppm, stamp_s (of separate records against each other),
-// lsb_v and lsb_a (one step, for files that do not say).
+// gain_pct (both channels, of the reading), fs_pct (of full scale, as some data sheets state the gain), offset_v,
+// offset_a, probe_pct (0: a plain cable), shunt_pct, timebase_ppm, stamp_s (time stamps of separate records relative to
+// each other), lsb_v and lsb_a (one step, for files that do not state it).
 
-/// Whether `key` is one of those keys.
+/// True if `key` states an accuracy.
 [[nodiscard]] bool statesAccuracy(std::string_view key) noexcept;
 
-/// Takes those keys out of `uri`; nothing where it has none. Errors: InvalidArgument naming the key, its value and what
-/// is accepted, or a key that stands twice.
+/// Takes the accuracy keys out of `uri`; returns nothing if it has none. Errors: InvalidArgument naming the key, its
+/// value and what is accepted, or a key that is given twice.
 [[nodiscard]] Result<std::optional<InstrumentStatement>> takeStatement(DeviceUri& uri);
 
 }  // namespace tacto

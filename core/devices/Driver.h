@@ -15,16 +15,16 @@
 
 namespace tacto {
 
-/// Connected until the operator says otherwise.
+/// The load assumed until the operator declares another.
 inline constexpr const char* kDefaultLoad = "1 kohm";
 
-/// What drivers may know of the run they open devices for.
+/// What a driver may know of the run for which it opens devices.
 struct OpenContext {
     const Clock& clock;  ///< outlives the devices
     std::uint64_t seed = 1;
     std::string declaredLoad =
-        kDefaultLoad;  ///< what the operator says is connected; the simulated load unless `load=` says otherwise
-    /// Outlives the opening; null: nothing stops it. `asked` is when the operator asked for the devices.
+        kDefaultLoad;  ///< the load stated by the operator; the simulated load unless `load=` is given
+    /// Outlives the opening; null: no stop ends the opening. `asked` is when the operator asked for the devices.
     const StopCounter* stops = nullptr;
     StopMark asked = {};
     [[nodiscard]] bool stopped() const noexcept { return stops != nullptr && stops->movedSince(asked); }
@@ -34,13 +34,13 @@ class Driver {
 public:
     virtual ~Driver() = default;
     [[nodiscard]] virtual std::string_view scheme() const noexcept = 0;
-    /// What is present now. Never fails: what cannot be reached is not listed; what is there and may not be opened
-    /// names its obstacle. May look at ports and files: not for a window's thread.
+    /// Lists the devices present now. Never fails: an unreachable device is not listed; a device that may not be opened
+    /// is listed with its obstacle. May search ports and files: not for a window's thread.
     [[nodiscard]] virtual std::vector<DeviceIdentity> list() const = 0;
-    /// True when devices of this scheme can live on the virtual clock (simulated, or read from files).
+    /// True if devices of this scheme can run on the virtual clock (simulated, or read from files).
     [[nodiscard]] virtual bool runsOnVirtualClock() const noexcept = 0;
-    /// Opens the devices of `uri` into `into`. A uri without a single device (such as "sim:") fills those of `wanted`
-    /// that are still empty. Errors: InvalidArgument naming the parameter and what it takes; NotFound; Device.
+    /// Opens the devices of `uri` into `into`. A uri that names no single device (such as "sim:") fills the roles in
+    /// `wanted` that are still empty. Errors: InvalidArgument naming the parameter and its values; NotFound; Device.
     [[nodiscard]] virtual Result<void> open(const DeviceUri& uri, const std::set<Role>& wanted,
                                             const OpenContext& context, DeviceSet& into) = 0;
 };

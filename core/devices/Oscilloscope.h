@@ -1,4 +1,4 @@
-// Oscilloscope.h - two channels on the load: voltage across it, current by shunt.
+// Oscilloscope.h - two channels on the load: the voltage across it, and its current through a shunt.
 //
 // Thread-safety: one caller, the device's session thread.
 #pragma once
@@ -15,11 +15,11 @@ namespace tacto {
 struct ScopeSettings {
     Hertz sampleRate{2e6};
     std::size_t samples = 20'000;   ///< per channel and capture
-    double preTrigger = 0.1;        ///< fraction of the record before the trigger, 0..1
-    bool triggerOnCurrent = false;  ///< false: it triggers on the voltage channel
-    double triggerLevel = 0.5;      ///< V or A; the trigger fires where |signal| rises through it
-    Volts voltageRange{50};         ///< full scale is ± this
-    Milliamps currentRange{200};    ///< full scale is ± this
+    double preTrigger = 0.1;        ///< part of the record that lies before the trigger, 0..1
+    bool triggerOnCurrent = false;  ///< false: triggers on the voltage channel
+    double triggerLevel = 0.5;      ///< V or A; triggers when |signal| rises through this level
+    Volts voltageRange{50};         ///< the channel shows ± this voltage
+    Milliamps currentRange{200};    ///< the channel shows ± this current
 };
 
 struct ScopeTraits {
@@ -36,37 +36,37 @@ public:
     [[nodiscard]] virtual Result<void> configure(const ScopeSettings& settings) = 0;
     /// Waits for triggers from now on; each trigger makes a capture until disarm().
     [[nodiscard]] virtual Result<void> arm() = 0;
-    /// The oldest complete capture, or nothing yet. Errors: Device, Timeout.
+    /// Returns the oldest complete capture, or nothing yet. Errors: Device, Timeout.
     [[nodiscard]] virtual Result<std::optional<Capture>> poll() = 0;
     virtual void disarm() noexcept = 0;
 };
 
-/// A voltage of known size that can be put on the oscilloscope's voltage input without a person; without it the
-/// operator is asked to connect a source. 0 takes it away.
+/// A source of known voltages that can drive the oscilloscope's voltage input without a person; without such a source,
+/// the operator is asked to connect one. 0 removes the voltage.
 class VoltageReference {
 public:
     virtual ~VoltageReference() = default;
     [[nodiscard]] virtual Result<void> applyVoltage(double volts) = 0;
 };
 
-/// A bench whose load can be changed without a person; without it the operator is asked to.
-/// The text is what parseLoad() reads: "500 ohm", "open", "200 ohm + 10 kohm || 50 nF".
+/// A bench that can change its load without a person; without it, the operator is asked to change the load.
+/// The text is in the form that parseLoad() reads: "500 ohm", "open", "200 ohm + 10 kohm || 50 nF".
 class LoadFitter {
 public:
     virtual ~LoadFitter() = default;
     [[nodiscard]] virtual Result<void> fitLoad(std::string_view load) = 0;
 };
 
-// An ability of some oscilloscopes: to take a record without a trigger.
+// The ability of some oscilloscopes to take a record without a trigger.
 //
-// It is not a part of Oscilloscope: an instrument or a driver without the ability does not implement it.
+// Separate from Oscilloscope, so that an instrument or driver without this ability need not implement it.
 
 class ForcedTrigger {
 public:
     virtual ~ForcedTrigger() = default;
-    /// Takes one record as if a trigger came now, or as soon as the record's part before the trigger has passed since
-    /// arm() or the last record. A true trigger that comes before then makes a triggered record instead. poll() gives
-    /// it like any other, with `untriggered` set. After it the oscilloscope waits for triggers again.
+    /// Takes one record as if a trigger came now, or as soon as the part before the trigger is filled after arm() or
+    /// the last record. If a real trigger comes first, the record is a triggered one. poll() returns the record, with
+    /// `untriggered` set if it was forced; the oscilloscope then waits for triggers again.
     /// Errors: Unsupported while not armed; Device, Timeout.
     [[nodiscard]] virtual Result<void> forceTrigger() = 0;
 };

@@ -1,4 +1,4 @@
-// Registry.h - the drivers of a program, and the opening of devices by their addresses.
+// Registry.h - the drivers of a program; opens devices by their addresses.
 //
 // Thread-safety: one caller.
 #pragma once
@@ -12,17 +12,17 @@
 
 namespace tacto {
 
-/// The drivers of a program, in the order given. Opens lists of URIs, the ones naming a single device first.
+/// The drivers of a program, in the order given. Opens URIs that name a single device first.
 class Registry {
 public:
     explicit Registry(std::vector<std::unique_ptr<Driver>> drivers);
     [[nodiscard]] std::vector<DeviceIdentity> list() const;
-    /// Whether all of `uris` can run on the virtual clock. Errors: as open().
+    /// True if all of `uris` can run on the virtual clock. Errors: as open().
     [[nodiscard]] Result<bool> allVirtual(std::span<const DeviceUri> uris) const;
-    /// The statement keys of DeviceUri.h are taken from the address of the oscilloscope.
-    /// A stop ends the opening as soon as the driver that is at work returns; what was opened is switched off and
-    /// closed. Errors: Stopped; NotFound naming the unknown scheme and the known ones, or the role that nothing fills;
-    /// as Driver::open().
+    /// Takes the accuracy keys (see DeviceUri.h) from the oscilloscope's address. A stop ends the opening once the
+    /// current
+    /// driver returns; devices opened so far are switched off and closed. Errors: Stopped; NotFound naming the unknown
+    /// scheme and the known ones, or the role that no device fills; as Driver::open().
     [[nodiscard]] Result<DeviceSet> open(std::span<const DeviceUri> uris, const std::set<Role>& needed,
                                          const OpenContext& context);
 

@@ -1,7 +1,6 @@
 // Stimulator.h - a source of pulse trains. It accepts only what SafetyGate approved.
 //
-// Thread-safety: one caller, the device's session thread, except forceOff(), which any thread may call at
-// any moment.
+// Thread-safety: one caller, the device's session thread; only forceOff() may be called from any thread at any moment.
 #pragma once
 
 #include <cstdint>
@@ -17,15 +16,15 @@ namespace tacto {
 enum class ElectrodeState { NotMeasured, Ok, Open, Short };
 
 struct StimulatorStatus {
-    Instant at{0};            ///< when the device was read
-    bool delivering = false;  ///< a train is in progress
-    /// When that train ends, where the driver knows better than from its onset: pulses that the host sends one by one
-    /// may slip.
+    Instant at{0};            ///< when this status was read from the device
+    bool delivering = false;  ///< true while a train is in progress
+    /// When that train ends, if the driver knows this better than from the onset: pulses that the host sends one by one
+    /// may be late.
     std::optional<Instant> trainEnd = {};
     ElectrodeState electrode = ElectrodeState::NotMeasured;
-    std::optional<double> amplitude;  ///< V or mA by drive: the leading phase's end, as the device measured it
+    std::optional<double> amplitude;  ///< V or mA by drive, as the device measured it at the end of the leading phase
     std::optional<Ohms> impedance;    ///< |Z| at the end of the leading phase of the last pulse (science.md section 4)
-    std::optional<double> imbalance;  ///< |net charge| / phase charge of the last pulse, tail included
+    std::optional<double> imbalance;  ///< |net charge| / phase charge of the last pulse, including its tail
     std::optional<double> imbalanceUncertainty;  ///< uncertainty of `imbalance`, 95 %
     std::uint64_t trainsDelivered = 0;
 };
@@ -42,32 +41,32 @@ public:
     /// Errors: Device, Timeout.
     [[nodiscard]] virtual Result<StimulatorStatus> status() = 0;
 
-    /// Holds off the device's dead-man switch. A device without one does nothing.
+    /// Keeps the device's dead-man switch from acting. Does nothing on a device without one.
     [[nodiscard]] virtual Result<void> keepAlive() = 0;
 
-    /// Output off, now. Needs no approval; never throws, never allocates, may be called from any thread and again.
+    /// Switches output off now. Needs no approval; never throws or allocates; any thread, any number of times.
     virtual void forceOff() noexcept = 0;
 };
 
-// A stimulator that knows its own calibration, because it is simulated. The bench believes no
-// other.
+// A simulated stimulator, which knows its own calibration. The bench accepts a stated calibration from no other
+// device.
 
-/// Implemented beside Stimulator.
+/// Implemented in addition to Stimulator.
 class StatesCalibration {
 public:
     virtual ~StatesCalibration() = default;
-    /// Nothing where it does not know: it is out of order on purpose.
+    /// Returns nothing if the simulated stimulator is deliberately out of order.
     [[nodiscard]] virtual const KnownLines& statedCalibration() const noexcept = 0;
 };
 
-// A vibration motor in place of the electrodes, driven by the same encoder.
+// A vibration motor that replaces the electrodes and is driven by the same encoder.
 
 class Massager : public Device {
 public:
     /// Starts one vibration burst now; it ends by itself. Consumes the approval in any case. Errors: Device, Timeout
     /// (no answer in time, or the approval has expired). On error the caller calls forceOff().
     [[nodiscard]] virtual Result<void> vibrate(ApprovedBurst&& burst) = 0;
-    /// The smallest difference of two intensities that the device can tell, to 1; 0: it takes any. Constant while open.
+    /// Returns the smallest step between two intensities (0 to 1) that the device can set; 0: any. Constant while open.
     [[nodiscard]] virtual double step() const noexcept = 0;
     /// Sends the stop report. Never throws or allocates.
     virtual void forceOff() noexcept = 0;

@@ -1,4 +1,4 @@
-// TactileSensor.h - a fingertip: acceleration, taxels and force, each a stream with its own rate.
+// TactileSensor.h - a fingertip: streams of acceleration, taxels and force, each with its own rate.
 //
 // Thread-safety: one caller, the device's session thread (on the virtual clock, the control loop).
 #pragma once
@@ -13,24 +13,24 @@ namespace tacto {
 
 class TactileSensor : public Device {
 public:
-    /// Constant while open.
+    /// Does not change while the device is open.
     [[nodiscard]] virtual std::span<const StreamInfo> streams() const noexcept = 0;
 
-    /// Appends every sample since the last call, up to the clock's now, to `blocks[i]` for streams()[i].
-    /// `blocks.size()` must equal streams().size(). Never blocks; no samples yet is success. Values may be
-    /// NaN and stamps may jump: continuity and range are judged by the reader (hazard H7), not here.
-    /// Errors: Device when unplugged or the data are garbage.
+    /// Appends every sample since the last call, up to the present time, to `blocks[i]` for streams()[i].
+    /// `blocks.size()` must equal streams().size(). Never blocks; no new samples is success. Values may be NaN and
+    /// time stamps may jump: the reader, not this function, judges continuity and range (hazard H7).
+    /// Errors: Device if unplugged, or if the data are garbage.
     [[nodiscard]] virtual Result<void> read(std::span<SampleBlock> blocks) = 0;
 
-    /// What the maker of the data states about rest and contact, on the session's time base; a live finger states
-    /// nothing.
+    /// Returns the intervals of rest and contact that the maker of the data stated, on the session's time base; a live
+    /// finger states none.
     [[nodiscard]] virtual DeclaredIntervals declared() const { return {}; }
 
-    /// True when no further sample will come (the end of a replayed recording).
+    /// True if no further sample will come (at the end of a replayed recording).
     [[nodiscard]] virtual bool finished() const noexcept { return false; }
 };
 
-/// A rig that can put a surface under the finger by itself; without it the operator is asked to.
+/// A rig that can put a surface under the finger by itself; without a rig, the operator is asked to do it.
 class SurfacePresenter {
 public:
     virtual ~SurfacePresenter() = default;
@@ -40,18 +40,18 @@ public:
                                                Newtons force) = 0;
 };
 
-// A device that can be opened again, by its identity, after it was unplugged or failed: what an
-// explicit reset asks of it.
+// A device that can be opened again, by its identity, after it was unplugged or failed; an explicit reset uses
+// this.
 //
-// A stimulator does not need it: it looks for its device when its status is asked for. Neither does a device whose
-// calls fail only as long as the cause lasts.
+// A stimulator does not need this: it searches for its device when its status is read. Nor does a device that works
+// again as soon as the cause of its errors is gone.
 
 class Reconnecting {
 public:
     virtual ~Reconnecting() = default;
-    /// Opens the same device wherever it is plugged in now; after success it works as after its first opening. May wait
-    /// for answers, about a second. Errors: NotFound (not plugged in); as opening it; Device where what comes back is
-    /// not what it was.
+    /// Opens the same device wherever it is plugged in now; it then works as after the first opening. May wait about a
+    /// second for answers. Errors: NotFound (not plugged in); as for opening the device; Device if the device that
+    /// returns is not the same.
     [[nodiscard]] virtual Result<void> reconnect() = 0;
 };
 
