@@ -12,7 +12,7 @@ namespace tacto {
 StimulatorCalibration linesOf(const StoredCalibration& stored) {
     const auto known = [](const StoredLine& line) {
         CalibrationLine out = line;
-        // U is stated in % of the command; what comes out may be less than that.
+        // U is stated in % of the command; the delivered value may be less than the command.
         double leastDelivered = 1;
         for (const double programmed : {line.lowest, line.highest})
             leastDelivered = std::min(leastDelivered, line.delivered(programmed) / programmed);
@@ -126,7 +126,7 @@ Result<void> checkLine(const StoredLine& line, const std::string& serial, std::s
     return {};
 }
 
-/// The keys of a line, with the members of the line that `line` leads to.
+/// Adds the keys of a calibration line; `line` gives the member that holds the line.
 template <class Record, class Line>
 void addLine(RecordFields<Record>& fields, Line line) {
     fields.number("gain", in(line, &StoredLine::gain)).required = true;
@@ -147,7 +147,7 @@ RecordFields<StoredCalibration> buildCalibrationFields() {
     instrument.add("due", &I::due, dateKind()).required = true;
     instrument.number("gain_tolerance", &I::gainTolerance);
     instrument.text("stated_by", &I::statedBy, kAnyText);
-    instrument.passOverUnknownKeys();  // a later version may know more
+    instrument.passOverUnknownKeys();  // so that files of a later version can be read
     RecordFields<StoredLine> line;
     addLine(line, std::identity{});
     line.passOverUnknownKeys();
@@ -156,13 +156,13 @@ RecordFields<StoredCalibration> buildCalibrationFields() {
     all.text("serial", &C::serial, kAnyText).required = true;
     all.text("device", &C::device, kAnyText).required = true;
     all.text("unit", &C::unit, kAnyText).required = true;
-    addLine(all, &C::amplitude);  // stands at the top: files were written so before times were kept
+    addLine(all, &C::amplitude);  // at the top level, as in files from before times were calibrated
     for (const auto& time : kStoredTimes) all.record(time.id, time.line, line).leftOutIfEmpty = true;
     all.add("made", &C::made, dateKind()).required = true;
     all.add("valid_until", &C::validUntil, dateKind()).required = true;
     all.flag("simulated", &C::simulated).required = true;
     all.text("session", &C::session, kAnyText).required = true;
-    // Lines of older versions have neither: they are read, but not applied.
+    // Lines of older versions lack these two: they are read, but not applied.
     all.text("session_head", &C::sessionHead, kAnyText);
     all.number("readings", &C::readings);
     all.list("instruments", &C::instruments, instrument.kind(), 0, 10'000).required = true;

@@ -1,10 +1,10 @@
-// CalibrationTrend.h - how one quantity of a stimulator came out over its stored calibrations, and where it moved by
-// more than its uncertainties explain.
+// CalibrationTrend.h - one quantity of a stimulator over its stored calibrations, and where it changed by more than the
+// uncertainties explain.
 //
-// A calibration states one U (95 %), in % of the command, for what is delivered. So the gain is known to U, and the
-// offset to U of the lowest command that was calibrated, where it counts most. Two calibrations differ when what lies
-// between them is more than both U together, as the root of the sum of their squares. A U that is not stated, or 0, is
-// unknown: it draws no bar and no difference is judged by it (hazard H9).
+// A calibration states one U (95 %) of the delivered value, in % of the command. The gain has this U; the offset has
+// the U of the lowest calibrated command, where it matters most. Two calibrations differ if their difference exceeds
+// the root of the sum of the squares of both U. A U that is 0 or not stated is unknown: it gets no bar and judges no
+// difference (hazard H9).
 #pragma once
 
 #include <span>
@@ -14,7 +14,7 @@
 
 namespace tacto {
 
-/// The line with the id of a calibrated quantity. Null where there is none.
+/// Returns the line of the calibrated quantity with that id; null if there is none.
 [[nodiscard]] const StoredLine* lineOf(const StoredCalibration& stored, std::string_view quantity);
 
 struct TrendPoint {
@@ -25,9 +25,8 @@ struct TrendPoint {
     double gainU = 0;            ///< U of the gain; NaN: unknown
     double offsetU = 0;          ///< U of the offset, in its unit; NaN: unknown
 };
-/// The oldest first. `of` holds calibrations of one stimulator, in the order in which they were stored; those in
-/// another unit, of a simulated bench where `simulated` is not set (or the other way round), and those without that
-/// quantity are passed over.
+/// Returns the points, oldest first. `of` holds calibrations of one stimulator, in the order in which they were stored.
+/// Skips calibrations in another unit, without that quantity, or whose simulated mark differs from `simulated`.
 [[nodiscard]] std::vector<TrendPoint> trendOf(std::span<const StoredCalibration> of, std::string_view unit,
                                               bool simulated, std::string_view quantity);
 
@@ -35,10 +34,10 @@ struct TrendJump {
     enum class What { Gain, Offset };
     What what = What::Gain;
     CalibrationDate from{}, to{};
-    double change = 0;     ///< later less earlier; relative for the gain, else in the quantity's unit
-    double explained = 0;  ///< how much both U together explain, in the same unit
+    double change = 0;     ///< later minus earlier; relative for the gain, else in the quantity's unit
+    double explained = 0;  ///< the change that both U together explain, in the same unit
 };
-/// The jumps between neighbours that differ by more than their U explains, the oldest first.
+/// Returns the changes between neighbouring points that their U do not explain, oldest first.
 [[nodiscard]] std::vector<TrendJump> jumpsIn(std::span<const TrendPoint> points);
 
 }  // namespace tacto

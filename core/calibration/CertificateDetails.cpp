@@ -11,7 +11,7 @@ namespace tacto {
 
 namespace {
 
-/// The keys that are accepted: "laboratory, address, place".
+/// Returns the accepted keys: "laboratory, address, place".
 std::string detailKeys(bool laboratoryAlone) {
     std::string all;
     for (const auto& detail : kCertificateDetails) {

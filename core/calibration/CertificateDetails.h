@@ -1,11 +1,11 @@
-// CertificateDetails.h - what a calibration certificate says beside what the program knows: the laboratory, its
-// customer, the item's history, who authorises it (ISO/IEC 17025:2017, 7.8.2.1). As they were entered; nothing is
-// judged by them. What is empty is an open line on the certificate.
+// CertificateDetails.h - the texts of a calibration certificate that only people know: the laboratory, its customer,
+// the item's history, who authorises it (ISO/IEC 17025:2017, 7.8.2.1). Kept as entered; no result depends on them. An
+// empty text is an open line on the certificate.
 //
-// They stand in JSON files of texts: the laboratory's own details are kept once, in certificateDetailsFile(), and an
-// order's details in a file of that run, which may override the rest.
+// JSON files hold these texts: certificateDetailsFile() keeps the laboratory's own details; a file for one run holds
+// those of an order and may override the others.
 //
-// Thread-safety: pure functions, but for reading files.
+// Thread-safety: pure functions, except those that read files.
 #pragma once
 
 #include <array>
@@ -29,11 +29,11 @@ struct CertificateDetails {
 inline constexpr std::size_t kDetailLimit = 200;
 
 struct CertificateDetail {
-    std::string_view key;    ///< in files
+    std::string_view key;    ///< the key in files
     std::string_view title;  ///< its title on the certificate
     std::string CertificateDetails::*member;
-    bool ofLaboratory = false;  ///< said once for every order
-    bool isDate = false;        ///< "2026-11-21"
+    bool ofLaboratory = false;  ///< true if entered once for all orders
+    bool isDate = false;        ///< true for a date such as "2026-11-21"
 };
 /// The details in the order of a certificate.
 inline constexpr std::array<CertificateDetail, 14> kCertificateDetails{
@@ -55,13 +55,13 @@ inline constexpr std::array<CertificateDetail, 14> kCertificateDetails{
 /// $XDG_DATA_HOME/tactoscope/certificate-details.json, or ~/.local/share/tactoscope/certificate-details.json.
 [[nodiscard]] std::filesystem::path certificateDetailsFile();
 
-/// The laboratory's own, where they are kept, with those of the run's `file` over them; an empty `file` adds none.
-/// Errors: NotFound where `file` is missing; Io; ParseError naming file and key for what is no such text or date, for a
-/// key that is unknown, or that of an order among the laboratory's own; InvalidArgument for an item that was received
-/// after `today`, the day of calibration, or a certificate issued before.
+/// Returns the laboratory's stored details, overridden by those of the run's `file`; an empty `file` adds none.
+/// Errors: NotFound if `file` is missing; Io; ParseError naming file and key for an invalid text or date, an unknown
+/// key, or a key of an order among the laboratory's details; InvalidArgument for an item received after `today` (the
+/// day of calibration) or a certificate issued before it.
 [[nodiscard]] Result<CertificateDetails> certificateDetails(const std::filesystem::path& file, CalibrationDate today);
 
-/// The details that are not empty, by their keys.
+/// Returns the details that are not empty, by their keys.
 [[nodiscard]] nlohmann::json toJson(const CertificateDetails& details);
 
 }  // namespace tacto

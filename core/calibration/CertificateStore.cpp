@@ -166,7 +166,7 @@ Result<void> check(const Certificate& certificate) {
     return {};
 }
 
-/// The part of a rectangle about its middle that holds 95 % of it.
+/// The middle part of a rectangular distribution that holds 95 % of it.
 constexpr double kOfARectangle = 0.95;
 
 InstrumentStatement statementOf(const Certificate& certificate) {

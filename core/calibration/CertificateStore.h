@@ -1,9 +1,9 @@
 // CertificateStore.h - the calibration certificates of a lab's oscilloscopes: one file, a line per certificate or
-// withdrawal, never overwritten.
+// withdrawal; no line is overwritten.
 //
-// The lines are chained (ChainedLines.h). The certificate with the latest date counts for its serial number, from
-// that date until its due date; an expired one is shown and not used, and does not bring back an older one. A
-// certificate that was entered wrongly is withdrawn: the one before it counts again.
+// The lines are chained (ChainedLines.h). For each serial number, the certificate with the latest date is in use, from
+// that date until its due date; once expired it is shown but not used, and an older one does not replace it. A
+// certificate that was entered wrongly is withdrawn: the previous certificate is then in use again.
 //
 // Thread-safety: none; one owner. add() and withdraw() lock the file against other processes.
 #pragma once
@@ -23,20 +23,19 @@
 
 namespace tacto {
 
-// A calibration certificate of an oscilloscope, as the user copies it from the paper: science.md
-// section 12.
+// A calibration certificate of an oscilloscope, as the user copies it from paper: science.md section 12.
 //
-// Uncertainties are the expanded ones of the certificate, k = 2 (GUM 6.2). One that the certificate does not state is
-// absent, never 0 (hazard H9). The user enters all of it: the program cannot see the paper.
+// The uncertainties are the certificate's expanded ones, k = 2 (GUM 6.2). An uncertainty that the certificate does not
+// state is absent, never 0 (hazard H9). The user enters all values: the program cannot check the paper.
 
 struct Certificate {
     std::string instrument;  ///< maker and model; not empty
-    std::string serial;      ///< the instrument's; never empty, so that two of a kind are told apart
-    std::string number;      ///< the certificate's; not empty
+    std::string serial;      ///< the instrument's serial number; never empty, so that two of a kind differ
+    std::string number;      ///< the certificate's number; not empty
     std::string by;          ///< the laboratory; not empty
     CalibrationDate date{};
-    CalibrationDate due{};  ///< the last day on which it counts; not before `date`
-    /// U of the vertical gain, in % of the reading: a current is read through the same input. Always there.
+    CalibrationDate due{};  ///< the last day on which the certificate is used; not before `date`
+    /// U of the vertical gain, in % of the reading; also applies to currents, read through the same input. Required.
     std::optional<double> gain_pct;
     std::optional<double> timeBase_ppm;
     std::optional<double> shunt_pct;
@@ -44,7 +43,7 @@ struct Certificate {
     bool operator==(const Certificate&) const = default;
 };
 
-/// The texts and uncertainties by what files, options and people call them.
+/// A text of the certificate, and its names in files, options and for people.
 struct CertificateText {
     std::string_view key;
     std::string_view title;
@@ -57,11 +56,11 @@ inline constexpr std::array<CertificateText, 4> kCertificateTexts{
      {"by", "laboratory", &Certificate::by}}};
 struct CertificateFigure {
     std::string_view key;
-    const char* option;  ///< its option on the command line
+    const char* option;  ///< the option on the command line
     std::string_view title;
     std::string_view unit;
-    double perUnit;  ///< relative
-    double most;     ///< in `unit`
+    double perUnit;  ///< factor from `unit` to a relative value
+    double most;     ///< largest value, in `unit`
     bool required;
     std::optional<double> Certificate::*member;
 };
@@ -75,15 +74,15 @@ inline constexpr std::array<CertificateFigure, 4> kCertificateFigures{
 /// dates that do not exist or a due date before the date, a U that is missing, not above 0 or above `most`.
 [[nodiscard]] Result<void> check(const Certificate& certificate);
 
-/// Its statements, each as the half-width whose 95 % are the certificate's U: a = U/0.95, which is never less than what
-/// it states (a rectangle of the same standard uncertainty would be). Each figure names its certificate.
+/// Returns the certificate's statements, each as a half-width a with 95 % of it within U: a = U/0.95, never less than
+/// stated (a rectangle of the same standard uncertainty would be). Each figure names its certificate.
 [[nodiscard]] InstrumentStatement statementOf(const Certificate& certificate);
-/// "certificate 4711 (DKD Lab, 2026-01-05, due 2027-01-05)".
+/// Example: "certificate 4711 (DKD Lab, 2026-01-05, due 2027-01-05)".
 [[nodiscard]] std::string certificateText(const Certificate& certificate);
-/// "U (k = 2): voltage gain 0.5 %, time base 2 ppm; shunt, probe not stated".
+/// Example: "U (k = 2): voltage gain 0.5 %, time base 2 ppm; shunt, probe not stated".
 [[nodiscard]] std::string figuresText(const Certificate& certificate);
 
-/// Absent uncertainties are null.
+/// Writes absent uncertainties as null.
 [[nodiscard]] nlohmann::json toJson(const Certificate& certificate);
 /// Errors: ParseError naming the key; as check().
 [[nodiscard]] Result<Certificate> certificateFrom(const nlohmann::json& json);
@@ -100,20 +99,20 @@ struct EnteredCertificate {
 
 class CertificateStore {
 public:
-    /// Reads the file; one that is not there is empty. Errors: Io; ParseError naming the line that does not check.
+    /// Reads the file; a missing file is an empty store. Errors: Io; ParseError naming the line that is not valid.
     [[nodiscard]] static Result<CertificateStore> open(std::filesystem::path file);
 
-    /// Errors: InvalidArgument as check(), or for a number that stands for this serial already; Io; ParseError when the
-    /// file was damaged meanwhile.
+    /// Errors: InvalidArgument as check(), or for a number that this serial already has; Io; ParseError if the file was
+    /// damaged meanwhile.
     [[nodiscard]] Result<void> add(const Certificate& certificate, CalibrationDate today);
-    /// `serial` may be empty where one instrument alone has a certificate of that number. Errors: NotFound for a number
-    /// that is not entered, or withdrawn; InvalidArgument naming the serials it stands for; as add().
+    /// `serial` may be empty if only one instrument has a certificate of that number. Errors: NotFound for a number not
+    /// entered or withdrawn; InvalidArgument naming the serials with that number; as add().
     [[nodiscard]] Result<void> withdraw(std::string_view number, std::string_view serial, CalibrationDate today);
 
-    /// The standing of all()[`index`] on `day`.
+    /// Returns the state of all()[`index`] on `day`.
     [[nodiscard]] CertificateState state(std::size_t index, CalibrationDate day) const;
-    /// The newest of that serial that is not withdrawn and not dated after `day`; without one, the first that begins
-    /// after it. Index into all().
+    /// Returns the newest certificate of that serial that is not withdrawn and not dated after `day`; if there is none,
+    /// the first that begins later. Index into all().
     [[nodiscard]] std::optional<std::size_t> newest(std::string_view serial, CalibrationDate day) const;
 
     [[nodiscard]] const std::vector<EnteredCertificate>& all() const noexcept { return all_; }
@@ -129,7 +128,7 @@ private:
     std::vector<EnteredCertificate> all_;
 };
 
-/// Beside calibrationFile(): $XDG_DATA_HOME/tactoscope/certificates.jsonl.
+/// In the folder of calibrationFile(): $XDG_DATA_HOME/tactoscope/certificates.jsonl.
 [[nodiscard]] std::filesystem::path certificateFile();
 
 }  // namespace tacto

@@ -18,7 +18,7 @@ namespace tacto {
 
 namespace {
 
-/// Closes itself, and with it its lock.
+/// Closes the file, and so releases its lock, when destroyed.
 class Lock {
 public:
     explicit Lock(const std::filesystem::path& path)
@@ -41,7 +41,7 @@ public:
     Lock& operator=(const Lock&) = delete;
     [[nodiscard]] bool open() const noexcept { return handle_ >= 0; }
 
-    /// Everything after `keep` is replaced by `text`, on disk when this returns.
+    /// Replaces everything after `keep` with `text`; the data are on disk when this returns.
     [[nodiscard]] bool write(std::size_t keep, std::string_view text) const {
         if (::ftruncate(handle_, static_cast<off_t>(keep)) != 0) return false;
         auto at = static_cast<off_t>(keep);
@@ -59,7 +59,7 @@ private:
     int handle_;
 };
 
-/// The digest of a line without its own digest.
+/// Returns the digest of a line without its "sha256".
 std::string digestOf(const nlohmann::json& line) { return sha256Hex(dumpJson(line)); }
 
 }  // namespace
@@ -89,7 +89,7 @@ Result<void> ChainedLines::noteEnd() const {
 Result<void> ChainedLines::read(const std::function<Result<void>(const nlohmann::json& line)>& take) {
     end_ = {};
     cut_ = false;
-    const auto noted = notedEnd();  // read before the lines, which are written before it: another process may append
+    const auto noted = notedEnd();  // read before the lines: a writer writes its lines first, and may append now
     if (!noted) return failure(noted);
     hasNote_ = noted->has_value();
     const auto content = readTextFile(file_);
@@ -104,7 +104,7 @@ Result<void> ChainedLines::readLines(std::string_view text, const std::optional<
     for (std::size_t number = 1; !text.empty(); ++number) {
         const auto length = text.find('\n');
         if (length == std::string_view::npos) {
-            cut_ = true;  // a crash while it was written: it was never confirmed
+            cut_ = true;  // cut by a crash while it was written, so it was never confirmed
             break;
         }
         const auto wrong = [&](std::string_view why) {
@@ -150,12 +150,12 @@ Result<void> ChainedLines::append(const std::function<Result<nlohmann::json>()>&
     }
     auto body = line();
     if (!body) return failure(body);
-    // Written before the first line that says that there is a note: a crash between them would leave it missing.
+    // Note the end before the first line that claims a note: a crash in between would make the note seem lost.
     if (!hasNote_) {
         if (const auto first = noteEnd(); !first) return first;
         hasNote_ = true;
     }
-    body->erase("sha256");  // the line's own: one that it brings would count in its own digest
+    body->erase("sha256");  // the line's own digest must not be part of the digested text
     (*body)["end_noted"] = true;
     (*body)["previous"] = end_.head;
     const auto digest = digestOf(*body);

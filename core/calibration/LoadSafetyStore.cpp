@@ -36,7 +36,7 @@ RecordFields<LoadSafetyCheck> buildCheckFields() {
     RecordFields<LimitSetHash> set;
     set.text("id", &LimitSetHash::id).required = true;
     set.text("sha256", &LimitSetHash::sha256).required = true;
-    set.passOverUnknownKeys();  // a later version may know more
+    set.passOverUnknownKeys();  // so that files of a later version can be read
 
     RecordFields<C> all;
     all.text("serial", &C::serial, kAnyText).required = true;
@@ -48,7 +48,7 @@ RecordFields<LoadSafetyCheck> buildCheckFields() {
     all.number("amplitude_v", in(&C::reach, &R::amplitude_v), {.low = 0, .unit = "V"}).required = true;
     all.number("interval_s", in(&C::reach, &R::interval_s), {.low = 0, .unit = "s"}).required = true;
     all.number("phase_us", in(&C::reach, &R::phase_us), {.low = 0, .unit = "µs"}).required = true;
-    // Lines of earlier versions have none of these, and count for no session.
+    // Lines of earlier versions lack these, and satisfy no session.
     all.number("load_low_ohm", in(&C::reach, &R::lowest_ohm), {.low = 0, .openLow = true, .unit = "ohm"});
     all.number("load_high_ohm", in(&C::reach, &R::highest_ohm), {.low = 0, .openLow = true, .unit = "ohm"});
     all.number("load_tolerance_pct", in(&C::tolerances, &CheckTolerances::load_pct), {.low = 0, .unit = "%"});
@@ -64,7 +64,7 @@ RecordFields<LoadSafetyCheck> buildCheckFields() {
 
 const RecordFields<LoadSafetyCheck>& checkFields() { return builtOnce<buildCheckFields>(); }
 
-/// Empty where the worst case was judged for all loads of the session.
+/// Returns an empty text if the worst case covered all loads of the session.
 std::string loadsLeftOut(const TrainReach& made, const TrainReach& wanted) {
     if (!made.lowest_ohm || !made.highest_ohm)
         return "does not say for which loads its worst case was judged; a new one is expected";
@@ -77,7 +77,7 @@ std::string loadsLeftOut(const TrainReach& made, const TrainReach& wanted) {
         *made.lowest_ohm, *made.highest_ohm, wanted.lowest_ohm.value_or(0), wanted.highest_ohm.value_or(HUGE_VAL));
 }
 
-/// What a check that passed in time leaves open of `need`; empty: nothing.
+/// Returns what a pass that is still in time lacks for `need`; empty: nothing.
 std::string shortOf(const LoadSafetyCheck& found, const LoadSafetyNeed& need) {
     if (found.scriptSha256 != need.scriptSha256)
         return "was made by another version of the protocol; a check by this program's is expected";
