@@ -16,7 +16,7 @@ constexpr std::string_view kAccepted =
     "\", halves at 20 V\", \", drift 0.1 %/s\", \", open 1.5 s to 1.7 s\", \", intermittent 5 % seed 3\"";
 
 std::optional<double> within(std::optional<double> value, double low, double high) {
-    // The ends are meant with the last bits of unit conversion.
+    // Allow for rounding in unit conversion at both ends.
     if (!value || !(*value >= low - 1e-9 * std::abs(low)) || !(*value <= high + 1e-9 * std::abs(high)))
         return std::nullopt;
     return value;
@@ -30,7 +30,7 @@ std::optional<double> parseOhms(std::string_view text) {
 }
 
 std::optional<double> parseFarads(std::string_view text) {
-    if (!text.ends_with('F')) return std::nullopt;  // a bare number could be anything
+    if (!text.ends_with('F')) return std::nullopt;  // a number without a unit is ambiguous
     return within(parseQuantity(text, "F"), 1e-12, 1e-3);
 }
 
@@ -110,7 +110,7 @@ bool parseModifier(std::string_view text, Load& load) {
     return false;
 }
 
-/// "10 kohm": every digit that is needed to read the same number back, and no more.
+/// Returns "10 kohm", with just enough digits to read the same number back.
 std::string ohmText(Ohms r) {
     const double value = r.value();
     for (const auto& [scale, unit] : {std::pair{1e6, "Mohm"}, std::pair{1e3, "kohm"}}) {
@@ -119,8 +119,8 @@ std::string ohmText(Ohms r) {
     return fmt::format("{} ohm", value);
 }
 
-/// A uniform number in [0, 1) that depends on the seed and the cell alone (splitmix64's finaliser), so that contact at
-/// a moment does not depend on which moments were asked about before.
+/// Returns a uniform number in [0, 1) that depends only on the seed and the cell (splitmix64's finaliser), so that
+/// contact at a moment does not depend on earlier queries.
 double hashedUniform(std::uint64_t seed, std::uint64_t cell) noexcept {
     std::uint64_t z = seed * 0x9E3779B97F4A7C15ULL + (cell + 1) * 0xD1B54A32D192ED03ULL;
     z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9ULL;
@@ -131,14 +131,14 @@ double hashedUniform(std::uint64_t seed, std::uint64_t cell) noexcept {
 
 double inFarads(Nanofarads c) noexcept { return c.value() * 1e-9; }
 
-/// The largest |voltage| across the parallel resistance over `pulse`, from rest.
+/// Returns the largest |voltage| across the parallel resistance over `pulse`, starting from rest.
 double largestCapacitorVoltage(const Circuit& circuit, std::span<const DriveSegment> pulse,
                                const SourceLimits& limits) noexcept {
     double largest = 0;
     double capacitor = 0;
     for (const auto& segment : pulse) {
         const auto response = respond(circuit, segment, capacitor, limits);
-        // v − i·R_s has its extremes at a piece's ends or where its slope is zero, as any curve of this form.
+        // v − i·R_s is a curve of the same form, so its extremes lie at the ends of a piece or where its slope is zero.
         for (const auto& piece : response.pieces()) {
             ResponsePiece inner = piece;
             inner.v = {piece.v.a - piece.i.a * circuit.seriesOhm, piece.v.b - piece.i.b * circuit.seriesOhm,
@@ -229,8 +229,8 @@ Circuit circuitAt(const Load& load, double t_s, std::span<const DriveSegment> pu
         return circuit;
     }
     const double drift = std::clamp(1 + load.driftPerSecond * t_s, 0.01, 100.0);
-    // A drift ends at a wire. What is less by itself, an end of a range, stays as it is: the worst case lies there
-    // (H1).
+    // Drift stops at the resistance of a wire. A smaller series resistance, as at the end of a range, stays as it is,
+    // because the worst case lies there (H1).
     circuit.seriesOhm = std::max(load.series.value() * drift, std::min(load.series.value(), kShortOhms));
     circuit.open = load.isOpenAt(t_s);
     if (load.kind == LoadKind::Resistor) return circuit;

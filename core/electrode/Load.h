@@ -1,9 +1,9 @@
-// Load.h - what the electrodes are connected to: a resistor, the skin's equivalent circuit, nothing, or a short.
+// Load.h - the load that the electrodes see: a resistor, the skin's equivalent circuit, an open circuit, or a short.
 //
-// A Load is a value: what an operator declares, what a limit is judged at, what the simulated bench plays.
-// Its modifiers (a parallel resistance that falls with intensity, drift, contact that comes and goes) are
-// functions of time and pulse without hidden state, so the same question has the same answer. circuitAt()
-// turns it into the plain Circuit that core/electrode/LoadResponse.h answers for.
+// A Load is a value: what an operator declares, what a limit is judged with, what the simulated bench simulates. Its
+// modifiers (a parallel resistance that falls with intensity, drift, intermittent contact) depend on time and pulse,
+// without hidden state, so the same question gets the same answer. circuitAt() turns a Load into the plain Circuit of
+// core/electrode/LoadResponse.h.
 //
 // Thread-safety: values and pure functions. Nothing here allocates except text() and parseLoad().
 #pragma once
@@ -24,28 +24,28 @@ namespace tacto {
 
 enum class LoadKind { Resistor, SkinEquivalent, Open, Short };
 
-/// A short is a wire, not zero: an ideal one would make every current infinite and every check of it void.
+/// A short is a wire, not 0 ohm: an ideal short would make every current infinite and every check meaningless.
 inline constexpr double kShortOhms = 0.1;
 
-/// What a source can reach at most. SI units; infinite where nothing is stated.
+/// The most that a source can deliver. SI units; infinite if not stated.
 struct SourceLimits {
     double compliance_V = std::numeric_limits<double>::infinity();
     double current_A = std::numeric_limits<double>::infinity();
 };
 
 /// A load at one moment, for arithmetic: series resistance + (parallel resistance ∥ capacitance). SI units.
-/// A resistor has parallelOhm = capacitance_F = 0. `open`: the contact is broken (the capacitor keeps its charge
-/// and leaks through its own resistance).
+/// A resistor has parallelOhm = capacitance_F = 0. `open`: contact is broken (the capacitor keeps its charge, which
+/// leaks through the parallel resistance).
 struct Circuit {
     double seriesOhm = 0;    ///< above 0
-    double parallelOhm = 0;  ///< > 0 with a capacitance
+    double parallelOhm = 0;  ///< > 0 if there is a capacitance
     double capacitance_F = 0;
     bool open = false;
     [[nodiscard]] bool hasCapacitor() const noexcept { return capacitance_F > 0; }
     bool operator==(const Circuit&) const = default;
 };
 
-/// Stretches in which contact is lost: [from, to) seconds.
+/// A stretch of time without contact: [from, to) in seconds.
 struct OpenWindow {
     double from_s = 0;
     double to_s = 0;
@@ -58,12 +58,12 @@ struct Load {
     Ohms parallel{0};           ///< R_p, SkinEquivalent only
     Nanofarads capacitance{0};  ///< C, SkinEquivalent only
 
-    /// R_p falls with intensity: over a pulse R_p' = R_p / (1 + V / halvingVoltage), V the largest |voltage| that
-    /// this pulse would put across the unmodified R_p from rest. 0 = constant R_p.
+    /// R_p falls with intensity: over a pulse R_p' = R_p / (1 + V / halvingVoltage), with V the largest |voltage| that
+    /// this pulse, from rest, would put across the unmodified R_p. 0 = constant R_p.
     Volts halvingVoltage{0};
-    /// Resistances drift: R(t) = R (1 + driftPerSecond · t), held within 0.01 to 100 times R.
+    /// Resistances drift: R(t) = R (1 + driftPerSecond · t), limited to 0.01 to 100 times R.
     double driftPerSecond = 0;
-    /// Contact is lost in a seeded pattern: each stretch of kContactCell is open with this probability.
+    /// Contact is lost in a seeded pattern: openFraction is the probability that a stretch of kContactCell is open.
     double openFraction = 0;
     std::uint64_t openSeed = 1;
     std::array<OpenWindow, 4> windows{};
@@ -76,10 +76,10 @@ struct Load {
     [[nodiscard]] static Load openCircuit() noexcept;
     [[nodiscard]] static Load shortCircuit() noexcept;
 
-    /// Text that parseLoad() reads back to the same load, to a part in 10¹²: "500 ohm", "200 ohm + 10 kohm || 50 nF,
-    /// drift 0.1 %/s".
+    /// Returns a text that parseLoad() reads back as the same load, to a part in 10¹²: "500 ohm", "200 ohm + 10 kohm ||
+    /// 50 nF, drift 0.1 %/s".
     [[nodiscard]] std::string text() const;
-    /// Whether contact is broken at `t` seconds (always, for an open load).
+    /// True if contact is broken at `t` seconds (always for an open load).
     [[nodiscard]] bool isOpenAt(double t_s) const noexcept;
     bool operator==(const Load&) const = default;
 };
@@ -94,22 +94,22 @@ struct NamedLoad {
     std::string_view name;  ///< the text that parseLoad() reads
     Load load;
 };
-/// The bench set of science.md section 6: six resistors from 100 ohm to 100 kohm, open, short, and the RC load.
+/// The bench loads of science.md section 6: six resistors from 100 ohm to 100 kohm, open, short, and the RC load.
 [[nodiscard]] std::span<const NamedLoad> benchLoads() noexcept;
 /// 200 ohm + 10 kohm ∥ 50 nF.
 [[nodiscard]] Load benchRcLoad() noexcept;
 
-/// The load with its impedance times `factor` at every frequency (resistances times it, capacitance divided by it, time
-/// constants kept). Open and short stay what they are. `factor` > 0.
+/// Returns the load with its impedance multiplied by `factor` at every frequency (resistances multiplied, capacitance
+/// divided, time constants kept). Open and short are returned unchanged. `factor` > 0.
 [[nodiscard]] Load scaled(const Load& load, double factor) noexcept;
 
-/// The load `t_s` after it was fitted. With `pulse`, an intensity-dependent R_p takes that pulse's value.
+/// Returns the load `t_s` after it was connected. With `pulse`, an intensity-dependent R_p is that pulse's.
 [[nodiscard]] Circuit circuitAt(const Load& load, double t_s, std::span<const DriveSegment> pulse = {},
                                 const SourceLimits& limits = {}) noexcept;
 
-/// Voltage over current at the end of `leadingPhase` from rest, which is what |Z| means here (science.md section 4):
-/// the RC load reads 10.2 kΩ from a voltage source and 3.50 kΩ from a current source at 200 µs. Infinite when open
-/// or when no current flows.
+/// Returns |Z| as defined here (science.md section 4): voltage over current at the end of `leadingPhase`, from rest.
+/// At 200 µs the RC load has 10.2 kΩ with a voltage source and 3.50 kΩ with a current source. Infinite if open or if no
+/// current flows.
 [[nodiscard]] Ohms effectiveImpedance(const Load& load, const DriveSegment& leadingPhase,
                                       const SourceLimits& limits = {}, double t_s = 0) noexcept;
 

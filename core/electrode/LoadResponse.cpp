@@ -7,18 +7,18 @@ namespace tacto {
 
 namespace {
 
-/// exp(−t/τ), with τ = 0 meaning a part that has died out.
+/// exp(−t/τ); τ = 0 means that this part has already died out.
 double decay(double t, double tau) noexcept { return tau > 0 ? std::exp(-t / tau) : 0.0; }
 
 double valueOf(const ExpCurve& f, double tau, double t) noexcept { return f.a + f.b * t + f.c * decay(t, tau); }
 
-/// 1 − exp(−x) without cancellation.
+/// 1 − exp(−x), computed without cancellation.
 double risen(double x) noexcept { return -std::expm1(-x); }
 
 /// ∫₀ᵀ exp(−t/τ) dt
 double integralOfDecay(double T, double tau) noexcept { return tau > 0 ? tau * risen(T / tau) : 0.0; }
 
-/// ∫₀ᵀ t·exp(−t/τ) dt = τ²(1 − e^−x (1 + x)), x = T/τ; for small x the difference is taken from its series.
+/// ∫₀ᵀ t·exp(−t/τ) dt = τ²(1 − e^−x (1 + x)), x = T/τ; for small x a series replaces the difference.
 double integralOfTimeDecay(double T, double tau) noexcept {
     if (!(tau > 0)) return 0.0;
     const double x = T / tau;
@@ -37,7 +37,7 @@ double integralOfProduct(const ExpCurve& f, const ExpCurve& g, double tau, doubl
            f.c * g.c * integralOfDecay(T, tau / 2);
 }
 
-/// The one moment inside (0, T) where f' = 0, or −1.
+/// Returns the only moment inside (0, T) at which f' = 0, or −1.
 double turningPoint(const ExpCurve& f, double tau, double T) noexcept {
     if (!(tau > 0) || f.c == 0 || f.b == 0) return -1;
     const double ratio = f.b * tau / f.c;  // exp(−t/τ) at the turning point
@@ -53,8 +53,8 @@ double largestMagnitude(const ExpCurve& f, double tau, double T) noexcept {
     return largest;
 }
 
-/// The first t in [0, T] from which f rises above `tolerance`, or −1. f has one turning point at most, so that each
-/// side of it holds one crossing at most, and bisection there is sure.
+/// Returns the first t in [0, T] from which f rises above `tolerance`, or −1. f has at most one turning point, so each
+/// side of it has at most one crossing, and bisection there is reliable.
 double firstRise(const ExpCurve& f, double tau, double T, double tolerance) noexcept {
     const double turn = turningPoint(f, tau, T);
     double from = 0;
@@ -78,7 +78,7 @@ double firstRise(const ExpCurve& f, double tau, double T, double tolerance) noex
 ExpCurve difference(const ExpCurve& f, const ExpCurve& g) noexcept { return {f.a - g.a, f.b - g.b, f.c - g.c}; }
 ExpCurve times(double factor, const ExpCurve& f) noexcept { return {factor * f.a, factor * f.b, factor * f.c}; }
 
-/// A level a + b·t imposed on the circuit. `vc` is the capacitor's voltage.
+/// The response to a level a + b·t imposed on the circuit. `vc` is the voltage of the capacitor.
 struct Regime {
     double tau = 0;
     ExpCurve v, i, vc;
@@ -93,7 +93,7 @@ Regime underVoltage(const Circuit& z, double level, double slope, double vc0) no
     }
     const double k = z.parallelOhm / (z.seriesOhm + z.parallelOhm);
     r.tau = k * z.seriesOhm * z.capacitance_F;
-    const double settled = k * (level - slope * r.tau);  // the vc that t = 0 would have without the transient
+    const double settled = k * (level - slope * r.tau);  // the value of vc at t = 0 without the transient
     r.vc = {settled, k * slope, vc0 - settled};
     r.i = times(1 / z.seriesOhm, difference(r.v, r.vc));
     return r;
@@ -127,12 +127,12 @@ public:
     Builder(const Circuit& circuit, const SourceLimits& limits, double vc) noexcept
         : circuit_(circuit), limits_(limits), vc_(vc) {}
 
-    /// The source asks for level + slope·t for `T`, within its own range.
-    /// `reserve` pieces are left for what comes after.
+    /// Adds pieces for a source that requests level + slope·t for `T`, within its own range.
+    /// Leaves `reserve` pieces free for later calls.
     void drive(Drive drive, double level, double slope, double T, std::size_t reserve) noexcept {
         double t = 0;
         bool limited = false;
-        double sign = 0;  // sign of the limit that holds
+        double sign = 0;  // sign of the active limit
         while (t < T || T == 0) {
             const bool last = out_.count + 1 + reserve >= SegmentResponse::kMaxPieces;
             const double now = level + slope * t;
@@ -151,12 +151,12 @@ public:
             } else {
                 const Regime held = drive == Drive::Voltage ? underCurrent(circuit_, sign * limit, 0, vc_)
                                                             : underVoltage(circuit_, sign * limit, 0, vc_);
-                // Held at the limit until the limited quantity's partner reaches what was asked for.
+                // The limit holds until the other quantity reaches the requested value.
                 const ExpCurve asked{now, slope, 0};
                 const ExpCurve reached = drive == Drive::Voltage ? held.v : held.i;
                 const double scale = std::abs(now) + std::abs(slope) * T;
                 change = firstRise(times(sign, difference(reached, asked)), held.tau, T - t, 1e-12 * scale);
-                if (change == 0) change = -1;  // the crossing that brought us here
+                if (change == 0) change = -1;  // this is the crossing at which the regime began
                 emit(held, last || change < 0 ? T - t : change, true);
             }
             if (change < 0 || last) return;
@@ -170,7 +170,7 @@ public:
             emit(whileOpen(circuit_, level, slope, vc_), T, false);
             return;
         }
-        // A current source finds no path: it goes to its compliance on the side it is asked for.
+        // A current source finds no path, so its voltage goes to its compliance, on the requested side.
         const double middle = level + slope * T / 2;
         const bool stated = std::isfinite(limits_.compliance_V) && middle != 0;
         emit(whileOpen(circuit_, stated ? std::copysign(limits_.compliance_V, middle) : 0.0, 0, vc_), T, stated);
@@ -186,7 +186,7 @@ public:
     }
 
 private:
-    /// The time when |f| first exceeds `limit` (and on which side), or −1.
+    /// Returns the time when |f| first exceeds `limit` (`sign`: on which side), or −1.
     static double firstExceeding(const ExpCurve& f, double tau, double T, double limit, double& sign) noexcept {
         if (!std::isfinite(limit)) return -1;
         double first = -1;
@@ -217,7 +217,7 @@ private:
     SegmentResponse out_;
 };
 
-/// The moments in (0, T) at which a ramp from `start` to `end` crosses ± `limit` or, for the sign, 0.
+/// The moments in (0, T) at which a ramp from `start` to `end` crosses ± `limit` or, if asked for, 0.
 struct RampCuts {
     std::array<double, 3> at{};
     std::size_t count = 0;
@@ -250,7 +250,7 @@ SegmentResponse respond(const Circuit& circuit, const DriveSegment& segment, dou
         build.highImpedance(T);
         return build.finish();
     }
-    // The source cannot be asked for more than it has: a ramp is cut where it meets its own limit.
+    // A source cannot deliver more than its limit, so the ramp is cut where it reaches that limit.
     const double own = segment.drive == Drive::Voltage ? limits.compliance_V : limits.current_A;
     const RampCuts cuts = cutsOf(segment.start, segment.end, T, own, circuit.open && segment.drive == Drive::Current);
     const double slope = T > 0 ? (segment.end - segment.start) / T : 0.0;
@@ -280,7 +280,7 @@ double ResponsePiece::peakVoltage() const noexcept { return largestMagnitude(v, 
 double ResponsePiece::peakCurrent() const noexcept { return largestMagnitude(i, tau_s, duration_s); }
 
 namespace {
-/// The piece that holds at `t_s`; the segment has at least one.
+/// Returns the piece that covers `t_s`; the segment has at least one.
 const ResponsePiece& pieceAt(const SegmentResponse& response, double t_s) noexcept {
     std::size_t index = 0;
     while (index + 1 < response.count && t_s >= response.items[index + 1].start_s) ++index;
