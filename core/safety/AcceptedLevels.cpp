@@ -9,10 +9,10 @@ namespace tacto {
 using namespace gate;
 
 namespace {
-// 0.1 + 0.2 exceeds 0.3 in binary: levels on a decimal grid may miss their ceiling by rounding alone.
+// 0.1 + 0.2 exceeds 0.3 in binary: a level on a decimal grid may exceed its ceiling by rounding alone.
 constexpr double kLevelRounding = 1e-9;
 
-/// Computed without amperes: 4.5 mA would come back as more than 4.5, and more than a limit of 4.5.
+/// Does not convert through amperes: 4.5 mA would come back as slightly more, and exceed a limit of 4.5.
 double milliamps(const PulseTrain& train) noexcept {
     const auto* current = std::get_if<Milliamps>(&train.amplitude);
     return current != nullptr ? current->value() : siValue(train.amplitude) * 1e3;
@@ -23,7 +23,7 @@ PulseTrain kindOf(PulseTrain train) noexcept {
     return train;
 }
 
-/// A level beside what the person permits, in mA.
+/// A requested level and what the person permits, in mA.
 struct AskedLevel {
     bool inVolts;
     double level, discomfort, cap, ceiling, step;
@@ -56,7 +56,7 @@ constexpr Rule<Result<void>> kAcceptanceRules[] = {
     {LevelAccept, [](auto& permitted) { return !permitted; }, [](auto& permitted) { return failure(permitted); }},
 };
 
-/// An intensity beside what the person permits.
+/// A requested intensity and what the person permits.
 struct AskedIntensity {
     double intensity, discomfort, ceiling, step;
     bool ascending;

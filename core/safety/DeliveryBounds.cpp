@@ -10,9 +10,9 @@ namespace tacto {
 
 namespace {
 
-constexpr double kMinRatio = 0.01;  // the same as CalibrationLine's: with less, a window would last forever
+constexpr double kMinRatio = 0.01;  // the same as for CalibrationLine: with a lower ratio, a window would last forever
 
-/// The spreads that widen the bounds beyond the programmed value.
+/// The spreads that extend the bounds beyond the programmed value.
 struct Widening {
     const std::optional<CalibrationLine>& known;
     const std::optional<Spread>& stated;
@@ -36,7 +36,7 @@ struct Level {
     PulseTrain delivered;
 };
 
-/// A programmed value is not an upper bound of a level.
+/// The delivered level may be higher than the programmed one.
 constexpr gate::Condition<Level> kLevelConditions[] = {
     {gate::LevelMoreThanProgrammed,
      [](auto& level) noexcept { return siAmplitude(level.delivered) > siAmplitude(level.programmed); }},

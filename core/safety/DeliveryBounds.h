@@ -1,10 +1,10 @@
-// DeliveryBounds.h - what may come out of a train that is programmed: the gate judges the worst of it (H1, H9).
+// DeliveryBounds.h - the range of what a programmed train may deliver: the gate judges the worst of it (H1, H9).
 //
-// Each of amplitude, phase width, gap, interval and rate comes out between two bounds. A calibration that is applied
-// gives them: its line, its uncertainty and its largest residual. Without one they are the accuracy that the driver
-// states, ± 5 % where it states none; and where an old calibration is known that is not applied, the wider of both. No
-// calibration measures the rate within a train: it is judged by what the driver states. What is programmed lies inside
-// the bounds in any case.
+// Amplitude, phase width, gap, interval and rate each come out between two bounds. An applied calibration gives these
+// bounds by its line, its uncertainty and its largest residual. Without one, the accuracy stated by the driver gives
+// them, or ± 5 % if none is stated. With an old calibration that is known but not applied, the wider bounds of both are
+// used. No calibration measures the rate within a train, so the driver's statement is used. The programmed value is
+// always within the bounds.
 //
 // Thread-safety: a value; nothing allocates.
 #pragma once
@@ -16,13 +16,13 @@
 
 namespace tacto {
 
-/// The two values between which a quantity may come out.
+/// The two bounds between which a quantity may come out.
 template <class Value>
 struct Range {
     Value least{0};
     Value most{0};
     [[nodiscard]] Value middle() const { return least + 0.5 * (most - least); }
-    /// Calls `use` with both, or once where they are the same.
+    /// Calls `use` with both bounds, or once if they are equal.
     template <class Use>
     void eachEnd(Use use) const {
         use(least);
@@ -37,32 +37,32 @@ public:
                    const std::optional<Spread>& stated) noexcept;
     [[nodiscard]] double most(double programmed) const noexcept;
     [[nodiscard]] double least(double programmed) const noexcept;
-    /// The range of a time; a time without a spread stays as it is to the last bit.
+    /// Returns the range of a time; a time without a spread is returned exactly.
     template <class Time>
     [[nodiscard]] Range<Time> times(Time programmed) const noexcept {
         const double s = Seconds(programmed).count();
         const auto bound = [&](double at) { return at == s ? programmed : Time(Seconds(at)); };
         return {bound(least(s)), bound(most(s))};
     }
-    /// The smallest ratio of delivered to programmed, at `programmed` and at the ends of the line; above 0.
+    /// Returns the smallest ratio of delivered to programmed, at `programmed` and at the ends of the line; above 0.
     [[nodiscard]] double leastRatio(double programmed) const noexcept;
 
 private:
     std::optional<CalibrationLine> line_;
     Spread ofLine_, stated_;
-    bool applied_;  // the line holds: what is stated no longer counts
+    bool applied_;  // true if the line holds: the stated accuracy is then not used
 };
 
-/// The worst of trains of a range. Between its corners sums of squares are enclosed (TrainRange), and nothing else is
-/// larger but the charge that pulses leave over: by little, which twice the bends of the axes through the middle cover
-/// in random trains. (A parabola exceeds its ends by its bend at most, its middle less the mean of its ends; the bends
-/// of all axes together are the middle less the mean of the corners.)
+/// The worst of a range of trains. TrainRange bounds the sums of squares. Only leftover charge may be larger inside
+/// than at the corners; for random trains, twice the bends of the axes through the middle cover this. (A bend is the
+/// middle minus the mean of the ends; a parabola exceeds its ends by at most its bend. All bends add up to the middle
+/// minus the mean of the corners.)
 class WorstOfRange {
 public:
     WorstOfRange(const TrainExposure& enclosed, const TrainExposure& middle) noexcept
         : worst_(worse(enclosed, middle)), middle_(middle) {}
     void addCorner(const TrainExposure& corner) noexcept;
-    /// The ends of an axis through the middle. One axis need not be given: its bend is what the others leave.
+    /// Adds the ends of an axis through the middle. One axis may be omitted: its bend follows from the others.
     void addAxis(const TrainExposure& least, const TrainExposure& most) noexcept;
     [[nodiscard]] TrainExposure worst() const noexcept;
 
@@ -70,7 +70,7 @@ private:
     using NetCharges = std::array<double, 4>;
     static NetCharges netChargesOf(const TrainExposure& exposure) noexcept;
     TrainExposure worst_, middle_;
-    NetCharges corners_{}, bends_{}, sizes_{};  // sums: of the bends, and of their magnitudes
+    NetCharges corners_{}, bends_{}, sizes_{};  // sums of the bends, and of their magnitudes
     int count_ = 0;
 };
 
@@ -78,28 +78,28 @@ class DeliveryBounds {
 public:
     explicit DeliveryBounds(const GateSetup& setup) noexcept;
 
-    /// The commanded train: for a calibrated stimulator what it delivers by its lines, else what is programmed.
+    /// The commanded train: for a calibrated stimulator the delivered values by its lines, else the programmed train.
     [[nodiscard]] PulseTrain commandOf(const PulseTrain& programmed) const noexcept;
-    /// The level that counts for a person: the larger of what is programmed and what is delivered by the line; and when
-    /// it is accepted, the smaller. Levels of one unit are compared with each other, so that their uncertainty cancels.
+    /// The level used for a person: the larger of the programmed level and the one delivered by the line. acceptedAs()
+    /// returns the smaller. Levels of one unit are compared with each other, so that their uncertainty cancels.
     [[nodiscard]] PulseTrain levelOf(const PulseTrain& programmed) const noexcept;
     [[nodiscard]] PulseTrain acceptedAs(const PulseTrain& programmed) const noexcept;
 
     [[nodiscard]] Range<double> amplitudes(double programmed) const noexcept {
         return {amplitude_.least(programmed), amplitude_.most(programmed)};
     }
-    /// Between these an interval may come out: the shortest gives the most exposure, the longest the lowest band.
+    /// The range in which an interval may come out: the shortest gives the most exposure, the longest the lowest band.
     [[nodiscard]] Range<Seconds> intervals(Seconds programmed) const noexcept { return interval_.times(programmed); }
-    /// How much longer a window of real time may last by the clock on which trains are booked: 1 or more.
+    /// How much longer a window of real time may last on the clock that times the bookings: 1 or more.
     [[nodiscard]] double stretch(Seconds programmed) const noexcept {
         return 1 / interval_.leastRatio(programmed.count());
     }
-    /// `programmed` with the most amplitude, phase width and gap, at the highest rate and at the lowest.
+    /// `programmed` with the largest amplitude, phase width and gap, at the highest rate (densest) or lowest (longest).
     [[nodiscard]] PulseTrain densest(const PulseTrain& programmed) const noexcept;
     [[nodiscard]] PulseTrain longest(const PulseTrain& programmed) const noexcept;
-    /// `exposure` on `load`, a function of a train and of a TrainRange, at its worst over what may come out of
-    /// `programmed`. A load that keeps no charge has it of the densest train; else it lies at a corner of the range, or
-    /// near one (WorstOfRange).
+    /// Returns the worst `exposure` (a function of a train, or of a TrainRange) on `load` over what `programmed` may
+    /// deliver: if the load keeps no charge, that of the densest train; else it lies at a corner of the range or near
+    /// one (WorstOfRange).
     template <class Exposure>
     [[nodiscard]] TrainExposure worst(const PulseTrain& programmed, const LoadRange& load,
                                       Exposure exposure) const noexcept {

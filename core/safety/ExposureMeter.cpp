@@ -44,7 +44,7 @@ ExposureMeter::Sums ExposureMeter::couldShare(Seconds window, Instant now, doubl
     const Instant span = toInstant(window * stretch);
     for (std::size_t i = 0; i < size_; ++i) {
         const BookedTrain& train = entry(i);
-        // A window that ends inside the new train begins at the earliest `span` before now.
+        // A window that ends inside the new train begins at most `span` before now.
         if (train.latest + span > now) add(sums, train, window);
     }
     return sums;
@@ -66,7 +66,7 @@ double ExposureMeter::largest(Quantity quantity, JudgedAt judged, Instant now) c
         const BookedTrain& train = entry(i);
         if (train.earliest <= now - toInstant(kLongestWindow) || train.earliest > now) continue;
         const double value = (judged == JudgedAt::Ohm500 ? train.at500 : train.overRange).at(quantity);
-        if (std::isnan(value) || value > largest) largest = value;  // NaN stays: nothing is above it
+        if (std::isnan(value) || value > largest) largest = value;  // NaN is kept: nothing compares above it
     }
     return largest;
 }

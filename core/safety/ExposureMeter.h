@@ -1,11 +1,10 @@
-// ExposureMeter.h - the exposure of the last seconds: every approved train, summed over sliding windows.
+// ExposureMeter.h - the exposure of the last seconds: every approved train, added up over sliding windows.
 //
-// A train is booked when it is approved. It may be delivered at any moment until its approval expires, so it
-// counts from the one moment to the other, whole, in every window that it could touch: sums are upper bounds, never too
-// small.
-// A fixed ring; when it is full, canBook() is false and the gate refuses.
+// A train is booked when it is approved. It may be delivered at any moment until its approval expires. So in that time
+// the whole train is included in every window that it could touch: the sums are upper bounds, never too small. The ring
+// has a fixed size; when it is full, canBook() returns false and the gate refuses.
 //
-// Thread-safety: none; one caller (the gate's).
+// Thread-safety: none; one caller (the gate).
 #pragma once
 
 #include <cstddef>
@@ -17,8 +16,8 @@
 namespace tacto {
 
 struct BookedTrain {
-    Instant earliest{0};      ///< approved: it cannot start before
-    Instant latest{0};        ///< the approval's end plus its own duration: by then it has ended
+    Instant earliest{0};      ///< the approval: the train cannot start earlier
+    Instant latest{0};        ///< end of the approval plus the train's duration: by then it has ended
     double hz = 0;            ///< repetition frequency, for frequency bands
     TrainExposure overRange;  ///< worst case over the load range
     TrainExposure at500;
@@ -30,24 +29,24 @@ public:
     static constexpr std::size_t kCapacity = 4096;
     explicit ExposureMeter(std::size_t capacity = kCapacity);  ///< allocates here and never again
 
-    /// Forgets what no window from `now` on can touch. `stretch`, 1 or more, here and below: a second of the windows
-    /// lasts that many of the clock that trains are booked on.
+    /// Forgets trains that no window from `now` on can touch. `stretch` (1 or more; also below): the seconds of the
+    /// booking clock in one second of a window.
     void forget(Instant now, double stretch = 1) noexcept;
     [[nodiscard]] bool canBook() const noexcept { return size_ < ring_.size(); }
-    /// Requires canBook(); a full meter books nothing.
+    /// Requires canBook(); does nothing if the meter is full.
     void book(const BookedTrain& train) noexcept;
 
     struct Sums {
         TrainSums overRange;
         TrainSums at500;
-        double lowestHz = 0;  ///< lowest rate of the trains counted; infinite for none
+        double lowestHz = 0;  ///< lowest rate of these trains; infinite if there are none
         std::size_t trains = 0;
     };
-    /// The sums of all trains that could share a window of `window` with one that starts at `now` or later.
+    /// Returns the sums of all trains that could share a window of `window` with a train that starts at `now` or later.
     [[nodiscard]] Sums couldShare(Seconds window, Instant now, double stretch = 1) const noexcept;
-    /// The trains approved within (now − window, now]: what a display shows.
+    /// Returns the sums of the trains approved within (now − window, now], for a display.
     [[nodiscard]] Sums booked(Seconds window, Instant now) const noexcept;
-    /// The largest of a quantity of one pulse or train among those booked in (now − 5 s, now]; 0 for none.
+    /// Returns the largest value of a quantity of one pulse or train booked in (now − 5 s, now]; 0 if there is none.
     [[nodiscard]] double largest(Quantity quantity, JudgedAt judged, Instant now) const noexcept;
 
     [[nodiscard]] std::size_t size() const noexcept { return size_; }

@@ -44,29 +44,29 @@ Run largerRun(const Run& a, const Run& b) noexcept {
 
 namespace {
 
-/// The voltages that a capacitor may hold, V.
+/// The range of voltages that a capacitor may hold, V.
 struct Held {
     double least = 0, most = 0;
     void include(double voltage) noexcept {
-        // NaN is kept: a run from it is refused.
+        // Keep NaN: a run from NaN is refused.
         least = std::isnan(voltage) || voltage < least ? voltage : least;
         most = std::isnan(voltage) || voltage > most ? voltage : most;
     }
 };
 
-constexpr double kAlike = 1e-12;  // Voltages that differ by less, relative to the largest, are one
+constexpr double kAlike = 1e-12;  // voltages that differ by less, relative to the largest, are treated as equal
 constexpr Held kNothing{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
 
 double voltageSquared(const SegmentResponse& response) noexcept {
     double sum = 0;
     for (ResponsePiece piece : response.pieces()) {
-        piece.i = piece.v;  // ∫i² of a piece with a current equal to its voltage
+        piece.i = piece.v;  // makes currentSquared() integrate v² instead of i²
         sum += piece.currentSquared();
     }
     return sum;
 }
 
-/// The sums over a segment that the capacitor began with `start`.
+/// Returns the sums over a segment in which the capacitor started at `start`.
 Sums sumsOf(const Plan& plan, const SegmentResponse& response, double start) noexcept {
     Sums sums{0, voltageSquared(response), storedAt(plan, start) - storedAt(plan, response.endCapacitorVoltage)};
     for (const ResponsePiece& piece : response.pieces()) {
@@ -82,55 +82,55 @@ void addTo(TrainSums& total, const Sums& sums, double times = 1) noexcept {
     total.dissipated_J += times * sums.dissipated;
 }
 
-/// The excess of one stretch over either of two alike: late(a) + early(b) = a + early(b) - early(a). With f the square
-/// of a quantity x, the integral of |f_b - f_a| is at most 2 sqrt(most) |x_b - x_a| by the Cauchy-Schwarz inequality.
-/// `difference` is the sums of x_b - x_a; heat is the sum of two squares. At most the stretch itself.
+/// Returns how much a cut stretch may exceed either of two similar ones: late(a) + early(b) = a + early(b) - early(a).
+/// With f the square of a quantity x, the integral of |f_b - f_a| is at most 2 sqrt(most) |x_b - x_a| (Cauchy-Schwarz).
+/// `difference` has the sums of x_b - x_a; heat is the sum of two squares. At most the stretch itself.
 Sums extraOfCut(const Sums& most, const Sums& difference) noexcept {
     const auto of = [](double sum, double apart) {
         const double bound = 2 * std::sqrt(sum * apart);
-        return bound > sum ? sum : bound;  // NaN stays
+        return bound > sum ? sum : bound;  // NaN is kept
     };
     return {of(most.squares, difference.squares), of(most.volts, difference.volts),
             of(most.dissipated, difference.dissipated)};
 }
 
-/// The sums of the difference of two answers to one drive, with capacitors that begin `apart` V from each other. A
-/// linear load's difference is its undriven answer; beyond the compliance, too, it never grows, and a current differs
-/// by at most what the series resistance makes of it.
+/// Returns sums of the difference between two responses to one drive, with capacitors that start `apart` V apart. For
+/// a linear load this is its response without a drive. Beyond the compliance it never grows either, and the currents
+/// differ by at most `apart` divided by the series resistance.
 Sums differenceBound(const Plan& plan, double seconds, double apart) noexcept {
     const double square = apart * apart * seconds;
     const double rs = plan.circuit.seriesOhm, rp = plan.circuit.parallelOhm;
     return {square / (rs * rs), square, square * (1 / rs + 1 / rp)};
 }
 
-/// The pulses of a train where they differ, because each finds another voltage on the capacitor.
+/// The parts of a train's pulses, which differ because each pulse finds another voltage on the capacitor.
 class PulseParts {
 public:
-    static constexpr std::size_t kRest = 3;  // the rest comes after the pulse's segments, which are three at most
+    static constexpr std::size_t kRest = 3;  // the rest follows the pulse's segments (at most three)
     explicit PulseParts(const Plan& plan) noexcept : plan_(plan) {}
 
-    /// Adds one pulse's segment, which the capacitor began with any of `held`.
+    /// Adds one segment of a pulse, for a capacitor that starts anywhere in `held`.
     void add(std::size_t segment, const Held& held, const Sums& sums) noexcept {
         Part& part = parts_[segment];
         part.most = larger(sums, part.most);
         part.held.include(held.least);
         part.held.include(held.most);
     }
-    /// The most that one pulse holds.
+    /// Returns the largest sums of one pulse.
     [[nodiscard]] Sums pulse() const noexcept {
         Sums sum;
         for (const Part& part : parts_) sum += part.most;
         return sum;
     }
-    /// How much more than n pulses a stretch of n periods holds that begins late in a part of one pulse and ends early
-    /// in the same part of another.
+    /// Returns how much a stretch of n periods may exceed n pulses if it begins late in a part of one pulse and ends
+    /// early in the same part of another.
     [[nodiscard]] Sums cut() const noexcept {
         double largest = 0;
         for (const Part& part : parts_) largest = larger(larger(part.held.most, -part.held.least), largest);
         Sums most;
         for (std::size_t s = 0; s < kParts; ++s) {
             const double apart = parts_[s].held.most - parts_[s].held.least;
-            if (apart <= kAlike * largest) continue;  // true also where no pulse has this part
+            if (apart <= kAlike * largest) continue;  // also if no pulse has this part
             DriveSegment segment = plan_.betweenPulses;
             segment.duration_s = plan_.mostBetweenPulses_s;
             if (s < kRest) segment = plan_.pulse.items[s];
@@ -148,7 +148,7 @@ private:
     [[nodiscard]] Sums differenceOver(DriveSegment segment, double apart) const noexcept {
         if (!std::isinf(plan_.limits.compliance_V)) return differenceBound(plan_, segment.duration_s, apart);
         segment.start = segment.end = 0;
-        // Rounding may end below 0.
+        // Rounding may give a value below 0.
         return larger(sumsOf(plan_, respond(plan_.circuit, segment, apart), apart), Sums{});
     }
     const Plan& plan_;
@@ -187,7 +187,7 @@ Run runFrom(const Plan& plan, double capacitorVoltage) noexcept {
         Sums rest;
         if (plan.betweenPulses.duration_s > 0) rest = add(plan.betweenPulses, PulsePart::Rest);
 
-        // Once a pulse leaves the capacitor as it found it, all further pulses are the same.
+        // Once a pulse leaves the capacitor as it found it, all later pulses are the same.
         const double moved = std::abs(response.capacitorVoltage() - capacitorVoltage);
         const bool settled = moved <= kAlike * totals.peakVoltage_V;
         const int alike = settled ? plan.pulses - done : 1;
@@ -213,7 +213,7 @@ Run runFrom(const Plan& plan, double capacitorVoltage) noexcept {
                 rest += sums;
                 addTo(run.whole, sums);
                 run.peakCurrent = larger(after.peakCurrent_A, run.peakCurrent);
-                // The last pulse's tail is longer than the others', unless the next train comes early: the larger.
+                // The last pulse has a longer tail than the others, unless the next train comes early: take the larger.
                 const double before = std::abs(totals.netCharge_C);
                 const double last = std::abs(totals.netCharge_C + after.netCharge_C);
                 run.netCharge = larger(last, run.netCharge);
@@ -230,8 +230,8 @@ Run runFrom(const Plan& plan, double capacitorVoltage) noexcept {
     return run;
 }
 
-/// Like Run::cut, for a window that begins in one train and ends in another, which found the load up to `apart` V
-/// differently.
+/// Like Run::cut, for a window that begins in one train and ends in another; the voltages that the two trains found
+/// differ by up to `apart` V.
 Sums cutBetween(const Plan& plan, const Run& worst, double apart) noexcept {
     const auto sumsIn = [](const TrainSums& all) {
         return Sums{all.currentSquared_A2s, all.voltageSquared_V2s, all.dissipated_J};
@@ -247,14 +247,14 @@ Sums cutBetween(const Plan& plan, const Run& worst, double apart) noexcept {
     return extraOfCut(train, larger(sumsIn(runFrom(undriven, apart).whole), Sums{}));
 }
 
-/// The share of what a train finds on the capacitor that is left when the next begins.
+/// Returns the share of the capacitor's voltage at the start of a train that is left when the next train begins.
 double slopeOf(const Plan& plan, const Run& rested) noexcept {
     if (!std::isinf(plan.limits.compliance_V)) {
         const double probe = rested.peakVoltage;
         return (runFrom(plan, probe).endOfInterval - rested.endOfInterval) / probe;
     }
     const double rs = plan.circuit.seriesOhm, rp = plan.circuit.parallelOhm;
-    const auto decays = [&](const DriveSegment& segment) {  // in time constants; R_s counts only with a voltage
+    const auto decays = [&](const DriveSegment& segment) {  // in time constants; R_s matters only for a voltage source
         const double ohm = segment.drive == Drive::Voltage ? rs * rp / (rs + rp) : rp;
         return segment.duration_s / (ohm * plan.circuit.capacitance_F);
     };
@@ -263,9 +263,8 @@ double slopeOf(const Plan& plan, const Run& rested) noexcept {
     return std::exp(-(plan.pulses * pulse + decays(plan.afterTrain)));
 }
 
-/// Worst over every state in which a train can find the load. A linear load's state moves toward its steady one
-/// monotonically, and all figures are convex in it, so the ends of the range hold the worst. `found` becomes that
-/// range.
+/// Worst over every state in which a train can find the load. A linear load moves monotonically to its steady state,
+/// and all figures are convex in the state, so the ends of the range are the worst. `found` becomes that range.
 Run worstOfStates(const Plan& plan, double carried, Held& found) noexcept {
     const Run rested = runFrom(plan, 0);
     Run worst = rested;
@@ -274,7 +273,7 @@ Run worstOfStates(const Plan& plan, double carried, Held& found) noexcept {
     if (!(std::abs(rested.endOfInterval) <= small)) {
         // The state maps linearly from train to train: x' = f(0) + slope·x.
         const double slope = slopeOf(plan, rested);
-        // Below 1 whenever charge can leak; a load that only collects has no steady state and is refused as NaN.
+        // Below 1 if charge can leak; a load that only collects has no steady state: NaN leads to a refusal.
         const double steady = slope < 1 ? rested.endOfInterval / (1 - slope) : kNaN;
         worst = largerRun(worst, runFrom(plan, steady));
         found.include(steady);
@@ -287,9 +286,9 @@ Run worstOfStates(const Plan& plan, double carried, Held& found) noexcept {
     return worst;
 }
 
-/// The most that one segment gives, whatever of `held` it begins with and however long it lasts. The current is linear
-/// in what the capacitor holds and squares are convex, so the ends of `held` have the most; a longer segment adds to a
-/// sum of squares. `held` becomes what the capacitor may hold afterwards, which is monotonic in start and time.
+/// Returns the most that one segment can give, from any start in `held` and for any length. The current is linear in
+/// the capacitor's voltage and squares are convex, so the ends of `held` give the most; a longer segment adds more
+/// squares. `held` becomes the range of voltages afterwards, which is monotonic in start and time.
 Sums mostOf(const Plan& plan, DriveSegment segment, double least_s, double most_s, Held& held) noexcept {
     Sums most;
     Held after = kNothing;
@@ -305,8 +304,8 @@ Sums mostOf(const Plan& plan, DriveSegment segment, double least_s, double most_
     return most;
 }
 
-/// Upper bounds of the sums of squares over every train of the range that finds the load with any of `held`, which
-/// becomes what it leaves when the next train begins.
+/// Returns upper bounds of the sums of squares over every train of the range, from any start in `held`. `held`
+/// becomes the range of voltages when the next train begins.
 Run enclosedFrom(const Plan& plan, Held& held) noexcept {
     Run run;
     PulseParts parts(plan);
@@ -354,18 +353,18 @@ Run unknownRun() noexcept {
     return run;
 }
 
-/// The voltage at which the capacitor holds so much.
+/// Returns the voltage at which the capacitor holds this energy.
 double voltageOf(const Plan& plan, double stored_J) noexcept {
     return plan.circuit.hasCapacitor() ? std::sqrt(2 * stored_J / plan.circuit.capacitance_F) : 0;
 }
 
-/// The run for any number of trains, where the first finds up to `carried` on the load. A run that holds more bounds
-/// more: the widest is the bound of all.
+/// Returns the bounds for any number of trains, if the first finds up to `carried` on the load. A wider range of
+/// voltages gives larger bounds, so the widest range bounds all trains.
 Run enclosed(const Plan& plan, double carried) noexcept {
-    // Each end maps linearly from train to train: end' = end(0) + slope * end, towards a steady one. On the way another
-    // duration may make an end, and with it another slope.
+    // Each end maps linearly from train to train: end' = end(0) + slope * end, towards a steady end. On the way another
+    // duration may give the end, and with it another slope.
     constexpr int kMaxSlopes = 8;
-    constexpr double kRounding = 1e-15;  // share of the voltage towards which a phase charges the capacitor
+    constexpr double kRounding = 1e-15;  // share of the voltage to which a phase charges the capacitor
     double rounding = 0;
     for (const DriveSegment& phase : plan.pulse.span()) {
         const double ohm = phase.drive == Drive::Current ? plan.circuit.parallelOhm : 1;
@@ -395,7 +394,7 @@ Run enclosed(const Plan& plan, double carried) noexcept {
         next.include(steady(found.most, left.most, next.most, leftNext.most));
         found = next;
     }
-    // Beyond its compliance a source is not linear; what cannot be enclosed then is unknown, and refused.
+    // Beyond its compliance a source is not linear; if no bound is found, the result is unknown and refused.
     return unknownRun();
 }
 

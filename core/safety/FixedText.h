@@ -1,4 +1,4 @@
-// FixedText.h - a short text without the heap, for rows and reasons that are made where nothing may allocate.
+// FixedText.h - a short text without heap memory, for rows and reasons made in code that must not allocate.
 //
 // Longer texts are cut at a whole UTF-8 character. Trivially copyable.
 //
@@ -15,7 +15,7 @@ template <std::size_t N>
 class FixedText {
 public:
     constexpr FixedText() noexcept = default;
-    constexpr FixedText(std::string_view text) noexcept { assign(text); }  // implicit: it is a text
+    constexpr FixedText(std::string_view text) noexcept { assign(text); }  // implicit, because it is a text
     constexpr FixedText(const char* text) noexcept { assign(text == nullptr ? std::string_view{} : text); }
 
     [[nodiscard]] constexpr std::string_view view() const noexcept { return {characters_.data(), size_}; }
@@ -26,11 +26,11 @@ public:
 private:
     constexpr void assign(std::string_view text) noexcept {
         size_ = text.size() < N ? text.size() : N;
-        // A continuation byte is 10xxxxxx: never cut in front of one.
+        // A continuation byte is 10xxxxxx: never cut before such a byte.
         while (size_ < text.size() && size_ > 0 && (static_cast<unsigned char>(text[size_]) & 0xC0U) == 0x80U) --size_;
         for (std::size_t i = 0; i < size_; ++i) characters_[i] = text[i];
     }
-    std::array<char, N + 1> characters_{};  // Always ends in a zero
+    std::array<char, N + 1> characters_{};  // always ends with a zero
     std::size_t size_ = 0;
 };
 

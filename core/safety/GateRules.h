@@ -1,6 +1,6 @@
-// GateRules.h - internal: the gate's rules on what it is set up with and on trains; SafetyGate.cpp asks them in order.
+// GateRules.h - internal: the gate's rules for its setup and for trains; SafetyGate.cpp applies them in order.
 //
-// Thread-safety: pure functions. Nothing here allocates when it permits; a refusal allocates its message.
+// Thread-safety: pure functions. Nothing allocates while a train is permitted; a refusal allocates its message.
 #pragma once
 
 #include <array>
@@ -18,13 +18,13 @@ struct JudgedTrain;
 
 inline constexpr Instant kApprovalLife = std::chrono::milliseconds(100);
 
-/// The loss of decimal numbers in binary: no device knows the difference.
+/// Rounding of decimal numbers in binary, too small for any device to notice.
 inline constexpr double kRounding = 1e-9;
 
 /// SetupRules.cpp. Errors: InvalidArgument naming what is missing or impossible.
 [[nodiscard]] Result<void> checkSetup(const GateSetup& setup);
 
-/// A train that is asked for, beside what the gate knows.
+/// A requested train and the gate's state.
 struct AskedTrain {
     const State& state;
     const PulseTrain& train;
@@ -34,39 +34,39 @@ struct AskedTrain {
 };
 
 // TrainRules.cpp.
-/// Form, source and grid; no limits. Errors: InvalidArgument.
+/// Checks form, source and grid, but no limits. Errors: InvalidArgument.
 [[nodiscard]] Result<void> checkRequest(const PulseTrain& train, Seconds interval, const SourceTraits& source);
-/// Checks what a person, the impedance and the calibration permit. Errors: InvalidArgument, LimitExceeded.
+/// Checks what the person, the impedance and the calibration permit. Errors: InvalidArgument, LimitExceeded.
 [[nodiscard]] Result<void> checkAsked(const AskedTrain& asked);
-/// Checks an impedance check that is asked for.
+/// Checks a requested impedance check.
 [[nodiscard]] Result<void> checkAskedCheck(const AskedTrain& asked);
-/// Checks the train's times as they may come out, and whether the unit's past is known. Errors: as checkAsked().
+/// Checks the train's times as they may come out, and that the unit's past is known. Errors: as checkAsked().
 [[nodiscard]] Result<void> checkTimes(const AskedTrain& asked);
-/// Whether the meter has room for another train.
+/// Checks that the meter has room for another train.
 [[nodiscard]] Result<void> checkMeter(const State& state);
 
 // LimitRules.cpp.
-/// One limit row or ceiling, ready to be judged.
+/// One limit row or ceiling, prepared for comparison.
 struct ActiveLimit {
     LimitRow row;
     FixedText<31> set;
     bool ceiling = false;
 };
-/// Every row of every set, in order, then the ceilings.
+/// Returns every row of every set, in order, then the ceilings.
 [[nodiscard]] std::vector<ActiveLimit> activeLimits(const GateSetup& setup);
-/// Whether `value` keeps the row; a computed command (I·|Z|, or through a calibration) may miss "≤" by its last bits.
+/// True if `value` keeps the row; a computed command (I·|Z|, or through a calibration) may exceed "≤" by rounding.
 [[nodiscard]] bool keepsLimit(const LimitRow& row, double value, bool commandComputed) noexcept;
-/// Checks every limit on the train alone, then with the trains before it. Errors: LimitExceeded naming the first that
-/// it breaks: "RMS current over 5 s would be 14.1 mA in the worst case (11.3 mA into 100 ohm); paper allows less than
-/// 10 mA (...)".
+/// Checks every limit for the train alone, then with the trains before it. Errors: LimitExceeded naming the first
+/// broken limit: "RMS current over 5 s would be 14.1 mA in the worst case (11.3 mA into 100 ohm); paper allows less
+/// than 10 mA (...)".
 [[nodiscard]] Result<void> checkLimits(const State& state, const JudgedTrain& train, Instant now);
 
-/// NaN without an area.
+/// Returns NaN without an area.
 [[nodiscard]] double areaOf(const GateSetup& setup) noexcept;
 
-/// TrainExposure.cpp: one line of a table; not evaluated when the row needs an area and there is none.
+/// TrainExposure.cpp: makes one line of a table; not evaluated if the row needs an area that is not known.
 [[nodiscard]] ExposureRow rowOf(const ActiveLimit& limit, double value, bool areaKnown, bool commandComputed) noexcept;
-/// Shown in every table, without a limit where no set or ceiling has one.
+/// Shown in every table, without a limit if no set or ceiling has one.
 inline constexpr std::array kShown{Quantity::NetCharge, Quantity::RmsCurrentTrain, Quantity::RmsCurrent1s};
 [[nodiscard]] ExposureRow shownRow(Quantity quantity, double value) noexcept;
 [[nodiscard]] bool hasRow(std::span<const ExposureRow> rows, Quantity quantity) noexcept;

@@ -28,7 +28,7 @@ PulseTrain checkTrainOf(const GateSetup& setup) {
     const bool current = source.drive == Drive::Current;
     const double wanted = current ? source.checkCurrent.value() : source.checkVoltage.value();
     double amplitude = towardZero(wanted, source.amplitudeStep);
-    if (amplitude < source.amplitudeStep) amplitude = source.amplitudeStep;  // The device's smallest
+    if (amplitude < source.amplitudeStep) amplitude = source.amplitudeStep;  // the smallest amplitude of the device
     return trainAt(setup.check, source.drive, amplitude);
 }
 

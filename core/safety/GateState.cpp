@@ -7,8 +7,8 @@
 
 namespace tacto::gate {
 
-// Nobody knows how long another source has been connected: the charge left by one that rests in high impedance may have
-// stayed until now.
+// It is not known how long another source has been connected: charge left by a source that rests in high impedance may
+// have stayed until now.
 double State::carriedAt(Instant now) const noexcept {
     double left = 0;
     for (const GapState leftBy : {GapState::HoldsZero, GapState::HighImpedance}) {
@@ -39,7 +39,7 @@ Load State::measuredLoad(Ohms magnitude) const noexcept {
 }
 
 bool State::agreesWithDeclared(double ohm) const noexcept {
-    // A reading belongs to a check pulse or to the last train, and |Z| depends on the pulse.
+    // A reading belongs to a check pulse or to the last train, and |Z| depends on the pulse; so both are checked.
     double low = std::numeric_limits<double>::infinity();
     double high = 0;
     for (const PulseTrain* train : {&check, &lastTrain}) {

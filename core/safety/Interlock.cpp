@@ -193,7 +193,7 @@ void Interlock::keepFaultsIn(UnitRecord& record) noexcept {
     record_ = &record;
     const auto left = record.fault();
     if (!left) return;
-    // An error inside the program that had it is over with that program; the device is still to be looked at.
+    // An internal error ended with the program that had it; but the device must still be checked.
     const bool internal = (left->causes & bitOf(FaultCause::Internal)) != 0;
     causes_ |= (left->causes & ~bitOf(FaultCause::Internal)) | (internal ? bitOf(FaultCause::DeviceFault) : 0U);
     state_.store(InterlockState::Faulted, std::memory_order_release);
@@ -224,7 +224,7 @@ Result<std::uint64_t> Interlock::requestArming(Instant now) {
 Result<void> Interlock::confirmArming(std::uint64_t ticket, Instant now) {
     const std::lock_guard lock(mutex_);
     if (auto kept = judge(kConfirmRules, state_.load(std::memory_order_relaxed)); !kept) return kept;
-    const Ticket shown{ticket, std::exchange(ticket_, 0), requestedAt_, now};  // each request has one confirmation
+    const Ticket shown{ticket, std::exchange(ticket_, 0), requestedAt_, now};  // each request can be confirmed once
     if (auto kept = judge(kTicketRules, shown); !kept) return kept;
     state_.store(InterlockState::Checking, std::memory_order_release);
     reason_ = {};
@@ -252,7 +252,7 @@ Result<void> Interlock::resume() { return move(InterlockState::Paused, Interlock
 
 void Interlock::disarm(const char* reason) noexcept {
     const std::lock_guard lock(mutex_);
-    ticket_ = 0;  // A stop between the two steps voids the first
+    ticket_ = 0;  // a stop between the two steps voids the first
     switch (state_.load(std::memory_order_relaxed)) {
         case InterlockState::Checking:
         case InterlockState::Armed:

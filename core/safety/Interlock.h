@@ -1,13 +1,13 @@
-// Interlock.h - whether output is permitted at all: the state machine of safety.md.
+// Interlock.h - decides whether output is permitted at all: the state machine of safety.md.
 //
 //   Disconnected → Disarmed → Checking → Armed → Delivering ⇄ Paused; Checking, Armed, Delivering and Paused →
 //   Disarmed; Faulted latches from anywhere and needs an explicit reset after its causes are gone.
 //
-// Checking is entered by two steps, requestArming() and confirmArming(), and may deliver nothing but the impedance
-// check. A transition that is not in the list is refused and changes nothing.
+// Two steps lead to Checking: requestArming() and confirmArming(). In Checking only the impedance check may be
+// delivered. A transition that is not listed is refused and changes nothing.
 //
-// Thread-safety: any thread may call anything. state() is lock-free; disarm() and fault() never
-// allocate, never throw and wait at most for another caller's few instructions.
+// Thread-safety: any thread may call anything. state() is lock-free; disarm() and fault() never allocate or throw, and
+// wait at most for the few instructions of another caller.
 #pragma once
 
 #include <atomic>
@@ -26,108 +26,108 @@ enum class InterlockState { Disconnected, Disarmed, Checking, Armed, Delivering,
 [[nodiscard]] std::string_view nameOf(InterlockState state) noexcept;  // "disconnected", "disarmed", ...
 
 enum class FaultCause {
-    DeviceLost,   ///< unplugged, or gone silent
-    DeviceFault,  ///< garbage, a refused command
+    DeviceLost,   ///< unplugged, or no longer answering
+    DeviceFault,  ///< garbage, or a refused command
     OpenElectrode,
     ShortElectrode,
     NetCharge,
     StatusMissing,
     LoopSilent,  ///< heartbeat lost
     StaleSensor,
-    LimitBroken,  ///< something measured above a limit
-    Internal,     ///< a broken invariant
-    StuckOn,      ///< the device continues after its train should have ended
+    LimitBroken,  ///< a measured value is above a limit
+    Internal,     ///< an internal rule of the program is broken
+    StuckOn,      ///< the device still delivers after its train should have ended
 };
 inline constexpr int kFaultCauseCount = 11;
 [[nodiscard]] std::string_view nameOf(FaultCause cause) noexcept;  // "open electrode", ...
-/// Timeout for a cause that is lateness alone (status missing, loop silent, stale sensor), else Device.
+/// Returns Timeout for a cause that is only lateness (status missing, loop silent, stale sensor), else Device.
 [[nodiscard]] ErrorCode codeOf(FaultCause cause) noexcept;
 
-/// The evidence that arming needs. Everything false or empty: nothing is assumed.
+/// The evidence that arming needs. By default everything is false or empty: nothing is assumed.
 struct ArmingEvidence {
     bool limitsLoaded = false;
     bool deviceIdentified = false;
     bool operatorConfirmed = false;  ///< deliberate: not a default button, not a key that repeats
-    bool needsImpedance = true;      ///< false for a massager alone
+    bool needsImpedance = true;      ///< false only for a massager
     bool readsBack = true;           ///< the device measures |Z| itself
     std::optional<Ohms> impedance;   ///< from the check pulse, or an oscilloscope reading
-    Ohms impedanceLow{0};            ///< the range in which it must lie
+    Ohms impedanceLow{0};            ///< with impedanceHigh: the range in which the impedance must lie
     Ohms impedanceHigh{0};
     Instant impedanceAt{0};
-    bool declaredLoadConfirmed = false;  ///< stands in for a reading where the device cannot read back
+    bool declaredLoadConfirmed = false;  ///< replaces a reading if the device cannot read back
 };
 
-/// The state of the output after a fault of that cause, as a sentence: "Output is off.", except for a device that does
-/// not obey.
+/// Returns the state of the output after a fault of that cause, as a sentence: "Output is off.", unless the device
+/// does not obey.
 [[nodiscard]] std::string_view outputAfter(std::optional<FaultCause> cause) noexcept;
 
 class UnitRecord;
 
 class Interlock {
 public:
-    static constexpr Instant kImpedanceAge = std::chrono::seconds(5);    ///< older readings do not count
-    static constexpr Instant kConfirmWithin = std::chrono::seconds(30);  ///< the time between the two steps
+    static constexpr Instant kImpedanceAge = std::chrono::seconds(5);    ///< older readings are not used
+    static constexpr Instant kConfirmWithin = std::chrono::seconds(30);  ///< the longest time between the two steps
 
     [[nodiscard]] InterlockState state() const noexcept { return state_.load(std::memory_order_acquire); }
-    /// Why it is faulted, or why it was last disarmed; empty otherwise.
+    /// Returns why the output is faulted or was last disarmed; otherwise empty.
     [[nodiscard]] FixedText<159> reason() const noexcept;
-    /// The first cause that is still present, StuckOn before the others, then in the order of FaultCause; nothing
-    /// unless Faulted.
+    /// Returns the first cause that is still present: StuckOn first, then in the order of FaultCause. Nothing unless
+    /// Faulted.
     [[nodiscard]] std::optional<FaultCause> cause() const noexcept;
-    /// The code of an error that tells reason() while Faulted: Timeout where the first fault was lateness, else Device.
+    /// Returns the error code for reason() while Faulted: Timeout if the first fault was lateness, else Device.
     [[nodiscard]] ErrorCode faultCode() const noexcept;
 
-    /// Faults are kept in `record`, which outlives the interlock, until they are reset; one in which the unit was left
-    /// before makes it Faulted. Once, after connect().
+    /// Keeps faults, until they are reset, in `record`, which outlives the interlock. If the record contains an earlier
+    /// fault of the unit, the state becomes Faulted. Call once, after connect().
     void keepFaultsIn(UnitRecord& record) noexcept;
 
-    /// Disconnected → Disarmed: a device is open and identified. `note`: what the operator should know before arming.
+    /// Disconnected → Disarmed: a device is open and identified. `note` tells the operator something before arming.
     [[nodiscard]] Result<void> connect(std::string_view note = {});
     /// Disarmed → Disconnected. A device lost in any other state is a fault.
     [[nodiscard]] Result<void> disconnect();
 
     /// Step one of two. Changes no state. Errors: NotArmed unless Disarmed.
     [[nodiscard]] Result<std::uint64_t> requestArming(Instant now);
-    /// Step two: Disarmed → Checking. Errors: NotArmed for a ticket that is old, used or from before a stop.
+    /// Step two: Disarmed → Checking. Errors: NotArmed for a ticket that is old, used or issued before a stop.
     [[nodiscard]] Result<void> confirmArming(std::uint64_t ticket, Instant now);
-    /// Checking → Armed. Errors: NotArmed naming the first thing missing.
+    /// Checking → Armed. Errors: NotArmed naming the first missing evidence.
     [[nodiscard]] Result<void> arm(const ArmingEvidence& evidence, Instant now);
 
-    /// Armed → Delivering; already Delivering is fine.
+    /// Armed → Delivering; no change if already Delivering.
     [[nodiscard]] Result<void> beginDelivery();
     /// Delivering → Paused, Paused → Delivering. Errors: NotArmed from any other state.
     [[nodiscard]] Result<void> pause();
     [[nodiscard]] Result<void> resume();
 
-    /// Checking, Armed, Delivering, Paused → Disarmed. Other states stay. `reason` is copied.
+    /// Checking, Armed, Delivering, Paused → Disarmed. Other states do not change. `reason` is copied.
     void disarm(const char* reason) noexcept;
-    /// → Faulted, latched. The first reason is kept, with its `code` (only Timeout and Device are told apart); further
-    /// causes add up.
+    /// Any state → Faulted, latched. Keeps the first reason with its `code` (Timeout, or Device for all others); later
+    /// causes are added.
     void fault(FaultCause cause, std::string_view reason, ErrorCode code) noexcept;
     void fault(FaultCause cause, std::string_view reason) noexcept { fault(cause, reason, codeOf(cause)); }
-    /// The cause was looked at again and is no longer there. Does not leave Faulted.
+    /// Notes that the cause was checked again and is gone. Does not leave Faulted.
     void causeGone(FaultCause cause) noexcept;
     [[nodiscard]] bool causePersists(FaultCause cause) const noexcept;
-    /// Faulted → Disarmed (Disconnected when the device was lost). Errors: NotArmed naming a cause that persists.
+    /// Faulted → Disarmed (Disconnected if the device was lost). Errors: NotArmed naming a cause that persists.
     [[nodiscard]] Result<void> reset();
 
-    /// Trains may be delivered: Delivering.
+    /// True if trains may be delivered: in Delivering.
     [[nodiscard]] bool mayDeliver() const noexcept { return state() == InterlockState::Delivering; }
-    /// An impedance check may be delivered: Checking, and, to renew an old reading, Armed and Delivering.
+    /// True if an impedance check may be delivered: in Checking; and, to renew an old reading, in Armed and Delivering.
     [[nodiscard]] bool mayCheck() const noexcept;
 
 private:
     [[nodiscard]] Result<void> move(InterlockState from, InterlockState to, const char* what);
-    mutable std::mutex mutex_;  // Guards everything below against concurrent change
+    mutable std::mutex mutex_;  // guards everything below against concurrent changes
     std::atomic<InterlockState> state_{InterlockState::Disconnected};
     FixedText<159> reason_;
     ErrorCode faultCode_ = ErrorCode::Device;
-    std::uint32_t causes_ = 0;  // Bit per FaultCause still present
+    std::uint32_t causes_ = 0;  // one bit for each FaultCause still present
     bool deviceLost_ = false;
-    std::uint64_t ticket_ = 0;  // The pending request's; 0 = none
+    std::uint64_t ticket_ = 0;  // ticket of the pending request; 0 = none
     std::uint64_t lastTicket_ = 0;
     Instant requestedAt_{0};
-    UnitRecord* record_ = nullptr;  // The unit's; null: faults end with the program
+    UnitRecord* record_ = nullptr;  // the unit's record; null: faults end with the program
 };
 
 }  // namespace tacto

@@ -7,16 +7,16 @@
 namespace tacto::gate {
 
 namespace {
-/// A train beside one limit.
+/// A train and one limit.
 struct TrainAtLimit {
     const State& state;
     const JudgedTrain& train;
     const ActiveLimit& limit;
-    const ExposureMeter::Sums* window = nullptr;  // sums over the limit's length with the train; null: the train alone
+    const ExposureMeter::Sums* window = nullptr;  // sums over the window including the train; null: the train alone
 
     [[nodiscard]] bool judged() const noexcept {
         if (limit.row.action != LimitAction::Refuse) return false;
-        return !(needsArea(limit.row.quantity) && std::isnan(state.area));  // Reads "not evaluated"
+        return !(needsArea(limit.row.quantity) && std::isnan(state.area));  // shown as "not evaluated"
     }
     [[nodiscard]] double valueAlone() const noexcept {
         const bool into500 = limit.row.judged == JudgedAt::Ohm500;
@@ -28,7 +28,7 @@ struct TrainAtLimit {
     }
 };
 
-/// The limit's source, after the title of the set that it is from; a source that begins with the title says both.
+/// Returns the set's title and the limit's source; only the source if this begins with the title.
 std::string originOf(const State& state, const ActiveLimit& limit) {
     const auto title = titleOf(state.setup->limits, limit.set.view());
     const std::string source(limit.row.source);
@@ -52,7 +52,7 @@ tl::unexpected<Error> refusedAlone(const TrainAtLimit& t) {
     std::string aside;
     if (row.judged == JudgedAt::Ohm500) {
         aside = " into 500 ohm";
-    } else if (row.quantity != Quantity::CommandVoltage) {  // the command voltage is the same in any case
+    } else if (row.quantity != Quantity::CommandVoltage) {  // the command voltage does not depend on the case
         const State& s = t.state;
         const Load& usual = s.person() ? s.load.nominal : s.setup->load.nominal;
         const auto there =
@@ -64,7 +64,7 @@ tl::unexpected<Error> refusedAlone(const TrainAtLimit& t) {
 }
 
 bool breaksInWindow(const TrainAtLimit& t) {
-    // Trains of different rates share the window: every band that holds one of them counts.
+    // Trains of different rates share the window: every band that contains one of them applies.
     const bool holds = t.train.fallsUnder(t.limit.row) || t.limit.row.holdsAt(t.window->lowestHz);
     return t.judged() && holds && !keepsLimit(t.limit.row, t.valueInWindow(), false);
 }

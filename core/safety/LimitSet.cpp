@@ -25,7 +25,7 @@ ValueKind<Quantity> quantityKind() {
         [](const Quantity& quantity) { return json(keyOf(quantity)); });
 }
 
-/// A key that repeats what the row's quantity says already, so that no figure is read in another unit or window.
+/// A key that must repeat a property of the row's quantity, so that no value is read in another unit or window.
 template <class Stated>
 ValueKind<LimitRow> repeatedKind(Stated stated) {
     ValueKind<LimitRow> kind;
@@ -40,7 +40,7 @@ ValueKind<LimitRow> repeatedKind(Stated stated) {
     return kind;
 }
 
-/// The two keys that every figure must have: where it is from, and how sure we are of it.
+/// Adds the two keys that every value must have: its source, and our confidence in it.
 template <class Row>
 void addSource(RecordFields<Row>& row) {
     row.text("source", &Row::source, kLimitText).required = true;
@@ -114,7 +114,7 @@ std::string_view shortTitleOf(std::string_view id) noexcept {
     if (id == "fda-pms") return "FDA guidance";
     if (id == "iec-60601-2-10") return "IEC 60601-2-10";
     if (id == "paper") return "the paper";
-    if (id == "gate") return "this program";  // the program refuses it, and must
+    if (id == "gate") return "this program";  // a refusal by the program itself
     if (id == "interlock") return "the rules of arming";
     if (id == "laboratory") return "the laboratory";
     return id;

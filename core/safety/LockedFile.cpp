@@ -16,8 +16,8 @@ tl::expected<LockedFile, LockedFile::Refused> LockedFile::open(const std::filesy
                                                                ::mode_t mode) {
     int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode);
     const bool made = file >= 0;
-    // Opened without O_CREAT: in a folder for everybody the kernel refuses that for another account's file. A link
-    // would lead to a file with another purpose, and a pipe would wait.
+    // Open without O_CREAT: in a folder for everybody the kernel refuses O_CREAT for another account's file. O_NOFOLLOW
+    // and O_NONBLOCK: a link would lead to a file with another purpose, and a pipe would block.
     if (!made && errno == EEXIST) file = ::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
     const auto refused = [&](Refusal why) {
         const int error = errno;
@@ -33,7 +33,7 @@ tl::expected<LockedFile, LockedFile::Refused> LockedFile::open(const std::filesy
     if (::fstat(file, &about) != 0) return refused(Refusal::Failed);
     if (!S_ISREG(about.st_mode) || about.st_nlink != 1) return refused(Refusal::NotItsOwn);
     if (made && ::fchmod(file, mode) != 0) return refused(Refusal::Failed);  // sets the mode whatever the umask says
-    // Allocated now: a full disk is found here and not in the middle of a run.
+    // Allocate now, so that a full disk is found here and not in the middle of a run.
     if (const int error = ::posix_fallocate(file, 0, static_cast<::off_t>(size)); error != 0) {
         errno = error;
         return refused(Refusal::Failed);
@@ -63,7 +63,7 @@ std::uint64_t checksumOf(const void* data, std::size_t size) noexcept {
 }
 
 std::string programOf(std::int64_t process) {
-    // The system's short name has 15 characters; the file's has them all, where it may be read.
+    // The system's short name is cut at 15 characters; the file name is complete, if it may be read.
     std::string program;
     std::ifstream in(fmt::format("/proc/{}/comm", process));
     std::getline(in, program);

@@ -1,7 +1,7 @@
-// LockedFile.h - a file of fixed size that one process at a time maps into memory, for data that must outlive the
-// process however it ends.
+// LockedFile.h - a file of fixed size that one process at a time maps into memory, for data that must survive the
+// process, however it ends.
 //
-// Thread-safety: none; one owner. Writing into the mapping makes no system call.
+// Thread-safety: none; one owner. A write into the mapping needs no system call.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@ public:
     };
 
     /// Opens `path`, or makes it with `mode` and all bits 0, and locks it. Refuses a link, a pipe and a file with a
-    /// second name: they have another purpose.
+    /// second name, because these serve another purpose.
     [[nodiscard]] static tl::expected<LockedFile, Refused> open(const std::filesystem::path& path, std::size_t size,
                                                                 ::mode_t mode);
     ~LockedFile();
@@ -35,8 +35,8 @@ public:
     LockedFile& operator=(LockedFile&&) = delete;
 
     [[nodiscard]] void* content() const noexcept { return content_; }
-    [[nodiscard]] bool made() const noexcept { return made_; }    ///< this open() made the file
-    [[nodiscard]] bool whole() const noexcept { return whole_; }  ///< false: it was there, in another size
+    [[nodiscard]] bool made() const noexcept { return made_; }    ///< true if this open() made the file
+    [[nodiscard]] bool whole() const noexcept { return whole_; }  ///< false: the file existed with another size
 
 private:
     LockedFile(int file, void* content, std::size_t size, bool made, bool whole)
@@ -49,13 +49,13 @@ private:
     bool whole_;
 };
 
-/// FNV-1a over the bytes of what is checked. Against a torn or damaged file, not against a forger.
+/// FNV-1a over the given bytes. Detects a torn or damaged file, not a forged one.
 [[nodiscard]] std::uint64_t checksumOf(const void* data, std::size_t size) noexcept;
 
-/// "tactoscope-cli (process 4711)".
+/// Returns "tactoscope-cli (process 4711)".
 [[nodiscard]] std::string programOf(std::int64_t process);
 
-/// A part of such a file: its content, and the checksum that is taken away before the content changes.
+/// A part of such a file: its content and a checksum, which is set to 0 before the content changes.
 template <class Content>
 struct Checked {
     Content content{};
@@ -65,7 +65,7 @@ struct Checked {
     [[nodiscard]] bool sound() const noexcept { return sum == checksumOf(&content, sizeof content); }
     void write(const Content& newer) noexcept {
         std::atomic_ref(sum).store(0, std::memory_order_relaxed);
-        std::atomic_signal_fence(std::memory_order_seq_cst);  // The process may end between any two stores
+        std::atomic_signal_fence(std::memory_order_seq_cst);  // because the process may end between any two stores
         content = newer;
         std::atomic_signal_fence(std::memory_order_seq_cst);
         std::atomic_ref(sum).store(checksumOf(&content, sizeof content), std::memory_order_relaxed);

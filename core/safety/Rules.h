@@ -1,15 +1,15 @@
-// Rules.h - internal: every rule of the gate, the interlock, the heartbeat and the train's read-back by name, and how
-// tables of rules are evaluated.
+// Rules.h - internal: names every rule of the gate, the interlock, the heartbeat and the train's read-back, and
+// evaluates tables of rules.
 //
-// The refusals stand in constexpr tables, in their order: a rule's name, what breaks it, and the sentence for it.
-// firstBroken() goes through a table; no other code asks whether a rule is in force. The mutation test takes one rule
-// at a time out of force and sees a test fail; in the product inForce() is the constant true and leaves no trace.
+// The refusals are in constexpr tables, in order: a rule's name, its test, its sentence. firstBroken() evaluates a
+// table; no other code asks whether a rule is in force. The mutation test disables one rule at a time and expects a
+// failing test; in the product inForce() is the constant true and costs nothing.
 //
-// A new rule gets a name of its own here; the tests do not build until it stands in their table
-// (tests/safety/CheckNames.h), and fail until there is a case that it alone refuses, or refuses in these words. A
-// refusal outside a table fails EveryRefusalHasItsRule, and so does a second rule of the same name.
+// A new rule gets its own name here. The tests do not build until the name is in their table
+// (tests/safety/CheckNames.h), and fail until one case is refused by this rule alone, or with its words. A refusal
+// outside the tables makes EveryRefusalHasItsRule fail, and so does a second rule of the same name.
 //
-// Thread-safety: pure functions. Nothing allocates while no rule is broken.
+// Thread-safety: pure functions. Nothing allocates unless a rule is broken.
 #pragma once
 
 #ifdef TACTO_GATE_MUTATION
@@ -143,7 +143,7 @@ enum Check : int {
     HeartNever,
     HeartLate,
     kNamedChecks,
-    // One per quantity from here: a limit set's row or a ceiling, on the request alone and with the meter
+    // From here one per quantity: a row of a limit set or a ceiling, for the request alone and with the meter
     RequestLimit = 200,
     RequestCeiling = 220,
     MeterLimit = 240,
@@ -160,7 +160,7 @@ inline std::atomic<int> removedRule{-1};
 [[nodiscard]] constexpr bool inForce(int) noexcept { return true; }
 #endif
 
-/// Refuses `Input` with a sentence.
+/// Refuses an `Input` with a sentence.
 template <class Input>
 struct Rule {
     int id;
@@ -168,22 +168,22 @@ struct Rule {
     tl::unexpected<Error> (*sentence)(const Input&);
 };
 
-/// Refuses `Input` without a word.
+/// Refuses an `Input` without a message.
 template <class Input>
 struct Condition {
     int id;
     bool (*broken)(const Input&) noexcept;
 };
 
-/// Something that must be done, where a limit depends on it.
+/// An action on which a limit depends, and which must therefore be done.
 template <class Input>
 struct Duty {
     int id;
     void (*fulfil)(Input&) noexcept;
 };
 
-/// The first rule of a table that `input` breaks; null when it keeps them all. A table is an array of anything that has
-/// an id and a predicate `broken`.
+/// Returns the first rule of a table that `input` breaks; null if none. The elements of a table need an id and a
+/// predicate `broken`.
 template <class AnyRule, std::size_t N, class Input>
 [[nodiscard]] constexpr const AnyRule* firstBroken(const AnyRule (&rules)[N], const Input& input) {
     for (const AnyRule& rule : rules) {
@@ -192,7 +192,7 @@ template <class AnyRule, std::size_t N, class Input>
     return nullptr;
 }
 
-/// Success, or what the first broken rule says.
+/// Returns success, or the error of the first broken rule.
 template <std::size_t N, class Input>
 [[nodiscard]] Result<void> judge(const Rule<Input> (&rules)[N], const Input& input) {
     if (const auto* broken = firstBroken(rules, input)) return broken->sentence(input);

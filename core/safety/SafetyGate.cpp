@@ -12,8 +12,8 @@ namespace tacto {
 using namespace gate;
 
 namespace {
-constexpr double kMaxStretch = 2;     // the next request may need more than this one
-constexpr double kImpedanceJump = 2;  // skin drifts over minutes; an electrode that lifts does this between two trains
+constexpr double kMaxStretch = 2;     // spare room: the next request may need a larger stretch
+constexpr double kImpedanceJump = 2;  // skin drifts over minutes; a lifted electrode does this between two trains
 
 // --- impedance ------------------------------------------------------------------------------------------------------
 
@@ -223,7 +223,7 @@ Result<void> SafetyGate::updateImpedance(Ohms magnitude, Instant at) {
 }
 
 Result<ApprovedTrain> SafetyGate::approve(const TrainRequest& request) {
-    const std::uint64_t epoch = epoch_.load(std::memory_order_acquire);  // A stop from here on voids the result
+    const std::uint64_t epoch = epoch_.load(std::memory_order_acquire);  // a stop after this line voids the result
     const State& s = *state_;
     const AskedTrain asked{s, request.train, request.interval, request.onset, clock_.now()};
     // No rule: there is nothing to judge with.

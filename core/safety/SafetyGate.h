@@ -1,12 +1,12 @@
-// SafetyGate.h - the only place where a request becomes something a driver will accept.
+// SafetyGate.h - the only place that turns a request into something a driver will accept.
 //
-// Drivers take ApprovedTrain, never PulseTrain, and only SafetyGate can make an ApprovedTrain, so "every
-// output was checked" is a property the compiler proves rather than a review habit. Switching an output
-// off needs no approval: see Stimulator::forceOff().
+// Drivers take ApprovedTrain, never PulseTrain, and only SafetyGate can make an ApprovedTrain. So the compiler proves
+// that every output was checked; this does not depend on reviews. Switching an output off needs no approval: see
+// Stimulator::forceOff().
 //
-// An approval is single-use, expires 100 ms after it was granted, and is void after any stop. Its exposure
-// is booked on the meter when it is granted, so that approvals not yet delivered cannot add up to more
-// than a limit.
+// An approval can be used once, expires 100 ms after it was granted, and is void after any stop. Its exposure is booked
+// on
+// the meter when it is granted, so that approvals not yet delivered cannot add up to more than a limit.
 //
 // Thread-safety: latchStop() and isCurrent() may be called from any thread and never block; the rest has
 // one caller at a time (the control loop).
@@ -53,7 +53,7 @@ private:
     Instant expires_;
 };
 
-/// One vibration of a massager: the mechanical stand-in for a pulse train.
+/// One vibration of a massager: the mechanical counterpart of a pulse train.
 struct VibrationBurst {
     double intensity = 0;   ///< 0..1
     Seconds duration{0.1};  ///< ≤ 1 s
@@ -78,12 +78,12 @@ private:
     Instant expires_;
 };
 
-/// The request: a train already rounded to the device's step (see rounding in GateSetup.h), and the shortest
-/// onset-to-onset interval at which trains like it may follow.
+/// A request: a train already rounded to the device's step (see rounding in GateSetup.h), and the shortest interval,
+/// onset to onset, at which similar trains may follow.
 struct TrainRequest {
     PulseTrain train;
     Seconds interval{2};
-    Instant onset{0};  ///< planned: at most 100 ms ahead, or the approval would expire before it
+    Instant onset{0};  ///< as planned; at most 100 ms ahead, because the approval expires then
 };
 
 class SafetyGate {
@@ -91,60 +91,59 @@ public:
     explicit SafetyGate(const Clock& clock);
     ~SafetyGate();
 
-    /// Begins with what the unit has delivered in the last seconds, and writes each train down in `record` before its
-    /// approval is handed out. Before the first configure(); `record` outlives the gate.
+    /// Begins with the unit's deliveries of the last seconds, and writes each train into `record` before handing out
+    /// its approval. Before the first configure(); `record` outlives the gate.
     void continueFrom(UnitRecord& record) noexcept;
 
-    /// Says what is connected and what is allowed. Voids every approval; the meter keeps its memory. After an error
+    /// Sets what is connected and what is allowed. Voids every approval; the meter keeps its bookings. After an error
     /// nothing is approved until a configure() succeeds. Errors: InvalidArgument naming what is missing or impossible
     /// (no limit set, too many limits, a loosened ceiling, monophasic or a voltage source for a person, no consent, no
     /// electrode area for a person ...).
     [[nodiscard]] Result<void> configure(const GateSetup& setup);
 
-    /// A newer measured |Z|, from a check pulse or a train's read-back. Person mode judges with 0.7 to 1.3 of it; on a
-    /// bench load it must agree with the declared range. An older one than the last is ignored.
-    /// Errors: LimitExceeded when it lies outside the profile's (bench: the declared) range, or, for a person, has
-    /// doubled or halved since the good reading before it (an electrode that lifts or slips, H3); InvalidArgument for
-    /// NaN, 0 or less, or a stamp from the future. After an error nothing but check pulses is approved until a good
-    /// reading.
+    /// Takes a newer |Z|, measured in a check pulse or a train's read-back. Person mode judges with 0.7 to 1.3 times
+    /// this |Z|; on a bench load it must agree with the declared range. Ignores a reading older than the last.
+    /// Errors: LimitExceeded if |Z| lies outside the profile's (bench: the declared) range, or, for a person, has
+    /// doubled or halved since the last good reading (an electrode that lifts or slips, H3); InvalidArgument for NaN,
+    /// 0 or less, or a time stamp in the future. After an error only check pulses are approved until a good reading.
     [[nodiscard]] Result<void> updateImpedance(Ohms magnitude, Instant at);
 
-    /// Checks `request` against every limit, worst case over the permitted load range, at its interval, plus
+    /// Checks `request` against every limit, in the worst case over the permitted load range, at its interval and with
     /// the exposure already booked in the last 5 s.
     /// Errors: InvalidArgument if a value is negative, not finite or not on the device's grid; NotArmed before
     /// configure(); LimitExceeded naming the first limit broken, its value and its source, or while the unit rests
-    /// because its past is not known. Never clamps.
+    /// because its past is not known. Never reduces a value to fit.
     [[nodiscard]] Result<ApprovedTrain> approve(const TrainRequest& request);
 
     /// Approves one impedance check pulse, at the device's smallest check amplitude, with the same checks as approve().
     [[nodiscard]] Result<ApprovedTrain> approveCheck(Instant onset);
 
     /// Errors: InvalidArgument outside 0..1 or not finite, or longer than 1 s; LimitExceeded for a person at
-    /// electrodes, and for one at a massager above what was accepted and one step, or above what was called too strong.
+    /// electrodes; at a massager, above the accepted level plus one step or above a level called too strong.
     [[nodiscard]] Result<ApprovedBurst> approve(const VibrationBurst& burst);
 
-    /// Person mode (H6, see AcceptedLevels.h). accept(): the participant accepted the level of `train`; without it the
-    /// next level may not rise. Errors: NotArmed outside person mode; LimitExceeded for a level that was not permitted.
+    /// For person mode (H6, see AcceptedLevels.h). Notes that the participant accepted the level of `train`; otherwise
+    /// the next may not rise. Errors: NotArmed outside person mode; LimitExceeded for a level never permitted.
     [[nodiscard]] Result<void> accept(const PulseTrain& train);
-    /// The participant called `level` uncomfortable; nothing exceeds it afterwards, also after configure() for the same
-    /// participant. Voids every approval. Errors: NotArmed outside person mode; InvalidArgument unless finite and ≥ 0.
+    /// Notes that the participant called `level` uncomfortable: no level exceeds it now, even after configure() for
+    /// them. Voids every approval. Errors: NotArmed outside person mode; InvalidArgument unless finite and ≥ 0.
     [[nodiscard]] Result<void> reportDiscomfort(Milliamps level);
-    /// Both as for levels, for a person at a massager (see AcceptedLevels.h). Errors: NotArmed for anyone else;
-    /// InvalidArgument unless 0 to 1; LimitExceeded of acceptIntensity() for an intensity that was not permitted.
+    /// Both work as for levels, for a person at a massager (see AcceptedLevels.h). Errors: NotArmed for anyone else;
+    /// InvalidArgument unless 0 to 1; acceptIntensity(): LimitExceeded for an intensity that was not permitted.
     [[nodiscard]] Result<void> acceptIntensity(double intensity);
     [[nodiscard]] Result<void> reportUncomfortable(double intensity);
-    /// The highest intensity that a burst may have now; nothing but for a person at a massager.
+    /// Returns the highest intensity that a burst may have now; nothing unless a person is at a massager.
     [[nodiscard]] std::optional<double> intensityCeiling() const noexcept;
-    /// A series of ascending limits: its ceiling is its own last accepted level plus one step. Voids every approval.
+    /// Begins an ascending series: its ceiling is one step above its last accepted level. Voids every approval.
     void beginAscending() noexcept;
     void endAscending() noexcept;
-    /// The highest current that a train of this kind may have now; nothing outside person mode.
+    /// Returns the highest current that a train of this kind may have now; nothing outside person mode.
     [[nodiscard]] std::optional<Milliamps> levelCeiling(const PulseTrain& train) const noexcept;
 
-    /// Voids every approval handed out so far. Irreversible for those approvals.
+    /// Voids every approval handed out so far, for good.
     void latchStop() noexcept;
 
-    /// True unless latchStop() or configure() ran after `approved` was granted, or it expired. The device
+    /// True unless latchStop() or configure() ran after `approved` was granted, or the approval expired. The device
     /// thread asks this immediately before it writes to the wire.
     [[nodiscard]] bool isCurrent(const ApprovedTrain& approved) const noexcept {
         return isCurrent(approved.epoch_, approved.expires_);
@@ -153,22 +152,22 @@ public:
         return isCurrent(approved.epoch_, approved.expires_);
     }
 
-    /// The two amplitudes between which a train that is programmed to `programmed` comes out, as it is judged; V or mA.
-    /// NaN before configure().
+    /// The range in which the amplitude of a train with the programmed amplitude may come out, as judged; V or mA. NaN
+    /// before configure().
     struct Amplitudes {
         double least, most;
     };
     [[nodiscard]] Amplitudes amplitudes(double programmed) const noexcept;
 
-    /// The exposure booked in the last 5 s, each row against its limit, for the exposure display. Does not allocate
-    /// when `rows` has capacity.
+    /// Fills `rows` with the exposure booked in the last 5 s, each row with its limit, for display. Does not allocate
+    /// if `rows` has enough capacity.
     void exposure(std::vector<ExposureRow>& rows) const;
 
 private:
     [[nodiscard]] Result<ApprovedTrain> grant(const gate::AskedTrain& asked, std::uint64_t epoch);
     [[nodiscard]] bool isCurrent(std::uint64_t epoch, Instant expires) const noexcept;
     const Clock& clock_;
-    std::atomic<std::uint64_t> epoch_;  // Starts apart in every gate, so that no gate honours another's approval
+    std::atomic<std::uint64_t> epoch_;  // starts differently in every gate, so that no gate accepts another's approval
     std::unique_ptr<gate::State> state_;
 };
 

@@ -101,7 +101,7 @@ Result<void> checkLimits(const GateSetup& setup) {
 
 // --- source ---------------------------------------------------------------------------------------------------------
 
-/// The first stated accuracy that cannot be one.
+/// Returns the first stated accuracy that is not valid.
 std::optional<Spread> unsoundAccuracy(const SourceTraits& s) noexcept {
     const auto& of = s.accuracy;
     for (const auto& stated : {of.amplitude, of.phaseWidth, of.gap, of.interval, of.rate}) {
@@ -164,7 +164,7 @@ Result<void> checkCalibration(const GateSetup& s) {
 constexpr Rule<GateSetup> kSetupRules[] = {
     {BadLoad,
      [](auto& s) {
-         const bool person = s.mode == OutputMode::Person;  // Judged at measured or profile's loads instead
+         const bool person = s.mode == OutputMode::Person;  // judged at the measured or the profile's loads instead
          return !person && !(soundLoad(s.load.min) && soundLoad(s.load.max) && soundLoad(s.load.nominal));
      },
      [](auto& s) {
@@ -184,7 +184,7 @@ constexpr Rule<GateSetup> kSetupRules[] = {
 
 struct Personal {
     const GateSetup& setup;
-    const PersonSetup& person;  // an empty one where there is none
+    const PersonSetup& person;  // default values if no person is set
 };
 
 constexpr Rule<Personal> kPersonRules[] = {
@@ -198,7 +198,7 @@ constexpr Rule<Personal> kPersonRules[] = {
      }},
 };
 
-/// The needs of a person at electrodes.
+/// The requirements for a person at electrodes.
 constexpr Rule<Personal> kElectrodeRules[] = {
     {PersonArea, [](auto& p) { return !p.setup.electrodeArea; },
      [](auto&) { return invalid("person mode needs the electrode area in cm2"); }},
@@ -240,7 +240,7 @@ constexpr Rule<Personal> kElectrodeRules[] = {
 
 bool isShare(double value) noexcept { return value > 0 && value <= 1; }
 
-/// The needs of a person at a massager.
+/// The requirements for a person at a massager.
 constexpr Rule<PersonVibration> kVibrationRules[] = {
     {PersonVibrationLimit, [](auto& v) { return !isShare(v.discomfortLimit); },
      [](auto& v) {

@@ -1,5 +1,5 @@
-// SourceTraits.h - what a driver declares about its stimulator's output: the gate judges with it, the
-// rounding uses it, the bench plans by it. Constant while the device is open.
+// SourceTraits.h - the driver's description of its stimulator's output: the gate judges, rounding calculates and the
+// bench plans with it. Constant while the device is open.
 //
 // Thread-safety: values.
 #pragma once
@@ -12,8 +12,8 @@
 
 namespace tacto {
 
-/// How far the output may be from the programmed value, as the maker or the driver's document states it. Nothing: not
-/// stated, and ± 5 % is judged (kUnknownSpread).
+/// How far the output may differ from the programmed value, as the maker or the driver's document states it. Nothing:
+/// not stated; then ± 5 % is assumed (kUnknownSpread).
 struct StatedAccuracy {
     std::optional<Spread> amplitude{};   ///< V or mA
     std::optional<Spread> phaseWidth{};  ///< s
@@ -24,12 +24,12 @@ struct StatedAccuracy {
     [[nodiscard]] static StatedAccuracy exact() noexcept { return {Spread{}, Spread{}, Spread{}, Spread{}, Spread{}}; }
 };
 
-/// The longest train of a source without a dead-man: nothing ends it when the program is gone.
+/// The longest train of a source without a dead-man switch: nothing ends such a train if the program is gone.
 inline constexpr Seconds kLongestWithoutDeadMan{2};
 
 struct SourceTraits {
     Drive drive = Drive::Voltage;        ///< Voltage or Current; never HighImpedance
-    GapState gap = GapState::HoldsZero;  ///< what it does between phases, and after the pulse
+    GapState gap = GapState::HoldsZero;  ///< its state between the phases, and after the pulse
     double amplitudeStep = 0;            ///< V or mA by `drive`; 0 = continuous
     double amplitudeMax = 0;             ///< V or mA by `drive`
     Volts compliance{0};                 ///< largest voltage the output can reach
@@ -38,16 +38,16 @@ struct SourceTraits {
     Micros widthMin{10};
     Micros widthMax{4000};
     int pulsesMax = 1000;
-    Seconds deadMan{0};           ///< output stops by itself this long after the last keep-alive; 0 = none
+    Seconds deadMan{0};           ///< the output stops by itself this long after the last keep-alive; 0 = never
     bool readsBack = true;        ///< status() reports open, short and impedance after each train
     Milliamps checkCurrent{0.5};  ///< amplitude of the impedance check on a current source
     Volts checkVoltage{1};        ///< the check pulse's voltage, on a voltage source
     StatedAccuracy accuracy;
 };
 
-// A train in the unit of a source, and the grid of the source that core/encoding rounds it to.
+// Makes a train in the source's unit; the source's grid, to which core/encoding rounds the train.
 
-/// `shape` at `amplitude`: mA of a current source, V of any other.
+/// Returns `shape` with `amplitude`: in mA for a current source, in V for any other.
 [[nodiscard]] inline PulseTrain trainAt(PulseTrain shape, Drive drive, double amplitude) noexcept {
     if (drive == Drive::Current) {
         shape.amplitude = Milliamps(amplitude);

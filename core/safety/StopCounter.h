@@ -1,9 +1,9 @@
-// StopCounter.h - how often the operator has stopped the output (H2). A stop is never forgotten: there is no way to
-// take one back.
+// StopCounter.h - counts how often the operator has stopped the output (H2). A stop is never forgotten: it cannot be
+// taken back.
 //
-// Everything that starts output is asked for at a moment, by a click or a command, and is carried out later, on another
-// thread, perhaps after devices took seconds to open. The mark is taken at that moment; what is asked for is carried
-// out only if no stop has come since. A new order takes a new mark, and so runs after an old stop.
+// Output is requested at one moment, by a click or a command, and starts later, on another thread, perhaps after
+// devices took seconds to open. The mark is taken at the request, and the request is carried out only if no stop has
+// come since. A new order takes a new mark, and so runs after an old stop.
 //
 // Thread-safety: any thread may call anything; lock-free.
 #pragma once
@@ -13,8 +13,8 @@
 
 namespace tacto {
 
-/// The moment at which an operator asked for something. A mark from no counter, or from another one, counts as stopped:
-/// an order with a forgotten mark starts nothing.
+/// The moment at which an operator requested something. An empty mark, or the mark of another counter, is treated as
+/// stopped: an order with a forgotten mark starts nothing.
 class StopMark {
 public:
     StopMark() noexcept = default;
@@ -31,18 +31,18 @@ public:
     StopCounter(const StopCounter&) = delete;
     StopCounter& operator=(const StopCounter&) = delete;
 
-    /// A stop. The caller raises the counter first and switches off afterwards, so that what is started in between
-    /// finds it raised.
+    /// Counts a stop. The caller first raises the counter and then switches off, so that anything started in between
+    /// finds the counter raised.
     void raise() noexcept { count_.fetch_add(1, std::memory_order_acq_rel); }
-    /// Now. Taken when the operator asks, not when the order is carried out.
+    /// Marks the present moment. Take the mark when the operator asks, not when the order is carried out.
     [[nodiscard]] StopMark mark() const noexcept { return StopMark(count_.load(std::memory_order_acquire)); }
-    /// Whether a stop has come since `mark` was taken.
+    /// True if a stop has come since `mark` was taken.
     [[nodiscard]] bool movedSince(StopMark mark) const noexcept {
         return count_.load(std::memory_order_acquire) != mark.count_;
     }
 
 private:
-    /// Apart in every counter, so that none honours another's mark, and never 0.
+    /// Differs in every counter, so that no counter accepts another's mark; never 0.
     static std::uint64_t firstCount() noexcept {
         static std::atomic<std::uint64_t> counters{0};
         return (counters.fetch_add(1) + 1) << 40U;

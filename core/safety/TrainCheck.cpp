@@ -13,7 +13,7 @@ using namespace gate;
 namespace {
 bool sane(const std::optional<double>& value) noexcept { return !value || (std::isfinite(*value) && *value >= 0); }
 
-/// A status beside the train that it follows.
+/// A status and the train that it follows.
 struct ReadTrain {
     OutputMode mode;
     const TrainReadBack& status;
@@ -21,7 +21,7 @@ struct ReadTrain {
     Instant now;
     [[nodiscard]] bool late() const noexcept { return now - end > kStatusDeadline; }
     [[nodiscard]] bool early() const noexcept { return status.delivering || status.at < end; }
-    /// Unless its uncertainty is stated, nothing excuses the reading.
+    /// Without a stated uncertainty, the reading is taken as exact.
     [[nodiscard]] double uncertainty() const noexcept { return status.imbalanceUncertainty.value_or(0); }
 };
 
@@ -38,7 +38,7 @@ struct FindingRule {
     int id;
     bool (*broken)(const ReadTrain&) noexcept;
     TrainFinding finding;
-    FixedText<159> reason;  // where net charge is the reason, it has the figures
+    FixedText<159> reason;  // replaced by a text with values if net charge is the finding
 };
 
 constexpr FixedText<159> kMissing = "no status from the stimulator within 50 ms after a train";
@@ -65,7 +65,7 @@ constexpr FindingRule kStatusRules[] = {
      "the stimulator still delivers 50 ms after its train should have ended"},
     {TrainStatusLate, [](auto& t) noexcept { return t.status.at - t.end > kStatusDeadline; },
      TrainFinding::StatusMissing, "the stimulator's status came later than 50 ms after a train"},
-    // Read too early: the next one counts, but it must come in time.
+    // Read too early: wait for the next status, which must still come in time.
     {TrainNeverRead, [](auto& t) noexcept { return t.early() && t.late(); }, TrainFinding::StatusMissing, kMissing},
     {TrainReadEarly, [](auto& t) noexcept { return t.early(); }, TrainFinding::Pending, {}},
 };

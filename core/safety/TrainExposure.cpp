@@ -22,11 +22,11 @@ using exposure::Run;
 using exposure::storedAt;
 using exposure::worstRun;
 
-/// The most whole periods that any window touches; a billionth keeps 5 s / 0.5 s at 10.
+/// Returns how many whole periods any window can touch; the 1e-9 keeps 5 s / 0.5 s at 10.
 double periodsIn(double window_s, double period_s) noexcept { return std::ceil(window_s / period_s - 1e-9); }
 
-/// The largest share of a pulse's power into a resistor that a stretch of time holds: the larger phase first, then the
-/// other as if there were no gap.
+/// Returns the largest share of a pulse's power into a resistor within a stretch of time: the larger phase first,
+/// then the other phase, as if there were no gap.
 double shareOfPulse(const PulseSegments& pulse, double seconds) noexcept {
     const DriveSegment *more = &pulse.items[0], *less = &pulse.items[pulse.count - 1];
     if (std::abs(less->start) > std::abs(more->start)) std::swap(more, less);
@@ -37,8 +37,8 @@ double shareOfPulse(const PulseSegments& pulse, double seconds) noexcept {
     return (first * std::min(seconds, more->duration_s) + second * after) / all;
 }
 
-/// The most that any stretch of a train holds, counted in pulses: `power` for sums of squares, and `charge` for what is
-/// left over. A pulse that it cuts counts whole, but into a resistor only by the part that may lie within.
+/// The most that any stretch of a train holds, in pulses: `power` for sums of squares, `charge` for leftover charge.
+/// A pulse that the stretch cuts is included whole; into a resistor, only the part that may lie inside.
 struct PulsesIn {
     double power = 0, charge = 0;
     PulsesIn(const PulseSegments& pulse, double seconds, double period, bool resistor) noexcept
@@ -49,20 +49,20 @@ struct PulsesIn {
     }
 };
 
-/// The sums over any `intervals` intervals.
+/// Returns the sums over any `intervals` intervals.
 TrainSums trainsOf(const Run& run, double intervals) noexcept {
     return {intervals * run.whole.currentSquared_A2s + run.cutTrain.squares,
             intervals * run.whole.voltageSquared_V2s + run.cutTrain.volts, intervals * run.whole.netCharge_C,
             intervals * run.whole.dissipated_J + run.cutTrain.dissipated, run.whole.stored_J};
 }
 
-/// The sums over so many pulses within a train.
+/// Returns the sums over `count` pulses within a train.
 TrainSums pulsesOf(const Run& run, const PulsesIn& count) noexcept {
     return {count.power * run.pulse.squares + run.cut.squares, count.power * run.pulse.volts + run.cut.volts,
             count.charge * run.netCharge, count.power * run.pulse.dissipated + run.cut.dissipated, run.whole.stored_J};
 }
 
-/// The sums of trains that may find the load differently.
+/// Returns the same for pulses of several trains, which may find the load in different states.
 TrainSums pulsesOfTrains(const Run& run, const PulsesIn& count) noexcept {
     TrainSums sums = pulsesOf(run, count);
     sums += {run.cutTrain.squares, run.cutTrain.volts, 0, run.cutTrain.dissipated, 0};
@@ -70,14 +70,14 @@ TrainSums pulsesOfTrains(const Run& run, const PulsesIn& count) noexcept {
 }
 
 TrainSums smallerSums(const TrainSums& a, const TrainSums& b) noexcept {
-    // a < b is false for NaN in either, and then the other must not hide it.
+    // a < b is false if either is NaN; then NaN must not be hidden by the other value.
     const auto smaller = [](double x, double y) { return std::isnan(x) || x < y ? x : y; };
     return {smaller(a.currentSquared_A2s, b.currentSquared_A2s), smaller(a.voltageSquared_V2s, b.voltageSquared_V2s),
             smaller(a.netCharge_C, b.netCharge_C), smaller(a.dissipated_J, b.dissipated_J),
             smaller(a.stored_J, b.stored_J)};
 }
 
-/// A load as limits see it: drift and lost contact would make it seem harmless at one moment.
+/// Returns the load for limits, without drift and lost contact, which could make it seem harmless at one moment.
 Load steadyLoad(Load load) noexcept {
     load.driftPerSecond = 0;
     load.openFraction = 0;
@@ -85,8 +85,8 @@ Load steadyLoad(Load load) noexcept {
     return load;
 }
 
-/// A current source stops at its compliance. Currents stay as if it did not, which is the larger, except where
-/// clipping itself does harm: phases that clip differently no longer balance, and what they leave behind flows later.
+/// Returns the run of a current source that stops at its compliance. Currents stay as without it (larger), unless
+/// clipping does harm: unequally clipped phases are unbalanced, and the charge that they leave flows later.
 Run clipped(Plan plan, const Run& unlimited, double compliance, const PulseTrain& train, Carried carried) noexcept {
     Run run = unlimited;
     if (plan.circuit.hasCapacitor()) {
@@ -97,10 +97,10 @@ Run clipped(Plan plan, const Run& unlimited, double compliance, const PulseTrain
     run.peakVoltage = compliance;
     const DriveSegment& leading = plan.pulse.items[0];
     const DriveSegment& last = plan.pulse.items[plan.pulse.count - 1];
-    double moved = leading.duration_s * std::abs(leading.start);  // Charge, C
+    double moved = leading.duration_s * std::abs(leading.start);  // charge, C
     if (plan.pulse.count > 1) moved += last.duration_s * std::abs(last.start);
     run.energy = std::min(run.energy, compliance * moved);
-    // The capacitor holds no more than the compliance, or than it held before.
+    // The capacitor holds at most the compliance, or the voltage that it held before.
     const double stored =
         std::min(run.whole.stored_J, larger(storedAt(plan, compliance), storedAt(plan, carried.voltage_V)));
     run.whole.stored_J = stored;
@@ -184,8 +184,8 @@ TrainExposure exposureOf(const TrainRange& trains, Seconds interval, const Load&
     const auto pulsesIn = [&, resistor = !plan.circuit.hasCapacitor() && !clips](double seconds) {
         return PulsesIn(plan.pulse, seconds, period, resistor);
     };
-    // So many intervals as fit hold a train each, wherever they begin; what is left of a window holds no more than a
-    // train, and no more than the pulses of so long a stretch: those of two trains are farther apart than of one.
+    // Each whole interval that fits into the window holds one train, wherever it begins. The rest holds at most one
+    // train, and at most the pulses of a stretch of that length: pulses of two trains are farther apart.
     const auto inWindow = [&](double window_s) {
         const double wholeTrains = std::floor(window_s / T);
         TrainSums sums =
@@ -195,7 +195,7 @@ TrainExposure exposureOf(const TrainRange& trains, Seconds interval, const Load&
                            smallerSums(trainsOf(run, periodsIn(window_s, T)), pulsesOfTrains(run, pulsesIn(window_s))));
     };
     TrainExposure exposure;
-    // A train longer than a window cannot put all of itself into it.
+    // A train longer than the window does not fit into it as a whole.
     exposure.in1s = smallerSums(run.whole, pulsesOf(run, pulsesIn(1)));
     exposure.in5s = smallerSums(run.whole, pulsesOf(run, pulsesIn(5)));
     exposure.residual_V = std::abs(run.endOfTrain);
@@ -247,7 +247,7 @@ TrainExposure worstExposure(const TrainRange& trains, Seconds interval, const Lo
     TrainExposure worst = worse(exposureOf(trains, interval, load.min, source, area_cm2, carried),
                                 exposureOf(trains, interval, load.max, source, area_cm2, carried));
     double& command = worst.values[indexOf(Quantity::CommandVoltage)];
-    // A train that is not valid stays NaN.
+    // Keep NaN for a train that is not valid.
     if (!std::isnan(command)) command = commandVoltage(trains.densest, load.nominal, source);
     return worst;
 }
@@ -296,7 +296,7 @@ std::vector<ExposureRow> exposureTable(const GateSetup& setup, const PulseTrain&
         return worstExposure(out, least, setup.load, setup.source, area);
     });
     TrainExposure at500 = exposureOf(bounds.densest(train), shortest, Load::resistor(Ohms(500)), setup.source, area);
-    // The command is judged as it is; that a train cannot be judged stays.
+    // Judge the command as it is; keep NaN if the train cannot be judged.
     for (TrainExposure* exposure : {&overRange, &at500}) {
         double& command = exposure->values[indexOf(Quantity::CommandVoltage)];
         if (!std::isnan(command)) command = commandVoltage(bounds.commandOf(train), setup.load.nominal, setup.source);

@@ -1,12 +1,12 @@
-// TrainExposure.h - what a pulse train does to a load, in every quantity of science.md section 7.
+// TrainExposure.h - the exposure of a load to a pulse train, in every quantity of science.md section 7.
 //
-// Closed forms per segment (core/electrode); the charge that a pulse leaves on the load is carried into
-// the next pulse and the next train, and the larger of "first train from rest" and "steady state" is
-// given, so that the figures hold for any number of trains. What a device makes of a phase width, a gap and a rate is
-// known to a range: on a load with a capacitor the sums of squares may be largest inside it, because what a longer
-// phase adds a shorter rest no longer discharges. They are enclosed there: every segment at its longest, from each end
-// of what the load may hold. A current source that would exceed its compliance is judged both with and without it. A
-// load's drift and lost contact are left out: they would only make a limit look farther away than it is.
+// Each segment is calculated in closed form (core/electrode). The charge that a pulse leaves on the load carries over
+// to the next pulse and train. The larger of "first train from rest" and "steady state" is returned, so the values hold
+// for any number of trains. Phase width, gap and rate are known to a range. With a capacitor the sums of squares may be
+// largest inside it, as a longer phase adds what a shorter rest no longer discharges. An upper bound is used: every
+// segment at its longest, from each end of the load's states. A current source that would exceed its compliance is
+// judged with and without it. Drift and lost contact are ignored: they would only make limits look farther away than
+// they are.
 //
 // Thread-safety: pure functions. Nothing here allocates, except exposureTable().
 #pragma once
@@ -18,13 +18,13 @@
 
 namespace tacto {
 
-/// ∫ over a stretch of output, tails included. SI units, so that windows can add them up.
+/// Integrals over a stretch of output, tails included. SI units, so that windows can add them up.
 struct TrainSums {
     double currentSquared_A2s = 0;
     double voltageSquared_V2s = 0;
-    double netCharge_C = 0;  ///< Σ |net charge| of the pulses: no window holds more, wherever it begins
-    /// The heat that the load made, and the most that its capacitor held meanwhile. A pulse takes part of the second
-    /// back, a window that ends before does not: none holds more than both.
+    double netCharge_C = 0;  ///< Σ |net charge| of the pulses: an upper bound for any window
+    /// The heat in the load, and the most that its capacitor held. A pulse takes part of the latter back, but a window
+    /// may end before: so only the sum of both is an upper bound for any window.
     double dissipated_J = 0;
     double stored_J = 0;
 
@@ -32,21 +32,21 @@ struct TrainSums {
 };
 
 struct TrainExposure {
-    QuantityValues values{};  ///< each in the unit unitOf() of its quantity; densities are NaN without an area
-    TrainSums in1s;           ///< the most that one train puts into any second: all of it, unless it lasts longer
+    QuantityValues values{};  ///< each in the unit that unitOf() gives; densities are NaN without an area
+    TrainSums in1s;           ///< the most of one train in any second: all of it, unless it lasts longer
     TrainSums in5s;           ///< sums over the worst 5 s
-    double residual_V = 0;    ///< largest |voltage| it leaves on the load's capacitor at its end
+    double residual_V = 0;    ///< largest |voltage| on the load's capacitor at the train's end
     [[nodiscard]] double at(Quantity q) const noexcept { return values[indexOf(q)]; }
 };
 
-/// Trains that differ in phase width, inter-phase gap and rate alone: what may come out of one that is programmed.
+/// Trains that differ only in phase width, inter-phase gap and rate: what one programmed train may deliver.
 struct TrainRange {
     PulseTrain sparsest;  ///< all three at their smallest
     PulseTrain densest;   ///< all three at their largest
 };
 
-/// The state in which a train finds the load: up to this |voltage| on its capacitor, of either sign, from trains before
-/// it. The gate carries it from train to train; previews start from rest.
+/// The state in which a train finds the load: up to this |voltage|, of either sign, on its capacitor from earlier
+/// trains. The gate carries it from train to train; previews start from rest.
 struct Carried {
     double voltage_V = 0;
 };
@@ -59,38 +59,38 @@ struct Carried {
 [[nodiscard]] TrainExposure exposureOf(const PulseTrain& train, Seconds interval, const Load& load,
                                        const SourceTraits& source, double area_cm2, Carried carried = {}) noexcept;
 
-/// The exposure to the densest of `trains`, but ∫i², ∫v² and heat are upper bounds for every train of the range.
+/// Returns the exposure to the densest of `trains`; ∫i², ∫v² and heat are upper bounds for the whole range.
 [[nodiscard]] TrainExposure exposureOf(const TrainRange& trains, Seconds interval, const Load& load,
                                        const SourceTraits& source, double area_cm2, Carried carried = {}) noexcept;
 
-/// A of science.md section 4, V: the amplitude, or of a current I·|Z| of `load` at the end of the leading phase.
+/// Returns A of science.md section 4, V: the amplitude, or I·|Z| of `load` at the end of the leading phase.
 [[nodiscard]] double commandVoltage(const PulseTrain& train, const Load& load, const SourceTraits& source) noexcept;
 
-/// |Z| of `load` at the end of the leading phase of the source's pulses, the same for any amplitude of `train`.
+/// Returns |Z| of `load` at the end of the leading phase of the source's pulses, whatever the amplitude.
 [[nodiscard]] Ohms impedanceOf(const Load& load, const PulseTrain& train, const SourceTraits& source) noexcept;
 
-/// The larger of both, quantity by quantity (NaN wins: it must not be hidden).
+/// Returns the larger of both, quantity by quantity (NaN wins, so that it is not hidden).
 [[nodiscard]] TrainExposure worse(const TrainExposure& a, const TrainExposure& b) noexcept;
 
-/// Worst case between load.min and load.max; CommandVoltage at load.nominal (I·|Z| at the end of the leading phase).
+/// Worst case between load.min and load.max; CommandVoltage at load.nominal (I·|Z|, end of the leading phase).
 [[nodiscard]] TrainExposure worstExposure(const PulseTrain& train, Seconds interval, const LoadRange& load,
                                           const SourceTraits& source, double area_cm2, Carried carried = {}) noexcept;
 [[nodiscard]] TrainExposure worstExposure(const TrainRange& trains, Seconds interval, const LoadRange& load,
                                           const SourceTraits& source, double area_cm2, Carried carried = {}) noexcept;
 
-/// The windowed quantities from sums that fell into one window of windowOf(quantity) seconds; NaN for others.
+/// Returns a windowed quantity from the sums in one window of windowOf(quantity) seconds; NaN for other quantities.
 [[nodiscard]] double windowedValue(Quantity quantity, const TrainSums& inWindow, double area_cm2) noexcept;
 
-/// Judges every limit of the setup's sets and ceilings on this train, in the worst case over the load range and over
-/// what the stimulator may make of it (DeliveryBounds.h), without the meter; then the in-train RMS without a limit.
-/// Reports and previews show it. Density rows without an area read not evaluated.
+/// Judges every limit of the setup's sets and ceilings for this train, in the worst case over the load range and over
+/// what the stimulator may deliver (DeliveryBounds.h), without the meter; adds the in-train RMS without a limit. For
+/// reports and previews. Without an area, density rows are not evaluated.
 [[nodiscard]] std::vector<ExposureRow> exposureTable(const GateSetup& setup, const PulseTrain& train, Seconds interval);
 
-/// Whether the gate refuses a train for this row. A row that was not evaluated refuses none, as in the gate.
+/// True if the gate refuses a train because of this row. A row that was not evaluated refuses none, as in the gate.
 [[nodiscard]] bool forbids(const ExposureRow& row) noexcept;
-/// The first row of a table that forbids; null where none does.
+/// Returns the first row of a table that forbids the train; null if none does.
 [[nodiscard]] const ExposureRow* firstForbidding(std::span<const ExposureRow> rows) noexcept;
-/// Its quantity and limit set in a few words; empty where no row of the train's table forbids.
+/// Returns that row's quantity and limit set in a few words; empty if no row forbids the train.
 [[nodiscard]] std::string forbiddenBy(const GateSetup& setup, const PulseTrain& train, Seconds interval);
 
 }  // namespace tacto

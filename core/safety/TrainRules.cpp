@@ -14,7 +14,7 @@ double inOwnUnit(const Amplitude& amplitude) noexcept {
 
 // --- form, source and grid ------------------------------------------------------------------------------------------
 
-/// A train and its interval beside what the source can do.
+/// A train with its interval, and the source's abilities.
 struct TrainForm {
     const PulseTrain& train;
     Seconds interval;
@@ -24,7 +24,7 @@ struct TrainForm {
     [[nodiscard]] double amplitude() const noexcept { return inOwnUnit(train.amplitude); }
 };
 
-/// Whether the value is a multiple of `step`, apart from what decimal steps lose in binary.
+/// True if the value is a multiple of `step`, apart from the rounding of decimal steps in binary.
 bool onGrid(double value, double step) noexcept {
     if (step == 0) return true;
     const double steps = value / step;
@@ -96,10 +96,10 @@ constexpr Rule<AskedTrain> kAskedRules[] = {
      }},
 };
 
-/// The calibrated range may be left by as much as the calibration may be off, or to the side that adds no exposure.
+/// Values may leave the calibrated range by the largest calibration error, or to the side that adds no exposure.
 constexpr double kSlack = 1 + kLargestMiscalibration;
 
-/// Null where none is complete: configure() refuses that.
+/// Returns null if no calibration is complete; configure() refuses that.
 const StimulatorCalibration* calibrationOf(const AskedTrain& a) noexcept {
     const auto& known = a.state.setup->calibration;
     return known && known->complete() ? &*known : nullptr;

@@ -16,7 +16,7 @@ namespace tacto {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x32'74'69'6e'75'74'63'61;  // "actunit2"
-constexpr double kLongestStretch = 2;                        // as the gate: how much longer a window may last
+constexpr double kLongestStretch = 2;                        // as in the gate: how much longer a window may last
 
 template <std::size_t N>
 void copyText(std::array<char, N>& into, std::string_view text) noexcept {
@@ -30,25 +30,25 @@ std::string_view textIn(const std::array<char, N>& from) noexcept {
 
 struct Head {
     std::uint64_t magic = kMagic;
-    std::uint64_t trainSize = 0;  // another build may hold another number
+    std::uint64_t trainSize = 0;  // differs if another build stored other trains
     std::array<char, 48> boot{};
     std::int64_t quietUntil_ns = 0;  // since boot
-    std::int64_t wall_s = 0;         // when it was opened
+    std::int64_t wall_s = 0;         // wall-clock time when it was opened
     std::int64_t process = 0;
-    std::uint64_t id = 0;  // a random number for this record: a claim names it
+    std::uint64_t id = 0;  // a random number for this record, stored in its claim
 };
 
-/// Times since boot.
+/// A booked train; times since boot.
 struct Train {
     std::uint64_t sequence = 0;  // 0: none
     std::int64_t earliest_ns = 0, latest_ns = 0, wall_s = 0;
     double hz = 0;
-    std::array<TrainSums, 4> sums{};  // sums of the load range in 1 s and 5 s, then of 500 ohm in 1 s and 5 s
+    std::array<TrainSums, 4> sums{};  // load range in 1 s and 5 s, then 500 ohm in 1 s and 5 s
     std::array<double, 2> left_V{};
     std::array<std::int64_t, 2> leftAt_ns{};
 };
 
-/// Whether all bits are 0, as in a new file.
+/// True if all bits are 0, as in a new file.
 bool isEmpty(const Checked<Train>& train) {
     static const std::array<std::byte, sizeof train> kZeros{};
     const auto bytes = std::as_bytes(std::span(&train, 1));
@@ -67,11 +67,11 @@ std::string fileNameOf(std::string_view unit) {
         const bool plain = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '-';
         name += plain ? c : '_';
     }
-    // Two units may differ in what a file name cannot hold.
+    // The checksum separates units whose names differ only in characters that a file name cannot hold.
     return fmt::format("{}-{:08x}.unit", name.substr(0, 80), checksumOf(unit.data(), unit.size()) & 0xffffffff);
 }
 
-/// The process that has the record, where it says so.
+/// Returns the process that holds the record, if the record names it.
 std::string holderOf(const std::filesystem::path& path) {
     Checked<Head> head;
     std::ifstream in(path, std::ios::binary);
@@ -130,7 +130,7 @@ UnitRecord::UnitRecord(LockedFile&& file, std::unique_ptr<UnitClaim> claim, cons
       clock_(clock),
       time_(time),
       quietUntil_(clock.now()) {
-    if (!file_.whole()) map_.head.sum = map_.fault.sum = 0;  // a missing record is not an empty one
+    if (!file_.whole()) map_.head.sum = map_.fault.sum = 0;  // invalid: a missing record is not an empty one
     if (file_.made()) {
         map_.head.write({.trainSize = sizeof(Train)});
         map_.fault.write({});
@@ -142,14 +142,14 @@ UnitRecord::~UnitRecord() = default;
 
 Instant UnitRecord::onClock(Instant sinceBoot) const noexcept { return clock_.now() + (sinceBoot - time_.sinceBoot()); }
 
-/// Decides whether what stands in the record is believed, and makes it this process's.
+/// Decides whether the content of the record is trusted, and takes the record over for this process.
 void UnitRecord::takeOver() {
     const Instant boot = time_.sinceBoot();
     const auto wall = time_.wall().time_since_epoch().count();
     const std::string bootId = time_.boot();
     const Checked<Head> before = map_.head;
     std::string_view why;
-    bool keep = false;  // the trains are of this start of the computer
+    bool keep = false;  // true if the trains are from this start of the computer
     if (!before.sound() || before.content.magic != kMagic || before.content.trainSize != sizeof(Train)) {
         why = "its record is damaged or of another version";
     } else {
@@ -178,19 +178,19 @@ void UnitRecord::takeOver() {
             why = "its record is from before the computer was started, and the wall clock does not say how long ago";
         }
     }
-    // A new name each time: a copy of the record, of a restored home say, is another one from here on.
+    // A new id each time: a copy of the record (from a backup, for example) is from now on a different record.
     Head head{.trainSize = sizeof(Train), .wall_s = wall, .process = ::getpid(), .id = newId()};
     copyText(head.boot, bootId);
     head.quietUntil_ns = !why.empty() ? (boot + kRest).count() : keep ? before.content.quietUntil_ns : 0;
     if (!why.empty() || !keep) {
-        // The record does not check until the new head is there.
+        // The checksum stays wrong until the new head is written.
         std::atomic_ref(map_.head.sum).store(0);
         for (auto& train : map_.trains) train = {};
         next_ = 1;
     }
     const bool faultElsewhere = claim_ && claim_->faulted();
     if (!map_.fault.sound() || (faultElsewhere && map_.fault.content.causes == 0)) {
-        // Counts as a fault of the device: a reset asks it again, and arming begins with a check pulse.
+        // Treated as a fault of the device: a reset checks the device, and arming begins with a check pulse.
         Fault unknown{.causes = 1U << static_cast<unsigned>(FaultCause::DeviceFault), .wall_s = wall};
         copyText(unknown.reason,
                  map_.fault.sound()
@@ -199,7 +199,7 @@ void UnitRecord::takeOver() {
         map_.fault.write(unknown);
     }
     map_.head.write(head);
-    // Last: until then the claim names what this record does not know.
+    // Done last: until then the claim names another record, so this one would not be trusted.
     if (claim_) claim_->take(head.id, map_.fault.content.causes != 0);
     if (Instant(head.quietUntil_ns) > boot) {
         why_ = why.empty() ? "a program before this one did not know it either" : why;
@@ -212,13 +212,13 @@ ResidualVoltages UnitRecord::replay(ExposureMeter& meter) const noexcept {
     const Instant window = toInstant(ExposureMeter::kLongestWindow * kLongestStretch);
     ResidualVoltages left;
     if (next_ == 1) return left;
-    // Read in the order in which they were booked; whatever is overwritten is older than any window.
+    // Read in the order of booking; overwritten trains are older than any window.
     const std::uint64_t oldest = next_ > kTrains ? next_ - kTrains : 1;
     for (std::uint64_t sequence = oldest; sequence < next_; ++sequence) {
         const Train& train = map_.trains[sequence % kTrains].content;
         if (train.sequence != sequence) continue;
         for (std::size_t k = 0; k < left.size(); ++k)
-            left[k] = {train.left_V[k], onClock(Instant(train.leftAt_ns[k]))};  // The newest counts
+            left[k] = {train.left_V[k], onClock(Instant(train.leftAt_ns[k]))};  // the newest stays
         if (Instant(train.latest_ns) + window <= boot) continue;
         BookedTrain booked;
         booked.earliest = onClock(Instant(train.earliest_ns));
@@ -234,7 +234,7 @@ ResidualVoltages UnitRecord::replay(ExposureMeter& meter) const noexcept {
 }
 
 void UnitRecord::book(const BookedTrain& booked, const ResidualVoltages& left) noexcept {
-    // Taken again each time: the clock stands still while the computer sleeps.
+    // Computed each time, because the clock stands still while the computer sleeps.
     const Instant offset = time_.sinceBoot() - clock_.now();
     Train train;
     train.sequence = next_;
@@ -260,7 +260,7 @@ std::optional<UnitFault> UnitRecord::fault() const noexcept {
 
 void UnitRecord::keepFault(FaultCause cause, std::string_view reason) noexcept {
     Fault newer = map_.fault.content;
-    // The first reason is kept, as by the interlock; further causes add up.
+    // Keep the first reason, as the interlock does; add further causes.
     if (newer.causes == 0) {
         newer.wall_s = time_.wall().time_since_epoch().count();
         copyText(newer.reason, reason);
