@@ -2,9 +2,9 @@
 //
 // The lines are chained (ChainedLines.h). A newer calibration of a serial supersedes the older one, which is kept.
 //
-// A calibration counts for one serial and one kind of source, until a date at most a year later, and only with its
-// provenance: the session that holds its readings, and the stated accuracy of the instrument that took them. What is
-// missing, expired, damaged or without provenance is *not calibrated*, never "assumed good" (hazards H1 and H9).
+// A calibration holds for one serial and one kind of source, until a date at most a year later, and only with its
+// provenance: the session with its readings, and the stated accuracy of their instrument. If this is missing, expired
+// or damaged, the stimulator is *not calibrated*, never "assumed good" (hazards H1 and H9).
 //
 // Thread-safety: none; one owner. add() locks the file against other processes.
 #pragma once
