@@ -48,8 +48,8 @@ struct BenchConfig {
     bool rehearsal = false;
     SessionWriter* session = nullptr;  ///< not owned; if null, nothing is recorded
     BenchTap* tap = nullptr;           ///< not owned; if null, nothing is shown
-    /// The last known calibration of the stimulator. The gate always uses it and does not arm a stimulator that is out
-    /// of order by it.
+    /// The last known calibration of the stimulator. The gate always uses it; if it shows that the stimulator is out of
+    /// order, the stimulator is not armed.
     KnownLines calibration;
     bool calibrationHolds = true;  ///< applied to every train; if false, commands go out uncorrected, and to no person
     std::string calibrationText;   ///< the session's note on the calibration, or on having none; empty: no note
@@ -71,9 +71,9 @@ struct BenchConfig {
 
 /// The operator's statements when arming.
 struct ArmRequest {
-    std::string load = "1 kohm";         ///< declared load, as parseLoad() reads it (bench loads)
+    std::string load = "1 kohm";         ///< the declared load, in the form that parseLoad() reads (bench loads)
     bool declaredLoadConfirmed = false;  ///< the operator's word, needed if the device cannot read back
-    bool operatorConfirmed = false;      ///< deliberate: not a default button, not a key that repeats
+    bool operatorConfirmed = false;      ///< a deliberate act: not a default button or a repeating key
     /// The text that the operator was shown and confirmed: armingText() of the load. Required for real output; may be
     /// empty for simulated output.
     std::string confirmed{};
@@ -90,7 +90,7 @@ public:
     /// Errors: as the profile and the devices; Device if another process drives the stimulator; Io if the stimulator's
     /// record cannot be kept or the session cannot be written.
     [[nodiscard]] static Result<std::unique_ptr<Bench>> create(BenchConfig config);
-    ~Bench();  ///< outputs off, threads joined
+    ~Bench();  ///< switches outputs off and ends the threads
 
     /// Starts the order to which all later calls belong; the operator gave it at `asked`, a mark of stops().
     /// Errors: Stopped if a stop has come since `asked`; the bench then keeps its earlier order.
@@ -109,7 +109,7 @@ public:
     [[nodiscard]] std::string armingText(const Load& load) const;
     /// True if arm() would arm a real device; arm() then refuses a request without the confirmed text.
     [[nodiscard]] bool outputIsReal() const noexcept;
-    /// Ends output and goes to Disarmed (a fault stays). Never fails.
+    /// Ends output and goes to Disarmed; a fault stays. Never fails.
     void disarm() noexcept;
     /// Switches output off, voids every approval and disarms. Waiting calls return Stopped until begin() names an
     /// order given after this stop. Bypasses every queue.
@@ -120,12 +120,12 @@ public:
     /// the disk. False if nothing is recorded.
     [[nodiscard]] bool markMoment(Instant at, std::string word);
     /// Leaves Faulted. Searches again, by identity, for a device that was unplugged, which may take two seconds.
-    /// Errors: NotArmed while the cause persists.
+    /// Errors: NotArmed while the cause of the fault persists.
     [[nodiscard]] Result<void> resetFault();
 
     /// True if `cause` is one of the causes of the present fault.
     [[nodiscard]] bool faultPersists(FaultCause cause) const noexcept;
-    /// The same as Interlock::faultCode(). Any thread.
+    /// See Interlock::faultCode(). Any thread.
     [[nodiscard]] ErrorCode faultCode() const noexcept;
 
     /// Deliberately lets `duration` pass without the control loop, as in a hang: the dead-man check of a bench load
@@ -134,7 +134,7 @@ public:
     [[nodiscard]] Result<void> withholdHeartbeat(Seconds duration);
     /// Returns how long the loop had been silent when that switched the stimulator off; nothing if it never did.
     [[nodiscard]] std::optional<Seconds> silencedAfter() const noexcept;
-    /// Records of the session that were lost because the disk was too slow. Any thread.
+    /// Number of session records lost because the disk was too slow. Any thread.
     [[nodiscard]] std::uint64_t recordsLost() const noexcept;
 
     /// Tells the control loop that the script or window that ordered the output still runs. Without a further call
@@ -174,12 +174,12 @@ public:
     /// the cap. Errors: NotArmed outside person mode, and before the first arming.
     [[nodiscard]] Result<StimulusLevel> levelCeiling();
     /// Returns the highest level on the device's grid that the limits, the cap and the discomfort limit permit at
-    /// `interval` and the last measured impedance, whatever was accepted; and what forbids the next level. Errors:
-    /// NotArmed outside person mode, and if no impedance is known.
+    /// `interval` and the last measured impedance, regardless of accepted levels, and what forbids the next level.
+    /// Errors: NotArmed outside person mode, and if no impedance is known.
     [[nodiscard]] Result<PermittedLevel> levelLimit(Seconds interval) const;
 
-    /// Replaces the profile at the next step of the loop. While armed only its `roughness` section may change.
-    /// Errors: NotArmed for another change while armed; InvalidArgument for a profile that is not valid.
+    /// Replaces the profile at the next step of the loop. While armed, only its `roughness` section may change.
+    /// Errors: NotArmed for any other change while armed; InvalidArgument for a profile that is not valid.
     /// `before`: the purpose for which R was shown until now (see RBefore).
     [[nodiscard]] Result<void> setProfile(const Profile& profile, RBefore before = RBefore::Shown);
     /// The calibration that is applied now.
@@ -200,7 +200,7 @@ public:
     /// Never fails. For a bench on a virtual clock that nothing else moves.
     void idle(Seconds duration) noexcept;
     /// Arms the oscilloscope and returns the captures of the next `trains` trains. Errors: Unsupported without an
-    /// oscilloscope; Timeout when fewer came; as wait().
+    /// oscilloscope; Timeout if fewer captures came; as wait().
     [[nodiscard]] Result<std::vector<Capture>> capture(int trains, const ScopeSettings& settings);
     /// Like capture(), but returns at once; takeCaptures() then fetches the records of the next `trains` triggers. A
     /// new request replaces a pending one. With `untriggeredAfter`, a record is taken untriggered (and marked so)
@@ -217,13 +217,13 @@ public:
     /// Also pushes the sensor's samples into `tap` (not owned) until null is passed; for a caller that takes them
     /// between waits. On return nothing is pushed into the earlier tap.
     void listen(BenchTap* tap);
-    /// True when a replayed sensor has no more samples.
+    /// True if a replayed sensor has no more samples.
     [[nodiscard]] bool sensorFinished() const noexcept;
 
     /// The largest exposure since begin(), row by row. Any thread.
     [[nodiscard]] WorstExposure worstExposure() const noexcept;
     [[nodiscard]] Telemetry telemetry() const;
-    /// Faults since the bench was made. Any thread.
+    /// Number of faults since the bench was made. Any thread.
     [[nodiscard]] std::uint64_t faults() const noexcept;
     /// Returns that device's own report; nothing if there is no such device or it reports nothing. Any thread.
     [[nodiscard]] std::optional<DeviceReport> deviceReport(Role role) const noexcept;

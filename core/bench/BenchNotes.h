@@ -34,8 +34,8 @@ public:
     /// Notes a level that a participant accepted or called too strong (`kind`, see above), and the ceiling after it.
     /// Errors: as profile().
     [[nodiscard]] Result<void> level(const char* kind, const StimulusLevel& level, const StimulusLevel& ceiling) const;
-    /// Called last of all, because counts grow until the end. A session without this event has no known marks.
-    /// `calibrated`: whether the stimulator is calibrated; nothing without a stimulator.
+    /// Called last of all, because the flags' counts grow until the end. Without this event, a session's marks are
+    /// unknown. `calibrated`: whether the stimulator is calibrated; nothing without a stimulator.
     void marks(const RoughnessFlags& flags, std::optional<bool> calibrated, const Profile& profile) const noexcept;
 
 private:

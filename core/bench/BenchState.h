@@ -39,9 +39,9 @@ struct Bench::State {
     /// If the unit's earlier deliveries are not known, waits until the unit has rested. Errors: as health().
     [[nodiscard]] Result<void> rest();
     /// Leaves Faulted. Each cause is checked again, here or before anything else can be delivered:
-    ///   device lost, device fault, status missing   the device is asked, and must answer and deliver nothing
-    ///   stale sensor, a failed sensor               the sensor is asked
-    ///   loop silent                                 the loop must take its steps again
+    ///   device lost, device fault, status missing   the device must answer and deliver nothing
+    ///   stale sensor, a failed sensor               the sensor must answer
+    ///   loop silent                                 the loop must step again
     ///   open, short, net charge, limit broken       the check pulse with which arming begins shows it, see
     ///                                               ControlLoop::judgeCheck();
     ///                                               a source that does not read back arms on the operator's word
@@ -76,7 +76,7 @@ struct Bench::State {
 
     StandingOrder order;
     std::atomic<DriveSource> driving{DriveSource::Off};
-    std::uint64_t refusalsSeen = 0;  // refusals that the caller of drive(), wait() and capture() has seen
+    std::uint64_t refusalsSeen = 0;  // refusals already shown to the caller of drive(), wait() and capture()
 
     BenchTime time{*config.clock, output, order};  // last, so that its threads end first
     BenchLevels levels{config, output, calibration, terms, notes, gate, time, loop};

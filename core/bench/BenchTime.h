@@ -21,14 +21,14 @@
 
 namespace tacto {
 
-// Runs one device's step code on a thread of its own (steady clock only).
+// Runs the step code of one device on its own thread (steady clock only).
 //
 // The step returns the time of its next run; wake() makes it run at once. On the virtual clock the bench calls the same
 // steps itself, and no DeviceThread exists.
 
 class DeviceThread {
 public:
-    /// `step` gets the time and returns its next due time. It must not throw.
+    /// `step` receives the time and returns the time of its next call. It must not throw.
     DeviceThread(const Clock& clock, std::function<Instant(Instant)> step);
     ~DeviceThread();
     DeviceThread(const DeviceThread&) = delete;
@@ -45,12 +45,12 @@ private:
     std::condition_variable changed_;
     bool woken_ = false;     // guarded by mutex_
     bool quitting_ = false;  // guarded by mutex_
-    std::thread thread_;     // Last: starts when all else is ready
+    std::thread thread_;     // last, because it starts when all else is ready
 };
 
 class BenchTime {
 public:
-    /// All arguments outlive this.
+    /// All arguments outlive this object.
     BenchTime(Clock& clock, BenchOutput& output, StandingOrder& order) noexcept
         : clock_(clock), virtual_(dynamic_cast<VirtualClock*>(&clock)), output_(output), order_(order) {}
 

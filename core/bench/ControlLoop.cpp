@@ -248,7 +248,7 @@ void ControlLoop::judgeBurst(const TrainReport& report) noexcept {
     rests_.burst(report.onset, report.end);
 }
 
-/// While the fingertip drives, it is not watched: what it feels begins and ends with the bursts.
+/// Does nothing while the fingertip drives: the motion that it feels then begins and ends with the bursts.
 void ControlLoop::watchMassager(Instant now) noexcept {
     const auto* finger = finger_.input();
     if (parts_.massager == nullptr || finger == nullptr) return;
@@ -330,7 +330,7 @@ void ControlLoop::goOnPresenting(Instant now) noexcept {
         {now, parts_.interlock.state(), reason.view(), order_.stopped(), paused, dispatch_.idle(), reading_.until()});
     if (due == PresentationRun::Due::Check) return renewReading(now);
     // Also done before an empty presentation: what the bench shows must not reveal which presentations are empty.
-    if (!presentation_.begun() || !dispatch_.beginDelivery()) return;  // the next turn finds out why
+    if (!presentation_.begun() || !dispatch_.beginDelivery()) return;  // the next turn finds the reason
     if (due != PresentationRun::Due::Train) return;
     if (const auto sent = dispatch_.sendPresented(presentation_, *planner_, now, shown_); !sent)
         refused(now, sent.error().message);
@@ -351,7 +351,7 @@ void ControlLoop::trip(FaultCause cause, std::string_view reason, Instant now) n
 void ControlLoop::trip(FaultCause cause, std::string_view reason, Instant now, ErrorCode code) noexcept {
     parts_.gate.latchStop();
     dispatch_.forceOff();
-    parts_.interlock.fault(cause, reason, code);  // saves the fault in a file; the disk may be slow, so this comes last
+    parts_.interlock.fault(cause, reason, code);  // after switching off, because this saves to a disk that may be slow
     faults_.fetch_add(1, std::memory_order_acq_rel);
     journal_.fault(now, reason);
     noteState(now);

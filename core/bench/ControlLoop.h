@@ -66,7 +66,7 @@ public:
     /// returns nothing until the end, then the result, once.
     void present(Presentation presentation);
     [[nodiscard]] std::optional<Presented> presented() { return presentation_.result(); }
-    /// As PresentationRun::beganAt().
+    /// See PresentationRun::beganAt().
     [[nodiscard]] std::optional<Instant> presentationBegan() { return presentation_.beganAt(); }
     /// The queue for the participant's statements about levels.
     [[nodiscard]] LevelRequests& levels() noexcept { return levels_; }
@@ -96,7 +96,7 @@ public:
     void noteState(Instant now) noexcept;
 
     [[nodiscard]] Telemetry telemetry() const noexcept;
-    /// Trains refused so far. Any thread.
+    /// Number of trains refused so far. Any thread.
     [[nodiscard]] std::uint64_t refusals() const noexcept { return refusals_.load(std::memory_order_acquire); }
     /// Confirms that the owner of the output (a script, a window) looks after it until `until`. Later, driven output
     /// ends as by a stop: its owner may hang while the loop runs on (hazard H2). Any thread; does not block.
@@ -110,7 +110,7 @@ public:
     [[nodiscard]] WorstExposure worstExposure() const noexcept { return exposure_.worst(); }
     /// See Telemetry::flags; for the profile that was set last. For use when no step runs any more.
     [[nodiscard]] RoughnessFlags flags() noexcept;
-    /// Faults so far. Any thread.
+    /// Number of faults so far. Any thread.
     [[nodiscard]] std::uint64_t faults() const noexcept { return faults_.load(std::memory_order_acquire); }
 
 private:

@@ -20,8 +20,8 @@ namespace tacto {
 
 /// What R was used for before the next profile takes over.
 enum class RBefore {
-    Shown,     ///< allowed: the session is marked as not calibrated
-    Measuring  ///< allowed only for measuring the references and scales of the new profile
+    Shown,     ///< R was shown: allowed, but the session is marked as not calibrated
+    Measuring  ///< R was not shown: only references and scales for the new profile were measured
 };
 
 struct NextFinger {

@@ -31,7 +31,7 @@ public:
     /// Returns how long the disk has stood still; 0 without a recorder.
     [[nodiscard]] std::chrono::nanoseconds standsStillFor() const noexcept;
 
-    /// The samples and frames of the finger's last update.
+    /// Writes the samples and frames of the finger's last update.
     void finger(const FingerInput& finger) noexcept;
     void sensorLost(Instant at, const DeviceReport& report) noexcept;
     void sensorStale(Instant at, double age_s) noexcept;

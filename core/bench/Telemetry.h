@@ -80,15 +80,15 @@ struct StepTelemetry {
     std::uint64_t contactFrames = 0;  ///< number of frames with the spatial feature
     double sumV = 0;
 
-    double amplitude_v = NAN;  ///< command A of the encoder
-    double interval_s = NAN;   ///< command T of the encoder
+    double amplitude_v = NAN;  ///< the encoder's commanded voltage A
+    double interval_s = NAN;   ///< the encoder's commanded interval T
     double intensity = NAN;    ///< intensity of the last burst, 0 to 1; only with a massager
-    double nextTrain_s = NAN;  ///< due time; NaN when none is pending
+    double nextTrain_s = NAN;  ///< time of the next train; NaN if none is pending
 
     double impedance_ohm = NAN;  ///< last measured |Z|
     double impedanceAge_s = NAN;
     double imbalance = NAN;             ///< |net charge| / phase charge of the last pulse
-    double imbalanceUncertainty = NAN;  ///< its uncertainty, 95 %
+    double imbalanceUncertainty = NAN;  ///< uncertainty of the imbalance, 95 %
 
     bool uncalibratedStimulator = false;  ///< true if a stimulator is open that no valid calibration covers
     double trainAmplitude = NAN;          ///< programmed amplitude of the last train, V or mA depending on its drive

@@ -52,7 +52,7 @@ Result<void> CalibrationStore::add(const StoredCalibration& calibration) {
         return invalid("calibration of {}: no {}; all four quantities were expected", calibration.serial, time.words);
     }
     const auto added = lines_.append([&]() -> Result<nlohmann::json> {
-        if (auto done = read(); !done) return failure(done);  // another process may have added a line since
+        if (auto done = read(); !done) return failure(done);  // another process may have added a line meanwhile
         return nlohmann::json{{"calibration", toJson(calibration)}};
     });
     if (added) all_.push_back(calibration);

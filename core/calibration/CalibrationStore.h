@@ -58,15 +58,15 @@ struct StoredLine : CalibrationLine {
 };
 
 struct StoredCalibration {
-    std::string serial;  ///< the stimulator's; not empty
-    std::string device;  ///< its name
+    std::string serial;  ///< the stimulator's serial number; not empty
+    std::string device;  ///< the stimulator's name
     std::string unit;    ///< "V" or "mA", depending on the source; also the unit of the amplitude's line
     StoredLine amplitude;
     std::optional<StoredLine> interval, phaseWidth, gap;  ///< s; if one is missing, the calibration never holds
     CalibrationDate made{};
     CalibrationDate validUntil{};  ///< the last day on which the calibration holds
     bool simulated = false;        ///< true if the device, or an instrument that measured it, was simulated
-    std::string session;           ///< file name of the session that holds the readings
+    std::string session;           ///< file name of the session with the readings
     std::string sessionHead;       ///< head of the session's hash chain when this was stored: 64 hexadecimal digits
     std::size_t readings = 0;      ///< number of readings in that session from which the lines were computed
     std::vector<CalibrationInstrument> instruments;
@@ -119,7 +119,7 @@ private:
 
 // One calibration as the store writes it to the file.
 
-/// Errors of check(): InvalidArgument naming the value and what is accepted.
+/// Errors: InvalidArgument naming the value and what is accepted.
 [[nodiscard]] Result<void> check(const StoredCalibration& calibration);
 [[nodiscard]] nlohmann::json toJson(const StoredCalibration& calibration);
 /// Errors: ParseError naming the key; as check().

@@ -30,12 +30,12 @@ inline constexpr std::size_t kDetailLimit = 200;
 
 struct CertificateDetail {
     std::string_view key;    ///< the key in files
-    std::string_view title;  ///< its title on the certificate
+    std::string_view title;  ///< the title on the certificate
     std::string CertificateDetails::*member;
     bool ofLaboratory = false;  ///< true if entered once for all orders
     bool isDate = false;        ///< true for a date such as "2026-11-21"
 };
-/// The details in the order of a certificate.
+/// The details in the order of the certificate.
 inline constexpr std::array<CertificateDetail, 14> kCertificateDetails{
     {{"laboratory", "Laboratory", &CertificateDetails::laboratory, true},
      {"address", "Address", &CertificateDetails::address, true},

@@ -32,7 +32,7 @@ struct Certificate {
     std::string instrument;  ///< maker and model; not empty
     std::string serial;      ///< the instrument's serial number; never empty, so that two of a kind differ
     std::string number;      ///< the certificate's number; not empty
-    std::string by;          ///< the laboratory; not empty
+    std::string by;          ///< name of the laboratory; not empty
     CalibrationDate date{};
     CalibrationDate due{};  ///< the last day on which the certificate is used; not before `date`
     /// U of the vertical gain, in % of the reading; also applies to currents, read through the same input. Required.

@@ -155,7 +155,7 @@ Result<void> LoadSafetyStore::add(const LoadSafetyCheck& check) {
     if (auto whole = checkWhole(check); !whole) return whole;
     if (auto sound = checkFields().check(check, RecordPlace{}); !sound) return sound;
     const auto added = lines_.append([&]() -> Result<nlohmann::json> {
-        if (auto done = read(); !done) return failure(done);  // another process may have added a line since
+        if (auto done = read(); !done) return failure(done);  // another process may have added a line meanwhile
         return nlohmann::json{{"check", checkFields().write(check)}};
     });
     if (added) all_.push_back(check);

@@ -30,8 +30,8 @@ enum class CheckVerdict { Begun, Pass, Fail, Indeterminate, Stopped, None };
 
 /// A limit set, identified by its content.
 struct LimitSetHash {
-    std::string id;      ///< "paper"
-    std::string sha256;  ///< digest of the limit file's bytes
+    std::string id;      ///< id of the limit set: "paper"
+    std::string sha256;  ///< digest of the limit file
     bool operator==(const LimitSetHash&) const = default;
 };
 
@@ -56,8 +56,8 @@ struct CheckTolerances {
 [[nodiscard]] std::string widerThan(const CheckTolerances& allowed, const CheckTolerances& widest);
 
 struct LoadSafetyCheck {
-    std::string serial;  ///< serial number of the stimulator's output, as calibratedOutput() names it; not empty
-    std::string device;  ///< its name
+    std::string serial;  ///< serial number of the stimulator's output, as from calibratedOutput(); not empty
+    std::string device;  ///< the stimulator's name
     CalibrationDate made{};
     CheckVerdict verdict = CheckVerdict::Begun;
     bool simulated = false;                 ///< true if any device was simulated, replayed or emulated
@@ -65,8 +65,8 @@ struct LoadSafetyCheck {
     TrainReach reach;
     CheckTolerances tolerances;
     std::vector<LimitSetHash> limits;
-    std::string scriptSha256;  ///< digest of the protocol's bytes
-    std::string session;       ///< file name of the session that holds the evidence
+    std::string scriptSha256;  ///< digest of the protocol file
+    std::string session;       ///< file name of the session with the evidence
     std::string sessionHead;   ///< head of the session's hash chain at the end; empty before
     bool operator==(const LoadSafetyCheck&) const = default;
 };

@@ -67,7 +67,7 @@ public:
 /// The texts must be literals, because they are kept as pointers.
 struct ReportRow {
     const char* key = "";   ///< the key in sessions and JSON, with its unit: "drift_ppm"
-    const char* name = "";  ///< the name that people read: "clock drift"
+    const char* name = "";  ///< the name for people: "clock drift"
     double value = 0;       ///< NaN: unknown
     const char* unit = "";  ///< the unit shown to people; empty for a count
 };

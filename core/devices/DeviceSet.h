@@ -25,8 +25,8 @@ struct DeviceSet {
     InstrumentStatement scopeStatement;  ///< accuracy of the oscilloscope, in addition to what captures state
     /// The keys of the oscilloscope's address that stated the accuracy; identities() adds them to the address again.
     std::vector<std::pair<std::string, std::string>> scopeKeys;
-    std::shared_ptr<SurfacePresenter> surface;    ///< null: the operator presents surfaces
-    std::shared_ptr<LoadFitter> load;             ///< null: the operator fits loads
+    std::shared_ptr<SurfacePresenter> surface;    ///< null: the operator presents the surfaces
+    std::shared_ptr<LoadFitter> load;             ///< null: the operator connects the loads
     std::shared_ptr<VoltageReference> reference;  ///< null: the operator connects a reference source
 
     [[nodiscard]] bool has(Role role) const noexcept;

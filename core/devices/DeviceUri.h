@@ -1,7 +1,7 @@
 // DeviceUri.h - the address of a device on a command line: scheme:path?key=value&key=value
 //
 //   sim:                                                  simulates every role that is still needed
-//   sim:stimulator?mode=current&gain=1.02&fault=open@12s  one simulated device and its flaws
+//   sim:stimulator?mode=current&gain=1.02&fault=open@12s  one simulated device with its flaws
 //   recording:../data/mat1_1                              a recording replayed as a fingertip
 #pragma once
 
@@ -56,7 +56,7 @@ struct DeviceUri {
 
 class UriParameters {
 public:
-    /// `uri` must outlive this.
+    /// `uri` must outlive this object.
     explicit UriParameters(const DeviceUri& uri) : uri_(uri) {}
 
     /// Reads a number with an optional engineering prefix and `unit` ("500ohm", "2ms", "0.5"), from `low` to `high`.

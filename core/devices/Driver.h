@@ -20,7 +20,7 @@ inline constexpr const char* kDefaultLoad = "1 kohm";
 
 /// What a driver may know of the run for which it opens devices.
 struct OpenContext {
-    const Clock& clock;  ///< outlives the devices
+    const Clock& clock;  ///< the clock outlives the devices
     std::uint64_t seed = 1;
     std::string declaredLoad =
         kDefaultLoad;  ///< the load stated by the operator; the simulated load unless `load=` is given

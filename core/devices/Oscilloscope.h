@@ -14,7 +14,7 @@ namespace tacto {
 
 struct ScopeSettings {
     Hertz sampleRate{2e6};
-    std::size_t samples = 20'000;   ///< per channel and capture
+    std::size_t samples = 20'000;   ///< number of samples per channel and capture
     double preTrigger = 0.1;        ///< part of the record that lies before the trigger, 0..1
     bool triggerOnCurrent = false;  ///< false: triggers on the voltage channel
     double triggerLevel = 0.5;      ///< V or A; triggers when |signal| rises through this level
@@ -32,7 +32,7 @@ struct ScopeTraits {
 class Oscilloscope : public Device {
 public:
     [[nodiscard]] virtual const ScopeTraits& traits() const noexcept = 0;
-    /// Applies settings; takes effect at the next arm(). Errors: InvalidArgument naming the setting and its range.
+    /// Sets the settings for the next arm(). Errors: InvalidArgument naming the setting and its range.
     [[nodiscard]] virtual Result<void> configure(const ScopeSettings& settings) = 0;
     /// Waits for triggers from now on; each trigger makes a capture until disarm().
     [[nodiscard]] virtual Result<void> arm() = 0;

@@ -33,8 +33,8 @@ class Stimulator : public Device {
 public:
     [[nodiscard]] virtual const SourceTraits& traits() const noexcept = 0;
 
-    /// Starts one train now; it ends by itself. Returns when the device has accepted it, without waiting for its end.
-    /// Consumes the approval in any case. Errors: Device (gone, garbage, refused), Timeout (no answer in 50 ms, or the
+    /// Starts one train now; it ends by itself. Returns once the device has accepted it, without waiting for its end.
+    /// Uses up the approval in any case. Errors: Device (gone, garbage, refused), Timeout (no answer in 50 ms, or the
     /// approval has expired). On error the caller calls forceOff().
     [[nodiscard]] virtual Result<void> deliver(ApprovedTrain&& train) = 0;
 
@@ -63,12 +63,12 @@ public:
 
 class Massager : public Device {
 public:
-    /// Starts one vibration burst now; it ends by itself. Consumes the approval in any case. Errors: Device, Timeout
-    /// (no answer in time, or the approval has expired). On error the caller calls forceOff().
+    /// Starts one vibration burst now; it ends by itself. Uses up the approval in any case. Errors: Device, Timeout (no
+    /// answer in time, or the approval has expired). On error the caller calls forceOff().
     [[nodiscard]] virtual Result<void> vibrate(ApprovedBurst&& burst) = 0;
     /// Returns the smallest step between two intensities (0 to 1) that the device can set; 0: any. Constant while open.
     [[nodiscard]] virtual double step() const noexcept = 0;
-    /// Sends the stop report. Never throws or allocates.
+    /// Sends the report that stops the motor. Never throws or allocates.
     virtual void forceOff() noexcept = 0;
 };
 

@@ -48,7 +48,7 @@ struct SegmentResponse {
     std::size_t count = 0;
     double endCapacitorVoltage = 0;
 
-    /// A view into this object: none of a temporary, which `for (… : respond(…).pieces())` would outlive.
+    /// A view into this object; deleted for a temporary, which `for (… : respond(…).pieces())` would outlive.
     [[nodiscard]] std::span<const ResponsePiece> pieces() const& noexcept { return {items.data(), count}; }
     std::span<const ResponsePiece> pieces() const&& = delete;
     /// Returns the voltage at `t_s` from the segment's start; outside the segment, the value at the nearer end.

@@ -51,7 +51,7 @@ public:
     void begin(Milliamps discomfortLimit, Milliamps rampStep, std::optional<Milliamps> cap = {}) noexcept;
     void resume(Milliamps discomfortLimit, Milliamps rampStep, std::optional<Milliamps> cap = {}) noexcept;
 
-    /// Errors: LimitExceeded naming the level, the ceiling and which rule set it.
+    /// Errors: LimitExceeded naming the level, the ceiling and the rule that set the ceiling.
     [[nodiscard]] Result<void> permits(const PulseTrain& train) const;
     /// Returns the highest current that a train of this kind may have now.
     [[nodiscard]] Milliamps ceilingFor(const PulseTrain& train) const noexcept;
@@ -77,7 +77,7 @@ public:
     using AcceptedScale::begin;
     using AcceptedScale::resume;
 
-    /// Errors: LimitExceeded naming the intensity, the ceiling and which rule set it.
+    /// Errors: LimitExceeded naming the intensity, the ceiling and the rule that set the ceiling.
     [[nodiscard]] Result<void> permits(double intensity) const;
     /// Returns the highest intensity that a burst may have now.
     [[nodiscard]] double ceiling() const noexcept;

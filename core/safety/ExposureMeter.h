@@ -18,7 +18,7 @@ namespace tacto {
 struct BookedTrain {
     Instant earliest{0};      ///< the approval: the train cannot start earlier
     Instant latest{0};        ///< end of the approval plus the train's duration: by then it has ended
-    double hz = 0;            ///< repetition frequency, for frequency bands
+    double hz = 0;            ///< repetition frequency, to find its frequency band
     TrainExposure overRange;  ///< worst case over the load range
     TrainExposure at500;
 };
@@ -52,7 +52,7 @@ public:
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
 
 private:
-    [[nodiscard]] const BookedTrain& entry(std::size_t age) const noexcept;  // 0 = oldest
+    [[nodiscard]] const BookedTrain& entry(std::size_t age) const noexcept;  // age 0 is the oldest
     std::vector<BookedTrain> ring_;
     std::size_t first_ = 0;
     std::size_t size_ = 0;

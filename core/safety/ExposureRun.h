@@ -38,7 +38,7 @@ struct Run {
     // begin within a part of one pulse and end in the same part of another.
     Sums pulse, cut;
     Sums cutTrain;             // the same as `cut` for whole trains, which may find the load in different states
-    TrainSums inDuration;      // the sums over n / rate
+    TrainSums inDuration;      // the sums over the n periods of the train, n / rate
     TrainSums whole;           // the sums including the rest until the next train
     double endOfTrain = 0;     // voltage of the capacitor after n / rate, V
     double endOfInterval = 0;  // its voltage when the next train begins, V

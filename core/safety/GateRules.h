@@ -21,7 +21,7 @@ inline constexpr Instant kApprovalLife = std::chrono::milliseconds(100);
 /// Rounding of decimal numbers in binary, too small for any device to notice.
 inline constexpr double kRounding = 1e-9;
 
-/// SetupRules.cpp. Errors: InvalidArgument naming what is missing or impossible.
+/// SetupRules.cpp. Errors: InvalidArgument naming the missing or impossible value.
 [[nodiscard]] Result<void> checkSetup(const GateSetup& setup);
 
 /// A requested train and the gate's state.

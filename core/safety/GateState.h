@@ -61,7 +61,7 @@ struct JudgedTrain {
     PulseTrain command;        // the wanted train, for the value shown next to the worst case
     Seconds interval{0};       // the interval as requested
     Range<Seconds> intervals;  // the range in which it may come out
-    double stretch = 1;        // as DeliveryBounds::stretch()
+    double stretch = 1;        // see DeliveryBounds::stretch()
     double carried_V = 0;      // the voltage that the train may find on the load
     TrainExposure overRange, at500;
     /// The frequency for selecting bands: the lowest possible.

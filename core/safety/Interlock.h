@@ -1,7 +1,7 @@
 // Interlock.h - decides whether output is permitted at all: the state machine of safety.md.
 //
 //   Disconnected → Disarmed → Checking → Armed → Delivering ⇄ Paused; Checking, Armed, Delivering and Paused →
-//   Disarmed; Faulted latches from anywhere and needs an explicit reset after its causes are gone.
+//   Disarmed; any state → Faulted, which stays until an explicit reset after its causes are gone.
 //
 // Two steps lead to Checking: requestArming() and confirmArming(). In Checking only the impedance check may be
 // delivered. A transition that is not listed is refused and changes nothing.
@@ -32,7 +32,7 @@ enum class FaultCause {
     ShortElectrode,
     NetCharge,
     StatusMissing,
-    LoopSilent,  ///< heartbeat lost
+    LoopSilent,  ///< the heartbeat was lost
     StaleSensor,
     LimitBroken,  ///< a measured value is above a limit
     Internal,     ///< an internal rule of the program is broken
@@ -47,7 +47,7 @@ inline constexpr int kFaultCauseCount = 11;
 struct ArmingEvidence {
     bool limitsLoaded = false;
     bool deviceIdentified = false;
-    bool operatorConfirmed = false;  ///< deliberate: not a default button, not a key that repeats
+    bool operatorConfirmed = false;  ///< a deliberate act: not a default button or a repeating key
     bool needsImpedance = true;      ///< false only for a massager
     bool readsBack = true;           ///< the device measures |Z| itself
     std::optional<Ohms> impedance;   ///< from the check pulse, or an oscilloscope reading
@@ -81,9 +81,9 @@ public:
     /// fault of the unit, the state becomes Faulted. Call once, after connect().
     void keepFaultsIn(UnitRecord& record) noexcept;
 
-    /// Disconnected → Disarmed: a device is open and identified. `note` tells the operator something before arming.
+    /// Disconnected → Disarmed: a device is open and identified. `note` is a text for the operator before arming.
     [[nodiscard]] Result<void> connect(std::string_view note = {});
-    /// Disarmed → Disconnected. A device lost in any other state is a fault.
+    /// Disarmed → Disconnected. The loss of a device in any other state is a fault.
     [[nodiscard]] Result<void> disconnect();
 
     /// Step one of two. Changes no state. Errors: NotArmed unless Disarmed.

@@ -24,7 +24,7 @@ namespace tacto {
 
 enum class Quantity {
     CommandVoltage,   ///< A of science.md section 4: amplitude of a voltage source, or I·|Z| at the nominal load (V)
-    PeakVoltage,      ///< across the load, capped by the source's compliance (V)
+    PeakVoltage,      ///< across the load, at most the source's compliance (V)
     PeakCurrent,      ///< (mA)
     PhaseCharge,      ///< the larger |charge| of either phase (µC)
     NetCharge,        ///< |charge| of one pulse, gap and tail included (µC)
@@ -58,12 +58,12 @@ using QuantityValues = std::array<double, kQuantityCount>;
 
 /// The load used to judge a row.
 enum class JudgedAt {
-    LoadRange,  ///< worst case between load_min and load_max
-    Ohm500,     ///< into 500 Ω, as the standards state their figures
+    LoadRange,  ///< worst case over the range from load_min to load_max
+    Ohm500,     ///< into 500 Ω, for which the standards give their values
 };
 
 enum class LimitAction {
-    Refuse,    ///< the gate refuses
+    Refuse,    ///< the gate refuses the train
     Warn,      ///< delivered, and shown as a warning (2 mA/cm²)
     Disclose,  ///< delivered; above this the output must be marked or stated (10 mA RMS)
 };
@@ -145,7 +145,7 @@ struct ExposureRow {
     bool strict = false;     ///< the limit is "<", not "≤"
     bool evaluated = false;  ///< false: shown as "not evaluated", and never a pass (H9)
     bool within = false;     ///< evaluated and within the limit (true without a limit)
-    FixedText<95> reason;    ///< why it was not evaluated, else empty
+    FixedText<95> reason;    ///< why it was not evaluated; otherwise empty
     double measured = kNaN;  ///< in `unit`: the value that an instrument measured; NaN: not measured
     bool beyond = false;     ///< true if the measured value is beyond the source's stated accuracy
 };

@@ -115,7 +115,7 @@ public:
     /// because its past is not known. Never reduces a value to fit.
     [[nodiscard]] Result<ApprovedTrain> approve(const TrainRequest& request);
 
-    /// Approves one impedance check pulse, at the device's smallest check amplitude, with the same checks as approve().
+    /// Approves one impedance check pulse at the device's smallest check amplitude, after the same checks as approve().
     [[nodiscard]] Result<ApprovedTrain> approveCheck(Instant onset);
 
     /// Errors: InvalidArgument outside 0..1 or not finite, or longer than 1 s; LimitExceeded for a person at

@@ -34,14 +34,14 @@ enum class TrainFinding {
 };
 [[nodiscard]] std::string_view nameOf(TrainFinding finding) noexcept;
 
-/// The live imbalance display: green < 1 %, amber < 10 %, red ≥ 10 %, grey when not evaluated.
+/// The live display of the imbalance: green < 1 %, amber < 10 %, red ≥ 10 %, grey if not evaluated.
 enum class ChargeBalance { NotEvaluated, Green, Amber, Red };
 [[nodiscard]] std::string_view nameOf(ChargeBalance balance) noexcept;
 
 struct TrainJudgement {
     TrainFinding finding = TrainFinding::Pending;
     ChargeBalance balance = ChargeBalance::NotEvaluated;
-    FixedText<159> reason;  ///< one sentence unless Ok or Pending
+    FixedText<159> reason;  ///< one sentence; empty if Ok or Pending
     /// True if output must go off now.
     [[nodiscard]] bool stops() const noexcept {
         return finding != TrainFinding::Ok && finding != TrainFinding::Pending;

@@ -41,8 +41,8 @@ struct TrainExposure {
 
 /// Trains that differ only in phase width, inter-phase gap and rate: what one programmed train may deliver.
 struct TrainRange {
-    PulseTrain sparsest;  ///< all three at their smallest
-    PulseTrain densest;   ///< all three at their largest
+    PulseTrain sparsest;  ///< all three values at their smallest
+    PulseTrain densest;   ///< all three values at their largest
 };
 
 /// The state in which a train finds the load: up to this |voltage|, of either sign, on its capacitor from earlier
@@ -51,11 +51,11 @@ struct Carried {
     double voltage_V = 0;
 };
 
-/// One train per `interval` into `load`, windows at their worst position: exact into a resistor, but that a pulse which
-/// the window's edge parts counts as if its phases followed each other; into a load with a capacitor an upper bound, in
-/// which such a pulse counts whole. `train` must be valid (validate()) and interval ≥ its duration; otherwise
-/// the figures are NaN, which no limit lets pass. `area` in cm², NaN when unknown. CommandVoltage is taken at this
-/// load.
+/// Returns the exposure to one train per `interval` into `load`, with windows at their worst position. It is exact for
+/// a resistor, except that a pulse at a window's edge is treated as if it had no gap. It is an upper bound for a load
+/// with
+/// a capacitor: such a pulse is included whole. `train` must be valid (validate()) and interval ≥ its duration, or all
+/// values are NaN, which no limit permits. `area` in cm², NaN if unknown. CommandVoltage is calculated at this load.
 [[nodiscard]] TrainExposure exposureOf(const PulseTrain& train, Seconds interval, const Load& load,
                                        const SourceTraits& source, double area_cm2, Carried carried = {}) noexcept;
 

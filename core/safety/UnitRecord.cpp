@@ -32,7 +32,7 @@ struct Head {
     std::uint64_t magic = kMagic;
     std::uint64_t trainSize = 0;  // differs if another build stored other trains
     std::array<char, 48> boot{};
-    std::int64_t quietUntil_ns = 0;  // since boot
+    std::int64_t quietUntil_ns = 0;  // time since boot
     std::int64_t wall_s = 0;         // wall-clock time when it was opened
     std::int64_t process = 0;
     std::uint64_t id = 0;  // a random number for this record, stored in its claim
@@ -40,7 +40,7 @@ struct Head {
 
 /// A booked train; times since boot.
 struct Train {
-    std::uint64_t sequence = 0;  // 0: none
+    std::uint64_t sequence = 0;  // 0: no train is stored here
     std::int64_t earliest_ns = 0, latest_ns = 0, wall_s = 0;
     double hz = 0;
     std::array<TrainSums, 4> sums{};  // load range in 1 s and 5 s, then 500 ohm in 1 s and 5 s

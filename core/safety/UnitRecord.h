@@ -38,7 +38,7 @@ struct UnitFolders {
     std::filesystem::path claims;  ///< one folder for all users of this computer, emptied when it starts
 };
 
-/// The records in $XDG_DATA_HOME/tactoscope/units or ~/.local/share/tactoscope/units, the claims in /run/lock.
+/// Returns $XDG_DATA_HOME/tactoscope/units or ~/.local/share/tactoscope/units for records, and /run/lock for claims.
 [[nodiscard]] UnitFolders unitFolders();
 
 class UnitClaim;
@@ -102,7 +102,7 @@ private:
 
     const LockedFile file_;
     Map& map_;
-    const std::unique_ptr<UnitClaim> claim_;  // null: none could be made
+    const std::unique_ptr<UnitClaim> claim_;  // null: no claim could be made
     const Clock& clock_;
     const SystemTime& time_;
     std::string_view why_;

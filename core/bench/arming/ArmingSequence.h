@@ -1,7 +1,7 @@
 // ArmingSequence.h - from the operator's second step to Armed: configures the gate, has the check pulse approved, and
 // arms the interlock if the check pulse, an oscilloscope or the operator's word confirms the load.
 //
-// The control loop posts the check pulse and hands over its report; any error disarms.
+// The control loop posts the check pulse and passes on the report about it; any error disarms.
 //
 // Thread-safety: expect() and result() any thread; the rest has one caller, the control loop.
 #pragma once
@@ -19,7 +19,7 @@ namespace tacto {
 /// The second step of arming, prepared by the bench.
 struct ArmCommand {
     GateSetup setup;
-    ArmingEvidence evidence;  ///< the check pulse fills in its impedance
+    ArmingEvidence evidence;  ///< the check pulse adds its impedance
     /// |Z| of the declared load, if captures will show the load and the stimulator cannot. A profile that holds charge
     /// or energy refers to this value.
     std::optional<Ohms> declared{};

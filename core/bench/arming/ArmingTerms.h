@@ -18,7 +18,7 @@ namespace tacto {
 
 class BenchCalibration {
 public:
-    /// `config` outlives this.
+    /// `config` outlives this object.
     explicit BenchCalibration(const BenchConfig& config)
         : config_(config), applied_(config.calibrationHolds ? config.calibration : std::nullopt) {}
 
@@ -30,7 +30,7 @@ public:
     [[nodiscard]] bool apply(bool wanted);
     /// Errors: NotArmed in person mode after the calibration's last valid day.
     [[nodiscard]] Result<void> checkDate() const;
-    /// Notes the applied calibration for the session.
+    /// Records the applied calibration in the session.
     void note(const BenchNotes& notes) const;
 
 private:
@@ -45,7 +45,7 @@ public:
         : config_(config), output_(output), calibration_(calibration) {}
 
     [[nodiscard]] GateSetup setupFor(const Load& load) const;
-    /// The text that the operator confirms (CommandPreview.h); empty without an output.
+    /// Returns the text that the operator confirms (CommandPreview.h); empty without an output.
     [[nodiscard]] std::string text(const Load& load) const;
     /// Errors: NotArmed unless the request confirms text(load); for a simulated output the confirmation may be empty.
     [[nodiscard]] Result<void> checkConfirmed(const ArmRequest& request, const Load& load) const;

@@ -23,11 +23,11 @@ namespace tacto {
 
 struct CommandPreview {
     Ohms impedance{0};              ///< the load's impedance at the end of the leading phase
-    std::vector<ExposureRow> rows;  ///< exposureTable() of the train
+    std::vector<ExposureRow> rows;  ///< the train's exposureTable()
     std::optional<Error> refusal;   ///< the gate's refusal; nothing if it approves
 };
 
-/// Errors: as validate() of an encoding and SafetyGate::configure().
+/// Errors: as validate() for an encoding, and as SafetyGate::configure().
 [[nodiscard]] Result<CommandPreview> previewOf(const Command& command, const Profile& profile,
                                                const std::vector<LimitSet>& limits, const Load& load);
 

@@ -49,7 +49,7 @@ public:
         std::unique_lock lock(mutex_);
         changed_.wait(lock, [this] { return !paused_ || stopped(); });
     }
-    /// Returns after `longest`, or when a stop has come.
+    /// Returns after `longest`, or as soon as a stop has come.
     void waitForStop(Instant longest) {
         std::unique_lock lock(mutex_);
         changed_.wait_for(lock, longest, [this] { return stopped(); });

@@ -52,7 +52,7 @@ private:
 
 class ExposureWatch {
 public:
-    /// `gate` outlives this.
+    /// `gate` outlives this object.
     explicit ExposureWatch(const SafetyGate& gate) : gate_(gate) { rows_.reserve(kMaxExposureRows); }
 
     /// Starts the worst table anew for another order, at the next look().

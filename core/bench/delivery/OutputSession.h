@@ -27,7 +27,7 @@ public:
     OutputSession(const OutputSession&) = delete;
     OutputSession& operator=(const OutputSession&) = delete;
 
-    /// False from post() until the report is made.
+    /// False from post() until the report was made.
     [[nodiscard]] bool idle() const noexcept { return !busy_.load(std::memory_order_acquire); }
     [[nodiscard]] std::optional<TrainReport> takeReport() noexcept { return reports_.pop(); }
 
@@ -111,7 +111,7 @@ protected:
 
     Device& device_;
     const Clock& clock_;
-    std::mutex mailbox_;  // guards pending_; held for a move only
+    std::mutex mailbox_;  // guards pending_; held only to move an order
 
 private:
     [[nodiscard]] bool loopAlive() const noexcept { return heartbeat_.alive(clock_.elapsed()); }
@@ -145,7 +145,7 @@ struct BurstOrder {
 
 class MassagerSession : public OutputSession<Massager, BurstOrder> {
 public:
-    /// All arguments outlive the session. `wake` is called after post(); may be empty.
+    /// All arguments outlive the session. post() calls `wake`, which may be empty.
     MassagerSession(Massager& device, const SafetyGate& gate, const Heartbeat& heartbeat, const Clock& clock,
                     std::function<void()> wake)
         : OutputSession(device, gate, heartbeat, clock, std::move(wake)) {}

@@ -18,7 +18,7 @@
 
 namespace tacto {
 
-/// Strength of a massager in place of the electrodes, 0..1.
+/// Strength of a massager that replaces the electrodes, 0..1.
 struct VibrationIntensity {
     double value = 0;
     bool operator==(const VibrationIntensity&) const = default;
@@ -35,7 +35,7 @@ struct Presentation {
     Seconds duration{0};   ///< the whole presentation, at least kTail after the last onset, at most kLongest
     Instant notBefore{0};  ///< on the bench's clock: begins then, or later once the bench is ready
     std::vector<StimulusLevel> levels{};  ///< one per onset, none of them 0; if empty, all trains use `level`
-    /// `train` < onsets.size().
+    /// Requires `train` < onsets.size().
     [[nodiscard]] const StimulusLevel& levelOf(std::size_t train) const noexcept {
         return levels.empty() ? level : levels[train];
     }
@@ -81,7 +81,7 @@ enum class PresentationEnd {
 
 struct PresentedTrain {
     Instant onset{0};                       ///< when the train was written to the device, on the bench's clock
-    StimulusLevel approved = Milliamps(0);  ///< as programmed
+    StimulusLevel approved = Milliamps(0);  ///< the level as programmed
     std::optional<Milliamps> readBack{};    ///< nothing if the device does not read back
     Seconds interval{0};                    ///< the interval for which it was approved
     std::optional<Ohms> impedance{};        ///< |Z|, read back with the train
@@ -93,7 +93,7 @@ struct Presented {
     static constexpr Instant kLatest = std::chrono::milliseconds(50);
 
     PresentationEnd end = PresentationEnd::Stopped;
-    std::string reason;  ///< one sentence; empty when complete
+    std::string reason;  ///< one sentence; empty if complete
     Instant began{0};    ///< time 0 of the onsets; never before `notBefore`; meaningless if it never began
     Instant ended{0};
     std::vector<PresentedTrain> trains;  ///< trains delivered and read before the end, even if void

@@ -20,7 +20,7 @@
 
 namespace tacto {
 
-/// A vibration of a presentation.
+/// A planned vibration in a presentation.
 struct PlannedVibration {
     ApprovedBurst approved;
     Instant onset;
@@ -37,9 +37,9 @@ public:
     struct Sight {
         Instant now{0};
         InterlockState state = InterlockState::Armed;
-        std::string_view reason{};            ///< the interlock's reason
+        std::string_view reason{};            ///< the reason that the interlock gives
         bool stopped = false;                 ///< a stop has come since the order
-        bool paused = false;                  ///< a pause has come since the presentation was asked for
+        bool paused = false;                  ///< a pause has come since the presentation was requested
         bool idle = true;                     ///< no train is being written or read
         std::optional<Instant> readingUntil;  ///< when the reading of |Z| becomes too old; nothing if none is taken
     };

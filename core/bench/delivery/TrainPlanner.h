@@ -55,7 +55,7 @@ public:
 
     /// Returns when the next train is due; nothing while none is wanted.
     [[nodiscard]] std::optional<Instant> due() const noexcept { return series_.due(); }
-    /// The command of the next train; nothing while none is wanted.
+    /// Returns the command of the next train; nothing while none is wanted.
     [[nodiscard]] const std::optional<Command>& command() const noexcept { return series_.command(); }
 
     /// Has the due train judged, for an onset at max(due, now). Approved or refused, the next follows one interval

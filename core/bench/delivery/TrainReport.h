@@ -15,16 +15,16 @@ namespace tacto {
 enum class TrainOutcome {
     Delivered,   ///< delivered, and the device's status was read afterwards
     Voided,      ///< a stop, a new configuration or expiry voided the approval; nothing was written
-    Failed,      ///< the device refused, went away or did not answer; it was switched off
+    Failed,      ///< the device refused, vanished or did not answer; it was switched off
     LoopSilent,  ///< no train: the control loop was silent for 100 ms and the output was switched off
 };
 
 /// Trivially copyable, because it passes between threads in a ring.
 struct TrainReport {
     TrainOutcome outcome = TrainOutcome::Voided;
-    bool isCheck = false;          ///< the impedance check, not a train
+    bool isCheck = false;          ///< true for an impedance check
     Instant onset{0};              ///< when the train was written
-    Instant end{0};                ///< the end of its last pulse
+    Instant end{0};                ///< end of the train's last pulse
     bool stillDelivering = false;  ///< the device's answer when its status was read
     double amplitude = 0;          ///< V or mA, as delivered
     double measured = NAN;         ///< the value that the device read back; NaN if it does not read back
@@ -36,7 +36,7 @@ struct TrainReport {
     double imbalance = NAN;
     double imbalanceUncertainty = NAN;
     Instant statusAt{0};
-    FixedText<160> error;                ///< when Failed
+    FixedText<160> error;                ///< empty unless Failed
     ErrorCode code = ErrorCode::Device;  ///< the code of `error`
 
     void fail(const Error& why) noexcept {

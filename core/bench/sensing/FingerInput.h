@@ -16,7 +16,7 @@ namespace tacto {
 
 class FingerInput {
 public:
-    /// `session` outlives this. Errors: as RoughnessChain::create().
+    /// `session` outlives this object. Errors: as RoughnessChain::create().
     [[nodiscard]] static Result<std::unique_ptr<FingerInput>> create(SensorSession& session,
                                                                      const RoughnessSettings& settings);
 
@@ -30,8 +30,8 @@ public:
     /// Returns the age of the newest sample in the oldest stream; infinite before the first. If all streams, one axis
     /// of the acceleration or a touched array of taxels stand still, returns the age of the first unchanged sample.
     [[nodiscard]] double age_s(double now_s) const noexcept;
-    /// Fresh if no signal stands still, each stream and the newest frame (allowing for its window) are at most 100 ms
-    /// old, no stamp lies in the future, and no value of the last 100 ms was outside the range of a fingertip
+    /// Returns Fresh if no signal stands still, each stream and the newest frame (allowing for its window) are at most
+    /// 100 ms old, no stamp lies in the future, and no value of the last 100 ms was outside the range of a fingertip
     /// (hazard H7).
     [[nodiscard]] FingerStanding standing(double now_s) const noexcept;
     [[nodiscard]] std::uint64_t gaps() const noexcept;

@@ -36,14 +36,14 @@ public:
 
 private:
     BenchTap* const display_;
-    std::mutex mutex_;  // held to hand over the samples of one step
+    std::mutex mutex_;  // held to pass on the samples of one step
     BenchTap* listener_ = nullptr;
     std::atomic<bool> listening_{false};
 };
 
 class FingerWatch {
 public:
-    /// `finger` is null without a sensor. `report` is the sensor, if it reports on itself, else null. All outlive this.
+    /// `finger` is null without a sensor. `report` is null unless the sensor reports on itself. All outlive this.
     FingerWatch(std::unique_ptr<FingerInput> finger, const ReportingDevice* report, LoopJournal& journal,
                 SampleTaps& taps) noexcept
         : finger_(std::move(finger)), report_(report), journal_(journal), taps_(taps) {}
@@ -55,7 +55,7 @@ public:
 
     /// Takes the samples that arrived, for journal, taps and `shown`.
     void read(Instant now, StepTelemetry& shown) noexcept;
-    /// Returns a failure since the last call, such as a pulled plug: without the sensor, output from any source ends.
+    /// Returns a new failure of the sensor, such as a pulled plug: without the sensor, output from any source ends.
     [[nodiscard]] std::optional<LoopFault> failure() noexcept;
     /// Notes the losses that the sensor reports, at most once in ten seconds.
     void noteLosses(Instant now) noexcept;

@@ -51,7 +51,7 @@ private:
     Window now_;
     double begin_s_ = std::numeric_limits<double>::infinity();  // beginning of the newest burst
     double end_s_ = -std::numeric_limits<double>::infinity();
-    double floor_ = std::numeric_limits<double>::infinity();     // the least strength so far
+    double floor_ = std::numeric_limits<double>::infinity();     // the lowest strength so far
     double quiet_s_ = -std::numeric_limits<double>::infinity();  // the last quiet window during a rest
     bool follows_ = false;                                       // a burst began after quiet, without quiet since then
     int tries_ = 0;                                              // how many groups of windows were examined since then

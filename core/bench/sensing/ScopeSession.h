@@ -30,7 +30,7 @@ public:
     /// True if the device can take a record without a trigger.
     [[nodiscard]] bool canForce() const noexcept { return forced_ != nullptr; }
     [[nodiscard]] const Oscilloscope& device() const noexcept { return device_; }
-    /// Takes no more captures.
+    /// Ends the present request.
     void cancel();
     [[nodiscard]] std::size_t ready() const;
     /// True if the device was configured and armed for the last request and will take the next trigger.
@@ -53,15 +53,15 @@ private:
     ForcedTrigger* const forced_;  // the device's interface for this, or null
     const std::function<void(Capture&)> seen_;
     mutable std::mutex mutex_;
-    std::optional<ScopeSettings> requested_;  // guarded
-    std::size_t wanted_ = 0;                  // guarded
-    bool active_ = false;                     // guarded
-    bool waiting_ = false;                    // guarded
-    bool cancelled_ = false;                  // guarded
-    std::vector<Capture> captures_;           // guarded
+    std::optional<ScopeSettings> requested_;  // guarded by mutex_
+    std::size_t wanted_ = 0;                  // guarded by mutex_
+    bool active_ = false;                     // guarded by mutex_
+    bool waiting_ = false;                    // guarded by mutex_
+    bool cancelled_ = false;                  // guarded by mutex_
+    std::vector<Capture> captures_;           // guarded by mutex_
     double notBefore_s_ = 0;                  // guarded: an earlier trigger belongs to an earlier request
-    std::optional<Error> error_;              // guarded
-    std::optional<Instant> forceAfter_;       // guarded
+    std::optional<Error> error_;              // guarded by mutex_
+    std::optional<Instant> forceAfter_;       // guarded by mutex_
     // Used by serve() only:
     Instant quietSince_{0};
     bool forceAsked_ = false;  // true while a forced record was requested and has not come

@@ -26,7 +26,7 @@ class SensorSession {
 public:
     static constexpr std::size_t kMaxChannels = 63;  // the most that the session recorder takes
 
-    /// Errors: Unsupported for a stream of more than kMaxChannels channels. `device` outlives the session.
+    /// Errors: Unsupported for a stream with more than kMaxChannels channels. `device` outlives the session.
     [[nodiscard]] static Result<std::unique_ptr<SensorSession>> create(TactileSensor& device);
 
     /// Reads the available samples and returns the time of the next call.
@@ -71,7 +71,7 @@ private:
     void hand() noexcept;
 
     TactileSensor& device_;
-    std::vector<Stream> streams_;      // Constant after construction
+    std::vector<Stream> streams_;      // constant after construction
     std::vector<SampleBlock> blocks_;  // used by the device's thread
     std::atomic<bool> failed_{false};
     std::atomic<std::uint64_t> failures_{0};
