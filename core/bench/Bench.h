@@ -170,8 +170,8 @@ public:
     /// Errors: NotArmed outside person mode.
     [[nodiscard]] Result<void> beginAscending();
     [[nodiscard]] Result<void> endAscending();
-    /// Returns the highest level that a presentation may have now, by the ramp, the levels that were too strong and
-    /// the cap. Errors: NotArmed outside person mode, and before the first arming.
+    /// Returns the highest level that a presentation may have now, as limited by the ramp, the levels that were too
+    /// strong and the cap. Errors: NotArmed outside person mode, and before the first arming.
     [[nodiscard]] Result<StimulusLevel> levelCeiling();
     /// Returns the highest level on the device's grid that the limits, the cap and the discomfort limit permit at
     /// `interval` and the last measured impedance, regardless of accepted levels, and what forbids the next level.

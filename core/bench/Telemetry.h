@@ -117,7 +117,7 @@ struct Telemetry : StepTelemetry {
 
 /// Returns what is the same for every condition and level (hazard H9): whether the output is armed, paused, off or
 /// faulted and why, and which limits are broken, without the train's numbers in a fault. Omits every train, level,
-/// reading and age, because each of them appears or changes with a train.
+/// reading and age, because each of these appears or changes with a train.
 [[nodiscard]] Telemetry blinded(const Telemetry& telemetry);
 
 }  // namespace tacto

@@ -43,7 +43,7 @@ struct Certificate {
     bool operator==(const Certificate&) const = default;
 };
 
-/// A text of the certificate, and its names in files, options and for people.
+/// A text of the certificate; files and options call it `key`, people call it `title`.
 struct CertificateText {
     std::string_view key;
     std::string_view title;

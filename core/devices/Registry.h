@@ -20,9 +20,8 @@ public:
     /// True if all of `uris` can run on the virtual clock. Errors: as open().
     [[nodiscard]] Result<bool> allVirtual(std::span<const DeviceUri> uris) const;
     /// Takes the accuracy keys (see DeviceUri.h) from the oscilloscope's address. A stop ends the opening once the
-    /// current
-    /// driver returns; devices opened so far are switched off and closed. Errors: Stopped; NotFound naming the unknown
-    /// scheme and the known ones, or the role that no device fills; as Driver::open().
+    /// current driver returns; devices opened so far are switched off and closed. Errors: Stopped; NotFound naming
+    /// the unknown scheme and the known ones, or the role that no device fills; as Driver::open().
     [[nodiscard]] Result<DeviceSet> open(std::span<const DeviceUri> uris, const std::set<Role>& needed,
                                          const OpenContext& context);
 

@@ -20,8 +20,7 @@
 namespace tacto {
 
 // Sends bytes to a device and receives them: a USB CDC data interface, or a pseudo-terminal in tests. A protocol turns
-// the
-// bytes into frames; a driver uses the frames. write() and read() have one caller, the device's session thread;
+// the bytes into frames; a driver uses the frames. write() and read() have one caller, the device's session thread;
 // writeUrgent() any thread, at any moment, even while write() or read() waits.
 
 class Transport {

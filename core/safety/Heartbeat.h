@@ -4,9 +4,8 @@
 // 100 ms of silence alive() returns false: device threads force their output off and no longer hold off dead-man
 // switches, so a hung program ends with its output off. alive() is also false before the first beat.
 //
-// After a silence the heartbeat stays dead. When a whole process was halted, any thread may wake first. So a late beat
-// is
-// refused: the loop switches off, voids all approvals, and only then calls revive().
+// After a silence the heartbeat stays dead. When a whole process was halted, any thread may wake first. So a late
+// beat is refused: the loop switches off, voids all approvals, and only then calls revive().
 //
 // All times are Clock::elapsed(), which includes the time while the computer slept.
 //

@@ -5,8 +5,7 @@
 // Stimulator::forceOff().
 //
 // An approval can be used once, expires 100 ms after it was granted, and is void after any stop. Its exposure is booked
-// on
-// the meter when it is granted, so that approvals not yet delivered cannot add up to more than a limit.
+// on the meter when it is granted, so that approvals not yet delivered cannot add up to more than a limit.
 //
 // Thread-safety: latchStop() and isCurrent() may be called from any thread and never block; the rest has
 // one caller at a time (the control loop).
@@ -152,8 +151,7 @@ public:
         return isCurrent(approved.epoch_, approved.expires_);
     }
 
-    /// The range in which the amplitude of a train with the programmed amplitude may come out, as judged; V or mA. NaN
-    /// before configure().
+    /// The range in which a programmed amplitude may come out, as the gate judges it; V or mA. NaN before configure().
     struct Amplitudes {
         double least, most;
     };

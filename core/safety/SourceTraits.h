@@ -45,7 +45,7 @@ struct SourceTraits {
     StatedAccuracy accuracy;
 };
 
-// Makes a train in the source's unit; the source's grid, to which core/encoding rounds the train.
+// A train in the unit of the source, and the grid to which core/encoding rounds the train.
 
 /// Returns `shape` with `amplitude`: in mA for a current source, in V for any other.
 [[nodiscard]] inline PulseTrain trainAt(PulseTrain shape, Drive drive, double amplitude) noexcept {

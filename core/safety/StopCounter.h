@@ -34,7 +34,7 @@ public:
     /// Counts a stop. The caller first raises the counter and then switches off, so that anything started in between
     /// finds the counter raised.
     void raise() noexcept { count_.fetch_add(1, std::memory_order_acq_rel); }
-    /// Marks the present moment. Take the mark when the operator asks, not when the order is carried out.
+    /// Returns a mark for now. Take the mark when the operator asks, not when the order is carried out.
     [[nodiscard]] StopMark mark() const noexcept { return StopMark(count_.load(std::memory_order_acquire)); }
     /// True if a stop has come since `mark` was taken.
     [[nodiscard]] bool movedSince(StopMark mark) const noexcept {

@@ -53,9 +53,8 @@ struct Carried {
 
 /// Returns the exposure to one train per `interval` into `load`, with windows at their worst position. It is exact for
 /// a resistor, except that a pulse at a window's edge is treated as if it had no gap. It is an upper bound for a load
-/// with
-/// a capacitor: such a pulse is included whole. `train` must be valid (validate()) and interval ≥ its duration, or all
-/// values are NaN, which no limit permits. `area` in cm², NaN if unknown. CommandVoltage is calculated at this load.
+/// with a capacitor: such a pulse is included whole. `train` must be valid (validate()) and interval ≥ its duration, or
+/// all values are NaN, which no limit permits. `area` in cm², NaN if unknown. CommandVoltage is taken at this load.
 [[nodiscard]] TrainExposure exposureOf(const PulseTrain& train, Seconds interval, const Load& load,
                                        const SourceTraits& source, double area_cm2, Carried carried = {}) noexcept;
 

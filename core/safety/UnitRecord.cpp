@@ -218,7 +218,7 @@ ResidualVoltages UnitRecord::replay(ExposureMeter& meter) const noexcept {
         const Train& train = map_.trains[sequence % kTrains].content;
         if (train.sequence != sequence) continue;
         for (std::size_t k = 0; k < left.size(); ++k)
-            left[k] = {train.left_V[k], onClock(Instant(train.leftAt_ns[k]))};  // the newest stays
+            left[k] = {train.left_V[k], onClock(Instant(train.leftAt_ns[k]))};  // the last one read is the newest
         if (Instant(train.latest_ns) + window <= boot) continue;
         BookedTrain booked;
         booked.earliest = onClock(Instant(train.earliest_ns));

@@ -76,8 +76,8 @@ public:
     UnitRecord(const UnitRecord&) = delete;
     UnitRecord& operator=(const UnitRecord&) = delete;
 
-    /// Nothing is approved before this moment of the clock, because the unit's earlier deliveries are not known. In the
-    /// past if they are known.
+    /// Nothing is approved before this moment of the clock, because the unit's earlier deliveries are not known. The
+    /// moment lies in the past if they are known.
     [[nodiscard]] Instant quietUntil() const noexcept { return quietUntil_; }
     /// Returns the reason in one sentence; empty if the past is known.
     [[nodiscard]] std::string_view whyQuiet() const noexcept { return why_; }

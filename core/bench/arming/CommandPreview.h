@@ -31,9 +31,8 @@ struct CommandPreview {
 [[nodiscard]] Result<CommandPreview> previewOf(const Command& command, const Profile& profile,
                                                const std::vector<LimitSet>& limits, const Load& load);
 
-// Checks whether a profile fits the devices of a bench: whether the stimulator can deliver the amplitudes of the
-// profile,
-// and whether the profile's scales belong to this fingertip. The bench checks this when it opens, before any train.
+// Checks whether a profile fits the devices of a bench: whether the stimulator can deliver the profile's
+// amplitudes, and whether the profile's scales belong to this fingertip. Checked when the bench opens, before a train.
 //
 // The results are warnings and refuse nothing: a protocol may use its own amplitudes, a profile with an unreachable
 // upper end still drives its lower end, and scales of another fingertip are unused (core/dsp/RoughnessChain.h).

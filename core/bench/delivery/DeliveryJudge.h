@@ -54,7 +54,7 @@ public:
     [[nodiscard]] const char* unit() const noexcept { return amplitudeUnit(source_.drive); }
     /// Judges the load in a capture if the stimulator does not read back.
     [[nodiscard]] std::optional<LoopFault> load(const SeenLoad& seen, bool permitted, Instant now);
-    /// Returns a fault if a train due to end at `trainEnd` has no status by `now`, or only says that it goes on.
+    /// Returns a fault if a train due to end at `trainEnd` has no status by `now`, or only a status that it goes on.
     [[nodiscard]] std::optional<LoopFault> silence(Instant trainEnd, bool goesOn, Instant now) const;
 
 private:

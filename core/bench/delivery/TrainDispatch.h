@@ -84,7 +84,7 @@ private:
     }
 
     bool began_ = false;
-    std::size_t posted_ = 0;  // number of trains, to index the ring of shown trains
+    std::size_t posted_ = 0;  // number of posted trains, to index the ring of shown trains
 };
 
 }  // namespace tacto
