@@ -88,8 +88,8 @@ public:
     /// Hands in the amplitude of a train as a capture showed it; judged at the next step. Any thread.
     void noteAmplitude(const SeenAmplitude& seen) { inbox_.amplitude(seen); }
 
-    /// Makes one turn at `now`. Does not allocate in a steady state. If the turn comes more than 100 ms late (the
-    /// process or the machine was halted), it first switches off and reports a fault; the first turn after the
+    /// Makes one turn at `now`. Does not allocate in a steady state. If the previous turn was more than 100 ms ago
+    /// (the process or the machine was halted), it first switches off and reports a fault; the first turn after the
     /// computer slept for more than a second disarms, as a stop does.
     void step(Instant now) noexcept;
     /// Records a state change of the interlock that came from outside; for a bench that will not step again.

@@ -124,8 +124,8 @@ public:
     /// For person mode (H6, see AcceptedLevels.h). Notes that the participant accepted the level of `train`; otherwise
     /// the next may not rise. Errors: NotArmed outside person mode; LimitExceeded for a level never permitted.
     [[nodiscard]] Result<void> accept(const PulseTrain& train);
-    /// Notes that the participant called `level` uncomfortable: no level exceeds it now, even after configure() for
-    /// them. Voids every approval. Errors: NotArmed outside person mode; InvalidArgument unless finite and ≥ 0.
+    /// Notes that the participant called `level` uncomfortable: for this participant no level exceeds it any more.
+    /// Voids every approval. Errors: NotArmed outside person mode; InvalidArgument unless finite and ≥ 0.
     [[nodiscard]] Result<void> reportDiscomfort(Milliamps level);
     /// Both work as for levels, for a person at a massager (see AcceptedLevels.h). Errors: NotArmed for anyone else;
     /// InvalidArgument unless 0 to 1; acceptIntensity(): LimitExceeded for an intensity that was not permitted.

@@ -54,7 +54,7 @@ public:
     /// True if the check pulse must still be posted: the caller then calls checkPulse().
     [[nodiscard]] bool checkDue() const noexcept { return command_ && !checkPosted_; }
     /// Returns the approved check pulse, to be posted now. Returns nothing if this call ended the arming: nothing can
-    /// measure this load (success), or the load is refused. If `hasStimulator` is false, a massager is armed.
+    /// measure this load, or the load is refused. If `hasStimulator` is false, a massager is armed.
     [[nodiscard]] std::optional<ApprovedTrain> checkPulse(Instant now, bool hasStimulator) noexcept;
     /// Takes the device's report on a sound check pulse.
     void checkRead(const TrainReport& report) noexcept;

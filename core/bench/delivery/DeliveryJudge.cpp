@@ -25,7 +25,7 @@ ElectrodeReading readingOf(ElectrodeState state) noexcept {
     return ElectrodeReading::NotMeasured;
 }
 
-/// The largest error of a calibrated stimulator at its limit; the gate uses larger errors for other stimulators.
+/// The deviation that a calibrated stimulator may have at its limit; the gate judges others by their deviation.
 constexpr double kCommandTolerance = 0.05;
 
 template <class... Values>
