@@ -9,7 +9,7 @@ namespace tacto {
 
 namespace {
 
-constexpr double kPeakOverValley = 2;  // two modes are two when the valley between is half the lower
+constexpr double kPeakOverValley = 2;  // two peaks are two modes if the valley between them is at most half the lower
 
 }  // namespace
 
@@ -30,8 +30,8 @@ AmplitudeHistogram::AmplitudeHistogram(const SampleBlocks& blocks, double noise,
     fill(finite);
 }
 
-/// Bins first, for a chunk that stays in the cache and in vectors; then the counts, in four banks, because the same
-/// bin comes again before its last sum is written.
+/// Finds the bins of a chunk first, while it is in the cache, and then counts. Four separate sets of counts are used,
+/// because the same bin often follows before its last sum is written.
 void AmplitudeHistogram::fill(std::span<const float> samples) {
     constexpr std::size_t kChunk = 1024;
     constexpr std::size_t kBanks = 4;
@@ -49,7 +49,7 @@ void AmplitudeHistogram::fill(std::span<const float> samples) {
     const auto perUnit = static_cast<float>(1 / width_);
     for (std::size_t first = 0; first < samples.size(); first += kChunk) {
         const std::size_t n = std::min(kChunk, samples.size() - first);
-        // The last chunk is filled up and only its own samples counted: the loops keep a fixed length.
+        // The last chunk is padded, so that the loops keep a fixed length. Only its own samples are counted.
         const float* chunk = samples.data() + first;
         if (n < kChunk) {
             std::copy_n(chunk, n, filledUp.begin());
@@ -60,7 +60,7 @@ void AmplitudeHistogram::fill(std::span<const float> samples) {
             x = x < least ? least : x;
             x = x > most ? most : x;
             values[k] = x;
-            // Scaled before it becomes an integer: a range next to nothing or next to everything has no float per unit.
+            // Scaled before the conversion to an integer, because 1 / range may not fit into a float.
             const float position = (x - least) * perUnit;
             bins[k] = static_cast<std::int32_t>(position < kLastBin ? position : kLastBin);
         }

@@ -1,7 +1,7 @@
 // AmplitudeHistogram.h - how long a signal spends at each level, and the levels at which it stays: the modes.
 //
-// 200 bins over the record's range without its two outermost samples on either side: a glitch must not stretch it.
-// Private to core/measure.
+// 200 bins cover the range of the record. The two lowest and two highest samples are ignored, so that a glitch does not
+// widen the range. Private to core/measure.
 //
 // Thread-safety: immutable after construction.
 #pragma once
@@ -18,21 +18,21 @@ namespace tacto {
 struct Mode {
     std::size_t bin = 0;
     double weight = 0;  ///< samples within the smoothing window
-    double level = 0;   ///< their mean, in the samples' unit
+    double level = 0;   ///< mean of these samples, in their unit
 };
 
-/// Counts and sums per bin, so that a level is a mean of samples and not a bin's centre.
+/// Keeps a count and a sum for each bin, so that a level is a mean of samples and not the centre of a bin.
 class AmplitudeHistogram {
 public:
-    /// `noise`: standard deviation; sets how far apart two modes must be. Neighbouring codes, `lsb` apart (0 =
-    /// unknown), are one mode. The range must not be empty.
+    /// `noise`: standard deviation; it sets how far apart two modes must be. Neighbouring codes of the converter, `lsb`
+    /// apart (0 = unknown), are one mode. The range must not be empty.
     AmplitudeHistogram(const SampleBlocks& blocks, double noise, double lsb);
 
-    /// Local maxima of the smoothed histogram that are separated by valleys, ascending.
+    /// Returns the local maxima of the smoothed histogram that valleys separate, in ascending order.
     [[nodiscard]] std::vector<Mode> modes() const;
     /// ∫ of what lies above (sign +1) or below (-1) the mode's window, relative to its level; in unit times samples.
     [[nodiscard]] double chargeBeside(const Mode& mode, int sign) const;
-    /// Share of samples above `level`, to a bin's width.
+    /// Returns the share of samples above `level`, to the accuracy of one bin.
     [[nodiscard]] double shareAbove(double level) const;
 
 private:
@@ -46,7 +46,7 @@ private:
     double low_ = 0;
     double width_ = 0;
     std::size_t halfWindow_ = 2;
-    std::size_t noiseReach_ = 2;  ///< no noise of a mode lies more than this many bins from it
+    std::size_t noiseReach_ = 2;  ///< the noise of a mode stays within this many bins of the mode
 };
 
 }  // namespace tacto

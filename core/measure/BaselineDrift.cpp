@@ -10,17 +10,17 @@ namespace tacto {
 namespace {
 
 constexpr std::size_t kShortestBlock = 48;
-constexpr std::size_t kCoarsest = 8;  // blocks in a record
+constexpr std::size_t kCoarsest = 8;  // least number of blocks in a record
 constexpr std::size_t kFinest = 4096;
-constexpr std::size_t kPerMedian = 65;   // samples of a block that its median is from
-constexpr std::size_t kJudged = 32'768;  // samples that say whether a baseline fits
-constexpr double kTail = 0.15;           // share of the samples on either side that may be pulses
-constexpr double kTailsApart = 2.073;    // distance of a Gaussian's tails, in standard deviations
-constexpr double kMedianSpread = 1.25;   // spread of a median, in σ/√n
-constexpr double kMovesFor = 6;          // standard deviations of a median, to be a wandering baseline
-constexpr double kRests = 1.4;           // times the noise: no more is left about a baseline that fits
-constexpr double kMaxBend = 0.2;         // share of the span
-constexpr double kAsGood = 1.05;         // as the best of all
+constexpr std::size_t kPerMedian = 65;   // samples of a block from which its median is taken
+constexpr std::size_t kJudged = 32'768;  // samples used to check whether a baseline fits
+constexpr double kTail = 0.15;           // share of the samples at each end of the range that may be pulses
+constexpr double kTailsApart = 2.073;    // distance between the two tails of a Gaussian, in standard deviations
+constexpr double kMedianSpread = 1.25;   // standard deviation of a median, in σ/√n
+constexpr double kMovesFor = 6;          // standard deviations of a median: a larger movement is a wandering baseline
+constexpr double kRests = 1.4;           // times the noise: the most that may remain about a fitting baseline
+constexpr double kMaxBend = 0.2;         // largest bend, as a share of the baseline's span
+constexpr double kAsGood = 1.05;         // times the best remainder: still as good as the best
 
 std::ptrdiff_t placeOf(double share, const std::vector<double>& values) {
     return static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
@@ -32,9 +32,9 @@ double quantile(std::vector<double>& values, double share) {
     return *at;
 }
 
-/// The values from the quantile kTail to 1 - kTail.
+/// Returns the values from the quantile kTail to the quantile 1 - kTail.
 double withoutTails(std::vector<double>& values) {
-    const double high = quantile(values, 1 - kTail);  // what is less stands before it now
+    const double high = quantile(values, 1 - kTail);  // smaller values now stand before this one
     const auto low = values.begin() + placeOf(kTail, values);
     std::nth_element(values.begin(), low, values.begin() + placeOf(1 - kTail, values) + 1);
     return high - *low;
@@ -52,7 +52,7 @@ double medianOf(std::span<const float> block, std::vector<float>& scratch) {
     return static_cast<double>(*middle);
 }
 
-/// False where a block has no sample at all.
+/// Returns false if a block has no sample at all.
 bool follow(std::span<const float> samples, std::size_t blocks, BaselineDrift& drift) {
     std::vector<float> scratch;
     drift.block = samples.size() / blocks;
@@ -66,8 +66,8 @@ bool follow(std::span<const float> samples, std::size_t blocks, BaselineDrift& d
     return true;
 }
 
-/// A baseline bends little from block to block (a sine eleven blocks long by 0.16 of its span). What jumps, and be it
-/// once, is a state of the signal.
+/// A baseline bends little from block to block (a sine that is eleven blocks long bends by 0.16 of its span). A signal
+/// that jumps, even once, changes its state.
 bool bendsLittle(const BaselineDrift& drift, double still) {
     const auto& m = drift.medians;
     for (std::size_t b = 2; b < m.size(); ++b) {
@@ -76,7 +76,7 @@ bool bendsLittle(const BaselineDrift& drift, double still) {
     return true;
 }
 
-/// Spread of the middle seven tenths of the samples about the baseline, as a standard deviation.
+/// Returns the spread of the middle 70 % of the samples about the baseline, as a standard deviation.
 double restAbout(std::span<const float> samples, const BaselineDrift& drift) {
     std::vector<double> left;
     const std::size_t stride = std::max<std::size_t>(1, samples.size() / kJudged);
@@ -93,7 +93,7 @@ double restAbout(std::span<const float> samples, const BaselineDrift& drift) {
 double BaselineDrift::at(std::size_t sample) const noexcept {
     const double position = (static_cast<double>(sample) + 0.5) / static_cast<double>(block) - 0.5;
     const double last = static_cast<double>(medians.size()) - 1;
-    // Before the first middle and after the last one, the line continues.
+    // Before the middle of the first block and after the middle of the last, the line continues straight.
     const auto from = static_cast<std::size_t>(std::clamp(position, 0.0, std::max(0.0, last - 1)));
     if (from + 1 >= medians.size()) return medians[from];
     return medians[from] + (position - static_cast<double>(from)) * (medians[from + 1] - medians[from]);
@@ -139,7 +139,7 @@ SampleView withoutDrift(const SampleView& view, const BaselineDrift& drift) {
     result.own.resize(view.samples.size());
     auto medians = drift.medians;
     const double origin = quantile(medians, 0.5);
-    // Goes from block to block, since the line is straight from the middle of one to the middle of the next.
+    // Works from block to block, since the line is straight between the middles of two neighbouring blocks.
     const std::size_t n = view.samples.size();
     for (std::size_t first = 0; first < n;) {
         const std::size_t middle = drift.block / 2;

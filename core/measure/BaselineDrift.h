@@ -1,10 +1,10 @@
-// BaselineDrift.h - a baseline that wanders (an amplifier that warms up, mains hum) and pulses that stand on it.
-// Private to core/measure.
+// BaselineDrift.h - finds a baseline that wanders (amplifier warming up, mains hum) under the pulses on it. Private to
+// core/measure.
 //
-// The wandering is the median of every block of the record, joined by straight lines: a pulse that fills less than half
-// of its block moves no median. What is followed bends by less than a fifth of its span from block to block: what
-// jumps, and be it once, is a state of the signal. The longest blocks that leave nothing but noise between them are
-// taken. It is found only where at least seven tenths of the samples are baseline; else the record is left as it is.
+// The baseline is the median of every block of the record, joined by straight lines: a pulse that fills less than half
+// of its block moves no median. A baseline bends by less than a fifth of its span from block to block; a signal that
+// jumps, even once, changes its state. The longest blocks that leave only noise about the line are used. At least seven
+// tenths of the samples must be baseline; otherwise the record is left unchanged.
 #pragma once
 
 #include <cstddef>
@@ -18,17 +18,17 @@ namespace tacto {
 
 struct BaselineDrift {
     std::vector<double> medians;  ///< medians of the blocks, at their middles
-    std::size_t block = 0;        ///< samples in one
-    double span = 0;              ///< highest less lowest median
+    std::size_t block = 0;        ///< samples in a block
+    double span = 0;              ///< difference between the highest and the lowest median
 
     [[nodiscard]] double at(std::size_t sample) const noexcept;
 };
 
-/// `noise`: standard deviation from neighbour to neighbour; `lsb` 0 = unknown. Reads at most some 200 000 samples.
-/// None: the baseline stays where it is, or what moves is not a baseline.
+/// `noise`: standard deviation between neighbours; `lsb` 0 = unknown. Reads at most about 200 000 samples. Returns
+/// nothing if the baseline stays level, or if the movement is not that of a baseline.
 [[nodiscard]] std::optional<BaselineDrift> findDrift(std::span<const float> samples, double noise, double lsb);
 
-/// What is left: the baseline at the median of the medians, so that an offset stays.
+/// Subtracts the drift. The baseline is then the median of the medians, so that an offset stays.
 [[nodiscard]] SampleView withoutDrift(const SampleView& view, const BaselineDrift& drift);
 
 }  // namespace tacto

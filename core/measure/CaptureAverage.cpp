@@ -11,8 +11,8 @@ namespace tacto {
 namespace {
 
 constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
-constexpr double kOnTheGrid = 1e-3;   ///< share of a sample: nearer than any trigger is known
-constexpr double kSameAmount = 1e-6;  ///< relative
+constexpr double kOnTheGrid = 1e-3;   ///< share of a sample: no trigger is known more closely than this
+constexpr double kSameAmount = 1e-6;  ///< relative difference of amplitudes that are the same
 
 double beforeTrigger(const Capture& capture) { return capture.start_s - capture.trigger_s; }
 
@@ -67,7 +67,7 @@ void CaptureAverage::begin(const Capture& capture) {
 }
 
 void CaptureAverage::take(const Capture& capture) {
-    // Sample i of the grid lies `shift` samples after sample i of this capture, less than one either way.
+    // Sample i of the grid lies `shift` samples after sample i of this capture.
     double shift = (beforeTrigger(like_) - beforeTrigger(capture)) * like_.rate_hz;
     if (std::abs(shift) < kOnTheGrid) shift = 0;
     const double floor = std::floor(shift), part = shift - floor;

@@ -1,16 +1,16 @@
-// CaptureAverage.h - the mean of repeated captures, sample by sample, aligned at the trigger: noise goes, what repeats
-// stays.
+// CaptureAverage.h - the mean of repeated captures, sample by sample, aligned at the trigger: noise averages out, and
+// the repeated signal stays.
 //
-// Up to the chosen number it is the arithmetic mean of all captures so far; from then on each new one counts one n-th
-// (an exponential mean, as oscilloscopes do it), so that the picture goes on following the signal. The first capture's
-// samples are the grid; those of later ones are taken at the same time from the trigger, between samples by straight
-// line.
+// Up to the chosen number, the result is the arithmetic mean of all captures so far. After that, each new capture has
+// the weight 1/n (an exponential mean, as in oscilloscopes), so that the picture keeps following the signal. The
+// samples of the first capture define the grid. Later captures are interpolated linearly at the same times from the
+// trigger.
 //
-// A sample that is missing in a capture counts in none; one that is clipped in any capture is clipped in the mean, for
-// its true value is not known. Captures of other settings (rate, length, place of the trigger, channels, ranges, the
-// programmed amplitude) are not repetitions: the mean starts over with them.
+// A sample that is missing in a capture does not enter the mean. A sample that is clipped in any capture is clipped in
+// the mean, because its true value is unknown. A capture with other settings (rate, length, place of the trigger,
+// channels, ranges, programmed amplitude) is not a repetition: the mean starts again from it.
 //
-// Levels are in each channel's unit, a bare double because the unit is data.
+// Levels are in each channel's unit. They are bare doubles because the unit is data.
 //
 // Thread-safety: none; one owner.
 #pragma once
@@ -25,22 +25,22 @@ namespace tacto {
 
 class CaptureAverage {
 public:
-    /// 1: nothing is averaged. Another number restarts the mean.
+    /// 1 switches averaging off. A different number restarts the mean.
     void setCaptures(std::size_t captures);
     [[nodiscard]] std::size_t captures() const noexcept { return wanted_; }
-    /// How many captures the present mean covers, at most captures().
+    /// Returns the number of captures in the present mean, at most captures().
     [[nodiscard]] std::size_t count() const noexcept { return count_; }
     void clear();
 
-    /// Takes one more capture. Returns the mean with its trigger and its time; the capture itself where nothing is
-    /// averaged, and where it has no trigger to align it by (which counts nothing).
+    /// Adds a capture and returns the mean, with the trigger and time of this capture. Returns the capture itself if
+    /// averaging is off, or if it has no trigger for the alignment (it is then not counted).
     std::shared_ptr<const Capture> add(std::shared_ptr<const Capture> capture);
 
 private:
     struct Channel {
         std::vector<double> mean;
-        std::vector<unsigned> seen;  ///< captures with this sample, at most wanted_
-        std::vector<float> clipped;  ///< the end of the range that one reached; NaN: none
+        std::vector<unsigned> seen;  ///< number of captures with this sample, at most wanted_
+        std::vector<float> clipped;  ///< end of the range that a capture reached; NaN: none
     };
     [[nodiscard]] bool repeats(const Capture& capture) const;
     void begin(const Capture& capture);

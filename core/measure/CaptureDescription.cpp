@@ -22,7 +22,7 @@ constexpr std::string_view kComment = "# tactoscope ";
 constexpr AcceptedText kAnyText{.mayBeEmpty = true};
 constexpr std::size_t kAnyNumber = std::numeric_limits<std::size_t>::max();
 
-/// A tolerance: stated, and not below zero; else NaN.
+/// Accepts a stated tolerance that is not below zero; otherwise gives NaN.
 ValueKind<double> toleranceKind() {
     return codedKind<double>(
         "a number of 0 or more, or null",
@@ -74,7 +74,7 @@ std::optional<Capture> captureDescribed(const json& description) {
     capture.rate_hz = capture.start_s = capture.trigger_s = kNaN;
     static_cast<void>(captureFields().read(description, capture, {.lenient = true}));
     for (std::size_t i = 0; i < channels.size(); ++i) {
-        // Older files have 0 where the instrument did not state a tolerance.
+        // Older files contain 0 if the instrument did not state a tolerance.
         if (channels[i].contains("stated_by")) continue;
         for (double* stated : {&capture.channels[i].gainTolerance, &capture.channels[i].offsetTolerance}) {
             if (*stated == 0) *stated = kNaN;
@@ -104,7 +104,7 @@ void takeHeader(Capture& capture, const Capture& header) {
     capture.simulated = header.simulated;
     if (capture.channels.size() != header.channels.size()) return;
     for (std::size_t c = 0; c < capture.channels.size(); ++c) {
-        if (capture.channels[c].unit != header.channels[c].unit) return;  // read as something else
+        if (capture.channels[c].unit != header.channels[c].unit) return;  // the channel was read with another unit
     }
     capture.trigger_s = header.trigger_s;
     capture.timeBaseTolerance = header.timeBaseTolerance;
@@ -155,8 +155,8 @@ std::optional<bool> statedSimulated(const std::filesystem::path& file) {
     text.resize(static_cast<std::size_t>(stream.gcount()));
     const auto header = headerIn(text);
     const auto folder = readOrigin(file.parent_path());
-    // Either may say that it is simulated. That it is not, neither says against the other; an origin.json that cannot
-    // be read is a doubt.
+    // Either of them may say that the capture is simulated; the other cannot overrule this. An origin.json that cannot
+    // be read leaves the origin in doubt.
     if ((header && header->simulated) || folder == true) return true;
     std::error_code ignored;
     const bool unreadable = !folder && std::filesystem::exists(file.parent_path() / kFile, ignored);

@@ -1,10 +1,10 @@
-// CaptureDescription.h - what a capture is besides its samples, as JSON: beside its samples in a session, and in the
-// header of a capture file that this program wrote, as one comment line after the line of column names:
+// CaptureDescription.h - describes a capture without its samples, as JSON. The description is stored next to the
+// samples in a session. In a capture file of this program it is one comment line below the column names:
 //
 //   time_s,voltage_v,current_a
 //   # tactoscope {"channels":[{"gain_tolerance":0.005,"high":52,"low":-52,"lsb":0.025,...}],"simulated":true,...}
 //
-// A figure that was not stated is null.
+// A figure that is not stated is null.
 #pragma once
 
 #include <filesystem>
@@ -23,30 +23,30 @@ namespace tacto {
 /// "stated_by"}]}
 [[nodiscard]] nlohmann::json describeCapture(const Capture& capture);
 
-/// Takes over what `description` says, channels without samples. Missing parts stay not stated. No JSON makes it throw.
-/// Nothing without a list of channels.
+/// Returns the capture that `description` describes, without samples. Missing parts are not stated. Returns nothing if
+/// there is no list of channels. Never throws, whatever the JSON.
 [[nodiscard]] std::optional<Capture> captureDescribed(const nlohmann::json& description);
 
-/// The comment line, with its line end; empty for a capture with nothing stated: "not simulated" would then be a claim
-/// without a source.
+/// Returns the comment line with its line end. Returns an empty text for a capture with nothing stated, because "not
+/// simulated" would then be a claim without a source.
 [[nodiscard]] std::string captureHeader(const Capture& capture);
 
-/// The header in `text`, a file's beginning; nothing where none can be read.
+/// Returns the header in `text`, the beginning of a file, or nothing if it has no readable header.
 [[nodiscard]] std::optional<Capture> headerIn(std::string_view text);
 
-/// Gives `capture`, as it was read from a file, what `header` says about it: trigger, origin and, where both have the
-/// same channels, their ranges, steps and tolerances.
+/// Copies the trigger and origin from `header` into `capture`, which was read from a file. If both have the same
+/// channels, copies their ranges, steps and tolerances too.
 void takeHeader(Capture& capture, const Capture& header);
 
-// Whether a capture file was measured or simulated: by its own header, and by origin.json beside it,
-// for the formats whose columns are plain numbers (hazard H9).
+// The origin of a capture file, measured or simulated: from the file's own header and from origin.json in its folder,
+// since some formats hold only plain numbers (hazard H9).
 
-/// Writes {"simulated": …} into `folder`, once: what stands there already stays when it says the same, and becomes
-/// "simulated" when it does not. Errors: Io.
+/// Writes {"simulated": …} into `folder`, once. If the folder already has a statement, an equal one stays; one that
+/// differs becomes "simulated". Errors: Io.
 [[nodiscard]] Result<void> stateCaptureOrigin(const std::filesystem::path& folder, bool simulated);
 
-/// What the header of `file` (CaptureDescription.h) or its folder says about it. Nothing: neither says anything that
-/// can be read, so the origin is unknown.
+/// Returns whether the header of `file` (CaptureDescription.h) or its folder says that it is simulated. Returns nothing
+/// if neither has a readable statement: the origin is then unknown.
 [[nodiscard]] std::optional<bool> statedSimulated(const std::filesystem::path& file);
 
 }  // namespace tacto

@@ -22,12 +22,12 @@ std::string columnNameOf(const CaptureChannel& channel) {
     return name;
 }
 
-/// Fixed-point, several times faster than the general way: a session writes millions of these.
+/// Writes fixed-point numbers, several times faster than the general function: a session writes millions of times.
 void appendTime(fmt::memory_buffer& text, double t, int decimals) {
     double scale = 1;
     for (int i = 0; i < decimals; ++i) scale *= 10;
     const double scaled = std::round(std::abs(t) * scale);
-    if (!(scaled < 9e15)) {  // from here on a double no longer holds every integer
+    if (!(scaled < 9e15)) {  // above this, a double cannot hold every integer
         fmt::format_to(std::back_inserter(text), "{:.{}f}", t, decimals);
         return;
     }
@@ -44,7 +44,7 @@ void appendTime(fmt::memory_buffer& text, double t, int decimals) {
 }
 
 Result<void> writeRows(FileOut& file, const Capture& capture) {
-    constexpr std::size_t kPiece = 1024UL * 1024;  // written at a time: a long record's text is larger than itself
+    constexpr std::size_t kPiece = 1024UL * 1024;  // bytes written at once: a record's text is larger than the record
     fmt::memory_buffer text;
     auto out = std::back_inserter(text);
     fmt::format_to(out, "time_s");

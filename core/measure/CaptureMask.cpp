@@ -14,11 +14,11 @@ namespace {
 
 constexpr float kNoBand = std::numeric_limits<float>::quiet_NaN();
 
-/// The extreme of every sample's neighbourhood of `reach` samples either way; missing ones are left out of it.
+/// Computes the extreme of the samples up to `reach` before and after each sample. Missing samples are ignored.
 template <class Before>
 std::vector<float> widened(const std::vector<float>& samples, std::size_t reach, Before wins) {
     std::vector<float> result(samples.size(), kNoBand);
-    std::deque<std::size_t> best;  // indices of samples that none after them beats
+    std::deque<std::size_t> best;  // indices of samples that no later sample beats
     for (std::size_t next = 0, i = 0; i < samples.size(); ++i) {
         for (; next < samples.size() && next <= i + reach; ++next) {
             if (std::isnan(samples[next])) continue;
@@ -26,7 +26,7 @@ std::vector<float> widened(const std::vector<float>& samples, std::size_t reach,
             best.push_back(next);
         }
         while (!best.empty() && best.front() + reach < i) best.pop_front();
-        // Beside a gap the neighbours say nothing of the sample itself.
+        // For a missing sample, the neighbours say nothing about its own value.
         if (!best.empty() && !std::isnan(samples[i])) result[i] = samples[best.front()];
     }
     return result;
@@ -115,7 +115,7 @@ MaskCheck CaptureMask::check(const Capture& capture) const {
             result.worst =
                 MaskViolation{mask.name, fromItsTrigger(capture) + static_cast<double>(i) / capture.rate_hz, x, limit};
         }
-        // The mask ends where the reference ends: a capture may be shorter by as much as its samples are shifted.
+        // The mask ends with its reference: a capture may be shorter by the shift of its samples.
         if (judged == 0) {
             doubt("no sample of '" + mask.name + "' lies in the mask's time");
         } else if (offset > 1 || offset + static_cast<double>(channel->samples.size()) * step < last) {

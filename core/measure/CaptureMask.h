@@ -1,16 +1,16 @@
-// CaptureMask.h - a band around a reference capture that others are held against: it widens the reference by so much in
-// level and so much in time, and a capture passes if every sample of it lies inside.
+// CaptureMask.h - a band around a reference capture, to check other captures. The band widens the reference by a
+// half-width in level and one in time; a capture passes if all of its samples lie inside.
 //
-// Captures are aligned at the trigger. A sample between two of the mask's is held against both, so that where samples
-// lie decides nothing. A capture that has no trigger, misses a channel, misses samples, is clipped where the mask ends
-// or reaches beyond the mask's time is not judged there, and if that leaves nothing outside, the capture is not judged
-// at all: what is not known does not pass.
+// Captures are aligned at the trigger. A sample between two samples of the mask is checked against both, so that the
+// positions of the samples do not affect the result. Stretches with no trigger, a missing channel, missing samples,
+// clipping at the mask's edge or times beyond the mask are not judged. If no sample is outside then, the whole capture
+// is not judged: an unknown result does not pass.
 //
-// A mask judges and does nothing else: it never controls the output.
+// A mask only judges: it never controls the output.
 //
-// Levels are in each channel's unit, a bare double because the unit is data; times are seconds from the trigger.
+// Levels are in each channel's unit, bare doubles because the unit is data; times are seconds from the trigger.
 //
-// Thread-safety: a mask is constant once it is made; any thread may judge by it.
+// Thread-safety: a mask is constant once made; any thread may use it.
 #pragma once
 
 #include <map>
@@ -23,27 +23,27 @@
 
 namespace tacto {
 
-/// Half-widths.
+/// Half-widths of the band.
 struct MaskBand {
-    std::map<std::string, double> level;  ///< by unit ("V", "A"), above 0; a channel with another unit is not judged
-    double time_s = 0;                    ///< 0 and up
+    std::map<std::string, double> level;  ///< by unit ("V", "A"), above 0; channels in other units are not judged
+    double time_s = 0;                    ///< 0 or more
 };
 
 enum class MaskVerdict { Inside, Outside, NotJudged };
 
-/// The sample furthest from the band, in half-widths of its level; of several the first.
+/// The sample furthest outside the band, measured in half-widths of the level; the first if several are equal.
 struct MaskViolation {
     std::string channel;
     double time_s = 0;  ///< from the trigger
     double value = 0;   ///< in the channel's unit
-    double limit = 0;   ///< the limit that it is beyond
+    double limit = 0;   ///< the limit that the value exceeds
 };
 
 struct MaskCheck {
     MaskVerdict verdict = MaskVerdict::NotJudged;
-    std::size_t outside = 0;             ///< samples
-    std::optional<MaskViolation> worst;  ///< the worst of a capture that is outside
-    std::string why;                     ///< a clause that says why it is not judged
+    std::size_t outside = 0;             ///< number of samples outside the band
+    std::optional<MaskViolation> worst;  ///< the furthest sample of a capture that is outside
+    std::string why;                     ///< a clause that says why the capture is not judged
 };
 
 class CaptureMask {
@@ -51,20 +51,20 @@ public:
     struct Channel {
         std::string name;
         std::string unit;
-        std::vector<float> low;  ///< NaN where the reference misses its samples
+        std::vector<float> low;  ///< NaN where samples of the reference are missing
         std::vector<float> high;
         double halfWidth = 0;
     };
 
-    /// Errors: InvalidArgument when the reference has no trigger or no channel in a unit of the band, or a half-width
-    /// is not finite and above 0 (time: 0 and up).
+    /// Makes a mask. Errors: InvalidArgument if the reference has no trigger or no channel in a unit of the band, or if
+    /// a half-width is not finite and above 0 (time: 0 or more).
     [[nodiscard]] static Result<CaptureMask> around(const Capture& reference, const MaskBand& band);
 
     [[nodiscard]] MaskCheck check(const Capture& capture) const;
 
     [[nodiscard]] const std::vector<Channel>& channels() const noexcept { return channels_; }
     [[nodiscard]] double rate_hz() const noexcept { return rate_hz_; }
-    /// Time of the first sample, from the trigger.
+    /// Returns the time of the first sample, from the trigger.
     [[nodiscard]] double start_s() const noexcept { return start_s_; }
     [[nodiscard]] const MaskBand& band() const noexcept { return band_; }
 
@@ -76,7 +76,7 @@ private:
     std::vector<Channel> channels_;
 };
 
-/// What a mask has judged so far.
+/// Counts of the captures judged so far.
 struct MaskCounts {
     std::size_t inside = 0;
     std::size_t outside = 0;

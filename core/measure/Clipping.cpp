@@ -10,19 +10,19 @@ namespace tacto {
 
 namespace {
 
-constexpr std::size_t kMinFlat = 10;             // samples that keep the extreme, where the noise says enough
-constexpr std::size_t kManyFlat = 50;            // the fewest where the noise says too little
-constexpr double kKeeps = 0.95;                  // share of the samples between the first and the last at the extreme
-constexpr std::size_t kJudgedTriples = 100'000;  // triples of neighbours
-constexpr std::size_t kMinTriples = 50;          // the fewest triples that are enough
-constexpr double kEdge = 0.05;                   // share of the record's span: a larger step is an edge and no noise
-constexpr double kJitters = 0.01;                // share of the triples that means noise of at least three codes
-constexpr double kNoisyCodes = 2;                // with such noise no code keeps a third of the samples
-constexpr double kNoisy = 0.3;                   // share of the triples
-constexpr double kKeepsInNoise = 0.3;            // share of the samples, where the noise was added to a clipped top
-constexpr double kMoves = 0.2;                   // share of the steps: noise at all
+constexpr std::size_t kMinFlat = 10;             // fewest samples at the extreme, if the signal is noisy enough
+constexpr std::size_t kManyFlat = 50;            // fewest samples at the extreme, if the signal has little noise
+constexpr double kKeeps = 0.95;                  // share of samples at the extreme, from the first such to the last
+constexpr std::size_t kJudgedTriples = 100'000;  // most triples of neighbouring samples that are checked
+constexpr std::size_t kMinTriples = 50;          // fewest triples from which noise can be judged
+constexpr double kEdge = 0.05;                   // share of the record's span: a larger step is an edge, not noise
+constexpr double kJitters = 0.01;                // share of the triples that shows noise of at least three codes
+constexpr double kNoisyCodes = 2;                // codes: noise this large never keeps a third of the samples at one
+constexpr double kNoisy = 0.3;                   // share of the triples that shows such noise
+constexpr double kKeepsInNoise = 0.3;            // share of samples at the extreme, if noise was added after clipping
+constexpr double kMoves = 0.2;                   // share of the steps that shows any noise
 
-/// First and end of a phase's samples as recorded.
+/// First sample of a phase, and the sample after its last, as recorded.
 struct Stretch {
     std::size_t first;
     std::size_t end;
@@ -36,23 +36,23 @@ struct Stretch {
     }
 };
 
-/// `recorded`: blocks of the samples as recorded, if there are any.
+/// `recorded`: blocks of the recorded samples, or null.
 void markAtRange(PhaseSpans& phases, const CaptureChannel& channel, const ClipLimits& limits,
                  const SampleBlocks* recorded) {
     for (auto& phase : phases) {
         const Stretch own(phase);
-        // Most phases end far from the limits, and the blocks say so without the samples.
+        // Most phases end far from the limits. The blocks show this without a look at the samples.
         if (recorded != nullptr && !recorded->mayReach(own.first, own.end, limits.low, limits.high)) continue;
         phase.clipped =
             std::ranges::any_of(own.of(channel), [&](float x) { return limits.reachedBy(static_cast<double>(x)); });
     }
 }
 
-/// How much the signal moves while it rests.
+/// How much the signal moves between its pulses.
 enum class Rest { Still, Moves, Jitters, Noisy };
 
-/// Judged on three neighbours at a time, away from the phases. Noise turns back from one sample to the next; what
-/// settles slowly does not.
+/// Checks three neighbouring samples at a time, away from the phases. Noise changes direction from one sample to the
+/// next; a signal that settles slowly does not.
 Rest restBetween(const PhaseSpans& phases, const CaptureChannel& channel, double span) {
     const auto& x = channel.samples;
     if (x.size() < 3) return Rest::Still;
@@ -144,7 +144,7 @@ void markClipped(PhaseSpans& phases, const SampleView& view, const SampleBlocks&
 
 std::optional<ClipLimits> clipLimits(const CaptureChannel& channel) noexcept {
     if (!(channel.high > channel.low)) return std::nullopt;
-    // A float is less exact than the limit that it stands at.
+    // A float is less exact than the limit that it reaches.
     const double margin = std::max(0.5 * channel.lsb, 1e-6 * (channel.high - channel.low));
     return ClipLimits{channel.low + margin, channel.high - margin};
 }

@@ -1,19 +1,18 @@
-// Clipping.h - which phases lost their tops to the oscilloscope's input range, and which may have. Private to
+// Clipping.h - finds phases whose tops were cut off at the oscilloscope's input range, or may have been. Private to
 // core/measure.
 //
-// Clipping is known from the channel's range alone: a sample that stands at either end of it, which is where the
-// full-scale codes are. Without a range nothing is called clipped, for the highest value of a record may be the
-// signal's own. Where a top then keeps the record's extreme from sample to sample although the signal is noisy where it
-// rests, the noise was cut off: such a phase is flat-topped, is measured, and flagged for the reader.
+// A sample at either end of the channel's range, where the full-scale codes are, is clipped. If the range is unknown,
+// nothing is called clipped: the highest value of a record may belong to the signal. If a top then stays at the
+// record's extreme although the signal is noisy between pulses, the noise was cut off. Such a phase is flat-topped: it
+// is measured, and flagged for the reader.
 //
-// Where the noise spans several codes, a third of them at the extreme is enough: an amplifier clipped and noise came
-// after it.
+// If the noise spans several codes, a third of the samples at the extreme is enough: noise was added after clipping.
 //
-// A top is flat when it keeps the extreme in 95 % of at least 10 samples that are at least half of the phase, and the
-// resting signal jitters over three codes or more: such noise never keeps one code 95 % of the time. Noise
-// of two codes is seen or not by where the level lies between them, so that the top must then keep the extreme in every
-// one of at least 50 samples. From 0.4 codes (s.d.) on every clipped record is so found, with less noise some; of clean
-// ones none from 0.3 codes on, with less noise about one in ten. Judged on the samples as recorded.
+// A top is flat if at least 10 samples, at least half of the phase, stay at the extreme 95 % of the time, and the
+// signal between pulses jitters over three codes or more: such noise never keeps one code 95 % of the time. Noise of
+// two codes shows only at some levels, so the top must then stay at the extreme in every one of at least 50 samples.
+// Noise of 0.4 codes (s.d.) or more shows every clipped record; less noise, some. Of clean records, none is flagged
+// from 0.3 codes on, and about one in ten with less noise. The samples are judged as recorded.
 #pragma once
 
 #include <optional>
@@ -25,19 +24,19 @@
 
 namespace tacto {
 
-// Finds the samples at which a channel stands at the end of its input range.
+// Finds the samples at which a channel reaches the end of its input range.
 
-/// A sample at or beyond these is clipped: they lie half a step inside the range, as samples are rounded.
+/// A sample at or beyond these limits is clipped. They lie half a step inside the range, because samples are rounded.
 struct ClipLimits {
     double low;
     double high;
     [[nodiscard]] bool reachedBy(double x) const noexcept { return x >= high || x <= low; }
 };
 
-/// Nothing where the channel states no range.
+/// Returns nothing if the channel states no range.
 [[nodiscard]] std::optional<ClipLimits> clipLimits(const CaptureChannel& channel) noexcept;
 
-/// Sets `clipped` and `flatTop` of `phases`, which were found in `view`; `blocks` has the same samples.
+/// Sets `clipped` and `flatTop` of `phases`, which were found in `view`; `blocks` holds the same samples.
 void markClipped(PhaseSpans& phases, const SampleView& view, const SampleBlocks& blocks);
 
 }  // namespace tacto

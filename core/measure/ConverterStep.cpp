@@ -10,31 +10,31 @@ namespace tacto {
 
 namespace {
 
-constexpr std::size_t kRun = 256;          // neighbours that are looked at together
-constexpr std::size_t kRuns = 64;          // runs over the whole record
-constexpr double kRoundedTo = 5e-7;        // share of the largest value: closer than this are digits of a float
-constexpr double kOffGrid = 0.2;           // share of a step
-constexpr double kNeighbours = 6;          // steps: a wider gap says nothing, for the step is not known well enough
-constexpr std::size_t kManyCodes = 32;     // steps beside each other
-constexpr std::size_t kReturnsWithin = 4;  // samples: some instruments write each twice
-constexpr double kMinReturns = 4;          // returns to a code from its neighbour
-constexpr std::size_t kHeld = 3;           // samples: a stair and no edge
-constexpr std::size_t kFewCodes = 4;       // steps beside each other, climbed one by one
-constexpr double kStairs = 0.8;            // share of the stairs
-constexpr double kReturns = 0.005;         // share of the samples
-constexpr std::size_t kFewValues = 64;     // values that can be told one by one
-constexpr std::size_t kMinOnGrid = 2;      // values on the grid, besides the two that are one step apart
-constexpr double kOffWholeGrid = 0.02;     // share of a step: two values by chance in six hundred
-constexpr double kMinSpan = 16;            // steps: what an ideal record's few levels need not have
+constexpr std::size_t kRun = 256;          // neighbouring samples checked together
+constexpr std::size_t kRuns = 64;          // number of runs across the whole record
+constexpr double kRoundedTo = 5e-7;        // share of the largest value: smaller differences are rounding of a float
+constexpr double kOffGrid = 0.2;           // share of a step: a value further off does not lie on the grid
+constexpr double kNeighbours = 6;          // steps: a wider gap is ignored, because the step is not known well enough
+constexpr std::size_t kManyCodes = 32;     // gaps of one step that are enough
+constexpr std::size_t kReturnsWithin = 4;  // samples, because some instruments write each sample twice
+constexpr double kMinReturns = 4;          // fewest returns to a code from its neighbour
+constexpr std::size_t kHeld = 3;           // samples at one value: a stair, not an edge
+constexpr std::size_t kFewCodes = 4;       // gaps of one step, climbed one by one
+constexpr double kStairs = 0.8;            // share of the stairs that must be one step
+constexpr double kReturns = 0.005;         // share of the samples that must return
+constexpr std::size_t kFewValues = 64;     // most values that are compared one by one
+constexpr std::size_t kMinOnGrid = 2;      // fewest values on the grid, apart from the two that are one step apart
+constexpr double kOffWholeGrid = 0.02;     // share of a step: two values agree by chance once in six hundred
+constexpr double kMinSpan = 16;            // steps: an ideal record with few levels may span less
 
 struct Seen {
-    std::vector<float> values;    ///< all different, ascending
-    std::vector<double> returns;  ///< how often a value returns to the one before: the larger of both changes
-    std::vector<double> stairs;   ///< steps from a value that was held to another that was held
+    std::vector<float> values;    ///< all different, in ascending order
+    std::vector<double> returns;  ///< size of each change to a value and back: the larger of the two changes
+    std::vector<double> stairs;   ///< steps from one held value to the next held value
     std::size_t samples = 0;
 };
 
-/// The changes from each value to the next: in `samples`, every so many.
+/// Collects the changes between successive values in runs of `samples` that begin every `stride` samples.
 void lookAtChanges(std::span<const float> samples, std::size_t stride, Seen& seen) {
     double before = 0;
     std::size_t changed = 0, held = 0;
@@ -63,7 +63,7 @@ Seen lookAt(std::span<const float> samples) {
                      [](float x) { return std::isfinite(x); });
         lookAtChanges(neighbours, 1, seen);
     }
-    // A slow baseline stays at each of its stairs for longer than a run.
+    // A slow baseline stays on each stair for longer than a run.
     if (stride > kRun) lookAtChanges(samples, samples.size() / (kRun * kRuns), seen);
     seen.samples = seen.values.size();
     std::sort(seen.values.begin(), seen.values.end());
@@ -71,7 +71,7 @@ Seen lookAt(std::span<const float> samples) {
     return seen;
 }
 
-/// Whether few values all lie on one grid of about `step`, which every distance defines more sharply.
+/// Returns whether a few values all lie on one grid of about `step`. Each distance refines the step.
 bool fillOneGrid(const std::vector<float>& values, double step) {
     if (values.size() > kFewValues || values.size() < 2 + kMinOnGrid) return false;
     const auto first = std::adjacent_find(values.begin(), values.end(), [&](float a, float b) {
@@ -103,7 +103,7 @@ double converterStep(std::span<const float> samples) {
     const double largest =
         std::max(std::abs(static_cast<double>(seen.values.front())), std::abs(static_cast<double>(seen.values.back())));
     if (!(gaps.front() > kRoundedTo * largest)) return 0;
-    // What text rounded: one step is the mean of all that can be one.
+    // Text may have rounded the values: the step is the mean of all gaps that can be one step.
     const auto ones =
         static_cast<std::size_t>(std::upper_bound(gaps.begin(), gaps.end(), 1.5 * gaps.front()) - gaps.begin());
     double step = 0;
@@ -122,7 +122,7 @@ double converterStep(std::span<const float> samples) {
     const bool flickers = returns >= kMinReturns && returns >= kReturns * static_cast<double>(seen.samples);
     const bool climbs =
         ones >= kFewCodes && stairs >= kMinReturns && stairs >= kStairs * static_cast<double>(seen.stairs.size());
-    // Without either, most of the values must lie on the grid.
+    // Otherwise, most of the values must lie on the grid.
     const bool fills = ones >= kManyCodes && 2 * near >= gaps.size();
     const bool fewOnGrid = stairs >= 1 && 2 * stairs >= static_cast<double>(seen.stairs.size());
     return flickers || climbs || fills || (fewOnGrid && fillOneGrid(seen.values, step)) ? step : 0;
@@ -132,12 +132,12 @@ namespace {
 
 constexpr double kLeapInNoise = 8;
 constexpr double kLeapInSteps = 2.5;
-constexpr double kLeapInSpan = 0.005;  // share of the record: smaller leaps do not count
-constexpr float kAgree = 0.1F;         // share of the leap; half of the least
+constexpr double kLeapInSpan = 0.005;  // share of the record's span: smaller leaps are ignored
+constexpr float kAgree = 0.1F;         // share of the leap, or half of the least leap if that is more
 constexpr std::size_t kOneIn = 100;
 
-/// Whether any sample from `first` to before `end` lies more than `least` beyond both of its neighbours. Without a
-/// branch, so that a compiler turns it into vectors.
+/// Returns whether any sample from `first` to before `end` lies more than `least` beyond both of its neighbours.
+/// Written without a branch, so that a compiler can vectorise it.
 bool anyLeaps(const float* x, std::size_t first, std::size_t end, float least) noexcept {
     std::int32_t any = 0;
     for (std::size_t i = first; i < end; ++i) {
@@ -148,7 +148,7 @@ bool anyLeaps(const float* x, std::size_t first, std::size_t end, float least) n
     return any != 0;
 }
 
-/// `i` has two neighbours on either side.
+/// Sample `i` must have two neighbours on either side.
 bool leaps(const float* x, std::size_t i, float least) noexcept {
     const float middle = 0.5F * (x[i - 1] + x[i + 1]);
     const float leap = std::abs(x[i] - middle);
