@@ -18,12 +18,12 @@ ChannelStatement over(const ChannelStatement& under, const ChannelStatement& abo
     ChannelStatement out{over(under.gain, above.gain), over(under.offset, above.offset),
                          over(under.linearity, above.linearity), over(under.probe, above.probe),
                          over(under.resolution, above.resolution)};
-    // A stated gain covers everything, unless a share of full scale is stated along with it.
+    // A stated gain error includes linearity, unless linearity (a share of full scale) is stated with it.
     if (above.gain.known() && !above.linearity.known()) out.linearity = {};
     return out;
 }
 
-/// "gain by certificate 4711", and the others with the same source beside it.
+/// Builds "gain by certificate 4711" and lists other figures with the same source next to the first.
 class Sources {
 public:
     void add(std::string_view what, const Stated& stated) {
@@ -58,7 +58,7 @@ void applyTo(CaptureChannel& channel, const ChannelStatement& stated) {
     if (stated.gain.known()) channel.linearityTolerance = 0;
     take("gain", stated.gain, channel.gainTolerance, 1);
     take("offset", stated.offset, channel.offsetTolerance, 1);
-    // Nothing can be a share of an unknown range: then the gain is not known either.
+    // A share of an unknown range is unknown, so the gain is then not known either.
     const double range = channel.high - channel.low;
     if (stated.linearity.known() && !(range > 0)) {
         channel.gainTolerance = kNaN;
@@ -123,7 +123,7 @@ bool modelMatches(std::string_view pattern, std::string_view model) {
     return model.size() >= pattern.size() && sameLetters(pattern, model.substr(0, pattern.size()));
 }
 
-/// A share as `unit` states it, `perUnit` of the whole each.
+/// Reads a share that is stated in `unit`; `perUnit` is one unit as a share of the whole.
 ValueKind<double> shareKind(double most, std::string_view unit, double perUnit) {
     const auto stated = numberKind<double>({.low = 0, .high = most, .unit = unit});
     ValueKind<double> kind;
@@ -137,7 +137,7 @@ ValueKind<double> shareKind(double most, std::string_view unit, double perUnit) 
     return kind;
 }
 
-/// A maker, or the pattern of a model: a * at its end alone, and behind something.
+/// Reads a maker or a model pattern. A pattern may have one * at its end, after other text.
 ValueKind<std::string> nameKind(const char* accepted, bool pattern) {
     return codedKind<std::string>(
         accepted,
@@ -151,7 +151,7 @@ ValueKind<std::string> nameKind(const char* accepted, bool pattern) {
         [](const std::string& name) { return json(name); });
 }
 
-/// What every figure has beside its value.
+/// Adds the keys that stand next to the value of every figure.
 void addSheet(RecordFields<InstrumentProfile>& figure, SheetFigure InstrumentProfile::*member) {
     figure.text("source", in(member, &SheetFigure::source)).required = true;
     figure.text("address", in(member, &SheetFigure::address)).required = true;

@@ -11,13 +11,13 @@ namespace tacto {
 
 namespace {
 
-constexpr double kBeforeFrom = 2.0;  // widths before the onset: the silence the voltage counts from
+constexpr double kBeforeFrom = 2.0;  // widths before the onset: start of the silence used as zero voltage
 constexpr double kBeforeTo = 0.25;
-constexpr std::size_t kMinSamplesBefore = 5;  // samples of it
+constexpr std::size_t kMinSamplesBefore = 5;  // fewest samples in that silence
 constexpr double kLineFrom = 0.5;             // share of the width
 constexpr double kLineTo = 0.95;
-// A line through these n samples, read at the end of the width, is this much less certain than their mean:
-// √(1 + 12·((1 - 0.725)/0.45)²).
+// A line fitted to n samples is less certain at the end of the width than their mean is, by this factor: √(1 + 12·((1 -
+// 0.725)/0.45)²).
 constexpr double kEndOfLine = 2.34;
 
 struct Range {
@@ -31,7 +31,7 @@ public:
     LoadOfPulse(const Capture& capture, const CaptureChannel& voltage, const CaptureChannel& current)
         : rate_hz_(capture.rate_hz), start_s_(capture.start_s), voltage_(voltage), current_(current) {}
 
-    /// `silentFrom_s`: where the pulse before ended. NaN throughout where the voltage does not allow it.
+    /// `silentFrom_s`: the end of the previous pulse. All numbers are NaN if the voltage cannot be measured.
     [[nodiscard]] PulseLoad of(const PulseMeasurement& pulse, double silentFrom_s, const ChannelMeasurement& current,
                                double voltageNoise) const {
         PulseLoad load;
@@ -59,7 +59,7 @@ public:
     }
 
 private:
-    /// Samples at or after `from_s` and before `to_s`, within the record.
+    /// Returns the samples at or after `from_s` and before `to_s` that lie within the record.
     [[nodiscard]] Range between(double from_s, double to_s) const {
         const double last = static_cast<double>(voltage_.samples.size());
         const auto at = [&](double t) {
@@ -80,7 +80,7 @@ private:
         for (std::size_t i = range.first; i < range.end; ++i) sum += static_cast<double>(samples[i]);
         return sum / static_cast<double>(range.size());
     }
-    /// The line through the phase's second half, where the phase ends.
+    /// Fits a line to the phase's second half and returns its value at the end of the phase.
     [[nodiscard]] double atEnd(const std::vector<float>& samples, const PhaseMeasurement& phase) const {
         const auto range = between(phase.onset_s + kLineFrom * phase.width_s, phase.onset_s + kLineTo * phase.width_s);
         if (range.size() < 2) return kNotMeasured;
@@ -131,12 +131,12 @@ Statistics statisticsOver(const std::vector<PulseLoad>& pulses, Value value) {
     return statisticsOf(readings);
 }
 
-/// One reading's standard uncertainty of a level at the end of the line, relative to the level.
+/// Returns the standard uncertainty of one level, read at the end of the line and relative to the level.
 double relativeUncertainty(const CaptureChannel& channel, bool gainShared, double noise, double samples, double level) {
     const double random = kEndOfLine * noise / std::sqrt(std::max(2.0, samples));
     const double step = (channel.lsb > 0 ? channel.lsb : kNotMeasured) / std::sqrt(6.0);
     const double absolute = std::hypot(std::hypot(random, step), channel.linearityTolerance / std::sqrt(3.0));
-    // A gain that voltage and current share divides out of the load.
+    // A gain error that voltage and current share cancels in the load.
     return std::hypot(absolute / std::abs(level),
                       std::hypot(gainShared ? 0 : channel.gainTolerance, channel.probeTolerance) / std::sqrt(3.0));
 }
@@ -164,7 +164,7 @@ void summariseLoad(bool gainShared, const CaptureChannel& voltage, const Capture
     result.loadUncertainty_ohm = std::hypot(volts, amperes) * std::abs(result.load_ohm.mean);
 }
 
-/// A voltage without a range, with tops that look cut off, makes the load too small; nothing else would say so.
+/// If a voltage has no stated range and its tops look cut off, the load comes out too small. Only this warning says so.
 void warnOfFlatVoltage(const Capture& capture, std::size_t voltage, const MeasureOptions& options,
                        LoadMeasurement& result) {
     if (result.measuredPulses == 0 || clipLimits(capture.channels[voltage])) return;

@@ -11,8 +11,8 @@ constexpr float kNothing = std::numeric_limits<float>::infinity();
 constexpr std::size_t kLanes = 16;
 static_assert(MinMaxPyramid::kBlock % kLanes == 0);
 
-/// Extremes of `count` samples, a multiple of the lanes. Sixteen lanes side by side and no branch, so that a compiler
-/// turns them into vectors; a comparison with NaN is false, so NaN never becomes an extreme.
+/// Returns the extremes of `count` samples, a multiple of the lanes. Sixteen lanes and no branch let a compiler
+/// vectorise the loop. A comparison with NaN is false, so NaN never becomes an extreme.
 Envelope ofLanes(const float* samples, std::size_t count) noexcept {
     std::array<float, kLanes> low;
     std::array<float, kLanes> high;

@@ -1,12 +1,12 @@
-// MinMaxPyramid.h - the smallest and the largest sample of any stretch of a long record, at the price of a short one.
+// MinMaxPyramid.h - quickly finds the smallest and the largest sample in any stretch of a long record.
 //
-// Ten million samples on a thousand pixel columns are drawn from their extremes: the pyramid keeps the extremes of
-// every block of 64 samples, of every 8 blocks, of every 8 of those, and so on. A stretch that cuts through blocks is
-// answered from the samples at its ends, so the answer is exact at any zoom. A missing sample (NaN) is never an
-// extreme; that it is missing is remembered beside them.
+// A plot of ten million samples on a thousand pixel columns shows the extremes in each column. The pyramid keeps the
+// extremes of every block of 64 samples, of every 8 blocks, of every 8 of those, and so on. If a stretch cuts through
+// blocks, its ends are read from the samples, so that the result is exact at any zoom. A missing sample (NaN) is never
+// an extreme, but the pyramid remembers the gap.
 //
-// The samples stay the caller's: extend() is given the whole record each time it grows (or moves in memory), and
-// only what is new is read.
+// The caller keeps the samples. It calls extend() with the whole record each time the record grows (or moves in
+// memory); only new samples are read.
 //
 // Thread-safety: extend() and clear() by one owner; several threads may read while it is not extended.
 #pragma once
@@ -23,9 +23,9 @@ namespace tacto {
 struct Envelope {
     float low = std::numeric_limits<float>::infinity();
     float high = -std::numeric_limits<float>::infinity();
-    bool gap = false;  ///< a sample in it is missing
+    bool gap = false;  ///< a sample of the stretch is missing
 
-    /// Whether there is no sample, or none that is a number.
+    /// Returns true if there is no sample, or no sample that is a number.
     [[nodiscard]] bool empty() const noexcept { return low > high; }
     bool operator==(const Envelope&) const = default;
 };
@@ -33,20 +33,20 @@ struct Envelope {
 class MinMaxPyramid {
 public:
     static constexpr std::size_t kBlock = 64;  ///< samples in a block of the lowest level
-    static constexpr std::size_t kFan = 8;     ///< blocks in one of the next level
+    static constexpr std::size_t kFan = 8;     ///< blocks in a block of the next level
 
-    /// `record` is all samples so far: those seen before, unchanged, and any number of new ones. It must stay where it
-    /// is until the next extend(), clear() or the end of this. A shorter record than before starts over.
+    /// `record` holds all samples so far: the earlier ones, unchanged, and any number of new ones. It must stay in
+    /// place until the next extend(), clear() or the end of this object. A shorter record starts the pyramid over.
     void extend(std::span<const float> record);
     void clear() noexcept;
 
     [[nodiscard]] std::size_t samples() const noexcept { return record_.size(); }
 
-    /// The extremes of the samples first..last-1; what lies beyond the record is left out. Exact.
+    /// Returns the exact extremes of samples first to last-1; positions beyond the record are ignored.
     [[nodiscard]] Envelope over(std::size_t first, std::size_t last) const noexcept;
 
 private:
-    /// Whole blocks only: what is left over is read from the level below.
+    /// Holds whole blocks only: the remainder is read from the level below.
     struct Level {
         std::vector<float> low;
         std::vector<float> high;

@@ -14,23 +14,23 @@ namespace tacto {
 
 namespace {
 
-// A record may hold 10 V and 40 V pulses: a phase is found well below half of the largest and then judged by its own
-// plateau. Ringing stays below this, noise below the multiple of its standard deviation.
+// A record may hold 10 V and 40 V pulses: a phase begins well below half of the largest, and is then judged by its own
+// plateau. Ringing stays below this share; noise stays below the multiple of its standard deviation.
 constexpr double kThreshold = 0.15;
 constexpr double kThresholdInNoise = 6;
 constexpr double kRelease = 0.6;         // share of the threshold: hysteresis
-constexpr double kReleaseInNoise = 4.5;  // below the threshold at least, so that noise on a slow edge stays one phase
+constexpr double kReleaseInNoise = 4.5;  // times the noise, at least below the threshold: noise must not split a phase
 
-constexpr std::size_t kHides = 3;  // missing samples in a row: a phase of fewer is a glitch
+constexpr std::size_t kHides = 3;  // missing samples in a row that may hide a phase; a shorter phase is a glitch
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// The threshold, counted from the baseline; `distance`: the state's.
+/// Returns the threshold as a distance from the baseline. `distance`: from the baseline to the state.
 double thresholdOf(double distance, double noise) {
     return std::min(0.5 * distance, std::max(kThreshold * distance, kThresholdInNoise * noise));
 }
 
-/// Single samples beyond the threshold are noise where real phases are much larger.
+/// Drops single samples beyond the threshold: they are noise if real phases are much larger.
 void dropGlitches(PhaseSpans& phases) {
     double largest[2] = {0, 0};
     for (const auto& phase : phases) {
@@ -42,7 +42,7 @@ void dropGlitches(PhaseSpans& phases) {
     });
 }
 
-/// Where noise makes the threshold, a phase whose mean does not reach it is noise.
+/// Drops phases whose mean does not reach the threshold, if the noise sets the threshold.
 void dropNoise(PhaseSpans& phases, const StateLevels& levels, double rate_hz) {
     std::erase_if(phases, [&](const PhaseSpan& phase) {
         const double distance = std::abs((phase.sign > 0 ? levels.high : levels.low) - levels.baseline);
@@ -52,7 +52,7 @@ void dropNoise(PhaseSpans& phases, const StateLevels& levels, double rate_hz) {
     });
 }
 
-/// What lies beyond a phase's threshold and comes back from it, in the channel's unit.
+/// A phase begins beyond its threshold and ends when the signal comes back; in the channel's unit.
 struct Thresholds {
     float above = kInfinity;
     float below = -kInfinity;
@@ -77,17 +77,17 @@ struct Thresholds {
     }
 };
 
-/// So many samples are looked at in one go: a comparison or an addition need not wait for the one before it.
+/// Samples examined together, so that a comparison or addition need not wait for the one before.
 constexpr std::size_t kRow = 4;
 
-/// Whether a row of samples is complete and above `release`.
+/// Returns whether all samples of a row are present and above `release`.
 bool holds(const float* row, float sign, float release) {
     std::int32_t odd = 0;
     for (std::size_t k = 0; k < kRow; ++k) odd |= sign * row[k] >= release ? 0 : 1;
     return odd == 0;
 }
 
-/// Fills in the phase that begins at sample `begin`: as far as the threshold is held.
+/// Fills in the phase that begins at sample `begin`; it lasts while the signal stays beyond the threshold.
 void follow(const SampleView& view, std::size_t begin, const Thresholds& thresholds, double baseline,
             PhaseSpan& phase) {
     const auto samples = view.samples;
@@ -124,8 +124,8 @@ void follow(const SampleView& view, std::size_t begin, const Thresholds& thresho
     phase.incomplete = phase.incomplete || (begin > 0 && std::isnan(samples[begin - 1]));
 }
 
-/// Marks where a phase may lie in samples that are missing between two others; `from`: the end of the one before, as
-/// far as it is seen. Either may be null.
+/// Marks missing samples between two phases, where another phase may lie. `from`: the end of the phase before, as far
+/// as it is seen. Either phase may be null.
 void markHidden(std::span<const float> samples, PhaseSpan* before, std::size_t from, PhaseSpan* after) {
     const std::size_t end = after == nullptr ? samples.size() : after->begin;
     for (std::size_t i = from; i < end; ++i) {

@@ -13,20 +13,20 @@ namespace {
 
 constexpr double kPlateauFrom = 0.3;
 constexpr double kPlateauTo = 0.9;
-// An edge is what lies between a quarter and three quarters of the plateau about its 50 % point.
+// An edge is the part of the signal between 25 % and 75 % of the plateau, around its 50 % point.
 constexpr double kEdgeFoot = 0.25;
 constexpr double kEdgeTop = 0.75;
 
-/// The position of a sample. It is signed, so that the processor turns it into a double, and back, in a single step.
+/// Position of a sample. Signed, because the processor converts signed integers to double and back in one step.
 using Index = std::ptrdiff_t;
 
-/// The first sample at or after a position, which must not be negative.
+/// Returns the first sample at or after a position, which must not be negative.
 Index atOrAfter(double position) {
     const auto before = static_cast<Index>(position);
     return before + (static_cast<double>(before) < position ? 1 : 0);
 }
 
-/// One phase's samples seen from the baseline, leading edge up.
+/// The samples of one phase, measured from the baseline, with the leading edge upwards.
 class PhaseSamples {
 public:
     PhaseSamples(const FoundPhase& phase, double baseline)
@@ -34,42 +34,42 @@ public:
     [[nodiscard]] double operator[](Index i) const { return (static_cast<double>(recorded(i)) - baseline_) * sign_; }
     [[nodiscard]] Index size() const { return std::ssize(samples_); }
 
-    /// The place where the line between samples i - 1 and i passes `level`.
+    /// Returns the position at which the line from sample i - 1 to sample i passes `level`.
     [[nodiscard]] double crossing(Index i, double level) const {
         const double before = (*this)[i - 1];
         const double after = (*this)[i];
         if (before == after) return static_cast<double>(i);
         return static_cast<double>(i) - 1 + std::clamp((level - before) / (after - before), 0.0, 1.0);
     }
-    /// First passage upwards at or after `from`, at or before `to`; NaN if none.
+    /// Returns the first upward passage from `from` up to and including `to`; NaN if there is none.
     [[nodiscard]] double firstRise(Index from, Index to, double level) const {
         for (Index i = from; i <= to && i < size(); ++i) {
             if ((*this)[i] >= level) return i == 0 ? kNotMeasured : crossing(i, level);
         }
         return kNotMeasured;
     }
-    /// Last passage downwards: searches from `from` back to `to`.
+    /// Returns the last downward passage, searching from `from` back to `to`.
     [[nodiscard]] double lastFall(Index from, Index to, double level) const {
         for (Index i = std::min(from, size() - 1) + 1; i-- > to;) {
             if ((*this)[i] >= level) return i + 1 >= size() ? kNotMeasured : crossing(i + 1, level);
         }
         return kNotMeasured;
     }
-    /// Going back from `from`: where the leading edge left `level`.
+    /// Searches back from `from` for the position at which the leading edge left `level`.
     [[nodiscard]] double edgeStart(Index from, double level) const {
         for (Index i = from; i > 0; --i) {
             if ((*this)[i - 1] <= level) return crossing(i, level);
         }
         return kNotMeasured;
     }
-    /// Going on from `from`: where the trailing edge reached `level`.
+    /// Searches forward from `from` for the position at which the trailing edge reached `level`.
     [[nodiscard]] double edgeEnd(Index from, double level) const {
         for (Index i = from; i < size(); ++i) {
             if ((*this)[i] <= level) return i == 0 ? kNotMeasured : crossing(i, level);
         }
         return kNotMeasured;
     }
-    /// Passages up minus passages down through half of `plateau`, on the edge whose first sample at or above it is `i`.
+    /// Places the edge at its 50 % point: upward passages less downward ones. `i`: its first sample at or above half.
     [[nodiscard]] double risesAt(Index i, Index to, double plateau) const {
         const double half = 0.5 * plateau;
         if ((*this)[i - 1] >= half) return crossing(i, half);
@@ -80,7 +80,7 @@ public:
         while (last < to && last + 1 < size() && (*this)[last] < kEdgeTop * plateau) ++last;
         double position = crossing(i, half);
         first = std::max<Index>(first, 1);
-        // The edge is not whole: the first passage must do.
+        // The edge is incomplete, so the first passage is used.
         if ((*this)[first - 1] >= half || (*this)[last] < half) return position;
         for (Index k = first; k <= last; ++k) {
             if (k == i || ((*this)[k - 1] >= half) == ((*this)[k] >= half)) continue;
@@ -88,7 +88,7 @@ public:
         }
         return position;
     }
-    /// The place for a trailing edge whose last sample at or above half is `i`, back to `to` at most.
+    /// Does the same for a trailing edge whose last sample at or above half is `i`, going back no further than `to`.
     [[nodiscard]] double fallsAt(Index i, Index to, double plateau) const {
         const double half = 0.5 * plateau;
         if ((*this)[i + 1] >= half) return crossing(i + 1, half);
@@ -117,7 +117,7 @@ public:
         }
         return kNotMeasured;
     }
-    /// The sum of the samples first to last, both included: the baseline and the sign are put in once.
+    /// Returns the sum of samples first to last, both included. Baseline and sign are applied once at the end.
     [[nodiscard]] double sum(Index first, Index last) const {
         double sums[2] = {0, 0};
         Index i = first;
@@ -128,7 +128,7 @@ public:
         if (i == last) sums[0] += static_cast<double>(recorded(i));
         return sign_ * (sums[0] + sums[1] - static_cast<double>(last - first + 1) * baseline_);
     }
-    /// Largest of the samples first to last, both included. In lanes: a comparison need not wait for the one before it.
+    /// Returns the largest of samples first to last, both included. In lanes, so that no comparison waits for the last.
     [[nodiscard]] double largest(Index first, Index last) const {
         const auto sign = static_cast<float>(sign_);
         std::array<float, 4> most;
@@ -160,7 +160,7 @@ private:
     double sign_;
 };
 
-/// The samples from 30 to 90 % of the width; at least one.
+/// The samples from 30 to 90 % of the width, at least one.
 struct PlateauRange {
     Index first;
     Index last;
@@ -178,13 +178,13 @@ double levelOf(const PhaseSamples& samples, const PlateauRange& range) {
     return samples.sum(range.first, range.last) / static_cast<double>(range.last - range.first + 1);
 }
 
-/// Per sample.
+/// Returns the slope per sample.
 double slopeOf(const PhaseSamples& samples, const PlateauRange& range) {
     double position = 0.5 * (static_cast<double>(range.first) - static_cast<double>(range.last));
     double moment = 0;
     for (Index i = range.first; i <= range.last; ++i, position += 1) moment += position * samples[i];
     const double n = static_cast<double>(range.last - range.first + 1);
-    const double squares = n * (n * n - 1) / 12;  // sum of the squared positions about their middle
+    const double squares = n * (n * n - 1) / 12;  // sum of the squared positions, from their middle
     return squares > 0 ? moment / squares : 0;
 }
 
@@ -199,7 +199,7 @@ void measureShape(const PhaseSpan& span, double baseline, FoundPhase& phase) {
     const Index before = std::max<Index>(begin - 1, 0);
     PlateauRange range(samples, static_cast<double>(begin), static_cast<double>(end));
     double plateau = levelOf(samples, range);
-    // Twice: the second time the plateau is taken between the 50 % points that the first time found.
+    // The second pass takes the plateau between the 50 % points that the first pass found.
     for (int pass = 0; pass < 2; ++pass) {
         phase.onset = samples.onset(before, end, plateau);
         phase.end50 = samples.end(end, begin, plateau);
@@ -238,7 +238,7 @@ double integralOf(const FoundPhase& phase, double baseline, double from, double 
     const auto first = static_cast<Index>(from) + 1;
     const auto last = static_cast<Index>(to);  // the last sample at or before `to`
     if (last < first) return 0.5 * (samples.at(from) + samples.at(to)) * (to - from);
-    // Trapezoids: whole samples but for half of the first and the last, and the pieces outside them.
+    // Trapezoid rule: whole samples less half of the first and the last, plus the pieces outside them.
     double sum = samples.sum(first, last);
     sum -= 0.5 * (samples[first] + samples[last]);
     sum += 0.5 * (samples.at(from) + samples[first]) * (static_cast<double>(first) - from);

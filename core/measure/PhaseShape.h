@@ -1,8 +1,8 @@
-// PhaseShape.h - one excursion from the baseline, measured: plateau, edges, overshoot, droop. Private to core/measure.
+// PhaseShape.h - measures one excursion from the baseline: plateau, edges, overshoot, droop. Private to core/measure.
 //
-// An edge passes a level where the straight line between two samples does. Where noise carries it to and fro, the
-// passages up less the passages down are taken: on average that is where it would have passed without noise, while the
-// first passage is early.
+// An edge passes a level at the point where the straight line between two samples does. If noise makes the signal pass
+// the level several times, downward passages are subtracted from upward ones: on average this gives the passage without
+// noise, whereas the first passage is too early.
 #pragma once
 
 #include <cstddef>
@@ -11,11 +11,11 @@
 
 namespace tacto {
 
-/// `phase` becomes what lies at `span`, with all of its measures but the charge.
+/// Fills `phase` with all measures of the phase at `span`, except for the charge.
 void measureShape(const PhaseSpan& span, double baseline, FoundPhase& phase);
 
-/// ∫ from one position to another in the phase's view, of the straight lines between samples, from the baseline and in
-/// the phase's direction; in unit times samples of the view.
+/// Integrates the straight lines between samples from position `from` to `to` in the phase's view, measured from the
+/// baseline in the phase's direction; in unit × samples of the view.
 [[nodiscard]] double integralOf(const FoundPhase& phase, double baseline, double from, double to);
 
 }  // namespace tacto

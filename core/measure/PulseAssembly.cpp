@@ -12,24 +12,24 @@ namespace {
 
 constexpr std::size_t kMinPhaseSamples = 10;
 constexpr std::size_t kAmplePhaseSamples = 40;
-constexpr double kRinging = 0.05;     // share of the area of the phase before: more is a phase by itself
-constexpr double kLower = 0.6;        // share of the phase before; a pulse as high as that is another, however short
-constexpr double kFragment = 0.5;     // share of a neighbour's area: what is less and under-sampled is a piece of it
-constexpr double kRingsFor = 0.5;     // share of the phase before, from its end
-constexpr double kFlickersFor = 0.1;  // share of the phase after, before it: noise on a slow leading edge
-constexpr double kAcross = 0.15;      // share of the state: a phase on the side that has none
+constexpr double kRinging = 0.05;     // share of the area of the phase before: a larger one is a phase, not ringing
+constexpr double kLower = 0.6;        // share of the height of the phase before: a higher one is a phase, however short
+constexpr double kFragment = 0.5;     // share of a neighbour's area: a smaller, under-sampled phase is a piece of it
+constexpr double kRingsFor = 0.5;     // share of the phase before, counted from its end
+constexpr double kFlickersFor = 0.1;  // share of the phase after, before its start: noise on a slow leading edge
+constexpr double kAcross = 0.15;      // share of the state: height of a phase on the side that has no state
 constexpr double kAcrossInNoise = 4;
-constexpr double kRings = 0.05;          // overshoot from which on the tail belongs to the charge
+constexpr double kRings = 0.05;          // overshoot from which the tail belongs to the charge
 constexpr double kOvershootInNoise = 6;  // times the noise: less overshoot may be noise
 
-/// Where samples of the plateau are missing, the mean of the others.
+/// Returns the plateau's height, or the mean of the phase if samples of the plateau are missing.
 double heightOfPhase(const FoundPhase& phase) {
     const double plateau = std::abs(phase.measured.plateau);
     return std::isfinite(plateau) ? plateau : phase.area / (phase.to_s() - phase.from_s());
 }
 
-/// A small phase next to one of twenty times its area, shorter and lower than it: the ringing after an edge, or noise
-/// on a slow leading edge.
+/// Returns whether `small` is lower and shorter than `large`, next to it, and has less than a twentieth of its area: it
+/// is then ringing after an edge, or noise on a slow leading edge.
 bool isSmallBeside(const FoundPhase& small, const FoundPhase& large) {
     return heightOfPhase(small) < kLower * heightOfPhase(large) && small.area < kRinging * large.area &&
            small.to_s() - small.from_s() < 0.5 * (large.to_s() - large.from_s());
@@ -43,18 +43,18 @@ bool flickersBefore(const FoundPhase& phase, const FoundPhase& after) {
            after.from_s() - phase.to_s() <= kFlickersFor * (after.to_s() - after.from_s());
 }
 
-/// Whether a whole edge and a step of silence do not fit between it and an end of the record.
+/// Returns whether the phase is too close to an end of the record for a whole edge and one sample of silence.
 bool reachesEnd(const FoundPhase& phase) {
-    const double rate = 1.25 * phase.view->rate_hz;  // an edge is 1.25 times as long as its middle eight tenths
+    const double rate = 1.25 * phase.view->rate_hz;  // a whole edge lasts 1.25 times its middle 80 %
     const double last = static_cast<double>(phase.view->samples.size()) - 1;
     return phase.onset < 1 + phase.measured.rise_s * rate || phase.end50 > last - 1 - phase.measured.fall_s * rate;
 }
 
-/// Counted by samples where the edges could not be placed.
+/// Returns a time from the samples if the edges could not be placed.
 double endOf(const FoundPhase& phase) { return std::isfinite(phase.end50) ? phase.measured.end_s : phase.to_s(); }
 double onsetOf(const FoundPhase& phase) { return std::isfinite(phase.onset) ? phase.measured.onset_s : phase.from_s(); }
 
-/// The time from the end of one phase to the start of the next; by samples where the edges could not be placed.
+/// Returns the time from the end of one phase to the start of the next, by samples if the edges could not be placed.
 double gapBetween(const FoundPhase& a, const FoundPhase& b) {
     const double gap = b.measured.onset_s - a.measured.end_s;
     if (std::isfinite(gap)) return gap;
@@ -93,7 +93,7 @@ std::vector<PulseMeasurement> PulseAssembly::finish() {
     return std::move(pulses_);
 }
 
-/// Keeps the newest phase or leaves it out, now that what follows it is in the window, or that it is the `last`.
+/// Keeps or drops the newest phase, once the phase after it is in the window or it is the `last`.
 void PulseAssembly::settleNewest(bool last) {
     const auto& phase = at(kept_);
     const bool rings = kept_ > 0 && ringsAfter(phase, at(kept_ - 1));
@@ -107,8 +107,8 @@ void PulseAssembly::settleNewest(bool last) {
     while (paired_ + 2 < kept_) pairNext();
 }
 
-/// Charge of a phase with its edges: as far as two and a half edge times beyond the 50 % points (half the width where
-/// it rings), at most to the middle of the gap towards a neighbour.
+/// Integrates the charge of a phase with its edges: up to two and a half edge times beyond the 50 % points (half the
+/// width if it rings), but not beyond the middle of the gap to a neighbour.
 void PulseAssembly::integrate(std::size_t k) {
     auto& phase = at(k);
     auto& m = phase.measured;
@@ -127,29 +127,29 @@ void PulseAssembly::integrate(std::size_t k) {
     m.charge = phase.sign * integralOf(phase, levels_.baseline, from, to) / view.rate_hz;
 }
 
-/// The gap between two phases that may form one pulse; else NaN.
+/// Returns the gap between two phases that may form one pulse; NaN if they cannot.
 double PulseAssembly::gapTo(std::size_t k, std::size_t second) const {
     if (levels_.count != StateCount::Three || second >= kept_ || at(k).sign == at(second).sign) return kNotMeasured;
     const double gap = gapBetween(at(k), at(second));
-    // A mean of samples places an edge no better than to its own length.
+    // An average of several samples cannot place an edge better than to its own length.
     const std::size_t mean = std::max(at(k).view->mean, at(second).view->mean);
     const double blur = mean > 1 ? static_cast<double>(mean) / capture_.rate_hz : 0;
     return gap <= gapMax_s_ + blur ? gap : kNotMeasured;
 }
 
-/// Whether a piece of either phase lies between them: a spike in the gap, or the ringing after a clipped phase.
+/// Returns whether a piece of either phase lies between the two: a spike in the gap, or ringing after a clipped phase.
 bool PulseAssembly::isSplit(std::size_t k) const {
     if (k + 2 >= kept_ || at(k + 1).measured.samples >= kMinPhaseSamples) return false;
     const auto& whole = at(k + 1).sign == at(k).sign ? at(k) : at(k + 2);
     return at(k + 1).area < kFragment * whole.area && std::isfinite(gapTo(k, k + 2));
 }
 
-/// Whether the leading phase may lie in missing samples before this one.
+/// Returns whether the leading phase may be hidden in missing samples before this phase.
 bool PulseAssembly::mayLackLeading(std::size_t k) const {
     const auto& phase = at(k);
     if (!(static_cast<double>(phase.hiddenBefore) <= gapMax_s_ * phase.view->rate_hz)) return false;
     if (levels_.count == StateCount::Three) return phase.sign > 0 ? !upLeads_ || downLeads_ : !downLeads_ || upLeads_;
-    // Only one side is known. This is the second where the samples go missing, or come back, on the other side.
+    // The record shows only one side. This is a second phase if the samples go missing, or return, on the other side.
     const double height = std::abs((phase.sign > 0 ? levels_.high : levels_.low) - levels_.baseline);
     const double least = std::max(kAcross * height, kAcrossInNoise * levels_.noise);
     const auto liesThere = [&](std::size_t i) {
@@ -160,8 +160,8 @@ bool PulseAssembly::mayLackLeading(std::size_t k) const {
     return (first > 0 && liesThere(first - 1)) || liesThere(end);
 }
 
-/// Where a phase could belong to either neighbour, the clearly shorter gap wins: a record may begin between the phases
-/// of a pulse.
+/// Pairs the next phase. If it could belong to either neighbour, the clearly shorter gap decides, because a record may
+/// begin between the phases of a pulse.
 void PulseAssembly::pairNext() {
     const std::size_t k = paired_;
     if (isSplit(k)) {
@@ -176,11 +176,11 @@ void PulseAssembly::pairNext() {
     const bool lacksLeading = mayLackLeading(k);
     const bool alone = lacksLeading && upLeads_ != downLeads_;
     const bool pairs = std::isfinite(gap) && !alone && !(std::isfinite(next) && gap > 2 * next + step && k == 0);
-    // Where the leading side is not known, the same holds for phases after missing samples.
+    // If the leading side is unknown, the same holds for phases after missing samples.
     chainedToHidden_ = chainedToHidden_ || (lacksLeading && !alone && (!pairs || std::isfinite(next)));
     flags.incomplete = alone || chainedToHidden_;
     chainedToHidden_ = chainedToHidden_ && std::isfinite(pairs ? next : gap);
-    // From a phase that the record cuts on, phases follow so closely that each may belong to either neighbour.
+    // After a phase cut by the record's start, phases may follow so closely that each could belong to either neighbour.
     if (k == 0) chainedToCut_ = at(k).truncated;
     const bool chained = chainedToCut_;
     chainedToCut_ = chainedToCut_ && std::isfinite(pairs ? next : gap);
@@ -189,7 +189,7 @@ void PulseAssembly::pairNext() {
         paired_ += 2;
         return;
     }
-    // The phase that belongs to this one may lie beyond the record.
+    // The partner of this phase may lie beyond the record.
     const double end_s = capture_.start_s + static_cast<double>(capture_.samples()) / capture_.rate_hz;
     const bool cutBefore = k == 0 && at(k).from_s() - capture_.start_s <= gapMax_s_;
     const bool cutAfter = k + 1 == kept_ && end_s - at(k).to_s() <= gapMax_s_;
@@ -201,8 +201,8 @@ void PulseAssembly::pairNext() {
     paired_ += 1;
 }
 
-/// `phases`: the leading one, the second if there is one, a piece between them; what has a piece is under-sampled.
-/// `flags`: for what is not seen of it.
+/// `phases`: the leading phase, then the second if there is one, with a piece between them if there is one. A pulse
+/// with a piece is under-sampled. `flags`: parts of the pulse that are not seen.
 void PulseAssembly::addPulse(std::initializer_list<const FoundPhase*> phases, const PulseFlags& flags) {
     const FoundPhase& leading = **phases.begin();
     const FoundPhase* second = phases.size() > 1 ? *(phases.end() - 1) : nullptr;

@@ -11,16 +11,16 @@ namespace tacto {
 
 namespace {
 
-constexpr double kShallowest = 0.02;  // share of the leading phase: less beyond the other side is not a second phase
+constexpr double kShallowest = 0.02;  // share of the leading phase: a smaller one is not a second phase
 constexpr std::size_t kJudgedPulses = 1000;
 constexpr double kNoNoise = 4.5;   // standard deviations of a mean
-constexpr double kMaxEdges = 0.6;  // share of the width: half a sine has 0.67
-// What may be a pulse and is the baseline's own slow wave:
-constexpr double kTall = 0.5;       // share of the largest state: surely a pulse
+constexpr double kMaxEdges = 0.6;  // share of the width; half a sine has 0.67
+// Thresholds for an apparent pulse that is really a slow wave of the baseline:
+constexpr double kTall = 0.5;       // share of the largest state: certainly a pulse
 constexpr double kLow = 0.4;        // share of the largest state
-constexpr double kLong = 3;         // times the widest that surely is one
+constexpr double kLong = 3;         // times the widest certain pulse
 constexpr double kSlowEdges = 0.4;  // share of its width
-constexpr double kPeak = 2;         // overshoot: it begins as a pulse and stays beyond the threshold
+constexpr double kPeak = 2;         // overshoot of a wave that begins as a pulse and stays beyond the threshold
 
 struct Silence {
     double sum = 0, n = 0;
@@ -31,7 +31,7 @@ struct Silence {
     }
 };
 
-/// The samples between two positions, from the baseline.
+/// Collects the samples between two positions, measured from the baseline.
 Silence silence(const SampleView& view, const PulseAttempt& found, double from, double to) {
     Silence result;
     const auto last = static_cast<double>(view.samples.size());
@@ -45,7 +45,7 @@ Silence silence(const SampleView& view, const PulseAttempt& found, double from, 
     return result;
 }
 
-/// Positions of a pulse, and of the silence about it.
+/// Positions of a pulse and of the silence around it.
 struct PulsePlace {
     double width, onset, end;
     double silentFrom, silentTo;
@@ -61,15 +61,15 @@ struct PulsePlace {
         silentTo = last ? static_cast<double>(view.samples.size()) : view.positionOf(found.pulses[k + 1].seenFrom_s);
     }
 };
-constexpr double kSilentFrom = 0.5, kSilentTo = 2.5;  // widths from a pulse
+constexpr double kSilentFrom = 0.5, kSilentTo = 2.5;  // distances from a pulse, in widths
 
-/// Up to two widths, half a width before the pulse; where the silence is short, its middle half.
+/// Returns up to two widths of silence, ending half a width before the pulse; of a short silence, its middle half.
 Silence silenceBefore(const SampleView& view, const PulseAttempt& found, const PulsePlace& p) {
     const double quarter = 0.25 * (p.onset - p.silentFrom);
     return silence(view, found, std::max(p.onset - kSilentTo * p.width, p.silentFrom + (p.first ? 0 : quarter)),
                    p.onset - std::min(kSilentFrom * p.width, quarter));
 }
-/// The silence after it, or `later` times two widths further on.
+/// Returns the silence after the pulse, or a stretch `later` times two widths further on.
 Silence silenceAfter(const SampleView& view, const PulseAttempt& found, const PulsePlace& p, std::size_t later = 0) {
     const double quarter = 0.25 * (p.silentTo - p.end);
     const double shift = static_cast<double>(later) * (kSilentTo - kSilentFrom) * p.width;
@@ -77,7 +77,7 @@ Silence silenceAfter(const SampleView& view, const PulseAttempt& found, const Pu
                    std::min(p.end + shift + kSilentTo * p.width, p.silentTo - (p.last ? 0 : quarter)));
 }
 
-/// Looks at one of so many pulses.
+/// Calls `look` for an evenly spaced selection of the pulses.
 template <class Look>
 void lookAtPulses(const PulseAttempt& found, Look look) {
     const std::size_t stride = std::max<std::size_t>(1, found.pulses.size() / kJudgedPulses);
@@ -154,7 +154,7 @@ std::optional<AfterPulses> levelAfter(const SampleView& view, const PulseAttempt
         }
         amplitude = found.pulses[k].leading.plateau;
     });
-    // A record that begins too late for the level before its pulses has the baseline.
+    // If a record begins too late to show the level before its pulses, the baseline is used instead.
     const double level = ahead.n > 0 ? ahead.mean() : 0;
     std::optional<AfterPulses> most;
     for (const auto& one : behind) {
@@ -176,7 +176,7 @@ void lookBeside(const SampleView& view, PulseAttempt& found, double noise) {
     lookAtPulses(found, [&](std::size_t k) {
         const PulsePlace place(view, found, k);
         double largest = 0;
-        const bool hidden = found.levelAfter != 0;  // is known already
+        const bool hidden = found.levelAfter != 0;  // found already
         for (const auto& one :
              {silenceBefore(view, found, place), hidden ? Silence{} : silenceAfter(view, found, place)}) {
             const double level = one.n > 0 ? std::abs(one.mean()) : 0;

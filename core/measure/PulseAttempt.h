@@ -1,4 +1,4 @@
-// PulseAttempt.h - one way to look at a channel, the pulses that it shows, and how the signal lies about them. Private
+// PulseAttempt.h - one way of viewing a channel, with the pulses found in that view and the signal around them. Private
 // to core/measure.
 #pragma once
 
@@ -18,13 +18,13 @@ struct PulseAttempt {
     std::vector<PulseMeasurement> pulses;
     std::size_t mean = 1;
     std::size_t meanOfSecond = 1;
-    double widest_s = 0;         // phase
-    double secondStandsOut = 0;  // how far it stands out in its own view, where there are three states
+    double widest_s = 0;         // width of the widest phase
+    double secondStandsOut = 0;  // distance of the second state from the noise in its own view (three states)
     double unrest = 0;           // see SignalQuality
     double levelAfter = 0;       // as SignalQuality::levelAfter
     double levelBefore = 0;
-    double beside = 0;      ///< level of the signal just beside its pulses, from the baseline
-    double mostBeside = 0;  ///< the largest of all pulses that were looked at
+    double beside = 0;      ///< level of the signal just outside its pulses, from the baseline
+    double mostBeside = 0;  ///< the largest such level of the pulses examined
 
     [[nodiscard]] bool hasStates() const noexcept { return levels.count != StateCount::None; }
     [[nodiscard]] bool mostlyMeasured() const {
@@ -38,34 +38,34 @@ struct PulseAttempt {
     }
 };
 
-/// The distance from the baseline to a state; 0 where there is none.
+/// Returns the distance from the baseline to a state; 0 if there is no such state.
 [[nodiscard]] double distanceOf(double state, double baseline);
-/// The distance from the baseline to the state that is further away.
+/// Returns the distance from the baseline to the state that is further away.
 [[nodiscard]] double heightOf(const StateLevels& levels);
 
-/// How far the baseline moves by more than its noise: two thirds of the samples around it are within this. 0 if it is
-/// only noise, or less than a fiftieth of the pulses.
+/// Returns how far the baseline moves in excess of its noise: two thirds of the samples around it lie within this
+/// distance. 0 for noise alone, or for less than a fiftieth of the pulses.
 [[nodiscard]] double unrestOf(const SampleView& view, const StateLevels& levels, double noise);
 
-/// A signal whose edges fill its pulses (a sine, a triangle) has no states, whatever its histogram says.
+/// Returns false if edges fill the pulses (a sine, a triangle): such a signal has no states, despite its histogram.
 [[nodiscard]] bool restsOnPlateaus(const std::vector<PulseMeasurement>& pulses);
 
-/// A wave of the baseline that is measured as a pulse: low and long beside the others, and without a plateau. Null
-/// without one.
+/// Returns a wave of the baseline that was measured as a pulse: low and long compared with the others, and without a
+/// plateau. Null if there is none.
 [[nodiscard]] const PhaseMeasurement* slowWave(const PulseAttempt& found);
 
 struct AfterPulses {
-    double difference = 0;  // the silence after less the one before
+    double difference = 0;  // the silence after minus the silence before
     double before = 0;
 };
 
-/// The level after pulses, as far as a second phase may begin, against that just before them, where the difference
-/// goes against the pulses and exceeds the noise: five standard deviations of the means. `within_s`: how soon a second
-/// phase begins at most.
+/// Compares the level just after pulses, where a second phase may begin, with the level just before them. Returns the
+/// difference if it is opposite to the pulses and exceeds the noise (five standard deviations of the means).
+/// `within_s`: the latest start of a second phase.
 [[nodiscard]] std::optional<AfterPulses> levelAfter(const SampleView& view, const PulseAttempt& found, double within_s);
 
-/// How far the signal lies from the baseline just beside its pulses, beyond the noise: on the larger side, the RMS over
-/// pulses and the largest. `noise`: a sample's, standard deviation.
+/// Measures how far the signal lies from the baseline just outside its pulses, beyond the noise: on the larger side,
+/// the RMS over all pulses and the largest value. `noise`: standard deviation of a sample.
 void lookBeside(const SampleView& view, PulseAttempt& found, double noise);
 
 }  // namespace tacto

@@ -16,20 +16,20 @@ namespace tacto {
 
 namespace {
 
-constexpr double kReliable = 12;  // times the noise, from the baseline to a state
-constexpr double kSlack = 1.1;    // white noise falls by the root of the mean's length, real noise falls less
-constexpr double kWhite = 1.4;    // times what averaging leaves of white noise
+constexpr double kReliable = 12;  // times the noise: distance from the baseline to a reliable state
+constexpr double kSlack = 1.1;    // margin: averaging n samples divides white noise by √n, real noise by less
+constexpr double kWhite = 1.4;    // times the noise that would remain if the noise were white
 constexpr std::size_t kLongestMean = 4096;
-constexpr double kSecondReliable = 6;  // times the noise: that it follows a leading phase is known besides
-constexpr double kOtherSide = 0.15;    // share of the state: a phase on the other side
+constexpr double kSecondReliable = 6;  // times the noise: lower, because a second phase must follow a leading one
+constexpr double kOtherSide = 0.15;    // share of the state: height of a phase on the other side
 constexpr double kOtherSideInNoise = 4;
 constexpr double kUnseenInSteps = 0.2;  // steps of the converter
 constexpr double kUnseen = 2e-4;        // share of the largest state
 constexpr double kDithers = 0.5;
 constexpr double kMaxBeside = 0.07;  // share of the largest state
-constexpr double kMaxUnrest = 0.05;  // share of the way to the nearest state: a phase begins at 0.09 to 0.15
+constexpr double kMaxUnrest = 0.05;  // share of the distance to the nearest state; a phase begins at 0.09 to 0.15
 
-/// How far the larger state stands out of the noise; of three states, the smaller.
+/// Return how many times the noise the states are from the baseline: the further state; of three states, the nearer.
 double strongOf(const StateLevels& levels) { return heightOf(levels) / levels.noise; }
 double weakOf(const StateLevels& levels) {
     const double distance = std::min(distanceOf(levels.high, levels.baseline), distanceOf(levels.low, levels.baseline));
@@ -40,7 +40,7 @@ Sides strongSide(const StateLevels& levels) {
     return up ? Sides::Up : Sides::Down;
 }
 
-/// How many samples of a view must become one to make a state `standsOut` times the noise reliable.
+/// Returns how many samples must be averaged to make a state reliable that is now `standsOut` times the noise.
 std::size_t meanFor(double standsOut) {
     const double mean = std::ceil(kSlack * (kReliable / standsOut) * (kReliable / standsOut));
     return mean < static_cast<double>(kLongestMean) ? static_cast<std::size_t>(mean) : kLongestMean + 1;
@@ -58,13 +58,13 @@ public:
         return attempt;
     }
 
-    /// The least averaged view of `base` in which pulses are reliable; `base` itself without one.
+    /// Returns the view of `base` with the least averaging that makes pulses reliable; `base` itself if there is none.
     [[nodiscard]] PulseAttempt best(const SampleView& base, const SampleBlocks& blocks) const {
         PulseAttempt plain = on(base, blocks);
         const double standsOut = strongOf(plain.levels);
         if (plain.hasStates() && standsOut >= kReliable) return complete(base, std::move(plain));
         std::size_t mean = plain.hasStates() ? std::max<std::size_t>(2, meanFor(standsOut)) : 4;
-        // Each step goes to a longer mean, except for one step back to the shortest that is reliable.
+        // Each step tries a longer mean, except for one step back to the shortest reliable one.
         for (bool back = false; mean <= kLongestMean && base.samples.size() / mean >= 20;) {
             const auto view = averaged(base, mean);
             PulseAttempt attempt = on(view, SampleBlocks(view.samples));
@@ -96,14 +96,14 @@ private:
         return judged(view, withSecondSide(view, std::move(found)));
     }
 
-    /// Flags what is not whole, and refuses what does not stand on its baseline.
+    /// Flags incomplete pulses, and refuses pulses that do not rise from their baseline.
     [[nodiscard]] PulseAttempt judged(const SampleView& view, PulseAttempt whole) const {
         if (!whole.hasStates()) return whole;
         markCutPulses(view, whole);
-        // The mean of a few samples has a slowly moving baseline in it whole: noise is what neighbours differ by.
+        // The mean of a few samples still contains a slow baseline, so the noise is taken from neighbours' differences.
         lookBeside(view, whole, std::min(whole.levels.noise, kWhite * neighbourNoise(view.samples, lsbOf(view))));
         const double height = heightOf(whole.levels);
-        // A second phase is larger than that: the baseline itself has moved.
+        // A second phase would be larger: the baseline itself has moved.
         if (std::abs(whole.levelAfter) < kMaxUnrest * height) {
             whole.beside = std::max(whole.beside, std::abs(whole.levelAfter));
         }
@@ -127,8 +127,8 @@ private:
         return whole;
     }
 
-    /// With two states only one side is known. Where the record begins or ends on the other side, it cuts a phase that
-    /// may belong to the pulse beside it.
+    /// With two states only one side is known. If the record begins or ends on the other side, it cuts a phase that may
+    /// belong to the pulse next to it.
     void markCutPulses(const SampleView& view, PulseAttempt& found) const {
         if (found.levels.count != StateCount::Two || found.pulses.empty()) return;
         const auto& levels = found.levels;
@@ -152,11 +152,11 @@ private:
     }
 
     [[nodiscard]] double lsbOf(const SampleView& view) const {
-        // Only noise of half a step or more lets a mean see between two codes.
+        // Averaging can resolve less than one code only if the noise is half a step or more.
         return noise_ > kDithers * lsb_ ? lsb_ / std::sqrt(static_cast<double>(view.mean)) : lsb_;
     }
 
-    /// Averaging shows pulses in white noise. In a signal that wanders it shows whatever is there at the time.
+    /// Returns whether the noise is white. Averaging reveals pulses in white noise, but not in a signal that wanders.
     [[nodiscard]] bool isWhite(const SampleView& base, const PulseAttempt& attempt) const {
         const double share = std::sqrt(static_cast<double>(attempt.mean) / static_cast<double>(base.mean));
         const double noise = neighbourNoise(base.samples, lsbOf(base));
@@ -185,8 +185,8 @@ private:
         return attempt;
     }
 
-    /// A second phase that is shallow may be lost in noise from which the leading one stands out, and then be taken for
-    /// the baseline. It is looked for on longer means, and measured there.
+    /// A shallow second phase may be lost in noise that the leading phase exceeds, and then be taken for the baseline.
+    /// This looks for it on longer means and measures it there.
     [[nodiscard]] PulseAttempt withSecondSide(const SampleView& view, PulseAttempt found) const {
         const bool three = found.levels.count == StateCount::Three;
         if (three && weakOf(found.levels) >= kReliable) return found;
@@ -202,7 +202,7 @@ private:
             if (auto both = onTwoMeans(view, averaged(view, mean), found)) return *std::move(both);
         }
         if (three) return found;
-        // It stays hidden; but the baseline is where the signal lies before its pulses.
+        // The second phase stays hidden, but the baseline is the level before the pulses.
         const SampleBlocks blocks(view.samples);
         const bool up = strongSide(found.levels) == Sides::Up;
         found.levels.baseline = found.levelBefore;
@@ -212,7 +212,7 @@ private:
         return found;
     }
 
-    /// The leading side on `view`, the other on `slow`; none if `slow` does not show a second phase for most pulses.
+    /// Finds the leading side on `view`, the other on `slow`. Returns nothing if `slow` lacks most second phases.
     [[nodiscard]] std::optional<PulseAttempt> onTwoMeans(const SampleView& view, const SampleView& slow,
                                                          const PulseAttempt& found) const {
         const SampleBlocks blocks(slow.samples);
@@ -227,7 +227,7 @@ private:
         both.unrest = unrestOf(slow, levels, neighbourNoise(slow.samples, lsbOf(slow)));
         const Sides strong = strongSide(found.levels);
         const double state = strong == Sides::Up ? found.levels.high : found.levels.low;
-        // The leading side's state is the sharper view's.
+        // The state of the leading side comes from the less averaged view.
         (strong == Sides::Up ? both.levels.high : both.levels.low) = state;
         auto phases = findPhases(view, SampleBlocks(view.samples), both.levels, strong);
         const auto slowPhases = findPhases(slow, blocks, levels, strong == Sides::Up ? Sides::Down : Sides::Up);
@@ -277,7 +277,7 @@ FoundPulses findPulses(const Capture& capture, const CaptureChannel& channel, co
     if (drift) {
         const auto still = withoutDrift(recorded, *drift);
         attempt = search.best(still, SampleBlocks(still.samples));
-        // A phase of half a block's length moves its median: what was taken for drift was pulses.
+        // A phase of half a block's length moves the median: the supposed drift was pulses.
         const double block_s = static_cast<double>(drift->block) / capture.rate_hz;
         if (attempt.hasStates() && !attempt.pulses.empty() && attempt.widest_s <= 0.5 * block_s) {
             found.quality.drift = drift->span;
@@ -295,12 +295,12 @@ FoundPulses findPulses(const Capture& capture, const CaptureChannel& channel, co
     const double standsOut = strongOf(found.levels);
     found.quality.snr_db = 20 * std::log10(standsOut);
     found.quality.doubtful = standsOut < kReliable || (biphasic && attempt.secondStandsOut < kSecondReliable);
-    // Where a second phase may be missed, a pulse without one cannot be said to lack it.
+    // If second phases may be missed, a pulse without a second phase may still have one.
     for (auto& pulse : found.pulses) {
         if (found.quality.doubtful && !pulse.second) pulse.imbalance = kNotMeasured;
     }
     found.quality.unrest = attempt.unrest;
-    // As a standard deviation that holds for each pulse: the largest is no more than two of it.
+    // As a standard deviation for each pulse: the largest deviation is at most two of these.
     const double beside = std::max(attempt.beside, 0.5 * attempt.mostBeside);
     if (beside > std::max(kUnseenInSteps * lsb, kUnseen * heightOf(found.levels))) {
         found.quality.unrest = std::max(attempt.unrest, beside);

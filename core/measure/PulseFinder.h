@@ -1,9 +1,9 @@
-// PulseFinder.h - the pulses of one channel: on the record as it is, or without its drift, or on means of its samples,
+// PulseFinder.h - finds the pulses of one channel: on the record itself, without its drift, or on means of its samples,
 // whichever shows them reliably. Private to core/measure.
 //
-// Reliable is a state twelve times the noise away from the baseline (21.6 dB): then no sample of a million is taken for
-// a pulse and none of a pulse for silence. A record below that is averaged just so much that it is above, which takes
-// resolution in time; each side of a biphasic pulse is averaged by itself, since a slow recharge is shallow and long.
+// A state is reliable if it is twelve times the noise away from the baseline (21.6 dB). Then fewer than one sample in a
+// million is mistaken for a pulse or for silence. A noisier record is averaged just enough to reach this, at a loss of
+// time resolution. The sides of a biphasic pulse are averaged separately: a slow recharge is shallow and long.
 #pragma once
 
 #include <cstddef>

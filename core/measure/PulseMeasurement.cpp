@@ -58,9 +58,9 @@ Result<ChannelMeasurement> measureTrains(std::span<const Capture> captures, std:
                                          const MeasureOptions& options) {
     if (captures.empty()) return invalid("no captures to measure; at least one was expected");
     std::vector<PulseMeasurement> pulses;
-    std::vector<std::size_t> breaks;  // pulses that follow upon an unknown time
+    std::vector<std::size_t> breaks;  // pulses before which an unknown time has passed
     ChannelMeasurement result;
-    const CaptureChannel* described = nullptr;  // the channel whose range and resolution give the uncertainty
+    const CaptureChannel* described = nullptr;  // channel with the range and resolution for the uncertainty
     std::size_t empty = 0;
     std::size_t disordered = 0;
     std::string why;
@@ -83,7 +83,7 @@ Result<ChannelMeasurement> measureTrains(std::span<const Capture> captures, std:
             result.quality = found.quality;
             described = &samples;
         }
-        // The worst of all captures is what holds for the result.
+        // The worst capture sets the quality of the result.
         result.quality.mean = std::max(result.quality.mean, found.quality.mean);
         result.quality.meanOfSecond = std::max(result.quality.meanOfSecond, found.quality.meanOfSecond);
         result.quality.drift = std::max(result.quality.drift, found.quality.drift);
@@ -101,7 +101,7 @@ Result<ChannelMeasurement> measureTrains(std::span<const Capture> captures, std:
             broken = true;
         }
         previousEnd_s = capture.start_s + static_cast<double>(samples.samples.size()) * step;
-        // A capture without pulses hides how many trains it missed.
+        // A capture without pulses does not show how many trains it missed.
         if (found.pulses.empty()) {
             ++empty;
             if (levels.count == StateCount::None) why = levels.why;
@@ -122,7 +122,7 @@ Result<ChannelMeasurement> measureTrains(std::span<const Capture> captures, std:
                         "are not reported",
                         result.name, disordered, captures.size()));
     }
-    assert(described != nullptr);  // there is at least one capture
+    assert(described != nullptr);  // at least one capture exists
     const TimeTolerance time{captures.front().timeBaseTolerance,
                              captures.size() > 1 ? captures.front().stampTolerance_s : 0};
     summarise(std::move(pulses), breaks, *described, time, options, result);

@@ -20,11 +20,11 @@ struct Extremes {
     std::size_t finite = 0;
 };
 
-/// Sixteen lanes side by side and no branch, so that a compiler turns them into vectors.
+/// Sixteen lanes and no branch, so that a compiler can vectorise the loop.
 bool ofWholeBlock(const float* samples, Extremes& into) noexcept {
     std::array<float, kBlockLanes> low;
     std::array<float, kBlockLanes> high;
-    std::array<std::int32_t, kBlockLanes> odd;  // not finite
+    std::array<std::int32_t, kBlockLanes> odd;  // nonzero: not finite
     low.fill(kNoExtreme);
     high.fill(-kNoExtreme);
     odd.fill(0);
@@ -57,7 +57,7 @@ Extremes oneByOne(std::span<const float> samples) noexcept {
     return found;
 }
 
-/// The third smallest of `sign` times all samples: it lies in one of the three blocks with the smallest extremes.
+/// Returns the third smallest of `sign` times all samples. It is in one of the three blocks with the smallest extremes.
 float third(std::span<const float> samples, const std::vector<float>& extremes, float sign) {
     std::array<std::size_t, 3> blocks{};
     std::size_t known = 0;
@@ -69,7 +69,7 @@ float third(std::span<const float> samples, const std::vector<float>& extremes, 
         blocks[at] = b;
         known = std::min(known + 1, blocks.size());
     }
-    std::array<float, 3> smallest;  // ascending
+    std::array<float, 3> smallest;  // in ascending order
     smallest.fill(kNoExtreme);
     for (std::size_t k = 0; k < known; ++k) {
         const std::size_t first = blocks[k] * SampleBlocks::kSamples;
@@ -83,8 +83,8 @@ float third(std::span<const float> samples, const std::vector<float>& extremes, 
     return sign * smallest[2];
 }
 
-/// The index of the first of `samples` that is beyond; their number if none is. Eight are asked at once, as the silence
-/// between two pulses is short where a record holds many.
+/// Returns the index of the first of `samples` below or above the limits, or their number if there is none. Tests eight
+/// at once, because the silence between two pulses is short in a record with many.
 std::size_t firstBeyond(std::span<const float> samples, float below, float above) noexcept {
     constexpr std::size_t kLaneRow = 8;
     const std::size_t n = samples.size();
@@ -171,7 +171,7 @@ SampleView averaged(const SampleView& view, std::size_t mean) {
     const double share = 1.0 / static_cast<double>(mean);
     const float* sample = view.samples.data();
     for (float& out : result.own) {
-        // Four sums: an addition need not wait for the one before it.
+        // Four separate sums, so that no addition waits for the one before.
         double sums[4] = {0, 0, 0, 0};
         std::size_t k = 0;
         for (; k + 4 <= mean; k += 4) {

@@ -17,15 +17,15 @@ namespace tacto {
 namespace {
 
 constexpr std::size_t kMinForLevels = 20;
-constexpr double kSpanInNoise = 8;          // Gaussian noise alone reaches 7 to 9 in a record's span
-constexpr double kSmallestBaseline = 0.05;  // share of the samples, between two other states
-constexpr double kWideWindow = 0.06;        // share of the way to the next state
-constexpr double kSmallestReturn = 0.2;     // share of the leading phase's charge, to be a second phase and not ringing
-constexpr double kWanders = 0.15;           // share of the way to the larger state: no pulses are found within it
-constexpr double kStepsApart = 2.5;         // steps of the converter, from the baseline to a state
-constexpr double kRestingSpread = 0.2;      // share of the way to the next state; a sine has 0.24, ringing less
+constexpr double kSpanInNoise = 8;          // standard deviations: Gaussian noise alone spans 7 to 9
+constexpr double kSmallestBaseline = 0.05;  // share of the samples, for a baseline between two other states
+constexpr double kWideWindow = 0.06;        // share of the distance to the next state
+constexpr double kSmallestReturn = 0.2;     // share of the leading phase's charge; a smaller return is ringing
+constexpr double kWanders = 0.15;           // share of the distance to the larger state: no pulses are found below this
+constexpr double kStepsApart = 2.5;         // steps of the converter: least distance from the baseline to a state
+constexpr double kRestingSpread = 0.2;      // share of the distance to the next state; a sine has 0.24, ringing less
 
-/// The mode that holds most, weighing time by distance: a state, not the ringing beside one.
+/// Returns the mode with the largest product of time and distance: a state, not the ringing next to it.
 const Mode* strongest(const std::vector<Mode>& modes, const Mode& from, int sign) {
     const Mode* best = nullptr;
     double bestCharge = 0;
@@ -87,13 +87,13 @@ bool twoStates(const AmplitudeHistogram& histogram, const std::vector<Mode>& mod
     return true;
 }
 
-/// Deviations from an origin: how many are within the window, their sum and their squares; how many are nearer
-/// than half way to the next state, and their squares.
+/// Deviations from an origin. Within the window: their number, sum and sum of squares. Nearer than half way to the next
+/// state: their number and sum of squares.
 struct Moments {
     double near = 0, sum = 0, squares = 0, half = 0, spread = 0;
 };
 
-/// Computed in lanes without branches, a few thousand samples at a time: a float's digits suffice for so short a sum.
+/// Works in lanes without branches on a few thousand samples at a time; for so short a sum, float precision is enough.
 Moments momentsAbout(std::span<const float> samples, double origin, double window, double half) {
     constexpr std::size_t kFloatLanes = 8;
     constexpr std::size_t kLaneRows = 256;
@@ -102,7 +102,7 @@ Moments momentsAbout(std::span<const float> samples, double origin, double windo
     const auto outer = static_cast<float>(half);
     const auto inner = std::min(static_cast<float>(window), std::nextafter(outer, 0.0F));
     std::array<float, kFloatLanes * kLaneRows> chunk;
-    // A million samples say where the baseline is to a thousandth of the noise: of a longer record every k-th chunk.
+    // A million samples give the baseline to a thousandth of the noise, so longer records are read in part.
     const std::size_t stride = chunk.size() * std::max<std::size_t>(1, samples.size() / 1'000'000);
     for (std::size_t first = 0; first < samples.size(); first += stride) {
         const std::size_t n = std::min(chunk.size(), samples.size() - first);
@@ -113,7 +113,7 @@ Moments momentsAbout(std::span<const float> samples, double origin, double windo
             for (std::size_t lane = 0; lane < kFloatLanes; ++lane) {
                 const float d = chunk[row + lane] - zero;
                 const float distance = d < 0 ? -d : d;
-                // A comparison with NaN is false: what is missing counts nowhere.
+                // A comparison with NaN is false, so missing samples are never counted.
                 const float inHalf = distance < outer ? d : 0.0F;
                 const float inWindow = distance <= inner ? d : 0.0F;
                 within[lane] += distance < outer ? 1.0F : 0.0F;
@@ -131,13 +131,13 @@ Moments momentsAbout(std::span<const float> samples, double origin, double windo
             all.spread += static_cast<double>(spread[lane]);
         }
     }
-    // The origin was rounded to a float.
+    // Corrects for the origin, which was rounded to a float.
     const double rounding = static_cast<double>(zero) - origin;
     all.sum += all.near * rounding;
     return all;
 }
 
-/// Baseline as the mean about its mode, the noise about it, and whether the signal rests there at all.
+/// Sets the baseline to the mean around its mode, and the noise. Returns whether the signal rests there at all.
 bool refineBaseline(std::span<const float> samples, double noise, StateLevels& levels) {
     double nearest = std::numeric_limits<double>::infinity();
     for (const double state : {levels.low, levels.high}) {
@@ -145,12 +145,12 @@ bool refineBaseline(std::span<const float> samples, double noise, StateLevels& l
     }
     const double origin = levels.baseline;
     Moments moments = momentsAbout(samples, origin, std::max(4 * noise, 0.005 * nearest), 0.5 * nearest);
-    // The mode is the mean of codes that lie further apart than the noise says.
+    // The mode lies between codes that are further apart than the noise suggests, so the window is widened.
     if (!(moments.near > 0)) moments = momentsAbout(samples, origin, kWideWindow * nearest, 0.5 * nearest);
     const auto [near, sum, squares, half, spread] = moments;
     if (!(half > 0) || !(near > 0)) return false;
     if (std::sqrt(spread / half) > kRestingSpread * nearest) return false;
-    const double mean = sum / near;  // counted from the origin; the squares are about the mean, to a float's digits
+    const double mean = sum / near;  // measured from the origin; squares are about the mean, to float precision
     const bool isLow = levels.low == levels.baseline;
     const bool isHigh = levels.high == levels.baseline;
     levels.baseline = origin + mean;
@@ -177,7 +177,7 @@ double neighbourNoise(std::span<const float> samples, double lsb) {
     std::nth_element(steps.begin(), middle, steps.end());
     auto median = static_cast<double>(*middle);
     if (lsb > 0) {
-        // Steps are multiples of the converter's: what it made equal is spread over half a step on either side.
+        // Differences are multiples of the step. Equal ones are treated as spread over half a step either way.
         const auto nearby = [&](float x) { return std::abs(static_cast<double>(x) - median) < 0.5 * lsb; };
         const auto equal = static_cast<double>(std::ranges::count_if(steps, nearby));
         const auto below = static_cast<double>(
@@ -220,7 +220,7 @@ StateLevels findStateLevels(const SampleBlocks& blocks, double lsb, bool logic) 
         return none("its levels lie fewer than three steps of the converter apart");
     }
     if (refineBaseline(blocks.samples(), noise, levels)) return levels;
-    // A baseline that moves may linger so near by that this holds no state of the signal, which has two then.
+    // A moving baseline may stay at a nearby level that is no state of the signal. There are then two states.
     const double up = levels.high - levels.baseline, down = levels.baseline - levels.low;
     if (three && std::min(up, down) < kWanders * std::max(up, down) && twoStates(histogram, modes, levels) &&
         refineBaseline(blocks.samples(), noise, levels)) {

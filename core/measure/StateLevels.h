@@ -1,9 +1,9 @@
-// StateLevels.h - the levels at which a signal rests (IEEE Std 181): the modes of its amplitude histogram.
+// StateLevels.h - finds the levels at which a signal rests (IEEE Std 181): the modes of its amplitude histogram.
 //
-// Found for pulses that fill a hundred-thousandth of the record as well as for a square wave. Three states with the
-// baseline between them are biphasic pulses, told from ringing by the charge on either side: a biphasic pulse returns
-// at least a fifth of what it gave. Neighbouring codes of the converter are one state, and states are at least two and
-// a half of its steps apart. Noise, a ramp or a sine never rests, and so has no two states.
+// This works for pulses that fill a hundred-thousandth of the record and for a square wave. Three states with the
+// baseline in the middle are biphasic pulses or ringing. They are pulses if the charge on one side is at least a fifth
+// of that on the other. Neighbouring codes of the converter form one state; states are at least two and a half steps
+// apart. Noise, a ramp or a sine never rests, and so does not have two states.
 #pragma once
 
 #include <limits>
@@ -16,7 +16,7 @@ class SampleBlocks;
 
 enum class StateCount { None = 0, Two = 2, Three = 3 };
 
-/// Levels are in the channel's unit, a bare double because the unit is data (V, A, logic).
+/// Levels are in the channel's unit, bare doubles because the unit is data (V, A, logic).
 struct StateLevels {
     StateCount count = StateCount::None;
     double baseline = std::numeric_limits<double>::quiet_NaN();  ///< where the signal rests between pulses
@@ -26,15 +26,15 @@ struct StateLevels {
     std::string why;                                             ///< count None: a clause saying why, for a warning
 };
 
-/// `lsb`: the channel's resolution, 0 = unknown. `logic`: samples that are all 0 or 1 have these as states.
-/// Two states: the baseline is the state with nine tenths of the samples; else the one near zero (within a tenth of
-/// the difference) if the other is not; else the lower. NaN samples are left out.
+/// `lsb`: the channel's resolution, 0 = unknown. `logic`: if all samples are 0 or 1, these are the states. With two
+/// states, the baseline is the state with nine tenths of the samples; else the only state near zero (within a tenth of
+/// the difference); else the lower state. NaN samples are ignored.
 [[nodiscard]] StateLevels findStateLevels(std::span<const float> samples, double lsb, bool logic);
-/// Finds the levels of a record with known extremes.
+/// Finds the levels of a record from blocks with known extremes.
 [[nodiscard]] StateLevels findStateLevels(const SampleBlocks& blocks, double lsb, bool logic);
 
-/// Standard deviation of the noise from the median step between neighbours (4096 of them): edges are too few to move
-/// it. At least lsb/√12. Noise that is slower than the samples are apart looks smaller than it is.
+/// Returns the standard deviation of the noise, from the median difference of neighbours (4096 of them); edges are too
+/// few to affect it. At least lsb/√12. Noise that varies slowly from sample to sample is underestimated.
 [[nodiscard]] double neighbourNoise(std::span<const float> samples, double lsb);
 
 }  // namespace tacto

@@ -17,7 +17,7 @@ namespace {
 /// The readings of one quantity, from many pulses or trains.
 class Readings {
 public:
-    /// `most`: how many will be added at most.
+    /// `most`: largest number of readings to be added.
     explicit Readings(std::size_t most) { reserveLarge(values_, most); }
 
     /// Leaves out readings that were not measured (NaN).
@@ -30,16 +30,16 @@ private:
     std::vector<double> values_;
 };
 
-/// Which pulses form a train, and the trains' means.
+/// Groups pulses into trains and computes the means of each train.
 class TrainGrouping {
 public:
-    /// Pulses with onsets at most `gap` apart form one train. `breaks`, ascending: pulses before which an unknown time
-    /// has passed; must outlive this. `pulses`: how many will be added.
+    /// Pulses with onsets at most `gap` apart form one train. `breaks`, ascending: pulses that follow an unknown time;
+    /// must outlive this object. `pulses`: how many will be added.
     TrainGrouping(double gap, std::span<const std::size_t> breaks, std::size_t pulses);
 
-    /// The next pulse in time.
+    /// Adds the next pulse in time.
     void add(const PulseMeasurement& pulse);
-    /// No pulse follows. Call it once, after the last.
+    /// Ends the grouping. Call it once, after the last pulse.
     [[nodiscard]] std::vector<TrainMeasurement> finish();
 
 private:
@@ -47,10 +47,10 @@ private:
     void end();
 
     double gap_;
-    std::span<const std::size_t> breaks_;  ///< the breaks that are still to come
+    std::span<const std::size_t> breaks_;  ///< breaks not reached yet
     std::size_t added_ = 0;
     double lastOnset_s_ = 0;
-    std::vector<TrainMeasurement> trains_;  ///< the last one holds sums until it ends
+    std::vector<TrainMeasurement> trains_;  ///< the last train holds sums until it ends
 };
 
 TrainGrouping::TrainGrouping(double gap, std::span<const std::size_t> breaks, std::size_t pulses)
@@ -62,7 +62,7 @@ TrainGrouping::TrainGrouping(double gap, std::span<const std::size_t> breaks, st
 void TrainGrouping::add(const PulseMeasurement& pulse) {
     const bool afterBreak = !breaks_.empty() && breaks_.front() == added_;
     if (afterBreak) breaks_ = breaks_.subspan(1);
-    // Known even for a flagged pulse without its numbers.
+    // Known even for a flagged pulse that has no numbers.
     const double onset_s = std::isnan(pulse.onset_s()) ? pulse.seenFrom_s : pulse.onset_s();
     if (added_ == 0 || afterBreak || !(onset_s - lastOnset_s_ <= gap_)) begin(pulse, afterBreak);
     lastOnset_s_ = onset_s;
@@ -89,7 +89,7 @@ std::vector<TrainMeasurement> TrainGrouping::finish() {
 void TrainGrouping::begin(const PulseMeasurement& pulse, bool afterBreak) {
     if (!trains_.empty()) {
         end();
-        // A flagged first pulse leaves its onset NaN, and with it this interval and the one before.
+        // If the first pulse is flagged, its onset is NaN; this interval and the one before are then NaN too.
         if (!afterBreak) trains_.back().interval_s = pulse.onset_s() - trains_.back().onset_s;
     }
     auto& train = trains_.emplace_back();
@@ -107,15 +107,15 @@ void TrainGrouping::end() {
     if (train.pulses > 0) train.polarity = train.polarity >= 0 ? 1 : -1;
 }
 
-constexpr double kLongInterval = 1.5;  // times the shortest: where noise may hide a pulse, one may be missing in it
+constexpr double kLongInterval = 1.5;  // times the shortest: a longer interval may contain a pulse hidden in noise
 
-/// What the pulses are reported by. All in one walk: two hundred thousand pulses do not fit the cache, and a walk for
-/// each figure would fetch them ten times.
+/// Collects all reported figures in one pass: two hundred thousand pulses do not fit into the cache, and one pass per
+/// figure would load them ten times.
 class PulseFigures {
 public:
     PulseFigures(std::size_t pulses, bool biphasic) : leading_(pulses), both_(biphasic ? pulses : 0) {}
 
-    /// Flagged pulses carry NaN throughout and so count in no reading.
+    /// Flagged pulses hold NaN in all figures, so they add no reading.
     void add(const PulseMeasurement& pulse) {
         const auto& leading = pulse.leading;
         amplitude_.add(std::abs(leading.plateau));
@@ -142,12 +142,12 @@ public:
 
 private:
     std::size_t leading_;  ///< readings of leading phases
-    std::size_t both_;     ///< how many pulses have two phases
+    std::size_t both_;     ///< number of pulses with two phases
     Readings amplitude_{leading_}, width_s_{leading_}, rise_s_{leading_}, fall_s_{leading_}, overshoot_{leading_},
         droop_{leading_}, charge_{leading_}, gap_s_{both_}, imbalance_{both_};
 };
 
-/// How many pulses a warning may be about.
+/// Counts of the pulses that warnings mention.
 struct PulseCounts {
     std::size_t measured = 0, clipped = 0, truncated = 0, incomplete = 0, underSampled = 0, coarse = 0, single = 0;
     std::size_t flatTop = 0;
@@ -166,7 +166,7 @@ struct PulseCounts {
     }
 };
 
-/// Sums over the second phases.
+/// Sums over all second phases.
 struct SecondPhases {
     double n = 0, width = 0, height = 0;
 
@@ -193,11 +193,11 @@ void addSecondPhase(const ChannelMeasurement& result, double step, double random
     const double height = seconds.height / seconds.n;
     const double ownStep =
         step * static_cast<double>(result.quality.meanOfSecond) / static_cast<double>(result.quality.mean);
-    // White noise: the mean of more samples has less of it.
+    // White noise: a mean of more samples has less noise.
     const double jitter = result.states.noise * std::sqrt(step / ownStep) * ownStep / height;
     u.gap_s = std::hypot(u.width_s, std::hypot(ownStep > step ? ownStep / std::sqrt(6.0) : 0, jitter));
-    // A gain is the same for both charges and divides out; a baseline adds to one what it takes from the other. Edges
-    // that fall between samples are the same for both where the phases are.
+    // A gain error affects both charges equally and cancels. A baseline error adds to one charge what it takes from the
+    // other. The errors of edges between samples are equal if the phases are alike.
     const double second = std::hypot(result.states.noise * std::sqrt(step * width), height * ownStep / std::sqrt(6.0));
     const double baseline = result.states.noise * std::sqrt(step / width) * width;
     const double shared = level * (result.width_s.mean + width);
@@ -212,8 +212,8 @@ MeasurementUncertainty uncertaintyOf(const ChannelMeasurement& result, const Cap
     const double step = static_cast<double>(result.quality.mean) / result.rate_hz;  // time between two values
     const double width = result.width_s.mean;
     const double noise = result.states.noise / std::sqrt(std::max(1.0, 0.6 * width / step));
-    // Unstated values are NaN, and so is all that needs them. A level is the difference of two, each to a step; an
-    // offset is in both and cancels.
+    // Unstated values are NaN, and so are all results that need them. A level is a difference of two readings, each
+    // rounded to a step; an offset is in both and cancels.
     const double lsb = channel.lsb > 0 ? channel.lsb : result.quality.foundStep;
     const double resolution = (lsb > 0 ? lsb : kNotMeasured) / std::sqrt(6.0);
     const double gain =
@@ -221,14 +221,14 @@ MeasurementUncertainty uncertaintyOf(const ChannelMeasurement& result, const Cap
         std::sqrt(3.0);
     const double unrest = result.quality.unrest;
     u.amplitude = std::hypot(std::hypot(noise, resolution), std::hypot(gain, unrest));
-    // Two edges, each somewhere within a step; and noise moves each by itself over the edge's steepness.
+    // Each of two edges lies somewhere within a step. Noise shifts each edge independently, less if the edge is steep.
     const double edge = std::max(std::isfinite(result.rise_s.mean) ? result.rise_s.mean / 0.8 : 0, step);
     const double jitter = amplitude > 0 ? std::sqrt(2.0) * result.states.noise * edge / amplitude : 0;
     const double edges = std::hypot(step / std::sqrt(6.0), jitter);
     u.width_s = std::hypot(edges, time.base * width / std::sqrt(3.0));
     u.interval_s = std::hypot(std::hypot(edges, time.base * result.interval_s.mean / std::sqrt(3.0)),
                               std::sqrt(2.0 / 3.0) * time.stamp_s);
-    // The noise over the width, the edges, and the baseline that is subtracted all along.
+    // Noise over the width, the two edges, and the error of the subtracted baseline.
     const auto chargeNoise = [&](double length, double height, double sampling) {
         const double samples = result.states.noise * std::sqrt(sampling * (length + 4 * edge));
         return std::hypot(std::hypot(samples, noise * length), height * sampling / std::sqrt(6.0));
@@ -272,7 +272,7 @@ void warnOfQuality(ChannelMeasurement& result) {
     }
 }
 
-/// Forgets the intervals in which a pulse may have drowned in the noise. Returns how many.
+/// Removes intervals in which noise may have hidden a pulse. Returns how many.
 std::size_t leaveOutLongIntervals(std::vector<TrainMeasurement>& trains) {
     double shortest = std::numeric_limits<double>::infinity();
     for (const auto& train : trains) {

@@ -11,11 +11,11 @@ namespace {
 
 constexpr double kHysteresis = 0.1;  ///< share of the difference between the two states
 
-/// The waveform is beyond the reference level: at `level` and a tenth of the difference further on, times `sign`.
+/// The waveform is beyond this reference once it is `margin` past `level`, in the direction of `sign`.
 struct Reference {
     double level = 0;
     double margin = 0;
-    double sign = 1;  ///< -1: pulses go down
+    double sign = 1;  ///< -1 if pulses go down
 };
 
 bool goesDown(const ChannelMeasurement& measured) {
@@ -36,14 +36,14 @@ Reference referenceOf(const ChannelMeasurement& measured, double smallest, doubl
     return {(states.baseline + top) / 2, kHysteresis * std::abs(top - states.baseline), down ? -1.0 : 1.0};
 }
 
-/// Crossings of the reference level, in samples from the record's begin, first one away from the baseline.
+/// Finds crossings of the reference level, in samples from the record's start. The first goes away from the baseline.
 class Crossings {
 public:
     explicit Crossings(const Reference& reference) : reference_(reference) {}
 
     void take(double index, double value) {
         const double beyond = reference_.sign * (value - reference_.level);
-        // The instant is when the crossing itself happens; it counts once the margin is passed.
+        // A crossing is timed where it passes the level, but is counted only once the margin is passed.
         if (known_ && (before_ < 0) != (beyond < 0)) crossed_ = index - beyond / (beyond - before_);
         before_ = beyond;
         known_ = true;
@@ -66,7 +66,7 @@ private:
         const int side = up ? 1 : -1;
         if (side == side_) return;
         side_ = side;
-        if (!begun) return;  // the beginning of a record is not a crossing
+        if (!begun) return;  // the start of a record is not a crossing
         if (!up) {
             down_ = crossed_;
             return;
@@ -87,13 +87,13 @@ private:
     double before_ = 0;
     bool known_ = false;
     double crossed_ = 0;
-    int side_ = 0;  ///< 1 beyond, -1 not, 0 not known yet
+    int side_ = 0;  ///< 1 beyond the level, -1 not beyond, 0 not known yet
     bool seenUp_ = false;
     double firstUp_ = 0, lastUp_ = 0, down_ = 0;
     double beyondInWhole_ = 0;
     std::size_t periods_ = 0;
-    bool gap_ = false;     ///< a gap since the last crossing
-    bool broken_ = false;  ///< a gap in a whole period
+    bool gap_ = false;     ///< samples are missing since the last crossing
+    bool broken_ = false;  ///< samples are missing in a whole period
 };
 
 }  // namespace
