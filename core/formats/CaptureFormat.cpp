@@ -43,7 +43,7 @@ Result<CaptureReading> readWithinMemory(std::string_view file, const std::functi
         return read();
     } catch (const std::bad_alloc&) {
         return doesNotFit(file);
-    } catch (const std::length_error&) {  // more than any memory
+    } catch (const std::length_error&) {  // larger than any memory
         return doesNotFit(file);
     }
 }

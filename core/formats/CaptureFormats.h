@@ -1,6 +1,6 @@
-// CaptureFormats.h - the formats that a program knows, in the order in which they are asked whether a file is theirs.
+// CaptureFormats.h - the formats that a program knows, in the order in which they are tried on a file.
 //
-// Thread-safety: add() before it is shared; afterwards any threads at once.
+// Thread-safety: call add() before sharing the list; afterwards any threads may use it at once.
 #pragma once
 
 #include <memory>
@@ -12,41 +12,41 @@ namespace tacto {
 
 class CaptureFormats {
 public:
-    /// Behind those already there: the format that recognises more narrowly comes first.
+    /// Adds a format at the end of the list. Formats that recognise fewer files must be added first.
     void add(std::unique_ptr<CaptureFormat> format);
 
     [[nodiscard]] const std::vector<std::unique_ptr<CaptureFormat>>& all() const noexcept { return formats_; }
-    /// Every suffix once, with the dot, in lower case.
+    /// Returns every suffix once, with the dot, in lower case.
     [[nodiscard]] std::vector<std::string_view> suffixes() const;
     [[nodiscard]] std::vector<std::string_view> writableSuffixes() const;
-    /// Whether the file's suffix is one of ours; capitals ignored. The content is not looked at.
+    /// Returns whether a format has the file's suffix; case is ignored. The content is not read.
     [[nodiscard]] bool knowsSuffix(const std::filesystem::path& path) const;
 
-    /// The format that options name, else the first that recognises the file.
-    /// Errors: NotFound, Io; InvalidArgument for an unknown id; ParseError when no format recognises it. Both list what
-    /// is known.
+    /// Returns the format named in the options, or the first that recognises the file. Errors: NotFound, Io;
+    /// InvalidArgument for an unknown id; ParseError if no format recognises the file. The last two list the known
+    /// formats.
     [[nodiscard]] Result<const CaptureFormat*> formatOf(const std::filesystem::path& path,
                                                         const ReadOptions& options) const;
 
-    /// Recognises and reads. Errors: of formatOf() and of the format's read(); Io where the samples do not fit into
-    /// memory.
+    /// Recognises the format and reads the file. Errors: those of formatOf() and of the format's read(); Io if the
+    /// samples do not fit into memory.
     [[nodiscard]] Result<CaptureReading> read(const std::filesystem::path& path, const ReadOptions& options = {},
                                               const ReadWatch& watch = {}) const;
 
-    /// The format that writes files of this suffix. Errors: InvalidArgument listing the suffixes that are written.
+    /// Returns the format that writes files with this suffix. Errors: InvalidArgument listing those that exist.
     [[nodiscard]] Result<const CaptureFormat*> writerOf(const std::filesystem::path& path) const;
 
-    /// Writes in the format of the suffix. Errors: those of writerOf() and of the format's write().
+    /// Writes in the format for the file's suffix. Errors: those of writerOf() and of the format's write().
     [[nodiscard]] Result<void> write(const std::filesystem::path& path, const Capture& capture) const;
 
 private:
     std::vector<std::unique_ptr<CaptureFormat>> formats_;
 };
 
-/// The formats of core/formats: the CSV dialects, Tektronix ISF, WAV. Plain CSV is the last: it takes any table.
+/// Adds the formats of core/formats: CSV dialects, Tektronix ISF, WAV. Plain CSV is last: it accepts any table.
 void addOwnFormats(CaptureFormats& formats);
 
-/// A list of those alone.
+/// Returns a list with only these formats.
 [[nodiscard]] std::shared_ptr<const CaptureFormats> ownCaptureFormats();
 
 }  // namespace tacto

@@ -22,7 +22,7 @@ constexpr std::array<UnitPrefix, 6> kUnitPrefixes{{{"", "", 1},
                                                    {"n", "nano", 1e-9},
                                                    {"p", "pico", 1e-12}}};
 
-/// Behind a letter or a word; those that stand alone have an empty unit of their own.
+/// A unit, after a prefix or by itself. Words for a bare number have an empty unit.
 struct UnitWord {
     std::string_view spelled;  // lower case
     SpelledUnit means;
@@ -46,8 +46,8 @@ std::string namesOf(const std::vector<ChannelPlan>& channels) {
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// A name is tried first, as a channel may be called "1" and be the second column: all channels of that name, else the
-/// one of that number.
+/// Returns all channels named `wanted`, or else the channel with that number. The name comes first, because a channel
+/// may be called "1" and be in the second column.
 std::vector<std::size_t> indicesOf(const std::vector<ChannelPlan>& channels, std::string_view wanted) {
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < channels.size(); ++i) {
@@ -62,7 +62,7 @@ std::vector<std::size_t> indicesOf(const std::vector<ChannelPlan>& channels, std
     return found;
 }
 
-/// The one channel that `option` names. Errors: InvalidArgument if there is none, or two.
+/// Returns the only channel that `option` names. Errors: InvalidArgument if there are none or several.
 Result<std::size_t> indexOf(const std::vector<ChannelPlan>& channels, std::string_view option, std::string_view wanted,
                             std::string_view file) {
     const auto found = indicesOf(channels, wanted);
@@ -86,7 +86,7 @@ std::optional<SpelledUnit> spelledUnit(std::string_view text) {
     for (const std::string_view micro : {"µ", "μ"}) {
         if (wanted.starts_with(micro)) wanted.replace(0, micro.size(), "u");
     }
-    if (wanted.starts_with('\xB5')) wanted[0] = 'u';  // the micro sign of Latin-1
+    if (wanted.starts_with('\xB5')) wanted[0] = 'u';  // micro sign in Latin-1
     for (const std::string_view coupling : {"dc", "ac"}) {
         if (wanted.size() <= 2 || !wanted.ends_with(coupling)) continue;
         auto coupled = channelUnit(wanted.substr(0, wanted.size() - 2));

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kBlock = 1024UL * 1024;
 
-/// "#6200000": how many bytes of samples follow, and where.
+/// The header of a block, "#6200000": where the samples begin and how many bytes they have.
 struct Block {
     std::size_t begin;
     std::size_t bytes;
@@ -72,7 +72,7 @@ Result<void> readBlock(ByteFile& file, std::string_view head, const IsfPreamble&
         const auto done = static_cast<double>(samples.size()) / static_cast<double>(wanted);
         if (auto going = keepReading(watch, done, file.name()); !going) return going;
     }
-    // Two bytes without low bits hold the codes of an 8-bit converter, up to 0x7F00.
+    // Two-byte samples whose low bits are all zero come from an 8-bit converter, with codes up to 0x7F00.
     const double step = pre.bytes == 2 && !lowBits ? 256 : 1;
     const double codes = pre.bytes == 2 ? 65536 : 256;
     const double lowest = pre.isSigned ? -codes / 2 : 0;
@@ -140,7 +140,7 @@ Result<CaptureReading> IsfFormat::read(const std::filesystem::path& path, const 
     if (!pre) return failure(pre);
     CaptureReading reading;
     auto& channel = reading.capture.channels.emplace_back();
-    // "Ch1, DC coupling, 2.000V/div, …": the source comes first.
+    // "Ch1, DC coupling, 2.000V/div, …": the first part is the source.
     channel.name = capitals(trimmed(std::string_view(pre->title).substr(0, pre->title.find(','))));
     if (channel.name.empty()) channel.name = "CH1";
     auto read = pre->text ? readText(*file, *pre, watch, reading) : readBlock(*file, *head, *pre, watch, reading);
@@ -175,7 +175,7 @@ Result<CaptureReading> IsfFormat::read(const std::filesystem::path& path, const 
 
 namespace {
 
-/// The long spelling and the shortest that instruments use; anything between is the same key.
+/// The long spelling of a key and the shortest one in use. Any length between them is the same key.
 struct Key {
     std::string_view full;
     std::string_view shortest;
@@ -196,7 +196,7 @@ constexpr Key kYScale{"ymult", "ymu"};
 constexpr Key kYOffset{"yoff", "yof"};
 constexpr Key kYZero{"yzero", "yze"};
 
-/// The samples begin behind the last `CURV…` that a blank follows; this also tells where that word begins.
+/// The samples begin after the last `CURV…` that is followed by a blank. This also holds the position of that word.
 struct Curve {
     std::size_t word;
     std::size_t behind;
@@ -223,7 +223,7 @@ class Pairs {
 public:
     explicit Pairs(std::string_view text) : text_(text) {}
 
-    /// The value behind `key`, without quotes. Keys may have a path in front (":WFMPRE:BYT_NR").
+    /// Returns the value after `key`, without quotes. A path may precede a key (":WFMPRE:BYT_NR").
     [[nodiscard]] std::optional<std::string_view> value(const Key& key) const {
         std::size_t at = 0;
         while (at < text_.size()) {
@@ -264,7 +264,7 @@ Result<IsfPreamble> readIsfPreamble(std::string_view head, std::string_view file
                     file, head.size());
     }
     const Pairs pairs(head.substr(0, curve->word));
-    std::string wrong;  // the first complaint, so that the fields below read as a table
+    std::string wrong;  // the first error; kept here so that the fields below can be read as a table
     const auto text = [&](const Key& key) { return folded(pairs.value(key).value_or("")); };
     const auto refuse = [&](const Key& key, std::string_view expected) {
         if (!wrong.empty()) return;

@@ -60,7 +60,7 @@ Result<std::string_view> TextBlocks::next() {
     std::memmove(begin, begin + used_, held_ - used_);
     held_ -= used_;
     used_ = 0;
-    constexpr std::size_t kRoom = 2 * kUtf8PerUtf16;  // room for a pair of UTF-16 units
+    constexpr std::size_t kRoom = 2 * kUtf8PerUtf16;  // room for the two UTF-16 units of one character
     while (!ended_ && kBlockBytes - held_ >= kRoom) {
         const bool first = taken_ == 0;
         const auto got = fill(begin + held_, kBlockBytes - held_);
@@ -111,7 +111,7 @@ Result<ByteFile> ByteFile::open(const std::filesystem::path& path) {
     if (error) return fail(ErrorCode::Io, "{} cannot be read: {}", path.string(), error.message());
     std::unique_ptr<std::FILE, Close> file(std::fopen(path.c_str(), "rb"));
     if (!file) return fail(ErrorCode::Io, "{} cannot be opened for reading", path.string());
-    // Readers ask for large pieces: a second buffer would only be copied through.
+    // Readers ask for large pieces, so a second buffer would only cause another copy.
     std::setvbuf(file.get(), nullptr, _IONBF, 0);
     return ByteFile(std::move(file), path.string(), size);
 }

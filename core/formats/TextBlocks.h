@@ -1,6 +1,6 @@
-// TextBlocks.h - a text in blocks of whole lines, from a file or from memory; UTF-16 with its mark becomes UTF-8.
+// TextBlocks.h - delivers a text in blocks of whole lines, from a file or memory; UTF-16 with a BOM becomes UTF-8.
 //
-// Thread-safety: none; one owner. A block is valid until the next one is asked for.
+// Thread-safety: none; one owner. A block is valid until the next one is requested.
 #pragma once
 
 #include <cstddef>
@@ -18,17 +18,17 @@
 
 namespace tacto {
 
-/// A file read piece by piece. Not mapped into memory: a stick that is pulled out, or a file cut short by someone else,
-/// is an error here and not a signal that ends the program.
+/// Reads a file piece by piece. The file is not mapped into memory: removing its drive or truncating it then gives an
+/// error, not a signal that ends the program.
 class ByteFile {
 public:
-    /// Errors: NotFound when it is not there, Io when it cannot be read or is not a plain file.
+    /// Errors: NotFound if the file does not exist, Io if it cannot be read or is not a plain file.
     [[nodiscard]] static Result<ByteFile> open(const std::filesystem::path& path);
 
     [[nodiscard]] const std::string& name() const noexcept { return name_; }
     [[nodiscard]] std::uint64_t size() const noexcept { return size_; }
 
-    /// The next up to `count` bytes into `into`; fewer only at the end. Errors: Io.
+    /// Reads up to `count` bytes into `into`; fewer only at the end of the file. Errors: Io.
     [[nodiscard]] Result<std::size_t> read(char* into, std::size_t count);
     /// Errors: Io.
     [[nodiscard]] Result<void> seek(std::uint64_t position);
@@ -44,35 +44,34 @@ private:
     std::uint64_t size_;
 };
 
-/// The file's first kHeadBytes (CaptureFormat.h). Errors: as ByteFile.
+/// Returns the file's first kHeadBytes (CaptureFormat.h). Errors: as ByteFile.
 [[nodiscard]] Result<std::string> readHead(const std::filesystem::path& path);
 
 class TextBlocks {
 public:
-    /// Bytes of a block, and so of the longest line. What is read stays in the processor's cache until it is parsed.
+    /// Bytes of a block, and the limit for a line. A block stays in the processor's cache until it is parsed.
     static constexpr std::size_t kBlockBytes = 256UL * 1024;
 
-    /// Errors: of ByteFile::open().
+    /// Errors: those of ByteFile::open().
     [[nodiscard]] static Result<TextBlocks> ofFile(const std::filesystem::path& path);
-    /// `text` must outlive this; `name` stands for the file in messages.
+    /// `text` must outlive this object; messages use `name` in place of a file name.
     [[nodiscard]] static TextBlocks ofText(std::string_view text, std::string_view name);
 
-    /// Whole lines, the last one ended by '\n' even where the file's is not; empty at the end. Without the
-    /// byte-order mark.
-    /// Errors: Io; ParseError for a line longer than a block.
+    /// Returns the next whole lines, or an empty text at the end. Removes the byte-order mark, and adds '\n' to the
+    /// last line if it is missing. Errors: Io; ParseError for a line longer than a block.
     [[nodiscard]] Result<std::string_view> next();
 
-    /// Starts from the beginning again. Errors: Io.
+    /// Returns to the beginning. Errors: Io.
     [[nodiscard]] Result<void> rewind();
 
     [[nodiscard]] const std::string& name() const noexcept { return name_; }
-    /// How much of the text has been taken, 0 to 1.
+    /// Returns the share of the text that was delivered, 0 to 1.
     [[nodiscard]] double fraction() const noexcept;
     [[nodiscard]] std::uint64_t size() const noexcept { return file_ ? file_->size() : text_.size(); }
 
 private:
     TextBlocks(std::optional<ByteFile> file, std::string_view text, std::string name);
-    /// UTF-8, converted from any encoding of the file; 0 at the end.
+    /// Fills `into` with UTF-8, converted from the file's encoding. Returns 0 at the end.
     [[nodiscard]] Result<std::size_t> fill(char* into, std::size_t count);
     [[nodiscard]] Result<std::size_t> fillRaw(char* into, std::size_t count);
     [[nodiscard]] Result<std::size_t> fillFromUtf16(char* into, std::size_t count);
@@ -82,11 +81,11 @@ private:
     std::string name_;
     std::vector<char> buffer_;
     std::size_t held_ = 0;  // bytes in buffer_
-    std::size_t used_ = 0;  // how many of them the last block has given away
+    std::size_t used_ = 0;  // bytes of buffer_ that were delivered with the last block
     std::uint64_t taken_ = 0;
     bool ended_ = false;
-    std::optional<Utf16Order> order_;  // byte order of a text in UTF-16
-    std::string raw_;                  // bytes that were read and not yet turned into UTF-8
+    std::optional<Utf16Order> order_;  // byte order of UTF-16 text
+    std::string raw_;                  // bytes read but not yet converted to UTF-8
 };
 
 }  // namespace tacto

@@ -21,7 +21,7 @@ namespace tacto {
 namespace {
 
 constexpr std::string_view kOwnComment = "Tactoscope capture";
-constexpr std::size_t kMaxChannels = 1024;  // libsndfile's
+constexpr std::size_t kMaxChannels = 1024;  // limit of libsndfile
 constexpr std::size_t kSamplesAtOnce = 256UL * 1024;
 
 struct CloseSound {
@@ -35,7 +35,7 @@ std::uint64_t numberAt(std::string_view bytes, std::size_t at, std::size_t count
     return value;
 }
 
-/// RF64 (EBU Tech 3306) and BW64 (ITU-R BS.2088) are RIFF with sizes of 64 bits, which begin with a chunk ds64.
+/// RF64 (EBU Tech 3306) and BW64 (ITU-R BS.2088) are RIFF files with 64-bit sizes, which stand in a first chunk ds64.
 bool isKindOfFile(std::string_view bytes) noexcept {
     return bytes.starts_with("RIFF") || bytes.starts_with("RF64") || bytes.starts_with("BW64");
 }
@@ -44,24 +44,24 @@ bool isWav(std::string_view head) noexcept {
     return head.size() >= 12 && isKindOfFile(head) && head.substr(8, 4) == "WAVE";
 }
 
-constexpr std::uint64_t kUnstated = 0xFFFFFFFF;  // a size that does not fit into 32 bits, or was not known yet
+constexpr std::uint64_t kUnstated = 0xFFFFFFFF;  // a size that does not fit into 32 bits, or was not yet known
 
-/// The chunks that say how to read the samples: those up to the first that holds samples. What stands behind that one
-/// is passed over: a second file joined to the first, a second data chunk.
+/// The chunks that describe the samples, up to the first chunk of samples. Later parts are ignored: a second file
+/// appended to the first, or a second data chunk.
 struct Layout {
-    std::string format;           ///< the fmt chunk, its first 64 kB
-    std::string info;             ///< the INFO list, its first 64 kB; empty where there is none
-    std::string sizes;            ///< the ds64 chunk of RF64 and BW64 (EBU Tech 3306), its first 64 kB
-    std::uint64_t samplesAt = 0;  ///< where the samples begin, in bytes
-    std::uint64_t end = 0;        ///< where they end; if that is not announced, the end of the file
-    std::uint64_t announced = 0;  ///< bytes of samples, as the file states them
-    bool more = false;            ///< a second data chunk or a second file stands behind
+    std::string format;           ///< first 64 kB of the fmt chunk
+    std::string info;             ///< first 64 kB of the INFO list; empty if there is none
+    std::string sizes;            ///< first 64 kB of the ds64 chunk of RF64 and BW64 (EBU Tech 3306)
+    std::uint64_t samplesAt = 0;  ///< position of the first sample, in bytes
+    std::uint64_t end = 0;        ///< end of the samples, or of the file if their size is not stated
+    std::uint64_t announced = 0;  ///< bytes of samples that the file states
+    bool more = false;            ///< true if a second data chunk or a second file follows
 
-    /// Programs that write to a pipe announce all ones; one that is killed while it records leaves 0.
+    /// A writer to a pipe states all ones; a program killed while it records leaves 0. Neither is a size.
     [[nodiscard]] bool openEnded() const noexcept { return announced == 0 || announced == kUnstated; }
 
-    /// The size that stands beside chunk `id`, or in ds64 where that has no room: sizes of the file and of the samples,
-    /// a count of samples, then a table of other chunks.
+    /// Returns the size stated with chunk `id`. If it does not fit there, reads it from ds64, which holds the size of
+    /// the file, the size of the samples, the number of samples and a table for other chunks.
     [[nodiscard]] std::uint64_t sizeOf(std::string_view id, std::uint64_t stated) const {
         constexpr std::size_t kTable = 28, kEntry = 12;
         if (stated != kUnstated || sizes.size() < kTable) return stated;
@@ -72,7 +72,7 @@ struct Layout {
     }
 };
 
-/// Errors: ParseError without a data chunk among the first thousand; Io.
+/// Finds the chunks. Errors: ParseError if none of the first thousand is a data chunk; Io.
 Result<Layout> layoutOf(ByteFile& file) {
     constexpr int kMaxChunks = 1000;
     constexpr std::uint64_t kLongest = 65536;
@@ -102,7 +102,7 @@ Result<Layout> layoutOf(ByteFile& file) {
             if (auto got = file.read(bytes.data(), bytes.size()); !got) return failure(got);
             if (id == "fmt ") layout.format = bytes;
             if (id == "ds64") layout.sizes = bytes;
-            // Markers ("adtl") are a list, too.
+            // Markers ("adtl") are also a list.
             if (id == "LIST" && bytes.starts_with("INFO")) layout.info = bytes;
         }
         at = end + size % 2;
@@ -110,7 +110,7 @@ Result<Layout> layoutOf(ByteFile& file) {
     return fail(ErrorCode::ParseError, "{}: it holds no data chunk; RIFF WAVE with samples was expected", file.name());
 }
 
-/// INFO ICMT. Read here because libsndfile passes over texts of 2 kB, and so over the names of some 70 channels.
+/// Returns the comment, INFO ICMT. libsndfile skips texts above 2 kB, which hold the names of about 70 channels.
 std::string commentIn(std::string_view info) {
     for (std::size_t at = 4; at + 8 <= info.size();) {
         const auto size = static_cast<std::size_t>(numberAt(info, at + 4, 4));
@@ -135,7 +135,7 @@ std::string ownComment(const Capture& capture) {
     return text;
 }
 
-/// Names, units and start as our own comment keeps them; `capture` has its channels. False for another's comment.
+/// Takes names, units and start from a comment of this program for `capture`, which has its channels. False for others.
 bool takeOwnComment(std::string_view comment, Capture& capture) {
     const auto lines = split(comment, '\n');
     if (lines.empty() || lines.front() != kOwnComment) return false;
@@ -157,14 +157,14 @@ bool takeOwnComment(std::string_view comment, Capture& capture) {
     return next == capture.channels.size();
 }
 
-/// What the fmt chunk says about the samples.
+/// The sample layout stated in the fmt chunk.
 struct Samples {
     std::uint64_t channels = 0;
     double rate_hz = 0;
     std::uint64_t bits = 0;
     bool isFloat = false;
 
-    /// One sample: floats as they are, PCM as a fraction of the full scale (8-bit PCM has no sign).
+    /// Returns one sample: a float unchanged, PCM as a fraction of full scale (8-bit PCM is unsigned).
     [[nodiscard]] float at(const char* bytes) const noexcept {
         const auto raw = numberAt({bytes, static_cast<std::size_t>(bits / 8)}, 0, static_cast<std::size_t>(bits / 8));
         if (isFloat && bits == 32) return std::bit_cast<float>(static_cast<std::uint32_t>(raw));
@@ -181,7 +181,7 @@ Result<Samples> samplesIn(std::string_view format, const std::string& file) {
     constexpr std::uint64_t kPcm = 1, kFloat = 3, kExtensible = 0xFFFE;
     const bool whole = format.size() >= 16;
     auto kind = whole ? numberAt(format, 0, 2) : 0;
-    // The extensible form carries the old number at the beginning of an identifier.
+    // The extensible form holds the format number at the beginning of an identifier.
     if (kind == kExtensible && format.size() >= 26) kind = numberAt(format, 24, 2);
     const auto bits = whole ? numberAt(format, 14, 2) : 0;
     const bool known =
@@ -223,7 +223,7 @@ Result<void> readSamples(ByteFile& file, const Layout& layout, const Samples& sa
     return {};
 }
 
-/// Errors: Io with the system's reason, else libsndfile's.
+/// Errors: Io with the reason of the system, or else of libsndfile.
 Result<void> writeSamples(const std::filesystem::path& path, const Capture& capture, int rate) {
     auto file = FileOut::create(path);
     if (!file) return failure(file);
@@ -233,7 +233,7 @@ Result<void> writeSamples(const std::filesystem::path& path, const Capture& capt
     info.format = SF_FORMAT_WAV | SF_FORMAT_FLOAT;
     errno = 0;
     Sound sound(::sf_open_fd(file->descriptor(), SFM_WRITE, &info, SF_FALSE));
-    // The PEAK chunk would hold the time of writing: the same capture gives the same bytes.
+    // Without the PEAK chunk, which holds the time of writing, equal captures give equal files.
     bool whole = sound && ::sf_command(sound.get(), SFC_SET_ADD_PEAK_CHUNK, nullptr, SF_FALSE) == SF_FALSE &&
                  ::sf_set_string(sound.get(), SF_STR_COMMENT, ownComment(capture).c_str()) == SF_ERR_NO_ERROR;
     std::vector<float> frames;
@@ -249,7 +249,7 @@ Result<void> writeSamples(const std::filesystem::path& path, const Capture& capt
         whole = ::sf_writef_float(sound.get(), frames.data(), wanted) == wanted;
     }
     int reason = whole ? 0 : errno;
-    // Closing writes the head once more, and reports now what it could not write before.
+    // Closing writes the header again and reports pending write errors.
     if (::sf_close(sound.release()) != SF_ERR_NO_ERROR || !whole) {
         if (reason == 0) reason = errno;
         return fail(ErrorCode::Io, "{}",

@@ -1,9 +1,9 @@
-// WavFormat.h - RIFF WAVE: recordings from sound interfaces, and captures for programs that know no other table.
+// WavFormat.h - RIFF WAVE: recordings of sound interfaces, and captures for programs that read no other format.
 //
-// Read: PCM of 8 (unsigned), 16, 24 and 32 bits and floats of 32 and 64, plain or extensible, in RIFF, and in RF64 and
-// BW64, which recorders write beyond 4 GB. PCM samples are fractions of the full scale, which no WAV states: --unit and
-// --probe say what 1 stands for, else a warning does. Written by libsndfile: 32-bit floats in V and A as they are, with
-// names, units and start in an INFO comment that other programs pass over; so a capture returns bit by bit.
+// Reads PCM of 8 (unsigned), 16, 24 and 32 bits and floats of 32 and 64 bits, plain or extensible, in RIFF, and in RF64
+// and BW64, which recorders write beyond 4 GB. PCM samples are fractions of full scale, which WAV does not state:
+// --unit and --probe state it, else there is a warning. Writes 32-bit floats in V and A with libsndfile. Names, units
+// and start are in an INFO comment that other programs ignore; a capture reads back bit by bit.
 //
 // Thread-safety: as CaptureFormat.
 #pragma once
@@ -21,8 +21,8 @@ public:
     Result<CaptureReading> read(const std::filesystem::path& path, const ReadOptions& options,
                                 const ReadWatch& watch) const override;
     bool canWrite() const noexcept override { return true; }
-    /// Errors: those of checkWritable(); InvalidArgument for a rate that is not a whole number of Hz (to a millionth of
-    /// itself), more than 1024 channels or more than 4.2 GB; Io.
+    /// Writes a capture. Errors: those of checkWritable(); InvalidArgument for a rate that is not a whole number of Hz
+    /// (to a millionth), more than 1024 channels or more than 4.2 GB; Io.
     Result<void> write(const std::filesystem::path& path, const Capture& capture) const override;
 };
 

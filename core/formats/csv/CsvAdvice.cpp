@@ -12,10 +12,10 @@ namespace tacto {
 
 namespace {
 
-/// What the columns of the first rows hold, by number from 1.
+/// Column numbers, from 1, by the contents of the first rows.
 struct ColumnsOfRows {
-    std::vector<std::size_t> numbers;  ///< no text
-    std::vector<std::size_t> rising;   ///< the columns of them that rise in even steps, as times and stamps do
+    std::vector<std::size_t> numbers;  ///< columns without text
+    std::vector<std::size_t> rising;   ///< columns among these that rise in even steps, as times and stamps do
 };
 
 bool risesEvenly(const std::vector<double>& values) {
@@ -52,7 +52,7 @@ ColumnsOfRows columnsOf(const CsvHead& head) {
     return columns;
 }
 
-/// How many lines to pass over so that a table begins with the names of its columns.
+/// Returns numbers of lines to skip so that a table begins with its column names.
 std::vector<std::size_t> skipsOf(const CsvHead& head, std::size_t given) {
     constexpr std::size_t kMaxSkips = 6;
     std::vector<std::size_t> skips;
@@ -78,7 +78,7 @@ public:
 
     std::vector<CsvAdvice> take() {
         const auto layout = layOut(dialect_, head_, given_, file_);
-        if (layout) {  // a row was refused: offers the columns that have no such row
+        if (layout) {  // a row was refused: suggests the columns without such a row
             if (!layout->otherTimes.empty()) addOwnTimes(*layout);
             for (const auto& channel : layout->channels) {
                 auto options = given_;
@@ -106,7 +106,7 @@ public:
     }
 
 private:
-    /// The channels behind the first column of times, which go by it.
+    /// Suggests the channels after the first time column, which share its times.
     void addOwnTimes(const CsvLayout& layout) {
         auto options = given_;
         options.columns.clear();
@@ -144,7 +144,7 @@ private:
         addColumns(options);
     }
 
-    /// The column that the file itself says is the time; 0 where it says none.
+    /// Returns the column that the file calls the time, or 0 if there is none.
     [[nodiscard]] std::size_t timeColumnOf(CsvDialect dialect, ReadOptions options) const {
         options.timeColumn.clear();
         options.units.clear();
@@ -156,7 +156,7 @@ private:
         return 0;
     }
 
-    /// Numbers of rows or a channel, not times.
+    /// Returns whether the column holds row numbers or a channel, not times.
     [[nodiscard]] bool isIndex(std::size_t column, CsvDialect dialect) const {
         const auto named = [&](const CsvLine& line) {
             if (column > line.fields.size()) return false;
@@ -172,7 +172,7 @@ private:
         return dialect != CsvDialect::Plain && head_.body.size() > 1 && isNext(head_.body[0], head_.body[1]);
     }
 
-    /// Adds all columns that hold numbers.
+    /// Suggests all columns that hold numbers.
     void addColumns(ReadOptions options, std::string_view how = "") {
         options.columns.clear();
         for (const auto number : columns_.numbers) {

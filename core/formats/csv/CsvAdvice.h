@@ -1,4 +1,4 @@
-// CsvAdvice.h - which options would read a table that was refused.
+// CsvAdvice.h - suggests options that would read a table that was refused.
 #pragma once
 
 #include <functional>
@@ -7,19 +7,19 @@
 
 namespace tacto {
 
-/// A set of options that may read a table.
+/// A set of options that may be able to read a table.
 struct CsvAdvice {
     ReadOptions options;
-    /// What is added to the options given, as it is typed, and what it means: "--time-column 1 reads it".
+    /// The options to add, as typed, and their effect: "--time-column 1 reads it".
     std::string words;
 };
 
-/// How the sentences about uneven times end: they themselves advise a rate where that is meant.
+/// End of the sentences about uneven times. They already suggest a rate if one may help.
 constexpr std::string_view kRateInstead = "; where the samples are even all the same, --sample-rate ";
 
-/// Options worth a try on the table that begins with `text` (whole lines) and has `dialect`, the smallest change first.
-/// A rate is among them where no column of times was found: the one that the file states, else the word HZ stands for
-/// it, and the options hold 1 Hz.
+/// Returns options to try on the table that begins with `text` (whole lines) and has `dialect`, the smallest change
+/// first. If no time column was found, they include a rate: the rate that the file states, or else 1 Hz, with the word
+/// HZ in the text.
 [[nodiscard]] std::vector<CsvAdvice> adviceToTry(std::string_view text, CsvDialect dialect, const ReadOptions& given,
                                                  std::string_view file);
 

@@ -8,9 +8,9 @@ namespace tacto {
 
 namespace {
 
-constexpr double kWantedOfShortest = 100;  // samples of the shortest level
+constexpr double kWantedOfShortest = 100;  // samples in the shortest level
 constexpr double kMinOfShortest = 20;
-constexpr double kCheap = 8e6;  // samples in all channels: what is drawn as finely as wanted
+constexpr double kCheap = 8e6;  // samples in all channels: up to this number, levels are drawn as finely as wanted
 constexpr double kMaxSamples = 64e6;
 
 bool holdLevelsAlone(const std::vector<CaptureChannel>& channels) {
@@ -21,7 +21,7 @@ bool holdLevelsAlone(const std::vector<CaptureChannel>& channels) {
            });
 }
 
-/// The shortest time between two edges of one channel, else between two rows.
+/// Returns the shortest time between two edges of one channel, or else between two rows.
 double shortestLevel(std::span<const double> stamps, const std::vector<CaptureChannel>& channels) {
     double shortest = std::numeric_limits<double>::infinity();
     for (const auto& channel : channels) {
@@ -37,7 +37,7 @@ double shortestLevel(std::span<const double> stamps, const std::vector<CaptureCh
     return shortest;
 }
 
-/// The share of an edge that a sample shows which stands `behind` of a step before it (up to half) or behind it.
+/// Returns the share of an edge in the sample that is `edgeBehind` steps away from it.
 double shareOfEdge(double edgeBehind) {
     constexpr double kRounding = 1e-6;
     if (edgeBehind <= -0.5 + kRounding) return 1;
@@ -110,7 +110,7 @@ Result<void> drawLevels(std::span<const double> stamps_s, CaptureReading& readin
                     file, shortest, duration);
     }
     const double step = shortest / fine;
-    // Samples stand in the middle of their steps: an edge on the grid is half-way between two of them.
+    // Samples stand in the middle of their steps, so an edge on the grid is half-way between two samples.
     capture.rate_hz = 1 / step;
     capture.start_s = stamps_s.front() + step / 2;
     std::vector<double> places;

@@ -12,7 +12,7 @@ namespace tacto {
 
 namespace {
 
-/// "time", in the languages that programs are translated to.
+/// Returns whether `text` means "time" in one of the languages in which such programs exist.
 bool isTimeWord(std::string_view text) {
     constexpr std::array<std::string_view, 18> kWords{"time",  "t",     "zeit", "temps", "tiempo", "tempo",
                                                       "tijd",  "tid",   "czas", "čas",   "aika",   "idő",
@@ -20,7 +20,7 @@ bool isTimeWord(std::string_view text) {
     return std::ranges::find(kWords, folded(text)) != kWords.end();
 }
 
-/// Units of what is neither a voltage, a current nor a time, as they stand behind a slash or below a name.
+/// Returns whether `text` is a unit of another quantity (not voltage, current or time), as after a slash or a name.
 bool isOtherUnit(std::string_view text) {
     constexpr std::array<std::string_view, 54> kOthers{
         "°c",  "°f",  "℃",   "degc", "k",    "hz",  "khz",  "mhz",  "ghz",  "%",  "n",    "mn",   "kn", "pa",
@@ -30,7 +30,7 @@ bool isOtherUnit(std::string_view text) {
     return std::ranges::find(kOthers, folded(text)) != kOthers.end();
 }
 
-/// "Unit: mV" in DSView's brackets.
+/// Removes the word before a unit: "Unit: mV" in DSView's brackets.
 std::string_view withoutWord(std::string_view spelled) {
     const auto mark = spelled.find_first_of(":=");
     if (mark == std::string_view::npos) return spelled;
@@ -38,7 +38,7 @@ std::string_view withoutWord(std::string_view spelled) {
     return word == "unit" || word == "units" || word == "einheit" ? spelled.substr(mark + 1) : spelled;
 }
 
-/// The column called `name` with its unit as it is spelled.
+/// Returns the column called `name` with the unit that `spelled` stands for.
 CsvColumn withUnit(std::string_view name, std::string_view spelled) {
     spelled = trimmed(withoutWord(spelled));
     name = trimmed(name);
@@ -49,7 +49,7 @@ CsvColumn withUnit(std::string_view name, std::string_view spelled) {
     return {std::string(name), "", 1, std::string(spelled)};
 }
 
-/// `text` with its unit behind `mark`: "C1 in V", "t / s", "t/ms"; DIN 1313 writes quantity/unit.
+/// Splits `text` at `mark` into name and unit: "C1 in V", "t / s", "t/ms"; DIN 1313 writes quantity/unit.
 std::optional<CsvColumn> withUnitBehind(std::string_view text, std::string_view mark) {
     for (auto at = text.find(mark, 1); at != std::string_view::npos; at = text.find(mark, at + 1)) {
         const auto spelled = trimmed(text.substr(at + mark.size()));
@@ -59,7 +59,7 @@ std::optional<CsvColumn> withUnitBehind(std::string_view text, std::string_view 
     return std::nullopt;
 }
 
-/// "Time ms", "CH1 mV", "Spannung V"; a letter alone is a unit behind a digit or a quantity only: "Channel A".
+/// Splits "Time ms", "CH1 mV", "Spannung V". A letter is a unit only after a digit or a quantity, not in "Channel A".
 std::optional<CsvColumn> withUnitBehindBlank(std::string_view text) {
     const auto at = text.rfind(' ');
     if (at == std::string_view::npos) return std::nullopt;
@@ -77,7 +77,7 @@ std::optional<CsvColumn> withUnitBehindBlank(std::string_view text) {
     return withUnit(name, text.substr(at + 1));
 }
 
-/// A number and what stands behind it.
+/// Reads a number and returns it with the text after it.
 std::optional<std::pair<double, std::string_view>> numberAndRest(std::string_view text, char point) {
     text = trimmed(text);
     double value = 0;
@@ -94,7 +94,7 @@ CsvColumn columnNamed(std::string_view text) {
             if (bracket == std::string_view::npos) break;
             const auto spelled = text.substr(bracket + 1, text.size() - bracket - 2);
             auto column = withUnit(text.substr(0, bracket), spelled);
-            if (bracket == 0) {  // the unit of a column without a name, which is the time
+            if (bracket == 0) {  // a unit without a name: this is the time column
                 if (column.unit != "s") break;
                 column.name = "time";
             }
@@ -104,7 +104,7 @@ CsvColumn columnNamed(std::string_view text) {
     const auto mark = text.rfind('_');
     if (mark != std::string_view::npos && mark > 0 && mark + 1 < text.size()) {
         const auto unit = spelledUnit(text.substr(mark + 1));
-        // It is the least neither of voltages nor of some channels.
+        // With such names, a letter is part of the name and not a unit.
         constexpr std::array<std::string_view, 7> kLettered{"channel", "ch",    "kanal", "phase",
                                                             "input",   "probe", "line"};
         const bool isLettered =
@@ -116,7 +116,7 @@ CsvColumn columnNamed(std::string_view text) {
     for (const std::string_view between : {" in ", " en ", "/", ", "}) {
         if (auto column = withUnitBehind(text, between)) return *std::move(column);
     }
-    for (const std::string_view before : {"in ", "en "}) {  // the unit of times by itself
+    for (const std::string_view before : {"in ", "en "}) {  // a unit of time alone
         if (!text.starts_with(before)) continue;
         if (const auto unit = spelledUnit(text.substr(3)); unit && unit->unit == "s")
             return withUnit("time", text.substr(3));
@@ -154,7 +154,7 @@ bool isLineOfUnits(const CsvLine& line) {
     for (const std::string_view field : line.fields) {
         const auto unit = unitField(field);
         if (!unit && unitTextOf(field).size() == field.size() && !isOtherUnit(field)) return false;
-        // "a" and "s" name channels as well as units: a line of units has the one of time in it.
+        // "a" and "s" are channel names as well as units, so a line of units must contain a unit of time.
         any = any || (unit && unit->unit == "s");
     }
     return any;

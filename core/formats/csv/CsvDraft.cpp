@@ -13,7 +13,7 @@ namespace tacto {
 
 namespace {
 
-/// With these options any table can be read, whether its columns have names or not.
+/// With these options any table can be read, with or without column names.
 bool optionsGiveTheTime(const ReadOptions& options) { return !options.timeColumn.empty() || options.rate.has_value(); }
 
 bool hasTimeAndChannel(const CsvLine& line) {
@@ -27,8 +27,8 @@ bool hasStamps(const CsvHead& head) {
            });
 }
 
-/// The line that names the columns: the one nearest to the rows that names a time (keys above it may be called so too,
-/// units below it are); where the time is known without one, the last of the header.
+/// Returns the line that names the columns: the line nearest to the rows that names a time (earlier lines may be keys
+/// with such names, later lines are units). If the time is known without one, the last header line.
 const CsvLine* lineOfNames(const CsvHead& head, const std::optional<StatedInterval>& stated, bool timeIsKnown) {
     const CsvLine* units = nullptr;
     for (const auto& line : std::views::reverse(head.header)) {
@@ -43,7 +43,7 @@ const CsvLine* lineOfNames(const CsvHead& head, const std::optional<StatedInterv
     return units != nullptr ? units : last;
 }
 
-/// The cells of a column in the rows that the head holds.
+/// Returns whether `is` holds for the cells of a column in the rows of the head.
 template <class Predicate>
 bool cellsAre(const CsvHead& head, const CsvLayout& layout, std::size_t column, Predicate&& is) {
     bool any = false;
@@ -57,7 +57,7 @@ bool cellsAre(const CsvHead& head, const CsvLayout& layout, std::size_t column, 
     return any;
 }
 
-/// The seconds of the first row's stamp, in a column that begins with one.
+/// Returns the seconds of the first stamp in a column that begins with one.
 std::optional<std::int64_t> firstStampIn(const CsvHead& head, const CsvLayout& layout, std::size_t column) {
     std::optional<std::int64_t> first;
     cellsAre(head, layout, column, [&](const std::string& cell) {
@@ -85,7 +85,7 @@ bool countsRows(const CsvHead& head, const CsvLayout& layout, std::size_t column
 
 void CsvDraft::addChannel(std::string name, std::string_view spelled) {
     if (!name.empty() && name.find_first_not_of("0123456789") == std::string::npos) {
-        name.insert(0, "CH");  // "1" would be the number of a column
+        name.insert(0, "CH");  // "1" would be read as a column number
     }
     const auto unit = unitField(spelled);
     layout.names.push_back(name);
@@ -116,7 +116,7 @@ CsvDraft twoLineDraft(const CsvLine& names, const CsvLine& units, std::size_t wi
     draft.layout.timeFactor = time ? time->factor : 1;
     draft.addOther(names.fields.front().empty() ? "time" : names.fields.front());
     for (std::size_t c = 1; c < width; ++c) {
-        // "CH1 [mV]" above "(mV)"
+        // "CH1 [mV]" with "(mV)" below
         const auto named = columnNamed(names.fields[c]);
         draft.addChannel(named.unit.empty() ? names.fields[c] : named.name, fieldIn(&units, c));
     }
@@ -147,7 +147,7 @@ Result<CsvDraft> plainDraft(const CsvHead& head, const ReadOptions& options, std
                     "{}:{}: columns '{}'; a time column and channels were expected, as in time_s,voltage_v,current_a",
                     file, head.header.front().number, fmt::join(namesIn(head.header.front()), ","));
     }
-    if (named != nullptr && stated && named->number == stated->line) named = nullptr;  // the line has nothing but keys
+    if (named != nullptr && stated && named->number == stated->line) named = nullptr;  // the line holds only keys
     std::vector<std::string> names;
     const auto* units = named != nullptr && isLineOfUnits(*named) ? named : nullptr;
     if (named != nullptr) {
@@ -165,7 +165,7 @@ Result<CsvDraft> plainDraft(const CsvHead& head, const ReadOptions& options, std
             return fieldNumber(field, head.point) || fieldStamp(field, head.point);
         });
     };
-    std::size_t remarks = 0;  // below the names, as Origin writes them
+    std::size_t remarks = 0;  // remarks below the names, as Origin writes them
     for (; named != nullptr && last != &head.header.back() && !hasNumber(last[1]); ++last) ++remarks;
     CsvDraft draft(named != nullptr ? *named : *last, *last);
     if (named == nullptr && head.firstRow) draft.startAt(*head.firstRow);
@@ -206,7 +206,7 @@ Result<CsvDraft> plainDraft(const CsvHead& head, const ReadOptions& options, std
         draft.layout.timeColumn = *stamps;
         std::erase_if(draft.columns, [&](const ChannelPlan& plan) { return plan.number == *stamps + 1; });
     }
-    // The number of a row is not a signal, unless the user asks for it.
+    // A row number is not a signal, unless the user asks for it.
     if (draft.layout.times == RowTimes::Column && draft.layout.timeColumn > 0 && options.columns.empty() &&
         !draft.columns.empty() && draft.columns.front().number == 1) {
         const auto& first = draft.layout.names.front();
@@ -221,8 +221,8 @@ Result<CsvDraft> plainDraft(const CsvHead& head, const ReadOptions& options, std
 
 namespace {
 
-/// The time column that the options choose, with its unit. Errors: InvalidArgument if it does not exist, or its unit is
-/// not one of time.
+/// Uses the time column that the options choose, with its unit. Errors: InvalidArgument if it does not exist or its
+/// unit is not a unit of time.
 Result<void> chooseTimeColumn(CsvDraft& draft, const CsvHead& head, ReadOptions& options, std::string_view file) {
     auto& layout = draft.layout;
     if (!options.timeColumn.empty()) {
@@ -234,7 +234,7 @@ Result<void> chooseTimeColumn(CsvDraft& draft, const CsvHead& head, ReadOptions&
         if (layout.times != RowTimes::Column || layout.timeColumn != *column) {
             const auto plan = std::ranges::find(draft.columns, *column + 1, &ChannelPlan::number);
             const auto own = columnNamed(layout.names[*column]);
-            const auto alone = spelledUnit(layout.names[*column]);  // "ms", without a name
+            const auto alone = spelledUnit(layout.names[*column]);  // "ms", with no name
             layout.times = RowTimes::Column;
             layout.timeColumn = *column;
             layout.timeFactor = 1;
@@ -276,7 +276,7 @@ Result<void> chooseTimeColumn(CsvDraft& draft, const CsvHead& head, ReadOptions&
     return {};
 }
 
-/// The columns of times, where each stands before channels of its own: number and factor.
+/// Returns the time columns that each stand before channels of their own, with number and factor.
 std::vector<CsvLayout::OtherTime> timesOfChannels(const CsvDraft& draft) {
     std::vector<CsvLayout::OtherTime> times{{draft.layout.timeColumn, draft.layout.timeFactor}};
     for (const auto& plan : draft.columns) {
@@ -294,7 +294,7 @@ std::vector<CsvLayout::OtherTime> timesOfChannels(const CsvDraft& draft) {
     return times;
 }
 
-/// Takes the times that stand before the chosen channels; times of further channels must agree.
+/// Takes the times from the columns before the chosen channels. Times of further channels must agree.
 void pairTimes(CsvLayout& layout, const std::vector<CsvLayout::OtherTime>& times,
                const std::vector<ChannelPlan>& channels) {
     std::vector<CsvLayout::OtherTime> used;
@@ -310,7 +310,7 @@ void pairTimes(CsvLayout& layout, const std::vector<CsvLayout::OtherTime>& times
     if (!layout.givenRate_hz) layout.otherTimes.assign(used.begin() + 1, used.end());
 }
 
-/// Drops texts, times and other quantities, by name. What the user chose stays, and is refused.
+/// Drops texts, times and other quantities, and names them. A column that the user chose stays and is refused.
 Result<void> keepChannels(CsvLayout& layout, std::vector<ChannelPlan>& channels, const CsvHead& head, bool chosen,
                           bool paired, std::string_view file) {
     const auto leaveOut = [&](const auto& is, std::string_view what) {
@@ -329,7 +329,7 @@ Result<void> keepChannels(CsvLayout& layout, std::vector<ChannelPlan>& channels,
             return isTimeColumn({plan.name, plan.unit, plan.factor, plan.unknownUnit});
         });
     }
-    // Only the seconds mattered.
+    // Columns in seconds are times, not channels.
     leaveOut([](const ChannelPlan& plan) { return plan.unit == "s"; }, "is a time");
     if (channels.empty()) {
         return fail(ErrorCode::ParseError, "{}:{}: only times; at least one channel was expected", file,
@@ -337,14 +337,14 @@ Result<void> keepChannels(CsvLayout& layout, std::vector<ChannelPlan>& channels,
     }
     if (chosen) return {};
     const auto isText = [&](const ChannelPlan& plan) { return isColumnOfText(head, layout, plan.number - 1); };
-    if (std::ranges::all_of(channels, isText)) return {};  // the first of its rows is refused
+    if (std::ranges::all_of(channels, isText)) return {};  // the first row of the text column is refused
     leaveOut(isText, "holds text");
     const auto isOther = [](const ChannelPlan& plan) { return !plan.unknownUnit.empty(); };
     if (!std::ranges::all_of(channels, isOther)) leaveOut(isOther, "is in '{}', neither a voltage nor a current,");
     return {};
 }
 
-/// Errors: ParseError for a channel in an unknown unit, without a name, or with another channel's name.
+/// Errors: ParseError for a channel with an unknown unit, without a name, or with the name of another channel.
 Result<void> checkChannels(CsvLayout& layout, std::vector<ChannelPlan>& channels, bool chosen, std::string_view file) {
     for (std::size_t i = 0; i < channels.size(); ++i) {
         auto& channel = channels[i];

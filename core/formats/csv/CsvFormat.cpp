@@ -24,7 +24,7 @@ Known known(CsvDialect dialect) {
     return {CsvDialect::Plain, "csv", "CSV"};
 }
 
-/// Plain takes any text and is the last.
+/// Plain accepts any text, so it is tried last.
 CsvDialect dialectOf(const CsvHead& head) {
     for (const auto& maker : csvMakers()) {
         if (isOfDialect(maker.dialect, head)) return maker.dialect;
@@ -32,7 +32,7 @@ CsvDialect dialectOf(const CsvHead& head) {
     return CsvDialect::Plain;
 }
 
-/// The part of a first block that a header is looked for in: whole lines.
+/// Returns the beginning of a text, in whole lines, in which a header is searched.
 std::string_view headOf(std::string_view text) {
     if (text.size() <= kHeadBytes) return text;
     const auto end = text.rfind('\n', kHeadBytes);
@@ -41,7 +41,7 @@ std::string_view headOf(std::string_view text) {
 
 bool isText(std::string_view head) { return head.find('\0') == std::string_view::npos; }
 
-/// The dialect that the options name, else the one of the table.
+/// Returns the dialect that the options name, or else the table's own.
 CsvDialect dialectFor(const CsvHead& head, const ReadOptions& options) {
     if (options.format == known(CsvDialect::Plain).id) return CsvDialect::Plain;
     for (const auto& maker : csvMakers()) {
@@ -50,12 +50,12 @@ CsvDialect dialectFor(const CsvHead& head, const ReadOptions& options) {
     return dialectOf(head);
 }
 
-/// `blocks` stands at its beginning, and `text` is its first part.
+/// Reads the table from the beginning of `blocks`; `text` is its first part.
 Result<CaptureReading> readOnce(TextBlocks& blocks, std::string_view text, CsvDialect dialect, const CsvHead& head,
                                 const ReadOptions& options, const ReadWatch& watch) {
     const auto layout = layOut(dialect, head, options, blocks.name());
     if (!layout) return failure(layout);
-    // The numbers of columns that were chosen, scaled or timed by hand are not those that the header is about.
+    // If columns were chosen, scaled or timed by options, the header no longer describes them.
     const bool asWritten =
         options.columns.empty() && options.units.empty() && options.probeFactors.empty() && !options.rate;
     const auto header = asWritten ? headerIn(text) : std::nullopt;
@@ -68,14 +68,14 @@ Result<CaptureReading> readOnce(TextBlocks& blocks, std::string_view text, CsvDi
     return reading;
 }
 
-/// `refusal` with the options that read the table all the same, which were tried. Errors: Stopped.
+/// Adds to `refusal` the options that were tried and do read the table. Errors: Stopped.
 tl::unexpected<Error> withAdvice(Error refusal, TextBlocks& blocks, const std::string& text, CsvDialect dialect,
                                  const ReadOptions& options, const ReadWatch& watch) {
     const bool isOfTable = refusal.code == ErrorCode::ParseError || refusal.code == ErrorCode::InvalidArgument;
     if (!isOfTable || refusal.message.find(kRateInstead) != std::string::npos)
         return tl::unexpected(std::move(refusal));
     constexpr std::uint64_t kLong = 32UL * 1024 * 1024;
-    std::size_t readings = blocks.size() > kLong ? 3 : 40;  // readings of all rows, at most
+    std::size_t readings = blocks.size() > kLong ? 3 : 40;  // how often all rows may be read
     for (const auto& advice : adviceToTry(text, dialect, options, blocks.name())) {
         const auto head = readCaptureHead(text, advice.options.skipRows);
         if (head.header.empty() && !head.firstRow) continue;

@@ -1,4 +1,4 @@
-// CsvLayout.h - how the table of one oscilloscope is laid out: the dialects, recognised by their headers.
+// CsvLayout.h - the layout of an oscilloscope's table. Dialects are recognised by their headers:
 //
 //   Rigol       `X,CH1,…,Start,Increment` + `Sequence,Volt,…,start,increment`: X is a sample index (DS1000Z, 2000,
 //               4000), and may be switched off; `X,CH1,` or `,CH1,CH2` or `Time,X(CH1),` + `Second,Volt,` (DS1000E,
@@ -21,8 +21,8 @@
 //   Plain       one line of names, units in them or in a line below: `time_s,voltage_v`, `t [ms], CH1 (mV)`, `t/ms`,
 //               `in s,C1 in V` (Rohde & Schwarz), `Time (s),CH1 (V),Time (s),CH2 (V)`; ISO 8601 stamps; values alone
 //               below a stated rate (`; Sample rate: 100 kHz`, ` CH0 (Unit: mV)`: DSView)
-// Sources: files of the instruments themselves (Rigol, Tektronix MDO), their manuals, and descriptions by people who
-// read them; each is named in tests/formats/CsvMakersTest.cpp.
+// Sources: files from the instruments (Rigol, Tektronix MDO), manuals, and descriptions by people who read such files.
+// tests/formats/CsvMakersTest.cpp names each source.
 #pragma once
 
 #include <cstdint>
@@ -49,45 +49,45 @@ enum class CsvDialect {
     Plain
 };
 
-/// The source of the rows' times.
+/// How the times of the rows are found.
 enum class RowTimes {
-    Column,  ///< a column of times
-    Index,   ///< a column of sample numbers: time = start + number * interval
-    Counted  ///< none: row after row at the interval
+    Column,  ///< from a column of times
+    Index,   ///< from a column of sample numbers: time = start + number * interval
+    Counted  ///< not in the file: the rows are one interval apart
 };
 
 struct CsvLayout {
-    std::size_t width = 0;           ///< fields of a row; more may follow if they are empty
-    std::vector<std::string> names;  ///< the columns' names, as the file has them
-    std::size_t dataOffset = 0;      ///< place of the first row in the text
-    std::size_t dataLine = 0;        ///< its number
+    std::size_t width = 0;           ///< fields in a row; further fields must be empty
+    std::vector<std::string> names;  ///< names of the columns, as in the file
+    std::size_t dataOffset = 0;      ///< position of the first row in the text
+    std::size_t dataLine = 0;        ///< line number of the first row
     std::size_t headerLine = 0;      ///< number of the line that names the columns, for messages
     RowTimes times = RowTimes::Column;
     std::size_t timeColumn = 0;
-    double timeFactor = 1;                    ///< what turns the time column into seconds
-    std::optional<std::int64_t> stampOrigin;  ///< where that column holds dates and times: what they are counted from
+    double timeFactor = 1;                    ///< factor from the time column to seconds
+    std::optional<std::int64_t> stampOrigin;  ///< origin of dates and times, if the time column holds them
     struct OtherTime {
         std::size_t column;
-        double factor;  ///< to seconds
+        double factor;  ///< factor to seconds
     };
-    std::vector<OtherTime> otherTimes;  ///< times of other channels: they must agree with the time column
-    std::optional<double> interval_s;   ///< as the header states it
-    std::string noInterval;             ///< why the header states none, where the rows are counted: a rate is needed
-    double start_s = 0;                 ///< time of sample 0 where times are an index or counted
-    std::optional<double> rows;         ///< how many the header announces
-    /// What another number of rows means, where they are then no single record: such a table is refused.
+    std::vector<OtherTime> otherTimes;  ///< times of other channels, which must agree with the time column
+    std::optional<double> interval_s;   ///< interval stated in the header
+    std::string noInterval;             ///< why the header states no interval; a rate is then needed
+    double start_s = 0;                 ///< time of sample 0, if there is no column of times
+    std::optional<double> rows;         ///< number of rows stated in the header
+    /// What a different number of rows means, if the table is then not one record. Such a table is refused.
     std::string otherRows;
-    std::string endsAt;                  ///< the rows end before a line with this beginning; empty: with the file
-    bool mayEndInText = false;           ///< remarks may stand behind the last column
-    std::optional<double> givenRate_hz;  ///< the rate that the options give: stamps are then not asked
-    std::vector<ChannelPlan> channels;   ///< the channels as they will be read; number is the column from 1
+    std::string endsAt;                  ///< beginning of the line after the rows; empty: they end with the file
+    bool mayEndInText = false;           ///< true if remarks may follow the last column
+    std::optional<double> givenRate_hz;  ///< rate given in the options; stamps are then ignored
+    std::vector<ChannelPlan> channels;   ///< channels as they will be read; number is the column, from 1
     std::vector<std::string> warnings;
 };
 
-/// Whether a table that begins in this way has the dialect. Any table is plain.
+/// Returns whether a table with this beginning has the dialect. Any table is Plain.
 [[nodiscard]] bool isOfDialect(CsvDialect dialect, const CsvHead& head);
 
-/// Errors: ParseError naming line and what was expected; InvalidArgument for options that do not fit the table.
+/// Makes the layout. Errors: ParseError naming line and what was expected; InvalidArgument for options that do not fit.
 [[nodiscard]] Result<CsvLayout> layOut(CsvDialect dialect, const CsvHead& head, const ReadOptions& options,
                                        std::string_view file);
 

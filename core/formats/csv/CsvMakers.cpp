@@ -61,7 +61,7 @@ CsvDraft draftBesideKeys(const CsvHead& head, std::size_t firstLine) {
 namespace {
 
 bool isPicoScope(const CsvHead& head) {
-    // "Time", "Zeit", "Temps", by the language of the program
+    // "Time", "Zeit", "Temps": depends on the language of the program
     return head.header.size() > 1 && isTimeColumn({head.header[0].fields.front(), "", 1, ""}) &&
            isLineOfUnits(head.header[1]) && head.header[1].fields.front().starts_with('(');
 }

@@ -1,4 +1,4 @@
-// CsvMakers.h - the dialects of the makers: by what each is known, and how its tables are laid out.
+// CsvMakers.h - the makers' dialects: how each is recognised and how its tables are laid out.
 #pragma once
 
 #include <span>
@@ -9,15 +9,15 @@ namespace tacto {
 
 struct CsvMaker {
     CsvDialect dialect;
-    std::string_view id;    ///< the format's id: "csv-rigol"
-    std::string_view name;  ///< for people
-    /// Whether a table that begins in this way is one of the maker's. The header is not empty, or there is a first row.
+    std::string_view id;    ///< id of the format: "csv-rigol"
+    std::string_view name;  ///< name for people
+    /// Returns whether a table with this beginning comes from the maker. It must have a header or a first row.
     bool (*recognises)(const CsvHead& head);
-    /// The layout of a table that is recognised. Errors: ParseError naming file and what was expected.
+    /// Returns the layout of a recognised table. Errors: ParseError naming file and what was expected.
     Result<CsvDraft> (*draft)(const CsvHead& head, std::string_view file);
 };
 
-/// The makers in the order in which they are tried. The plain dialect is not among them.
+/// Returns the makers in the order in which they are tried, without the plain dialect.
 [[nodiscard]] std::span<const CsvMaker> csvMakers() noexcept;
 
 extern const CsvMaker kRigolCsv;
@@ -34,22 +34,22 @@ extern const CsvMaker kMicsigCsv;
 extern const CsvMaker kSigrokCsv;
 extern const CsvMaker kLabViewCsv;
 
-// What the blocks of keys of several makers have in common.
+// Functions for blocks of keys that several makers share.
 
-/// "CH1:V,CH2:mV", "CH1:V CH2:mV" or "V,mV": name and value that a line of keys gives channel `index` (from 0). Empty
-/// where it does not.
+/// Returns the name and value that a line of keys gives to channel `index` (from 0): "CH1:V,CH2:mV", "CH1:V CH2:mV" or
+/// "V,mV". Both are empty if it gives none.
 [[nodiscard]] std::pair<std::string, std::string> keyedValue(const CsvLine* line, std::size_t index);
 
-/// Sample interval and number of rows, as "Sample Interval" or "Sample Rate", and "Record Length", state them.
+/// Reads the interval from "Sample Interval" or "Sample Rate", and the number of rows from "Record Length".
 void readRecordKeys(const CsvHead& head, CsvLayout& layout);
 
-/// Errors: Unsupported where "Horizontal Units" are stated and not seconds, as in a spectrum.
+/// Errors: Unsupported if "Horizontal Units" are stated and are not seconds, as in a spectrum.
 [[nodiscard]] Result<void> checkHorizontalUnit(const CsvHead& head, std::string_view file);
 
-/// Whether keys stand in columns 1 and 2 of rows whose columns 4 and 5 hold time and value.
+/// Returns whether rows have keys in columns 1 and 2, and time and value in columns 4 and 5.
 [[nodiscard]] bool keysStandBesideRows(const CsvHead& head, std::size_t firstLine);
 
-/// The draft of such a table; its rows begin with header line `firstLine`.
+/// Returns the draft of such a table, with rows from header line `firstLine` on.
 [[nodiscard]] CsvDraft draftBesideKeys(const CsvHead& head, std::size_t firstLine);
 
 }  // namespace tacto

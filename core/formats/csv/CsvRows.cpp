@@ -203,7 +203,7 @@ Result<void> CsvRows::takeFields(std::string_view line, std::size_t row) {
 
 namespace {
 
-/// Whether all are finite; their exponents are asked, which needs no branch for each.
+/// Returns whether all samples are finite. Combines their exponents, which needs no branch per sample.
 bool allFinite(const float* samples, std::size_t count) {
     constexpr std::uint32_t kExponent = 0x7F800000U;
     std::uint32_t highest = 0;
@@ -214,11 +214,11 @@ bool allFinite(const float* samples, std::size_t count) {
 }
 
 struct Missing {
-    std::size_t row = std::numeric_limits<std::size_t>::max();  ///< the first
+    std::size_t row = std::numeric_limits<std::size_t>::max();  ///< the first such row
     std::size_t line = 0;
 };
 
-/// The table as it grows.
+/// The capture while its rows are being read.
 class Growing {
 public:
     Growing(const CsvLayout& layout, CaptureReading& into)
@@ -233,9 +233,9 @@ public:
         }
     }
 
-    /// Notes the first row whose channels have other times.
+    /// Notes the first row in which channels have different times.
     void compareTimes(const RowBatch& batch, const CsvLayout& layout) {
-        constexpr double kAgreeing = 0.05;  // share of a step: rounding, and nothing that a pulse's edges would show
+        constexpr double kAgreeing = 0.05;  // share of a step: rounding, too little to show at a pulse's edges
         if (rows == 0 && batch.rows > 1 && !batch.others.empty()) {
             agreeing_s_ = kAgreeing * std::abs(batch.times[batch.rows - 1] - batch.times[0]) * layout.timeFactor /
                           static_cast<double>(batch.rows - 1);
@@ -274,7 +274,7 @@ public:
         for (std::size_t i = 0; i < batch.rows; ++i) {
             const bool valued = look(batch, i);
             if (!valued && rowsWithValues == rows) {
-                // What follows may be the padded end: the times are judged without it then.
+                // Padding may begin here; if so, the times after this point are ignored.
                 times.keep();
                 firstEmptyLine = batch.lines[i];
             }
@@ -286,7 +286,7 @@ public:
         }
     }
 
-    /// Drops the rows at the end, says what is missing.
+    /// Drops empty rows at the end and warns about missing values.
     void finish(const CsvLayout& layout, std::string_view file, std::vector<std::string>& warnings) {
         if (rowsWithValues < rows) {
             times.dropBehindKept();
@@ -303,26 +303,26 @@ public:
                 "{}:{}: column '{}' has no finite value here{}; pulses that touch a missing sample are not measured",
                 file, missing_[c].line, layout.names[layout.channels[c].number - 1],
                 count == 1 ? "" : fmt::format(", and in {} rows in all", count)));
-            // A value beyond a float is beyond any oscilloscope: it counts as missing, like nan.
+            // A value too large for a float is too large for any oscilloscope: it is missing, like nan.
             std::ranges::replace_if(
                 samples, [](float sample) { return !std::isfinite(sample); }, std::numeric_limits<float>::quiet_NaN());
         }
     }
 
     struct Difference {
-        std::size_t line = 0;  ///< 0: none
+        std::size_t line = 0;  ///< 0: no such line
         std::size_t column = 0;
         double by_s = 0;
     };
     CsvTimes times;
-    Difference differing;  ///< the first of other times
+    Difference differing;  ///< the first difference between times
     std::size_t rows = 0;
     std::size_t rowsWithValues = 0;
     std::size_t lastLine = 0;
     std::size_t firstEmptyLine = 0;
 
 private:
-    /// Whether row `i` of the batch has any value; notes the channels that have none.
+    /// Returns whether row `i` of the batch has any value. Notes the channels without one.
     bool look(const RowBatch& batch, std::size_t i) {
         bool valued = false;
         for (std::size_t c = 0; c < channels_.size(); ++c) {
@@ -340,7 +340,7 @@ private:
     double agreeing_s_ = 0;
 };
 
-/// The stamps once more, where they are not plainly even.
+/// Reads the stamps again if they are not plainly even.
 Result<void> readTimesAgain(TextBlocks& blocks, const CsvHead& head, const CsvLayout& layout, const ReadWatch& watch,
                             CsvTimes& times) {
     CsvLayout timesOnly = layout;
@@ -349,7 +349,7 @@ Result<void> readTimesAgain(TextBlocks& blocks, const CsvHead& head, const CsvLa
     CsvRows rows(timesOnly, head.separator, head.point, blocks);
     times.startAgain();
     while (!times.hasAll()) {
-        const auto batch = rows.next({{}, watch.stop});  // progress is not reported a second time
+        const auto batch = rows.next({{}, watch.stop});  // without progress, which was already reported
         if (!batch) return failure(batch);
         if ((*batch)->rows == 0) return fail(ErrorCode::Io, "{} became shorter while it was read", blocks.name());
         times.addAgain(std::span((*batch)->times).first((*batch)->rows));
@@ -412,7 +412,7 @@ Result<CaptureReading> readCsvTable(TextBlocks& blocks, const CsvHead& head, con
     if (growing.times.needsAll() || (changes && !growing.times.hasAll())) {
         if (auto again = readTimesAgain(blocks, head, layout, watch, growing.times); !again) return failure(again);
     }
-    // Where columns were left out, the rows may be their changes.
+    // If columns were left out, the rows may be changes in those.
     const bool ofMore = isTimed && channels.size() + 1 < layout.width && growing.times.hasAll();
     const bool drawn = changes || (ofMore && listsChangesOfMore(channels, growing.times.stamps()));
     if (drawn && layout.givenRate_hz) {

@@ -12,16 +12,16 @@ namespace tacto {
 
 namespace {
 
-constexpr double kTolerance = 0.5 + 1e-9;  // share of a step that is accepted; the rest is rounding
-constexpr double kCalm = 0.26;             // no more than rounding to half a step's digits does: not worth a word
+constexpr double kTolerance = 0.5 + 1e-9;  // share of a step that is accepted, with a margin for rounding
+constexpr double kCalm = 0.26;             // share of a step: rounding of stamps explains this much; no warning
 
-/// What the steps are like, as far as a message needs it.
+/// Properties of the time steps that messages need.
 struct Steps {
-    double usual = 0;       ///< their median
-    std::size_t worst = 0;  ///< the row behind the farthest one
+    double usual = 0;       ///< median of the steps
+    std::size_t worst = 0;  ///< row after the step that differs most
     bool everDown = false;
     bool everZero = false;
-    double least = std::numeric_limits<double>::infinity();  ///< above 0
+    double least = std::numeric_limits<double>::infinity();  ///< smallest step above 0
 };
 
 Steps stepsOf(std::span<const double> stamps) {
@@ -36,7 +36,7 @@ Steps stepsOf(std::span<const double> stamps) {
         steps.push_back(step);
     }
     const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-    std::ranges::nth_element(steps, middle);  // from here on they are out of order
+    std::ranges::nth_element(steps, middle);  // reorders the steps
     found.usual = *middle;
     double farthest = -1;
     for (std::size_t row = 1; row < stamps.size(); ++row) {
@@ -48,7 +48,7 @@ Steps stepsOf(std::span<const double> stamps) {
     return found;
 }
 
-/// How far any stamp is from the straight line that begins at the first; NaN stays NaN.
+/// Returns the largest distance of a stamp from the straight line that begins at the first stamp. NaN stays NaN.
 double farthestFrom(std::span<const double> stamps, double step) {
     double farthest = 0;
     for (std::size_t i = 0; i < stamps.size(); ++i) {
@@ -58,12 +58,12 @@ double farthestFrom(std::span<const double> stamps, double step) {
     return farthest;
 }
 
-/// Stamps written with too few digits repeat and jump by the last digit, but keep to a straight line.
+/// Returns whether stamps repeat and jump only because they have too few digits, and keep to a straight line.
 bool areOnlyCoarse(const Steps& steps, double farthest) {
     return steps.everZero && !steps.everDown && std::isfinite(steps.least) && farthest <= 1.01 * steps.least;
 }
 
-/// Whether every stamp comes twice: Rohde & Schwarz write pairs of minimum and maximum, others use peak detection.
+/// Returns whether every stamp occurs twice, as in pairs of minimum and maximum (Rohde & Schwarz) or peak detection.
 bool arePairs(std::span<const double> stamps) {
     if (stamps.size() < 4 || stamps.size() % 2 != 0) return false;
     for (std::size_t i = 0; i < stamps.size(); i += 2) {
@@ -72,7 +72,7 @@ bool arePairs(std::span<const double> stamps) {
     return true;
 }
 
-/// The advice for rows with uneven times: samples that are even all the same.
+/// Returns the advice to use a rate, for samples that are even although their times are not.
 std::string rateInstead(double step_s) {
     return fmt::format("{}{} reads them{}", kRateInstead,
                        step_s > 0 && std::isfinite(1 / step_s) ? fmt::format("{:.10g}", 1 / step_s) : "HZ",
@@ -118,7 +118,7 @@ std::size_t LineOfStamps::mark() noexcept {
 
 void CsvTimes::add(std::span<const double> stamps, std::span<const std::size_t> lines) {
     const auto statedStep = stated();
-    double sum = 0;  // zero unless one is infinite or not a number
+    double sum = 0;  // not zero if a value is infinite or not a number
     for (const double given : stamps) {
         const double stamp = given * layout_.timeFactor;
         const std::size_t row = seen_.rows++;
@@ -140,7 +140,7 @@ void CsvTimes::add(std::span<const double> stamps, std::span<const std::size_t> 
         const auto missing = std::ranges::find_if_not(stamps, isFinite) - stamps.begin();
         missingRow_ = std::min(missingRow_, first + static_cast<std::size_t>(missing));
     }
-    // Lines only rise: most batches have one behind the other.
+    // Line numbers rise, so in most batches they are consecutive.
     const bool gapless = lines.back() - lines.front() == lines.size() - 1;
     for (std::size_t i = 0; i < (gapless ? 1 : lines.size()); ++i) {
         if (lines[i] != nextLine_) jumps_.emplace_back(first + i, lines[i]);
@@ -169,7 +169,7 @@ std::optional<double> CsvTimes::stated() const noexcept {
 bool CsvTimes::keepToStated() const noexcept { return stated() && seen_.farthestStated <= kTolerance * *stated(); }
 
 bool CsvTimes::needsAll() const {
-    constexpr double kSurely = 0.99;  // certain, however the line itself is rounded
+    constexpr double kSurely = 0.99;  // share of the limit: a certain result, whatever the rounding of the line
     if (hasAll() || layout_.givenRate_hz || missingRow_ != kNone || keepToStated()) return false;
     const double even = step();
     const double atMost = std::max(farthestFrom(stamps_, even), line_->farthestAtMost(even));
@@ -210,7 +210,7 @@ Result<void> CsvTimes::setTimes(CaptureReading& reading, const std::string& file
         capture.start_s = layout_.start_s;
         return {};
     }
-    // An index counts samples, a column of times seconds.
+    // An index counts samples; a time column counts seconds.
     const double unit_s = layout_.times != RowTimes::Index ? 1
                           : layout_.interval_s             ? *layout_.interval_s
                                                            : 1 / layout_.givenRate_hz.value_or(1);
@@ -231,7 +231,7 @@ Result<void> CsvTimes::setTimes(CaptureReading& reading, const std::string& file
     }
     const bool hasStated = stated().has_value();
     const double even = step();
-    const double farthest = hasAll() ? farthestFrom(stamps_, even) : 0;  // missing stamps are plainly even
+    const double farthest = hasAll() ? farthestFrom(stamps_, even) : 0;  // missing stamps: known to be even
     double step_s = even * unit_s;
     if (!(even > 0 && farthest <= kTolerance * even)) {
         const auto steps = stepsOf(stamps_);
@@ -248,7 +248,7 @@ Result<void> CsvTimes::setTimes(CaptureReading& reading, const std::string& file
                 "value for each time was expected{}",
                 file, rateInstead(step_s));
         }
-        // The last digit may hide up to this much of the duration at either end.
+        // The last digit may hide up to this share of the duration at each end.
         const double doubt = steps.least / (stamps_.back() - stamps_.front());
         if (hasStated && std::abs(*layout_.interval_s / step_s - 1) <= 2 * doubt) step_s = *layout_.interval_s;
         reading.warnings.push_back(

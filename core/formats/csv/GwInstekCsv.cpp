@@ -1,6 +1,6 @@
 // The tables of GW Instek's oscilloscopes. Each trace has two fields in every line of keys (`Source,CH1,Source,CH2,`)
-// and in every row: time and volts (Detail), or the value and nothing (Fast). Fast values are steps of a 25th of a
-// division. The GDS-1000 series does not write which it is.
+// and in every row: time and volts (Detail), or the value and nothing (Fast). Fast values are in steps of 1/25
+// division. The GDS-1000 series does not state its mode.
 #include "core/formats/csv/CsvColumns.h"
 #include "core/formats/csv/CsvMakers.h"
 
@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kStepsPerDivision = 25;
 
-/// What line `key` says of trace `k`.
+/// Returns the field for trace `k` in line `key`.
 std::string_view ofTrace(const CsvHead& head, std::string_view key, std::size_t k) {
     return fieldIn(lineCalled(head, key), 2 * k + 1);
 }
@@ -51,7 +51,7 @@ Result<CsvDraft> gwInstek(const CsvHead& head, std::string_view file) {
         return draft;
     }
     const double middle_s = numberCalled(head, "Horizontal Position").value_or(0);
-    // Without a mode, the memory is longer than the ten divisions of the screen.
+    // Without a stated mode, the memory is longer than the ten divisions of the screen.
     const double half_s = isStated
                               ? 5 * numberCalled(head, "Horizontal Scale").value_or(0)
                               : draft.layout.rows.value_or(0) / 2 * numberCalled(head, "Sampling Period").value_or(0);

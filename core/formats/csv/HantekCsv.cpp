@@ -1,4 +1,4 @@
-// The tables of Hantek's oscilloscopes: keys in comments, no names.
+// The tables of Hantek's oscilloscopes. Keys are in comments, and columns have no names.
 #include <algorithm>
 
 #include "core/base/LocaleFreeText.h"
@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view kOneChannel = "one channel per file was expected; export each by itself";
 
-/// `,#voltbase=1000000(uV)`, whose comma keeps it from being a comment; a logic analyzer has `,#threshold=…`.
+/// Finds `,#voltbase=1000000(uV)`, which its comma keeps from being a comment; a logic analyser has `,#threshold=…`.
 const CsvLine* baseLine(const CsvHead& head) {
     const auto found = std::ranges::find_if(head.header, [](const CsvLine& line) {
         return line.fields.size() > 1 && line.fields[0].empty() && line.fields[1].starts_with('#');
@@ -42,7 +42,7 @@ Result<CsvDraft> hantek(const CsvHead& head, std::string_view file) {
         for (std::size_t c = 1; c < columns; ++c) draft.addChannel(fmt::format("CH{}", c), "V");
         return draft;
     }
-    // Channels stand one below the other, with nothing but comments between them.
+    // The channels follow each other, with only comments between them.
     if (!draft.layout.rows) {
         return fail(ErrorCode::Unsupported, "{}: no number of samples; #SIZE= and a number were expected in a comment",
                     file);

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::string_view kOneSegment = "one segment per file was expected; export each by itself";
 
-/// The line of `x-axis,1,2`, which a line about segments may precede.
+/// Returns the line `x-axis,1,2`, which may follow a line about segments.
 const CsvLine* axisLine(const CsvHead& head) {
     for (std::size_t i = 0; i + 1 < head.header.size() && i < 2; ++i) {
         if (folded(head.header[i].fields.front()) == "x-axis" &&
@@ -38,7 +38,7 @@ CsvDraft infiniiVision(const CsvHead& head) {
     return draft;
 }
 
-/// Values alone, or each after its time. Every source has a column of keys.
+/// Reads values alone, or each after its time. Every source has its own column of keys.
 Result<CsvDraft> infiniium(const CsvHead& head, std::string_view file) {
     const auto& increments = *lineCalled(head, "XInc");
     const auto sources = filled(increments) - 1;

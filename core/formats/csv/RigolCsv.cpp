@@ -17,14 +17,14 @@ std::string withoutBlanks(std::string_view text) {
     return word;
 }
 
-/// "t0 = -25s" or "tInc = 2e-06s" in the line: index of the field; the line's width where it has none.
+/// Returns the index of the field "t0 = -25s" or "tInc = 2e-06s" in the line, or the line's width if there is none.
 std::size_t fieldGiving(const CsvLine& line, std::string_view key) {
     const auto found = std::ranges::find_if(
         line.fields, [&](const std::string& field) { return withoutBlanks(field).starts_with(key); });
     return static_cast<std::size_t>(found - line.fields.begin());
 }
 
-/// `X,CH1,Start,Increment`, or without the X where its column is switched off.
+/// Returns whether the header is `X,CH1,Start,Increment`, or the same without X if that column is switched off.
 bool hasIncrement(const CsvHead& head) {
     const auto& names = head.header[0];
     const auto width = filled(names);
@@ -45,7 +45,7 @@ bool hasMemoryTimes(const CsvHead& head) {
            fieldGiving(line, "t0=") < line.fields.size();
 }
 
-/// X without a unit beside columns that have theirs: seconds (DS1000D).
+/// Returns whether X has no unit but the other columns have theirs: X is then in seconds (DS1000D).
 bool hasUnitsInNames(const CsvHead& head) {
     const auto& line = head.header.front();
     const auto width = filled(line);
@@ -64,7 +64,7 @@ bool isRigol(const CsvHead& head) {
                                     hasUnitsInNames(head) || isUltraScope(head));
 }
 
-/// Start and increment stand behind the units; where that line is missing, nothing is known about either.
+/// Start and increment follow the units. Without a line of units, both are unknown.
 CsvDraft startAndIncrement(const CsvHead& head, std::string_view file) {
     const auto& names = head.header[0];
     const auto* units = head.header.size() > 1 ? &head.header[1] : nullptr;
@@ -95,7 +95,7 @@ CsvDraft startAndIncrement(const CsvHead& head, std::string_view file) {
     return draft;
 }
 
-/// The channel of "X(CH1)" stands in the brackets.
+/// "X(CH1)" holds the channel's name in brackets.
 CsvDraft seconds(const CsvHead& head) {
     auto names = head.header[0];
     for (auto& name : names.fields) {
@@ -134,7 +134,7 @@ CsvDraft unitsInNames(const CsvHead& head) {
     return draft;
 }
 
-/// Rigol's program for the PC: names in the line of "Channel Data", time and units in the last one.
+/// Reads tables of Rigol's PC program: names in the line "Channel Data", time and units in the last line.
 CsvDraft ultraScope(const CsvHead& head) {
     const auto& last = head.header.back();
     const auto& names = *lineCalled(head, "Channel Data");

@@ -1,4 +1,4 @@
-// The tables of Siglent's oscilloscopes, and of those that it makes for others.
+// The tables of Siglent's oscilloscopes, including those sold under other names.
 #include <algorithm>
 
 #include "core/formats/csv/CsvColumns.h"
@@ -13,7 +13,7 @@ bool isSiglent(const CsvHead& head) {
     if (lineCalled(head, "Record Length") != nullptr) {
         return lineCalled(head, "Sample Interval") != nullptr || lineCalled(head, "Sample Rate") != nullptr;
     }
-    // Saved on the instrument, the file has the sources, then the units, or these alone.
+    // A file saved on the instrument has the sources and then the units, or only the units.
     const auto lines = head.header.size();
     return isLineOfUnits(head.header.back()) &&
            (lines == 1 || (lines == 2 && folded(head.header.front().fields.front()) == "source"));
@@ -23,7 +23,7 @@ Result<CsvDraft> siglent(const CsvHead& head, std::string_view file) {
     if (auto timed = checkHorizontalUnit(head, file); !timed) return failure(timed);
     const auto& last = head.header.back();
     const auto* units = lineCalled(head, "Vertical Units");
-    const auto* scales = lineCalled(head, "Vertical Scale");  // "CH1: 0.05" names the channel too
+    const auto* scales = lineCalled(head, "Vertical Scale");  // "CH1: 0.05" also names the channel
     const auto* source = lineCalled(head, "Source");
     CsvDraft draft(last, last);
     draft.addOther(last.fields.front());

@@ -1,5 +1,5 @@
-// What sigrok-cli and PulseView write as CSV: keys in comments, names or units in a line that may be missing, times in
-// whole steps of the power of 1000 at or above the rate.
+// CSV from sigrok-cli and PulseView: keys in comments, an optional line of names or units, and times in whole steps of
+// a power of 1000 at or above the rate.
 #include "core/base/LocaleFreeText.h"
 #include "core/formats/csv/CsvColumns.h"
 #include "core/formats/csv/CsvMakers.h"
@@ -48,7 +48,7 @@ Result<CsvDraft> sigrok(const CsvHead& head, std::string_view file) {
     draft.startAt(*head.firstRow);
     if (hasTime) draft.addOther("time");
     for (std::size_t c = 0; c < names.size(); ++c) {
-        // The label is the channel's unit or its name.
+        // The label is either the unit or the name of the channel.
         const bool labelled = labels != nullptr && before + c < labels->fields.size();
         const std::string_view label = labelled ? std::string_view(labels->fields[before + c]) : "";
         draft.addChannel(std::string(trimmed(names[c])), label == trimmed(names[c]) ? "" : label);

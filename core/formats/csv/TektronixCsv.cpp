@@ -1,4 +1,4 @@
-// The tables of Tektronix' oscilloscopes, and of Micsig's, which look like the TDS tables.
+// The tables of Tektronix' oscilloscopes, and of Micsig's, which look like TDS tables.
 #include <algorithm>
 
 #include "core/formats/csv/CsvColumns.h"
@@ -17,7 +17,7 @@ bool isTektronix(const CsvHead& head) {
            (isTds(head) || (lineCalled(head, "TIME") != nullptr && lineCalled(head, "Sample Interval") != nullptr));
 }
 
-/// `TIME,CH1,,TIME,D1,D0`: the digital channels have a table of their own beside the first.
+/// In `TIME,CH1,,TIME,D1,D0`, the digital channels have their own table next to the first.
 Result<CsvDraft> tektronix(const CsvHead& head, std::string_view file) {
     if (auto timed = checkHorizontalUnit(head, file); !timed) return failure(timed);
     if (isTds(head)) return draftBesideKeys(head, 0);
@@ -33,7 +33,7 @@ Result<CsvDraft> tektronix(const CsvHead& head, std::string_view file) {
     draft.addOther(names.front());
     std::string unit;
     for (std::size_t c = 1; c < names.size(); ++c) {
-        // "CH1,CH1 Peak Detect": two values of the same samples, with the unit of the first.
+        // "CH1,CH1 Peak Detect" are two values of the same samples; the unit of the first holds for both.
         const bool isSecond = c > 1 && names[c].starts_with(names[c - 1] + " ");
         if (const auto stated = keyedValue(units, c - 1).second; !stated.empty() || !isSecond) unit = stated;
         draft.addChannel(names[c], unit);

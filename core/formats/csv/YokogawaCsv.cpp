@@ -11,7 +11,7 @@ bool isYokogawa(const CsvHead& head) {
            (lineCalled(head, "HResolution") != nullptr || lineCalled(head, "SampleRate") != nullptr);
 }
 
-/// The interval from HResolution, else from the rate, whose unit has a field of its own ("100","MHz").
+/// Returns the interval from HResolution, else from the rate, whose unit is in its own field ("100","MHz").
 std::optional<double> intervalOf(const CsvHead& head) {
     if (const auto step = numberCalled(head, "HResolution")) return step;
     const auto* line = lineCalled(head, "SampleRate");
@@ -24,7 +24,7 @@ std::optional<double> intervalOf(const CsvHead& head) {
     return hertz ? std::optional(1 / *hertz) : std::nullopt;
 }
 
-/// Rows may begin with an empty field, below the keys.
+/// Rows may begin with an empty field, under the column of keys.
 Result<CsvDraft> yokogawa(const CsvHead& head, std::string_view file) {
     const auto& names = *lineCalled(head, "TraceName");
     const auto* units = lineCalled(head, "VUnit") != nullptr ? lineCalled(head, "VUnit") : lineCalled(head, "Unit");
