@@ -8,9 +8,9 @@
 namespace tacto {
 
 namespace {
-constexpr double kAccelerationKept_s = 2.5;  // more than any frame waits
+constexpr double kAccelerationKept_s = 2.5;  // longer than any frame waits
 constexpr std::size_t kMaxWaiting = 512;
-// Below this rate the upper edge would come too near to half the rate.
+// At a lower rate the upper edge would be too close to half the rate.
 constexpr double kFullBandRate_hz = 2 * AccelerationTrack::kHigh_hz / 0.9;
 
 std::size_t rounded(double x) { return static_cast<std::size_t>(std::lround(x)); }
@@ -81,7 +81,7 @@ inline AccelerationTrack::Use AccelerationTrack::judge(double t_s, const double*
 }
 
 void AccelerationTrack::push(std::span<const double> stamps, const double* values) noexcept {
-    std::size_t from = 0;  // first sample of the run that the filter takes in one go
+    std::size_t from = 0;  // first sample that the filter has not processed yet
     for (std::size_t i = 0; i < stamps.size(); ++i) {
         const auto use = judge(stamps[i], values + i * axes_);
         if (use == Use::Continue) continue;
@@ -118,12 +118,12 @@ void AccelerationTrack::queueWindows() noexcept {
     for (; nextWindow_ + length_ <= end_; nextWindow_ += hop_) {
         const double stamp = stamps_[nextWindow_ - offset_];
         double begin = anchor_ + static_cast<double>(hops_ * hop_) / rate_;
-        // A live clock and a nominal rate drift apart: the stamps are right.
+        // The nominal rate drifts from the real clock, so the time is reset to the stamps.
         if (std::abs(begin - stamp) > 1 / rate_) {
             begin = anchor_ = stamp;
             hops_ = 0;
         }
-        // One sum, as the definition writes it: t0 + (k·H + N/2) / fs.
+        // Computed as one expression, as in the definition: t0 + (k·H + N/2) / fs.
         const double samples = static_cast<double>(hops_ * hop_) + 0.5 * static_cast<double>(length_);
         auto& window = windows_[(windowsFront_ + waiting_) % windows_.size()];
         window = {nextWindow_, begin, anchor_ + samples / rate_, begin + static_cast<double>(length_ - 1) / rate_};
@@ -139,7 +139,7 @@ std::size_t AccelerationTrack::oldestNeeded() const noexcept {
 }
 
 bool AccelerationTrack::full() const noexcept {
-    // There is at least one window per two samples: 100 Hz.
+    // At the lowest rate, 100 Hz, there is at most one window per two samples.
     return waiting_ + kChunk / 2 > windows_.size() || end_ - oldestNeeded() + kChunk > stamps_.size();
 }
 

@@ -1,7 +1,7 @@
-// AccelerationTrack.h - band-passed acceleration, and which windows of it make a frame.
+// AccelerationTrack.h - filters acceleration with a band-pass and selects the windows that become frames.
 //
-// A window never spans a gap, a NaN or a clock step: behind each the filter starts at the steady state of the next
-// sample, and the windows start there too.
+// A window never spans a gap, a NaN or a clock step. After each of these the filter restarts in the steady state of the
+// next sample, and the windows start there too.
 //
 // Thread-safety: none; one owner. Never allocates after construction.
 #pragma once
@@ -17,12 +17,12 @@
 
 namespace tacto {
 
-/// A whole window of acceleration, named by the number of its first sample.
+/// A complete window of acceleration. Its name is the number of its first sample.
 struct AccelerationWindow {
     std::size_t first;
     double begin_s;
     double centre_s;
-    double end_s;  ///< time of its last sample
+    double end_s;  ///< time of the last sample
 };
 
 class AccelerationTrack {
@@ -35,21 +35,21 @@ public:
 
     explicit AccelerationTrack(const StreamInfo& info);
 
-    /// Takes up to kChunk samples, filters them, and queues the windows they complete. Not while full().
+    /// Takes up to kChunk samples, filters them, and queues the windows that they complete. Not allowed while full().
     void push(std::span<const double> stamps, const double* values) noexcept;
     void clear() noexcept;
 
     [[nodiscard]] double first_s() const noexcept { return first_; }
-    /// Stamp of the newest sample in use; -infinity before the first.
+    /// Returns the stamp of the newest valid sample; -infinity before the first.
     [[nodiscard]] double newest_s() const noexcept { return newest_; }
 
-    /// Samples from `from` on with stamps of at most `until_s`, not yet normalised.
+    /// Samples from number `from` on, with stamps up to `until_s`, that are not normalised yet.
     struct Stretch {
         std::span<const double> stamps;
         std::array<double*, AxesBandpass::kMaxAxes> axes;
     };
     [[nodiscard]] Stretch unnormalised(double until_s) noexcept;
-    /// The caller normalised `count` samples.
+    /// Tells the track that the caller normalised `count` samples.
     void markNormalised(std::size_t count) noexcept { normalised_ += count; }
     [[nodiscard]] std::size_t normalised() const noexcept { return normalised_; }
 
@@ -60,7 +60,7 @@ public:
         return std::span(stamps_).subspan(window.first - offset_, length_);
     }
     void popWindow() noexcept;
-    /// True when the next push() may not fit: the oldest windows must go first.
+    /// Returns true if the next push() may not fit: the oldest windows must be removed first.
     [[nodiscard]] bool full() const noexcept;
 
     [[nodiscard]] std::size_t windowLength() const noexcept { return length_; }
@@ -73,7 +73,7 @@ public:
         std::size_t repeats = 0;
         std::size_t clockSteps = 0;
         std::size_t invalid = 0;
-        std::size_t beyond = 0;  ///< out of all proportion (SampleHistory.h)
+        std::size_t beyond = 0;  ///< number of implausibly large samples (SampleHistory.h)
     };
     [[nodiscard]] const Losses& losses() const noexcept { return losses_; }
 
@@ -85,7 +85,7 @@ private:
     void queueWindows() noexcept;
     void makeRoom(std::size_t count) noexcept;
     [[nodiscard]] std::size_t oldestNeeded() const noexcept;
-    /// False also for NaN.
+    /// Returns false for implausible samples and for NaN.
     [[nodiscard]] bool plausible(const double* sample) const noexcept;
 
     // Constant after construction
@@ -96,24 +96,24 @@ private:
     const std::size_t hop_;
     const bool truncated_;
     const double upperEdge_;
-    const std::size_t softLimit_;  // samples kept together before they are moved to the front, to stay in cache
+    const std::size_t softLimit_;  // samples stored before they are moved to the front; small enough for the cache
 
     AxesBandpass filter_;
     SampleGrid grid_;
     std::array<std::vector<double>, AxesBandpass::kMaxAxes> filtered_;
     std::vector<double> stamps_;
-    std::vector<AccelerationWindow> windows_;  // ring
+    std::vector<AccelerationWindow> windows_;  // ring buffer
     std::size_t windowsFront_ = 0;
     std::size_t waiting_ = 0;
     std::size_t offset_ = 0;      // number of the sample at stamps_[0]
     std::size_t end_ = 0;         // number of the next sample
     std::size_t normalised_ = 0;  // samples before this number are normalised
-    std::size_t nextWindow_ = 0;  // number of its first sample
-    double anchor_ = 0;           // stamp from which window times count
+    std::size_t nextWindow_ = 0;  // number of the next window's first sample
+    double anchor_ = 0;           // stamp that is the origin of window times
     std::size_t hops_ = 0;        // hops since the anchor
     double first_ = 0;
     double newest_ = 0;
-    bool running_ = false;  // the next regular sample continues the stretch
+    bool running_ = false;  // true: the next regular sample continues the stretch
     Losses losses_;
 };
 

@@ -13,8 +13,8 @@ std::array<Biquad, 2> butterworthBandpass(double low_hz, double high_hz, double 
     const double high = twice * std::tan(std::numbers::pi * high_hz / rate_hz);
     const double bandwidth = high - low;
 
-    // Each pole p of the order-2 low-pass becomes the two roots of s² - p·bandwidth·s + low·high; the conjugate
-    // pole gives their conjugates, so each root with its conjugate is a biquad.
+    // Each pole p of the order-2 low-pass becomes the two roots of s² - p·bandwidth·s + low·high. The conjugate pole
+    // gives the conjugate roots, so each root forms a biquad with its conjugate.
     const Complex prototype = std::polar(1.0, 0.75 * std::numbers::pi);
     const Complex half = prototype * bandwidth * 0.5;
     const Complex root = std::sqrt(half * half - low * high);
@@ -38,7 +38,7 @@ AxesBandpass::AxesBandpass(double low_hz, double high_hz, double rate_hz, std::s
     : sections_(butterworthBandpass(low_hz, high_hz, rate_hz)), axes_(axes) {}
 
 void AxesBandpass::restart(const double* sample) noexcept {
-    // A constant x gives 0 behind the high-pass section, whose states are then -x and x.
+    // For a constant x the output of the high-pass section is 0, and its states are -x and x.
     const Pair none{0, 0};
     for (std::size_t pair = 0; pair < 2; ++pair) {
         const std::size_t axis = 2 * pair;

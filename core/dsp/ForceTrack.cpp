@@ -8,7 +8,7 @@
 namespace tacto {
 
 namespace {
-constexpr double kForceKept_s = 4;  // more than any frame waits
+constexpr double kForceKept_s = 4;  // longer than any frame waits
 
 std::size_t roomFor(double rate_hz) { return static_cast<std::size_t>(2 * kForceKept_s * rate_hz) + 256; }
 }  // namespace
@@ -40,7 +40,7 @@ void ForceTrack::push(double t_s, double force_n) noexcept {
     }
     if (samples_.end() > 0 && t_s - newest_s() > kStale_s + kStampRounding_s) {
         ++stale_;
-        contact_ = false;  // lost in the silence: it must start again
+        contact_ = false;  // contact ends in the silence and must start again
     }
     contact_ = contact_ ? !(force_n < kContactEnd_n) : force_n >= kContactStart_n;
     if (contact_ && firstContact_ == kInfinity_s) firstContact_ = t_s;
@@ -48,7 +48,7 @@ void ForceTrack::push(double t_s, double force_n) noexcept {
     most_ = std::max(most_, force_n);
     const double row[2] = {force_n, contact_ ? 1.0 : 0.0};
     samples_.push(t_s, row);
-    // What was dropped for lack of room has no place for a cursor.
+    // A cursor must not point to samples that were dropped for lack of room.
     normaliseCursor_ = std::max(normaliseCursor_, samples_.begin());
     readCursor_ = std::max(readCursor_, samples_.begin());
 }
@@ -84,7 +84,7 @@ void ForceTrack::normalise(std::span<const double> stamps, std::span<double* con
         const Line line = lineAt(normaliseCursor_, stamps[i], start_s);
         std::size_t end = i + 1;
         while (end < stamps.size() && stamps[end] < line.until) ++end;
-        // Four at a time: the divisions need not wait for each other.
+        // Four at a time, so that the divisions do not wait for each other.
         for (; i + 4 <= end; i += 4) {
             double factors[4];
             for (std::size_t j = 0; j < 4; ++j) factors[j] = 1 / line.divisor(stamps[i + j]);
@@ -106,7 +106,7 @@ void ForceTrack::divisors(std::span<const double> stamps, std::span<double> out,
 
 bool ForceTrack::unsteady(double begin_s, double end_s, double start_s) const noexcept {
     constexpr double kSteady = 2;
-    // Straight lines are extreme at their ends.
+    // A straight line has its extremes at its ends.
     std::size_t cursor = samples_.begin();
     double smallest = lineAt(cursor, begin_s, start_s).divisor(begin_s);
     double largest = smallest;

@@ -1,5 +1,5 @@
-// FramePacer.h - when frames are due where no acceleration paces them: every 16 ms, or with every sample of a
-// slower stream. A gap restarts the count behind it.
+// FramePacer.h - says when frames are due if there is no acceleration: every 16 ms, or with each sample of a slower
+// stream. After a gap the count starts again.
 //
 // Thread-safety: none; one owner. Never allocates.
 #pragma once
@@ -39,8 +39,8 @@ public:
         }
     }
 
-    [[nodiscard]] double first_s() const noexcept { return first_; }    ///< infinity before the first
-    [[nodiscard]] double newest_s() const noexcept { return newest_; }  ///< -infinity before the first
+    [[nodiscard]] double first_s() const noexcept { return first_; }    ///< infinity before the first sample
+    [[nodiscard]] double newest_s() const noexcept { return newest_; }  ///< -infinity before the first sample
     [[nodiscard]] bool empty() const noexcept { return count_ == 0; }
     [[nodiscard]] bool crowded() const noexcept { return count_ > kRoom / 2; }
     [[nodiscard]] double front() const noexcept { return times_[front_]; }
@@ -65,7 +65,7 @@ private:
     std::array<double, kRoom> times_{};
     std::size_t front_ = 0;
     std::size_t count_ = 0;
-    std::size_t frames_ = 0;  // frames since the anchor
+    std::size_t frames_ = 0;  // frames since the anchor time
     double anchor_ = 0;
     double first_ = std::numeric_limits<double>::infinity();
     double newest_ = -std::numeric_limits<double>::infinity();

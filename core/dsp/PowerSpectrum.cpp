@@ -23,7 +23,7 @@ constexpr std::size_t padded(std::size_t count, std::size_t multiple) {
     return (count + multiple - 1) / multiple * multiple;
 }
 
-// An end of a band may miss the bin it stands on by the rounding of a measured rate, never by more.
+// A band's end may miss its bin only by the rounding of a measured rate.
 constexpr double kEndTolerance = 1e-9;
 }  // namespace
 
@@ -95,7 +95,7 @@ double PowerSpectrum::power(BinRange bins) const noexcept {
     double sum = 0;
     for (std::size_t a = 0; a < axes_; ++a) {
         const double(*x)[2] = output_ + a * outputStride_;
-        // Four sums side by side: one would wait for itself at every addition.
+        // Four separate sums, so that no addition waits for the one before.
         double part[4] = {};
         std::size_t k = bins.first;
         for (; k + 1 <= bins.last; k += 2) {
@@ -126,7 +126,7 @@ BinRange PowerSpectrum::bins(double low_hz, double high_hz) const noexcept {
 
 namespace {
 
-/// a0 - a1 cos x + a2 cos 2x - a3 cos 3x + a4 cos 4x
+/// Coefficients of a0 - a1 cos x + a2 cos 2x - a3 cos 3x + a4 cos 4x.
 using Terms = std::array<double, 5>;
 
 constexpr Terms termsOf(SpectralWindow window) noexcept {

@@ -69,7 +69,7 @@ Result<RoughnessResult> analyseRoughness(std::span<const StreamInfo> streams, st
     runWhole(**chain, blocks, result.frames);
     auto flags = (*chain)->flags().texts();
     if (declared.baseline) {
-        // The baseline may lie behind frames that need it: the first pass was to learn it.
+        // The baseline may come after frames that need it, so the first pass was made to find it.
         if (const auto* rest = (*chain)->rest()) {
             const RestLevels levels = *rest;
             (*chain)->presetRest(levels);

@@ -18,8 +18,8 @@ namespace tacto {
 
 namespace {
 
-constexpr double kSlice_s = 0.05;  // how far one stream may run ahead inside feed()
-constexpr double kSkew_s = 0.25;   // how far it may run ahead between calls, with margin
+constexpr double kSlice_s = 0.05;  // how far a stream may run ahead within feed()
+constexpr double kSkew_s = 0.25;   // how far a stream may run ahead between calls, with a margin
 
 }  // namespace
 
@@ -44,7 +44,7 @@ struct RoughnessChain::State {
 
     // Constant after construction
     StreamScaling scaling;
-    const std::vector<StreamInfo>& streams;  // in the units in use
+    const std::vector<StreamInfo>& streams;  // converted to the units in use
     RoughnessSettings settings;
     DeclaredIntervals declared;
     std::optional<StreamInfo> accelerationInfo, forceInfo, taxelInfo;
@@ -57,8 +57,8 @@ struct RoughnessChain::State {
     std::optional<TaxelTrack> taxels;
     std::optional<RoughnessIndex> index;
     std::optional<SlidingRest> sliding;
-    std::optional<FramePacer> pacer;  // without acceleration
-    std::vector<std::size_t> taken;   // per stream, samples of the current blocks
+    std::optional<FramePacer> pacer;  // used without acceleration
+    std::vector<std::size_t> taken;   // samples taken from the current blocks, per stream
 
     bool contactAssumed = false;
     std::size_t framesSeen = 0, framesInContact = 0, framesWithForce = 0, framesWithTaxels = 0;
@@ -108,17 +108,17 @@ void RoughnessChain::State::clear() {
     finished = false;
 }
 
-/// Raises why there is no contact, and which stream has nothing for the frames.
+/// Raises flags for why there is no contact, and for a stream without data for the frames.
 void RoughnessChain::State::raiseAbsence(RoughnessFlags& flags) const noexcept {
     using enum RoughnessFlag;
-    constexpr double kEarly_s = 2;  // a stream may begin later than another
+    constexpr double kEarly_s = 2;  // a stream may begin this much later than another
     const bool told = framesSeen > 0 && (finished || static_cast<double>(framesSeen) * period_s > kEarly_s);
     const bool hasForce = force && std::isfinite(force->newest_s());
     if (told && hasForce && framesWithForce == 0) flags.count(ForceElsewhere, framesSeen);
     if (told && taxels && std::isfinite(taxels->newest_s()) && framesWithTaxels == 0)
         flags.count(TaxelsElsewhere, framesSeen);
     if (hasForce && force->firstContact_s() == kInfinity_s) {
-        // Nothing is touched yet, or the sign is the wrong way round, which does not have to wait.
+        // Nothing has been touched yet, or the sign is reversed, which can be reported at once.
         flags.raise(ForceBelowContact, finished || force->least() <= -ForceTrack::kContactStart_n);
         flags.leastForce = force->least();
         flags.mostForce = force->most();
@@ -145,7 +145,7 @@ double RoughnessChain::State::firstContact_s() const noexcept {
 double RoughnessChain::State::forceKnown_s() const noexcept {
     if (!force || finished) return kInfinity_s;
     const double start = streamBegin_s();
-    // Before its first sample, and in a long silence, nobody waits for force forever.
+    // Before the first sample, and in a long silence, frames do not wait for force without limit.
     const double spoken = std::max(force->newest_s(), start);
     if (horizon_s() > spoken + ForceTrack::kLongestBridge_s + kSkew_s) return kInfinity_s;
     return force->newest_s();
@@ -179,7 +179,7 @@ void RoughnessChain::State::take(std::size_t stream, const SampleBlock& block, s
 }
 
 void RoughnessChain::State::takeSlice(std::span<const SampleBlock> blocks) {
-    // Keeps in step with the slowest, so that a whole file waits for nothing that a live bench would not wait for.
+    // Keeps in step with the slowest stream, so that a file waits for no more than a live bench does.
     double until = kInfinity_s;
     for (std::size_t s = 0; s < streams.size(); ++s) {
         if (taken[s] < blocks[s].samples()) until = std::min(until, blocks[s].t_s[taken[s]]);
@@ -207,7 +207,7 @@ void RoughnessChain::State::feed(std::span<const SampleBlock> blocks, std::vecto
     while (left()) {
         takeSlice(blocks);
         advance(frames, false);
-        // This is reached only by streams further apart than feed() permits: the oldest frames go out as they are.
+        // Reached only if streams are further apart than feed() permits: completes the oldest frames as they are.
         while (acceleration ? acceleration->full() : pacer->crowded()) advance(frames, true);
     }
 }
@@ -271,7 +271,7 @@ void RoughnessChain::State::evaluate(double begin_s, double centre_s, double end
         frame.h = read.feature;
         meanSquare = read.meanSquare;
         if (force) {
-            // !(x > y) also serves a force that is not known.
+            // If the force is unknown (NaN), the comparison is false and the smallest divisor is used.
             const bool pressing = pressed.force_n > ForceTrack::kSmallestDivisor_n;
             const double divisor = pressing ? pressed.force_n : ForceTrack::kSmallestDivisor_n;
             meanSquare *= divisor * divisor;

@@ -1,27 +1,27 @@
-// RoughnessChain.h - from a fingertip's streams to roughness R and pressure P, frame by frame.
+// RoughnessChain.h - computes roughness R and pressure P from a fingertip's streams, frame by frame.
 //
-// Computes science.md sections 2 and 3. The same numbers come out, bit for bit, whatever the block sizes:
-// the live bench and a whole file share this one class.
+// Implements science.md sections 2 and 3. The results are equal, bit for bit, for all block sizes: the live bench and a
+// whole file use this same class.
 //
-// Promptness. A frame describes the middle of its window, so it comes out half a window (32 ms) after its
-// t_s, plus the wait for the next force sample, to interpolate towards (5 ms at 200 Hz), and for the taxel
-// sample that may be nearer (none, at 200 Hz). With taxels and no declared baseline the first 250 ms are held
-// back until the baseline is known, once; before the first contact ends the rest, or a declared baseline has
-// passed, frames have no v. When force or taxels stop coming frames are held for up to 1.25 s;
-// so a caller that stimulates watches the age of the newest frame and of every stream (StreamHealth).
+// Delay. A frame describes the middle of its window, so it is complete half a window (32 ms) after its t_s. It also
+// waits for the next force sample, for the interpolation (5 ms at 200 Hz), and for a taxel sample that may be nearer
+// (none at 200 Hz). With taxels and no declared baseline, the first 250 ms are held back once, until the baseline is
+// known. Frames have no v until the first contact or until a declared baseline has passed. If force or taxels stop,
+// frames are held for up to 1.25 s, so a caller that stimulates must check the age of the newest frame and of every
+// stream (StreamHealth).
 //
-// While force more than doubles within a window (a finger landing or lifting), the frame slides only if its vibration
-// with the normalisation undone sample by sample says so too: one force for the whole window would turn the sensor's
-// noise into a vibration, and static contact must never read as rough (hazard H7).
+// If force more than doubles within a window (a finger landing or lifting), the frame slides only if its vibration,
+// with the normalisation undone sample by sample, shows it too. One force for the whole window would turn sensor noise
+// into vibration, and static contact must never read as rough (hazard H7).
 //
-// Force and taxels are turned into N and Pa here, by the scales that the settings hold for this fingertip; everything
-// behind, flags included, sees the units in use. Scales of another fingertip (by serial number) or for readings in
-// another unit are left aside and flagged, and R is then uncalibrated too.
+// Force and taxels are converted here to N and Pa, with the scales in the settings for this fingertip; all later steps
+// and the flags use the converted units. Scales for another fingertip (by serial number) or another unit of reading are
+// ignored and flagged, and R is then uncalibrated too.
 //
-// Values that are not finite, repeated or stepped back in time are not used; a gap or a NaN in acceleration starts the
-// filter and the windows again behind it. All of it is counted and shows among the flags.
+// Samples that are not finite, or whose stamps repeat or step back, are not used. After a gap or a NaN in acceleration,
+// the filter and the windows start again. All of these are counted in the flags.
 //
-// Thread-safety: none; one owner. feed() does not allocate, given room in `frames`.
+// Thread-safety: none; one owner. feed() does not allocate if `frames` has room.
 #pragma once
 
 #include <limits>
@@ -38,32 +38,31 @@
 
 namespace tacto {
 
-/// One window's verdict. NaN means absent.
+/// Results for one window. NaN means absent.
 struct RoughnessFrame {
-    double t_s = 0;  ///< centre of the window, on the stamps' time base
+    double t_s = 0;  ///< centre of the window, in the time of the stamps
     bool contact = false;
     bool sliding = false;
-    double h = std::numeric_limits<double>::quiet_NaN();  ///< h or h_abs, as the settings say
-    double v = std::numeric_limits<double>::quiet_NaN();  ///< static or dynamic, as the settings say
+    double h = std::numeric_limits<double>::quiet_NaN();  ///< h or h_abs, according to the settings
+    double v = std::numeric_limits<double>::quiet_NaN();  ///< static or dynamic feature, according to the settings
     double R = std::numeric_limits<double>::quiet_NaN();  ///< 0..1
     double pressure_pa = std::numeric_limits<double>::quiet_NaN();
     double P = std::numeric_limits<double>::quiet_NaN();  ///< 0..1
 };
 
-/// What the sensors read at rest. Measured by the chain itself; given to it where the rest lies later in a recording
-/// than the frames that need it.
+/// Sensor readings at rest. The chain measures these itself, unless the rest comes after the frames that need it: then
+/// the caller provides the levels.
 struct RestLevels {
-    std::vector<double> taxelBaseline;  ///< per taxel, in the unit in use; empty without taxels
-    double taxelFloor = 0;              ///< 3 standard deviations of the taxel mean
+    std::vector<double> taxelBaseline;  ///< one per taxel, in the unit in use; empty without taxels
+    double taxelFloor = 0;              ///< 3 standard deviations of the taxels' mean
     double slidingMeanSquare = std::numeric_limits<double>::quiet_NaN();  ///< see RoughnessSettings; NaN = not known
 };
 
 class RoughnessChain {
 public:
     /// Errors: InvalidArgument for settings that validate() refuses, two streams of a kind, no stream at all, a rate
-    /// outside 100 Hz..20 kHz for acceleration or not positive, fewer than 2 taxels, more than 3 axes, scales of
-    /// this fingertip for another number of taxels. `serial` is of the fingertip that gives the samples; empty: not
-    /// known.
+    /// outside 100 Hz..20 kHz for acceleration or not positive, fewer than 2 taxels, more than 3 axes, scales of this
+    /// fingertip for another number of taxels. `serial`: of the fingertip that gives the samples; empty: unknown.
     [[nodiscard]] static Result<std::unique_ptr<RoughnessChain>> create(std::span<const StreamInfo> streams,
                                                                         const RoughnessSettings& settings,
                                                                         const DeclaredIntervals& declared = {},
@@ -72,29 +71,29 @@ public:
     RoughnessChain(const RoughnessChain&) = delete;
     RoughnessChain& operator=(const RoughnessChain&) = delete;
 
-    /// Takes the next samples, `blocks[i]` for the i-th stream given to create(), and appends the frames that are
-    /// complete. Streams may run ahead of each other by up to 200 ms between calls.
+    /// Takes the next samples, `blocks[i]` for the i-th stream in create(), and appends frames that are now complete.
+    /// Streams may run ahead of each other by up to 200 ms between calls.
     void feed(std::span<const SampleBlock> blocks, std::vector<RoughnessFrame>& frames);
-    /// No more samples will come: appends the frames that still waited.
+    /// Ends the input and appends the frames that were still waiting.
     void finish(std::vector<RoughnessFrame>& frames);
     /// Forgets all samples, contact and rest; keeps settings, plans and buffers.
     void reset();
 
-    /// Uses these instead of measuring, reset() included; for a declared baseline that lies behind the frames that need
-    /// it.
+    /// Uses these levels instead of measured ones, also after reset(). For a declared baseline that comes after the
+    /// frames that need it.
     void presetRest(const RestLevels& rest);
-    /// The levels in use, once they are known.
+    /// Returns the levels in use, or null if unknown.
     [[nodiscard]] const RestLevels* rest() const noexcept;
 
-    /// The streams given to create(), in the units in use.
+    /// Returns the streams given to create(), in the units in use.
     [[nodiscard]] std::span<const StreamInfo> streams() const noexcept;
-    /// A reading of one channel in the unit in use.
+    /// Converts a reading of one channel to the unit in use.
     [[nodiscard]] double inUse(std::size_t stream, std::size_t channel, double reading) const noexcept;
 
-    /// What the data so far gave.
+    /// Returns the flags for the data so far.
     [[nodiscard]] RoughnessFlags flags() const noexcept;
 
-    /// Time between frames where nothing is missing.
+    /// Returns the time between frames when no data are missing.
     [[nodiscard]] double framePeriod_s() const noexcept;
 
 private:

@@ -9,10 +9,10 @@ namespace tacto {
 
 namespace {
 
-/// Flags and their words, in the order of RoughnessFlag.
+/// Names and sentences of the flags, in the order of RoughnessFlag.
 struct FlagWords {
     const char* name;
-    const char* sentence;  ///< the sentence; without count and full stop where it has a count
+    const char* sentence;  ///< for people; if the flag has a count, without count and full stop
 };
 constexpr std::array<FlagWords, kRoughnessFlags> kFlags{
     {{"band truncated", "The signal's rate is too low for the whole band of R: the band is truncated."},
@@ -50,7 +50,7 @@ constexpr std::array<FlagWords, kRoughnessFlags> kFlags{
 constexpr auto kFirstCounted = static_cast<std::size_t>(RoughnessFlag::ForceElsewhere);
 constexpr auto kBelowContact = static_cast<std::size_t>(RoughnessFlag::ForceBelowContact);
 
-/// The sentence for a range such as "-1.2 to -0.8 N".
+/// Returns the sentence for a range such as "-1.2 to -0.8 N".
 std::string belowContactSentence(std::string_view range) {
     const auto low = takeNumber(range);
     if (!low || !range.starts_with(" to ")) return {};

@@ -1,6 +1,6 @@
-// RoughnessFlags.h - what limits R and P of one fingertip: the flags of science.md section 2, each with how often.
+// RoughnessFlags.h - flags for what limits R and P of one fingertip (science.md section 2), each with a count.
 //
-// Thread-safety: values. Trivially copyable, so that the control loop can publish them; only texts() allocates.
+// Thread-safety: plain values. Trivially copyable, so that the control loop can publish them; only texts() allocates.
 #pragma once
 
 #include <array>
@@ -27,8 +27,8 @@ enum class RoughnessFlag : std::uint8_t {
     FingertipNotNamed,
     ScalesLeftAside,
     NoFrameInContact,
-    ForceBelowContact,  ///< the range of force where it stays below contact
-    // The flags from here on have a count:
+    ForceBelowContact,  ///< force stays below contact; has the range of force
+    // The following flags have a count:
     ForceElsewhere,
     TaxelsElsewhere,
     ForceStale,
@@ -47,31 +47,31 @@ inline constexpr std::size_t kRoughnessFlags = 26;
 [[nodiscard]] std::string_view nameOf(RoughnessFlag flag) noexcept;  // "sliding assumed"
 
 struct RoughnessFlags {
-    std::array<std::uint32_t, kRoughnessFlags> times{};  ///< how often each flag was given, by RoughnessFlag
-    double leastForce = 0, mostForce = 0;                ///< the range of force where it stays below contact
-    StreamUnit forceUnit = StreamUnit::Newton;           ///< their unit
+    std::array<std::uint32_t, kRoughnessFlags> times{};  ///< count of each flag, in the order of RoughnessFlag
+    double leastForce = 0, mostForce = 0;                ///< range of force that stays below contact
+    StreamUnit forceUnit = StreamUnit::Newton;           ///< unit of this range
 
     void raise(RoughnessFlag flag, bool given) noexcept { times[std::size_t(flag)] = given ? 1 : 0; }
     void count(RoughnessFlag flag, std::size_t number) noexcept {
         times[std::size_t(flag)] = static_cast<std::uint32_t>(number);
     }
     [[nodiscard]] bool has(RoughnessFlag flag) const noexcept { return times[std::size_t(flag)] > 0; }
-    /// The larger count of each.
+    /// Keeps the larger count of each flag.
     void include(const RoughnessFlags& other) noexcept;
-    /// Drops the flags that say something about the profile, and not about the samples.
+    /// Removes the flags that concern the profile and not the samples.
     void dropCalibration() noexcept;
-    /// Drops the flags that, so far, say why there is no contact, or that a stream has nothing.
+    /// Removes the flags that say why there is no contact so far, or that a stream has no data.
     void dropAbsence() noexcept;
-    /// The words of science.md: "sliding assumed"; with their count "gaps in acceleration: 2", with their range "force
-    /// below contact: -1.2 to -0.8 N".
+    /// Returns the flags in the words of science.md: "sliding assumed"; with a count, "gaps in acceleration: 2"; with a
+    /// range, "force below contact: -1.2 to -0.8 N".
     [[nodiscard]] std::vector<std::string> texts() const;
 };
 
-/// The text of a flag, with its count where it has one, as a sentence for people: "The finger is taken to slide
-/// whenever it touches: …". Any other text is returned as it is.
+/// Returns the text of a flag, with its count if it has one, as a sentence for people: "The finger is taken to slide
+/// whenever it touches: …". Any other text is returned unchanged.
 [[nodiscard]] std::string flagSentence(std::string_view text);
 
-/// The last paragraph of science.md section 2. It stands wherever R is shown.
+/// The last paragraph of science.md section 2, shown wherever R is shown.
 inline constexpr const char* kKnownLimitOfR =
     "Known limit of R: on the public sliding data tried so far its features are repeatable and specific to a material, "
     "but do not by themselves rank felt roughness; the reference surfaces give R its meaning.";

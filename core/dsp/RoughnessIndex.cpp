@@ -49,7 +49,7 @@ double RoughnessIndex::next(double t_s, Motion motion, double spectral, double t
                 lastSliding_ = t_s;
                 return kNaN;
             }
-            // After a rest it continues from what was felt last, decayed or not.
+            // After a rest, R continues from the last value felt, decayed or not.
             current_ = held_ = started_ ? current_ + alpha_ * (raw - current_) : raw;
             started_ = true;
             lastSliding_ = t_s;

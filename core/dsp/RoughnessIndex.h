@@ -1,4 +1,4 @@
-// RoughnessIndex.h - features become R: scaled, weighed, smoothed, held when the finger rests.
+// RoughnessIndex.h - computes R from features: scales, weighs and smooths them, and holds R when the finger rests.
 //
 // science.md sections 2.4 (hold and decay), 2.6 and 2.7.
 //
@@ -18,62 +18,62 @@ enum class Motion { NoContact, Unknown, Resting, Sliding };
 
 class RoughnessIndex {
 public:
-    /// `period_s` is the time between frames.
+    /// `period_s`: the time between frames.
     RoughnessIndex(const RoughnessSettings& settings, double period_s) noexcept;
 
-    /// R of the next frame, NaN when absent. `spectral` and `taxel` are NaN when absent.
+    /// Returns R of the next frame; NaN if absent. `spectral` and `taxel` are NaN if absent.
     [[nodiscard]] double next(double t_s, Motion motion, double spectral, double taxel) noexcept;
     void clear() noexcept { started_ = false; }
 
-    /// Σ w g / Σ w over the features present; NaN with none.
+    /// Returns Σ w g / Σ w over the features present; NaN if there are none.
     [[nodiscard]] static double combine(const RoughnessSettings& settings, double spectral, double taxel) noexcept;
 
-    /// R of a whole slide, from the means of its features, and not held within 0..1: a slide over a reference is as
-    /// often beyond it as not, and a mean of held values would lie inside. Whoever shows R of a slide, or the mean of
-    /// several, holds that within 0..1.
+    /// Returns R of a whole slide, from the means of its features, not limited to 0..1. A slide over a reference
+    /// surface lies beyond the reference as often as not, so a mean of limited values would be biased inwards. Limit R
+    /// of a slide, or the mean of several, to 0..1 only for display.
     [[nodiscard]] static double ofSlide(const RoughnessSettings& settings, double spectral, double taxel) noexcept;
 
 private:
     const RoughnessSettings settings_;
     const double alpha_;
     bool started_ = false;
-    double held_ = 0;         // the value when sliding last stopped
-    double current_ = 0;      // what next() last gave
-    double lastSliding_ = 0;  // the time of the last slide
+    double held_ = 0;         // value when sliding last stopped
+    double current_ = 0;      // last value from next()
+    double lastSliding_ = 0;  // time of the last slide
 };
 
-// Does the finger slide? Its vibration against the same at rest (science.md section 2.4).
+// Decides whether the finger slides: compares its vibration with the vibration at rest (science.md section 2.4).
 //
-// Rest is the declared baseline, else at least 250 ms before the first contact, else the profile's value if its unit
-// matches; otherwise every contact frame is taken to slide. Only frames that lie in the rest whole are measured.
+// Rest is the declared baseline; else at least 250 ms before the first contact; else the profile's value if its unit
+// matches. Otherwise every contact frame is assumed to slide. Only frames completely within the rest are measured.
 
 class SlidingRest {
 public:
     static constexpr double kShortestRest_s = 0.25;
-    static constexpr double kFactor = 3;  ///< below this many times the level at rest nothing slides
+    static constexpr double kFactor = 3;  ///< times the level at rest: with less vibration nothing slides
 
-    /// `profileMeanSquare` only where its unit is the acceleration's. Without acceleration nothing can be measured.
+    /// Give `profileMeanSquare` only in the acceleration's unit. Without acceleration nothing can be measured.
     SlidingRest(bool hasAcceleration, std::optional<TimeInterval> declaredBaseline,
                 std::optional<double> profileMeanSquare) noexcept
         : hasAcceleration_(hasAcceleration), declared_(declaredBaseline), profile_(profileMeanSquare) {}
 
     struct Frame {
-        double begin_s, end_s;  ///< the ends of its window
-        double meanSquare;      ///< 5 Hz..1 kHz, force normalisation undone
+        double begin_s, end_s;  ///< start and end of the frame's window
+        double meanSquare;      ///< 5 Hz..1 kHz, with the force normalisation undone
         bool contact;
-        double streamBegin_s;   ///< first sample of acceleration
-        double firstContact_s;  ///< infinity: not yet
+        double streamBegin_s;   ///< time of the first acceleration sample
+        double firstContact_s;  ///< infinity: no contact yet
     };
     [[nodiscard]] Motion next(const Frame& frame) noexcept;
 
-    /// No more frames will come: a declared baseline that reaches the end of the data is taken as it is.
+    /// Ends the input: a declared baseline that reaches the end of the data is used as it is.
     void close() noexcept;
     void clear() noexcept;
     void preset(double meanSquare) noexcept;
     [[nodiscard]] bool decided() const noexcept { return decided_ || !hasAcceleration_; }
-    /// True when a contact frame was taken to slide for lack of a rest level.
+    /// Returns true if a contact frame was assumed to slide because there was no rest level.
     [[nodiscard]] bool assumed() const noexcept { return assumed_; }
-    /// NaN while unknown or assumed.
+    /// Returns the level at rest; NaN while unknown or assumed.
     [[nodiscard]] double meanSquare() const noexcept { return level_; }
 
 private:

@@ -11,14 +11,14 @@ namespace tacto {
 
 namespace {
 
-// The scales as a file has them: the force with its unit, the taxels column by column.
+// Scales as stored in a file: force with its unit, taxels in columns.
 struct ForceScale {
     StreamUnit unit = StreamUnit::Newton;
     SensorLine line;
 };
 struct TaxelScales {
     StreamUnit unit = StreamUnit::Pascal;
-    std::vector<double> scale, offset, scaleU;  // NaN where U is not known
+    std::vector<double> scale, offset, scaleU;  // NaN if U is not known
 };
 struct StoredScales {
     std::string serial;
@@ -145,7 +145,7 @@ StreamScaling::StreamScaling(std::span<const StreamInfo> streams, const std::opt
     if (!scales) return;
     const auto match = matchOf(scales_, serial);
     const bool fits = std::ranges::all_of(streams_, [this](const auto& info) { return fitsTaxels(info, scales_); });
-    another_ = match == FingertipMatch::Another || !fits;  // a different number of taxels means another fingertip
+    another_ = match == FingertipMatch::Another || !fits;  // a different number of taxels means a different fingertip
     notNamed_ = match == FingertipMatch::NotNamed && !another_;
     if (another_) return;
     for (auto& info : streams_) {
@@ -200,7 +200,7 @@ Result<void> checkStream(const StreamInfo& info) {
     }
     switch (info.kind) {
         case StreamKind::Acceleration:
-            // Measured rates miss a nominal 100 Hz or 20 kHz by a little.
+            // A measured rate may miss a nominal 100 Hz or 20 kHz by a little.
             if (!(info.rate_hz >= 99 && info.rate_hz <= 20'200)) {
                 return invalid("acceleration: its rate is {:.6g} Hz; 100 Hz to 20 kHz was expected", info.rate_hz);
             }

@@ -1,9 +1,9 @@
-// SensorScales.h - what a sensor calibration found about one fingertip: how its force and taxels are turned into N and
-// Pa, and how far R can be trusted. Part of RoughnessSettings, and so of a profile.
+// SensorScales.h - the result of a sensor calibration for one fingertip: how its force and taxels convert to N and Pa,
+// and the uncertainty of R. Part of RoughnessSettings and so of a profile.
 //
-// Streams are recorded as the fingertip gives them; RoughnessChain alone applies the scales.
+// Streams are recorded unscaled; only RoughnessChain applies the scales.
 //
-// Thread-safety: values.
+// Thread-safety: plain values.
 #pragma once
 
 #include <limits>
@@ -25,97 +25,97 @@ class RecordFields;
 template <class T>
 struct ValueKind;
 
-/// quantity = scale · reading + offset.
+/// A straight line: quantity = scale · reading + offset.
 struct SensorLine {
     double scale = 1;                ///< N or Pa per unit of the reading; not 0
-    double offset = 0;               ///< N or Pa: what a reading of 0 stands for
-    std::optional<double> scaleU{};  ///< U of the scale, 95 %; nothing: not known
+    double offset = 0;               ///< N or Pa for a reading of 0
+    std::optional<double> scaleU{};  ///< expanded uncertainty U of the scale, 95 %; nothing: not known
     [[nodiscard]] double at(double reading) const noexcept { return scale * reading + offset; }
     bool operator==(const SensorLine&) const = default;
 };
 
-/// How far R of one slide can be off, by the repeatability of the references and of the slide: science.md section 12.
+/// Uncertainty of R for one slide, from the repeatability of the references and of the slide: science.md section 12.
 struct RoughnessUncertainty {
     double slideSd = 0;            ///< standard deviation of R from slide to slide, ≥ 0
-    std::size_t smoothSlides = 0;  ///< slides over each reference, ≥ 1
+    std::size_t smoothSlides = 0;  ///< slides over the smooth reference, ≥ 1
     std::size_t roughSlides = 0;
-    double coverage = 2;  ///< k for 95 %, from the degrees of freedom of slideSd
+    double coverage = 2;  ///< factor k for 95 %, from the degrees of freedom of slideSd
 
-    /// U = k s √(1 + (1 − R)²/n_smooth + R²/n_rough): one slide, and the two references' means that R lies between.
-    /// Takes each feature to say the same R. NaN for R that is absent.
+    /// Returns U = k s √(1 + (1 − R)²/n_smooth + R²/n_rough), for one slide and the means of the two references.
+    /// Assumes that all features give the same R. NaN if R is absent.
     [[nodiscard]] double expanded(double R) const noexcept;
     bool operator==(const RoughnessUncertainty&) const = default;
 };
 
 struct SensorScales {
-    std::string fingertip;                      ///< the fingertip's serial number; empty: it has none
-    std::optional<SensorLine> force;            ///< converts to N; nothing: as the stream says
-    StreamUnit forceUnit = StreamUnit::Newton;  ///< unit of the readings it was measured in: N or count
-    std::vector<SensorLine> taxels;             ///< convert to Pa, one each; empty: as the stream says
-    StreamUnit taxelUnit = StreamUnit::Pascal;  ///< Pa or count
+    std::string fingertip;                      ///< serial number of the fingertip; empty: it has none
+    std::optional<SensorLine> force;            ///< converts readings to N; nothing: in the unit of the stream
+    StreamUnit forceUnit = StreamUnit::Newton;  ///< unit of the readings in the calibration: N or count
+    std::vector<SensorLine> taxels;             ///< convert to Pa, one per taxel; empty: in the unit of the stream
+    StreamUnit taxelUnit = StreamUnit::Pascal;  ///< unit of the readings in the calibration: Pa or count
     bool operator==(const SensorScales&) const = default;
 };
 
-/// Whether the scales belong to the fingertip that gives the samples.
+/// Whether the scales belong to the fingertip of the samples.
 enum class FingertipMatch {
     Same,
-    NotNamed,  ///< the source or the calibration has no serial number: nothing says that it is another one
+    NotNamed,  ///< the source or the calibration has no serial number, so they may belong together
     Another
 };
 [[nodiscard]] FingertipMatch matchOf(const SensorScales& scales, std::string_view serial) noexcept;
 
-/// The `sensor` of a profile's roughness section:
+/// Reads and writes `sensor` in a profile's roughness section:
 ///   {"serial": "…", "force": {"unit": "N"|"count", "scale": x, "offset_n": x, "scale_u": x|null},
 ///    "taxels": {"unit": "Pa"|"count", "scale": […], "offset_pa": […], "scale_u": [x|null…]}}
-/// InvalidArgument for a scale of 0.
+/// Errors: InvalidArgument for a scale of 0.
 [[nodiscard]] ValueKind<SensorScales> sensorScalesKind();
-/// Its `uncertainty`.
+/// Returns the fields of `uncertainty` in the same section.
 [[nodiscard]] RecordFields<RoughnessUncertainty> roughnessUncertaintyFields();
 
-// The units that a fingertip's streams may have, by the words that profiles and results use.
+// Units that a fingertip's streams may have, in the words of profiles and results.
 
 inline constexpr Word<StreamUnit> kRestUnits[] = {{"m/s2", StreamUnit::MetrePerSecondSquared},
                                                   {"count", StreamUnit::Count}};
 inline constexpr Word<StreamUnit> kForceUnits[] = {{"N", StreamUnit::Newton}, {"count", StreamUnit::Count}};
 inline constexpr Word<StreamUnit> kTaxelUnits[] = {{"Pa", StreamUnit::Pascal}, {"count", StreamUnit::Count}};
 
-// The one place where a fingertip's readings become N and Pa: which scales of a profile hold for its
-// streams, and what they make of a reading.
+// Converts a fingertip's readings to N and Pa, the only place that does so. Decides which scales of a profile are valid
+// for its streams.
 //
-// Scales of another fingertip, and those for readings in another unit, are left aside; references that were read under
-// them do not hold either (hazard H7).
+// Scales of another fingertip or for another unit of readings are ignored. References measured with them are not valid
+// either (hazard H7).
 
 class StreamScaling {
 public:
-    /// `serial` is of the fingertip that gives the samples; empty: not known.
+    /// `serial`: of the fingertip that gives the samples; empty: not known.
     StreamScaling(std::span<const StreamInfo> streams, const std::optional<SensorScales>& scales,
                   std::string_view serial);
 
-    /// The streams, in the units in use.
+    /// Returns the streams in the units in use.
     [[nodiscard]] const std::vector<StreamInfo>& streams() const noexcept { return streams_; }
     [[nodiscard]] double inUse(std::size_t stream, std::size_t channel, double reading) const noexcept;
-    /// All taxels of one sample, in the unit in use; `readings` itself where nothing is scaled. Until the next call.
+    /// Returns all taxels of a sample in the unit in use (`readings` itself if unscaled), valid until the next call.
     [[nodiscard]] const double* scaled(std::size_t stream, const double* readings) noexcept;
 
-    /// False where scales were left aside: what was measured under them is of no use here.
+    /// Returns false if scales were ignored: values measured with them are then not valid here.
     [[nodiscard]] bool holds() const noexcept { return !another_ && !leftAside_; }
     void raise(RoughnessFlags& flags) const noexcept;
 
 private:
     SensorScales scales_;
     std::vector<StreamInfo> streams_;
-    bool force_ = false, taxels_ = false;  // scaled
+    bool force_ = false, taxels_ = false;  // true: readings are scaled
     bool another_ = false, notNamed_ = false, leftAside_ = false;
     std::vector<double> row_;
 };
 
-/// Errors: InvalidArgument where the scales are of this very fingertip and hold for another number of taxels.
+/// Errors: InvalidArgument if the scales belong to this fingertip but have another number of taxels.
 [[nodiscard]] Result<void> checkScales(std::span<const StreamInfo> streams, const std::optional<SensorScales>& scales,
                                        std::string_view serial);
 
-// Which streams the roughness chain can judge.
+// Checks that the roughness chain can judge the streams.
 
-/// Errors: InvalidArgument as RoughnessChain::create() lists them.
+/// Errors: InvalidArgument, as listed for RoughnessChain::create().
 [[nodiscard]] Result<void> checkStreams(std::span<const StreamInfo> streams);
 
 }  // namespace tacto

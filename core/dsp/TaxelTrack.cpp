@@ -12,7 +12,7 @@ namespace {
 constexpr double kReach_s = 0.1;
 constexpr double kTrailing_s = 0.25;
 constexpr double kFloorDeviations = 3;
-constexpr double kTaxelsKept_s = 4;  // more than any frame waits, and its moving average
+constexpr double kTaxelsKept_s = 4;  // longer than any frame waits, with its moving average
 }  // namespace
 
 void TaxelTrack::Stretch::add(const double* values) noexcept {
@@ -107,7 +107,7 @@ void TaxelTrack::decide(double known_s) noexcept {
     if (declared_ && known_s <= declared_->end_s) return;
     if (declared_ && inDeclared_.count > 0) return adopt(inDeclared_, declared_->end_s);
     if (!(known_s >= first_ + kShortestRest_s)) return;
-    if (known_s < firstContact_) return;  // the rest continues
+    if (known_s < firstContact_) return;  // the rest is not over yet
     if (firstContact_ - first_ >= kShortestRest_s && beforeContact_.count > 0)
         return adopt(beforeContact_, firstContact_);
     assumed_ = true;
@@ -170,7 +170,7 @@ TaxelTrack::Reading TaxelTrack::at(double t_s, bool dynamic) noexcept {
     while (cursor_ + 1 < samples_.end() && samples_.t(cursor_ + 1) <= t_s) ++cursor_;
     std::size_t nearest = cursor_;
     if (nearest + 1 < samples_.end()) {
-        // Between two at the same distance the earlier one counts, however their stamps were rounded.
+        // Of two samples at the same distance, the earlier one is used, whatever the rounding of their stamps.
         const double later = std::abs(samples_.t(nearest + 1) - t_s);
         if (later + kStampRounding_s < std::abs(samples_.t(nearest) - t_s)) ++nearest;
     }
@@ -183,10 +183,10 @@ TaxelTrack::Reading TaxelTrack::at(double t_s, bool dynamic) noexcept {
     if (known_ && t_s >= validFrom_) {
         double meanAbove = 0;
         const double spread = variance(nearest, dynamic, meanAbove);
-        // A mean of 0 has no relative variance; a mean under the floor is noise.
+        // A mean of 0 has no relative variance; a mean below the floor is noise.
         if (meanAbove > 0 && meanAbove >= floor_) reading.v = spread / (meanAbove * meanAbove);
     }
-    // The next frame may take this sample again, with the moving average behind it.
+    // The next frame may need this sample again, with the moving average before it.
     while (window_ < cursor_ && samples_.t(window_) <= samples_.t(cursor_) - kTrailing_s) ++window_;
     if (settled_ > 0) samples_.release(std::min({window_, cursor_, settled_}));
     return reading;

@@ -1,7 +1,7 @@
-// TaxelTrack.h - the taxels' baseline, the spatial feature v, and the pressure they carry.
+// TaxelTrack.h - the baseline of the taxels, their spatial feature v, and their pressure.
 //
-// Baseline: the declared interval, else the rest before the first contact if that lasted 250 ms, else the first 250 ms.
-// A sample with a value that is not finite is counted and not used.
+// The baseline is the declared interval; else the rest before the first contact if that lasted 250 ms; else the first
+// 250 ms. A sample with a value that is not finite is counted and not used.
 //
 // Thread-safety: none; one owner. Never allocates after construction.
 #pragma once
@@ -28,22 +28,22 @@ public:
 
     [[nodiscard]] double first_s() const noexcept { return first_; }
     [[nodiscard]] double newest_s() const noexcept { return samples_.newest_s(); }
-    /// A sample further than this from a frame does not speak for it.
+    /// Returns the largest distance in time from a frame at which a sample is used for it.
     [[nodiscard]] double reach_s() const noexcept { return reach_; }
 
-    /// Contact is known up to `known_s` and first happened at `firstContact_s` (infinity: not yet): takes the samples
-    /// up to there into the baseline.
+    /// Adds samples to the baseline. Contact is known up to `known_s` and first happened at `firstContact_s` (infinity:
+    /// not yet); samples up to the earlier of the two are added.
     void settle(double known_s, double firstContact_s) noexcept;
-    /// True once no later sample can change the baseline of frames up to now.
+    /// Returns true once no later sample can change the baseline of the frames so far.
     [[nodiscard]] bool decided(double known_s) const noexcept;
-    /// Fixes the baseline with what is there; for the end of the data.
+    /// Fixes the baseline with the present samples, at the end of the data.
     void close() noexcept;
 
     struct Reading {
-        double v;     ///< NaN when absent
-        double mean;  ///< mean of the taxels as they are; NaN without a sample near enough
+        double v;     ///< NaN if absent
+        double mean;  ///< mean of the taxels, without baseline removal; NaN if no sample is near enough
     };
-    /// The reading at `t_s`, which never decreases from call to call. Needs newest_s() ≥ t_s, or silence since.
+    /// Returns the reading at `t_s`, which must never decrease. Requires newest_s() ≥ t_s, or silence since.
     [[nodiscard]] Reading at(double t_s, bool dynamic) noexcept;
 
     [[nodiscard]] bool baselineKnown() const noexcept { return known_; }
@@ -55,12 +55,12 @@ public:
     [[nodiscard]] std::size_t outOfOrder() const noexcept { return outOfOrder_; }
 
 private:
-    /// Per-taxel mean and the spread of the taxel mean over one stretch of samples.
+    /// Mean of each taxel, and the spread of the taxels' mean, over one stretch of samples.
     struct Stretch {
         std::vector<double> sum;
         std::size_t count = 0;
-        double mean = 0;     // running mean of the taxels
-        double squares = 0;  // sum of squared deviations, running
+        double mean = 0;     // running mean of the taxels' mean
+        double squares = 0;  // running sum of squared deviations
         void add(const double* values) noexcept;
         void clear() noexcept;
     };
@@ -76,12 +76,12 @@ private:
     Stretch inDeclared_, beforeContact_, atStart_;
     std::vector<double> baseline_;
     std::vector<double> above_;     // scratch: u of one sample
-    std::vector<double> trailing_;  // scratch: its moving average
+    std::vector<double> trailing_;  // scratch: moving average of u
     double floor_ = 0;
     double first_;
     double firstContact_;
-    double validFrom_;         // frames before this time have no baseline, however much was fed when they came out
-    std::size_t settled_ = 0;  // samples before this number are in the stretches
+    double validFrom_;         // frames before this time have no baseline, whenever they are completed
+    std::size_t settled_ = 0;  // samples before this number are in the baseline stretches
     std::size_t cursor_ = 0;   // last sample at or before the frame
     std::size_t window_ = 0;   // first sample of the moving average
     bool known_ = false;

@@ -1,5 +1,5 @@
-// WindowVibration.h - the vibration of one window of acceleration: its spectral feature and its mean square
-// (science.md section 2.3).
+// WindowVibration.h - computes the spectral feature and the mean square of one window of acceleration (science.md
+// section 2.3).
 //
 // Thread-safety: none; one owner. Reading a window does not allocate.
 #pragma once
@@ -16,21 +16,21 @@ namespace tacto {
 
 class WindowVibration {
 public:
-    /// Takes windows of `track`, which outlives this and has `axes` axes at `rate_hz`.
+    /// Reads windows of `track`, which must outlive this object and has `axes` axes at `rate_hz`.
     WindowVibration(const AccelerationTrack& track, std::size_t axes, double rate_hz,
                     const RoughnessSettings& settings);
 
-    /// False where the signal's rate is too low for the band of the spectral feature.
+    /// Returns false if the rate is too low for the band of the spectral feature.
     [[nodiscard]] bool hasFeature() const noexcept { return !rough_.empty(); }
 
     struct Reading {
-        double feature;  ///< h or h_abs, as the settings say; NaN: absent
+        double feature;  ///< h or h_abs, according to the settings; NaN if absent
         double meanSquare;
     };
     [[nodiscard]] Reading of(const AccelerationWindow& window) noexcept;
-    /// The window's mean square with the normalisation by `force` undone sample by sample. While a finger lands or
-    /// lifts, force changes tenfold within a window: undoing it with one number would make sensor noise a vibration
-    /// (hazard H7). `start_s`: where the stream begins.
+    /// Returns the mean square of the window, with the normalisation by `force` undone sample by sample. While a finger
+    /// lands or lifts, force changes tenfold within a window; one number for all would turn sensor noise into vibration
+    /// (hazard H7). `start_s`: the start of the stream.
     [[nodiscard]] double undoneMeanSquare(const AccelerationWindow& window, const ForceTrack& force,
                                           double start_s) noexcept;
 
@@ -40,8 +40,8 @@ private:
     const SpectralFeature feature_;
     PowerSpectrum spectrum_;
     BinRange whole_, rough_;
-    std::vector<double> divisors_;                                    // scratch: one window's
-    std::array<std::vector<double>, AxesBandpass::kMaxAxes> undone_;  // scratch: one window's axes
+    std::vector<double> divisors_;                                    // scratch: divisors of one window
+    std::array<std::vector<double>, AxesBandpass::kMaxAxes> undone_;  // scratch: axes of one window
 };
 
 }  // namespace tacto

@@ -32,7 +32,7 @@ struct CsvDraft {
     void countRows(std::optional<double> interval_s, double start_s, std::string_view stated, std::string_view file);
 };
 
-/// Names in one line, units in the next; the first column is time. Empty fields at the end are not columns.
+/// Makes a draft from a line of names and a line of units. The first column is time. Empty last fields are ignored.
 [[nodiscard]] CsvDraft twoLineDraft(const CsvLine& names, const CsvLine& units, std::size_t width);
 
 /// Returns the layout of a plain table. Errors: ParseError if no line names a time column and channels, nor do options.
