@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxEntries = 100'000;
 
-/// A stream as the JSON file describes it.
+/// A stream, as the JSON file describes it.
 struct DescribedStream {
     StreamKind kind = StreamKind::Acceleration;
     std::string file;
@@ -86,15 +86,15 @@ RecordFields<DescribedRecording> buildRecordingFields() {
     all.add("baseline", in(&R::declared, &DeclaredIntervals::baseline), interval);
     all.list("contact", in(&R::declared, &DeclaredIntervals::contact), interval, 0, kMaxEntries);
     all.list("streams", &R::described, streamFields().kind(), 1, kMaxEntries).required = true;
-    all.passOverUnknownKeys();  // a recording may carry more keys; none of them can loosen a limit
+    all.passOverUnknownKeys();  // a recording may have other keys; none of them can loosen a limit
     return all;
 }
 
-/// No count is too large for a fingertip as such. But a single one, a thousand times as far from the median as 98 % of
-/// its channel reach, is no reading: it becomes infinite, which no reading is.
+/// For counts, no value is too large in itself. But a single value, a thousand times as far from the median as 98 % of
+/// its channel, cannot be a reading. It becomes infinite, which marks it as invalid.
 void markFarCounts(SampleBlock& samples, std::size_t channels) {
-    constexpr std::size_t kMinSamples = 100;  // with fewer samples, 98 % of them say little
-    constexpr std::size_t kAlone = 3;         // how many in a row
+    constexpr std::size_t kMinSamples = 100;  // with fewer samples, their 98 % range is unreliable
+    constexpr std::size_t kAlone = 3;         // most such samples in a row
     constexpr double kFar = 1000;
     for (std::size_t c = 0; c < channels && samples.samples() >= kMinSamples; ++c) {
         const auto at = [&](std::size_t i) -> double& { return samples.values[i * channels + c]; };
@@ -116,7 +116,7 @@ void markFarCounts(SampleBlock& samples, std::size_t channels) {
     }
 }
 
-/// Reads the streams that one JSON file describes; every message begins with its name.
+/// Reads the streams described in one JSON file. Every message begins with the file's name.
 class Description {
 public:
     explicit Description(fs::path file) : file_(std::move(file)) {}
@@ -172,7 +172,7 @@ private:
                       nameOf(stream.kind), fmt::join(unitsOf(stream.kind), ", "));
     }
 
-    /// Seconds are the file's time over this; 1 without a time column.
+    /// Returns the divisor from the file's time to seconds; 1 without a time column.
     Result<double> perSecondOf(const DescribedStream& stream, std::size_t index) const {
         if (stream.timeColumn.has_value() == stream.rate_hz.has_value()) {
             return refuse(
@@ -195,7 +195,7 @@ private:
                       stream.columns.size(), nameOf(stream.kind), fewest, most);
     }
 
-    /// The file beside the JSON, or a refusal: the description may come from anyone (hazard H10).
+    /// Returns the path of a file next to the JSON, or refuses it: the description may come from anyone (hazard H10).
     Result<fs::path> fileOf(const std::string& name, std::size_t index) const {
         const fs::path relative(name);
         const auto folder = file_.has_parent_path() ? file_.parent_path() : fs::path(".");
@@ -205,7 +205,7 @@ private:
             for (const auto& part : relative) {
                 if (part == "..") return false;
             }
-            // A link may climb out too.
+            // A link may also lead out of the folder.
             const auto root = fs::weakly_canonical(folder, error);
             const auto target = fs::weakly_canonical(folder / relative, error);
             return !error && std::mismatch(root.begin(), root.end(), target.begin(), target.end()).first == root.end();

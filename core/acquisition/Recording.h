@@ -1,12 +1,12 @@
-// Recording.h - sensor data from elsewhere, opened as they are: recording.json beside CSV files.
+// Recording.h - opens sensor data from other sources: CSV files with a recording.json next to them.
 //
-// Units are converted on reading (g to m/s2, kPa to Pa); time stamps become seconds and keep their zero. Anything wrong
-// is refused with one sentence that names file, line and what was expected; anything merely irregular (gaps, repeats,
-// clock steps, cells that are empty or say nan) is read and reported in each stream's health.
+// Units are converted on reading (g to m/s2, kPa to Pa); time stamps become seconds and keep their zero. Errors are
+// refused with one sentence that names file, line and what was expected. Irregularities (gaps, repeats, clock steps,
+// cells that are empty or say nan) are read, and reported in each stream's health.
 //
-// Keys that are not known are taken as notes and passed over.
+// Unknown keys are treated as notes and ignored.
 //
-// Thread-safety: values; functions are pure but for reading files. Nothing is ever written.
+// Thread-safety: plain values; functions read files and have no other side effects. Nothing is ever written.
 #pragma once
 
 #include <filesystem>
@@ -21,9 +21,9 @@
 namespace tacto {
 
 struct RecordedStream {
-    StreamInfo info;  ///< rate_hz is measured; name is the file's
-    /// The samples as recorded: stamps may step back, values may be NaN. Counts that stand alone, far from all others,
-    /// are infinite.
+    StreamInfo info;  ///< rate_hz is measured; name is the file's name
+    /// The samples as recorded: stamps may step back, and values may be NaN. A single count far from all others is
+    /// replaced by infinity.
     SampleBlock samples;
     HealthReport health;
     std::filesystem::path file;
@@ -33,31 +33,31 @@ struct Recording {
     std::string title;
     std::string source;
     std::string licence;
-    std::optional<bool> simulated;  ///< "simulated": as the file says; nothing: its origin is unknown
-    std::string fingertip;          ///< "fingertip": serial number of the sensor that was recorded; empty: not stated
+    std::optional<bool> simulated;  ///< "simulated" in the file; nothing: the origin is unknown
+    std::string fingertip;          ///< "fingertip": serial number of the recorded sensor; empty: not stated
     std::filesystem::path path;     ///< the JSON file
     DeclaredIntervals declared;
     std::vector<RecordedStream> streams;  ///< at most one of each kind
 
-    /// `path` is a folder with recording.json, such a JSON file, or a table that one beside it names.
-    /// Errors: NotFound (no recording.json: the message says how to get one to fill in); ParseError;
-    /// InvalidArgument (an unknown kind or unit, a `file` that is absolute or climbs out); Io.
+    /// Opens a recording. `path` is a folder with recording.json, such a JSON file, or a table that a JSON file next to
+    /// it names. Errors: NotFound (no recording.json: the message says how to create one); ParseError; InvalidArgument
+    /// (an unknown kind or unit, a `file` that is absolute or leaves the folder); Io.
     [[nodiscard]] static Result<Recording> open(const std::filesystem::path& path);
 
-    /// The stream of that kind, or null.
+    /// Returns the stream of this kind, or null.
     [[nodiscard]] const RecordedStream* find(StreamKind kind) const noexcept;
-    /// Earliest and latest stamp over all streams.
+    /// Returns the earliest and the latest stamp of all streams.
     [[nodiscard]] TimeInterval extent() const noexcept;
-    /// The streams as RoughnessChain and analyseRoughness() take them, in the order of `streams`.
+    /// Return the streams in the form that RoughnessChain and analyseRoughness() take, in the order of `streams`.
     [[nodiscard]] std::vector<StreamInfo> infos() const;
     [[nodiscard]] std::vector<SampleBlock> blocks() const;
 };
 
-/// The description beside `table` that names it as a stream's file: FILE.json for FILE.csv, or recording.json. Empty:
-/// no readable one exists.
+/// Finds the description next to `table` that names it as a stream's file: FILE.json for FILE.csv, or recording.json.
+/// Returns an empty path if there is no readable one.
 [[nodiscard]] std::filesystem::path descriptionBeside(const std::filesystem::path& table);
 
-/// A recording.json to fill in, for a folder that has none.
+/// Returns a recording.json to be filled in, for a folder without one.
 [[nodiscard]] std::string recordingTemplate();
 
 }  // namespace tacto

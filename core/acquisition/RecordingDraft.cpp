@@ -20,7 +20,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// A name and digits: "c12".
+/// Returns whether `name` is `stem` followed by digits: "c12".
 bool isNumbered(std::string_view name, std::string_view stem) {
     if (!name.starts_with(stem) || name.size() == stem.size()) return false;
     return name.find_first_not_of("0123456789 _-", stem.size()) == std::string_view::npos;
@@ -50,7 +50,7 @@ std::optional<StreamKind> kindByName(std::string_view name) {
     return std::nullopt;
 }
 
-/// A column as its header describes it.
+/// A column, as described by its header.
 struct DraftColumn {
     Json called;  ///< the channel's name, or its number from 1
     std::string name;
@@ -58,7 +58,7 @@ struct DraftColumn {
     std::optional<StreamKind> kind{};
 };
 
-/// A stream as it will be written.
+/// A stream, as it will be written.
 struct DraftStream {
     std::optional<StreamKind> kind;
     std::vector<const DraftColumn*> columns;
@@ -97,7 +97,7 @@ public:
     }
 
 private:
-    /// Below a header of one cell a comma separates nothing.
+    /// If the header has a single cell, commas below it do not separate cells.
     void takeDecimalCommas() {
         auto& row = *head_.firstRow;
         const bool one = !head_.header.empty() && head_.header.back().fields.size() == 1;
@@ -109,7 +109,7 @@ private:
         head_.point = ',';
     }
 
-    /// Names and units stand in the last lines before the first row, where they are as wide as it.
+    /// Takes names and units from the last lines before the first row that have as many cells as the row.
     void nameColumns() {
         std::size_t width = head_.firstRow->fields.size();
         while (width > 1 && head_.firstRow->fields[width - 1].empty()) --width;
@@ -169,7 +169,7 @@ private:
         return values;
     }
 
-    /// Finds the time by its unit, by its name, or, without names, as a column that rises evenly beside others.
+    /// Finds the time column by its unit or name. Without names, it is a column that rises evenly next to others.
     void findTime() {
         for (auto& column : columns_) {
             if (time_ == nullptr && recordedTimeUnit(column.unit)) time_ = &column;
@@ -192,7 +192,7 @@ private:
             return;
         }
         const double steps = roughRate_hz(readColumn(static_cast<std::size_t>(time_ - columns_.data())));
-        constexpr double kSlowest_hz = 20, kFastest_hz = 20'000;  // a factor of 1000: one unit fits
+        constexpr double kSlowest_hz = 20, kFastest_hz = 20'000;  // a factor of 1000: only one unit of time fits
         for (const char* spelled : {"s", "ms", "us", "ns"}) {
             const double rate_hz = steps * recordedTimeUnit(spelled)->perSecond;
             if (!(rate_hz > kSlowest_hz && rate_hz <= kFastest_hz)) continue;
@@ -202,7 +202,7 @@ private:
         }
     }
 
-    /// Reads the rate in lines before the table, or in remarks: "Sample rate: 4 kHz", "record_frequency,1000".
+    /// Reads the rate from lines before the table or from remarks: "Sample rate: 4 kHz", "record_frequency,1000".
     void findRate() {
         std::vector<std::string> lines = head_.remarks;
         for (const auto& line : head_.header) lines.push_back(fmt::format("{}", fmt::join(line.fields, " ")));
@@ -254,7 +254,7 @@ private:
         if (!left.empty()) out_.taken.push_back("not taken: " + left);
     }
 
-    /// The stream's line, and what is left open in it.
+    /// Returns the stream's line, and notes the values that it leaves open.
     std::string entry(const DraftStream& stream, std::size_t index) {
         const auto open = [&](const char* key, const std::string& accepted) {
             out_.open.push_back(fmt::format("streams[{}]: \"{}\": {}", index, key, accepted));

@@ -1,4 +1,4 @@
-// RecordingDraft.h - a recording.json for a table that has none, as far as the table shows what it holds.
+// RecordingDraft.h - drafts a recording.json for a table without one, from what the table itself shows.
 //
 // Thread-safety: reads a file; nothing is written.
 #pragma once
@@ -12,9 +12,9 @@
 namespace tacto {
 
 struct RecordingDraft {
-    std::string json;                ///< null for a value that the table does not show
-    std::vector<std::string> open;   ///< what is still to be filled in, one sentence each; empty: it opens as it stands
-    std::vector<std::string> taken;  ///< conclusions and omissions that should be looked at
+    std::string json;                ///< has null for each value that the table does not show
+    std::vector<std::string> open;   ///< what must still be filled in, one sentence each; empty: ready to be opened
+    std::vector<std::string> taken;  ///< conclusions and omissions that the user should check
 };
 
 /// Errors: as readTextFile(); ParseError for a file without a row of numbers.

@@ -15,9 +15,9 @@ namespace tacto {
 
 namespace {
 
-constexpr std::size_t kLongestQuote = 40;   // characters of the file's own text in a message
-constexpr std::size_t kHeadLines = 1000;    // among which a header is looked for
-constexpr std::size_t kLookedAt = 1 << 16;  // bytes that show what a table is like
+constexpr std::size_t kLongestQuote = 40;   // characters of the file's own text quoted in a message
+constexpr std::size_t kHeadLines = 1000;    // lines in which a header is searched
+constexpr std::size_t kLookedAt = 1 << 16;  // bytes examined to find a table's format
 
 std::string excerpt(std::string_view cell) {
     auto out = latin1AsUtf8(cell.substr(0, kLongestQuote));
@@ -44,7 +44,7 @@ bool allEmpty(const std::vector<std::string_view>& fields, std::size_t from = 0)
                        [](std::string_view field) { return field.empty(); });
 }
 
-/// Whether the texts on both sides of a comma may be one number: "-0,04".
+/// Returns whether the texts on both sides of a comma may be one number: "-0,04".
 bool mayBeOneNumber(std::string_view first, std::string_view second) {
     constexpr std::string_view kDigits = "0123456789";
     if (first.starts_with('-') || first.starts_with('+')) first.remove_prefix(1);
@@ -52,7 +52,7 @@ bool mayBeOneNumber(std::string_view first, std::string_view second) {
            second.find_first_not_of(kDigits) == std::string_view::npos;
 }
 
-/// Finds where the rows of a table begin, and which of their cells are asked for.
+/// Finds the first row of a table and the cells to be read in each row.
 class TableReader {
 public:
     TableReader(std::string_view text, std::string_view name, const TableLayout& layout)
@@ -70,7 +70,7 @@ public:
         findDecimal();
         reader = CsvReader(text_, skip_, separator_);
         while (reader.next()) {
-            // Where a line is a single cell, or only tabs separate, a blank line takes its time like any row.
+            // If a line is a single cell, or only tabs separate cells, a blank line is a row and takes up time.
             if (!layout_.timeColumn && (width_ == 1 || separator_ == '\t') && rows_ > 0) {
                 const std::vector<std::string_view> nothing(width_);
                 for (std::size_t i = 0; i < reader.blanksBefore(); ++i) (void)take(nothing, reader.line());
@@ -104,7 +104,7 @@ private:
         return named ? locateByName() : locateByNumber();
     }
 
-    /// Finds the first line that names every column called by name; messages speak of the line that names most.
+    /// Finds the first line that contains all the column names; messages refer to the line that contains most of them.
     Result<void> locateByName() {
         std::size_t most = 0;
         std::size_t line = head_.header.empty() ? head_.firstRow->number : head_.header.back().number;
@@ -141,7 +141,7 @@ private:
         width_ = names.size();
         headed_ = true;
         skip_ = line;
-        // The header names one column and separates nothing: commas below it are decimal ones.
+        // The header has a single column and no separator, so the commas below it are decimal commas.
         if (width_ == 1 && lineAt(line).find(separator_) == std::string_view::npos) separator_ = ';';
         return {};
     }
@@ -169,17 +169,17 @@ private:
         return static_cast<std::size_t>(found - names.begin());
     }
 
-    /// The first line in which every column that is asked for holds a number, or nothing beside a number.
+    /// Finds the first line in which every requested column holds a number, or is empty next to a number.
     Result<void> locateByNumber() {
         std::size_t last = 0;
         for (const auto& wanted : wanted_) {
             indices_.push_back(std::get<std::size_t>(wanted) - 1);
             last = std::max(last, indices_.back());
         }
-        // Many lines in front of the table may be cut otherwise.
+        // If many lines precede the table, they may use another separator.
         if (const auto line = text_.find('\n', text_.size() / 2); line != std::string_view::npos)
             separator_ = readCsvHead(text_.substr(line + 1, kLookedAt), 0).separator;
-        if (separator_ == ',' && last == 0) {  // a second column is asked for, so that the comma separates
+        if (separator_ == ',' && last == 0) {  // a second column is requested, so the comma separates cells
             if (auto settled = settleCommas(); !settled) return settled;
         }
         CsvReader reader(text_, layout_.skipRows, separator_);
@@ -192,7 +192,7 @@ private:
                 skip_ = (firstOfOthers > 0 ? firstOfOthers : reader.line()) - 1;
                 return {};
             }
-            // Rows of numbers, and none in these columns yet, belong to the table: they take their time.
+            // Rows of numbers belong to the table and take up time, even if these columns are still empty.
             const bool ofOthers = fields.size() > last && isRowOfNumbers(fields) && allEmptyIn(fields);
             firstOfOthers = !ofOthers ? 0 : firstOfOthers > 0 ? firstOfOthers : reader.line();
         }
@@ -226,7 +226,7 @@ private:
         });
     }
 
-    /// Without a header, and with one comma in each row, a decimal comma looks like a separator.
+    /// Without a header and with one comma in each row, a decimal comma looks like a separator.
     Result<void> settleCommas() {
         if (layout_.decimal) {
             if (*layout_.decimal == ',') separator_ = ';';
@@ -234,7 +234,7 @@ private:
         }
         CsvReader reader(text_, layout_.skipRows, ',');
         std::size_t rows = 0;
-        bool namesTwo = false;  // the line before the first row
+        bool namesTwo = false;  // true: the line before the first row names two columns
         for (std::size_t i = 0; i < kHeadLines && reader.next(); ++i) {
             const auto& fields = reader.fields();
             const auto isNumber = [](std::string_view field) { return fieldNumber(field, '.').has_value(); };
@@ -258,7 +258,7 @@ private:
         return rest.substr(0, rest.find('\n'));
     }
 
-    /// A line of units below the header is passed over where it says what the layout says.
+    /// Skips a line of units below the header if it agrees with the layout.
     Result<void> passUnits(CsvReader& reader) {
         if (!headed_ || !reader.next() || reader.fields().size() < width_) return {};
         bool any = false;
@@ -276,7 +276,7 @@ private:
                     if (const auto unit = recordedUnit(kind.value, spelled)) factor = unit->factor;
                 }
             }
-            if (!factor) return {};  // this is not a line of units, but a row, or will be refused as one
+            if (!factor) return {};  // not a line of units but a row, or refused as a row later
             if (*factor != (isTime(i) ? layout_.timeDivisor : layout_.valueFactor)) {
                 return refuse(reader.line(), "{} is in {} by the line below the header; recording.json says otherwise",
                               wordsFor(wanted_[i]), excerpt(field));
@@ -286,7 +286,7 @@ private:
         return {};
     }
 
-    /// The first row with a point or a comma in its numbers tells which of them is the decimal one.
+    /// Finds the decimal character from the first row with a point or a comma in its numbers.
     void findDecimal() {
         if (layout_.decimal) {
             point_ = *layout_.decimal;
@@ -321,7 +321,7 @@ private:
         double t_s = static_cast<double>(rows_++) / layout_.rate_hz;
         if (layout_.timeColumn) {
             const auto cell = fields[indices_.front()];
-            if (missing && cell.empty()) return {};  // a row of another stream with times of its own
+            if (missing && cell.empty()) return {};  // a row of another stream that has its own times
             const auto time = number(cell, 0, line);
             if (!time) return failure(time);
             if (!std::isfinite(*time)) {
@@ -347,7 +347,7 @@ private:
                       cell.empty() ? std::string("an empty cell") : "\"" + excerpt(cell) + "\"");
     }
 
-    /// Rows without a value stay where they fill a gap in the others at their rate.
+    /// Keeps a row without a value only if it fills a gap between other rows at their rate.
     void dropRowsOfOthers() {
         if (std::ranges::find(empty_, true) == empty_.end()) return;
         const std::size_t channels = layout_.columns.size();
@@ -355,7 +355,7 @@ private:
         for (std::size_t i = 0; i < empty_.size(); ++i) {
             if (!empty_[i]) held.push_back(out_.t_s[i]);
         }
-        const bool alone = indices_.size() == width_;  // no other stream has a column
+        const bool alone = indices_.size() == width_;  // no other stream has a column here
         const double rate_hz = roughRate_hz(held);
         SampleBlock kept;
         const auto keep = [&](std::size_t i) {
@@ -371,7 +371,7 @@ private:
             const std::size_t from = i;
             while (i < empty_.size() && empty_[i]) ++i;
             if (i == empty_.size()) break;
-            // Before the first value nothing says when the sample before was taken; after a value, one step ago.
+            // Before the first value, the time of the previous sample is unknown; after a value, it was one step ago.
             const double begun = from == 0 ? out_.t_s[0] - (rate_hz > 0 ? 1 / rate_hz : 0) : out_.t_s[from - 1];
             const double due = std::round((out_.t_s[i] - begun) * rate_hz) - 1;
             for (std::size_t j = from; j < i && (alone || static_cast<double>(i - from) <= due); ++j) keep(j);
@@ -386,8 +386,8 @@ private:
     const std::string_view name_;
     const TableLayout& layout_;
     CsvHead head_;
-    std::vector<ColumnChoice> wanted_;  // the time first, where there is one
-    std::vector<std::size_t> indices_;  // the indices of its cells in a row
+    std::vector<ColumnChoice> wanted_;  // the time first, if there is one
+    std::vector<std::size_t> indices_;  // position of each wanted cell in a row
     std::size_t width_ = 0;
     std::size_t skip_ = 0;  // lines before the rows
     bool headed_ = false;
@@ -395,7 +395,7 @@ private:
     char point_ = '.';
     std::size_t rows_ = 0;
     SampleBlock out_;
-    std::vector<bool> empty_;  // which of its samples have no value
+    std::vector<bool> empty_;  // which of the stream's samples have no value
 };
 
 }  // namespace

@@ -31,8 +31,8 @@ constexpr std::array kRecordedUnits{RecordedUnit{Acceleration, MetrePerSecondSqu
 constexpr std::array kRecordedTimes{RecordedTimeUnit{1, "s"}, RecordedTimeUnit{1e3, "ms"}, RecordedTimeUnit{1e6, "us"},
                                     RecordedTimeUnit{1e9, "ns"}};
 
-/// Turns different spellings into one: powers and minus signs as digits and '-', no signs of multiplication, 'u' for
-/// both micro signs.
+/// Unifies spellings: powers and minus signs become digits and '-', multiplication signs are removed, and both micro
+/// signs become 'u'.
 std::string plainlyTyped(std::string_view text) {
     constexpr std::pair<std::string_view, std::string_view> kTyped[] = {{"²", "2"}, {"⁻", "-"}, {"−", "-"}, {"µ", "u"},
                                                                         {"μ", "u"}, {"·", ""},  {"⋅", ""},  {"^", ""},
@@ -42,7 +42,7 @@ std::string plainlyTyped(std::string_view text) {
         for (auto at = out.find(from); at != std::string::npos; at = out.find(from, at + to.size()))
             out.replace(at, from.size(), to);
     }
-    // m·s⁻² and m/s/s
+    // Other spellings: m·s⁻² and m/s/s
     for (const std::string_view otherwise : {"s-2", "/s/s"}) {
         if (out.ends_with(otherwise)) out.replace(out.size() - otherwise.size(), otherwise.size(), "/s2");
     }

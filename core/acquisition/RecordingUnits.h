@@ -1,6 +1,4 @@
-// RecordingUnits.h - the units that files of sensor data have, and how they are written: "m/s²", "m·s⁻²", "mN", "µs".
-//
-// Thread-safety: pure functions.
+// RecordingUnits.h - units in files of sensor data, and their spellings: "m/s²", "m·s⁻²", "mN", "µs".
 #pragma once
 
 #include <optional>
@@ -14,14 +12,14 @@ namespace tacto {
 
 struct RecordedUnit {
     StreamKind kind;
-    StreamUnit unit;      ///< after conversion
-    double factor;        ///< the file's number times this is in `unit`
-    const char* spelled;  ///< the spelling in recording.json
+    StreamUnit unit;      ///< unit after conversion
+    double factor;        ///< factor from the file's number to `unit`
+    const char* spelled;  ///< spelling in recording.json
 };
 
-/// The unit of a stream of that kind, in any spelling; nothing for another unit. Capitals count: mN is not MN.
+/// Returns the unit for a stream of this kind, in any spelling; nothing for other units. Case matters: mN is not MN.
 [[nodiscard]] std::optional<RecordedUnit> recordedUnit(StreamKind kind, std::string_view text);
-/// The units that recordedUnit() takes.
+/// Returns the units that recordedUnit() accepts.
 [[nodiscard]] std::vector<std::string_view> unitsOf(StreamKind kind);
 
 struct RecordedTimeUnit {
@@ -31,10 +29,10 @@ struct RecordedTimeUnit {
 [[nodiscard]] std::optional<RecordedTimeUnit> recordedTimeUnit(std::string_view text);
 inline constexpr const char* kRecordedTimeUnits = "s, ms, us or ns";
 
-/// The parts of a header's name for a column: "Fz (mN)", "acc_x [m/s²]", "t in ms", "t/ms", "force_N".
+/// The parts of a column's name in a header: "Fz (mN)", "acc_x [m/s²]", "t in ms", "t/ms", "force_N".
 struct HeaderName {
-    std::string_view name;  ///< the name without the unit
-    std::string_view unit;  ///< as written; empty where the header states no known one
+    std::string_view name;  ///< name without the unit
+    std::string_view unit;  ///< unit as written; empty if the header states no known unit
 };
 [[nodiscard]] HeaderName headerName(std::string_view text);
 

@@ -76,7 +76,7 @@ void StreamHealth::feed(const SampleBlock& block, std::size_t channels) noexcept
 }
 
 namespace {
-// Steps forward above this many median steps are certainly gaps, whatever the jitter.
+// Forward steps of more than this many median steps are certainly gaps, whatever the jitter.
 constexpr double kCertainGap = 2.5;
 
 double medianStepForward(std::span<const double> stamps) {
@@ -129,10 +129,10 @@ void spreadCoarseStamps(std::span<double> stamps) {
 
 namespace {
 constexpr double kByChance = 1e-9;
-constexpr std::uint64_t kKnown = 100;  // changes: what a value does by itself is known from there on
-constexpr std::uint64_t kEnough = 40;  // repeats of one that moves more often than not: by chance in 10^12 times
+constexpr std::uint64_t kKnown = 100;  // changes after which the normal behaviour of a value is known
+constexpr std::uint64_t kEnough = 40;  // repeats of a value that usually moves: a chance of 1 in 10^12
 
-/// A bit for each of the last values, newest first, that is the same. Few are: whether any is takes the least time.
+/// Sets a bit for each of the last values, newest first, that equals `value`. Few do, so it first checks for any.
 std::uint64_t sameAs(std::uint64_t value, const std::uint64_t* past) noexcept {
     std::uint64_t any = 0, same = 0;
     for (std::size_t i = 0; i < Standstill::kPeriods; ++i) any |= past[i] == value ? 1U : 0U;
@@ -182,7 +182,7 @@ void Standstill::keep(const double* values) noexcept {
     }
 }
 
-/// Only where something repeats or ends repeating is there anything to count: seldom, of a sensor that lives.
+/// Counts only if values repeat or stop repeating, which is rare for a working sensor.
 void Standstill::countAll(std::size_t row, std::uint64_t same) noexcept {
     for (std::uint64_t left = same | same_[row]; left != 0; left &= left - 1) {
         const auto i = static_cast<std::size_t>(std::countr_zero(left));
@@ -191,7 +191,7 @@ void Standstill::countAll(std::size_t row, std::uint64_t same) noexcept {
     same_[row] = same;
 }
 
-/// Repeats of a value that stood still do not count as its noise.
+/// Repeats during a standstill are not counted as noise of the value.
 void Standstill::count(Repeats& one, std::size_t period, bool same) const noexcept {
     if (same) {
         if (one.run++ == 0) one.since_s = last_s_;

@@ -26,7 +26,7 @@ public:
     /// A force beyond ±`most` is not accepted as a reading.
     explicit ForceTrack(double rate_hz, double most = std::numeric_limits<double>::max());
 
-    /// A sample that is not a number, is beyond `most` or does not move time forward is counted and not used.
+    /// Adds a sample. If it is not a number, beyond ±`most` or not later than the last one, it is counted but not used.
     void push(double t_s, double force_n) noexcept;
     void clear() noexcept;
 

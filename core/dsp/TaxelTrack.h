@@ -31,8 +31,8 @@ public:
     /// Returns the largest distance in time from a frame at which a sample is used for it.
     [[nodiscard]] double reach_s() const noexcept { return reach_; }
 
-    /// Adds samples to the baseline. Contact is known up to `known_s` and first happened at `firstContact_s` (infinity:
-    /// not yet); samples up to the earlier of the two are added.
+    /// Adds the samples up to `known_s` to the stretches from which the baseline is chosen. `firstContact_s`: the first
+    /// contact up to that time; infinity: none yet.
     void settle(double known_s, double firstContact_s) noexcept;
     /// Returns true once no later sample can change the baseline of the frames so far.
     [[nodiscard]] bool decided(double known_s) const noexcept;
