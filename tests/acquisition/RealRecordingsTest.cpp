@@ -15,7 +15,7 @@ using tacto::test::sharedData;
 
 namespace {
 
-/// Power of all taxels at one frequency, Hann window, by the definition of the Fourier transform.
+/// Returns the power of all taxels at one frequency, with a Hann window, by the definition of the Fourier transform.
 double powerAt(const RecordedStream& stream, double f_hz) {
     const auto& t = stream.samples.t_s;
     const std::size_t n = t.size();
@@ -70,7 +70,7 @@ TEST(RealRecordings, HapmatIsGravitiesAtAHundredHertz) {
     EXPECT_DOUBLE_EQ(stream.samples.values[0], -0.000542 * 9.80665);
 }
 
-// The grating's period does not depend on the sliding speed: the line stands at speed / period.
+// The grating's period does not depend on the sliding speed, so the line is at speed / period.
 TEST(RealRecordings, FabricSlideShowsTheGratingAtEverySpeed) {
     const auto folder = sharedData("fabric_slide");
     if (!folder) GTEST_SKIP() << kNoSharedData;

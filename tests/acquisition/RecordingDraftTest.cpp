@@ -1,4 +1,4 @@
-// A recording.json for a table that has none: what the table says is in it, and what it does not say is asked for.
+// A recording.json for a table that has none: it contains what the table states, and asks for the rest.
 #include <cmath>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -63,7 +63,7 @@ TEST(RecordingDraft, SaysWhatTheHeaderSaysAndOpensWhereNothingIsLeft) {
         for (int row = 0; row < 50; ++row) {
             std::string line = timed ? fmt::format("{}", std::llround(row / rate_hz / 1e-9)) : std::string();
             if (timed) {
-                // Rounded to the nanosecond, in the file's unit.
+                // Rounded to the nanosecond, in the unit of the file.
                 const int digits = static_cast<int>(std::lround(9 + std::log10(toSeconds)));
                 while (line.size() <= static_cast<std::size_t>(digits)) line.insert(0, "0");
                 if (digits > 0) line.insert(line.size() - static_cast<std::size_t>(digits), 1, german ? ',' : '.');
@@ -141,7 +141,7 @@ TEST(RecordingDraft, WhatIsNoTableIsRefusedAndAFileWithoutADescriptionSaysHowToG
     const auto bare = Recording::open(folder.write("b.csv", "time,F\n0,1\n1,2\n"));
     ASSERT_FALSE(bare);
     EXPECT_THAT(bare.error().message, HasSubstr("tactoscope-cli roughness"));
-    // A description beside it counts for nothing if it is not JSON or names another file.
+    // A description next to the table is ignored if it is not JSON or names another file.
     folder.write("recording.json", "");
     EXPECT_EQ(descriptionBeside(folder.path() / "b.csv"), "");
     folder.write("recording.json", R"({"streams": [{"file": "c.csv"}, 3]})");

@@ -1,5 +1,5 @@
-// The same samples in every form that laboratories save them in: encodings, decimal signs, separators, headers, times
-// or a rate, units, cells that are missing. The oracle is the numbers that were written.
+// The same samples in every form in which laboratories save them: encodings, decimal signs, separators, headers, times
+// or a rate, units, missing cells. The results are compared with the numbers that were written.
 #include <cmath>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -22,7 +22,7 @@ namespace {
 
 struct Spelling {
     const char* text;
-    double factor;  // to seconds, or to m/s2, N, Pa, by the definitions of the units
+    double factor;  // factor to seconds, or to m/s2, N or Pa, from the definition of the unit
 };
 const std::vector<Spelling> kTimes{{"s", 1}, {"ms", 1e-3}, {"us", 1e-6}, {"µs", 1e-6}, {"μs", 1e-6}, {"ns", 1e-9}};
 const std::vector<Spelling> kAccelerations{{"m/s2", 1},        {"m/s²", 1},  {"m/s^2", 1},     {"m·s⁻²", 1},
@@ -31,7 +31,7 @@ const std::vector<Spelling> kAccelerations{{"m/s2", 1},        {"m/s²", 1},  {"
 const std::vector<Spelling> kForces{{"N", 1}, {"mN", 1e-3}, {"kN", 1e3}, {"count", 1}};
 const std::vector<Spelling> kPressures{{"Pa", 1}, {"hPa", 100}, {"kPa", 1e3}, {"MPa", 1e6}, {"count", 1}};
 
-/// `text`, which has no characters beyond U+FFFF, in UTF-16.
+/// Returns `text` in UTF-16. It must not contain characters above U+FFFF.
 std::string utf16(const std::string& text, bool big) {
     std::string out;
     const auto put = [&](unsigned unit) {
@@ -57,7 +57,7 @@ std::string utf16(const std::string& text, bool big) {
     return out;
 }
 
-/// `text` in Latin-1, as old programs write; as it is where it has characters beyond.
+/// Returns `text` in Latin-1, as old programs write it; unchanged if it has other characters.
 std::string latin1(const std::string& text) {
     std::string out;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -82,7 +82,7 @@ private:
     std::mt19937 random_;
 };
 
-/// A table that was drawn, what describes it, and what it holds.
+/// A random table, its description and its contents.
 struct Drawn {
     std::string bytes;
     Json stream;
@@ -105,10 +105,10 @@ Drawn drawTable(unsigned seed) {
     const std::string newline = draw.chance(50) ? "\r\n" : "\n";
     const double rate_hz = draw.of<double>({100, 200, 1000, 2500, 4000});
 
-    // Its columns are those of the stream in any order, with others among them.
+    // The columns of the stream are in any order, with others between them.
     struct Column {
         std::string name;
-        int channel;  // -1: the time; -2: another
+        int channel;  // -1: the time; -2: another column
     };
     std::vector<Column> columns;
     for (int c = 0; c < channels; ++c) columns.push_back({fmt::format("{}{}", kind.substr(0, 2), c + 1), c});
@@ -156,14 +156,14 @@ Drawn drawTable(unsigned seed) {
     const bool gaps = draw.chance(50), wholeRows = draw.chance(50);
     const long long start = draw.from(0, 1000);
     for (int r = 0; r < rows; ++r) {
-        // The last row always has its values: one without any at the end is passed over.
+        // The last row always has values, because an empty row at the end is skipped.
         const bool missingRow = gaps && wholeRows && r > 0 && r + 1 < rows && draw.chance(3);
         std::vector<double> sample(static_cast<std::size_t>(channels));
         std::string row;
         for (const auto& column : columns) {
             if (&column != &columns.front()) row += separator;
             if (column.channel == -1) {
-                // Rounded to the nanosecond, in the file's unit.
+                // Rounded to the nanosecond, in the unit of the file.
                 const auto ns = static_cast<long long>((static_cast<double>(start + r)) * 1e9 / rate_hz);
                 const int digits = static_cast<int>(std::lround(9 + std::log10(timeUnit.factor)));
                 row += number(ns, digits);
@@ -210,7 +210,7 @@ Drawn drawTable(unsigned seed) {
     return out;
 }
 
-/// A folder with one stream, opened.
+/// Opens a folder with one stream.
 Result<Recording> opened(const std::string& bytes, const Json& stream) {
     const ScratchDir folder;
     folder.write("a.csv", bytes);
@@ -267,7 +267,7 @@ TEST(RecordingForms, StreamsOfSeveralRatesInOneTableAreEachReadAtTheirOwn) {
             forces += force ? 1 : 0;
             text += fmt::format("{:.3f},{},{}\n", i * 0.001, i, force ? fmt::format("{}", i) : "");
         }
-        // It has its own stamps, between those of the acceleration: the rows are the union of both.
+        // The force has its own stamps between those of the acceleration; the table has the rows of both.
         const auto recording =
             opened(text, forceStream({{"time_column", "time"}, {"time_unit", "s"}, {"columns", {"force"}}}));
         ASSERT_TRUE(recording) << recording.error().message;
@@ -330,14 +330,14 @@ TEST(RecordingForms, ACommaThatMayBeEitherIsAskedFor) {
     const auto two = opened("0,25\n1,5\n2,125\n", forceStream({{"rate_hz", 100}, {"columns", {2}}, {"decimal", "."}}));
     ASSERT_TRUE(two) << two.error().message;
     EXPECT_THAT(two->streams.at(0).samples.values, testing::ElementsAre(25, 5, 125));
-    // A header says how many columns there are.
+    // A header shows how many columns there are.
     const auto named = opened("Kraft\n0,25\n-0,5\n", forceStream({{"rate_hz", 100}, {"columns", {"Kraft"}}}));
     ASSERT_TRUE(named) << named.error().message;
     EXPECT_THAT(named->streams.at(0).samples.values, testing::ElementsAre(0.25, -0.5));
     const auto pair = opened("t,F\n0,25\n1,5\n", forceStream({{"rate_hz", 100}, {"columns", {2}}}));
     ASSERT_TRUE(pair) << pair.error().message;
     EXPECT_THAT(pair->streams.at(0).samples.values, testing::ElementsAre(25, 5));
-    // Spreadsheets of these countries write numbers so between commas.
+    // Spreadsheets in countries with decimal commas quote such numbers between commas.
     const auto quoted = opened("t,F\n\"0,00\",\"0,25\"\n\"0,01\",\"-0,5\"\n",
                                forceStream({{"time_column", "t"}, {"time_unit", "s"}, {"columns", {"F"}}}));
     ASSERT_TRUE(quoted) << quoted.error().message;

@@ -42,7 +42,7 @@ TEST(RecordingRefusal, AFolderWithoutADescriptionIsRefusedInOneSentenceThatSaysW
     EXPECT_THAT(recording.error().message, HasSubstr("has no recording.json"));
     EXPECT_THAT(recording.error().message, HasSubstr("roughness --template"));
     EXPECT_EQ(recording.error().message.find('\n'), std::string::npos);
-    // Filled in as it stands it fails for its missing files only.
+    // Used unchanged, the template fails only because its files are missing.
     folder.write("recording.json", recordingTemplate());
     EXPECT_THAT(Recording::open(folder.path()).error().message, HasSubstr("acceleration.csv"));
 }

@@ -60,11 +60,11 @@ TEST(StreamHealth, FindsASingleLostSample) {
 
 TEST(StreamHealth, CountsGapsRepeatsAndClockSteps) {
     RecordProperty("hazard", "H7");
-    auto stamps = regular(100, 100);                                    // to 0.99
-    for (const double t : regular(100, 100, 1.5)) stamps.push_back(t);  // a gap of 0.51 s, to 2.49
+    auto stamps = regular(100, 100);                                    // up to 0.99 s
+    for (const double t : regular(100, 100, 1.5)) stamps.push_back(t);  // a gap of 0.51 s, then up to 2.49 s
     stamps.push_back(2.49);                                             // a repeat
     stamps.push_back(2.50);
-    stamps.push_back(1.00);  // the clock is set back
+    stamps.push_back(1.00);  // the clock steps back
     const auto report = examine(stamps, 100);
     EXPECT_EQ(report.gaps, 1U);
     EXPECT_EQ(report.missingSamples, 50U);
@@ -77,7 +77,7 @@ TEST(StreamHealth, CountsGapsRepeatsAndClockSteps) {
 
 TEST(StreamHealth, MeasuresTheRateOverTheLongestGapFreeStretch) {
     auto stamps = regular(100, 1000);
-    for (const double t : regular(1001, 1010, 5)) stamps.push_back(t);  // the longer stretch runs a little faster
+    for (const double t : regular(1001, 1010, 5)) stamps.push_back(t);  // the longer stretch has a slightly higher rate
     for (const double t : regular(50, 1000, 20)) stamps.push_back(t);
     EXPECT_NEAR(examine(stamps, 1000).rate_hz, 1010, 1e-6);
 }
@@ -134,7 +134,7 @@ TEST(StreamHealth, LeavesAFewRepeatsToBeCounted) {
 namespace tacto::test {
 namespace {
 
-/// The readings of a sensor at rest, with that noise, in steps.
+/// Returns the readings of a sensor at rest, in steps, with this noise.
 SampleBlock samples(std::mt19937& draw, double begin_s, double rate_hz, std::size_t count, double noiseInSteps) {
     SampleBlock block;
     std::normal_distribution<double> noise(0, noiseInSteps);
@@ -178,7 +178,7 @@ TEST(Standstill, IsFoundWithinTheTimeThatNoiseAllows) {
             still.feed(one);
             if (still.since()) found_s = i * 1e-3;
         }
-        // The limit follows the share of repeats that this noise has: at 0.3 steps it is nine in ten.
+        // The time limit depends on how often this noise repeats a value: nine times in ten at 0.3 steps.
         EXPECT_LE(found_s, noise >= 0.5 ? 0.15 : 0.4) << noise;
         EXPECT_GE(found_s, 0.09) << noise;
         EXPECT_NEAR(*still.since(), 3, 0.1);
@@ -202,7 +202,7 @@ TEST(Standstill, OfOneThatNeverMovedIsFoundToo) {
     EXPECT_TRUE(still.since());
 }
 
-/// Feeds each sample by itself, so that each is judged.
+/// Feeds each sample separately, so that each is judged.
 template <class Judge>
 void feedEach(Standstill& still, const SampleBlock& block, std::size_t channels, Judge judge) {
     for (std::size_t i = 0; i < block.t_s.size(); ++i) {
@@ -237,7 +237,7 @@ TEST(Standstill, OfOneAxisOrOfABlockThatRepeatsIsFound) {
         const double steps = std::uniform_real_distribution(1.0, 50.0)(draw);
         const auto before = whole(2000, 6000), after = static_cast<std::size_t>(0.6 * rate_hz) + 200;
         auto block = noise(draw, 0, rate_hz, before + after, channels, steps);
-        const std::size_t axis = whole(0, channels);  // channels: all of them
+        const std::size_t axis = whole(0, channels);  // channels: all axes
         for (std::size_t i = before; i < before + after; ++i) {
             for (std::size_t c = 0; c < channels; ++c) {
                 if (axis == channels || axis == c)
@@ -266,7 +266,7 @@ TEST(Standstill, OfAFingertipThatFeelsIsNone) {
         feedEach(still, noise(draw, 0, 1000, 20'000, 3, steps), 3,
                  [&](double t_s) { ASSERT_FALSE(still.repeatsSince()) << steps << " steps of noise, at " << t_s; });
     }
-    // A board may lack an axis: nothing hangs there.
+    // A board may lack an axis; this is not a standstill.
     Standstill two(3, true);
     auto block = noise(draw, 0, 1000, 5000, 3, 5);
     for (std::size_t i = 0; i < block.t_s.size(); ++i) block.values[i * 3 + 1] = 0;
@@ -275,7 +275,7 @@ TEST(Standstill, OfAFingertipThatFeelsIsNone) {
     EXPECT_FALSE(two.since());
 }
 
-/// Ten minutes of hanging teach nothing: the next time it is found as soon.
+/// Ten minutes of standstill do not change what is learnt: the next standstill is found as soon.
 TEST(Standstill, IsNoNoiseHoweverLongItLasts) {
     RecordProperty("hazard", "H7");
     std::mt19937 draw(11);

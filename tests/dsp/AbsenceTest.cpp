@@ -1,5 +1,5 @@
-// The chain says what is missing: why no frame is in contact, which stream has nothing for the frames, and which values
-// were out of all proportion.
+// The chain reports what is missing: why no frame is in contact, which stream has no data for the frames, and which
+// values were implausibly large.
 #include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -43,7 +43,7 @@ RoughnessSummary analysed(const std::vector<StreamInfo>& infos, const std::vecto
     return found ? found->summary : RoughnessSummary{};
 }
 
-/// The sentence for the flag that begins so; empty without one.
+/// Returns the sentence for the flag that begins with `flag`; empty if there is none.
 std::string sentenceOf(const RoughnessSummary& summary, const std::string& flag) {
     for (const auto& text : summary.flags) {
         if (text.starts_with(flag)) return flagSentence(text);
@@ -94,23 +94,23 @@ TEST(Absence, StreamsAtOtherTimesAreNamedWithTheFramesThatHaveNothingOfThem) {
 
 TEST(Absence, ZeroInContactHasItsReasonAlways) {
     const auto acceleration = noise(0, 2, 1000, 1, 0, 1, 1);
-    // Declared where there is no frame, or nowhere.
+    // Contact is declared where there is no frame, or not at all.
     for (const auto& contact : {std::vector<TimeInterval>{}, std::vector<TimeInterval>{{1.9985, 1.9995}}}) {
         const auto summary = analysed({accelerationAt(1000)}, {acceleration}, {std::nullopt, contact});
         EXPECT_EQ(summary.contactFrames, 0U);
         EXPECT_THAT(summary.flags, Contains("no frame in contact"));
     }
-    // A force that comes so seldom that it is always stale where there is a frame.
+    // The force samples are so far apart that the force is stale at every frame.
     SampleBlock seldom{{0.0, 3.0}, {1.0, 1.0}};
     const auto stale = analysed({accelerationAt(1000), forceAt(1)}, {noise(0.2, 2, 1000, 1, 0, 1, 1), seldom});
     EXPECT_EQ(stale.contactFrames, 0U);
     EXPECT_THAT(stale.flags, Contains(testing::AnyOf("no frame in contact", StartsWith("force at other times"))));
-    // Holds only numbers that are none.
+    // All values are NaN.
     auto none = noise(0, 2, 200, 1, 1, 0.1, 1);
     std::ranges::fill(none.values, std::nan(""));
     EXPECT_THAT(analysed({accelerationAt(1000), forceAt(200)}, {acceleration, none}).flags,
                 Contains("not a number in force: 400"));
-    // Millinewtons that are called newtons.
+    // Values in millinewtons that are declared as newtons.
     EXPECT_THAT(analysed({accelerationAt(1000), forceAt(200)}, {acceleration, noise(0, 2, 200, 1, 1000, 100, 1)}).flags,
                 Contains("out of all proportion in force: 400"));
 }

@@ -36,6 +36,6 @@ TEST(Allocation, FeedingBlocksMakesNone) {
     }
     EXPECT_EQ(allocationsOfThisThread() - before, 0U);
     EXPECT_GT(frames.size(), 360U);
-    ::operator delete(::operator new(8));  // the counter counts
+    ::operator delete(::operator new(8));  // checks that the counter counts
     EXPECT_GT(allocationsOfThisThread(), before);
 }

@@ -1,4 +1,4 @@
-// Any block size gives the same numbers, bit for bit, as the whole file: also with gaps, NaN, repeats and silences.
+// Any block size gives the same numbers, bit for bit, as the whole file, even with gaps, NaN, repeats and silences.
 #include <cmath>
 #include <cstring>
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ using namespace tacto::test;
 
 namespace {
 
-/// Drops samples of [begin, end) seconds.
+/// Drops the samples from `begin` to before `end`, in seconds.
 void silence(SampleBlock& block, std::size_t channels, double begin, double end) {
     SampleBlock kept;
     for (std::size_t i = 0; i < block.samples(); ++i) {
@@ -24,7 +24,7 @@ void silence(SampleBlock& block, std::size_t channels, double begin, double end)
     block = kept;
 }
 
-/// A slide with everything that goes wrong on a bench.
+/// Returns a slide with all faults that occur on a bench.
 Slide damaged(std::size_t axes) {
     auto slide = makeSlide(2000, axes, 200, 100, 6);
     const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -37,7 +37,7 @@ Slide damaged(std::size_t axes) {
     auto& force = slide.blocks[slide.blocks.size() - 2];
     auto& taxels = slide.blocks.back();
     force.values[410] = nan;
-    silence(force, 1, 2.5, 2.75);  // longer than fresh, shorter than the longest bridge
+    silence(force, 1, 2.5, 2.75);  // longer than a sample stays fresh, shorter than the longest bridge
     silence(force, 1, 3.2, 4.35);  // longer than the longest bridge
     silence(taxels, 6, 2.6, 2.8);
     silence(taxels, 6, 3.7, 4.2);
@@ -46,7 +46,7 @@ Slide damaged(std::size_t axes) {
     return slide;
 }
 
-/// Feeds all of it; `step` gives the length of the next block in seconds.
+/// Feeds the whole slide; `step` returns the length of the next block in seconds.
 template <class Step>
 std::vector<RoughnessFrame> fedInBlocks(const Slide& slide, Step step, double skew_s = 0) {
     auto chain = RoughnessChain::create(slide.streams, {});

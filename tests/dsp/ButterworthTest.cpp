@@ -17,7 +17,7 @@ struct Designed {
     double gain;              // b[0]
     std::array<double, 4> a;  // a1..a4
 };
-/// tests/reference/butterworth.py.
+/// Reads the reference filters of tests/reference/butterworth.py.
 std::vector<Designed> scipys() {
     std::vector<Designed> out;
     for (const auto& made : test::figuresOf("butterworth").at("filters"))
@@ -58,7 +58,7 @@ TEST(Butterworth, FollowsTheDifferenceEquation) {
         AxesBandpass filter(known.low, known.high, known.rate, 1);
         filter.restart(x.data());
         const auto y = filtered(filter, x, 1);
-        // Steady state before the start: every x was x[0], every y was 0.
+        // Before the start, the filter is in its steady state: every x equals x[0] and every y is 0.
         std::vector<double> direct(x.size());
         for (std::size_t n = 0; n < x.size(); ++n) {
             const auto past = [&](std::size_t k) { return n >= k ? x[n - k] : x[0]; };

@@ -17,7 +17,7 @@ std::vector<double> noise(std::size_t count) {
     return x;
 }
 
-/// Computed by the definition, one bin at a time.
+/// Computes the density by its definition, one bin at a time.
 double directDensity(const std::vector<std::vector<double>>& axes, double rate, std::size_t k) {
     const std::size_t n = axes[0].size();
     double energy = 0;
@@ -69,7 +69,7 @@ TEST(PowerSpectrum, GivesASinesMeanSquare) {
 }
 
 TEST(PowerSpectrum, BothEndsOfABandBelongToIt) {
-    const PowerSpectrum spectrum(256, 1, 4000);  // 15.625 Hz a bin
+    const PowerSpectrum spectrum(256, 1, 4000);  // 15.625 Hz per bin
     EXPECT_EQ(spectrum.bins(5, 1000).first, 1U);
     EXPECT_EQ(spectrum.bins(5, 1000).last, 64U) << "1 kHz is bin 64";
     EXPECT_EQ(spectrum.bins(203.125, 1000).first, 13U) << "bin 13 is 203.125 Hz";

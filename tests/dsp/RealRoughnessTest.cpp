@@ -1,4 +1,4 @@
-// Real recordings against numpy and scipy (tests/reference/real_slides.py).
+// Real recordings compared with numpy and scipy (tests/reference/real_slides.py).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

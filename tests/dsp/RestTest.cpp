@@ -11,7 +11,7 @@ using testing::Not;
 
 namespace {
 
-/// The slide from 0.85 s on, with its stamps moved to 0: 150 ms of rest are too few.
+/// Returns the slide from 0.85 s on, with stamps from 0: its 150 ms of rest are too short.
 Slide lateStart() {
     auto slide = makeSlide(4000, 1, 200, 200, 8);
     for (std::size_t s = 0; s < slide.streams.size(); ++s) {
@@ -51,7 +51,7 @@ TEST(Rest, ProfilesLevelServesOnlyInItsUnit) {
 TEST(Rest, ProfilesLevelTellsSlidingFromResting) {
     const auto slide = lateStart();
     RoughnessSettings settings;
-    // The sensor's reading at rest, 5 Hz..1 kHz: half of white noise of 0.02 m/s2, and 0.1 N divides before it is
+    // The sensor's mean square at rest, 5 Hz..1 kHz: half of the white noise of 0.02 m/s2. The division by 0.1 N is
     // undone.
     settings.restMeanSquare = 0.02 * 0.02 * 0.5;
     const auto result = analyseRoughness(slide.streams, slide.blocks, settings);
@@ -69,7 +69,7 @@ TEST(Rest, ProfilesLevelTellsSlidingFromResting) {
 
 TEST(Rest, DeclaredBaselineComesBeforeEverything) {
     DeclaredIntervals declared;
-    declared.baseline = {3.9, 4.9};  // it lies after the lift, on this slide's clock
+    declared.baseline = {3.9, 4.9};  // after the lift, in the time of this slide
     const auto flags = flagsOf(lateStart(), {}, declared);
     EXPECT_THAT(flags, Not(Contains("baseline assumed")));
     EXPECT_THAT(flags, Not(Contains("sliding assumed")));

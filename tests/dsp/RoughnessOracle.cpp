@@ -27,7 +27,7 @@ const SampleBlock* blockOf(StreamKind kind, std::span<const StreamInfo> streams,
     return nullptr;
 }
 
-/// Polynomial with the given roots, highest power first.
+/// Returns the polynomial with the given roots, highest power first.
 std::vector<Complex> polynomial(const std::vector<Complex>& roots) {
     std::vector<Complex> p{1};
     for (const auto& r : roots) {
@@ -37,7 +37,7 @@ std::vector<Complex> polynomial(const std::vector<Complex>& roots) {
     return p;
 }
 
-/// Order 4 in one piece, history before the start: x constant, y zero.
+/// Filters with order 4 in one step. Before the start, x is constant and y is zero.
 Series bandpass(const Series& x, double low, double high, double fs) {
     const double wl = 2 * fs * std::tan(kPi * low / fs);
     const double wh = 2 * fs * std::tan(kPi * high / fs);
@@ -75,7 +75,7 @@ double interpolate(const SampleBlock& force, double t) {
 }
 
 struct Contact {
-    std::vector<bool> state;  // per force sample
+    std::vector<bool> state;  // one per force sample
     double first = std::numeric_limits<double>::infinity();
 };
 Contact contactOf(const SampleBlock& force) {
@@ -96,7 +96,7 @@ bool contactAt(const SampleBlock& force, const Contact& contact, double t) {
 }
 
 struct Spectra {
-    Series undone;  // mean square of the acceleration before it was normalised
+    Series undone;  // mean square of the acceleration before normalisation
     Series t, meanSquare, h, hAbs, begin, end;
     double hop_s = 0;
 };
@@ -164,7 +164,7 @@ Spectra spectraOf(const SampleBlock& block, const StreamInfo& info, const Sample
     return out;
 }
 
-/// v per taxel sample.
+/// Returns v for each taxel sample.
 Series taxelFeature(const SampleBlock& taxels, std::size_t channels, bool dynamic, const DeclaredIntervals& declared,
                     double firstContact) {
     const auto inBaseline = [&](double t) {
@@ -283,8 +283,8 @@ std::vector<RoughnessFrame> oracleFrames(std::span<const StreamInfo> streams, st
         if (acceleration != nullptr) {
             f.h = s.spectral == SpectralFeature::Relative ? spectra.h[k] : spectra.hAbs[k];
             product.push_back(spectra.meanSquare[k] * pressed * pressed);
-            // Where force more than doubles within the window, one number cannot undo the normalisation: both readings
-            // must say that the finger slides (hazard H7).
+            // If force more than doubles within the window, one number cannot undo the normalisation. Both readings
+            // must then show sliding (hazard H7).
             double smallest = pressed;
             double largest = pressed;
             for (double t = spectra.begin[k]; force != nullptr && t <= spectra.end[k]; t += 1e-4) {
@@ -303,7 +303,7 @@ std::vector<RoughnessFrame> oracleFrames(std::span<const StreamInfo> streams, st
                         taxels->values[i * taxelInfo.channels + c] / static_cast<double>(taxelInfo.channels);
                 }
             }
-            // Before the first contact ends the rest, its baseline is not known yet: those frames have no v.
+            // Until the first contact ends the rest, the baseline is unknown, so these frames have no v.
             if (!declared.baseline && firstContact - taxels->t_s.front() >= 0.25 && f.t_s < firstContact) f.v = kNaN;
         }
         if (!std::isnan(f.pressure_pa)) {

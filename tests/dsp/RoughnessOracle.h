@@ -1,5 +1,5 @@
-// RoughnessOracle.h - science.md sections 2 and 3 written a second time, slowly and from the text: direct difference
-// equation, direct Fourier sums, whole arrays. For regular streams without NaN. Shares no code with core/dsp.
+// RoughnessOracle.h - a second, slow implementation of science.md sections 2 and 3 from their text: direct difference
+// equation, direct Fourier sums, whole arrays. For regular streams without NaN. It shares no code with core/dsp.
 //
 // Thread-safety: pure functions.
 #pragma once
@@ -26,7 +26,7 @@ struct Slide {
 [[nodiscard]] Slide makeSlide(double acceleration_hz, std::size_t axes, double force_hz, double taxel_hz,
                               std::size_t taxels, double seconds = 6);
 
-/// NaN equals NaN; otherwise within `tolerance`, relative.
+/// Expects equal frames: NaN equals NaN; other values agree within `tolerance`, relative.
 void expectSameFrames(std::span<const RoughnessFrame> actual, std::span<const RoughnessFrame> expected,
                       double tolerance);
 

@@ -66,8 +66,8 @@ TEST(Roughness, DeclaredBaselineServesTheWholeRecordingWhereverItLies) {
 }
 
 TEST(Roughness, TaxelsAlone) {
-    compare(makeSlide(0, 0, 0, 35.6, 16), {});  // a frame per sample
-    compare(makeSlide(0, 0, 0, 200, 8), {});    // a frame per 16 ms
+    compare(makeSlide(0, 0, 0, 35.6, 16), {});  // one frame per sample
+    compare(makeSlide(0, 0, 0, 200, 8), {});    // one frame every 16 ms
     compare(makeSlide(0, 0, 200, 200, 8), {});  // with force
 }
 

@@ -1,4 +1,4 @@
-// Scales of a profile turn a fingertip's readings into N and Pa, of that fingertip alone.
+// The scales in a profile convert a fingertip's readings to N and Pa, but only for that fingertip.
 #include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,8 +13,8 @@ using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
 
-/// A second of rest, then a second under 2 N, as a fingertip in counts gives it: 250 counts a newton from 1000, and
-/// taxels of 0.5 counts a pascal.
+/// A second of rest, then a second under 2 N, from a fingertip that sends counts: 1000 at rest plus 250 per newton, and
+/// 0.5 per pascal for taxels.
 struct InCounts {
     std::vector<StreamInfo> streams{{StreamKind::Force, StreamUnit::Count, 1, 200, "force"},
                                     {StreamKind::Taxels, StreamUnit::Count, 2, 200, "taxels"}};
@@ -37,7 +37,7 @@ RoughnessSettings scaled(const char* serial) {
     return settings;
 }
 
-/// Pressure of the last frame, and the flags.
+/// Returns the pressure of the last frame, and the flags.
 std::pair<double, std::vector<std::string>> read(const InCounts& data, const RoughnessSettings& settings,
                                                  std::string_view serial) {
     const auto chain = RoughnessChain::create(data.streams, settings, {}, serial).value();
@@ -88,7 +88,7 @@ TEST(SensorScales, OfAFingertipThatIsNotNamedAreUsedAndSaySo) {
 TEST(SensorScales, ForAnotherUnitAreLeftAside) {
     RecordProperty("hazard", "H7");
     InCounts data;
-    data.streams[0].unit = StreamUnit::Newton;  // a board that converts by itself now
+    data.streams[0].unit = StreamUnit::Newton;  // a board that now converts readings itself
     for (auto& value : data.blocks[0].values) value = (value - 1000) / 250;
     const auto [pressure, flags] = read(data, scaled("B-1"), "B-1");
     EXPECT_NEAR(pressure, 2 / 1e-4, 1e-6) << "the force as the board says it";

@@ -1,4 +1,4 @@
-// Windows against their published figures, and levels read through them.
+// Windows compared with their published figures, and levels measured through them.
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ TEST(SpectralWindow, HasThePublishedNoiseBandwidth) {
     EXPECT_EQ(mainLobe(SpectralWindow::FlatTop), 5U);
 }
 
-/// RMS of the highest line of a sine of 2 V RMS that lies `bin` bins up.
+/// Returns the RMS of the highest line for a sine of 2 V RMS at position `bin`.
 double levelOf(SpectralWindow window, double bin) {
     constexpr std::size_t kLength = 2048;
     auto shape = samplesOf(window, kLength);
@@ -40,7 +40,7 @@ double levelOf(SpectralWindow window, double bin) {
 TEST(SpectralWindow, ASineHasItsLevelAsFarAsTheWindowPromises) {
     for (const auto window : kSpectralWindows) EXPECT_NEAR(levelOf(window, 200), 2, 1e-6) << nameOf(window);
     const auto decibels = [](double level) { return 20 * std::log10(level / 2); };
-    // Half-way between two bins: the scalloping losses of Harris's table.
+    // Half-way between two bins: the scalloping losses in Harris's table.
     EXPECT_NEAR(decibels(levelOf(SpectralWindow::Rectangular, 200.5)), -3.92, 0.02);
     EXPECT_NEAR(decibels(levelOf(SpectralWindow::Hann, 200.5)), -1.42, 0.01);
     EXPECT_NEAR(decibels(levelOf(SpectralWindow::BlackmanHarris, 200.5)), -0.83, 0.01);
@@ -69,9 +69,9 @@ TEST(SpectralPeaks, AreWhereTheLinesAreHighestFirst) {
     };
     line(100.3, 1);
     line(300, 4);
-    line(305, 0.2);  // a line in the skirt of a larger one
+    line(305, 0.2);  // a line next to a larger one
     line(700.5, 0.5);
-    line(900, 1e-3);  // a line in the noise
+    line(900, 1e-3);  // a line within the noise
     const auto peaks = spectralPeaks(level, 8, 10, 5);
     ASSERT_EQ(peaks.size(), 3U);
     EXPECT_NEAR(peaks[0].bin, 300, 0.02);

@@ -67,7 +67,7 @@ TEST(StaleData, SilenceNeverReadsAsRough) {
     auto slide = pressedStill(0, 1);
     for (auto& value : slide.blocks[2].values) value = 100;
     for (const auto& frame : analysed(slide).frames) ASSERT_FALSE(frame.R > 0) << frame.t_s;
-    // The rest is unknown, and the sensor sends nothing.
+    // The level at rest is unknown, and the sensor sends nothing.
     slide.streams.resize(1);
     slide.blocks.resize(1);
     const auto result = analysed(slide);

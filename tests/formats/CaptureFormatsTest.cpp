@@ -1,4 +1,4 @@
-// The list of formats: who is asked, who writes, and what it says when no format knows.
+// The list of formats: the order of recognition, the writing formats, and the message if no format recognises a file.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

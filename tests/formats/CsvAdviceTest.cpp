@@ -1,5 +1,5 @@
-// A refusal names the options that read the file all the same, and they do: each is taken at its word. Where none does,
-// it says what was expected in the file.
+// A refusal names options that read the file, and a test applies them. If there are none, the refusal says what was
+// expected in the file.
 #include <array>
 #include <fmt/ranges.h>
 #include <gmock/gmock.h>
@@ -37,7 +37,7 @@ bool expectHonest(const std::string& text, const ReadOptions& options = {}) {
 
 struct RefusedFile {
     std::string text;
-    std::string ends;  ///< how the sentence ends
+    std::string ends;  ///< end of the sentence
     ReadOptions options{};
 };
 
@@ -91,8 +91,8 @@ TEST(CsvAdvice, AsksForAnotherFileWhereNoOptionHelps) {
     }
 }
 
-// It never advises what would read something else than was written: a row as names, times without their unit, an index
-// as seconds.
+// Options that would misread the table are never suggested: a row as names, times without their unit, an index as
+// seconds.
 TEST(CsvAdvice, NeverAdvisesWhatWouldBeRead) {
     for (const auto* text :
          {"time_ms,a\n0,1\n1,abc\n2,1\n", "X,CH1,Start,Increment,\nSequence,Volt,0,none,\n0,1,\n1,2,\n2,2,\n",
@@ -111,8 +111,8 @@ std::vector<std::string> linesOf(const std::string& text) {
     return lines;
 }
 
-/// A mishap of a file on its way: a line lost or doubled, a field emptied, a word for a number, a name or unit changed,
-/// two lines swapped, a line of something else, bytes lost.
+/// Damages a file as may happen on its way: a line lost, doubled or foreign, a field emptied, a word instead of a
+/// number, a name or unit changed, two lines swapped, bytes lost.
 std::string damaged(const std::string& text, Random& random) {
     auto lines = linesOf(text);
     const auto at = [&](std::uint64_t most) {
@@ -174,7 +174,7 @@ TEST(CsvAdvice, OfDamagedTablesIsHonest) {
     EXPECT_GT(withAdvice, refused / 10) << refused;
 }
 
-// The names of a file and a channel do not hide the advice, and the advice of the file's formats is the same.
+// Names of a file and a channel do not hide the advice, and the formats give the same advice for a file.
 TEST(CsvAdvice, IsTheSameForFiles) {
     const ScratchDir scratch;
     const auto path = scratch.write("a.csv", "a,b\n7,1\n9,2\n11,7\n");

@@ -1,4 +1,4 @@
-// Columns that are apart by blanks, as numpy.savetxt, Octave and gnuplot write them.
+// Columns separated by blanks, as numpy.savetxt, Octave and gnuplot write them.
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

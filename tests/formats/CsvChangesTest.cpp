@@ -1,4 +1,4 @@
-// The tables of logic analysers: a row where a level changes.
+// Tables of logic analysers, with one row for each change of a level.
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// The places where a straight line from sample to sample crosses the middle.
+/// Returns the times at which a straight line from sample to sample crosses the middle.
 std::vector<double> crossings(const Capture& capture, std::size_t channel) {
     std::vector<double> times;
     const auto& samples = capture.channels[channel].samples;

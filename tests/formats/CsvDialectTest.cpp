@@ -1,4 +1,4 @@
-// The tables of instruments: what each writes, and the values it means. Real files where there are some.
+// The tables of instruments: what each writes and the values it stands for. From real files if there are any.
 #include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

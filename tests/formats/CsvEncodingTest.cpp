@@ -1,4 +1,4 @@
-// How the same table may be written: ends of lines, marks, encodings, separators, points and commas.
+// Different ways to write the same table: line ends, byte-order marks, encodings, separators, points and commas.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-/// ASCII as UTF-16; `big`: the high byte first.
+/// Returns ASCII text as UTF-16; `big`: the high byte comes first.
 std::string wide(std::string_view text, bool big, bool mark = true) {
     std::string bytes;
     if (mark) bytes = big ? "\xFE\xFF" : "\xFF\xFE";
@@ -82,7 +82,7 @@ TEST(CsvEncoding, Utf16ThatIsCutOrWithoutItsMarkIsRefusedOrReadToItsEnd) {
                 test::refusedSaying("in UTF-16 with its mark"));
     EXPECT_FALSE(parseCapture("\xFF\xFE", "t.csv"));
     EXPECT_FALSE(parseCapture(std::string_view("\xFF\xFE\x00", 3), "t.csv"));
-    // A pair of halves, and a half alone, are names as good as others.
+    // A surrogate pair, and a single surrogate, are accepted in names.
     const auto pair = accepted(parseCapture(
         wide("time_s,", false) + std::string("\x34\xD8\x1E\xDD\x1E\xDD", 6) + wide("\n0,1\n1,2\n", false, false),
         "t.csv"));

@@ -1,5 +1,5 @@
-// Tables as instruments and people write them, drawn at random (WrittenTables.h): every number, unit and name comes
-// back, or is said to be missing.
+// Tables as instruments and people write them, drawn at random (WrittenTables.h): every number, unit and name is read
+// back, or reported as missing.
 #include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ INSTANTIATE_TEST_SUITE_P(
                       std::pair("TimesForEachChannel", &timesForEachChannel), std::pair("Stamped", &stampedTable)),
     [](const auto& one) { return std::string(one.param.first); });
 
-/// A table with SCPI's marks in random rows, and those rows.
+/// A table with SCPI's marks for no value in random rows, and the numbers of these rows.
 struct Marked {
     std::string text;
     std::vector<std::size_t> rows;
@@ -132,7 +132,7 @@ TEST(CsvKinds, AUnitOfTimeIsNeverDroppedWhenItsColumnIsChosen) {
     for (const auto* name : {"t/T", "x (mm)", "t (samples)", "U/V", "time [div]", "T / °C"}) {
         const auto text = fmt::format("{};CH1\n0;1\n1;2\n2;3\n", name);
         const auto read = parseCapture(text, "t.csv", {.timeColumn = "1"});
-        if (std::string_view(name) == "t/T") continue;  // a name, without a unit
+        if (std::string_view(name) == "t/T") continue;  // a name without a unit
         ASSERT_FALSE(read) << text;
         EXPECT_THAT(read.error().message, HasSubstr("a column of times, in s, ms, us or ns, was expected")) << text;
     }
@@ -178,7 +178,7 @@ TEST(CsvKinds, TimesOfChannelsThatDifferAreRefusedByName) {
         ASSERT_TRUE(first) << first.error().message;
         EXPECT_NEAR(first->capture.rate_hz, 1000, 1e-6);
         const auto other = parseCapture(text, "t.csv", {.columns = {"4"}});
-        if (from == 0) {  // these steps are as even as the first
+        if (from == 0) {  // these steps are as even as those of the first column
             ASSERT_TRUE(other) << other.error().message;
             EXPECT_NEAR(other->capture.start_s, off * 1e-3, 1e-7) << "the times of its own";
         }
@@ -228,7 +228,7 @@ TEST(CsvKinds, UnitsOfKeysAndLabelsAreNotLost) {
 }
 
 TEST(CsvKinds, AnUnnamedColumnThatCountsTheRowsIsNoSignal) {
-    const auto read = parseCapture(",time_s,a_v\n0,0.0,5\n1,0.1,6\n2,0.2,7\n", "t.csv");  // pandas
+    const auto read = parseCapture(",time_s,a_v\n0,0.0,5\n1,0.1,6\n2,0.2,7\n", "t.csv");  // written by pandas
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_EQ(read->capture.channels.size(), 1U);
     EXPECT_THAT(read->warnings, Contains(HasSubstr("counts the rows")));

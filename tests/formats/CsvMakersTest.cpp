@@ -1,5 +1,5 @@
-// Tables of further makers' oscilloscopes and programs. The headers are as the sources named beside them show or
-// describe them; the rows are made up.
+// Tables of further makers' oscilloscopes and programs. The headers are as the named sources show or describe them; the
+// rows are invented.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -54,8 +54,8 @@ void expectRead(const Expected& expected, std::string_view text) {
     }
 }
 
-// github.com/scottprahl/RigolWFM, tests/files/wfm/DS1204B-F.csv and DS1204B-A-original.csv: no name above the times, a
-// comma and a blank at the end of each row alone.
+// github.com/scottprahl/RigolWFM, tests/files/wfm/DS1204B-F.csv and DS1204B-A-original.csv: the times have no name, and
+// only the rows end in a comma and a blank.
 TEST(CsvMakers, RigolDs1000b) {
     expectRead({"csv-rigol", 250e3, -16.384e-3, {{"CH2", "V", {14.8F, 14.8F, 20.8F}}, {"CH4", "V", {14.4F, 0, 13.6F}}}},
                ",CH2,CH4\r\nSecond,Volt,Volt\r\n-1.63840e-02,1.48e+01,1.44e+01, \r\n-1.63800e-02,1.48e+01,0.00e+00, "
@@ -64,14 +64,14 @@ TEST(CsvMakers, RigolDs1000b) {
                ",CH1,CH2,\nSecond,Volt,Volt,\n0,1,3,\n1e-3,2,4,\n");
 }
 
-// DS1102D-A.csv of the same project: X in seconds, units in the names.
+// DS1102D-A.csv of the same project: X in seconds, units in the names of the columns.
 TEST(CsvMakers, RigolDs1000d) {
     expectRead(
         {"csv-rigol", 1 / 10.01e-6, -4.688e-3, {{"CH 1", "V", {8.08F, 4.88F, 0.28F}}, {"CH 2", "V", {8.4F, 8.4F, 8}}}},
         "X,CH 1 (V),CH 2 (V)\n-0.00468800,8.08,8.40\n-0.00467799,4.88,8.40\n-0.00466798,0.28,8\n");
 }
 
-// Signature of a DS1102E in public readers of laboratory files; files NewFile1.csv.
+// Header of a DS1102E as public readers of laboratory files recognise it; files NewFile1.csv.
 TEST(CsvMakers, RigolDs1000eWithItsChannelsInBrackets) {
     expectRead({"csv-rigol", 1e6, -1e-6, {{"CH1", "V", {1, 2}}, {"CH2", "V", {3, 4}}}},
                "Time,X(CH1),X(CH2),\nSecond,Volt,Volt,\n-1.0e-06,1,3,\n0.0e+00,2,4,\n");
@@ -86,8 +86,8 @@ TEST(CsvMakers, RigolUltraScope) {
                "\"Time (s)\",\"Voltage (V)\",\"Voltage (V)\"\n0,1.72,9.92\n2E-9,-4.52,9.92\n4E-9,-4.6,9.92\n");
 }
 
-// A public analysis of MSO5074 files: "Save Screen" has stamps, "Save Memory" start and increment in its only header
-// line.
+// A public analysis of MSO5074 files: "Save Screen" writes stamps; "Save Memory" writes start and increment in its only
+// header line.
 TEST(CsvMakers, RigolMso5000) {
     expectRead({"csv", 1e6, -1e-6, {{"CH1", "V", {1, 2, 3}}}}, "Time(s),CH1(V)\n-1e-06,1\n0,2\n1e-06,3\n");
     expectRead({"csv-rigol", 500e3, -25, {{"CH1", "V", {0.5F, 0.25F, 1}}}},
@@ -101,7 +101,7 @@ TEST(CsvMakers, RigolMso5000) {
                 HasSubstr("all channels before one t0 and one tInc were expected"));
 }
 
-// github.com/MartinCowen/SigFyCSV, README: what Siglent's bin2csv writes, with a rate in place of the interval.
+// github.com/MartinCowen/SigFyCSV, README: output of Siglent's bin2csv, with a rate instead of the interval.
 TEST(CsvMakers, SiglentWithASampleRate) {
     expectRead({"csv-siglent", 100e6, -70e-6, {{"CH1", "V", {-0.194F, -0.192F, -0.196F}}}},
                "Record Length,Analog:3\nSample Rate,100000000.0\nVertical Scale,CH1: 0.05\n"
@@ -109,7 +109,7 @@ TEST(CsvMakers, SiglentWithASampleRate) {
                "-0.00007000000,-0.19400\n-0.00006999000,-0.19200\n-0.00006998000,-0.19600\n");
 }
 
-// Made from the same project's source: saved on the instrument, two lines.
+// From the source of the same project: files saved on the instrument have two header lines.
 TEST(CsvMakers, SiglentSavedOnTheInstrument) {
     expectRead({"csv-siglent", 1e6, 0, {{"CH1", "V", {1, 2}}, {"CH3", "V", {3, 4}}}},
                "Source,CH1,CH3\nSecond,Volt,Volt\n0.000000,1,3\n0.000001,2,4\n");
@@ -117,7 +117,7 @@ TEST(CsvMakers, SiglentSavedOnTheInstrument) {
                "Second,Volt,Volt\n0.000000,1,3\n0.000001,2,4\n");
 }
 
-// A collection of ADS1202CL+ files (Atten, made by Siglent), with a sample interval that the rows do not have.
+// A collection of ADS1202CL+ files (Atten, made by Siglent). The stated sample interval does not fit the rows.
 TEST(CsvMakers, AttenAds1000) {
     const auto read = madeOf(
         "Record Length,3\nSample Interval,CH1:0.0000000000013 CH2:0.0000000000013\nVertical Units,CH1:V CH2:V,,\n"
@@ -132,7 +132,7 @@ TEST(CsvMakers, AttenAds1000) {
     EXPECT_THAT(read.warnings, ElementsAre(HasSubstr("the stamps were taken")));
 }
 
-// A write-up of an MDO3014 file: the digital channels have a table of their own to the right.
+// A description of an MDO3014 file: the digital channels have their own table on the right.
 TEST(CsvMakers, TektronixMdoWithDigitalChannels) {
     const auto read = madeOf(
         "Model,MDO3014\nFirmware Version,1.20\n\nWaveform Type,ANALOG,,Waveform Type,DIGITAL,\n"
@@ -149,7 +149,7 @@ TEST(CsvMakers, TektronixMdoWithDigitalChannels) {
     EXPECT_THAT(read.warnings, ElementsAre(HasSubstr("the columns from 4 on have times of their own")));
 }
 
-// A decoder of MSO/DPO2000 files quotes this header; "Peak Detect" is a second value of the same samples.
+// A decoder of MSO/DPO2000 files quotes this header. "Peak Detect" is a second value of the same samples.
 TEST(CsvMakers, TektronixDpo2000) {
     expectRead({"csv-tektronix", 312500, -0.2, {{"CH1", "V", {0.2F, 0.4F}}, {"CH1 Peak Detect", "V", {0, 0.6F}}}},
                "Model,DPO2012B\nFirmware Version,1.35\nPoint Format,Y,\nHorizontal Units,S,\nHorizontal Scale,0.04,\n"
@@ -158,7 +158,7 @@ TEST(CsvMakers, TektronixDpo2000) {
                "TIME,CH1,CH1 Peak Detect\n-2.0000000e-01,0.2,0\n-1.9999680e-01,0.4,0.6\n");
 }
 
-// The five columns of Micsig's files as two public readers and a writer of them have it; keys: Micsig ATO1000 manual,
+// The five columns of Micsig's files, as in two public readers and a writer of such files; keys: Micsig ATO1000 manual,
 // manualshive.com/en/manual/micsig/ato1000-series/1789851?page=136.
 TEST(CsvMakers, Micsig) {
     expectRead({"csv-micsig", 1e6, 0, {{"CH1", "V", {0.1F, 0.2F, 0.3F}}}},
@@ -195,7 +195,7 @@ TEST(CsvMakers, KeysightInfiniium) {
 }
 
 // LeCroy 9300C manual, "ASCII Waveform Export": easymanua.ls/lecroy/9300c-series/manual?p=257; first lines of
-// WaveRunner files as many public readers quote them.
+// WaveRunner files, as quoted in many public readers.
 TEST(CsvMakers, LeCroy) {
     for (const auto* text :
          {"LECROYWR64Xi,57936,Waveform\nSegments,1,SegmentSize,3\nSegment,TrigTime,TimeSinceSegment1\n"
@@ -221,7 +221,7 @@ TEST(CsvMakers, HantekWithTimes) {
                 HasSubstr("words of a logic analyzer; an analog channel was expected"));
 }
 
-// Electronicayciencia, 2 February 2020: the channels stand one below the other, and nothing but comments parts them.
+// Electronicayciencia, 2 February 2020: the channels follow each other, separated only by comments.
 TEST(CsvMakers, HantekWithoutTimes) {
     const std::string first = "# CHANNEL:CH1\n# CLOCK=20.0uS\n# SIZE=3\n# UNITS:V\n\n-1.5686\n0\n0.9412\n";
     expectRead({"csv-hantek", 50e3, 0, {{"CH1", "V", {-1.5686F, 0, 0.9412F}}}}, first);
@@ -234,7 +234,7 @@ TEST(CsvMakers, HantekWithoutTimes) {
                 HasSubstr("no number of samples"));
 }
 
-// github.com/h-elsner/OwonOszi, of an HDS242; the same keys in files of a DOS1102S.
+// github.com/h-elsner/OwonOszi, for an HDS242; files of a DOS1102S have the same keys.
 TEST(CsvMakers, Owon) {
     expectRead({"csv-owon", 5e6, 0, {{"CH1", "V", {-0.6F, -0.62F, 0.04F}}}},
                "Channel\t\t\t  :,CH1\nFrequency\t\t\t  :,F=1.498kHz\nPeriod \t\t\t  :,T=667.4us\n"
@@ -250,7 +250,7 @@ TEST(CsvMakers, Owon) {
         "where HZ is the instrument's rate");
 }
 
-// Keys and columns as four versions of a public reader (OpenQlab) have them; what Detail and Fast are:
+// Keys and columns as in four versions of a public reader (OpenQlab); meaning of Detail and Fast:
 // manualshive.com/en/manual/texio/dcs-9700-series/1097547?page=138.
 TEST(CsvMakers, GwInstek) {
     const auto head = [](std::string_view mode) {
@@ -302,7 +302,7 @@ TEST(CsvMakers, Sigrok) {
                 HasSubstr("its sampling rate is ''; a frequency above 0 was expected"));
 }
 
-// DSView, a relative of it, quoted in a generator of its files.
+// DSView, a program derived from sigrok; quoted in a generator of its files.
 TEST(CsvMakers, DsView) {
     expectRead({"csv", 100e6, 0, {{"0", "", {1, 0}}, {"1", "", {0, 0}}}},
                "; CSV generated by DSView\n; Channels (2/16)\n; Sample rate: 100 MHz\n; Sample count: 2 Samples\n"
@@ -314,15 +314,15 @@ TEST(CsvMakers, DsView) {
 TEST(CsvMakers, RohdeSchwarz) {
     expectRead({"csv", 1e6, -1e-6, {{"C1", "V", {0.1F, 0.2F}}, {"C2", "A", {3e-3F, 4e-3F}}}},
                "in s,C1 in V,C2 in mA\n-1.0000000E-06,1.0E-01,3.0\n0.0E+00,2.0E-01,4.0\n");
-    // Batronix Magnova, as a public reader has it.
+    // Batronix Magnova, as in a public reader.
     expectRead({"csv", 1e6, 0, {{"CH1", "V", {1, 2}}}}, "time in s,CH1 in V\n0,1\n1e-06,2\n");
-    // Samples of an RTO alone ("x.Wfm.csv"; its keys are in a file beside it): no names, no times.
+    // Samples of an RTO ("x.Wfm.csv"; the keys are in a second file): no names, no times.
     EXPECT_THAT(saidOf("-0.031620555\n0\n0.015810277\n"), HasSubstr("; --sample-rate HZ reads it"));
     const auto read = accepted(parseCapture("-0.031620555\n0\n0.015810277\n", "t.csv", {.rate = Hertz(1e9)}));
     EXPECT_EQ(read.capture.samples(), 3U);
 }
 
-// github.com/ngscopeclient/scopehal, issue 429, and what its importer looks for.
+// github.com/ngscopeclient/scopehal, issue 429, and the conditions in its importer.
 TEST(CsvMakers, DigilentWaveForms) {
     expectRead({"csv", 1e6, -1e-6, {{"Channel 1", "V", {0, 1, 2}}, {"Channel 2", "V", {0.01F, 0.02F, 0.03F}}}},
                "#Digilent WaveForms Oscilloscope Acquisition\n#Device Name: Discovery2\n#Serial Number: "
@@ -330,7 +330,7 @@ TEST(CsvMakers, DigilentWaveForms) {
                "Time (s),Channel 1 (V),Channel 2 (V)\n-1e-06,0,0.01\n0,1,0.02\n1e-06,2,0.03\n");
 }
 
-// pastebin.com/et1AHHqB: a row for each change, which is not an evenly sampled record (CsvChangesTest.cpp).
+// pastebin.com/et1AHHqB: one row per change, so not an evenly sampled record (CsvChangesTest.cpp).
 TEST(CsvMakers, SaleaeLogicChangesAreLevels) {
     const auto read = madeOf(
         "Time [s],Channel 0,Channel 1\n289.692741059,0,0\n289.693153750,1,0\n289.693153875,0,0\n"
@@ -342,7 +342,7 @@ TEST(CsvMakers, SaleaeLogicChangesAreLevels) {
     expectRead({"csv", 1e3, 0, {{"Channel 0", "", {0.5F, 0.6F}}}}, "Time [s],Channel 0\n0.000,0.5\n0.001,0.6\n");
 }
 
-// ADALM2000 (Scopy): samples are counted beside their times. OpenHantek: units behind a slash.
+// ADALM2000 (Scopy): a column counts the samples, next to their times. OpenHantek: units after a slash.
 TEST(CsvMakers, OthersThatArePlainTables) {
     const auto scopy = madeOf("Sample,Time(S),CH1(V)\n0,0.0,1\n1,0.001,2\n2,0.002,3\n");
     EXPECT_NEAR(scopy.capture.rate_hz, 1e3, 1e-6);

@@ -1,4 +1,4 @@
-// Options of a user who knows better than the table, and the oddities that tables come with.
+// Options of a user who knows more than the table shows, and oddities of tables.
 #include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -93,7 +93,7 @@ TEST(CsvOptions, RowsAreSkippedAndLinesStillCounted) {
 }
 
 TEST(CsvOddities, StampsTooCoarseForTheirRateAreTakenFromFirstAndLast) {
-    // 1.5 us apart, written in steps of 10 us: what a Rigol does with a million points.
+    // Rows 1.5 us apart with times in steps of 10 us, as a Rigol writes them for a million points.
     std::string text = "Time(s),CH1(V)\n";
     for (int i = 0; i < 10'000; ++i) text += fmt::format("{:.5f},{}\n", 1.5e-6 * i, i % 7);
     const auto read = accepted(parseCapture(text, "t.csv"));

@@ -1,4 +1,4 @@
-// Tables larger than a block: nothing is lost at the seams, and reading can be watched and ended.
+// Tables larger than a block: nothing is lost between blocks, and reading can be watched and stopped.
 #include <cmath>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -25,7 +25,7 @@ TEST(CsvStream, NothingIsLostBetweenBlocks) {
     auto text = longTable(kRows);
     ASSERT_GT(text.size(), 2 * TextBlocks::kBlockBytes);
     for (const bool ended : {true, false}) {
-        if (!ended) text.pop_back();  // the last line without its end
+        if (!ended) text.pop_back();  // removes the end of the last line
         const ScratchDir scratch;
         const auto read = accepted(readCapture(scratch.write("long.csv", text)));
         ASSERT_EQ(read.capture.samples(), static_cast<std::size_t>(kRows));
@@ -79,7 +79,7 @@ TEST(CsvStream, ALineWithoutEndIsRefused) {
 }
 
 TEST(CsvStream, TheSlowWayMeansTheSameAsTheFastOne) {
-    // Quotes, blanks and digits beyond a double's take other paths through the reader.
+    // Quotes, blanks and more digits than a double holds take a slower path through the reader.
     std::string fast = "time_s,a_v\n";
     std::string slow = "time_s,a_v\n";
     for (int i = 0; i < 3000; ++i) {

@@ -1,5 +1,5 @@
-// The stamps of a long table are not kept, and it is judged as if they were; and what does not fit into memory is an
-// error, not an exception.
+// The stamps of a long table are not kept, but the result is the same as if they were. Samples that do not fit into
+// memory give an error, not an exception.
 #include <cmath>
 #include <fmt/ranges.h>
 #include <gmock/gmock.h>
@@ -20,14 +20,14 @@ using ::testing::HasSubstr;
 
 struct JudgedStamps {
     double rate_hz = 0, start_s = 0;
-    std::vector<std::string> texts;  // warnings, or the error
+    std::vector<std::string> texts;  // warnings or the error
     bool needsAll = false;
     bool operator==(const JudgedStamps& other) const {
         return rate_hz == other.rate_hz && start_s == other.start_s && texts == other.texts;
     }
 };
 
-/// Fed as readCsvTable() feeds them; `keptRows` of them count. With `all` every stamp is given again in any case.
+/// Adds stamps as readCsvTable() does, of which `keptRows` count. With `all`, every stamp is added a second time.
 JudgedStamps judgeStamps(const std::vector<double>& stamps, const CsvLayout& layout, std::size_t keptRows, bool all) {
     CsvTimes times(layout);
     std::vector<std::size_t> lines(stamps.size());
@@ -169,7 +169,7 @@ TEST(CsvTimes, ALongTableThatIsNotPlainlyEvenIsReadAgain) {
     EXPECT_TRUE(std::ranges::is_sorted(told)) << "progress goes back";
 }
 
-/// A format with samples that do not fit.
+/// A format whose samples do not fit into memory.
 class TooLarge final : public CaptureFormat {
 public:
     explicit TooLarge(bool beyondAny) : beyondAny_(beyondAny) {}

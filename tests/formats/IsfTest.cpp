@@ -1,4 +1,4 @@
-// Tektronix ISF: against the oscilloscope's own CSV, and what a file may not say.
+// Tektronix ISF, compared with the oscilloscope's own CSV, and statements in a file that are refused.
 #include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

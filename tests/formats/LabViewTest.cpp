@@ -1,4 +1,4 @@
-// LabVIEW measurement files, as NI's specification describes them.
+// LabVIEW measurement files, following NI's specification.
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 
 struct Lvm {
     bool commas = false;       // between columns
-    bool decimalComma = true;  // decimals with a comma, unless commas separate
+    bool decimalComma = true;  // decimal commas, unless commas separate columns
     std::string xColumns = "One";
     std::string dimension = "Time";
     std::size_t channels = 1;
@@ -25,7 +25,7 @@ struct Lvm {
     double start_s = 0, step_s = 1e-5;
 };
 
-/// Sample i of channel c of a segment.
+/// Returns sample i of channel c in a segment.
 double valueOf(int segment, std::size_t c, std::size_t i) {
     return std::round(1e4 * std::sin(static_cast<double>(i * (c + 1)) + segment)) / 1e4;
 }

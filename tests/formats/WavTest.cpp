@@ -140,7 +140,7 @@ TEST(Wav, HoldsOnlyWholeRates) {
                     test::refused(ErrorCode::InvalidArgument));
         EXPECT_TRUE(std::filesystem::is_empty(scratch.path()));
     }
-    capture.rate_hz = 9'999'999.9;  // the rate that time stamps leave of 10 MHz
+    capture.rate_hz = 9'999'999.9;  // a rate of 10 MHz as found from its rounded time stamps
     EXPECT_TRUE(ownCaptureFormats()->write(scratch.path() / "c.wav", capture));
 }
 
@@ -192,7 +192,7 @@ TEST(Wav, WhatStandsBehindTheSamplesIsNotReadAndSaid) {
     EXPECT_THAT(read.warnings, SizeIs(1)) << "only the full scale";
 }
 
-/// The file as RF64 or BW64 (EBU Tech 3306): 64-bit sizes in front, and all ones in place of the 32-bit sizes.
+/// Returns the file as RF64 or BW64 (EBU Tech 3306): with 64-bit sizes first, and all ones as 32-bit sizes.
 std::string withLongSizes(const std::string& riff, const char* kind, const std::string& data,
                           const std::string& table) {
     auto rest = riff.substr(12);
@@ -222,7 +222,7 @@ TEST(Wav, Rf64AndBw64HoldWhatTheSameRiffHolds) {
         const auto expected = accepted(readWav(riff));
         for (const auto* kind : {"RF64", "BW64"}) {
             for (const std::string& table : {std::string(), "abcd" + little(77, 8) + "junk" + little(99, 8)}) {
-                // Other data stand behind the samples.
+                // Other data follow the samples.
                 const auto read =
                     accepted(readWav(withLongSizes(riff, kind, data, table) + "LIST" + little(4, 4) + "adtl"));
                 EXPECT_EQ(read.capture.rate_hz, expected.capture.rate_hz);
@@ -246,7 +246,7 @@ TEST(Wav, ChunksBeyondFourGigabytesArePassedOver) {
     bytes += little(0xFFFFFFFF, 4);
     const ScratchDir scratch;
     const auto path = scratch.write("long.wav", bytes);
-    std::filesystem::resize_file(path, bytes.size() + kLong);  // takes no room: it is one hole
+    std::filesystem::resize_file(path, bytes.size() + kLong);  // takes no disk space: the file is a single hole
     std::ofstream(path, std::ios::binary | std::ios::app) << behind;
     const auto read = accepted(ownCaptureFormats()->read(path));
     EXPECT_THAT(read.capture.channels[0].samples, ElementsAre(0.5F, -0.5F));

@@ -49,11 +49,11 @@ constexpr std::array<Spelling, 10> kSignals{{{"V", "V", 1},
                                              {"μA", "A", 1e-6},
                                              {"Amps", "A", 1}}};
 
-/// How a table writes its numbers and separates its columns.
+/// The way in which a table writes its numbers and separates its columns.
 struct Hand {
     char separator;
     char point;
-    bool shortens = false;  ///< leaves out zeros at the end, as spreadsheets do
+    bool shortens = false;  ///< omits zeros at the end, as spreadsheets do
 };
 Hand someHand(Random& random) {
     constexpr std::array<Hand, 5> kHands{
@@ -63,7 +63,7 @@ Hand someHand(Random& random) {
     return hand;
 }
 
-/// A number as it is written, and the number that this is.
+/// A number as text, and the value of this text.
 class Number {
 public:
     Number(double value, int digits, Hand hand, bool scientific = false)
@@ -87,7 +87,7 @@ std::string line(const std::vector<std::string>& fields, Hand hand) {
     return fmt::format("{}\n", fmt::join(fields, std::string(1, hand.separator)));
 }
 
-/// Evenly spaced times: `step` and `start` in the unit of their column, with whole numbers of its last digit.
+/// Evenly spaced times. `step` and `start` are in the unit of their column and multiples of its last digit.
 struct Times {
     double step;
     double start;
@@ -102,7 +102,7 @@ Times someTimes(Random& random) {
 
 std::size_t someRows(Random& random) { return 3 + random.below(60); }
 
-/// Channels with random values, written with `digits`; `text[channel][row]`.
+/// Fills channels with random values of `digits` digits. Returns `text[channel][row]`.
 std::vector<std::vector<std::string>> fillChannels(WrittenTable& table, std::size_t rows, Hand hand, Random& random,
                                                    const std::vector<double>& factors) {
     std::vector<std::vector<std::string>> texts(table.channels.size());
@@ -117,7 +117,7 @@ std::vector<std::vector<std::string>> fillChannels(WrittenTable& table, std::siz
     return texts;
 }
 
-/// "CH1 (mV)", "U/V", "CH1_mv" …; `style` is the table's.
+/// Returns a name with its unit: "CH1 (mV)", "U/V", "CH1_mv" …, in the table's `style`.
 std::string named(std::string_view name, std::string_view unit, std::uint64_t style) {
     const std::string lower = replaceAll(replaceAll(std::string(unit), "µ", "u"), "μ", "u");
     switch (style) {
@@ -136,11 +136,11 @@ std::string named(std::string_view name, std::string_view unit, std::uint64_t st
         case 6:
             return fmt::format("{} (Unit: {})", name, unit);
         default:
-            return std::string(name);  // the unit stands in a line below
+            return std::string(name);  // the unit is in a line below
     }
 }
 
-/// Keys in columns 1 and 2, rows in 4 and 5.
+/// Writes a row with keys in columns 1 and 2, and time and value in columns 4 and 5.
 std::string besideKeys(const std::vector<std::pair<std::string, std::string>>& keys, std::size_t row, Hand hand,
                        const std::string& time, const std::string& value) {
     const auto& [key, what] = row < keys.size() ? keys[row] : std::pair<std::string, std::string>();
@@ -154,7 +154,7 @@ std::string inSomeEncoding(const std::string& text, Random& random) {
     switch (random.below(4)) {
         case 0:
             return "\xEF\xBB\xBF" + written;
-        case 1: {  // Latin-1, where it has the signs
+        case 1: {  // Latin-1, if it has all characters
             if (written.find("μ") != std::string::npos) return written;
             return replaceAll(replaceAll(written, "µ", "\xB5"), "°", "\xB0");
         }
@@ -163,7 +163,7 @@ std::string inSomeEncoding(const std::string& text, Random& random) {
             std::string wide = big ? "\xFE\xFF" : "\xFF\xFE";
             for (std::size_t i = 0; i < written.size();) {
                 const auto byte = static_cast<unsigned char>(written[i]);
-                if (byte >= 0xE0) return written;  // signs of three bytes are not worth it here
+                if (byte >= 0xE0) return written;  // three-byte characters are not worth a conversion here
                 const unsigned code =
                     byte < 0x80 ? byte : (byte & 0x1FU) << 6U | (static_cast<unsigned char>(written[i + 1]) & 0x3FU);
                 i += byte < 0x80 ? 1 : 2;
@@ -483,7 +483,7 @@ WrittenTable stampedTable(Random& random) {
     const auto zone = oneOf(kZones, random);
     const char between = chance(random, 0.5) ? 'T' : ' ';
     const bool timeOnly = zone.empty() && chance(random, 0.3);
-    // Dates go over midnight and the end of a year.
+    // The dates pass midnight and the end of a year.
     const auto begin = std::chrono::sys_days(std::chrono::year(2026) / 12 / 31) +
                        std::chrono::microseconds((timeOnly ? 3'600'000'000LL : 86'399'000'000LL) +
                                                  static_cast<long long>(random.below(900'000)));

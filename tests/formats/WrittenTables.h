@@ -1,4 +1,4 @@
-// WrittenTables.h - tables as instruments and people write them, drawn at random, with the numbers that were written.
+// WrittenTables.h - draws random tables as instruments and people write them, and keeps the numbers written.
 //
 // Thread-safety: pure functions.
 #pragma once
@@ -13,24 +13,24 @@
 namespace tacto::test {
 
 struct WrittenTable {
-    std::string text;  ///< as the file holds it: line ends and encoding drawn too
+    std::string text;  ///< content of the file; line ends and encoding are random too
     std::string format;
     double rate_hz = 0;
     double start_s = 0;
     struct Channel {
         std::string name;
         std::string unit;            ///< V, A or ""
-        std::vector<double> values;  ///< in it
+        std::vector<double> values;  ///< in this unit
     };
     std::vector<Channel> channels;
-    std::vector<std::string> leftOut;  ///< columns that a warning names
+    std::vector<std::string> leftOut;  ///< columns that a warning must name
 };
 
-/// `text` with line ends and an encoding of a computer's, where it can be written so.
+/// Returns `text` with line ends and an encoding in common use, if the encoding has all its characters.
 [[nodiscard]] std::string inSomeEncoding(const std::string& text, Random& random);
 
-/// Names, units in many spellings, separators and decimal signs; sometimes with a column of another quantity, of text
-/// or of row numbers.
+/// Draws a table with names, units in many spellings, separators and decimal signs; sometimes with a column of another
+/// quantity, of text or of row numbers.
 [[nodiscard]] WrittenTable plainTable(Random& random);
 [[nodiscard]] WrittenTable tektronixBesideKeys(Random& random);
 [[nodiscard]] WrittenTable gwInstekWithoutMode(Random& random);
@@ -41,10 +41,10 @@ struct WrittenTable {
 [[nodiscard]] WrittenTable timesForEachChannel(Random& random);
 [[nodiscard]] WrittenTable stampedTable(Random& random);
 
-/// Any of these tables.
+/// Draws any of these tables.
 [[nodiscard]] WrittenTable anyWrittenTable(Random& random);
 
-/// Rate, start, channels, and a warning for each column that was left out.
+/// Expects the written rate, start and channels, and a warning for each column that was left out.
 void expectAsWritten(const Result<CaptureReading>& read, const WrittenTable& table);
 
 }  // namespace tacto::test

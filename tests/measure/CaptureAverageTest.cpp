@@ -1,4 +1,4 @@
-// Means of captures: noise falls as it must, repeating parts stay where they were, unknown values stay unknown.
+// Means of captures: noise decreases as expected, repeated parts stay in place, and unknown values stay unknown.
 #include <gtest/gtest.h>
 
 #include "core/measure/CaptureAverage.h"
@@ -8,7 +8,7 @@
 namespace tacto::test {
 namespace {
 
-/// One pulse, triggered; every capture has noise of its own.
+/// Returns a capture of one triggered pulse; every capture has different noise.
 std::shared_ptr<Capture> repeated(unsigned seed, double noise = 1, double late_s = 0, double level = 40) {
     std::vector<SyntheticPhase> phases;
     append(phases, biphasic(10 * seed + 1e-3, level));
@@ -41,7 +41,7 @@ TEST(CaptureAverage, NoiseFallsWithTheRootOfTheirNumber) {
     const auto volts = measureChannel(*mean, 0);
     ASSERT_EQ(volts.measuredPulses, 1U);
     EXPECT_NEAR(volts.amplitude.mean, 40, 0.1);
-    // From then on the newest counts a sixteenth.
+    // From here on the newest capture has a weight of 1/16.
     for (unsigned i = 17; i <= 200; ++i) mean = average.add(repeated(i));
     EXPECT_EQ(average.count(), 16U);
     EXPECT_NEAR(spread(*mean), 1 / std::sqrt(31.0), 0.02);

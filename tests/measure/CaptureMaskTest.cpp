@@ -1,4 +1,4 @@
-// Masks: a capture inside passes, one outside fails with its place, and an unknown one does neither.
+// Masks: a capture inside passes, a capture outside fails and shows where, and an unknown capture does neither.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -48,7 +48,7 @@ TEST(CaptureMask, TheBandEndsWhereItSays) {
     EXPECT_EQ(high.worst->channel, "voltage");
     EXPECT_GE(high.worst->time_s, 0);
     EXPECT_LE(high.worst->time_s, 500e-6);
-    // The tolerance in time is 3 µs, and 5 % of 2 µs at the edge, as the level allows.
+    // The tolerance in time is 3 µs, plus 5 % of the 2 µs edge that the level tolerance allows.
     EXPECT_EQ(mask().check(pulse(40, 2.8e-6)).verdict, MaskVerdict::Inside);
     EXPECT_EQ(mask().check(pulse(40, -2.8e-6)).verdict, MaskVerdict::Inside);
     EXPECT_EQ(mask().check(pulse(40, 3.8e-6)).verdict, MaskVerdict::Outside);

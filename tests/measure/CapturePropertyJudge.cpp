@@ -8,7 +8,7 @@ namespace tacto::test {
 
 namespace {
 
-/// How far a right figure may be from the drawn one: one step, one sampling interval, six standard deviations of noise.
+/// Allowed distance of a figure from the truth: one step, one sampling interval, six standard deviations of noise.
 struct Allowed {
     double amplitude = 0;
     double time_s = 0;
@@ -80,7 +80,7 @@ private:
     [[nodiscard]] Allowed allowedFor(const TruePulse& pulse, const TruePhase& phase) const {
         const auto mean = std::max(measured_.quality.mean, measured_.quality.meanOfSecond);
         auto allowed = whatIsAllowed(draw_, static_cast<double>(mean), pulse, phase);
-        // What is said to be off beside the pulses: twice its standard deviation, and the step from before to after.
+        // The reported unrest next to the pulses: twice its standard deviation, and the step from before to after.
         const auto& quality = measured_.quality;
         const double unrest = said_ ? kCoverage * quality.unrest + std::abs(quality.levelAfter) : 0;
         allowed.amplitude += unrest;
@@ -94,7 +94,7 @@ private:
         result_.wrong.push_back(fmt::format(text, std::forward<Values>(values)...));
     }
 
-    /// `shown`: what the formula has, as the oscilloscope shows it; `share`: shown over true.
+    /// `shown`: the truth by the formula, as the oscilloscope shows it; `share`: shown value / true value.
     void figure(Figure which, double value, double shown, double share, double allowed) {
         if (std::isnan(value) || std::isnan(shown)) return;
         const double truth = shown / share;
@@ -126,7 +126,7 @@ private:
         return which == Figure::Imbalance ? 0 : time;
     }
 
-    /// What the kernel would state if nothing were left unknown.
+    /// Returns the uncertainties that would be stated if the instrument's figures were all known.
     [[nodiscard]] MeasurementUncertainty ofAnExactInstrument() const {
         if (draw_.statesAll) return measured_.uncertainty;
         Capture capture = draw_.capture;
@@ -197,7 +197,7 @@ private:
         }
         if (truth.mixed) return;
         const auto second = allowedFor(truth, *truth.second);
-        ofSecond_ = true;  // U is the leading phase's
+        ofSecond_ = true;  // U is that of the leading phase
         comparePhase(*pulse.second, *truth.second, second);
         ofSecond_ = false;
         figure(Figure::Gap, pulse.gap_s, truth.second->onset_s - truth.leading.end_s, time,
@@ -225,7 +225,7 @@ private:
         return any;
     }
 
-    /// An interval runs from one train to the next existing one.
+    /// Compares intervals, from each train to the next one that exists.
     void compareTrains() {
         const std::size_t per = draw_.perTrain;
         std::size_t pulses = 0;

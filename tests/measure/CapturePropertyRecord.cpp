@@ -21,7 +21,7 @@ public:
     double logBetween(double low, double high) {
         return low >= high ? low : low * std::exp(std::log(high / low) * random_.uniform());
     }
-    /// low..high, both included.
+    /// Returns a number from low to high, both included.
     int integer(int low, int high) {
         return high <= low ? low : low + static_cast<int>(random_.below(static_cast<std::uint64_t>(high - low + 1)));
     }
@@ -32,10 +32,10 @@ private:
     Random random_;
 };
 
-/// A pulse of height 1 with its first edge at 0. Here times are in samples.
+/// A pulse of height 1 with its first edge at time 0. Times are in samples.
 struct UnitPulse {
     std::vector<SyntheticPhase> phases;
-    double lowest = -kNever, highest = kNever;  ///< what an unstated range leaves of it
+    double lowest = -kNever, highest = kNever;  ///< limits of a range that is not stated
 
     [[nodiscard]] double before() const { return StepResponse(phases.front()).before_s(); }
     [[nodiscard]] double after() const { return StepResponse(phases.front()).after_s(); }
@@ -45,7 +45,7 @@ struct UnitPulse {
         for (const auto& phase : phases) least = std::min(least, phase.width_s);
         return least;
     }
-    /// Height of the shallower phase.
+    /// Returns the height of the shallower phase.
     [[nodiscard]] double lesser() const {
         double least = kNever;
         for (const auto& phase : phases) least = std::min(least, std::abs(phase.level));
@@ -58,14 +58,14 @@ public:
     explicit UnitWave(const UnitPulse& pulse) : pulse_(pulse) {
         for (const auto& phase : pulse.phases) steps_.emplace_back(phase);
     }
-    /// The value as it comes to the oscilloscope.
+    /// Returns the value at the input of the oscilloscope.
     [[nodiscard]] double before(double t) const {
         double value = 0;
         for (std::size_t k = 0; k < steps_.size(); ++k) value += valueAt(pulse_.phases[k], steps_[k], t);
         return value;
     }
     [[nodiscard]] double at(double t) const { return std::clamp(before(t), pulse_.lowest, pulse_.highest); }
-    /// The time at which |wave| passes `level` between the two: one of them, where it does so more than once.
+    /// Returns a time at which |wave| passes `level` between the two times; one of them, if there are several.
     [[nodiscard]] double passes(double level, int sign, double from, double to) const {
         const bool rising = sign * at(from) < level;
         for (int k = 0; k < 60; ++k) {
@@ -74,7 +74,7 @@ public:
         }
         return 0.5 * (from + to);
     }
-    /// The time at which it first lies below `level` on the way to `to`, by a thousandth of that way.
+    /// Returns the first time, in a thousandth of the way to `to`, at which the value is below `level`.
     [[nodiscard]] double firstBelow(double level, int sign, double from, double to) const {
         const double step = (to - from) / 1000;
         double t = from;
@@ -135,7 +135,7 @@ TruePhase truthOf(const UnitPulse& pulse, std::size_t k) {
     return truth;
 }
 
-/// What is drawn before anything is sampled. Times in samples, heights of pulses in `amplitude`.
+/// The values drawn before sampling. Times are in samples, heights of pulses in `amplitude`.
 struct Plan {
     double rate_hz = 1e6;
     std::size_t samples = 0;
@@ -143,11 +143,11 @@ struct Plan {
     UnitPulse unit;
     double amplitude = 1;
     std::vector<double> onsets;
-    std::vector<double> scales;  ///< one for each pulse
+    std::vector<double> scales;  ///< one per pulse
     double offset = 0, noise = 0, lsb = 0, codePhase = 0;
     double low = -kNever, high = kNever;  ///< in volts
     bool statesRange = false;
-    std::function<double(double)> under;  ///< drift, or the whole signal where there are no pulses
+    std::function<double(double)> under;  ///< drift, or the whole signal if there are no pulses
     double slope = 0;                     ///< the steepest slope, per sample
     double driftHeight = 0, driftTurns = 0;
     std::vector<std::pair<std::size_t, double>> spikes;
@@ -162,7 +162,7 @@ double interestingPlace(Dice& dice, double samples) {
     return part + dice.integer(-3, 3);
 }
 
-/// The place of an edge between two samples.
+/// Returns the position of an edge between two samples.
 double placeWithin(Dice& dice) {
     if (dice.chance(0.5)) return dice.between(0, 1);
     return dice.chance(0.5) ? 0.5 : 0.01;
@@ -170,7 +170,7 @@ double placeWithin(Dice& dice) {
 
 void drawRecord(Dice& dice, Plan& plan) {
     plan.rate_hz = dice.logBetween(10e3, 50e6);
-    if (dice.chance(0.5)) {  // done as in an instrument
+    if (dice.chance(0.5)) {  // as in a real instrument
         const double decade = std::pow(10, std::floor(std::log10(plan.rate_hz)));
         plan.rate_hz = decade * std::array{1.0, 2.0, 2.5, 5.0}[static_cast<std::size_t>(dice.integer(0, 3))];
     }
@@ -226,7 +226,7 @@ void drawConverter(Dice& dice, Plan& plan) {
     plan.text += plan.noise > 0 ? fmt::format(", noise 1/{:.0f}", plan.amplitude / plan.noise) : ", no noise";
 }
 
-/// Pulses one after the other, with at least `rest` samples between them and about them, where that many fit.
+/// Draws successive pulses with at least `rest` samples between and around them, as many as fit.
 void drawOnsets(Dice& dice, Plan& plan, int most, double rest) {
     const double n = static_cast<double>(plan.samples);
     const double length = plan.unit.length();
@@ -249,9 +249,9 @@ void drawOnsets(Dice& dice, Plan& plan, int most, double rest) {
     plan.text += fmt::format(", {} from sample {:.2f} every {:.1f}", pulses, first, period);
 }
 
-/// Width of a phase; now and then one too short to be measured.
+/// Returns the width of a phase; occasionally too short to be measured.
 double drawWidth(Dice& dice, const Plan& plan, double parts) {
-    if (dice.chance(0.06)) return dice.between(3, 12);  // fewer samples may be a disturbance
+    if (dice.chance(0.06)) return dice.between(3, 12);  // a phase with even fewer samples may be a disturbance
     return dice.logBetween(12, std::max(13.0, static_cast<double>(plan.samples) / parts));
 }
 
@@ -272,7 +272,7 @@ void biphasicUnit(Dice& dice, Plan& plan, double width, double gap, double times
 void anyBiphasicUnit(Dice& dice, Plan& plan, bool recharge) {
     const double times = recharge ? dice.between(3, 10) : 1;
     const double width = drawWidth(dice, plan, recharge ? 30 : 8);
-    const double longest = std::min(3 * width, 0.9e-3 * plan.rate_hz);  // phases are one pulse up to 1 ms apart
+    const double longest = std::min(3 * width, 0.9e-3 * plan.rate_hz);  // phases up to 1 ms apart form one pulse
     double gap = dice.chance(0.7) ? dice.logBetween(std::min(4.0, longest), longest) : dice.between(0, 4);
     gap = std::min(gap, longest);
     biphasicUnit(dice, plan, width, gap, times);
@@ -293,7 +293,7 @@ double share(const Plan& plan) {
     return busy * static_cast<double>(plan.onsets.size()) / static_cast<double>(plan.samples);
 }
 
-/// Where two states cannot tell which is the baseline, StateLevels.h says: the one near zero.
+/// If two states do not show which is the baseline, it is the state near zero (StateLevels.h).
 void monophasicOffset(Dice& dice, Plan& plan, int sign) {
     double offset = dice.chance(0.4) ? dice.between(-0.05, 0.05) : dice.between(-3, 3);
     if (share(plan) > 0.07) {
@@ -327,7 +327,7 @@ void offsetFor(Dice& dice, Plan& plan) {
     }
 }
 
-/// So long that edges settle: else no baseline is defined.
+/// Returns a rest long enough for the edges to settle; otherwise the baseline would be undefined.
 double restOf(Dice& dice, const Plan& plan) {
     const double settled = 0.5 * plan.unit.after();
     return settled + (dice.chance(0.7) ? std::max(20.0, plan.unit.length()) : std::max(6.0, 0.3 * plan.unit.length()));
@@ -340,7 +340,7 @@ void drawSquare(Dice& dice, Plan& plan) {
     const int sign = where > 0.2 && where < 0.4 ? -1 : 1;
     monophasicUnit(plan, sign > 0 ? duty * period : (1 - duty) * period, sign);
     drawEdges(dice, plan, 0.3, std::min(duty, 1 - duty) * period);
-    // The lower level: at zero, one height below it, half a height below it, or far from it.
+    // Lower level: at zero, one height below it, half a height below it, or far away.
     const double lower = where < 0.2    ? dice.between(-0.05, 0.05)
                          : where < 0.4  ? dice.between(-1.05, -0.95)
                          : where < 0.7  ? dice.between(-0.8, -0.2)
@@ -389,7 +389,7 @@ std::size_t drawTrains(Dice& dice, Plan& plan, MeasureOptions& options) {
     return static_cast<std::size_t>(perTrain);
 }
 
-/// The project's own stimulus, begun at each sample in turn.
+/// Draws the project's own stimulus, which begins at each sample in turn.
 void drawOneOnset(Dice& dice, Plan& plan, std::uint64_t seed) {
     static constexpr std::array<std::size_t, 4> kLengths{10'000, 2000, 4096, 10'001};
     static constexpr std::array kParts{2, 3, 4, 5, 6, 8, 10, 16, 20, 32, 64, 100, 128, 200, 256, 512};
@@ -497,7 +497,7 @@ void drawQuiet(Dice& dice, Plan& plan) {
     const double step = plan.lsb > 0 ? plan.lsb : 1e-3 * plan.amplitude;
     if (dice.chance(0.8)) plan.noise = step * dice.logBetween(0.05, 30);
     if (dice.chance(0.2)) {
-        // Fewer than 20 codes without noise are stairs, each of which is a level.
+        // Without noise, fewer than 20 codes form stairs, and each stair is a level.
         const double hum = step * dice.logBetween(plan.noise < 0.3 * step ? 10 : 0.5, 100),
                      turns = dice.logBetween(0.3, 60);
         const double n = static_cast<double>(plan.samples);
@@ -515,7 +515,7 @@ void drawQuiet(Dice& dice, Plan& plan) {
                              plan.missing.size());
 }
 
-/// Returns whether the clipping must be said, whatever is measured.
+/// Returns whether clipping must be reported, measured or not.
 bool drawClipping(Dice& dice, Plan& plan) {
     const double top = dice.between(0.3, 1.3);
     const bool both = dice.chance(0.5);
@@ -536,7 +536,7 @@ bool drawClipping(Dice& dice, Plan& plan) {
     plan.low = asShown(plan.low);
     plan.high = asShown(plan.high);
     if (plan.statesRange) return false;
-    // What an unstated range left out cannot be known: the truth is what it left.
+    // What an unstated range cuts off cannot be known, so the truth is the rest.
     plan.unit.highest = (plan.high - plan.offset) / plan.amplitude;
     plan.unit.lowest = (plan.low - plan.offset) / plan.amplitude;
     const auto reached = [&](const SyntheticPhase& phase) {
@@ -589,9 +589,9 @@ void drawCut(Dice& dice, Plan& plan) {
     const double n = static_cast<double>(plan.samples);
     const bool atStart = dice.chance(0.5);
     const auto& phases = plan.unit.phases;
-    // At the start it is cut within a phase: a pulse cut in its gap looks like a whole pulse of the other sign.
+    // At the start, the cut lies within a phase: a pulse cut in its gap looks like a whole pulse of the other sign.
     const auto& phase = phases[static_cast<std::size_t>(dice.integer(0, static_cast<int>(phases.size()) - 1))];
-    // What is left of it is more than ringing: over a fifth (StateLevels.h).
+    // The rest of the phase is more than a fifth, so that it is not taken for ringing (StateLevels.h).
     const double within = phase.onset_s + phase.width_s * dice.between(0.1, 0.7);
     const double cut = atStart ? within : dice.between(0.1, 0.95) * plan.unit.length();
     const double first = atStart ? -cut : n - cut;
@@ -607,7 +607,7 @@ void drawCut(Dice& dice, Plan& plan) {
                              atStart ? "before the record" : "behind it", period);
 }
 
-/// What an instrument of this plan would hand over.
+/// Returns the capture that an instrument with this plan would deliver.
 Capture captureOf(Dice& dice, const Plan& plan) {
     std::vector<double> values(plan.samples, plan.offset);
     const UnitWave wave(plan.unit);
@@ -643,7 +643,7 @@ Capture captureOf(Dice& dice, const Plan& plan) {
     return capture;
 }
 
-/// Tolerances, with errors within them: figures that are shown are off by these.
+/// Draws tolerances and errors within them; the shown figures have these errors.
 void drawStatement(Dice& dice, const Plan& plan, CaptureDraw& draw) {
     auto& channel = draw.capture.channels[0];
     if (plan.statesRange) {
@@ -676,7 +676,7 @@ TruePhase inRecord(const TruePhase& unit, const Plan& plan, std::size_t k) {
             unit.again / plan.rate_hz};
 }
 
-/// Whether anything hinders measuring pulse k, and how far a spike may move its figures.
+/// Notes anything that hinders measuring pulse k, and how far a spike may change its figures.
 void markPulse(const Plan& plan, std::size_t k, const std::vector<TruePhase>& unit, TruePulse& pulse) {
     const auto worsen = [&](Presence to) { pulse.presence = std::max(pulse.presence, to); };
     const double n = static_cast<double>(plan.samples);
@@ -700,7 +700,7 @@ void markPulse(const Plan& plan, std::size_t k, const std::vector<TruePhase>& un
         if (width < 8.9) worsen(Presence::Broken);
     }
     if (std::isfinite(plan.high) && !plan.statesRange) {
-        // Noise about a top that just reaches the limit is cut off on one side.
+        // If a top just reaches the limit, one side of its noise is cut off.
         for (const auto& phase : plan.unit.phases) {
             const double limit = phase.level > 0 ? plan.unit.highest : -plan.unit.lowest;
             if (std::abs(std::abs(phase.level) - limit) * plan.amplitude > 4 * plan.noise) continue;
@@ -719,7 +719,7 @@ void markPulse(const Plan& plan, std::size_t k, const std::vector<TruePhase>& un
         const double over = std::max(plan.offset + height * most - plan.high, plan.low - plan.offset - height * least);
         const double blur = plan.lsb + 6 * plan.noise + 1e-4 * height;
         if (over > -blur) worsen(Presence::Doubtful);
-        // A peak may fall between samples; a top does not.
+        // A peak may fall between samples, but a top cannot.
         double top = -kNever;
         for (const auto& phase : unit) {
             top = std::max(top, phase.plateau > 0 ? plan.offset + height * (phase.plateau - phase.uneven) - plan.high
@@ -743,7 +743,7 @@ void markPulse(const Plan& plan, std::size_t k, const std::vector<TruePhase>& un
         pulse.moreCharge += std::abs(height) / plan.rate_hz;
         for (const auto& phase : unit) {
             const double from = plan.onsets[k] + phase.onset_s, to = plan.onsets[k] + phase.end_s;
-            const double near = phase.rise + 2;  // so near an edge it makes the phase a longer one
+            const double near = phase.rise + 2;  // so near an edge that it lengthens the phase
             if (at > from - near && at < to + near) pulse.moreAmplitude += 1.2 * std::abs(height) / (0.6 * (to - from));
             if (std::abs(at - from) < near || std::abs(at - to) < near) pulse.moreTime_s += near / plan.rate_hz;
         }
@@ -788,11 +788,11 @@ CaptureDraw drawCapture(CaptureKind kind, std::uint64_t seed) {
     Plan plan;
     CaptureDraw draw;
     drawRecord(dice, plan);
-    if (seed % 50 == 0) plan.samples *= 10;  // now and then a long one
+    if (seed % 50 == 0) plan.samples *= 10;  // occasionally a long record
     const auto edges = [&] {
         drawEdges(dice, plan, 0.3);
         if (plan.unit.phases.size() == 1) return;
-        // Slow edges may be further apart, from 50 % to 50 %, than the phases of one pulse are.
+        // Slow edges may put the phases further apart, from 50 % to 50 %, than the phases of one pulse may be.
         const double gap = truthOf(plan.unit, 1).onset_s - truthOf(plan.unit, 0).end_s;
         if (gap <= 0.95e-3 * plan.rate_hz) return;
         for (auto& phase : plan.unit.phases) phase = {phase.onset_s, phase.width_s, phase.level, 1e-3};
@@ -861,7 +861,7 @@ CaptureDraw drawCapture(CaptureKind kind, std::uint64_t seed) {
                            kind == CaptureKind::Quiet;
     if (!converted) drawConverter(dice, plan);
     if (kind == CaptureKind::Clipped && plan.unit.phases.size() == 1)
-        plan.offset = 0;  // keeps whatever is left of its height
+        plan.offset = 0;  // keeps the rest of its height
     if (kind == CaptureKind::Clipped) draw.mustWarn = drawClipping(dice, plan);
     if (kind == CaptureKind::Disturbed) drawDisturbances(dice, plan);
     if (kind == CaptureKind::Drifting) drawDrift(dice, plan);

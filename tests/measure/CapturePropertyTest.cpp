@@ -1,6 +1,6 @@
-// Whatever an instrument writes: each figure is right within its U, or it is said that it was not measured. What that
-// means stands in CaptureProperty.h. A test for each kind of record, so that a failure names kind and seed; this shows
-// a draw and what is said of it:
+// Records of any instrument: each figure is right within its U, or is reported as not measured. CaptureProperty.h says
+// what this means. There is one test per kind of record, so that a failure names kind and seed. This shows a draw and
+// its result:
 //   TACTO_DRAW=SEED build/release/bin/test_capture_properties --gtest_filter='*/KIND'
 #include <cmath>
 #include <cstdlib>
@@ -81,7 +81,7 @@ TEST_P(CaptureProperty, EachFigureIsRightOrItIsSaidThatItWasNotMeasured) {
         const auto [inside, given] = shares[k];
         if (given == 0) continue;
         line += fmt::format(", {} {:.1f} % of {} in U", kFigureNames[k], 100.0 * inside / given, given);
-        // 92 of 100, less three standard deviations of so many draws.
+        // 92 of 100, less three standard deviations for this number of draws.
         EXPECT_GE(inside, 0.92 * given - 3 * std::sqrt(0.92 * 0.08 * given)) << kFigureNames[k] << " of " << given;
     }
     fmt::print("{}\n", line);

@@ -1,5 +1,5 @@
 // Records as instruments write them: levels between two codes of a coarse converter, edges in the middle of a record,
-// single wrong samples, ends that cut a pulse. Drawn from a seed; the truth is what was drawn.
+// single wrong samples, pulses cut by the ends. Drawn from a seed, so the truth is known.
 #include <gtest/gtest.h>
 
 #include "core/measure/ConverterStep.h"
@@ -9,7 +9,7 @@
 namespace tacto::test {
 namespace {
 
-/// Writes as an instrument does that states no resolution: codes, as decimal text of `digits` digits below the step.
+/// Writes codes like an instrument that states no resolution: as decimal text with `digits` digits below the step.
 void writeCodes(CaptureChannel& channel, double step, double phase, int digits = 2) {
     const double unit = std::pow(10, std::floor(std::log10(step)) - digits);
     for (float& x : channel.samples) {
@@ -61,7 +61,7 @@ TEST(InstrumentRecords, AStateBetweenTwoCodesIsOneState) {
         if (seed % 3 == 0) {
             phases = {phases[0], phases[2], phases[4]};
         }
-        // The baseline lies so near the border of two codes that both are written, in any shares from 30 to 70 %.
+        // The baseline is so near the border of two codes that both occur, each in 30 to 70 % of the samples.
         const double noise = step * (0.1 + 0.3 * random.uniform());
         const double offset = step * (static_cast<double>(random.below(9)) + 0.5) + noise * (random.uniform() - 0.5);
         auto capture =
@@ -115,7 +115,7 @@ TEST(InstrumentRecords, SingleSamplesThatLeapAreLeftOutAndCounted) {
         Random random(seed, "leaping samples");
         auto capture = recordOf(biphasic(1e-3), {.rate_hz = 1e6, .samples = 5000, .noise = 0.1, .lsb = 0.05});
         auto& samples = capture.channels[0].samples;
-        // The leaps lie on the plateaus and in the silence; on an edge a leap looks like the edge.
+        // The leaps are on plateaus and in the silence, because on an edge a leap looks like the edge.
         for (const std::size_t at : {300U, 1030U, 1100U, 1400U, 3000U}) {
             const double leap = (2 + 90 * random.uniform()) * (random.below(2) == 0 ? 1 : -1);
             samples[at + random.below(60)] += static_cast<float>(leap);
@@ -171,7 +171,7 @@ TEST(InstrumentRecords, ASlowSignalOfAFewStepsHasNoPulses) {
     RecordProperty("hazard", "H9");
     for (unsigned seed = 1; seed <= 60; ++seed) {
         Random random(seed, "few steps");
-        // Two to four values that keep to themselves are as well a signal of as many levels, unless a step is stated.
+        // Two to four isolated values may also be a signal with that many levels, unless a step is stated.
         const bool stated = seed % 3 == 0;
         const double steps = (stated ? 0.5 : 3) + 4 * random.uniform();
         auto capture = recordOf({}, {.rate_hz = 100e3,

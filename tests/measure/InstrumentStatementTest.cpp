@@ -1,4 +1,4 @@
-// What is stated of an oscilloscope, by whom, and what is not: unknown is never zero (hazard H9).
+// The stated accuracy of an oscilloscope, its sources, and what is not stated: unknown is never zero (hazard H9).
 #include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -57,7 +57,7 @@ TEST(InstrumentStatement, AGainOfFullScaleCountsByTheRangeAndIsUnknownWithoutOne
     open.channels[0].low = open.channels[0].high = 0;
     applyStatement(open, sheet);
     EXPECT_TRUE(std::isnan(open.channels[0].gainTolerance));
-    // A certificate of the gain takes the place of both.
+    // A certificate of the gain replaces both.
     InstrumentStatement certificate;
     certificate.voltage.gain = {0.002, "certificate"};
     auto certified = blank();
@@ -114,8 +114,8 @@ TEST(CaptureDescription, OfASessionOfBeforeZeroIsNotStated) {
 }  // namespace
 }  // namespace tacto
 
-// What a profile of a series states, which instruments it is of, and what is refused (hazard H9: no figure without a
-// source, unknown is not zero).
+// The figures in a profile, the instruments it belongs to, and what is refused (hazard H9: no figure without a source,
+// unknown is not zero).
 namespace tacto::test {
 namespace {
 

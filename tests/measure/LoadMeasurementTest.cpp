@@ -1,4 +1,4 @@
-// Loads of known resistance and capacitance: the current is synthetic, the voltage computed from it by the load's law.
+// Loads of known resistance and capacitance: the current is synthetic, and the voltage is computed from it.
 #include <gtest/gtest.h>
 
 #include "core/measure/LoadMeasurement.h"
@@ -13,16 +13,16 @@ constexpr double kEdge_s = 2e-6;
 
 struct Circuit {
     double series_ohm = 2000;
-    double capacitance_f = 0;  ///< the capacitance in series; 0 = none
+    double capacitance_f = 0;  ///< series capacitance; 0 = none
     double voltageNoise = 0;
     double currentNoise = 0;
     double voltageOffset = 0;
 };
 
-/// v = R·i + ∫i dt / C, integrated on ten steps a sample.
+/// Computes v = R·i + ∫i dt / C with ten integration steps per sample.
 Capture across(const Circuit& circuit, const std::vector<SyntheticPhase>& phases, std::size_t samples = 20'000) {
     auto capture = recordOf(phases, {.samples = samples, .noise = 0});
-    capture.channels[0].lsb = 1e-9;  // stated, and finer than all else
+    capture.channels[0].lsb = 1e-9;  // stated, and finer than all other errors
     capture.channels[0].name = "current";
     capture.channels[0].unit = "A";
     auto& current = capture.channels[0].samples;
@@ -81,10 +81,10 @@ TEST(LoadMeasurement, ACapacitorInSeriesAddsWhatItHasTakenUpByTheEnd) {
     const auto m = measureLoad(across({.capacitance_f = farad}, threePulses()), 1, 0).value();
     ASSERT_EQ(m.measuredPulses, 3U);
     EXPECT_NEAR(m.load_ohm.mean, 2000 + kWidth_s / farad, 10);
-    // What the leading phase puts into the capacitor the second takes out again: the resistor keeps the heat.
+    // The second phase takes out what the leading phase put into the capacitor; the heat stays in the resistor.
     const double heat = 2 * 2000 * kCurrent_a * kCurrent_a * (kWidth_s - kEdge_s / 3);
     EXPECT_NEAR(m.energy_j.mean, heat, 0.01 * heat);
-    // The voltage of both phases is (R + t/C)·I at t from 0 to the width, going up and coming back.
+    // The voltage is (R + t/C)·I, with t rising from 0 to the width in the first phase and falling back in the second.
     const double end = kWidth_s / farad;
     const double up = 2000.0 * 2000 + 2000 * end + end * end / 3;
     const double back = 2000.0 * 2000 - 2000 * end + end * end / 3;

@@ -12,7 +12,7 @@ constexpr double kGridWidth_s = 200e-6;
 constexpr double kGridGap_s = 100e-6;
 constexpr double kRechargeTimes = 10;
 
-/// The time at which the phase passes `level` upwards (or downwards) in `from`..`to`, by bisection of its formula.
+/// Returns the time from `from` to `to` at which the phase passes `level` upwards (or downwards), by bisection.
 double passes(const SyntheticPhase& phase, const StepResponse& step, double level, double from, double to) {
     const double sign = phase.level > 0 ? 1 : -1;
     const bool rising = sign * valueAt(phase, step, from) < level;
@@ -34,11 +34,11 @@ Record recordAt(const GridPoint& point, unsigned seed) {
     r.rate_hz = point.perPhase / kGridWidth_s;
     r.seed = seed;
     Random random(seed, "grid");
-    // The first edge falls anywhere between two samples.
+    // The first edge may fall anywhere between two samples.
     const double firstOnset_s = 2 * kGridWidth_s + random.uniform() / r.rate_hz;
     record.phases = phasesOf(point, firstOnset_s);
     const auto& last = record.phases.back();
-    // There is as much silence as a pulse and its tail need, and at least as much as between pulses.
+    // The silence is long enough for a pulse with its tail, and at least as long as between pulses.
     const double end_s =
         std::max(last.onset_s + last.width_s + 4 * kGridWidth_s, point.pulses * point.interval * kGridWidth_s);
     r.samples = static_cast<std::size_t>(end_s * r.rate_hz);
@@ -54,7 +54,7 @@ Record recordAt(const GridPoint& point, unsigned seed) {
             r.lsb = 2 * r.range / 256;
         }
     }
-    if (r.lsb == 0) r.lsb = std::max(r.noise / 50, level * 1e-6);  // a resolution that hides nothing
+    if (r.lsb == 0) r.lsb = std::max(r.noise / 50, level * 1e-6);  // a resolution too fine to hide anything
     record.capture = recordOf(record.phases, r);
     if (point.shape == PulseShape::Logic) {
         record.capture.channels[0].unit = "";
@@ -79,7 +79,7 @@ void compare(const std::vector<PhaseTruth>& truths, bool biphasic, const PulseMe
     if (pulse.second) errors.gap.push_back((pulse.gap_s - (truths.back().onset_s - truth.end_s)) * rate_hz);
 }
 
-/// Readings that the stated uncertainty does not cover; in the units of Errors.
+/// Counts readings that the stated uncertainty does not cover, in the units of Errors.
 int beyond(const std::vector<double>& errors, std::size_t from, double stated) {
     return static_cast<int>(std::count_if(errors.begin() + static_cast<std::ptrdiff_t>(from), errors.end(),
                                           [&](double e) { return !(std::abs(e) <= kCoverage * stated); }));
@@ -178,7 +178,7 @@ PhaseTruth truthOf(const SyntheticPhase& phase) {
         }
         truth.plateau = sum / kPoints;
         truth.onset_s = passes(phase, step, 0.5 * truth.plateau, phase.onset_s - step.before_s() - 1e-9, middle);
-        // A ringing tail comes back, but not to half: the first passage is the edge.
+        // A ringing tail returns, but not to half, so the first passage is the edge.
         truth.end_s = passes(phase, step, 0.5 * truth.plateau, middle, phase.onset_s + 1.5 * phase.width_s);
     }
     truth.plateau = std::copysign(truth.plateau, phase.level);

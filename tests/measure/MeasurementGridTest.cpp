@@ -1,5 +1,5 @@
-// The bounds that core/measure keeps, over the grid of MeasurementGrid.h. Each is half again to twice what
-// measurement_table shows, so that a change for the worse fails here.
+// Error limits of core/measure over the grid of MeasurementGrid.h. Each limit is 1.5 to 2 times the value that
+// measurement_table shows, so that this test fails if the errors increase.
 #include <gtest/gtest.h>
 
 #include "tests/measure/MeasurementGrid.h"
@@ -38,7 +38,7 @@ TEST(MeasurementGrid, WhiteNoiseMovesFiguresByWhatItsMeansAllow) {
                 const auto r = measureGridPoint(point, kSeeds);
                 SCOPED_TRACE(describe(point));
                 const double mean = noiseOf(point) / std::sqrt(0.6 * perPhase);
-                // An edge is 2 µs of the 200 long, and at least a sample.
+                // An edge lasts 2 of the 200 µs, and at least one sample.
                 const double edge = noiseOf(point) * std::max(1.0, 0.01 * perPhase);
                 EXPECT_LT(r.amplitude.sd, 1.5 * mean);
                 EXPECT_LT(std::abs(r.amplitude.mean), mean);
@@ -185,7 +185,7 @@ TEST(MeasurementGrid, ADriftOfTheBaselineIsFollowedAndSaid) {
             EXPECT_LT(r.amplitude.sd, 0.006) << describe(point);
         }
     }
-    // An offset is neither a drift nor a reason for a warning.
+    // An offset is not a drift and causes no warning.
     const GridPoint offset{.snr_db = 46, .offset = 1};
     EXPECT_EQ(measureGridPoint(offset, kSeeds).warned, 0);
 }

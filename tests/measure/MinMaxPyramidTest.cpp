@@ -1,4 +1,4 @@
-// The pyramid against a loop over all samples: any record, any stretch, growing or not.
+// The pyramid compared with a loop over all samples, for any record and stretch, growing or not.
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ Envelope naive(std::span<const float> record, std::size_t first, std::size_t las
     return e;
 }
 
-/// Noise with `missing` of its samples NaN, in runs as well as singly.
+/// Returns noise in which a share `missing` of the samples is NaN, singly and in runs.
 std::vector<float> noise(std::size_t n, double missing, Random& random) {
     std::vector<float> record(n);
     std::size_t run = 0;
@@ -58,7 +58,7 @@ TEST(MinMaxPyramid, AgreesWithALoopOverAnyStretch) {
 TEST(MinMaxPyramid, GrowsWithoutReadingOrForgettingWhatItKnew) {
     Random random(7, "growing pyramid");
     const auto whole = noise(30'000, 0.1, random);
-    std::vector<float> record;  // moves as it grows
+    std::vector<float> record;  // moves in memory as it grows
     MinMaxPyramid pyramid;
     while (record.size() < whole.size()) {
         const auto more = std::min(whole.size() - record.size(), below(700, random));
@@ -88,7 +88,7 @@ TEST(MinMaxPyramid, MissingSamplesAreAGapAndNeverAnExtreme) {
     pyramid.extend(record);
     EXPECT_TRUE(pyramid.over(0, 1000).empty());
     EXPECT_TRUE(pyramid.over(0, 1000).gap);
-    record[500] = std::numeric_limits<float>::infinity();  // a number beyond all others, still a number
+    record[500] = std::numeric_limits<float>::infinity();  // infinity is the largest number, but still a number
     pyramid.clear();
     pyramid.extend(record);
     EXPECT_EQ(pyramid.over(0, 1000), (Envelope{record[500], record[500], true}));

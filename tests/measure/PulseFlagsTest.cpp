@@ -37,7 +37,7 @@ TEST(PulseFlags, AClippedPulseIsFlaggedAndNotMeasured) {
     const auto m = measureChannel(capture, 0);
     expectOnlyMiddleFlagged(m);
     EXPECT_TRUE(m.pulses[1].flags.clipped);
-    // An unmeasured pulse can still be shown in its place: both phases of it.
+    // The place of an unmeasured pulse is still known, with both phases.
     EXPECT_NEAR(m.pulses[1].seenFrom_s, 4e-3, 2e-6);
     EXPECT_NEAR(m.pulses[1].seenTo_s, 4.5e-3, 2e-6);
 }
@@ -45,7 +45,7 @@ TEST(PulseFlags, AClippedPulseIsFlaggedAndNotMeasured) {
 /// Highest code of a converter of 8 bits.
 constexpr double kCodes = 127;
 
-/// A record as an 8-bit oscilloscope of that range gives it, with the noise that it has before its converter.
+/// Returns a record of an 8-bit oscilloscope with this range, with noise added before its converter.
 Capture digitised(std::vector<SyntheticPhase> phases, double range, double noise) {
     auto capture = recordOf(phases, {.noise = noise});
     const double lsb = range / kCodes;
@@ -78,7 +78,7 @@ TEST(PulseFlags, ClippingIsKnownFromTheStatedRangeAndNotFromTheRecordsOwnMaximum
     EXPECT_FALSE(stated.pulses[0].flags.flatTop);
     EXPECT_EQ(stated.measuredPulses, 0U);
 
-    channel.low = -60;  // gives as much room as anyone could wish
+    channel.low = -60;  // the stated range leaves more than enough room
     channel.high = 60;
     const auto roomy = measureChannel(capture, 0);
     EXPECT_EQ(roomy.measuredPulses, 1U);
@@ -96,7 +96,7 @@ TEST(PulseFlags, OnlyTheLastCodeIsFullScale) {
         const auto m = measureChannel(capture, 0);
         ASSERT_EQ(m.pulses.size(), 1U) << code;
         EXPECT_EQ(m.pulses[0].flags.clipped, std::abs(code) == kCodes) << code;
-        channel.lsb = 0;  // a range alone is enough
+        channel.lsb = 0;  // the range alone is enough
         EXPECT_EQ(measureChannel(capture, 0).pulses[0].flags.clipped, std::abs(code) == kCodes) << code;
     }
 }
@@ -107,12 +107,12 @@ TEST(PulseFlags, AClippedRecordIsRemarkedOnWhateverItsNoise) {
     for (const double noise : {0.35, 0.5, 1.0, 3.0}) {
         auto phases = biphasic(1e-3, 70);
         append(phases, biphasic(4e-3, 70));
-        for (auto& phase : phases) phase.level += phase.level > 0 ? 0.2 : 0;  // so that no two of them are alike
+        for (auto& phase : phases) phase.level += phase.level > 0 ? 0.2 : 0;  // all levels are different
         auto capture = digitised(phases, 50, noise * lsb);
         const auto m = measureChannel(capture, 0);
         ASSERT_EQ(m.pulses.size(), 2U) << noise;
         EXPECT_TRUE(m.pulses[0].flags.flatTop && m.pulses[1].flags.flatTop) << noise;
-        // With room for it, nothing is reported.
+        // Nothing is reported if the range leaves room.
         auto whole = digitised(phases, 100, 2 * noise * lsb);
         for (const auto& pulse : measureChannel(whole, 0).pulses) EXPECT_FALSE(pulse.flags.flatTop) << noise;
     }
@@ -130,7 +130,7 @@ TEST(PulseFlags, OneFlatPulseAmongSmallerOnesIsTheOneThatIsRemarkedOn) {
     EXPECT_EQ(m.measuredPulses, 3U);
 }
 
-/// Counts the remarks on clean records with levels anywhere between two codes, and on clipped ones.
+/// Counts flat-top warnings on clean records, with levels anywhere between two codes, and on clipped records.
 TEST(PulseFlags, FlatTopsAreRemarkedOnWhereTheyAreClippedAndHardlyElsewhere) {
     RecordProperty("hazard", "H9");
     constexpr int kRecords = 20;
@@ -144,7 +144,7 @@ TEST(PulseFlags, FlatTopsAreRemarkedOnWhereTheyAreClippedAndHardlyElsewhere) {
                 auto capture =
                     recordOf(phases, {.noise = noise * range / kCodes, .seed = static_cast<unsigned>(k + 1)});
                 const double lsb = range / kCodes;
-                const double offset = 0.273 * k * lsb;  // the baseline's place between its codes
+                const double offset = 0.273 * k * lsb;  // position of the baseline between two codes
                 for (float& x : capture.channels[0].samples) {
                     x = static_cast<float>(
                         std::clamp(std::round((static_cast<double>(x) + offset) / lsb), -kCodes, kCodes) * lsb);
@@ -155,15 +155,15 @@ TEST(PulseFlags, FlatTopsAreRemarkedOnWhereTheyAreClippedAndHardlyElsewhere) {
             clean += flat(50) ? 1 : 0;
             clipped += flat(25) ? 1 : 0;
         }
-        // With noise below a third of a code, a clean top and a clipped one can look the same.
+        // With noise below a third of a code, a clean and a clipped top can look the same.
         EXPECT_LE(clean, noise < 0.3 ? kRecords / 5 : 0) << noise << " codes";
         EXPECT_GE(clipped, noise < 0.4 ? 0 : kRecords) << noise << " codes";
     }
 }
 
 TEST(PulseFlags, ACleanWaveOfTwoCodesPerLevelIsNeitherClippedNorFlat) {
-    // The record of a Rigol DS2072A's own calibrator: each level dithers between two codes; the upper one is the
-    // record's maximum in half of the samples.
+    // A record of a Rigol DS2072A's own calibrator: each level dithers between two codes, and half of the upper samples
+    // are the record's maximum.
     Capture capture;
     capture.rate_hz = 200e3;
     capture.trigger_s = std::nan("");
@@ -191,9 +191,9 @@ TEST(PulseFlags, AnIdealOrCoarselyQuantisedPlateauIsNotCalledClipped) {
 
 TEST(PulseFlags, PulsesCutByTheRecordsEndsAreFlagged) {
     RecordProperty("hazard", "H9");
-    auto phases = biphasic(-100e-6);  // begins before the record
+    auto phases = biphasic(-100e-6);  // begins before the start of the record
     append(phases, biphasic(4e-3));
-    append(phases, biphasic(9.75e-3));  // the second phase begins after the record, whose last 50 us are gap
+    append(phases, biphasic(9.75e-3));  // the second phase begins after the record, whose last 50 us are the gap
     const auto m = measureChannel(recordOf(phases, {.noise = 0.1}), 0);
     ASSERT_EQ(m.pulses.size(), 3U);
     EXPECT_TRUE(m.pulses[0].flags.truncated);
@@ -220,14 +220,14 @@ TEST(PulseFlags, FewerThanTenSamplesInAPhaseAreNotMeasured) {
     const auto at = [](double rate_hz) {
         return measureChannel(recordOf(biphasic(3e-3), {.rate_hz = rate_hz, .samples = 2000, .noise = 0.05}), 0);
     };
-    const auto few = at(45e3);  // 9 samples a phase
+    const auto few = at(45e3);  // 9 samples per phase
     ASSERT_EQ(few.pulses.size(), 1U);
     EXPECT_TRUE(few.pulses[0].flags.underSampled);
     EXPECT_EQ(few.measuredPulses, 0U);
     ASSERT_EQ(few.warnings.size(), 1U);
     EXPECT_NE(few.warnings[0].find("fewer than 10 samples"), std::string::npos);
 
-    const auto coarse = at(100e3);  // 20
+    const auto coarse = at(100e3);  // 20 samples per phase
     ASSERT_EQ(coarse.pulses.size(), 1U) << coarse.states.why;
     EXPECT_EQ(coarse.measuredPulses, 1U);
     EXPECT_TRUE(coarse.pulses[0].flags.coarse);
@@ -235,7 +235,7 @@ TEST(PulseFlags, FewerThanTenSamplesInAPhaseAreNotMeasured) {
     ASSERT_EQ(coarse.warnings.size(), 1U);
     EXPECT_NE(coarse.warnings[0].find("10 to 40 samples"), std::string::npos);
 
-    const auto ample = at(250e3);  // 50
+    const auto ample = at(250e3);  // 50 samples per phase
     ASSERT_EQ(ample.pulses.size(), 1U) << ample.states.why;
     EXPECT_FALSE(ample.pulses[0].flags.coarse);
     EXPECT_TRUE(ample.warnings.empty());
@@ -248,7 +248,7 @@ TEST(PulseFlags, APulseWithMissingSamplesIsNotMeasured) {
     const auto m = measureChannel(capture, 0);
     expectOnlyMiddleFlagged(m);
     EXPECT_TRUE(m.pulses[1].flags.incomplete);
-    // A hole in the silence harms no pulse.
+    // Missing samples in the silence do not affect the pulses.
     auto harmless = recordOf(threePulses(), {.noise = 0.1});
     harmless.channels[0].samples[15'800] = std::nanf("");
     EXPECT_EQ(measureChannel(harmless, 0).measuredPulses, 3U);

@@ -7,8 +7,8 @@ namespace tacto::test {
 namespace {
 
 TEST(PulseMeasurement, PlacesEdgesBetweenSamples) {
-    // Onsets that sweep through a sampling step; edges of 6 us are 12 steps long, so that straight lines
-    // are exact at all three references; the charge loses the corners that a step cuts.
+    // The onsets sweep through a sampling step. Edges of 6 us last 12 steps, so that interpolation is exact at all
+    // three references; the charge lacks the corners that a step cuts off.
     for (int k = 0; k < 20; ++k) {
         const double onset = 1e-3 + k * 0.5e-6 / 20 + 1.3e-8;
         const double width = 200e-6 + k * 0.37e-7;
@@ -81,7 +81,7 @@ TEST(PulseMeasurement, LogicIsMeasuredAsZeroAndOne) {
 }
 
 TEST(PulseMeasurement, NoiseMovesReadingsByNoMoreThanTheStatedUncertainty) {
-    // 200 records: the spread of the readings is the uncertainty's truth.
+    // The spread of the readings over 200 records is the true uncertainty.
     std::vector<double> amplitudes, widths;
     MeasurementUncertainty u;
     for (unsigned seed = 1; seed <= 200; ++seed) {
@@ -109,7 +109,7 @@ TEST(PulseMeasurement, UncertaintyAddsWhatTheChannelDeclares) {
     channel.lsb = 0.39;
     channel.gainTolerance = 0.02;
     channel.probeTolerance = 0.01;
-    channel.offsetTolerance = 0.1;  // the baseline has the same offset, so that it cancels
+    channel.offsetTolerance = 0.1;  // the baseline has the same offset, so the offset cancels
     capture.timeBaseTolerance = 1e-3;
     const auto m = measureChannel(capture, 0);
     const double expected =

@@ -1,5 +1,5 @@
-// Oscilloscope files made by others, against numpy (tests/reference/real_captures.py). Their dialects are an importer's
-// business; here a few lines read the numbers.
+// Oscilloscope files from others, compared with numpy (tests/reference/real_captures.py). This test does not use the
+// importers; a few lines here read the numbers.
 #include <fstream>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -12,7 +12,7 @@
 namespace tacto::test {
 namespace {
 
-/// Rows of numbers after `header` lines: column 0 is ignored, the rest are volts.
+/// Reads rows of numbers after `header` lines. Column 0 is ignored; the others are in volts.
 Capture numbersOf(const std::filesystem::path& path, int header, std::size_t channels, double rate_hz) {
     Capture capture;
     capture.rate_hz = rate_hz;
@@ -30,7 +30,7 @@ Capture numbersOf(const std::filesystem::path& path, int header, std::size_t cha
     return capture;
 }
 
-/// Expects of a square wave: two states, as many pulses, and widths and intervals to a hundredth of a sampling step.
+/// Expects a square wave: two states, the same number of pulses, and widths and intervals to 1/100 of a sampling step.
 void expectNumpys(const ChannelMeasurement& m, const nlohmann::json& numpy) {
     EXPECT_EQ(m.states.count, StateCount::Two) << m.name << m.states.why;
     EXPECT_EQ(m.measuredPulses, numpy.at("pulses").get<std::size_t>()) << m.name;
@@ -41,7 +41,7 @@ void expectNumpys(const ChannelMeasurement& m, const nlohmann::json& numpy) {
     EXPECT_NEAR(m.interval_s.mean, numpy.at("interval_mean_s").get<double>(), step) << m.name;
     const auto amplitude = numpy.at("amplitude_mean").get<double>(), charge = numpy.at("charge_median").get<double>();
     EXPECT_NEAR(m.amplitude.mean, amplitude, 0.0005 * amplitude) << m.name;
-    // Half a gap more or less of the baseline's noise.
+    // The tolerance covers the baseline's noise over half a gap.
     EXPECT_NEAR(m.charge.median, charge, 0.002 * charge) << m.name;
 }
 
@@ -50,7 +50,7 @@ TEST(RealCaptures, ARigolCalibratorSquareWave) {
     if (!path) GTEST_SKIP() << kNoSharedData;
     const auto m = measureCapture(numbersOf(*path, 2, 2, 200e3));
     for (std::size_t c = 0; c < 2; ++c) {
-        // 13 edges, where the seventh pulse is cut.
+        // 13 edges, because the seventh pulse is cut off.
         expectNumpys(m.channels.at(c), figuresOf("real_captures").at("calibrator").at(c));
     }
 }
@@ -69,7 +69,7 @@ TEST(RealCaptures, ATektronixRecordOfASerialBus) {
     const auto& clock = m.channels.at(1);
     ASSERT_EQ(clock.samples, 100'000U);
     EXPECT_EQ(clock.quality.mean, 1U) << "37 dB need no averaging";
-    // Each begins high, so that the first stretch has one edge only.
+    // Each record begins high, so the first stretch has only one edge.
     const auto& numpy = figuresOf("real_captures").at("bus_clock");
     expectNumpys(clock, numpy);
     EXPECT_NEAR(clock.states.noise, numpy.at("noise").get<double>(), 0.005);

@@ -27,7 +27,7 @@ TEST(StateLevels, FindsAPulseThatFillsAHundredThousandthOfTheRecord) {
 }
 
 TEST(StateLevels, FindsTheBaselineBetweenPhasesThatOutweighIt) {
-    // 400 us of phases in a record of 600 us
+    // 400 us of phases in a record of 600 us.
     const auto levels = statesOf(recordOf(biphasic(50e-6), {.samples = 1200, .noise = 0.1}));
     ASSERT_EQ(levels.count, StateCount::Three) << levels.why;
     EXPECT_NEAR(levels.baseline, 0, 0.1);

@@ -1,8 +1,8 @@
-// SyntheticPulses.h - records with every edge known to a fraction of a sample: pulses evaluated where the samples lie,
-// so that the truth needs no algorithm.
+// SyntheticPulses.h - makes records in which every edge is known to a fraction of a sample: a formula gives each
+// sample, so the truth needs no algorithm.
 //
-// A phase is the difference of two equal step responses, width_s apart: its charge is level times width and its 50 %
-// points are width_s apart whatever the edges look like, once they have settled (see MeasurementGrid.h, truthOf()).
+// A phase is the difference of two equal step responses, width_s apart: its charge is level × width and its 50 % points
+// are width_s apart for any shape of edge, once the edges have settled (see MeasurementGrid.h, truthOf()).
 //
 // Thread-safety: pure functions.
 #pragma once
@@ -17,21 +17,21 @@
 
 namespace tacto::test {
 
-/// One phase: 50 % points at onset and onset + width, straight edges of the given 0 to 100 % duration.
+/// One phase: 50 % points at onset and onset + width, and straight edges that last edge_s from 0 to 100 %.
 struct SyntheticPhase {
     double onset_s = 0;
     double width_s = 200e-6;
     double level = 40;
     double edge_s = 2e-6;
-    double droop = 0;      ///< fraction lost over the width, in a straight line
-    double overshoot = 0;  ///< fraction, decaying with a tenth of the width
-    // At most one of these replaces straight edges:
-    double tau_s = 0;    ///< exponential edges, as over a resistor and a capacitor side by side
-    double ringing = 0;  ///< first overshoot of a damped oscillation, a fraction
+    double droop = 0;      ///< fraction lost over the width, linearly
+    double overshoot = 0;  ///< as a fraction; decays with a time constant of a tenth of the width
+    // At most one of these replaces the straight edges:
+    double tau_s = 0;    ///< time constant of exponential edges, as with a resistor and a capacitor in parallel
+    double ringing = 0;  ///< first overshoot of a damped oscillation, as a fraction
     double ringingPeriod_s = 20e-6;
 };
 
-/// The edges of a phase rise from 0 to 1, through 0.5 at time 0.
+/// The edge of a phase: rises from 0 to 1 and passes 0.5 at time 0.
 class StepResponse {
 public:
     explicit StepResponse(const SyntheticPhase& p) : edge_s_(p.edge_s), tau_s_(p.tau_s) {
@@ -55,7 +55,7 @@ public:
         if (tau_s_ > 0) return since + delay_s_ > 0 ? 1 - std::exp(-(since + delay_s_) / tau_s_) : 0;
         return std::clamp(since / edge_s_ + 0.5, 0.0, 1.0);
     }
-    /// The times from the 50 % point back to where it is still 0, and on to where it differs from 1 by less than 1e-12.
+    /// Times from the 50 % point back to the start of the edge, and on to where it differs from 1 by less than 1e-12.
     [[nodiscard]] double before_s() const { return omega_ > 0 || tau_s_ > 0 ? delay_s_ : 0.5 * edge_s_; }
     [[nodiscard]] double after_s() const { return omega_ > 0 ? 28 / sigma_ : tau_s_ > 0 ? 28 * tau_s_ : 0.5 * edge_s_; }
 
@@ -86,11 +86,11 @@ struct SyntheticRecord {
     double noise = 0;
     double lsb = 0;
     unsigned seed = 1;
-    double slope_per_s = 0;  ///< drift, about the record's middle
+    double slope_per_s = 0;  ///< drift; zero in the middle of the record
     double hum = 0;          ///< amplitude of a sine at hum_hz
     double hum_hz = 50;
-    double hum_rad = 0;  ///< the hum's phase at time 0
-    double range = 0;    ///< samples are cut to ± this, and the channel declares it; 0 = unlimited and unknown
+    double hum_rad = 0;  ///< phase of the hum at time 0
+    double range = 0;    ///< samples are clipped at ± this, and the channel states it; 0 = unlimited and unknown
 };
 
 inline Capture recordOf(const std::vector<SyntheticPhase>& phases, const SyntheticRecord& r = {}) {
@@ -135,7 +135,7 @@ inline Capture recordOf(const std::vector<SyntheticPhase>& phases, const Synthet
     return capture;
 }
 
-/// Symmetric biphasic pulse: both phases, the gap from 50 % to 50 %.
+/// Returns a symmetric biphasic pulse; the gap is measured from 50 % to 50 %.
 inline std::vector<SyntheticPhase> biphasic(double onset_s, double level = 40, double width_s = 200e-6,
                                             double gap_s = 100e-6, double edge_s = 2e-6) {
     return {{onset_s, width_s, level, edge_s}, {onset_s + width_s + gap_s, width_s, -level, edge_s}};

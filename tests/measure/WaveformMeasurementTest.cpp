@@ -1,4 +1,4 @@
-// The waveform as a whole, on signals with a formula for their truth.
+// Measurements of the whole waveform, for signals whose truth follows from a formula.
 #include <gtest/gtest.h>
 
 #include "core/measure/WaveformMeasurement.h"
