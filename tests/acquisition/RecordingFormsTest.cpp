@@ -199,7 +199,7 @@ Drawn drawTable(unsigned seed) {
         out.stream["time_unit"] = timeUnit.text;
     if (headed && (!byName || draw.chance(30)))
         out.stream["skip_rows"] = byName ? draw.from(0, lines - 2 > 0 ? 1 : 0) : lines;
-    const bool either = comma && !byName && columns.size() == 1;  // a table that does not show it
+    const bool either = comma && !byName && columns.size() == 1;  // the table does not show which the comma is
     if (either || draw.chance(20)) out.stream["decimal"] = comma ? "," : ".";
     const int encoding = draw.from(0, 4);
     out.bytes = encoding == 0   ? text

@@ -1,5 +1,5 @@
-// SyntheticTrials.h - trials that numpy can make too, digit for digit: no random generator. tests/reference/trials.py
-// makes the same.
+// SyntheticTrials.h - makes trials without a random generator, so that numpy can make exactly the same ones:
+// tests/reference/trials.py.
 //
 // Thread-safety: pure functions.
 #pragma once
@@ -24,13 +24,13 @@ struct TrialDesign {
     int repeats = 25;
 };
 
-/// A wave of mean square 1 and mean 0 over many i: multiples of the golden ratio spread evenly over a sine.
+/// Returns a wave with mean square 1 and mean 0 over many i: a sine at multiples of the golden ratio, evenly spread.
 inline double wave(int i, int k) {
     return std::sqrt(2.0) * std::sin(2 * std::numbers::pi * std::fmod((i + 1) * 0.6180339887498949 * (k + 1), 1.0));
 }
 
-/// Amplitude and interval correlate by a half; conditions one after the other within each repeat, as a protocol
-/// presents them.
+/// Amplitude and interval have a correlation of 0.5. Each repeat presents all conditions, one after the other, as a
+/// protocol does.
 inline std::vector<SeparabilityTrial> trialsOf(const TrialDesign& design) {
     std::vector<SeparabilityTrial> trials;
     for (int i = 0; i < design.repeats; ++i) {

@@ -12,13 +12,13 @@
 
 namespace tacto::test {
 
-/// All streams must share t = 0; `declared.baseline` is honoured, and so are rest before contact and the assumptions.
+/// All streams must start at t = 0. Uses `declared.baseline`, rest before contact and the same assumptions.
 [[nodiscard]] std::vector<RoughnessFrame> oracleFrames(std::span<const StreamInfo> streams,
                                                        std::span<const SampleBlock> blocks,
                                                        const RoughnessSettings& settings,
                                                        const DeclaredIntervals& declared = {});
 
-/// A simulated slide: rest to 1 s, static touch to 1.5 s, sliding to 3 s, static to 4.5 s, lifted. Deterministic.
+/// A simulated slide, always equal: rest to 1 s, static touch to 1.5 s, sliding to 3 s, static to 4.5 s, lifted.
 struct Slide {
     std::vector<StreamInfo> streams;
     std::vector<SampleBlock> blocks;

@@ -21,7 +21,7 @@ RoughnessResult analysed(const Slide& slide, const DeclaredIntervals& declared =
     return result ? *result : RoughnessResult{};
 }
 
-/// Rest for a second, then pressed hard without moving: noise of the sensor all along, `factor` times as much pressed.
+/// Returns a slide with one second of rest, then hard pressure without motion, under `factor` times the noise.
 Slide pressedStill(double noise, double factor) {
     Random random(21, "still");
     Slide slide;

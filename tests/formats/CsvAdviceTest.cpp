@@ -19,7 +19,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// Refused, and what it advises reads it; or it says what was expected. Whether it advised something.
+/// Expects a refusal that names options which work, or says what was expected. Returns whether it named options.
 bool expectHonest(const std::string& text, const ReadOptions& options = {}) {
     const auto refused = parseCapture(text, "t.csv", options);
     if (refused) return false;

@@ -1,5 +1,5 @@
-// How often the stated interval holds the truth, when the instrument's errors are drawn for each run from the
-// distributions that the budget states: 93 to 97 % of 1000 runs. Too wide fails as well as too narrow.
+// How often the stated interval contains the truth: 93 to 97 % of 1000 runs, neither more nor less. The instrument's
+// errors are drawn for each run from the distributions in the budget.
 #include <array>
 #include <gtest/gtest.h>
 
@@ -9,16 +9,16 @@ namespace tacto::test {
 namespace {
 
 constexpr int kRuns = 1000;
-// The interval itself scatters far less than 1000 runs do, even with fewer draws than a report takes.
+// Even with fewer draws than in a report, the interval varies far less than the result of 1000 runs.
 constexpr std::size_t kDraws = 2000;
 
-/// The number of runs in which the interval held the truth.
+/// Number of runs in which the interval contained the truth.
 struct Covered {
-    std::array<int, 3> level{};  ///< lowest, middle, largest command
-    std::array<int, 3> worst{};  ///< from the worse direction's mean, which is judged
+    std::array<int, 3> level{};  ///< lowest, middle and largest command
+    std::array<int, 3> worst{};  ///< for the mean of the worse direction, which is judged
     int gain = 0;
     int offset = 0;
-    int monteCarlo = 0;  ///< budgets at the largest command that were propagated
+    int monteCarlo = 0;  ///< number of budgets at the largest command computed by Monte Carlo
 };
 
 Covered coverageOf(const CalibrationTwin& twin) {
@@ -76,7 +76,7 @@ TEST(CalibrationCoverage, HoldsWhereTheOscilloscopesGainDominates) {
     twin.instrument = {.gainTolerance = 0.005, .offsetTolerance = 0.05, .resolution = 0.025};
     const auto covered = coverageOf(twin);
     expectStated(covered);
-    EXPECT_EQ(covered.monteCarlo, kRuns);  // one rectangle makes up most of it: k = 1.96 would be too wide
+    EXPECT_EQ(covered.monteCarlo, kRuns);  // one rectangle dominates: k = 1.96 would be too wide
 }
 
 TEST(CalibrationCoverage, HoldsWhereScatterDominates) {
@@ -96,7 +96,7 @@ TEST(CalibrationCoverage, HoldsWhereScatterGrowsWithTheCommand) {
     twin.hysteresis = 0.3;
     twin.instrument = {.gainTolerance = 0.003, .offsetTolerance = 0.03, .resolution = 0.02};
     const auto covered = coverageOf(twin);
-    // The line's own standard errors take one scatter for all levels, so only the levels are held to the mark.
+    // The standard errors of the line assume equal scatter at all levels, so only the levels must meet the limits.
     for (const int count : covered.level) {
         EXPECT_GE(count, 930);
         EXPECT_LE(count, 970);
@@ -104,7 +104,7 @@ TEST(CalibrationCoverage, HoldsWhereScatterGrowsWithTheCommand) {
 }
 
 TEST(CalibrationCoverage, AnInstrumentWorseThanStatedIsNoticed) {
-    // The measuring stick measures: with twice the stated errors the same count falls out of its range.
+    // The test can fail: with twice the stated errors, the same count is out of its range.
     CalibrationTwin twin;
     twin.instrument = {.gainTolerance = 0.01, .offsetTolerance = 0.1, .resolution = 0.025};
     int covered = 0;

@@ -11,7 +11,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// The textbook's sums, in the readings' own unit.
+/// Fits a line by the textbook's sums, in the readings' own unit.
 std::pair<double, double> lineThrough(const std::vector<CalibrationReading>& readings) {
     double n = 0, x = 0, y = 0, xx = 0, xy = 0;
     for (const auto& r : readings) {
@@ -47,12 +47,12 @@ TEST(Calibration, FindsWhatATwinWithoutScatterIsMadeOf) {
     EXPECT_NEAR(found->offset, twin.offset, 1e-10);
     EXPECT_NEAR(found->hysteresis_pct, 100 * 0.08 / 40, 1e-10);
     EXPECT_NEAR(found->repeatability_pct, 0, 1e-10);
-    EXPECT_NEAR(found->residualMax_pct, 0, 1e-10);  // hysteresis falls out of the level means
+    EXPECT_NEAR(found->residualMax_pct, 0, 1e-10);  // hysteresis cancels in the level means
     EXPECT_DOUBLE_EQ(found->fullScale, 40);
 }
 
 TEST(Calibration, PoolsWithinLevelAndDirection) {
-    // s of 1, 2, 3 is 1; of 10, 14 is √8: pooled √((2·1 + 1·8)/3). The step between up and down is not scatter.
+    // s of 1, 2, 3 is 1, and s of 10, 14 is √8; pooled √((2·1 + 1·8)/3). The step between up and down is not scatter.
     const auto found = fitCalibration(std::vector<CalibrationReading>{{10, 1, SweepDirection::Up},
                                                                       {10, 2, SweepDirection::Up},
                                                                       {10, 3, SweepDirection::Up},
@@ -117,7 +117,7 @@ TEST(Calibration, AReadingThatStandsOutIsMarkedAndKept) {
 }
 
 TEST(Calibration, WhatLiesWithinTheResolutionDoesNotStandOut) {
-    // Nearly all repeats agree, and one fell beside by less than the step of the clock that timed them.
+    // Nearly all repeats agree. One differs by less than the step of the clock that timed them.
     CalibrationTwin twin;
     twin.jitter = 1e-6;
     auto readings = twin.run(5);
@@ -151,7 +151,7 @@ TEST(Calibration, CommandsThatDifferALittleAreOneLevelAndTheirDifferenceNoScatte
 TEST(Calibration, MarksFewOfAHealthyDevicesReadings) {
     std::size_t marked = 0;
     for (std::uint64_t seed = 1; seed <= 200; ++seed) marked += fitCalibration(CalibrationTwin{}.run(seed))->outliers;
-    EXPECT_LE(marked, 1U);  // among 22 000
+    EXPECT_LE(marked, 1U);  // of 22 000
 }
 
 TEST(Calibration, AReadingThatWasNotMeasuredIsCounted) {
@@ -192,7 +192,7 @@ TEST(CalibrationVerdict, PassesFailsOrLeavesOpen) {
         return judged->verdict;
     };
     EXPECT_EQ(verdict(2), Verdict::Pass);
-    EXPECT_EQ(verdict(0.5), Verdict::Indeterminate);  // the oscilloscope cannot tell
+    EXPECT_EQ(verdict(0.5), Verdict::Indeterminate);  // the oscilloscope is not accurate enough to decide
     twin.gain = 1.05;
     EXPECT_EQ(verdict(2), Verdict::Fail);
     EXPECT_EQ(verdict(20), Verdict::Pass);
@@ -207,7 +207,7 @@ TEST(CalibrationVerdict, HysteresisCannotHideInTheMean) {
     twin.gain = 1;
     twin.offset = 0;
     twin.jitter = 0.001;
-    twin.hysteresis = 3;  // ± 1.5 V about a mean without error
+    twin.hysteresis = 3;  // ± 1.5 V around a mean without error
     twin.instrument.unit = "V";
     const auto judged = judgeCalibration(*fitCalibration(twin.run(2)), twin.instrument, 2, {1, 5000});
     ASSERT_TRUE(judged);
@@ -243,7 +243,7 @@ TEST(CalibrationVerdict, SamplingCountsWhereTheScatterDoesNotShowIt) {
 
 TEST(Calibration, MoreReadingsThanAnyRunTakesAreRefusedAtOnce) {
     RecordProperty("hazard", "H10");
-    // A repeat is compared with every other: 400 000 in one level would take the memory and the stop's time.
+    // Each repeat is compared with all others: 400 000 at one level would need too much memory, and time before a stop.
     std::vector<CalibrationReading> many(kMaxReadings + 1);
     for (std::size_t i = 0; i < many.size(); ++i) {
         many[i].commanded = 1 + static_cast<double>(i % 2);

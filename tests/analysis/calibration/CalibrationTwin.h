@@ -1,7 +1,7 @@
-// CalibrationTwin.h - a device of known gain, offset, scatter and hysteresis, read by an instrument with errors drawn
-// for each run from the distributions that a budget states.
+// CalibrationTwin.h - simulates a device of known gain, offset, scatter and hysteresis, read by an instrument with
+// errors drawn for each run from the distributions in a budget.
 //
-// Thread-safety: the test's own thread.
+// Thread-safety: used only by the thread of the test.
 #pragma once
 
 #include <cmath>
@@ -15,9 +15,9 @@ namespace tacto::test {
 struct CalibrationTwin {
     double gain = 1.013;
     double offset = 0.15;
-    double jitter = 0.03;       ///< s of repeats at the largest command
-    bool jitterScales = false;  ///< jitters in proportion to the command
-    double hysteresis = 0.08;   ///< down less up
+    double jitter = 0.03;       ///< standard deviation of repeats at the largest command
+    bool jitterScales = false;  ///< jitter proportional to the command
+    double hysteresis = 0.08;   ///< reading going down minus reading going up
     double low = 10;
     double high = 40;
     std::size_t levels = 11;
@@ -27,7 +27,7 @@ struct CalibrationTwin {
     [[nodiscard]] double levelAt(std::size_t k) const {
         return low + (high - low) * static_cast<double>(k) / static_cast<double>(levels - 1);
     }
-    /// The delivered value, both directions taken together.
+    /// Returns the delivered value, the mean of both directions.
     [[nodiscard]] double truth(double commanded) const { return gain * commanded + offset; }
 
     [[nodiscard]] std::vector<CalibrationReading> run(std::uint64_t seed) const {

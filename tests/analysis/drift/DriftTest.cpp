@@ -11,8 +11,8 @@ namespace {
 
 using testing::HasSubstr;
 
-/// `repeats` of each condition in an order drawn again for every repeat, `scatter` relative; `change` multiplies the
-/// amplitude at a place of the session from 0 to 1.
+/// Makes `repeats` trials of each condition, in a new order for every repeat, with relative `scatter`. `change`
+/// multiplies the amplitude, given the position in the session from 0 to 1.
 template <class Change>
 std::vector<SeparabilityTrial> session(std::mt19937& random, int repeats, double scatter, Change&& change) {
     std::normal_distribution<double> noise(0, 1);
@@ -59,11 +59,11 @@ TEST(Drift, ItsIntervalsHoldTheTruthAsOftenAsTheySay) {
         ASSERT_TRUE(still);
         quarters += holds(still->betweenQuarters_pct, 0);
     }
-    // Three standard deviations of a count around 95 %.
+    // Three standard deviations of a count at 95 %.
     const double share = 0.95, spread = 3 * std::sqrt(share * (1 - share) / seeds);
     EXPECT_NEAR(double(line) / seeds, share, spread);
     EXPECT_NEAR(double(condition) / seeds, share, spread);
-    EXPECT_GT(double(quarters) / seeds, share - spread);  // Bonferroni promises at least that
+    EXPECT_GT(double(quarters) / seeds, share - spread);  // the Bonferroni correction guarantees at least this
 }
 
 TEST(Drift, AWarmUpOrAStepThatALineHidesFailsByItsQuarters) {
@@ -81,7 +81,7 @@ TEST(Drift, AWarmUpOrAStepThatALineHidesFailsByItsQuarters) {
 TEST(Drift, StrongConditionsFirstAndWeakOnesLastAreNone) {
     std::mt19937 random(4);
     auto trials = session(random, 25, 0.004, [](double) { return 1.0; });
-    // Ten strong trials more at the beginning, ten weak ones more at the end.
+    // Ten more strong trials at the beginning, and ten more weak ones at the end.
     std::vector<SeparabilityTrial> more(10, {"rough-low", 40, 2, 0, 0});
     trials.insert(trials.begin(), more.begin(), more.end());
     trials.insert(trials.end(), 10, {"smooth-low", 10, 2, 0, 0});
@@ -107,7 +107,7 @@ TEST(Drift, WhatIsNotKnownIsNoPassH9) {
     EXPECT_EQ(nameOf(judgeDrift(none)->verdict), "indeterminate");
     for (std::size_t n = 1; n < 8; ++n)
         EXPECT_EQ(nameOf(judgeDrift(std::span(steady).first(n))->verdict), "indeterminate") << n;
-    // All of the last quarter was not measured: no verdict follows from it.
+    // None of the last quarter was measured, so there is no verdict.
     auto half = steady;
     for (std::size_t i = 75; i < 100; ++i) half[i].amplitude = std::nan("");
     EXPECT_EQ(nameOf(judgeDrift(half)->verdict), "indeterminate");
@@ -118,7 +118,7 @@ TEST(Drift, AnInstrumentThatResolvesLittleShowsLittle) {
     auto coarse = session(random, 3, 0.0001, [](double) { return 1.0; });
     for (auto& trial : coarse) trial.amplitudeUncertainty = 0.05 * trial.amplitude;
     EXPECT_EQ(nameOf(judgeDrift(coarse)->verdict), "indeterminate");
-    // Here all of it is the channel's gain, which every trial shares.
+    // All the uncertainty is in the channel's gain, which every trial shares.
     for (auto& trial : coarse) trial.amplitudeGain = 0.05;
     EXPECT_EQ(nameOf(judgeDrift(coarse)->verdict), "pass");
 }

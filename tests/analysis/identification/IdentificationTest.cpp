@@ -110,7 +110,7 @@ TEST(Identification, OnlyAnsweredTestTrialsCount) {
         trials.push_back(trialOf(i + 1, kLabels[i], kLabels[i]));
         trials.back().phase = TrialPhase::Training;
     }
-    trials.push_back(trialOf(5, "rough-low", ""));  // interrupted, answered at the second attempt
+    trials.push_back(trialOf(5, "rough-low", ""));  // interrupted, then answered at the second attempt
     trials.push_back(trialOf(6, "rough-high", ""));
     trials.push_back(trialOf(7, "catch", "none"));
     trials.push_back(trialOf(8, "smooth-low", "not-sure"));
@@ -151,7 +151,7 @@ TEST(Identification, AllRightIsTwoBitsAndStaysFinite) {
     EXPECT_TRUE(std::isnan(found.learning.value));
 }
 
-/// pilot.md section 10: `analyze identification` takes the labels it meets as the answers offered.
+/// pilot.md section 10: `analyze identification` takes the labels in the data as the offered answers.
 TEST(Identification, WhatIsMetIsWhatWasOffered) {
     const auto found = test::accepted(identifyAsMet(
         std::vector{trialOf(1, "a", "b"), trialOf(2, "b", "b"), trialOf(3, "a", "none"), trialOf(4, "catch", "none")}));
@@ -161,7 +161,7 @@ TEST(Identification, WhatIsMetIsWhatWasOffered) {
     EXPECT_EQ(found.all.chance, 0.5);
     const auto wider = identifyAsMet(std::vector{trialOf(1, "a", "b"), trialOf(2, "b", "b"), trialOf(3, "a", "c")});
     EXPECT_EQ(wider->labels.size(), 2U);
-    EXPECT_NEAR(wider->all.chance, 1.0 / 3, 1e-15);  // c could be guessed too
+    EXPECT_NEAR(wider->all.chance, 1.0 / 3, 1e-15);  // c was also a possible guess
 }
 
 TEST(Identification, LabelsThatAreNotTwoByTwoHaveNoFeatures) {

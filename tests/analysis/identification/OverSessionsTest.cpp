@@ -37,7 +37,7 @@ TEST(OverSessions, EachIsHeldAgainstTheFirst) {
     EXPECT_NEAR(change.detection.low, 1.5 * std::exp(-std::hypot(std::log(3 / 2.7), std::log(2.5 / 2))), 1e-12);
     EXPECT_NEAR(change.detection.high, 1.5 * std::exp(std::hypot(std::log(3.3 / 3), std::log(2 / 1.6))), 1e-12);
     EXPECT_TRUE(std::isnan(change.impedance));
-    EXPECT_TRUE(std::isnan(found.trend.value));  // there is a trend from three on
+    EXPECT_TRUE(std::isnan(found.trend.value));  // a trend needs at least three sessions
     EXPECT_NEAR(found.smallestChange, smallestChange(80, 124.0 / 160), 1e-12);
 }
 
@@ -59,7 +59,7 @@ TEST(OverSessions, ARatioHasTheIntervalThatTheDistributionOfTwoEstimatesHas) {
 }
 
 TEST(OverSessions, AFigureIsHeldAgainstTheFirstSessionThatHasIt) {
-    auto first = sessionOn(0, 0);  // thresholds alone
+    auto first = sessionOn(0, 0);  // only thresholds
     first.n = 0;
     first.tooStrong = 8;
     auto second = sessionOn(2, 56, {2, 1.6, 2.5});
@@ -144,7 +144,7 @@ TEST(Encodings, TwoAlternate) {
     EXPECT_EQ(williamsRows(4), 4U);
 }
 
-/// Each is in each place, and follows each other, equally often.
+/// Each encoding occurs equally often in each place and after each other encoding.
 TEST(Encodings, TheDesignIsBalanced) {
     for (const std::size_t n : {2U, 3U, 4U, 5U, 6U}) {
         std::map<std::pair<std::size_t, std::size_t>, std::size_t> places, following;

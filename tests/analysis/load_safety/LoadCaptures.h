@@ -1,6 +1,4 @@
-// LoadCaptures.h - captures of a train into a resistor, of known truth, as an ideal instrument would make them.
-//
-// Thread-safety: pure functions.
+// LoadCaptures.h - makes captures of a train into a resistor with known truth, as an ideal instrument would.
 #pragma once
 
 #include <cmath>
@@ -19,31 +17,31 @@ struct LoadTruth {
     double gap_s = 100e-6;
     double interval_s = 0.5;
     int pulses = 1;
-    double train_hz = 100;  ///< the rate within the train
+    double train_hz = 100;  ///< pulse rate within the train
     double second = 1;      ///< share of the leading phase's amplitude
     double rate_hz = 10e6;
-    double gain_v = 1, gain_i = 1;      ///< the instrument's gain errors
-    double offset_v = 0, offset_a = 0;  ///< the instrument's offsets
+    double gain_v = 1, gain_i = 1;      ///< gain errors of the instrument
+    double offset_v = 0, offset_a = 0;  ///< offset errors of the instrument
     double gainTolerance = 0.005;
     double shuntTolerance = 0;
     double timeBaseTolerance = 0;
-    double timeBase = 1;     ///< the instrument's reading of one second
-    double noise = 0;        ///< share of the range, r.m.s.
-    double scatter = 0;      ///< relative, of the trains' amplitudes
-    std::uint64_t seed = 1;  ///< draws noise and scatter
-    int bits = 12;           ///< the bits of a range of 1.5 times the peak
+    double timeBase = 1;     ///< what the instrument reads for one second
+    double noise = 0;        ///< r.m.s., as a share of the range
+    double scatter = 0;      ///< relative scatter of the trains' amplitudes
+    std::uint64_t seed = 1;  ///< seed for noise and scatter
+    int bits = 12;           ///< resolution; the range is 1.5 times the peak
 };
 
-/// `trains` captures, one per train. Edges last 100 ns, as a fast source's do.
+/// Returns `trains` captures, one per train. Edges last 100 ns, as with a fast source.
 [[nodiscard]] inline std::vector<Capture> loadCaptures(const LoadTruth& truth, int trains = 2) {
     std::vector<Capture> out;
     const double edge = 100e-9, before = 120e-6;
     const double end = before + (truth.pulses - 1) / truth.train_hz + 2 * truth.width_s + truth.gap_s + 150e-6;
     Random random(truth.seed, "load captures");
-    double shift = 0;  // where the train begins between two samples
+    double shift = 0;  // position of the train's start between two samples
     const auto level = [&](double stated) {
         const double t = stated / truth.timeBase - shift;
-        // A trapezoid whose width at half height is the phase's.
+        // A trapezoid with the phase's width at half height.
         const auto phase = [&](double from) {
             const double x = t - from;
             if (x < 0 || x > truth.width_s + edge) return 0.0;

@@ -1,6 +1,6 @@
-// How often U holds the truth when the instrument's errors are drawn for each run within what it states: at least
-// 93 % of 1000 runs, and at most 97 % of what one instrument's contributions make (science.md sections 9 and 12). And:
-// no violation passes with gain, shunt and time base wrong by as much as is stated.
+// How often U contains the truth if the instrument's errors are drawn for each run within its stated tolerances: in at
+// least 93 % of 1000 runs, and at most 97 % for contributions of one instrument (science.md sections 9 and 12). Also,
+// no violation passes when gain, shunt and time base are wrong by as much as stated.
 #include <array>
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@ namespace tacto::test {
 namespace {
 
 constexpr int kCoverageRuns = 1000;
-constexpr BudgetOptions kBudget{.seed = 1, .draws = 2000};  // as a check takes
+constexpr BudgetOptions kBudget{.seed = 1, .draws = 2000};  // as in a load-safety check
 
 struct Looked {
     const char* name;
@@ -20,10 +20,10 @@ struct Looked {
     int covered = 0;
 };
 
-/// The figures of a 40 V train into 500 ohm with edges of 100 ns, sampled at 2 MS/s.
+/// Returns the figures of a 40 V train into 500 ohm with edges of 100 ns, sampled at 2 MS/s.
 std::array<Looked, 8> figuresOf(const LoadTruth& truth) {
     const double amps = truth.volts / truth.ohms;
-    const double effective = truth.width_s - 100e-9 / 3;  // width of a trapezoid's square
+    const double effective = truth.width_s - 100e-9 / 3;  // effective width for the square of a trapezoid
     const double squares = amps * amps * 2 * effective;
     return {{{"amplitude", &LoadReading::amplitude_v, truth.volts},
              {"current", &LoadReading::amplitude_ma, 1e3 * amps},
@@ -35,7 +35,7 @@ std::array<Looked, 8> figuresOf(const LoadTruth& truth) {
              {"power", &LoadReading::power_1s_w, 2 * truth.ohms * squares}}};
 }
 
-/// One instrument with a gain that both channels share, a shunt and a time base of its own.
+/// Draws an instrument with one gain for both channels, a shunt and a time base.
 LoadTruth drawn(const LoadTruth& stated, std::uint64_t seed) {
     Random random(seed, "instrument");
     const auto within = [&random](double halfWidth) { return halfWidth * (2 * random.uniform() - 1); };
@@ -52,7 +52,7 @@ std::array<Looked, 8> coverageOf(const LoadTruth& stated, int trains) {
     auto figures = figuresOf(stated);
     for (int run = 0; run < kCoverageRuns; ++run) {
         auto truth = drawn(stated, static_cast<std::uint64_t>(run) + 1);
-        truth.width_s += Random(truth.seed, "width").uniform() / truth.rate_hz;  // this is no whole number of samples
+        truth.width_s += Random(truth.seed, "width").uniform() / truth.rate_hz;  // not a whole number of samples
         const auto captures = loadCaptures(truth, trains);
         const auto truths = figuresOf(truth);
         ExpectedTrain expected;
@@ -87,7 +87,7 @@ TEST(LoadCoverage, HoldsWhereTheInstrumentDominates) {
     RecordProperty("hazard", "H9");
     for (const auto& figure : coverageOf(ordinary(), 2)) {
         EXPECT_GE(figure.covered, 930) << figure.name << ": too narrow";
-        // Where samples fall is not known to differ from train to train, so a width of two has no less of it than one.
+        // Sample positions may be equal in all trains, so this part of a width's uncertainty is no smaller for two.
         if (figure.reading != &LoadReading::width_s) {
             EXPECT_LE(figure.covered, 975) << figure.name << ": too wide";
         }
@@ -103,7 +103,7 @@ TEST(LoadCoverage, HoldsWhereTheTrainsScatterAndAreFew) {
     truth.scatter = 0.005;
     for (const int trains : {2, 4}) {
         const auto figures = coverageOf(truth, trains);
-        // For the mean of two trains, k = 2 would hold the truth in 71 %.
+        // For the mean of two trains, k = 2 would contain the truth in only 71 %.
         for (const auto& figure : {figures[0], figures[1]}) {
             EXPECT_GE(figure.covered, 930) << figure.name << " of " << trains << " trains: too narrow";
             EXPECT_LE(figure.covered, 975) << figure.name << " of " << trains << " trains: too wide";
@@ -111,7 +111,7 @@ TEST(LoadCoverage, HoldsWhereTheTrainsScatterAndAreFew) {
     }
 }
 
-/// A load-safety check of one load and its verdict on it, as the whole program judges it.
+/// Runs the load-safety check for one load and returns its verdict, as in the whole program.
 RowVerdict judgedOn(const LoadTruth& truth, const char* item) {
     ExpectedTrain expected;
     expected.budget = kBudget;
@@ -135,8 +135,8 @@ TEST(LoadCoverage, NoViolationPassesWithAnInstrumentThatIsWrongByWhatItStates) {
     auto stated = ordinary();
     stated.gainTolerance = 0.02;
     stated.timeBaseTolerance = 0.01;
-    // Above each tolerance (amplitude 2 %, width and interval 1 %) by the 5 % of an instrument's own that U (95 %)
-    // leaves out, and a little more.
+    // Each violation exceeds its tolerance (amplitude 2 %, width and interval 1 %) by slightly more than the 5 % of the
+    // instrument's error that U (95 %) leaves out.
     struct Violation {
         const char* item;
         double volts, width_s, interval_s;
@@ -151,7 +151,7 @@ TEST(LoadCoverage, NoViolationPassesWithAnInstrumentThatIsWrongByWhatItStates) {
             truth.width_s = violation.width_s;
             truth.interval_s = violation.interval_s;
             auto run = drawn(truth, seed);
-            // Every third lies at the edge of what is stated, on the side that hides the violation.
+            // In every third run the errors are at the stated limit, on the side that hides the violation.
             if (seed % 3 == 0) {
                 run.gain_v = 1 - stated.gainTolerance;
                 const bool rate = std::string_view(violation.item) == "rate_over";
@@ -161,12 +161,12 @@ TEST(LoadCoverage, NoViolationPassesWithAnInstrumentThatIsWrongByWhatItStates) {
         }
         EXPECT_EQ(passed, 0) << violation.item;
     }
-    // A wrong instrument can hide as much as its tolerance, and no more: 3 % above with a gain 2 % low.
+    // A wrong instrument can hide an error only up to its tolerance: here 3 % too much, with a gain 2 % low.
     auto far = stated;
     far.volts = 40 * 1.041;
     far.gain_v = 0.98;
     EXPECT_NE(judgedOn(far, "amplitude_over"), RowVerdict::Pass);
-    // The example that once passed: a time base that is off by 0.9 % and says so.
+    // A case that once passed wrongly: the time base is off by 0.9 %, as stated.
     auto slow = stated;
     slow.width_s = 200e-6 * 1.009;
     EXPECT_EQ(judgedOn(slow, "width_over"), RowVerdict::Indeterminate);
@@ -219,7 +219,7 @@ TEST(LoadCoverage, WithoutTimeStampsTheIntervalComesFromOneRecord) {
     ExpectedTrain expected;
     expected.budget = kBudget;
     EXPECT_FALSE(readLoad(captures, expected).value().interval_s.measured());
-    // Two trains in one record of 200 kS/s.
+    // Two trains in one record at 200 kS/s.
     auto slow = ordinary();
     slow.rate_hz = 2e5;
     const auto parts = loadCaptures(slow, 2);

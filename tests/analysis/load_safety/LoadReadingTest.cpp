@@ -13,7 +13,7 @@ LoadReading read(const LoadTruth& truth, int trains = 2) {
     return readLoad(loadCaptures(truth, trains), ExpectedTrain{1, 100}).value();
 }
 
-/// The truth lies within the expanded uncertainty, which excuses nothing else.
+/// Expects the truth within the expanded uncertainty, and this uncertainty below the share `worst` of the truth.
 void expectTruth(const Reading& reading, double truth, double worst, const char* what) {
     ASSERT_TRUE(reading.measured()) << what;
     EXPECT_NEAR(reading.value, truth, std::max(reading.expanded, 1e-12)) << what;
@@ -22,7 +22,7 @@ void expectTruth(const Reading& reading, double truth, double worst, const char*
 
 TEST(LoadReading, MeasuresEveryQuantityOfFortyVoltsInto500Ohm) {
     const auto found = read({});
-    // With edges of 100 ns, charge follows the width at half height; squares lose a third of an edge per edge.
+    // With edges of 100 ns, charge depends on the width at half height; squares lose a third of an edge for each edge.
     const double squares = 0.08 * 0.08 * 2 * (200e-6 - 100e-9 / 3);
     expectTruth(found.amplitude_v, 40, 0.01, "amplitude");
     expectTruth(found.amplitude_ma, 80, 0.01, "current");
@@ -102,7 +102,7 @@ TEST(LoadReading, OneTrainHasNoIntervalAndNoWindowLongerThanItself) {
 TEST(LoadReading, ACurrentBelowTenLsbIsNotEvaluated) {
     RecordProperty("hazard", "H9");
     auto captures = loadCaptures({});
-    for (auto& capture : captures) capture.channels[1].lsb = 0.0081;  // 80 mA are 9.9 of them
+    for (auto& capture : captures) capture.channels[1].lsb = 0.0081;  // 80 mA are 9.9 steps
     const auto found = readLoad(captures, ExpectedTrain{}).value();
     EXPECT_TRUE(found.underTenLsb);
     EXPECT_FALSE(found.peak_ma.measured());
@@ -115,7 +115,7 @@ TEST(LoadReading, ACurrentBelowTenLsbIsNotEvaluated) {
 TEST(LoadReading, AClippedCurrentIsNotMeasured) {
     RecordProperty("hazard", "H9");
     auto captures = loadCaptures({});
-    captures[1].channels[1].high = 0.05;  // the second train alone
+    captures[1].channels[1].high = 0.05;  // only the second train
     const auto found = readLoad(captures, ExpectedTrain{}).value();
     EXPECT_FALSE(found.peak_ma.measured());
     EXPECT_FALSE(found.rms_5s_ma.measured());
@@ -157,7 +157,7 @@ TEST(LoadReading, BehindAClippedSpikeTheFineRangeIsRead) {
     EXPECT_LE(found.imbalance.expanded, 0.005);
 }
 
-/// The same trains from a current source into `truth.ohms`, in series with a resistor beside a capacitor.
+/// Returns the same trains from a current source into `truth.ohms`, in series with a parallel resistor and capacitor.
 std::vector<Capture> intoSkin(const LoadTruth& truth, double parallel, double farads) {
     auto captures = loadCaptures(truth);
     for (auto& capture : captures) {
@@ -188,7 +188,7 @@ TEST(LoadReading, OfACurrentSourceTheCurrentTellsThePhases) {
     expectTruth(found.amplitude_ma, 5, 0.01, "current");
     expectTruth(found.charge_uc, 1, 0.01, "phase charge");
     EXPECT_LE(found.imbalance.value, found.imbalance.expanded);
-    // The value at the end of the phase, as science.md section 4 means it: 3.50 kohm.
+    // The value at the end of the phase, as defined in science.md section 4: 3.50 kohm.
     const double ohms = truth.ohms + parallel * (1 - std::exp(-truth.width_s / (parallel * farads)));
     EXPECT_NEAR(ohms, 3.5e3, 10);
     expectTruth(found.amplitude_v, 5e-3 * ohms, 0.025, "voltage");

@@ -15,8 +15,8 @@ namespace {
 using test::loadCaptures;
 using test::LoadTruth;
 
-/// A check in which nothing is wrong: every load of the set (the skin equivalent as the resistor it settles to), every
-/// trip, the paper's strongest command where it is allowed.
+/// A check without faults: every load of the set (for the skin equivalent, its final resistance), every trip, and the
+/// strongest command of the paper if it is allowed.
 class LoadSafetyCheck : public testing::Test {
 protected:
     void SetUp() override {
@@ -50,7 +50,7 @@ protected:
             readLoad(loadCaptures(truth), ExpectedTrain{.programmed = {out.command_v, out.command_v}}).value();
         return out;
     }
-    /// Trains of three pulses at what the device makes of 100 Hz, into each load.
+    /// Records trains of three pulses into each load, at the rate that the device makes of 100 Hz.
     void driveTrains(double hz) {
         input.train.pulses = 3;
         input.train.rate = Hertz(100);
@@ -87,7 +87,7 @@ TEST_F(LoadSafetyCheck, PassesWhenEverythingIsMeasuredAndWithin) {
     const auto passed = std::count_if(found.rows.begin(), found.rows.end(),
                                       [](const SafetyRow& row) { return row.verdict == RowVerdict::Pass; });
     ASSERT_EQ(found.reasons.size(), 1U);
-    // A sentence on passed rows is true of each: commands and trips have no uncertainty.
+    // The sentence about passed rows is true for each row, since commands and trips have no uncertainty.
     const auto those = [&found](auto wanted) {
         return std::count_if(found.rows.begin(), found.rows.end(),
                              [&](const SafetyRow& row) { return row.verdict == RowVerdict::Pass && wanted(row); });
@@ -112,7 +112,7 @@ TEST_F(LoadSafetyCheck, PassesWhenEverythingIsMeasuredAndWithin) {
     EXPECT_LE(found.worstCase.amplitudeFactor.value, 1.01);
 }
 
-/// The matrix' line of what must end by itself, and its cells of an open and a short circuit.
+/// The line of the matrix for what must end by itself, with its cells for an open and a short circuit.
 class LoadSafetyTrips : public LoadSafetyCheck {
 protected:
     TripTrial& trip(std::string_view name) {
@@ -128,7 +128,7 @@ protected:
         return cells.at(static_cast<std::size_t>(at)).value();
     }
 
-    LimitMatrix matrix;  // where line() or cell() looked last
+    LimitMatrix matrix;  // the matrix that line() or cell() last looked at
 };
 
 TEST_F(LoadSafetyTrips, AreALineOfTheMatrixWithTheLongerTime) {
@@ -157,7 +157,7 @@ TEST_F(LoadSafetyTrips, OneThatWasTimedSaysHowMuchOfTheTimeToTheNextTrainItTook)
     const auto row = std::ranges::find(found.rows, "trip: open while delivering", &SafetyRow::title);
     EXPECT_EQ(row->value, 0.49) << "from the change, as ever";
     EXPECT_EQ(row->note, "ended within 20 ms of the train that found it; the next was due after 500 ms");
-    // A time says nothing where the output did not end.
+    // A time has no meaning if the output did not end.
     trip("open").tripped = false;
     EXPECT_EQ(cell("open").verdict, RowVerdict::Fail);
     EXPECT_TRUE(std::isnan(cell("open").margin_pct));
@@ -257,7 +257,7 @@ TEST_F(LoadSafetyCheck, MoreThanTenMilliampsRmsFailsWithItsNumbers) {
 
 TEST_F(LoadSafetyCheck, OfACurrentSourceTheVoltageIsJudgedToo) {
     RecordProperty("hazard", "H1");
-    // A |Z| that was read a tenth too low: the current is as programmed, and 10 % more than A stands on the load.
+    // Z| was read a tenth too low: the current is as programmed, and the voltage at the load is 10 % above A.
     input.source.drive = Drive::Current;
     LoadTruth truth;
     truth.volts = 44;
@@ -342,7 +342,7 @@ TEST_F(LoadSafetyCheck, AWrongResistorIsFoundBeforeAnythingIsBelieved) {
     truth.ohms = 465;
     at("500 ohm").steps = {step(truth)};
     EXPECT_EQ(rowOf(judgeLoadSafety(input), "500 ohm", "load_value").verdict, RowVerdict::Fail);
-    at("500 ohm").dmm_ohm = {465, 0.5, 1};  // this is what the multimeter says
+    at("500 ohm").dmm_ohm = {465, 0.5, 1};  // the multimeter's reading
     EXPECT_EQ(rowOf(judgeLoadSafety(input), "500 ohm", "load_value").verdict, RowVerdict::Pass);
 }
 
@@ -399,7 +399,7 @@ TEST_F(LoadSafetyCheck, StatesTheOutputsOfTheGuidance) {
     }
 }
 
-/// The check's promise: whatever lies at a limit + 2U or beyond never passes; whatever lies well within always passes.
+/// The check's promise: a value at or beyond limit + 2U never passes, and a value well within the limit always passes.
 TEST_F(LoadSafetyCheck, MissesNoViolationFromLimitPlusTwiceTheUncertainty) {
     RecordProperty("hazard", "H9");
     const LoadSafetyInput whole = input;

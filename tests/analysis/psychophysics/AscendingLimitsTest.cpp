@@ -13,7 +13,7 @@ namespace {
 
 using Answers = std::function<StrengthWord(const AscendingPresentation&)>;
 
-/// Feels from `felt` and calls `strong` too strong, without any doubt.
+/// Returns answers of a person who feels from `felt` and always calls `strong` too strong.
 Answers sure(double felt, double strong) {
     return [=](const AscendingPresentation& asked) {
         if (asked.level < felt) return StrengthWord::Nothing;
@@ -43,7 +43,7 @@ TEST(AscendingLimits, FindsTheFirstLevelsFeltAndTheLowestTooStrong) {
     ASSERT_EQ(result.series.size(), 3U);
     EXPECT_EQ(result.series[0].endedBy, SeriesEnd::TooStrong);
     EXPECT_EQ(result.series[0].tooStrong, 9);
-    // A level that was too strong once is not presented again.
+    // A level that was too strong is not presented again.
     for (const std::size_t series : {1U, 2U}) {
         EXPECT_EQ(result.series[series].endedBy, SeriesEnd::Ceiling);
         EXPECT_EQ(result.series[series].ceiling, LevelLimit::TooStrong);
@@ -72,7 +72,7 @@ TEST(AscendingLimits, StartsEachSeriesFromNothingAndNeverRisesByMoreThanItMay) {
                     continue;
                 }
                 if (last == 0) {
-                    // 1 to 3 at the beginning, and one more where the first of the five that follow is empty.
+                    // 1 to 3 at the beginning, and one more if the first of the next five is empty.
                     EXPECT_GE(leading, 1U);
                     EXPECT_LE(leading, 4U);
                 }
@@ -95,7 +95,7 @@ TEST(AscendingLimits, PresentsNothingOnceInEveryFive) {
         for (const auto& asked : presented(limits, sure(3, 99))) {
             if (asked.series == 1) empty.push_back(asked.empty());
         }
-        // It fits after as many leading ones as make every whole five have one.
+        // The count is right if it lets every complete five contain exactly one.
         bool fits = false;
         for (std::size_t lead = 1; lead <= 3; ++lead) {
             bool each = std::all_of(empty.begin(), empty.begin() + static_cast<std::ptrdiff_t>(lead),
@@ -116,7 +116,7 @@ TEST(AscendingLimits, PresentsNothingOnceInEveryFive) {
 
 TEST(AscendingLimits, AFeltEmptyPresentationRepeatsTheLastLevelAndReplacesItsAnswer) {
     const auto grid = test::gridUpTo(15);
-    // The next presentation does not depend on the answers before an empty one is felt.
+    // Until an empty presentation is reported as felt, the answers do not affect the next presentation.
     auto rehearsal = AscendingLimits::create(grid, 3).value();
     const auto order = presented(rehearsal, [](const auto&) { return StrengthWord::Nothing; });
     std::size_t empty = 1;

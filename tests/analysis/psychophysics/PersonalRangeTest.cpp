@@ -15,13 +15,13 @@ TEST(PersonalRange, LiesBetweenWhatIsFeltAndWhatIsTooStrong) {
     auto range = rangeOf(3.1, 9);
     EXPECT_FALSE(range.done());
     EXPECT_FALSE(range.result().usable) << "not confirmed yet";
-    EXPECT_EQ(range.next(), 7);  // 0.8 of 9 is 7.2
+    EXPECT_EQ(range.next(), 7);  // 0.8 times 9 is 7.2
     ASSERT_TRUE(range.answer(true));
     const auto result = range.result();
     EXPECT_TRUE(range.done());
     EXPECT_TRUE(result.usable);
     EXPECT_EQ(result.reason, "");
-    EXPECT_EQ(result.min, 4);  // 1.25 of 3.1 is 3.875
+    EXPECT_EQ(result.min, 4);  // 1.25 times 3.1 is 3.875
     EXPECT_EQ(result.max, 7);
     EXPECT_EQ(result.steps, 6U);
     EXPECT_EQ(result.limitedBy, LevelLimit::TooStrong);
@@ -44,7 +44,7 @@ TEST(PersonalRange, FallsByAStepAtEachNo) {
 }
 
 TEST(PersonalRange, IsNotUsableWithFewerThanTwoSteps) {
-    auto range = rangeOf(3.1, 6.3);  // 4 to 5
+    auto range = rangeOf(3.1, 6.3);  // from 4 to 5
     EXPECT_EQ(range.next(), 5);
     ASSERT_TRUE(range.answer(false));
     EXPECT_TRUE(range.done());
@@ -69,7 +69,7 @@ TEST(PersonalRange, NamesWhatLimitsIt) {
     auto range = rangeOf(3.1, 9, grid);
     EXPECT_EQ(range.next(), 6);
     EXPECT_EQ(range.result().limitedBy, LevelLimit::Gate);
-    // Nothing was too strong: the limit is the highest level presented, 6 mA, which the gate permits.
+    // Nothing was too strong, so the limit is the highest level presented, 6 mA, which the gate permits.
     auto unbothered = PersonalRange::create(grid, {.detection = 2, .tooStrong = 6, .saidTooStrong = false}).value();
     EXPECT_EQ(unbothered.next(), 4.5);
     EXPECT_EQ(unbothered.result().limitedBy, LevelLimit::Gate);

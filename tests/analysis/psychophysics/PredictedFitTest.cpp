@@ -33,7 +33,7 @@ TEST(PredictedFit, AgreesWithEveryTableThereIs) {
             least = std::min(least, fit.all.p);
             most = std::max(most, fit.all.p);
         }
-        // It lies evenly between the shares of larger G, and of G at least as large.
+        // The value is uniform between the shares with larger G and with G at least as large.
         EXPECT_GT(least, larger - 0.02);
         EXPECT_LT(most, larger + equal + 0.02);
         EXPECT_NEAR(least, larger, 0.02 + 0.15 * equal);
@@ -41,7 +41,7 @@ TEST(PredictedFit, AgreesWithEveryTableThereIs) {
     }
 }
 
-/// A test of 80 trials as it is delivered: thresholds rise while it lasts.
+/// Simulates a test of 80 trials as delivered; thresholds rise during the test.
 std::vector<PredictedTrial> session(const VirtualObserver& who, const VirtualObserver& believed, std::uint64_t seed) {
     const std::vector<DeliveredCondition> conditions = {
         {4, Seconds(2)}, {4, Seconds(0.5)}, {6.5, Seconds(2)}, {6.5, Seconds(0.5)}};
@@ -59,7 +59,7 @@ std::vector<PredictedTrial> session(const VirtualObserver& who, const VirtualObs
     return out;
 }
 
-/// Kolmogorov and Smirnov's D times √n, of values that should be even between 0 and 1.
+/// Returns the Kolmogorov-Smirnov D times √n, for values that should be uniform between 0 and 1.
 double kolmogorov(std::vector<double> p) {
     std::ranges::sort(p);
     const auto n = static_cast<double>(p.size());
@@ -75,14 +75,14 @@ TEST(PredictedFit, IsEvenOverVirtualParticipants) {
     for (const double adaptation : {0.0, 0.3}) {
         std::vector<double> p, rows;
         for (std::uint64_t seed = 0; seed < seeds; ++seed) {
-            // They differ as much as people do: some make hardly an error, so that most tables are alike.
+            // The observers differ as people do. Some make hardly any error, so that most tables are equal.
             const auto observer = test::observerFor(drawParticipant({}, 3, seed, Micros(200)), seed, adaptation);
             const auto fit = fitOf(session(observer, observer, seed), 4, seed, 500).value();
             p.push_back(fit.all.p);
             rows.push_back(fit.rows[seed % 4].p);
         }
         std::printf("adaptation %g: %.2f of all, %.2f of rows\n", adaptation, kolmogorov(p), kolmogorov(rows));
-        EXPECT_LT(kolmogorov(p), 1.63);  // 1 %
+        EXPECT_LT(kolmogorov(p), 1.63);  // critical value at 1 %
         EXPECT_LT(kolmogorov(rows), 1.63);
     }
 }

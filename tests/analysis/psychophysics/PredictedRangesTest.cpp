@@ -1,4 +1,4 @@
-// Predictions of pilot.md section 8 for virtual participants: how many have a usable range and what to expect of them.
+// Predictions of pilot.md section 8 for virtual participants: how many have a usable range, and their accuracy.
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -44,10 +44,10 @@ double expectedAccuracy(const VirtualObserver& observer, const PersonalRangeResu
 }
 
 struct Ranges {
-    double usable = 0;  ///< share
-    double median = 0;  ///< accuracy of those
-    double low = 0;     ///< 5 %
-    double high = 0;    ///< 95 %
+    double usable = 0;  ///< share of participants with a usable range
+    double median = 0;  ///< median accuracy of these participants
+    double low = 0;     ///< 5 % quantile
+    double high = 0;    ///< 95 % quantile
 };
 
 template <class RangeOf>
@@ -67,7 +67,7 @@ Ranges rangesOver(std::size_t people, const PopulationModel& model, RangeOf rang
     return {n / static_cast<double>(people), at(0.5), at(0.05), at(0.95)};
 }
 
-/// Thresholds known without error.
+/// Returns the range if the thresholds are known without error.
 std::optional<PersonalRangeResult> knownRange(const LevelGrid& grid, const VirtualObserver& observer, std::size_t) {
     auto range = PersonalRange::create(grid, {.detection = observer.detection(), .tooStrong = observer.tooStrong()});
     if (!range->done()) {
@@ -76,7 +76,7 @@ std::optional<PersonalRangeResult> knownRange(const LevelGrid& grid, const Virtu
     return range->result();
 }
 
-/// The range that a session finds.
+/// Returns the range that a session measures.
 std::optional<PersonalRangeResult> measuredRange(const LevelGrid& grid, const VirtualObserver& observer,
                                                  std::size_t index) {
     const auto limits = test::ascend(grid, observer, index);
@@ -102,7 +102,7 @@ TEST(PredictedRanges, AreThoseOfAnIndependentModelWhereThresholdsAreKnown) {
         const auto found = rangesOver(kPeople, populationWith(tooStrong, weber), knownRange);
         std::printf("known, too strong from %.1f mA, Weber %.2f: %.3f usable, %.3f (%.3f to %.3f)\n", tooStrong, weber,
                     found.usable, found.median, found.low, found.high);
-        // Four standard errors of so many people.
+        // Four standard errors for this number of people.
         EXPECT_NEAR(found.usable, usable, 4 * std::sqrt(usable * (1 - usable) / kPeople));
         EXPECT_NEAR(found.median, row.at("median").get<double>(), 0.01);
         EXPECT_NEAR(found.low, row.at("low").get<double>(), 0.02);

@@ -1,6 +1,4 @@
-// Procedures.h - grids and virtual participants that the tests of procedures share.
-//
-// Thread-safety: pure functions.
+// Procedures.h - grids and virtual participants shared by the tests of procedures.
 #pragma once
 
 #include "core/analysis/psychophysics/AscendingLimits.h"
@@ -9,7 +7,7 @@
 
 namespace tacto::test {
 
-/// A grid of currents: the device's step, and its largest.
+/// Returns a grid of currents with the device's step and largest value.
 inline LevelGrid gridUpTo(double highest, double step = 0.5, LevelLimit by = LevelLimit::Cap) {
     return LevelGrid::create(LevelUnit::Current, step, std::vector<LevelCeiling>{{highest, by}}).value();
 }
@@ -22,7 +20,7 @@ inline TrialInterval other(TrialInterval interval) {
     return interval == TrialInterval::First ? TrialInterval::Second : TrialInterval::First;
 }
 
-/// The median participant: feels from 3.06 mA and finds 8.6 mA too strong, at 200 µs.
+/// Returns the median participant, who feels from 3.06 mA on and finds 8.6 mA too strong, at 200 µs.
 inline VirtualParticipant medianParticipant() {
     PopulationModel model;
     for (auto* drawn : {&model.series_ohm, &model.parallel_ohm, &model.capacitance_nf, &model.detection_ma,
@@ -47,7 +45,7 @@ inline AscendingResult ascend(const LevelGrid& grid, const VirtualObserver& obse
     return limits.result();
 }
 
-/// A procedure of two-interval trials, to its end.
+/// Answers a procedure of two-interval trials until it ends.
 template <class Procedure>
 void answerAll(Procedure& procedure, const VirtualObserver& observer, Seconds stimulated = Seconds(0)) {
     while (const auto trial = procedure.next()) {

@@ -43,7 +43,7 @@ TEST(QuestPlus, AsksForTheLevelsAndKnowsThePosteriorOfAnIndependentComputation) 
         }
         EXPECT_TRUE(quest.done());
         EXPECT_FALSE(quest.next());
-        // The prior of α in cells of 0.5 dB, the first 12 dB below what was felt.
+        // The prior of α in cells of 0.5 dB. The first cell is 12 dB below the level that was felt.
         const auto expected = run.at("posterior").get<std::vector<double>>();
         ASSERT_EQ(expected.size(), 43U);
         const auto aboveCell = [&](std::size_t i) {
@@ -109,7 +109,7 @@ TEST(QuestPlus, PresentsInEitherIntervalFiveTimesInTen) {
 
 TEST(QuestPlus, CountsTheRightAnswersOfEachInterval) {
     auto quest = QuestPlus::create(test::gridUpTo(15), felt(4), 1).value();
-    while (quest.next()) ASSERT_TRUE(quest.answer(TrialInterval::First));  // this person always says the first
+    while (quest.next()) ASSERT_TRUE(quest.answer(TrialInterval::First));  // this person always says "first"
     const auto shares = quest.result().intervals;
     EXPECT_EQ(shares.first.right, shares.first.trials);
     EXPECT_EQ(shares.second.right, 0U);
@@ -138,8 +138,8 @@ struct Recovery {
     double trials = 0;
 };
 
-/// Through the ascending limits, as in a session; participants of the whole population, within the device's range.
-/// `other`: their thresholds are so many times what is held against the estimate.
+/// Runs participants of the whole population through the ascending limits, as in a session, within the device's range.
+/// `other`: factor between their thresholds and the thresholds used for comparison.
 Recovery recoveryOf(std::size_t people, double step, double other = 1) {
     Recovery out;
     double sum = 0, squares = 0;
@@ -227,7 +227,7 @@ TEST(QuestPlus, RefusesWhatIsNoSetting) {
 
 DriftCheckSettings before(std::size_t block) { return {.felt = 3.5, .last = 3.1, .min = 4, .block = block}; }
 
-/// Rests whenever it is asked to, after which thresholds are `afterRest` times the median participant's.
+/// Takes every rest that is asked for. After it, thresholds are `afterRest` times the median participant's.
 DriftResult checked(double risen, double afterRest, std::uint64_t seed) {
     auto check = DriftCheck::create(test::gridUpTo(10), before(2), seed).value();
     auto who = test::medianParticipant();
@@ -268,7 +268,7 @@ TEST(DriftCheck, RestsThreeTimesAtMostAndThenSaysAdapted) {
         EXPECT_EQ(result.checks.size(), 4U);
         EXPECT_GE(result.probability, 0.8);
     }
-    EXPECT_GE(adapted, 75);  // 0.83 in a second computation: four checks in a row of 12 trials each
+    EXPECT_GE(adapted, 75);  // 0.83 by a separate computation: four checks in a row of 12 trials each
 }
 
 TEST(DriftCheck, GoesOnWhenTheRestHelped) {

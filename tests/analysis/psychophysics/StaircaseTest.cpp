@@ -35,7 +35,7 @@ TEST(Staircase, GoesWhereAnIndependentComputationGoes) {
 }
 
 TEST(Staircase, ApproachesTheLevelWithFourOfFiveRight) {
-    // Steps of 5 % of F, a shallow function: small steps against its width, as the formula supposes.
+    // Steps of 5 % of F and a shallow function: the steps are small compared with its width, as the formula requires.
     const auto grid = test::gridUpTo(20, 0.02);
     StaircaseSettings settings;
     settings.felt = 4;
@@ -48,7 +48,7 @@ TEST(Staircase, ApproachesTheLevelWithFourOfFiveRight) {
         const bool right = random.uniform() < p;
         ASSERT_TRUE(staircase.answer(right ? trial->interval : test::other(trial->interval)));
     }
-    // The mean over every trial, which is what the formula is about, and the mean of reversals beside it.
+    // The mean over all trials, which the formula predicts, and for comparison the mean of reversals.
     double sum = 0;
     for (const auto& trial : staircase.result().trials) sum += trial.level;
     const double mean = sum / static_cast<double>(staircase.result().trials.size());

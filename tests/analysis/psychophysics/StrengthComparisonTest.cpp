@@ -47,7 +47,7 @@ TEST(StrengthComparison, PairsLieInTheRangeAboutItsMiddle) {
 }
 
 TEST(StrengthComparison, TheModelIsTheOneThatItSays) {
-    // Φ at 0.5, 1 and 2 standard deviations; √2 of them make one of the difference.
+    // Φ at 0.5, 1 and 2 standard deviations; the difference of two has √2 times the standard deviation.
     for (const auto& [deviations, phi] :
          {std::pair(0.5, 0.6914624612740131), {1.0, 0.8413447460685429}, {2.0, 0.9772498680518208}}) {
         const StrengthPair pair{5, 5 * std::exp(deviations * std::sqrt(2) * std::log1p(0.1))};
@@ -96,10 +96,10 @@ TEST(StrengthComparison, WhoIsAlwaysRightOrGuessesIsAtTheEdgeOfWhatIsKnown) {
 }
 
 struct WeberRecovery {
-    double bias = 0, sd = 0, cover = 0;  // errors of ln(estimate/truth), and share of intervals
+    double bias = 0, sd = 0, cover = 0;  // errors of ln(estimate/truth), and share of intervals with the truth
 };
 
-/// `factor`: their Weber fraction is so many times the one held against the estimate.
+/// `factor`: their Weber fraction relative to the one used for comparison.
 WeberRecovery weberRecovery(std::size_t people, double weber, double factor = 1) {
     WeberRecovery out;
     double squares = 0;

@@ -16,7 +16,7 @@ std::vector<PlannedTrial> of(const std::vector<PlannedTrial>& plan, TrialPhase p
     return out;
 }
 
-/// "0123x": one character a trial, x for a catch trial.
+/// Writes trials as text, "0123x": one character per trial, x for a catch trial.
 std::string written(const std::vector<PlannedTrial>& trials) {
     std::string out;
     for (const auto& trial : trials) out += trial.condition ? static_cast<char>('0' + *trial.condition) : 'x';
@@ -57,7 +57,7 @@ TEST(TrialPlan, ObeysItsRulesWhateverTheSeed) {
     }
 }
 
-/// χ² of the orders that come, against an even share of every order that obeys, found by enumeration.
+/// Compares by χ² the orders drawn with a uniform share of all valid orders, found by enumeration.
 void expectUniform(const TrialPlanSettings& settings, std::size_t orders, const std::string& sortedBlock) {
     std::map<std::string, std::size_t> found;
     std::vector<std::string> blocks, all = {""};
@@ -98,16 +98,16 @@ TrialPlanSettings small(std::size_t blocks, std::size_t perCondition, std::size_
 
 TEST(TrialPlan, IsUniformAmongTheOrdersThatObey) {
     expectUniform(small(1, 2, 2), 36, "0011xx");
-    // 6 · 6 orders of two blocks, without the two whose blocks meet in a run of four.
+    // 6 · 6 orders of two blocks, less the two that form a run of four where the blocks meet.
     expectUniform(small(2, 2, 0), 34, "0011");
-    // 70 orders of 8 but for those with a run of four: 5 of either condition, 2 of them of both.
+    // 70 orders of 8, less those with a run of four: 5 for each condition, of which 2 are counted twice.
     expectUniform(small(1, 4, 0), 62, "00001111");
 }
 
 TEST(TrialPlan, ComesFromTheSeed) {
     EXPECT_EQ(planTrials({}, 5).value(), planTrials({}, 5).value());
     EXPECT_NE(planTrials({}, 5).value(), planTrials({}, 6).value());
-    // More blocks do not change what training is.
+    // The number of blocks does not affect the training.
     TrialPlanSettings more;
     more.blocks = 7;
     EXPECT_EQ(written(of(planTrials({}, 5).value(), TrialPhase::Training)),

@@ -21,7 +21,7 @@ VirtualParticipant uncertainParticipant() {
     return who;
 }
 
-/// χ² of counts against probabilities, as a quantile of its distribution's upper tail: below 0.999 is expected.
+/// Compares counts with probabilities by χ² and expects its cumulative probability to be below 0.999.
 void expectFollows(const std::vector<std::size_t>& counts, const std::vector<double>& probabilities) {
     std::size_t n = 0;
     for (const auto count : counts) n += count;
@@ -64,7 +64,7 @@ TEST(VirtualObserver, DetectsByTheFunctionThatQuestPlusAssumes) {
     EXPECT_NEAR(observer.probabilityRight(threshold, Seconds(0)), 0.5 + 0.49 * (1 - std::exp(-1)), 1e-12);
     EXPECT_NEAR(observer.probabilityRight(100, Seconds(0)), 0.99, 1e-12) << "half of the lapses are right";
     EXPECT_EQ(observer.probabilityRight(0, Seconds(0)), 0.5);
-    // The slope there is the slope of the noise: d(felt)/d(ln level) = 1/(√(2π) · ln 1.1).
+    // The slope at this point is the slope of the noise: d(felt)/d(ln level) = 1/(√(2π) · ln 1.1).
     const double rise = (observer.probabilityRight(threshold * 1.0001, Seconds(0)) -
                          observer.probabilityRight(threshold / 1.0001, Seconds(0))) /
                         (2 * std::log(1.0001) * 0.49);

@@ -1,5 +1,5 @@
-// Spearman's correlation and its interval against scipy (tests/reference/estimates.py), and against seeded repetitions
-// of known truth.
+// Spearman's correlation and its interval, compared with scipy (tests/reference/estimates.py) and with seeded
+// repetitions of known truth.
 #include <cmath>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -30,7 +30,7 @@ TEST(Spearman, AgreesWithScipyWhereValuesTie) {
 }
 
 TEST(Spearman, AgreesWithTheTextbook) {
-    // Intelligence against hours of television, the usual worked example: 1 - 6·194 / (10·99) = -29/165.
+    // The usual worked example, intelligence against hours of television: 1 - 6·194 / (10·99) = -29/165.
     const auto found = expectScipys(test::figuresOf("estimates").at("spearman").at("worked_example"));
     EXPECT_NEAR(found.rho.value, -29.0 / 165, 1e-12);
     EXPECT_FALSE(found.ties);
@@ -61,7 +61,7 @@ TEST(Spearman, RefusesWhatCannotBeRanked) {
 class RankCoverage : public ::testing::TestWithParam<std::pair<double, int>> {};
 
 TEST_P(RankCoverage, HoldsTheTruthInAbout95OfA100) {
-    // For two normal values of correlation r Spearman's ρ is (6/π) asin(r/2).
+    // For two normal values with correlation r, Spearman's ρ is (6/π) asin(r/2).
     const auto [r, n] = GetParam();
     const double truth = 6 / std::numbers::pi * std::asin(r / 2);
     constexpr int kRuns = 4000;
@@ -81,7 +81,7 @@ TEST_P(RankCoverage, HoldsTheTruthInAbout95OfA100) {
     RecordProperty("coverage", std::to_string(share));
     RecordProperty("coverage", std::to_string(share));
     EXPECT_GE(share, 0.93);
-    EXPECT_LE(share, n < 10 ? 0.99 : 0.97);  // few values: ρ takes few steps, and the interval is the wider one
+    EXPECT_LE(share, n < 10 ? 0.99 : 0.97);  // with few values, ρ takes few steps and the interval is wider
 }
 
 INSTANTIATE_TEST_SUITE_P(Known, RankCoverage,

@@ -1,4 +1,4 @@
-// The uncertainty of R against numpy (tests/reference/roughness_uncertainty.py), and what stays unknown of it.
+// The uncertainty of R, compared with numpy (tests/reference/roughness_uncertainty.py), and its unknown parts.
 #include <cmath>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

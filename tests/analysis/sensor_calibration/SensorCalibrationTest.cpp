@@ -1,4 +1,4 @@
-// Reference scales, distances and the ranking from slides with known truth, and sensor readings against references.
+// Reference scales, distances and ranking for slides of known truth, and sensor readings compared with references.
 #include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A slide that reads `h` and `v`.
+/// Returns a slide with readings `h` and `v`.
 SlideReading slideOf(double h, double v) {
     SlideReading out;
     out.h = h;
@@ -24,7 +24,7 @@ SlideReading slideOf(double h, double v) {
     return out;
 }
 
-/// log10 of both features about the given means, with standard deviation `sd`.
+/// Draws slides with log10 of both features around the given means, with standard deviation `sd`.
 SlidSurface surfaceOf(Random& random, const char* name, double ra_um, double logH, double logV, double sd, int n = 5) {
     SlidSurface out{name, ra_um, 7 * ra_um, {}};
     for (int i = 0; i < n; ++i) {
@@ -64,7 +64,7 @@ TEST(SensorCalibration, GivesTheScalesOfItsReferences) {
     EXPECT_NEAR(found.surfaces[0].R.mean, 0, 0.02);
     EXPECT_NEAR(found.surfaces[1].R.mean, 1, 0.02);
     EXPECT_FALSE(found.ranking) << "two surfaces";
-    // The section is a profile's: it reads back to the same.
+    // The section is part of a profile and reads back unchanged.
     EXPECT_EQ(roughnessSettingsFromJson(toJson(found)["roughness"]).value(), settings);
 }
 
@@ -87,7 +87,7 @@ TEST(SensorCalibration, RefusesSurfacesThatCannotBeToldApartAndChangesNothing) {
     EXPECT_EQ(refused, 100);
 }
 
-// Its scale would belong to another rig, and would still count in R wherever it is measured.
+// The feature's scale would come from another rig, and would still affect R when the feature is measured.
 TEST(SensorCalibration, AFeatureThatIsMeasuredNowAndThenIsARefusalAndOneThatNeverIsAWarning) {
     RecordProperty("hazard", "H7");
     Random random(4, "now and then");
@@ -136,7 +136,7 @@ TEST(SensorCalibration, RanksFiveSurfacesAgainstTheirRa) {
     const auto at = [&](const char* name, double ra, double place) {
         return surfaceOf(random, name, ra, -1.6 + 1.1 * place, -3.5 + 2.2 * place, 0.005);
     };
-    // R puts c below b: 1 - 6·2 / (5·24) = 0.9.
+    // R ranks c below b: 1 - 6·2 / (5·24) = 0.9.
     const auto found =
         calibrateSensor({at("a", 1, 0), at("e", 40, 1), at("b", 3, 0.4), at("c", 9, 0.2), at("d", 20, 0.8)}, {},
                         restOf(1e-4))
@@ -166,7 +166,7 @@ TEST(SensorCalibration, RefusesReferencesThatAreNone) {
 
 TEST(SensorCalibration, TheReferencesReadWhatTheyAreAssigned) {
     RecordProperty("hazard", "H7");
-    // Half of the slides over a reference lie beyond it: R held within 0..1 slide by slide would lie inside.
+    // Half of the slides over a reference lie beyond it. Limiting each R to 0..1 would bias the mean inwards.
     for (std::uint64_t seed = 1; seed <= 50; ++seed) {
         Random random(seed, "assigned");
         const auto found = calibrateSensor({surfaceOf(random, "smooth", 1.6, -1.6, -3.5, 0.1),
@@ -210,7 +210,7 @@ TEST(SensorScale, ItsIntervalsHoldTheTruthIn95OfA100) {
     Random random(9, "scale coverage");
     int scale = 0, offset = 0;
     for (int run = 0; run < kRuns; ++run) {
-        // All weights of a set are off by one factor, as far as their tolerance allows.
+        // All weights of a set have the same relative error, within their tolerance.
         const double tolerance = 0.01, off = 1 + tolerance * (2 * random.uniform() - 1);
         const auto found = fitSensorScale(weighed(random, 250 * off, 1000, 10, 3), {tolerance}, "force").value();
         scale += std::abs(found.scale - 0.004) <= found.scaleU ? 1 : 0;
@@ -237,7 +237,7 @@ TEST(SensorScale, IsAsUncertainAsItsReferencesAndUnknownWithThem) {
     Random random(11, "tolerance");
     const auto readings = weighed(random, 250, 1000, 0, 2);
     const auto found = fitSensorScale(readings, {0.03}, "taxel 1").value();
-    // Rectangular: 95 % of it lie within 0.95 · 3 % of the scale, and of the offset that goes with it.
+    // Rectangular: 95 % lie within 0.95 · 3 % of the scale, and of its offset.
     EXPECT_NEAR(found.scaleU / found.scale, 0.95 * 0.03, 2e-4);
     EXPECT_NEAR(found.offsetU, 4 * 0.95 * 0.03, 1e-3);
     const auto unknown = fitSensorScale(readings, {0.03, NAN}, "taxel 1").value();

@@ -1,4 +1,4 @@
-// d' and its interval against scipy (tests/reference/estimates.py), and against seeded repetitions of known truth.
+// d' and its interval, compared with scipy (tests/reference/estimates.py) and with seeded repetitions of known truth.
 #include <cmath>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -104,7 +104,7 @@ TEST(SurfaceDistance, TellsApartSurfacesAtTheThresholdInOneOf40Runs) {
         }
         return static_cast<double>(count) / kRuns;
     };
-    EXPECT_LE(accepted(0), 0.005);  // these are the same surface twice
+    EXPECT_LE(accepted(0), 0.005);  // both are the same surface
     const double atThreshold = accepted(1);
     EXPECT_GE(atThreshold, 0.0145);  // 2.5 % ± 3 standard errors
     EXPECT_LE(atThreshold, 0.0355);

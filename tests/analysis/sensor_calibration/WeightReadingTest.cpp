@@ -1,4 +1,4 @@
-// What a script and the session are told of a weight on the fingertip.
+// The data about a weight on the fingertip that scripts and the session receive.
 #include <gtest/gtest.h>
 
 #include "core/analysis/sensor_calibration/SensorCalibrationJson.h"

@@ -12,7 +12,7 @@
 namespace tacto::test {
 namespace {
 
-/// Against numpy and scipy on the same trials (tests/reference/trials.py).
+/// Compares with numpy and scipy on the same trials (tests/reference/trials.py).
 void expectAgrees(const Separability& found, const nlohmann::json& numpy) {
     const auto& pairs = numpy.at("pairs");
     ASSERT_EQ(found.pairs.size(), pairs.size());

@@ -1,4 +1,4 @@
-// Nothing that was not measured reads as passed, and a small misfortune is not a failure.
+// Unmeasured values never read as passed, and a small mishap is not a failure.
 #include <gtest/gtest.h>
 
 #include "core/analysis/separability/Separability.h"
@@ -32,7 +32,7 @@ TEST(SeparabilityVerdict, FewerThanSeventyThreeTrialsAreIndeterminate) {
     EXPECT_EQ(judgeSeparability(seventyThree).value().verdict, Verdict::Indeterminate);
 }
 
-/// smooth-low and smooth-high differ in interval alone; `errors` trials of the first come out nearer to the second.
+/// smooth-low and smooth-high differ only in interval. In `errors` trials, the first is closer to the second.
 std::vector<SeparabilityTrial> withErrors(std::size_t errors, int repeats) {
     TrialDesign design;
     design.repeats = repeats;

@@ -1,4 +1,4 @@
-// Bounds against scipy (tests/reference/estimates.py), and what they do to a verdict.
+// Bounds compared with scipy (tests/reference/estimates.py), and their effect on a verdict.
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -27,10 +27,10 @@ TEST(ConfidenceBound, OfADistanceCarriesScatterAndWhatTheInstrumentLeavesOpen) {
     const auto sampleOf = [](const nlohmann::json& made) {
         return MeanReading{made.at(0), made.at(1), made.at(2), made.at(3)};
     };
-    // Scatter alone, with the instrument's uncertainty, and where nothing scatters.
+    // Cases with scatter only, with the instrument's uncertainty, and without scatter.
     for (const auto& scipy : figuresOf("estimates").at("log_ratio")) {
         const auto bounds = logRatioBounds(sampleOf(scipy.at("a")), sampleOf(scipy.at("b")));
-        const double tolerance = scipy.at("a").at(1) == 0 ? 1e-12 : 1e-10;  // a normal quantile or Student's
+        const double tolerance = scipy.at("a").at(1) == 0 ? 1e-12 : 1e-10;  // normal quantile or Student's
         EXPECT_NEAR(bounds.low, scipy.at("low").get<double>(), tolerance) << scipy;
         EXPECT_NEAR(bounds.high, scipy.at("high").get<double>(), tolerance) << scipy;
     }
@@ -59,7 +59,7 @@ TEST(SeparabilityFloor, HoldsTheTimeBaseSoThatNoDistanceExceedsIt) {
     TrialDesign still;
     still.amplitudeSd = still.intervalSd_s = 0;
     const auto found = judgeSeparability(stated(still, 0.1, 3e-6, 1e-4)).value();
-    // Root mean square of 1e-4 · (2 s, 0.5 s) and 3 µs.
+    // Root mean square of 1e-4 · (2 s, 0.5 s), with 3 µs added in quadrature.
     const double floor = std::sqrt((4e-8 + 0.25e-8) / 2 + 9e-12);
     EXPECT_NEAR(found.intervalFloor_s, floor, 1e-12);
     EXPECT_NEAR(found.pairs[0].mahalanobis, 1.5 / floor, 1e-6);
@@ -93,8 +93,8 @@ TEST(SeparabilityBounds, JudgeThePairAndNotItsEstimate) {
     EXPECT_EQ(found.verdict, Verdict::Indeterminate);
     EXPECT_TRUE(
         says(found, "with 95 % confidence by 0.0 and 5.0 at least; whether 5 in one of them are reached is open"));
-    // An interval's uncertainty by the instrument counts as much as scatter; a time base that is off, or a gain, is off
-    // for both alike and divides out.
+    // The instrument's uncertainty of a single interval counts like scatter. An error of the time base or the gain is
+    // the same for both conditions and cancels.
     design.interval_s = {1.1, 0.5, 1.1, 0.5};
     EXPECT_EQ(judgeSeparability(stated(design, 0.05, 1e-6, 1e-5)).value().verdict, Verdict::Pass);
     EXPECT_EQ(judgeSeparability(stated(design, 0.05, 0.03, 1e-5)).value().verdict, Verdict::Indeterminate);
@@ -109,7 +109,7 @@ TEST(SeparabilityBounds, JudgeThePairAndNotItsEstimate) {
 TEST(SeparabilityBounds, JudgeTheVariationAndNotItsEstimate) {
     RecordProperty("hazard", "H9");
     TrialDesign design;
-    design.amplitudeSd = 0.45;  // 4.6 % of 10 V in 25 trials: up to 6.1 %
+    design.amplitudeSd = 0.45;  // 4.6 % of 10 V in 25 trials: the upper bound is 6.1 %
     const auto found = judgeSeparability(stated(design, 0.05, 1e-6, 1e-5)).value();
     EXPECT_LT(found.conditions[0].amplitudeVariation, 0.05);
     EXPECT_GT(found.conditions[0].amplitudeVariationBounds.high, 0.05);

@@ -1,6 +1,4 @@
-// CountedOut.h - the binomial distribution, every outcome counted out: what the exact tests are compared with.
-//
-// Thread-safety: a pure function.
+// CountedOut.h - the binomial distribution by summing all outcomes, to check the exact tests.
 #pragma once
 
 #include <cmath>
@@ -8,7 +6,7 @@
 
 namespace tacto::test {
 
-/// P(X ≥ k) of `n` trials that succeed with `p`, above 0 and below 1.
+/// Returns P(X ≥ k) for `n` trials with success probability `p`, between 0 and 1 exclusive.
 [[nodiscard]] inline double countedOut(std::size_t k, std::size_t n, double p) {
     const auto log = [](std::size_t x) { return std::lgamma(static_cast<double>(x) + 1); };
     double sum = 0;

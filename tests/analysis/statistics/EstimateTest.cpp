@@ -51,7 +51,7 @@ TEST(Binomial, AboveChanceIsTheExactTest) {
         EXPECT_LE(test::countedOut(from, n, 0.25), 0.05) << n;
         EXPECT_GT(test::countedOut(from - 1, n, 0.25), 0.05) << n;
     }
-    // 27 of 80, as science.md section 11 says; 2 of 1: one answer is never enough.
+    // 27 of 80, as in science.md section 11. For one trial it is 2: one answer is never enough.
     for (const auto& scipy : test::figuresOf("estimates").at("above_chance"))
         EXPECT_EQ(aboveChanceFrom(scipy.at("n"), scipy.at("chance")), scipy.at("from").get<std::size_t>()) << scipy;
 }
@@ -104,7 +104,7 @@ TEST(Prevalence, IntervalsAreTheShortestThatScipyFinds) {
     }
 }
 
-// With k = n, θ^(n+1) is 0.05 of the way between 0.05^(n+1) and 1.
+// If k = n, θ^(n+1) is 5 % of the way from 0.05^(n+1) to 1.
 TEST(Prevalence, OfAllIsThatOfInceAndOthers) {
     for (const std::size_t n : {1U, 4U, 12U}) {
         const double m = static_cast<double>(n + 1), cut = std::pow(0.05, m);
@@ -114,7 +114,7 @@ TEST(Prevalence, OfAllIsThatOfInceAndOthers) {
     }
 }
 
-/// Posterior of the share in a thousand steps, from the binomial probability of k of n and nothing else.
+/// The posterior of the share in a thousand steps, computed only from the binomial probability of k of n.
 class Posterior {
 public:
     Posterior(std::size_t k, std::size_t n) {
@@ -127,7 +127,7 @@ public:
         }
         for (double& part : density_) part /= sum;
     }
-    /// Probability between two shares.
+    /// Returns the probability between two shares.
     [[nodiscard]] double between(double low, double high) const {
         double sum = 0;
         for (int i = 0; i < kSteps; ++i) {
@@ -154,7 +154,7 @@ TEST(Prevalence, EveryCountUpToTwentyHas95PercentInNoMoreThanItNeeds) {
             EXPECT_LE(found.value, found.high) << k << " of " << n;
             EXPECT_GE(found.low, before) << k << " of " << n;
             before = found.low;
-            // An interval of the same width a little to either side holds less.
+            // An interval of the same width, shifted slightly to either side, contains less probability.
             constexpr double kAside = 1e-3;
             if (found.low >= kAside) {
                 EXPECT_LE(truth.between(found.low - kAside, found.high - kAside), 0.95) << k << " of " << n;

@@ -44,18 +44,18 @@ TEST(InformationTransfer, AllRightIsAllThereIsAndTheIntervalSaysWhatTheTrialsAll
         EXPECT_LT(found.low, 2) << each;
         low = found.low;
     }
-    // 20 of each: 4 % wrong leave a chance of 4 % that all 80 are right, and 1.7 bits.
+    // 20 of each: with 4 % errors, all 80 are right with a chance of 4 %, and the information is 1.7 bits.
     const auto found = correctedInformation(Table{{20, 0, 0, 0}, {0, 20, 0, 0}, {0, 0, 20, 0}, {0, 0, 0, 20}});
     EXPECT_NEAR(found.low, 1.7, 0.05);
     const auto uneven = correctedInformation(Table{{30, 0, 0, 0}, {0, 30, 0, 0}, {0, 0, 20, 0}, {0, 0, 0, 10}});
     EXPECT_NEAR(uneven.value, -2 * std::log2(1 / 3.0) / 3 - 2 * std::log2(2 / 9.0) / 9 - std::log2(1 / 9.0) / 9, 1e-12);
 }
 
-/// Answers with known probabilities, drawn as often as each stimulus is presented.
+/// A channel gives answers with known probabilities, once for each presentation of a stimulus.
 struct Channel {
     const char* name;
-    Table answers;                 // [stimulus][answer], rows of 1
-    std::vector<int> presented{};  // how often each stimulus came
+    Table answers;                 // [stimulus][answer]; each row sums to 1
+    std::vector<int> presented{};  // how often each stimulus was presented
     [[nodiscard]] double truth() const {
         double bits = 0, n = 0;
         for (const int each : presented) n += each;
@@ -81,7 +81,7 @@ struct Channel {
     }
 };
 
-/// Either every wrong answer is equally likely, or one neighbour is given, or "none".
+/// Returns channels in which all wrong answers are equally likely, or one neighbour is given, or "none".
 std::vector<Channel> channels() {
     std::vector<Channel> all;
     const auto add = [&all](const char* name, double right, std::vector<double> wrong) {
@@ -126,7 +126,7 @@ TEST(InformationTransfer, IsUnbiasedFromGuessingToAllRightAndItsIntervalHolds) {
             const double n = sessions, bias = sum / n, spread = std::sqrt(squares / n);
             const auto what = std::string(channel.name) + " " + std::to_string(channel.answers[0][0]) + " of " +
                               std::to_string(presented[0]);
-            // The rest is 0.03 bit at 80 trials, a quarter of the spread; values below 0 read 0.
+            // The remaining bias is 0.03 bit at 80 trials, a quarter of the spread; values below 0 are reported as 0.
             const double allowed = truth < 0.01 ? 0.02 : 0.03;
             EXPECT_LE(std::abs(bias), allowed + standardErrors * spread / std::sqrt(n)) << what;
             EXPECT_GE(held / n, 0.93 - standardErrors * std::sqrt(0.05 * 0.95 / n)) << what;

@@ -58,11 +58,11 @@ TEST(UncertaintyBudget, ARowIsValueOverDivisorTimesSensitivity) {
 }
 
 TEST(UncertaintyBudget, OneRectangleIsPropagatedNotTakenForNormal) {
-    // Alone: 95 % of a half-width of 2 is 1.9, not 1.96 · 2/√3 = 2.26.
+    // By itself: 95 % of a half-width of 2 is 1.9, not 1.96 · 2/√3 = 2.26.
     const auto one = accepted(combine({{"gain", Distribution::Rectangular, 2, std::sqrt(3.0), 1, kInf}}));
     EXPECT_EQ(one.method, CoverageMethod::MonteCarlo);
     EXPECT_NEAR(one.expanded, 1.9, 0.01);
-    // Two equal ones make a triangle of half-width 4.
+    // Two equal rectangles make a triangle of half-width 4.
     const auto two = accepted(combine({{"gain", Distribution::Rectangular, 2, std::sqrt(3.0), 1, kInf},
                                        {"offset", Distribution::Rectangular, 2, std::sqrt(3.0), -1, kInf}}));
     EXPECT_NEAR(two.expanded, 4 * (1 - std::sqrt(0.05)), 0.02);
@@ -77,8 +77,8 @@ TEST(UncertaintyBudget, ManySmallRectanglesAreNearNormal) {
 }
 
 TEST(UncertaintyBudget, PropagatedScatterKeepsItsDegreesOfFreedom) {
-    // A type A row beside a rectangle that is just large enough to ask for the Monte Carlo: with 3 degrees of freedom
-    // the interval is far wider than with many.
+    // A type A row with a rectangle just large enough to require the Monte Carlo method: with 3 degrees of freedom the
+    // interval is far wider than with many.
     const auto with = [](double freedom) {
         const auto budget = combine({{"s", Distribution::Student, 1, 1, 1, freedom},
                                      {"gain", Distribution::Rectangular, 1.1, std::sqrt(3.0), 1, kInf}});
@@ -86,7 +86,7 @@ TEST(UncertaintyBudget, PropagatedScatterKeepsItsDegreesOfFreedom) {
         EXPECT_EQ(budget->method, CoverageMethod::MonteCarlo);
         return budget->expanded;
     };
-    // Normal (1) plus a rectangle (± 1.1), integrated numerically.
+    // Normal (1) plus rectangle (± 1.1), integrated numerically.
     EXPECT_NEAR(with(kInf), figuresOf("estimates").at("normal_and_rectangle").at("expanded").get<double>(), 0.02);
     EXPECT_GT(with(3), 1.3 * with(kInf));
 }

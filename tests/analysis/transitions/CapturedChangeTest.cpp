@@ -76,7 +76,7 @@ TEST(CapturedChange, IsIndeterminateForWhatWasNotMeasured) {
     EXPECT_EQ(judgeChanges({}, {"up"}, kLimits).verdict, Verdict::Indeterminate);
     EXPECT_EQ(judgeChanges(std::vector{changeOf(kNaN, 1)}, {}, kLimits).verdict, Verdict::Indeterminate);
     auto alone = changeOf(1, 1);
-    alone.before_v.clear();  // without trains of one command their scatter is unknown
+    alone.before_v.clear();  // without trains of one command, the scatter is unknown
     EXPECT_EQ(judgeChanges(std::vector{alone}, {}, kLimits).verdict, Verdict::Indeterminate);
 }
 

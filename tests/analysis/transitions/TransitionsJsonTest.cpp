@@ -1,4 +1,4 @@
-// What a script and the session are told of a change.
+// The data about a change that scripts and the session receive.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

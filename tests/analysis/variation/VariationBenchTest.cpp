@@ -25,7 +25,7 @@ TEST(VariationBench, OneRectangularToleranceHasItsQuantiles) {
     EXPECT_NEAR(found.conditions[2].amplitude_v.low, 40 - 3.6, within);
     EXPECT_NEAR(found.conditions[2].amplitude_v.high, 40 + 3.6, within);
     EXPECT_NEAR(found.conditions[2].amplitude_v.value, 40, 5 * 8 * 0.5 / std::sqrt(20'000.0));
-    // A gain that is off is off in both conditions of a pair: their ratio stays.
+    // An error of the gain affects both conditions of a pair, so their ratio is unchanged.
     EXPECT_NEAR(found.pairs[1].amplitude_jnd.low, found.pairs[1].amplitude_jnd.high, 1e-9);
 }
 

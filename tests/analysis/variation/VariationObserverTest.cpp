@@ -15,7 +15,7 @@ IdentificationTask taskOf(std::vector<FeltPoint> points) {
     return task;
 }
 
-/// The paper's four, in just-noticeable differences of the default Weber fractions, times `scale`.
+/// Returns the paper's four conditions, in just-noticeable differences of the default Weber fractions, times `scale`.
 IdentificationTask fourConditions(double scale) {
     const double a = scale * std::log(4) / std::log(1.10), t = scale * std::log(4) / std::log(1.16);
     return taskOf({{0, t}, {0, 0}, {a, t}, {a, 0}});
@@ -27,7 +27,7 @@ TEST(VariationObserver, TwoConditionsAlongOneDimensionFollowTheClosedForm) {
             const double expected = phi(d / (2 * sigma));
             for (const auto& task : {taskOf({{20, 3}, {20 + d, 3}}), taskOf({{20, 3}, {20, 3 + d}})}) {
                 const auto p = responseProbabilities(task, {sigma});
-                const double right = d == 0 ? 1 : expected;  // the first of equal points is answered
+                const double right = d == 0 ? 1 : expected;  // of equal points, the first is the answer
                 EXPECT_NEAR(p[0][0], right, 1e-9) << d << " " << sigma;
                 EXPECT_NEAR(p[1][1], d == 0 ? 0 : expected, 1e-9) << d << " " << sigma;
             }
@@ -76,7 +76,7 @@ TEST(VariationObserver, LapsesAndGuessesSpreadEvenly) {
     EXPECT_NEAR(p[0][0], 0.8 * phi(a) * phi(t) + 0.2 / 4, 1e-9);
     EXPECT_NEAR(p[0][3], 0.8 * phi(-a) * phi(-t) + 0.2 / 4, 1e-9);
 
-    Observer numb{1.0, 0.0, 1.0};  // felt with P = phi(-1) where the amplitude is 0
+    Observer numb{1.0, 0.0, 1.0};  // feels amplitude 0 with P = phi(-1)
     EXPECT_NEAR(responseProbabilities(task, numb)[0][4], phi(1), 1e-9);
     EXPECT_NEAR(responseProbabilities(task, numb)[2][4], 0, 1e-9);
     numb.guess = GuessBehaviour::Uniform;
@@ -97,7 +97,7 @@ TEST(VariationObserver, SampledAnswersAgreeWithTheProbabilities) {
         for (std::size_t j = 0; j < 5; ++j) {
             sum += counts[i][j];
             const double expected = kTrials * p[i][j];
-            // Five standard deviations: one in two million of a right program fails, and the seed is fixed.
+            // Five standard deviations: a correct program fails once in two million, and the seed is fixed.
             EXPECT_NEAR(static_cast<double>(counts[i][j]), expected, 5 * std::sqrt(expected * (1 - p[i][j])) + 1e-9)
                 << i << " answered " << j;
         }

@@ -1,4 +1,4 @@
-// Who is served: a condition counts only if it is presented, felt and not too strong.
+// Which participants are served: a condition counts only if it is presented, felt and not too strong.
 #include <gtest/gtest.h>
 
 #include "core/analysis/variation/VariationJson.h"
@@ -18,8 +18,8 @@ VariationOptions peopleWith(AmplitudeLevels levels, double discomfort_ma = 9.8) 
 }
 
 TEST(VariationServed, ThePapersRangeServesHardlyAnyone) {
-    // 10 to 40 V span as much as perception and intolerance do: a participant who feels the one end does not bear the
-    // other.
+    // 10 to 40 V span the range from perception to intolerance: a participant who feels the low end does not tolerate
+    // the high end.
     const std::pair<double, std::size_t> mostServed[] = {{6.9, 0}, {9.8, 4}, {13.8, 24}};
     for (const auto& [discomfort, most] : mostServed) {
         const auto found = predictVariation(peopleWith(AmplitudeLevels::Profile, discomfort)).value();
@@ -43,7 +43,7 @@ TEST(VariationServed, UnfeltConditionsAreNotSeparable) {
     EXPECT_LE(found.clearlySeparable, found.served);
     EXPECT_NEAR(toJson(found, wanted)["clearly_separable_share"].get<double>(),
                 static_cast<double>(found.clearlySeparable) / 200, 1e-12);
-    // smooth-low / smooth-high: 10 V both.
+    // smooth-low / smooth-high: both have 10 V.
     EXPECT_EQ(found.pairs[0].participants, found.conditions[0].counted);
     EXPECT_LT(found.pairs[0].participants, found.conditions[0].presented);
 }
@@ -77,7 +77,7 @@ TEST(VariationServed, ThresholdsOfEachConditionAreCountedApart) {
           &wanted.population.detection_ma, &wanted.population.attention_ma, &wanted.population.intolerance_ma}) {
         drawn->spread = 1;
     }
-    // 40 V is 11.43 mA into 3.50 kΩ; at 200 µs thresholds are 0.875 of those at 150 µs: 12.1 mA is not borne.
+    // 40 V gives 11.43 mA into 3.50 kΩ. Thresholds at 200 µs are 0.875 of those at 150 µs: 12.1 mA is not tolerated.
     const auto found = predictVariation(wanted).value();
     EXPECT_EQ(found.conditions[0].drawsAttention, 0U);
     EXPECT_EQ(found.conditions[2].drawsAttention, 4U);

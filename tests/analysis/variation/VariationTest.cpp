@@ -24,7 +24,7 @@ VariationOptions options(std::size_t participants = 60) {
     return out;
 }
 
-/// Everybody feels from `felt` mA at 150 µs and bears up to `strong`.
+/// Lets everybody feel from `felt` mA at 150 µs and tolerate up to `strong` mA.
 void setThresholds(VariationOptions& options, double felt, double strong) {
     auto& population = options.population;
     population.detection_ma.median = felt;
@@ -33,7 +33,7 @@ void setThresholds(VariationOptions& options, double felt, double strong) {
     population.discomfort_ma = strong;
 }
 
-/// A population in which nobody differs from the median, and nobody lapses.
+/// Returns a population in which everybody equals the median and nobody lapses.
 VariationOptions everybodyAlike() {
     auto out = options(5);
     for (auto* drawn : {&out.population.series_ohm, &out.population.parallel_ohm, &out.population.capacitance_nf,
@@ -71,7 +71,7 @@ TEST(Variation, CurrentIsTheCommandOverTheParticipantsImpedance) {
     wanted.stimulation.levels = AmplitudeLevels::Profile;
     setThresholds(wanted, 1, 20);
     const auto who = predictParticipant(wanted, 0);
-    // science.md section 4: 3.50 kΩ from a current source on 200 Ω + (10 kΩ ∥ 50 nF) at 200 µs.
+    // science.md section 4: 3.50 kΩ for a current source into 200 Ω + (10 kΩ ∥ 50 nF) at 200 µs.
     const double z = 200 + 10e3 * (1 - std::exp(-200e-6 / (10e3 * 50e-9)));
     EXPECT_NEAR(who.delivery.impedance.value(), z, 1e-6 * z);
     EXPECT_NEAR(z, 3500, 10);
@@ -104,7 +104,7 @@ TEST(Variation, WhatTheGateWouldRefuseIsCountedAndNotGiven) {
     RecordProperty("hazard", "H1");
     auto wanted = everybodyAlike();
     wanted.stimulation.levels = AmplitudeLevels::Profile;
-    wanted.stimulation.ceilings = {{Quantity::PeakCurrent, 5}};  // lets 10 V through, 2.9 mA, and not 40 V, 11.4 mA
+    wanted.stimulation.ceilings = {{Quantity::PeakCurrent, 5}};  // allows 10 V (2.9 mA) but not 40 V (11.4 mA)
     setThresholds(wanted, 1, 100);
     const auto limited = predictVariation(wanted).value();
     EXPECT_EQ(limited.refused, 2 * 5U);
@@ -118,11 +118,11 @@ TEST(Variation, WhatTheGateWouldRefuseIsCountedAndNotGiven) {
     EXPECT_TRUE(toJson(limited, wanted)["trials_needed"].is_null());
     EXPECT_TRUE(toJson(limited, wanted)["accuracy"]["median"].is_null());
 
-    // Above what the participant bears: the gate's ceiling in person mode.
+    // The level is above what the participant tolerates: the gate's ceiling in person mode.
     wanted.stimulation.ceilings.clear();
     setThresholds(wanted, 1, 3);
     EXPECT_EQ(predictVariation(wanted).value().conditions[2].refused, 5U);
-    // A skin that is out of the profile's range gets nothing at all.
+    // Skin outside the profile's range gets no stimulation at all.
     wanted.stimulation.loadHigh = Ohms(3000);
     EXPECT_EQ(predictVariation(wanted).value().refused, 4 * 5U);
 }
@@ -175,7 +175,7 @@ TEST(Variation, ACancelKeepsThePeopleWhoAreDone) {
     EXPECT_GE(found.participants, 20U);
     EXPECT_LT(found.participants, 100'000U);
     EXPECT_IN_TIME(std::chrono::steady_clock::now() - begun < std::chrono::seconds(20)) << "sanitizers are slow";
-    // The kept part is a whole run with fewer people.
+    // The result so far equals a complete run with fewer people.
     wanted.participants = found.participants;
     auto whole = toJson(predictVariation(wanted).value(), wanted);
     auto part = toJson(found, wanted);

@@ -9,7 +9,7 @@
 namespace tacto {
 namespace {
 
-/// Computed without the program's shortcuts: every outcome, its probability from logarithms of factorials.
+/// Computed without the program's shortcuts: the probability of an outcome, from logarithms of factorials.
 double chanceOf(std::size_t k, std::size_t n, double p) {
     const auto log = [](std::size_t x) { return std::lgamma(static_cast<double>(x) + 1); };
     const double a = static_cast<double>(k), b = static_cast<double>(n - k);
@@ -61,7 +61,7 @@ TEST(VariationTrials, TheSearchFindsWhatTryingEveryNumberFinds) {
         EXPECT_EQ(found.forWidth, forWidth) << p;
         EXPECT_EQ(found.aboveChance, aboveChance) << p;
         EXPECT_EQ(found.rho, 0);
-        // Participants do not differ: pooled trials count like one participant's, up to whole blocks.
+        // All participants are alike, so pooled trials count like one participant's, up to whole blocks.
         ASSERT_TRUE(found.pooledForWidth.perParticipant);
         EXPECT_EQ(*found.pooledForWidth.total, 5 * *found.pooledForWidth.perParticipant);
         EXPECT_LE(*found.pooledForWidth.total, forWidth + 5 * 4);
@@ -81,12 +81,12 @@ TEST(VariationTrials, PeopleWhoDifferMakePooledTrialsCountLess) {
     ASSERT_TRUE(found.pooledForWidth.perParticipant);
     const auto m = static_cast<double>(*found.pooledForWidth.perParticipant);
     EXPECT_NEAR(found.pooledForWidth.designEffect, 1 + (m - 1) * found.rho, 1e-12);
-    // The counted trials reach what one person with the mean accuracy needs, and a block less does not.
+    // The effective number of trials is what one person with the mean accuracy needs; one block less is not enough.
     const double mean[] = {0.7};
     const double need = static_cast<double>(*trialsNeeded(mean, {0.2, 0.25, 0.8, 1}).value().forWidth);
     EXPECT_GE(40 * m / (1 + (m - 1) * found.rho), need);
     EXPECT_LT(40 * (m - 4) / (1 + (m - 5) * found.rho), need);
-    // With fewer people no number of trials is enough, and the figure says how many people it takes.
+    // With fewer people no number of trials is enough, and the result says how many people are needed.
     wanted.participants = static_cast<std::size_t>(need * found.rho);
     const auto few = trialsNeeded(accuracies, wanted).value();
     EXPECT_FALSE(few.pooledForWidth.total);
@@ -105,7 +105,7 @@ TEST(VariationTrials, TheCurveHoldsTheQuantilesOfTheWidth) {
     const auto found = trialsNeeded(accuracies, {}).value();
     ASSERT_FALSE(found.curve.empty());
     for (const auto& point : found.curve) {
-        // The probability of a width up to the quantile reaches it, and just below the quantile does not.
+        // Widths up to the quantile have the required probability; widths just below it do not.
         EXPECT_GE(widthReached(accuracies, point.trials, point.width.value + 1e-12), 0.5 - 1e-9);
         EXPECT_LT(widthReached(accuracies, point.trials, point.width.value - 1e-9), 0.5 + 1e-9);
         EXPECT_LE(point.width.low, point.width.value);

@@ -1,4 +1,4 @@
-// Bursts of known strength, latency, rise and rhythm, as an accelerometer would see them.
+// Bursts of known strength, latency, rise and rhythm, as an accelerometer would measure them.
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
@@ -15,11 +15,11 @@ constexpr double kRate = 4000, kGravity = 9.81, kHertz = 100;
 struct Shaking {
     double amplitude = 4;     // m/s²
     double latency_s = 0.02;  // latency of every burst
-    double ramp_s = 0;        // how long it takes to reach the amplitude
-    double noise = 0;         // an axis
+    double ramp_s = 0;        // time to reach the amplitude
+    double noise = 0;         // per axis
 };
 
-/// Three bursts 0.5 s apart from 1 s on, 10 whole turns each, along a direction of its own beside gravity.
+/// Returns three bursts 0.5 s apart, from 1 s on, of 10 whole turns each. Their direction differs from gravity.
 std::vector<CommandedBurst> commands() {
     std::vector<CommandedBurst> all;
     for (int k = 0; k < 3; ++k) all.push_back({1 + k * 0.5, Seconds(0.1)});
@@ -52,7 +52,7 @@ TEST(BurstFigures, SaysWhatTheMotorDid) {
     EXPECT_NEAR(found.strength_m_s2, 4 / std::numbers::sqrt2, 0.02);
     EXPECT_NEAR(found.latency_s, 0.02, 0.0005);
     EXPECT_NEAR(found.interval_s, 0.5, 1e-9);
-    // A sine is at a tenth of its peak 0.16 ms after its beginning, and at nine tenths after 1.78 ms.
+    // A sine reaches a tenth of its peak 0.16 ms after it begins, and nine tenths after 1.78 ms.
     EXPECT_NEAR(found.rise_s, 0.00162, 0.0003);
     EXPECT_NEAR(found.noise_m_s2, 0, 1e-9);
 }

@@ -1,4 +1,4 @@
-// The four conditions of a massager, apart or not, by what an accelerometer said of them.
+// Whether an accelerometer's readings separate the four conditions of a massager.
 #include <gmock/gmock.h>
 
 #include "core/analysis/vibration/VibrationSeparability.h"
@@ -30,7 +30,7 @@ BurstFigures still(std::size_t missed = 0) {
     return out;
 }
 
-/// 25 of each; strengths vary by 1 %.
+/// Returns 25 trials of each condition; strengths vary by 1 %.
 std::vector<VibrationTrial> trials(double smooth = 1, double rough = 3) {
     std::vector<VibrationTrial> all;
     for (int n = 0; n < 25; ++n) {
