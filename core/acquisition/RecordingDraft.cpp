@@ -52,7 +52,7 @@ std::optional<StreamKind> kindByName(std::string_view name) {
 
 /// A column, as described by its header.
 struct DraftColumn {
-    Json called;  ///< the channel's name, or its number from 1
+    Json called;  ///< name of the channel, or its number from 1
     std::string name;
     std::string unit;
     std::optional<StreamKind> kind{};

@@ -17,7 +17,7 @@ struct RecordingDraft {
     std::vector<std::string> taken;  ///< conclusions and omissions that the user should check
 };
 
-/// Errors: as readTextFile(); ParseError for a file without a row of numbers.
+/// Drafts the description. Errors: as readTextFile(); ParseError for a file without a row of numbers.
 [[nodiscard]] Result<RecordingDraft> draftRecording(const std::filesystem::path& table);
 
 }  // namespace tacto

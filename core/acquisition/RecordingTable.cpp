@@ -389,7 +389,7 @@ private:
     std::vector<ColumnChoice> wanted_;  // the time first, if there is one
     std::vector<std::size_t> indices_;  // position of each wanted cell in a row
     std::size_t width_ = 0;
-    std::size_t skip_ = 0;  // lines before the rows
+    std::size_t skip_ = 0;  // number of lines before the rows
     bool headed_ = false;
     char separator_;
     char point_ = '.';

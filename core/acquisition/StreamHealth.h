@@ -23,13 +23,13 @@ namespace tacto {
 /// The findings so far. Counts only increase.
 struct HealthReport {
     std::size_t samples = 0;
-    std::size_t gaps = 0;            ///< places where samples are missing
+    std::size_t gaps = 0;            ///< number of places with missing samples
     std::size_t missingSamples = 0;  ///< estimate of their number, at the nominal rate
     std::size_t repeats = 0;         ///< stamps equal to the previous stamp
     std::size_t clockSteps = 0;      ///< stamps earlier than the previous stamp
     std::size_t irregular = 0;       ///< stamps half a step or more early, but in order
-    std::size_t invalidStamps = 0;   ///< stamps that are not finite
-    std::size_t invalidSamples = 0;  ///< samples with a value that is not finite
+    std::size_t invalidStamps = 0;   ///< number of stamps that are not finite
+    std::size_t invalidSamples = 0;  ///< number of samples with a value that is not finite
     bool coarseStamps = false;       ///< stamps with so few digits that they repeat; spread evenly when read
     double longestGap_s = 0;
     double rate_hz = std::numeric_limits<double>::quiet_NaN();  ///< measured rate; NaN before two regular samples

@@ -31,7 +31,7 @@ public:
     static constexpr double kHigh_hz = 1000;
     static constexpr double kWindow_s = 0.064;
     static constexpr double kHop_s = 0.016;
-    static constexpr std::size_t kChunk = 256;  ///< most samples per push()
+    static constexpr std::size_t kChunk = 256;  ///< largest number of samples per push()
 
     explicit AccelerationTrack(const StreamInfo& info);
 
@@ -88,7 +88,7 @@ private:
     /// Returns false for implausible samples and for NaN.
     [[nodiscard]] bool plausible(const double* sample) const noexcept;
 
-    // Constant after construction
+    // Constant after construction:
     const std::size_t axes_;
     const double rate_;
     const double most_;
@@ -107,10 +107,10 @@ private:
     std::size_t waiting_ = 0;
     std::size_t offset_ = 0;      // number of the sample at stamps_[0]
     std::size_t end_ = 0;         // number of the next sample
-    std::size_t normalised_ = 0;  // samples before this number are normalised
+    std::size_t normalised_ = 0;  // samples with lower numbers are normalised
     std::size_t nextWindow_ = 0;  // number of the next window's first sample
     double anchor_ = 0;           // stamp that is the origin of window times
-    std::size_t hops_ = 0;        // hops since the anchor
+    std::size_t hops_ = 0;        // number of hops since the anchor
     double first_ = 0;
     double newest_ = 0;
     bool running_ = false;  // true: the next regular sample continues the stretch

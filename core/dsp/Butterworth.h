@@ -14,7 +14,7 @@ namespace tacto {
 /// A second-order section: y = b·x - a·y, with a0 = 1.
 struct Biquad {
     std::array<double, 3> b;
-    std::array<double, 2> a;  ///< a1, a2
+    std::array<double, 2> a;  ///< coefficients a1 and a2
 };
 
 /// Designs the band-pass. The first section has both zeros at 0 Hz; the second has both zeros at half the rate and all
@@ -41,8 +41,8 @@ private:
     template <std::size_t Axes>
     void run(const double* interleaved, std::size_t count, std::span<double* const> out) noexcept;
 
-    std::array<Biquad, 2> sections_;  // Constant after construction
-    std::size_t axes_;                // Constant after construction
+    std::array<Biquad, 2> sections_;  // constant after construction
+    std::size_t axes_;                // constant after construction
     Pair state_[2][4] = {};           // for each pair of axes: high-pass z1, z2, low-pass z1, z2
 };
 

@@ -78,7 +78,7 @@ private:
     void advance(std::size_t& cursor, double t_s) const noexcept;
     [[nodiscard]] bool hasNext(std::size_t cursor) const noexcept { return cursor + 1 < samples_.end(); }
 
-    SampleHistory samples_;  // force, contact (0 or 1)
+    SampleHistory samples_;  // values: force and contact (0 or 1)
     bool contact_ = false;
     double firstContact_;
     std::size_t normaliseCursor_ = 0;

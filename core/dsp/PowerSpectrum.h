@@ -17,7 +17,7 @@ struct fftw_plan_s;
 
 namespace tacto {
 
-/// Bins first..last, both included; empty when first > last.
+/// Bins first to last, both included; empty if first > last.
 struct BinRange {
     std::size_t first = 1;
     std::size_t last = 0;
@@ -56,11 +56,11 @@ private:
     const std::size_t axes_;
     const double rate_;
     const std::size_t inputStride_;   // doubles between axes; keeps every axis aligned
-    const std::size_t outputStride_;  // complex values between axes
+    const std::size_t outputStride_;  // number of complex values between axes
     const std::vector<double> window_;
     double scale_ = 0;               // 2 / (rate · Σw²)
-    double* input_ = nullptr;        // owned, fftw_malloc
-    double (*output_)[2] = nullptr;  // owned, fftw_malloc
+    double* input_ = nullptr;        // owned; from fftw_malloc
+    double (*output_)[2] = nullptr;  // owned; from fftw_malloc
     fftw_plan_s* plan_ = nullptr;    // owned
 };
 
@@ -92,7 +92,7 @@ inline constexpr std::array kSpectralWindows{SpectralWindow::Hann, SpectralWindo
 
 struct SpectralPeak {
     double bin = 0;    ///< position of the peak in bins, from a parabola through the logarithms of three bins
-    double level = 0;  ///< level of the highest bin
+    double level = 0;  ///< level of the peak's highest bin
 };
 /// Returns up to `most` of the highest local maxima of `level` (amplitudes per bin, 0 or more), highest first. Each is
 /// the largest within `apart` bins and at least `above` times the median of all levels.

@@ -42,7 +42,7 @@ struct RoughnessChain::State {
     void raiseAbsence(RoughnessFlags& flags) const noexcept;
     void clear();
 
-    // Constant after construction
+    // Constant after construction:
     StreamScaling scaling;
     const std::vector<StreamInfo>& streams;  // converted to the units in use
     RoughnessSettings settings;

@@ -45,9 +45,9 @@ struct RoughnessFrame {
     bool sliding = false;
     double h = std::numeric_limits<double>::quiet_NaN();  ///< h or h_abs, according to the settings
     double v = std::numeric_limits<double>::quiet_NaN();  ///< static or dynamic feature, according to the settings
-    double R = std::numeric_limits<double>::quiet_NaN();  ///< 0..1
+    double R = std::numeric_limits<double>::quiet_NaN();  ///< roughness, 0 to 1
     double pressure_pa = std::numeric_limits<double>::quiet_NaN();
-    double P = std::numeric_limits<double>::quiet_NaN();  ///< 0..1
+    double P = std::numeric_limits<double>::quiet_NaN();  ///< pressure, 0 to 1
 };
 
 /// Sensor readings at rest. The chain measures these itself, unless the rest comes after the frames that need it: then
@@ -76,7 +76,7 @@ public:
     void feed(std::span<const SampleBlock> blocks, std::vector<RoughnessFrame>& frames);
     /// Ends the input and appends the frames that were still waiting.
     void finish(std::vector<RoughnessFrame>& frames);
-    /// Forgets all samples, contact and rest; keeps settings, plans and buffers.
+    /// Drops all samples, contact and rest; keeps settings, plans and buffers.
     void reset();
 
     /// Uses these levels instead of measured ones, also after reset(). For a declared baseline that comes after the

@@ -44,7 +44,7 @@ enum class RoughnessFlag : std::uint8_t {
     TaxelsOrder,
 };
 inline constexpr std::size_t kRoughnessFlags = 26;
-[[nodiscard]] std::string_view nameOf(RoughnessFlag flag) noexcept;  // "sliding assumed"
+[[nodiscard]] std::string_view nameOf(RoughnessFlag flag) noexcept;  // for example "sliding assumed"
 
 struct RoughnessFlags {
     std::array<std::uint32_t, kRoughnessFlags> times{};  ///< count of each flag, in the order of RoughnessFlag

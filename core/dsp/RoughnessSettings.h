@@ -14,8 +14,8 @@
 
 namespace tacto {
 
-enum class SpectralFeature { Relative, Absolute };  ///< "h", "h_abs"
-enum class TaxelFeature { Static, Dynamic };        ///< "static", "dynamic"
+enum class SpectralFeature { Relative, Absolute };  ///< in profiles: "h", "h_abs"
+enum class TaxelFeature { Static, Dynamic };        ///< in profiles: "static", "dynamic"
 
 /// Values of one feature on the smooth and the rough reference surface of this rig, in the feature's unit.
 struct ReferenceScale {
@@ -47,7 +47,7 @@ inline constexpr ReferenceScale kSimulatedVDynamic{1.8e-4, 0.045};
 struct RoughnessSettings {
     SpectralFeature spectral = SpectralFeature::Relative;
     TaxelFeature taxel = TaxelFeature::Static;
-    Hertz bandLow{200};           ///< lower end of the rough band, 5 Hz..1 kHz
+    Hertz bandLow{200};           ///< lower end of the band for roughness, 5 Hz to 1 kHz
     double spectralWeight = 0.5;  ///< ≥ 0; the two weights must not both be 0
     double taxelWeight = 0.5;
     ReferenceScale h = kSimulatedH;
@@ -60,7 +60,7 @@ struct RoughnessSettings {
     std::optional<ReferenceSurface> smoothSurface;
     std::optional<ReferenceSurface> roughSurface;
     Seconds smoothing{0.05};           ///< time constant τ of the first-order smoother of R, > 0
-    SquareCentimetres contactArea{1};  ///< > 0
+    SquareCentimetres contactArea{1};  ///< must be above 0
     Pascals pressureMin{2'000};
     Pascals pressureMax{50'000};
     /// Mean square at rest of the band-passed acceleration (5 Hz..1 kHz, all axes, force normalisation undone), in

@@ -27,7 +27,7 @@ struct ValueKind;
 
 /// A straight line: quantity = scale · reading + offset.
 struct SensorLine {
-    double scale = 1;                ///< N or Pa per unit of the reading; not 0
+    double scale = 1;                ///< N or Pa per unit of the reading; must not be 0
     double offset = 0;               ///< N or Pa for a reading of 0
     std::optional<double> scaleU{};  ///< expanded uncertainty U of the scale, 95 %; nothing: not known
     [[nodiscard]] double at(double reading) const noexcept { return scale * reading + offset; }

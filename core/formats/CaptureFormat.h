@@ -29,8 +29,8 @@ namespace tacto {
 struct ReadOptions {
     std::string format{};                          ///< id of a format; empty: the file is recognised
     std::size_t skipRows = 0;                      ///< lines to skip at the beginning of a text
-    std::vector<std::string> columns{};            ///< the channels to keep, in this order
-    std::string timeColumn{};                      ///< the column that holds the times
+    std::vector<std::string> columns{};            ///< channels to keep, in this order
+    std::string timeColumn{};                      ///< column that holds the times
     std::map<std::string, std::string> units{};    ///< channel -> unit of its numbers: "mV", "A"
     std::map<std::string, double> probeFactors{};  ///< channel -> factor for its numbers
     /// Channel -> input range of the instrument in V or A, for files that do not state it: a sample at or beyond either
@@ -41,7 +41,7 @@ struct ReadOptions {
 
 /// Reports the progress of a long read and can stop it.
 struct ReadWatch {
-    std::function<void(double fraction)> progress{};  ///< 0 to 1, rising; may be empty
+    std::function<void(double fraction)> progress{};  ///< 0 to 1, never decreasing; may be empty
     std::stop_token stop{};
 };
 

@@ -34,14 +34,14 @@ public:
 
 struct IsfPreamble {
     std::size_t curve = 0;   ///< position of the first byte after ":CURVE "
-    std::size_t points = 0;  ///< NR_PT
-    unsigned bytes = 1;      ///< bytes in a sample: 1 or 2
+    std::size_t points = 0;  ///< number of samples (NR_PT)
+    unsigned bytes = 1;      ///< bytes per sample: 1 or 2
     bool text = false;       ///< true: samples are numbers as text
     bool isSigned = true;
     bool mostFirst = true;  ///< true: most significant byte first
     double interval_s = 0;
     double start_s = 0;  ///< time of sample 0
-    double scale = 1;    ///< value of one code
+    double scale = 1;    ///< value of one code, in the channel's unit
     double offset = 0;   ///< code that stands for zero
     double zero = 0;
     std::string unit;   ///< unit as the file spells it: "V"

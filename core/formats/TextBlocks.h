@@ -30,7 +30,7 @@ public:
 
     /// Reads up to `count` bytes into `into`; fewer only at the end of the file. Errors: Io.
     [[nodiscard]] Result<std::size_t> read(char* into, std::size_t count);
-    /// Errors: Io.
+    /// Moves to `position` in bytes. Errors: Io.
     [[nodiscard]] Result<void> seek(std::uint64_t position);
 
 private:
@@ -80,7 +80,7 @@ private:
     std::string_view text_;
     std::string name_;
     std::vector<char> buffer_;
-    std::size_t held_ = 0;  // bytes in buffer_
+    std::size_t held_ = 0;  // number of bytes in buffer_
     std::size_t used_ = 0;  // bytes of buffer_ that were delivered with the last block
     std::uint64_t taken_ = 0;
     bool ended_ = false;

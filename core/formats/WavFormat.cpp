@@ -176,7 +176,7 @@ struct Samples {
     }
 };
 
-/// Errors: ParseError for what is neither linear PCM nor floats, no channel, more than kMaxChannels or no rate.
+/// Errors: ParseError if samples are not linear PCM or float, if the rate is 0, or for no or too many channels.
 Result<Samples> samplesIn(std::string_view format, const std::string& file) {
     constexpr std::uint64_t kPcm = 1, kFloat = 3, kExtensible = 0xFFFE;
     const bool whole = format.size() >= 16;

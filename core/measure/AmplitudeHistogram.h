@@ -30,7 +30,7 @@ public:
 
     /// Returns the local maxima of the smoothed histogram that valleys separate, in ascending order.
     [[nodiscard]] std::vector<Mode> modes() const;
-    /// ∫ of what lies above (sign +1) or below (-1) the mode's window, relative to its level; in unit times samples.
+    /// Integrates the samples above (sign +1) or below (-1) the mode's window, from its level; in unit × samples.
     [[nodiscard]] double chargeBeside(const Mode& mode, int sign) const;
     /// Returns the share of samples above `level`, to the accuracy of one bin.
     [[nodiscard]] double shareAbove(double level) const;

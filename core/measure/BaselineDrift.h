@@ -17,7 +17,7 @@
 namespace tacto {
 
 struct BaselineDrift {
-    std::vector<double> medians;  ///< medians of the blocks, at their middles
+    std::vector<double> medians;  ///< medians of the blocks, each at the middle of its block
     std::size_t block = 0;        ///< samples in a block
     double span = 0;              ///< difference between the highest and the lowest median
 

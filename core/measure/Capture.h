@@ -23,17 +23,17 @@ struct CaptureChannel {
     double offsetTolerance = kNaN;  ///< in the channel's unit
     double linearityTolerance = 0;  ///< in the channel's unit, for a difference of two levels, in addition to the gain
     double probeTolerance = kNaN;   ///< relative, of the probe or shunt at the input; 0: no probe
-    std::string statedBy{};         ///< who states the tolerances: "the data sheet of ..."; empty: not stated
+    std::string statedBy{};         ///< source of the tolerances: "the data sheet of ..."; empty: not stated
 };
 
 struct Capture {
     double rate_hz = 0;
-    double start_s = 0;    ///< time of sample 0 on the session's time base
+    double start_s = 0;    ///< time of sample 0, in the session's time base
     double trigger_s = 0;  ///< time stamp of the trigger; NaN if the record has no trigger
     /// Amplitude programmed for the train in this capture, in V or mA according to its drive; NaN = not known.
     double programmed = kNaN;
     double timeBaseTolerance = kNaN;  ///< relative half-width (50e-6 = 50 ppm); NaN = not stated
-    double stampTolerance_s = kNaN;   ///< half-width of start_s and trigger_s against other captures'; NaN = not stated
+    double stampTolerance_s = kNaN;   ///< half-width of start_s and trigger_s between captures; NaN = not stated
     /// True if all channels have the same gain error (one reference): it cancels when a voltage is divided by a
     /// current. False if that is not known; the gain errors are then treated as independent.
     bool gainShared = false;

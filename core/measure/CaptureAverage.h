@@ -49,7 +49,7 @@ private:
 
     std::size_t wanted_ = 1;
     std::size_t count_ = 0;
-    Capture like_;  ///< the first one, without its samples
+    Capture like_;  ///< the first capture, without its samples
     std::size_t samples_ = 0;
     std::vector<Channel> channels_;
 };

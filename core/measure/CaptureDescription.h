@@ -18,9 +18,9 @@
 
 namespace tacto {
 
-/// {"rate_hz", "start_s", "trigger_s", "simulated", "timebase_tolerance", "stamp_tolerance_s", "channels": [{"name",
-/// "unit", "low", "high", "lsb", "gain_tolerance", "offset_tolerance", "linearity_tolerance", "probe_tolerance",
-/// "stated_by"}]}
+/// Returns {"rate_hz", "start_s", "trigger_s", "simulated", "timebase_tolerance", "stamp_tolerance_s", "channels":
+/// [{"name", "unit", "low", "high", "lsb", "gain_tolerance", "offset_tolerance", "linearity_tolerance",
+/// "probe_tolerance", "stated_by"}]}
 [[nodiscard]] nlohmann::json describeCapture(const Capture& capture);
 
 /// Returns the capture that `description` describes, without samples. Missing parts are not stated. Returns nothing if

@@ -177,7 +177,7 @@ RecordFields<InstrumentProfile> buildInstrumentFields() {
     for (const auto& [key, figure] : {std::pair("gain", gain), std::pair("time_base", timeBase)}) {
         auto& field = all.record(key, std::identity{}, figure);
         field.required = true;
-        field.mayBeNull = true;  // no source states it
+        field.mayBeNull = true;  // null: no source states the value
     }
     return all;
 }

@@ -26,16 +26,16 @@ struct Stated {
 
 /// Half-widths. The U (k = 2) of a certificate is read as a half-width that contains 95 %: U/0.95.
 struct ChannelStatement {
-    Stated gain;        ///< relative
+    Stated gain;        ///< relative half-width
     Stated offset;      ///< in the channel's unit
     Stated linearity;   ///< share of full scale (high minus low): a gain error stated relative to full scale
     Stated probe;       ///< relative, of the probe, or of the shunt for a current channel
-    Stated resolution;  ///< one step, in the channel\'s unit
+    Stated resolution;  ///< one step, in the channel's unit
 };
 struct InstrumentStatement {
     ChannelStatement voltage;
     ChannelStatement current;
-    Stated timeBase;  ///< relative
+    Stated timeBase;  ///< relative half-width
     Stated stamp_s;   ///< largest error between the time stamps of separate records
 };
 
@@ -66,19 +66,19 @@ inline constexpr double kYearsOfDrift = 10;
 
 /// One figure of a data sheet. `value` is NaN if no source is known.
 struct SheetFigure {
-    double value = kNaN;    ///< relative half-width, drift not included
+    double value = kNaN;    ///< relative half-width, without drift
     double perYear = 0;     ///< relative; for the time base only
     std::string source{};   ///< title and page of the document; not empty if `value` is known
     std::string address{};  ///< web address at which the figure was read
     Confidence confidence = Confidence::Low;
-    std::string condition{};  ///< the condition under which the sheet states it
+    std::string condition{};  ///< condition under which the sheet states the figure
 };
 
 struct InstrumentProfile {
     std::string id;                   ///< "rigol-ds2000"
     std::string title;                ///< "Rigol DS2000"
     std::vector<std::string> makers;  ///< names as the driver reports them
-    std::vector<std::string> models;  ///< a final * stands for any ending
+    std::vector<std::string> models;  ///< model names; a final * stands for any ending
     SheetFigure gain;
     bool gainOfFullScale = false;  ///< true: gain relative to full scale; false: to the reading
     SheetFigure timeBase;

@@ -14,7 +14,7 @@ namespace {
 constexpr double kBeforeFrom = 2.0;  // widths before the onset: start of the silence used as zero voltage
 constexpr double kBeforeTo = 0.25;
 constexpr std::size_t kMinSamplesBefore = 5;  // fewest samples in that silence
-constexpr double kLineFrom = 0.5;             // share of the width
+constexpr double kLineFrom = 0.5;             // start of the line, as a share of the width
 constexpr double kLineTo = 0.95;
 // A line fitted to n samples is less certain at the end of the width than their mean is, by this factor: √(1 + 12·((1 -
 // 0.725)/0.45)²).

@@ -19,7 +19,7 @@
 
 namespace tacto {
 
-/// Extremes of a stretch, in the samples' unit.
+/// Lowest and highest sample of a stretch, in the samples' unit.
 struct Envelope {
     float low = std::numeric_limits<float>::infinity();
     float high = -std::numeric_limits<float>::infinity();

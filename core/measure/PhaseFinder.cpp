@@ -18,7 +18,7 @@ namespace {
 // plateau. Ringing stays below this share; noise stays below the multiple of its standard deviation.
 constexpr double kThreshold = 0.15;
 constexpr double kThresholdInNoise = 6;
-constexpr double kRelease = 0.6;         // share of the threshold: hysteresis
+constexpr double kRelease = 0.6;         // share of the threshold at which a phase ends (hysteresis)
 constexpr double kReleaseInNoise = 4.5;  // times the noise, at least below the threshold: noise must not split a phase
 
 constexpr std::size_t kHides = 3;  // missing samples in a row that may hide a phase; a shorter phase is a glitch
@@ -107,7 +107,7 @@ void follow(const SampleView& view, std::size_t begin, const Thresholds& thresho
         }
         const float x = sign * samples[i];
         if (x < release) break;
-        // A missing sample does not end a phase; it makes it incomplete.
+        // A missing sample does not end a phase, but makes the phase incomplete.
         if (std::isnan(x)) {
             ++missing;
         } else {

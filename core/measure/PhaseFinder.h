@@ -16,15 +16,15 @@ namespace tacto {
 /// The place of a phase. A record may hold hundreds of thousands of phases, so only this is stored about each before it
 /// is measured.
 struct PhaseSpan {
-    const SampleView* view = nullptr;  ///< the samples in which it was found and is measured
+    const SampleView* view = nullptr;  ///< samples in which the phase was found and is measured
     std::size_t begin = 0;             ///< first sample of the view beyond the threshold
     std::size_t end = 0;               ///< the sample after the last one
-    double area = 0;                   ///< ∫ of its samples' distances from the baseline, in unit times second
-    signed char sign = 0;              ///< +1 above the baseline, -1 below
+    double area = 0;                   ///< integral of the distance from the baseline, in unit × seconds
+    signed char sign = 0;              ///< +1: above the baseline, -1: below
     bool truncated = false;
     bool incomplete = false;
     bool clipped = false;
-    bool flatTop = false;  ///< see Clipping.h
+    bool flatTop = false;  ///< top cut off, see Clipping.h
     /// Distance to missing samples, before the next phase on that side, in which a phase may be hidden; in samples of
     /// the view. Infinite if there are none. 0: this phase itself may begin or end among them.
     float hiddenBefore = std::numeric_limits<float>::infinity();

@@ -205,7 +205,7 @@ void measureShape(const PhaseSpan& span, double baseline, FoundPhase& phase) {
         phase.end50 = samples.end(end, begin, plateau);
         if (!(phase.end50 > phase.onset)) break;
         const PlateauRange between(samples, phase.onset, phase.end50);
-        if (between == range) break;  // the plateau would not change either
+        if (between == range) break;  // the plateau would not change any more
         range = between;
         plateau = levelOf(samples, range);
     }
@@ -236,7 +236,7 @@ double integralOf(const FoundPhase& phase, double baseline, double from, double 
     if (!(to > from)) return 0;
     const PhaseSamples samples(phase, baseline);
     const auto first = static_cast<Index>(from) + 1;
-    const auto last = static_cast<Index>(to);  // the last sample at or before `to`
+    const auto last = static_cast<Index>(to);  // last sample at or before `to`
     if (last < first) return 0.5 * (samples.at(from) + samples.at(to)) * (to - from);
     // Trapezoid rule: whole samples less half of the first and the last, plus the pieces outside them.
     double sum = samples.sum(first, last);

@@ -20,7 +20,7 @@ constexpr double kFlickersFor = 0.1;  // share of the phase after, before its st
 constexpr double kAcross = 0.15;      // share of the state: height of a phase on the side that has no state
 constexpr double kAcrossInNoise = 4;
 constexpr double kRings = 0.05;          // overshoot from which the tail belongs to the charge
-constexpr double kOvershootInNoise = 6;  // times the noise: less overshoot may be noise
+constexpr double kOvershootInNoise = 6;  // times the noise: a smaller overshoot may be noise
 
 /// Returns the plateau's height, or the mean of the phase if samples of the plateau are missing.
 double heightOfPhase(const FoundPhase& phase) {

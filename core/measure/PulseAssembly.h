@@ -50,7 +50,7 @@ private:
     double gapMax_s_;
     std::array<FoundPhase, 8> window_;  ///< the last phases; five of them are used
     bool hasNewest_ = false;
-    std::size_t kept_ = 0;       ///< phases that are not ringing
+    std::size_t kept_ = 0;       ///< number of kept phases, which are not ringing
     std::size_t paired_ = 0;     ///< how many kept phases belong to pulses already
     bool chainedToCut_ = false;  ///< applies to the next phase to be paired
     bool chainedToHidden_ = false;

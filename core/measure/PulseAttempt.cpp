@@ -13,13 +13,13 @@ namespace {
 
 constexpr double kShallowest = 0.02;  // share of the leading phase: a smaller one is not a second phase
 constexpr std::size_t kJudgedPulses = 1000;
-constexpr double kNoNoise = 4.5;   // standard deviations of a mean
+constexpr double kNoNoise = 4.5;   // standard deviations of a mean: a higher level is not noise
 constexpr double kMaxEdges = 0.6;  // share of the width; half a sine has 0.67
 // Thresholds for an apparent pulse that is really a slow wave of the baseline:
 constexpr double kTall = 0.5;       // share of the largest state: certainly a pulse
-constexpr double kLow = 0.4;        // share of the largest state
-constexpr double kLong = 3;         // times the widest certain pulse
-constexpr double kSlowEdges = 0.4;  // share of its width
+constexpr double kLow = 0.4;        // share of the largest state: a wave is lower
+constexpr double kLong = 3;         // times the width of the widest certain pulse
+constexpr double kSlowEdges = 0.4;  // share of the width: the edges of a wave last longer
 constexpr double kPeak = 2;         // overshoot of a wave that begins as a pulse and stays beyond the threshold
 
 struct Silence {

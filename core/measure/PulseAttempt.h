@@ -19,9 +19,9 @@ struct PulseAttempt {
     std::size_t mean = 1;
     std::size_t meanOfSecond = 1;
     double widest_s = 0;         // width of the widest phase
-    double secondStandsOut = 0;  // distance of the second state from the noise in its own view (three states)
-    double unrest = 0;           // see SignalQuality
-    double levelAfter = 0;       // as SignalQuality::levelAfter
+    double secondStandsOut = 0;  // second state over the noise, in its own view, if there are three states
+    double unrest = 0;           // as in SignalQuality
+    double levelAfter = 0;       // as in SignalQuality
     double levelBefore = 0;
     double beside = 0;      ///< level of the signal just outside its pulses, from the baseline
     double mostBeside = 0;  ///< the largest such level of the pulses examined

@@ -23,10 +23,10 @@ constexpr std::size_t kLongestMean = 4096;
 constexpr double kSecondReliable = 6;  // times the noise: lower, because a second phase must follow a leading one
 constexpr double kOtherSide = 0.15;    // share of the state: height of a phase on the other side
 constexpr double kOtherSideInNoise = 4;
-constexpr double kUnseenInSteps = 0.2;  // steps of the converter
-constexpr double kUnseen = 2e-4;        // share of the largest state
+constexpr double kUnseenInSteps = 0.2;  // steps of the converter: less unrest is not reported
+constexpr double kUnseen = 2e-4;        // share of the largest state: less unrest is not reported
 constexpr double kDithers = 0.5;
-constexpr double kMaxBeside = 0.07;  // share of the largest state
+constexpr double kMaxBeside = 0.07;  // share of the largest state: a higher level next to pulses is refused
 constexpr double kMaxUnrest = 0.05;  // share of the distance to the nearest state; a phase begins at 0.09 to 0.15
 
 /// Return how many times the noise the states are from the baseline: the further state; of three states, the nearer.
@@ -185,8 +185,8 @@ private:
         return attempt;
     }
 
-    /// A shallow second phase may be lost in noise that the leading phase exceeds, and then be taken for the baseline.
-    /// This looks for it on longer means and measures it there.
+    /// Looks for a shallow second phase on longer means, and measures it there. Without averaging it may be lost in
+    /// noise from which the leading phase stands out, and then be taken for the baseline.
     [[nodiscard]] PulseAttempt withSecondSide(const SampleView& view, PulseAttempt found) const {
         const bool three = found.levels.count == StateCount::Three;
         if (three && weakOf(found.levels) >= kReliable) return found;

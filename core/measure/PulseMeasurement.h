@@ -69,12 +69,12 @@ inline constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
 /// One phase of a pulse. Levels are measured from the baseline and carry the phase's sign.
 struct PhaseMeasurement {
-    double plateau = kNotMeasured;  ///< mean from 30 to 90 % of the width: after the edge has settled
+    double plateau = kNotMeasured;  ///< mean from 30 to 90 % of the width, after the edge has settled
     double onset_s = kNotMeasured;  ///< 50 % of the leading edge
     double end_s = kNotMeasured;    ///< 50 % of the trailing edge
     double width_s = kNotMeasured;
     double rise_s = kNotMeasured;     ///< 10 to 90 % of the leading edge, rising or falling
-    double fall_s = kNotMeasured;     ///< 90 to 10 % of the trailing edge
+    double fall_s = kNotMeasured;     ///< duration from 90 to 10 % of the trailing edge
     double overshoot = kNotMeasured;  ///< largest excess over the plateau, as a fraction of the plateau
     double droop = kNotMeasured;      ///< loss over the width, by a line through the plateau, as a fraction of it
     double charge = kNotMeasured;     ///< integral over the phase, its edges and half of each gap next to it
@@ -122,7 +122,7 @@ struct TrainMeasurement {
 
 /// How pulses are separated and grouped. Without a rate or a gap, each pulse is a train of its own.
 struct MeasureOptions {
-    std::optional<Hertz> intraTrainRate{};  ///< pulses with onsets at most 1.5 / rate apart form one train
+    std::optional<Hertz> intraTrainRate{};  ///< pulses whose onsets are at most 1.5 / rate apart form one train
     std::optional<Seconds> trainGap{};      ///< longest time between onsets in a train; takes precedence over the rate
     Seconds interPhaseGapMax{1e-3};         ///< opposite phases at most this far apart form one pulse
 };
@@ -131,7 +131,7 @@ struct MeasureOptions {
 struct SignalQuality {
     double snr_db = kNotMeasured;  ///< largest state over the noise, as measured (averaged); infinite if no noise
     std::size_t mean = 1;          ///< samples averaged into one before the measurement
-    std::size_t meanOfSecond = 1;  ///< samples averaged for the shallower side of biphasic pulses
+    std::size_t meanOfSecond = 1;  ///< samples averaged into one for the shallower side of biphasic pulses
     double foundStep = 0;   ///< converter's step, found in the samples if none is stated; 0 = none found
     std::size_t leaps = 0;  ///< single samples far from both neighbours, which were left out
     double drift = 0;       ///< peak-to-peak drift of a baseline that was followed; 0 = no drift
@@ -148,7 +148,7 @@ struct MeasurementUncertainty {
     /// Uncertainty of a plateau above its baseline: lsb/√6, gain and probe tolerance /√3, noise over the plateau. An
     /// offset cancels out.
     double amplitude = kNotMeasured;
-    double width_s = kNotMeasured;     ///< sampling step/√6, the noise on the edges, and the time base
+    double width_s = kNotMeasured;     ///< sampling step/√6, noise on the edges, time base
     double interval_s = kNotMeasured;  ///< as the width, and the time stamps of separate records
     double gap_s = kNotMeasured;       ///< as width_s; biphasic only
     double charge = kNotMeasured;  ///< charge of the leading phase: gain and noise over the width, step/√6 of the edges
@@ -164,7 +164,7 @@ struct ChannelMeasurement {
     double rate_hz = 0;
     std::size_t samples = 0;
     StateLevels states;
-    std::vector<PulseMeasurement> pulses;  ///< all pulses found, in time order, flagged ones included
+    std::vector<PulseMeasurement> pulses;  ///< all pulses found, flagged ones too, in time order
     std::vector<TrainMeasurement> trains;
     std::size_t measuredPulses = 0;  ///< `pulses` in cli.md: the number of pulses in the statistics
     SignalQuality quality;
@@ -179,8 +179,8 @@ struct ChannelMeasurement {
     Statistics overshoot;
     Statistics droop;
     Statistics charge;
-    Statistics gap_s;                   ///< biphasic only
-    Statistics imbalance;               ///< biphasic only
+    Statistics gap_s;                   ///< only for biphasic pulses
+    Statistics imbalance;               ///< only for biphasic pulses
     std::vector<std::string> warnings;  ///< whole sentences that name the channel
 };
 

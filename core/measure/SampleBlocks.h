@@ -64,7 +64,7 @@ struct SampleView {
     const CaptureChannel* channel = nullptr;
     std::vector<float> own{};
     std::span<const float> samples{};
-    std::size_t mean = 1;  ///< recorded samples in each of `samples`
+    std::size_t mean = 1;  ///< number of recorded samples in each of `samples`
     double rate_hz = 0;
     double start_s = 0;  ///< time of the first of `samples`: the middle of the averaged samples
 

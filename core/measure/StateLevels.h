@@ -19,11 +19,11 @@ enum class StateCount { None = 0, Two = 2, Three = 3 };
 /// Levels are in the channel's unit, bare doubles because the unit is data (V, A, logic).
 struct StateLevels {
     StateCount count = StateCount::None;
-    double baseline = std::numeric_limits<double>::quiet_NaN();  ///< where the signal rests between pulses
+    double baseline = std::numeric_limits<double>::quiet_NaN();  ///< level at which the signal rests between pulses
     double high = std::numeric_limits<double>::quiet_NaN();      ///< upper state; the baseline itself if pulses go down
     double low = std::numeric_limits<double>::quiet_NaN();       ///< lower state; the baseline itself if pulses go up
     double noise = 0;                                            ///< standard deviation about the baseline
-    std::string why;                                             ///< count None: a clause saying why, for a warning
+    std::string why;                                             ///< if count is None: a clause with the reason
 };
 
 /// `lsb`: the channel's resolution, 0 = unknown. `logic`: if all samples are 0 or 1, these are the states. With two

@@ -14,13 +14,13 @@ namespace tacto {
 
 namespace {
 
-/// The readings of one quantity, from many pulses or trains.
+/// Collects the readings of one quantity over many pulses or trains.
 class Readings {
 public:
     /// `most`: largest number of readings to be added.
     explicit Readings(std::size_t most) { reserveLarge(values_, most); }
 
-    /// Leaves out readings that were not measured (NaN).
+    /// Adds a reading, unless it was not measured (NaN).
     void add(double reading) {
         if (!std::isnan(reading)) values_.push_back(reading);
     }
@@ -141,7 +141,7 @@ public:
     }
 
 private:
-    std::size_t leading_;  ///< readings of leading phases
+    std::size_t leading_;  ///< number of readings of leading phases
     std::size_t both_;     ///< number of pulses with two phases
     Readings amplitude_{leading_}, width_s_{leading_}, rise_s_{leading_}, fall_s_{leading_}, overshoot_{leading_},
         droop_{leading_}, charge_{leading_}, gap_s_{both_}, imbalance_{both_};
@@ -184,7 +184,7 @@ double groupingGap(const MeasureOptions& options) {
     return 0;
 }
 
-/// Gap and imbalance. `random`: of the leading charge; `level`: of any level; `step`: s per sample.
+/// Sets the uncertainties of gap and imbalance. Relative errors: `random` of the leading charge, `level` of levels.
 void addSecondPhase(const ChannelMeasurement& result, double step, double random, double level,
                     const SecondPhases& seconds, MeasurementUncertainty& u) {
     const double charge = result.charge.mean;

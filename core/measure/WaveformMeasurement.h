@@ -29,7 +29,7 @@ struct WaveformMeasurement {
     double rms = kNotMeasured;
     double mean = kNotMeasured;
     double frequency_hz = kNotMeasured;
-    double duty = kNotMeasured;  ///< 0..1
+    double duty = kNotMeasured;  ///< share, 0 to 1
     std::size_t periods = 0;     ///< number of whole periods for frequency and duty
     std::size_t missing = 0;     ///< number of missing samples
     bool clipped = false;

@@ -23,7 +23,7 @@ std::shared_ptr<Capture> repeated(unsigned seed, double noise = 1, double late_s
 }
 
 double spread(const Capture& capture) {
-    // The silence after the pulse.
+    // Samples in the silence after the pulse.
     std::vector<double> silence(capture.channels[0].samples.begin() + 5000, capture.channels[0].samples.end());
     return statisticsOf(silence).sd;
 }

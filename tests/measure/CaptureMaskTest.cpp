@@ -10,7 +10,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A pulse that begins at its trigger, or `late_s` after it.
+/// Returns a pulse that begins at its trigger, or `late_s` later.
 Capture pulse(double level = 40, double late_s = 0, double rate_hz = 2e6, double start_s = 0, double noise = 0) {
     std::vector<SyntheticPhase> phases;
     append(phases, biphasic(start_s + 1e-3 + late_s, level));

@@ -99,7 +99,7 @@ struct CaptureDraw {
     double gain = 1;         ///< shown value / true value
     double timeBase = 1;
     bool easy = false;
-    bool noisy = false;      ///< less than 21.6 dB: PulseMeasurement.h promises nothing
+    bool noisy = false;      ///< signal-to-noise below 21.6 dB: PulseMeasurement.h promises nothing
     bool statesAll = false;  ///< gain, probe, resolution and time base are stated, so each figure has a U
     bool mustWarn = false;   ///< a warning is required, measured or not
     std::string text;        ///< short description of the draw

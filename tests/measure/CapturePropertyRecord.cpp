@@ -182,7 +182,7 @@ void drawRecord(Dice& dice, Plan& plan) {
     plan.amplitude = dice.chance(0.3) ? 40 : dice.logBetween(5e-3, 400);
 }
 
-/// Straight, exponential or ringing edges. `mostRinging`: largest first overshoot.
+/// Draws straight, exponential or ringing edges. `mostRinging`: the largest first overshoot.
 void drawEdges(Dice& dice, Plan& plan, double mostRinging, double rest = kNever) {
     const double width = std::min(plan.unit.shortest(), rest);
     const double what = dice.between(0, 1);
@@ -310,7 +310,7 @@ void anyOffset(Dice& dice, Plan& plan) {
     plan.text += fmt::format(", offset {:.2f}", offset);
 }
 
-/// A pulse of any shape.
+/// Draws a pulse of any shape.
 void anyUnit(Dice& dice, Plan& plan, double parts = 12) {
     if (dice.chance(0.6)) {
         anyBiphasicUnit(dice, plan, false);
@@ -398,7 +398,7 @@ void drawOneOnset(Dice& dice, Plan& plan, std::uint64_t seed) {
     plan.start_s = dice.chance(0.5) ? 0 : -0.1 * static_cast<double>(plan.samples) / plan.rate_hz;
     plan.amplitude = 40;
     const double n = static_cast<double>(plan.samples);
-    if (dice.chance(0.4)) {  // 200 us, 100 us, 200 us
+    if (dice.chance(0.4)) {  // phases of 200 us with a gap of 100 us
         const double width = std::min(200e-6 * plan.rate_hz, n / 5);
         biphasicUnit(dice, plan, width, 0.5 * width, 1);
     } else if (dice.chance(0.6)) {
@@ -529,7 +529,7 @@ bool drawClipping(Dice& dice, Plan& plan) {
                              : side > 0 ? " above"
                                         : " below",
                              plan.statesRange ? ", stated" : "");
-    const auto asShown = [&](double v) {  // limits are codes of the converter
+    const auto asShown = [&](double v) {  // limits are rounded to codes of the converter
         if (plan.lsb > 0) v = plan.lsb * (std::round(v / plan.lsb - plan.codePhase) + plan.codePhase);
         return static_cast<double>(static_cast<float>(v));
     };
@@ -887,7 +887,7 @@ CaptureDraw drawCapture(CaptureKind kind, std::uint64_t seed) {
         markPulse(plan, k, unit, pulse);
         if (pulse.presence == Presence::Broken &&
             (plan.onsets[k] + plan.unit.length() + 2 < 0 || plan.onsets[k] > static_cast<double>(plan.samples) + 2)) {
-            continue;  // outside the record
+            continue;  // the pulse is outside the record
         }
         draw.pulses.push_back(pulse);
     }

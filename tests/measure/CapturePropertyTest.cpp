@@ -89,7 +89,7 @@ TEST_P(CaptureProperty, EachFigureIsRightOrItIsSaidThatItWasNotMeasured) {
 
 TEST(NoisyRecord, APulseThatDrownedMakesNoIntervalOfTwice) {
     RecordProperty("hazard", "H9");
-    const auto draw = drawCapture(CaptureKind::Unequal, 6771);  // the fourth of seven has a quarter of the height
+    const auto draw = drawCapture(CaptureKind::Unequal, 6771);  // the fourth pulse of seven is a quarter as high
     const auto m = measureChannel(draw.capture, 0, draw.options);
     ASSERT_EQ(draw.pulses.size(), 7U);
     ASSERT_EQ(m.measuredPulses, 6U);

@@ -23,7 +23,7 @@ struct GridPoint {
     double perPhase = 100;  ///< samples in the leading phase, 200 µs
     double snr_db = 60;     ///< 20·log10(leading plateau / noise s.d.)
     double rangeShare = 0;  ///< plateau's share of the range of an 8-bit converter; 0 = no steps
-    double ringing = 0;     ///< first overshoot
+    double ringing = 0;     ///< first overshoot, as a fraction
     double slope = 0;       ///< drift over the record, relative to the plateau
     double hum = 0;         ///< 50 Hz amplitude, relative to the plateau
     double offset = 0;      ///< relative to the plateau
@@ -51,14 +51,14 @@ struct GridResult {
     int missed = 0;    ///< pulses neither measured nor flagged
     int flagged = 0;   ///< pulses found and flagged as not measurable
     int invented = 0;  ///< pulses measured where there was none
-    int warned = 0;    ///< records with any warning
+    int warned = 0;    ///< records with at least one warning
     int silent = 0;    ///< records with a missed, invented or half-lost pulse and no warning
     // Readings, of `amplitude.n` (`gap.n`), with an error above kCoverage times the stated uncertainty.
     int beyondAmplitude = 0, beyondWidth = 0, beyondCharge = 0, beyondGap = 0, beyondImbalance = 0;
 };
 [[nodiscard]] GridResult measureGridPoint(const GridPoint& point, int seeds);
 
-/// The point in a few words: "symmetric, 100 samples, 40 dB, ringing 10 %".
+/// Describes the point: "symmetric, 100 samples, 40 dB, ringing 10 %".
 [[nodiscard]] std::string describe(const GridPoint& point);
 
 }  // namespace tacto::test

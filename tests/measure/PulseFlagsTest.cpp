@@ -42,7 +42,7 @@ TEST(PulseFlags, AClippedPulseIsFlaggedAndNotMeasured) {
     EXPECT_NEAR(m.pulses[1].seenTo_s, 4.5e-3, 2e-6);
 }
 
-/// Highest code of a converter of 8 bits.
+/// Highest code of an 8-bit converter.
 constexpr double kCodes = 127;
 
 /// Returns a record of an 8-bit oscilloscope with this range, with noise added before its converter.

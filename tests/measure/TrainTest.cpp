@@ -6,7 +6,7 @@
 namespace tacto::test {
 namespace {
 
-/// Trains of three pulses at 100 Hz, every 0.5 s, in one record.
+/// Returns a record with trains of three pulses at 100 Hz, every 0.5 s.
 Capture longRecord() {
     std::vector<SyntheticPhase> phases;
     for (int train = 0; train < 3; ++train) {

@@ -24,7 +24,7 @@ Capture recordWith(double rate_hz, std::size_t samples, auto value) {
 }
 
 TEST(WaveformMeasurement, ASineHasItsPeaksRmsAndFrequency) {
-    // 25 whole periods of 250 Hz about 3 V.
+    // 25 whole periods of 250 Hz, around 3 V.
     const auto sine = recordWith(100e3, 10'000, [](double t) { return 3 + 2 * std::sin(2 * M_PI * 250 * t - 0.3); });
     const auto m = measured(sine);
     EXPECT_NEAR(m.peakToPeak, 4, 1e-3);

@@ -7,7 +7,7 @@
 namespace tacto {
 
 struct CsvColumn {
-    std::string name;  ///< the name without its unit
+    std::string name;  ///< name without its unit
     std::string unit;  ///< "s", "V", "A" or ""
     double factor = 1;
     std::string unknownUnit;  ///< a unit other than these
@@ -49,7 +49,7 @@ struct CsvColumn {
 /// The time between samples, if a line of keys or a comment states it: "Sample rate: 100 kHz", "Sampling Period,4E-06".
 struct StatedInterval {
     double interval_s;
-    std::size_t line;  ///< the header line; 0 for a comment
+    std::size_t line;  ///< number of the header line; 0 for a comment
 };
 [[nodiscard]] std::optional<StatedInterval> intervalStated(const CsvHead& head);
 

@@ -61,7 +61,7 @@ struct CsvLayout {
     std::vector<std::string> names;  ///< names of the columns, as in the file
     std::size_t dataOffset = 0;      ///< position of the first row in the text
     std::size_t dataLine = 0;        ///< line number of the first row
-    std::size_t headerLine = 0;      ///< number of the line that names the columns, for messages
+    std::size_t headerLine = 0;      ///< number of the line with the column names, for messages
     RowTimes times = RowTimes::Column;
     std::size_t timeColumn = 0;
     double timeFactor = 1;                    ///< factor from the time column to seconds

@@ -24,7 +24,7 @@ public:
 
     /// Adds the stamp with this index; indices must rise.
     void add(std::size_t index, double stamp);
-    /// The largest distance of a stamp from the line that rises by `step`, but for rounding; infinite where not known.
+    /// Returns an upper bound for a stamp's distance from the line that rises by `step`, or infinity if unknown.
     [[nodiscard]] double farthestAtMost(double step) const noexcept;
 
     /// Ends a run and returns the number of runs, for a later dropBehind().

@@ -146,7 +146,7 @@ TEST(Identification, AllRightIsTwoBitsAndStaysFinite) {
     EXPECT_NEAR(found.all.itCorrected_bits.value, 2, 1e-12);
     EXPECT_LT(found.all.itCorrected_bits.low, 1.75);
     EXPECT_NEAR(found.texture->figures.it_bits, 1, 1e-12);
-    EXPECT_NEAR(found.texture->dPrime, 2 * 2.2508, 1e-3);  // z(40.5/41) to each side
+    EXPECT_NEAR(found.texture->dPrime, 2 * 2.2508, 1e-3);  // z(40.5/41) on each side
     EXPECT_NEAR(found.texture->criterion, 0, 1e-12);
     EXPECT_TRUE(std::isnan(found.learning.value));
 }

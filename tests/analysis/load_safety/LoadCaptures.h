@@ -18,7 +18,7 @@ struct LoadTruth {
     double interval_s = 0.5;
     int pulses = 1;
     double train_hz = 100;  ///< pulse rate within the train
-    double second = 1;      ///< share of the leading phase's amplitude
+    double second = 1;      ///< amplitude of the second phase / leading phase
     double rate_hz = 10e6;
     double gain_v = 1, gain_i = 1;      ///< gain errors of the instrument
     double offset_v = 0, offset_a = 0;  ///< offset errors of the instrument

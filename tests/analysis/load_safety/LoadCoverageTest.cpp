@@ -58,7 +58,7 @@ std::array<Looked, 8> coverageOf(const LoadTruth& stated, int trains) {
         ExpectedTrain expected;
         expected.budget = kBudget;
         expected.budget.seed =
-            truth.seed;  // a few draws of a t with few degrees of freedom leave a gap that averages out
+            truth.seed;  // a few draws of a t with few degrees of freedom leave an error that averages out
         const auto found = readLoad(captures, expected);
         if (!found) {
             ADD_FAILURE() << found.error().message;

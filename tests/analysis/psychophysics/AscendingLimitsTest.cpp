@@ -120,7 +120,7 @@ TEST(AscendingLimits, AFeltEmptyPresentationRepeatsTheLastLevelAndReplacesItsAns
     auto rehearsal = AscendingLimits::create(grid, 3).value();
     const auto order = presented(rehearsal, [](const auto&) { return StrengthWord::Nothing; });
     std::size_t empty = 1;
-    while (order[empty - 1].empty() || !order[empty].empty()) ++empty;  // The first empty one after a level
+    while (order[empty - 1].empty() || !order[empty].empty()) ++empty;  // the first empty one after a level
     const double before = order[empty - 1].level;
 
     auto limits = AscendingLimits::create(grid, 3).value();

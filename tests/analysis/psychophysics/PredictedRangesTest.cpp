@@ -119,7 +119,7 @@ TEST(PredictedRanges, AreNarrowerWhereASessionMeasuresThresholds) {
         std::printf("measured, too strong from %.1f mA: %.3f usable (known: %.3f), %.3f (%.3f to %.3f)\n", tooStrong,
                     found.usable, known.usable, found.median, found.low, found.high);
         EXPECT_GT(found.usable, last);
-        // The first "too strong" of noisy rising levels comes below the level that is too strong at each second time.
+        // With noise, the first "too strong" of rising levels comes below the level that is too strong half the time.
         EXPECT_LT(found.usable, known.usable);
         EXPECT_GT(found.usable, known.usable - 0.2);
         last = found.usable;

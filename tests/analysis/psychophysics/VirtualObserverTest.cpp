@@ -12,7 +12,7 @@ namespace {
 const std::vector<DeliveredCondition> kFour = {
     {4, Seconds(2)}, {4, Seconds(0.5)}, {6.5, Seconds(2)}, {6.5, Seconds(0.5)}};
 
-/// Feels two JND below the lower level, so that "none" comes, and has noise enough for every error.
+/// Returns a participant with noise enough for every error, who feels from two JND below the lower level ("none").
 VirtualParticipant uncertainParticipant() {
     auto who = test::medianParticipant();
     who.detection = Milliamps(3.6);

@@ -200,8 +200,8 @@ std::vector<CalibrationReading> weighed(Random& random, double perNewton, double
 TEST(SensorScale, TurnsReadingsIntoTheReferencesUnit) {
     Random random(8, "weights");
     const auto found = fitSensorScale(weighed(random, 250, 1000, 0, 2), {}, "force").value();
-    EXPECT_NEAR(found.scale, 0.004, 1e-12);  // N per count
-    EXPECT_NEAR(found.offset, -4, 1e-9);     // 1000 counts at rest
+    EXPECT_NEAR(found.scale, 0.004, 1e-12);  // in N per count
+    EXPECT_NEAR(found.offset, -4, 1e-9);     // at rest the reading is 1000 counts
     EXPECT_NEAR(found.scaleU, 0, 1e-9);
 }
 

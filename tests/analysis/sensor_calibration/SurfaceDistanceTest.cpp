@@ -81,7 +81,7 @@ TEST_P(DistanceCoverage, HoldsTheTruthIn95OfA100) {
     }
     const double share = static_cast<double>(covered) / kRuns;
     RecordProperty("coverage", std::to_string(share));
-    EXPECT_GE(share, 0.929);  // 95 % ± 3 standard errors of 1000 runs
+    EXPECT_GE(share, 0.929);  // 95 %, less 3 standard errors of 1000 runs
     EXPECT_LE(share, 0.971);
 }
 
@@ -106,7 +106,7 @@ TEST(SurfaceDistance, TellsApartSurfacesAtTheThresholdInOneOf40Runs) {
     };
     EXPECT_LE(accepted(0), 0.005);  // both are the same surface
     const double atThreshold = accepted(1);
-    EXPECT_GE(atThreshold, 0.0145);  // 2.5 % ± 3 standard errors
+    EXPECT_GE(atThreshold, 0.0145);  // 2.5 %, less 3 standard errors
     EXPECT_LE(atThreshold, 0.0355);
     EXPECT_GE(accepted(8), 0.99);
 }

@@ -69,7 +69,7 @@ TEST(SeparabilityVerdict, APairBelowFiveJustNoticeableDifferencesFails) {
     EXPECT_EQ(near.verdict, Verdict::Fail);
     EXPECT_TRUE(
         anyReason(near, "smooth-low and smooth-high differ by 0.0 just-noticeable differences in amplitude and 4.8"));
-    design.interval_s = {1.06, 0.5, 1.06, 0.5};  // 5.06
+    design.interval_s = {1.06, 0.5, 1.06, 0.5};  // ln(2.12)/ln(1.16) = 5.06
     EXPECT_EQ(judged(design).verdict, Verdict::Pass);
 }
 

@@ -86,7 +86,7 @@ TEST(SeparabilityFloor, UnknownUncertaintyForbidsAPassAndADistance) {
 TEST(SeparabilityBounds, JudgeThePairAndNotItsEstimate) {
     RecordProperty("hazard", "H9");
     TrialDesign design;
-    design.interval_s = {1.052, 0.5, 1.052, 0.5};  // 5.01 differences
+    design.interval_s = {1.052, 0.5, 1.052, 0.5};  // 5.01 just-noticeable differences
     const auto found = judgeSeparability(stated(design, 0.05, 1e-6, 1e-5)).value();
     EXPECT_GT(found.pairs[0].intervalJnd, 5);
     EXPECT_LT(found.pairs[0].intervalJndBounds.low, 5);

@@ -95,7 +95,7 @@ TEST(Binomial, WithoutTrialsNothingIsKnown) {
 }
 
 TEST(Prevalence, IntervalsAreTheShortestThatScipyFinds) {
-    // 4 of 5: 38 to 98 %, pilot.md section 7; 5 of 5 at least 59 %, 3 of 3 at least 45 %, science.md section 11.
+    // 4 of 5: 38 to 98 % (pilot.md section 7). 5 of 5: at least 59 %; 3 of 3: at least 45 % (science.md section 11).
     for (const auto& scipy : test::figuresOf("identification").at("prevalence")) {
         const auto found = prevalenceInterval(scipy.at("k"), scipy.at("n"));
         EXPECT_NEAR(found.value, scipy.at("value").get<double>(), 1e-12) << scipy;

@@ -20,7 +20,7 @@ TEST(VariationBench, OneRectangularToleranceHasItsQuantiles) {
     BenchTolerances gain{0, Volts(0), 0, 0, 0, 0, Micros(0)};
     gain.stimulatorGain = 0.1;
     const auto found = predictBench(EncodingProfile{}, Drive::Voltage, gain, 20'000, 4).value();
-    // 90 % of an even distribution over ± 4 V lie within ± 3.6 V; five standard deviations of the quantile's estimate.
+    // 90 % of a uniform distribution over ± 4 V lie within ± 3.6 V; the tolerance is five standard deviations.
     const double within = 5 * 8 * std::sqrt(0.05 * 0.95 / 20'000);
     EXPECT_NEAR(found.conditions[2].amplitude_v.low, 40 - 3.6, within);
     EXPECT_NEAR(found.conditions[2].amplitude_v.high, 40 + 3.6, within);

@@ -59,7 +59,7 @@ TEST(BurstFigures, SaysWhatTheMotorDid) {
 
 TEST(BurstFigures, SlowMotorsRiseSlowly) {
     const auto found = test::accepted(burstFigures(record({.ramp_s = 0.03}), commands()));
-    // The rise runs from 5.9 ms, where t/30 ms · |sin| passes 0.1, to 27.2 ms, where it passes 0.9.
+    // The rise runs from 5.9 ms, when t/30 ms · |sin| passes 0.1, to 27.2 ms, when it passes 0.9.
     EXPECT_NEAR(found.rise_s, 0.0214, 0.001);
 }
 
