@@ -17,7 +17,7 @@
 
 namespace tacto {
 
-/// A complete window of acceleration. Its name is the number of its first sample.
+/// A complete window of acceleration. It is identified by the number of its first sample.
 struct AccelerationWindow {
     std::size_t first;
     double begin_s;

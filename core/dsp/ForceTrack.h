@@ -1,8 +1,8 @@
 // ForceTrack.h - normal force at any time, and contact as the force samples show it.
 //
 // Contact starts at F ≥ 0.1 N and ends below 0.05 N. There is none while the newest sample is older than 100 ms. F is
-// interpolated linearly between samples, and held before the first and after the last. During a silence of more than 1
-// s, F is held too, so that a live chain gives the same numbers as a file without a longer wait.
+// interpolated linearly between samples, and held before the first and after the last. During a silence of more
+// than 1 s, F is held too, so that a live chain gives the same numbers as a file without a longer wait.
 //
 // Thread-safety: none; one owner. Never allocates after construction.
 #pragma once

@@ -57,7 +57,7 @@ struct Layout {
     std::uint64_t announced = 0;  ///< bytes of samples that the file states
     bool more = false;            ///< true if a second data chunk or a second file follows
 
-    /// A writer to a pipe states all ones; a program killed while it records leaves 0. Neither is a size.
+    /// True if the size is unknown: a writer to a pipe states all ones; a program killed while it records leaves 0.
     [[nodiscard]] bool openEnded() const noexcept { return announced == 0 || announced == kUnstated; }
 
     /// Returns the size stated with chunk `id`. If it does not fit there, reads it from ds64, which holds the size of

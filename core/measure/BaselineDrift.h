@@ -2,9 +2,9 @@
 // core/measure.
 //
 // The baseline is the median of every block of the record, joined by straight lines: a pulse that fills less than half
-// of its block moves no median. A baseline bends by less than a fifth of its span from block to block; a signal that
-// jumps, even once, changes its state. The longest blocks that leave only noise about the line are used. At least seven
-// tenths of the samples must be baseline; otherwise the record is left unchanged.
+// of its block moves no median. A baseline bends by less than a fifth of its span from block to block; a jump, even a
+// single one, is a change of state and not drift. The longest blocks that leave only noise about the line are used. At
+// least seven tenths of the samples must be baseline; otherwise the record is left unchanged.
 #pragma once
 
 #include <cstddef>

@@ -2,9 +2,9 @@
 // half-width in level and one in time; a capture passes if all of its samples lie inside.
 //
 // Captures are aligned at the trigger. A sample between two samples of the mask is checked against both, so that the
-// positions of the samples do not affect the result. Stretches with no trigger, a missing channel, missing samples,
-// clipping at the mask's edge or times beyond the mask are not judged. If no sample is outside then, the whole capture
-// is not judged: an unknown result does not pass.
+// positions of the samples do not affect the result. A capture without a trigger is not judged. Nor is one in which a
+// channel, samples or part of the mask's time are missing, or samples in the band are clipped, unless another sample is
+// outside: an unknown result does not pass.
 //
 // A mask only judges: it never controls the output.
 //

@@ -8,11 +8,11 @@
 //
 // If the noise spans several codes, a third of the samples at the extreme is enough: noise was added after clipping.
 //
-// A top is flat if at least 10 samples, at least half of the phase, stay at the extreme 95 % of the time, and the
+// A top is flat if 95 % of a run of at least 10 samples, and at least half of the phase, are at the extreme, and the
 // signal between pulses jitters over three codes or more: such noise never keeps one code 95 % of the time. Noise of
 // two codes shows only at some levels, so the top must then stay at the extreme in every one of at least 50 samples.
-// Noise of 0.4 codes (s.d.) or more shows every clipped record; less noise, some. Of clean records, none is flagged
-// from 0.3 codes on, and about one in ten with less noise. The samples are judged as recorded.
+// With noise of 0.4 codes (s.d.) or more, every clipped record is found; with less, some. No clean record is flagged
+// with 0.3 codes or more; with less, about one in ten. The samples are judged as recorded.
 #pragma once
 
 #include <optional>

@@ -60,8 +60,7 @@ void applyStatement(Capture& capture, const InstrumentStatement& statement);
 //    "gain": {"pct": 2, "of": "full scale", "source": "...", "address": "...", "confidence": "medium"},
 //    "time_base": {"ppm": 25, "ppm_per_year": 5, "source": "...", "address": "...", "confidence": "medium"}}
 
-/// Years of drift added to the accuracy when new (our choice): a time base ages, and an instrument does not tell its
-/// age.
+/// Years of drift to add to the accuracy when new (our choice): a time base ages, and its age is unknown.
 inline constexpr double kYearsOfDrift = 10;
 
 /// One figure of a data sheet. `value` is NaN if no source is known.

@@ -8,8 +8,8 @@
 //              for a resistor its resistance, for a capacitor in series R + width / C
 //   impedance  root mean square of the voltage over that of the current within the phases, noise taken out: what a
 //              meter would call |Z| of this waveform
-//   energy     ∫ v·i over the pulse, both phases and the gap: what stays in the load; a charged capacitor that is
-//              discharged by the second phase gives its share back
+//   energy     ∫ v·i over the pulse (both phases and the gap): the energy that stays in the load; a capacitor that
+//              the second phase discharges gives its share back
 //
 // Values are bare doubles in the SI unit at the end of their name, so that they fit into Statistics, as in
 // core/measure/PulseMeasurement.h.

@@ -50,7 +50,7 @@ bool reachesEnd(const FoundPhase& phase) {
     return phase.onset < 1 + phase.measured.rise_s * rate || phase.end50 > last - 1 - phase.measured.fall_s * rate;
 }
 
-/// Returns a time from the samples if the edges could not be placed.
+/// Return the end and onset of a phase, from its samples if the edges could not be placed.
 double endOf(const FoundPhase& phase) { return std::isfinite(phase.end50) ? phase.measured.end_s : phase.to_s(); }
 double onsetOf(const FoundPhase& phase) { return std::isfinite(phase.onset) ? phase.measured.onset_s : phase.from_s(); }
 

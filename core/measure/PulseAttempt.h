@@ -44,7 +44,7 @@ struct PulseAttempt {
 [[nodiscard]] double heightOf(const StateLevels& levels);
 
 /// Returns how far the baseline moves in excess of its noise: two thirds of the samples around it lie within this
-/// distance. 0 for noise alone, or for less than a fiftieth of the pulses.
+/// distance. 0 for noise alone, or if the movement is below 1/50 of the pulses.
 [[nodiscard]] double unrestOf(const SampleView& view, const StateLevels& levels, double noise);
 
 /// Returns false if edges fill the pulses (a sine, a triangle): such a signal has no states, despite its histogram.
