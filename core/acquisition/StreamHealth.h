@@ -79,9 +79,9 @@ void spreadCoarseStamps(std::span<double> stamps);
 // Detects that the values of a stream stand still although its stamps continue: a sensor that hangs while its
 // electronics repeat its last value or its last block (hazard H7).
 //
-// How often a value repeats exactly because of noise and coarse steps is learnt from the stream. A stream stands still if
-// the repeats in a row would occur by chance once in 10^9 times, and last longer than samples may be old. A value that
-// usually moves must not repeat with a period of several samples either, and no single axis may stand still while
+// How often a value repeats exactly because of noise and coarse steps is learnt from the stream. A stream stands still
+// if the repeats in a row would occur by chance once in 10^9 times, and last longer than samples may be old. A value
+// that usually moves must not repeat with a period of several samples either, and no single axis may stand still while
 // others move.
 
 class Standstill {
