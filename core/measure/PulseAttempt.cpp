@@ -176,7 +176,7 @@ void lookBeside(const SampleView& view, PulseAttempt& found, double noise) {
     lookAtPulses(found, [&](std::size_t k) {
         const PulsePlace place(view, found, k);
         double largest = 0;
-        const bool hidden = found.levelAfter != 0;  // found already
+        const bool hidden = found.levelAfter != 0;  // a level after the pulses was found before
         for (const auto& one :
              {silenceBefore(view, found, place), hidden ? Silence{} : silenceAfter(view, found, place)}) {
             const double level = one.n > 0 ? std::abs(one.mean()) : 0;

@@ -23,7 +23,7 @@ struct Looked {
 /// Returns the figures of a 40 V train into 500 ohm with edges of 100 ns, sampled at 2 MS/s.
 std::array<Looked, 8> figuresOf(const LoadTruth& truth) {
     const double amps = truth.volts / truth.ohms;
-    const double effective = truth.width_s - 100e-9 / 3;  // effective width for the square of a trapezoid
+    const double effective = truth.width_s - 100e-9 / 3;  // width of a rectangle with the same mean square
     const double squares = amps * amps * 2 * effective;
     return {{{"amplitude", &LoadReading::amplitude_v, truth.volts},
              {"current", &LoadReading::amplitude_ma, 1e3 * amps},

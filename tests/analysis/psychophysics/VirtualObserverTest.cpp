@@ -21,7 +21,7 @@ VirtualParticipant uncertainParticipant() {
     return who;
 }
 
-/// Compares counts with probabilities by χ² and expects its cumulative probability to be below 0.999.
+/// Compares counts with probabilities and expects their χ² to be below its 0.999 quantile.
 void expectFollows(const std::vector<std::size_t>& counts, const std::vector<double>& probabilities) {
     std::size_t n = 0;
     for (const auto count : counts) n += count;
