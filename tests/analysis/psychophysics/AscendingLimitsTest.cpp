@@ -95,7 +95,7 @@ TEST(AscendingLimits, PresentsNothingOnceInEveryFive) {
         for (const auto& asked : presented(limits, sure(3, 99))) {
             if (asked.series == 1) empty.push_back(asked.empty());
         }
-        // The count is right if it lets every complete five contain exactly one.
+        // After some number of leading ones, every complete five must contain exactly one.
         bool fits = false;
         for (std::size_t lead = 1; lead <= 3; ++lead) {
             bool each = std::all_of(empty.begin(), empty.begin() + static_cast<std::ptrdiff_t>(lead),
