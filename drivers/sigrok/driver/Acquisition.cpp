@@ -33,7 +33,7 @@ void Acquisition::acquire(const RecordPlan& plan, std::uint64_t number) noexcept
 }
 
 Result<void> Acquisition::acquireFrames(const RecordPlan& plan, std::uint64_t number) {
-    std::optional<RawRecord> before;  // live: what was on the screen already
+    std::optional<RawRecord> before;  // live records only: the screen that was read last
     while (queue.waitForRoom(number)) {
         auto frame = takeFrame(plan, number);
         if (!frame) return failure(frame);
@@ -63,14 +63,14 @@ Result<std::optional<RawRecord>> Acquisition::takeFrame(const RecordPlan& plan, 
     constexpr std::size_t kMaxRecordSamples = 100'000'000;
     Instrument::Sink sink;
     sink.samples = [&](std::size_t channel, std::span<const float> samples, double resolution) {
-        (void)queue.wanted(number);  // the loop turns
+        (void)queue.wanted(number);  // wanted() also notes that the loop turns
         if (!arrived) raw.end_s = now();
         arrived = true;
         if (resolution > 0) raw.resolution = resolution;
         auto& into = channel == wiring.voltage ? raw.voltage : raw.current;
         const std::size_t most = plan.record > 0 ? plan.record : kMaxRecordSamples;
         if (into.size() + samples.size() > most) {
-            // Said at once: with what is too much libsigrok may wait forever for an answer that it has taken already.
+            // Fails at once: after excess samples libsigrok may wait forever for an answer that it has read already.
             const auto why = fmt::format("the instrument gave more than the {} samples that a record holds", most);
             queue.fail({ErrorCode::Device, why});
             throw std::length_error(why);
@@ -96,7 +96,7 @@ Result<std::optional<RawRecord>> Acquisition::takeFrame(const RecordPlan& plan, 
                     sigrokLog().last.empty() ? "" : fmt::format(" ({})", sigrokLog().last));
     }
     raw.rate_hz = static_cast<double>(raw.voltage.size()) / plan.screen_s;
-    // Where the driver knows the rate, that is right; for a record from memory it does not know it.
+    // If the driver states a rate, that rate is exact. For a record from memory the driver states none.
     if (const double told = plan.record > 0 ? 0 : instrument->rate(); told > 0) raw.rate_hz = told;
     return std::optional<RawRecord>(std::move(raw));
 }
@@ -111,14 +111,14 @@ Result<void> Acquisition::acquireStream(const RecordPlan& plan, std::uint64_t nu
     };
     sink.frameBegin = [] {};
     sink.frameEnd = [] {};
-    // Not done with each packet: samples come in bursts, and only the last of a burst tells when they were taken.
+    // Searches here and not with each packet: samples come in bursts, and only a burst's last packet dates them well.
     sink.stop = [&] {
         if (queue.takeForced()) trigger.force();
         while (queue.wanted(number)) {
             auto found = trigger.next();
             if (!found) throw std::runtime_error(found.error().message);
             if (!*found) return false;
-            if (!queue.hasRoom()) continue;  // a stream does not wait: unfetched samples are lost
+            if (!queue.hasRoom()) continue;  // a stream does not wait: records that find no room are lost
             queue.push(number, std::move(**found));
         }
         return true;

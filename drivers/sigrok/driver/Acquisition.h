@@ -1,7 +1,7 @@
-// Acquisition.h - what an instrument's thread does: opens it, and takes records until the arming they are for ends.
+// Acquisition.h - the work of an instrument's thread: opens the instrument and takes records while it is armed.
 //
 // Thread-safety: open(), acquire() and `instrument` belong to the instrument's thread; `abilities` and `wiring` are
-// constant once open() has come back; the rest any thread.
+// constant once open() has returned; any thread may use the rest.
 #pragma once
 
 #include <atomic>
@@ -16,13 +16,13 @@ namespace tacto::sigrok_driver {
 
 class Acquisition {
 public:
-    /// `clock` is asked only until `closing`.
+    /// `clock` is read only until `closing` is true.
     explicit Acquisition(const Clock& clock) : clock_(clock) {}
 
     /// Errors: as Instrument::open(), wire() and Instrument::prepare().
     [[nodiscard]] Result<void> open(const ScopeUri& uri,
                                     const std::vector<std::pair<std::string, std::string>>& options);
-    /// Takes records into `queue` until arming `number` ends or something goes wrong, which is queue.error() then.
+    /// Puts records into `queue` until arming `number` ends or an error occurs, which queue.error() then returns.
     void acquire(const RecordPlan& plan, std::uint64_t number) noexcept;
 
     CaptureQueue queue;
@@ -34,7 +34,7 @@ public:
 private:
     [[nodiscard]] Result<void> acquireFrames(const RecordPlan& plan, std::uint64_t number);
     [[nodiscard]] Result<void> acquireStream(const RecordPlan& plan, std::uint64_t number);
-    /// One frame: complete, or nothing when the arming ended. Errors: Device.
+    /// Returns one complete frame, or nothing if the arming ended. Errors: Device.
     [[nodiscard]] Result<std::optional<RawRecord>> takeFrame(const RecordPlan& plan, std::uint64_t number);
     [[nodiscard]] double now() const noexcept { return closing ? 0 : toSeconds(clock_.now()); }
 

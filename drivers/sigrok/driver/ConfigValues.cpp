@@ -6,7 +6,7 @@ namespace tacto::sigrok_driver {
 
 namespace {
 
-/// The device's list for `key`, or nothing.
+/// Returns the list of values that the device offers for `key`, or nothing.
 std::optional<Glib::VariantContainerBase> listOf(const sigrok::Configurable& on,
                                                  const sigrok::ConfigKey* key) noexcept {
     const auto list = guarded("list", [&]() -> std::optional<Glib::VariantContainerBase> {
@@ -39,7 +39,7 @@ std::vector<Fraction> fractionsOf(const sigrok::Configurable& on, const sigrok::
     std::vector<Fraction> fractions;
     const auto list = listOf(on, key);
     if (!list || !canSet(on, key) || !g_variant_is_container(raw(*list))) return fractions;
-    // Some drivers list an array of fractions, most a tuple of them.
+    // Some drivers list the fractions as an array, most as a tuple.
     for (gsize i = 0; i < g_variant_n_children(raw(*list)); ++i) {
         const std::unique_ptr<GVariant, void (*)(GVariant*)> one(g_variant_get_child_value(raw(*list), i),
                                                                  g_variant_unref);

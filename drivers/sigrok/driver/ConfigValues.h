@@ -1,7 +1,7 @@
 // ConfigValues.h - libsigrok's configuration keys as plain values.
 //
-// Every read gives an empty list or nothing for what is not there: a device that does not answer a question does not
-// offer that setting.
+// If the device does not answer a question, the functions return an empty list or nothing: the device does not offer
+// that setting.
 //
 // Thread-safety: the instrument's thread.
 #pragma once
@@ -22,10 +22,10 @@ namespace tacto::sigrok_driver {
 [[nodiscard]] std::vector<std::string> textsOf(const sigrok::Configurable& on, const sigrok::ConfigKey* key) noexcept;
 [[nodiscard]] std::optional<std::uint64_t> numberOf(const sigrok::Configurable& on,
                                                     const sigrok::ConfigKey* key) noexcept;
-/// Fills the sampling rates of `into`.
+/// Fills in the sampling rates of `into`.
 void readRates(const sigrok::Configurable& on, Abilities& into) noexcept;
 
-/// For config_set(). These throw as libsigrok does.
+/// Values for config_set(). These functions throw libsigrok's exceptions.
 [[nodiscard]] Glib::VariantBase valueOf(const Fraction& fraction);
 [[nodiscard]] Glib::VariantBase valueOf(std::uint64_t number);
 [[nodiscard]] Glib::VariantBase valueOf(double number);

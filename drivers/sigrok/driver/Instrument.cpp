@@ -9,7 +9,7 @@ namespace tacto::sigrok_driver {
 
 namespace {
 
-constexpr unsigned kComplaints = 3;  // with one less, a single lost answer would end the connection
+constexpr unsigned kComplaints = 3;  // with a smaller limit, a single lost answer would end the connection
 constexpr unsigned kBeat_ms = 20;
 
 using Key = sigrok::ConfigKey;
@@ -49,7 +49,7 @@ std::string labelOf(sigrok::HardwareDevice& device) {
 
 Result<std::unique_ptr<Instrument>> Instrument::open(std::shared_ptr<SigrokLibrary> library, const std::string& name,
                                                      const std::vector<std::pair<std::string, std::string>>& options) {
-    // Declared before the turn, so that it ends after it: closing what could not be opened takes a turn of its own.
+    // Declared before `calls`, so that `calls` is released first: the destructor of `made` also takes calls().
     std::unique_ptr<Instrument> made(new Instrument(library));
     const auto calls = library->calls();
     if (!calls) return failure(calls);
@@ -94,7 +94,7 @@ Result<std::unique_ptr<Instrument>> Instrument::open(std::shared_ptr<SigrokLibra
 
 Instrument::~Instrument() {
     const auto calls = library_->calls();
-    // Closing what does not answer any more is refused by libsigrok; it is as closed as it can be.
+    // libsigrok refuses to close a device that no longer answers; nothing more can be done then.
     (void)guarded("close", [&] {
         session_.reset();
         if (device_) device_->close();
@@ -211,8 +211,8 @@ Result<void> Instrument::apply(const RecordPlan& plan, const Wiring& wiring) {
     return done;
 }
 
-/// A source on the thread's main context, so that a session is stopped on the thread that runs it: stopped from
-/// another one, libsigrok leaves behind a source that points to the session after its end.
+/// A timer on the thread's main context stops the session on the thread that runs it: if another thread stops a
+/// session, libsigrok leaves behind a source that points to the session after its end.
 struct Instrument::Beat {
     explicit Beat(Instrument& instrument) : owner(instrument), source(g_timeout_source_new(kBeat_ms)) {
         g_source_set_callback(source, &Beat::call, this, nullptr);
@@ -244,7 +244,7 @@ struct Instrument::Beat {
 };
 
 void Instrument::receive(const std::shared_ptr<sigrok::Packet>& packet) {
-    // Called from C: nothing may escape.
+    // C code calls this function, so no exception may leave it.
     const auto taken = guarded("taking samples", [&] {
         if (sink_ == nullptr || error_) return;
         const int type = packet->type()->id();

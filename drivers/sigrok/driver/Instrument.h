@@ -1,7 +1,7 @@
-// Instrument.h - one open libsigrok device: found by its driver, queried, configured and run.
+// Instrument.h - one open libsigrok device: finds, queries, configures and runs it.
 //
-// All of it, the sink's calls included, happens on the thread that opened it (SigrokThread); so does the destructor,
-// which closes the device.
+// Every call, the sink's calls and the destructor (which closes the device) included, happens on the thread that opened
+// the device (SigrokThread).
 //
 // Thread-safety: the thread that opened it.
 #pragma once
@@ -22,18 +22,18 @@ namespace tacto::sigrok_driver {
 
 class Instrument {
 public:
-    /// Takes what a session gives. An exception from either ends the session and comes back as run()'s error.
+    /// Receives what a session delivers. If one of these calls throws, the session ends and run() returns the error.
     struct Sink {
-        /// `samples` of channel `channel` (index into Abilities::channels), in V; the resolution in V, 0 unknown.
+        /// Takes `samples` in volts of `channel` (index into Abilities::channels); `resolution` in volts, 0: unknown.
         std::function<void(std::size_t channel, std::span<const float> samples, double resolution)> samples;
         std::function<void()> frameBegin;  ///< the device waits for its trigger
         std::function<void()> frameEnd;
-        /// Asked every 20 ms while the session's loop turns; true ends the session.
+        /// Called every 20 ms while the session's loop runs; returning true ends the session.
         std::function<bool()> stop;
     };
 
-    /// Looks for exactly one device. Errors: NotFound; InvalidArgument for an unknown driver or option, or when several
-    /// are found, naming them; Device, Timeout.
+    /// Looks for exactly one device. Errors: NotFound; InvalidArgument for an unknown driver or option, or naming the
+    /// devices if there are several; Device, Timeout.
     [[nodiscard]] static Result<std::unique_ptr<Instrument>> open(
         std::shared_ptr<SigrokLibrary> library, const std::string& driver,
         const std::vector<std::pair<std::string, std::string>>& options);
@@ -42,16 +42,16 @@ public:
     Instrument& operator=(const Instrument&) = delete;
 
     [[nodiscard]] const Abilities& abilities() const noexcept { return abilities_; }
-    /// Tells the device what does not change from record to record: which channels, their probes, coupling.
-    /// Errors: Device naming the setting it did not take.
+    /// Sends the settings that stay the same for all records: channels in use, their probes, coupling.
+    /// Errors: Device naming the setting that the device did not accept.
     [[nodiscard]] Result<void> prepare(const Wiring& wiring);
     /// Errors: as prepare().
     [[nodiscard]] Result<void> apply(const RecordPlan& plan, const Wiring& wiring);
-    /// The sampling rate as the device says it, 0 when it does not.
+    /// Returns the sampling rate that the device states, or 0 if it states none.
     [[nodiscard]] double rate() const noexcept;
 
-    /// One session, until the device or the sink ends it. `frames` and `samples` limit it where above 0.
-    /// Errors: Device with what libsigrok says, also when it has complained three times without a sample between.
+    /// Runs one session until the device or the sink ends it. `frames` and `samples` limit it if above 0.
+    /// Errors: Device with libsigrok's message, also after three complaints of libsigrok without a sample in between.
     [[nodiscard]] Result<void> run(const Sink& sink, std::uint64_t frames, std::uint64_t samples);
 
 private:
@@ -64,13 +64,13 @@ private:
     const std::shared_ptr<SigrokLibrary> library_;
     std::shared_ptr<sigrok::HardwareDevice> device_;
     std::shared_ptr<sigrok::Session> session_;
-    std::vector<std::shared_ptr<sigrok::Channel>> channels_;     ///< the analog ones, as in abilities_
+    std::vector<std::shared_ptr<sigrok::Channel>> channels_;     ///< the analog channels, as in abilities_
     std::vector<std::shared_ptr<sigrok::ChannelGroup>> groups_;  ///< each channel's group, or null
     Abilities abilities_;
-    // Set while run() runs:
+    // Set while run() is running:
     const Sink* sink_ = nullptr;
     std::optional<Error> error_;
-    unsigned complaints_ = 0;  ///< sigrokLog().errors when the last sample came
+    unsigned complaints_ = 0;  ///< value of sigrokLog().errors when the last sample came
     std::vector<float> buffer_;
 };
 

@@ -9,7 +9,7 @@ namespace tacto {
 
 namespace {
 
-/// Makers by their USB vendor number (usb.ids) and libsigrok's driver for their oscilloscopes. `product` 0 is any.
+/// USB vendor and product numbers (usb.ids) with libsigrok's driver for these oscilloscopes.
 struct Maker {
     std::uint16_t vendor;
     std::uint16_t product;

@@ -1,5 +1,5 @@
 // SigrokDriver.h - oscilloscopes through libsigrok: sigrok:demo, sigrok:rigol-ds:conn=tcp-raw/192.0.2.1/5555, ...
-// How a URI is written is in ScopeUri.h.
+// ScopeUri.h describes how to write a URI.
 //
 // Thread-safety: as Driver.
 #pragma once
@@ -11,8 +11,8 @@
 
 namespace tacto {
 
-/// Lists libsigrok's demo device, the USB instruments whose makers' oscilloscopes libsigrok drives (from what the
-/// system knows of them; nothing is sent to any), and how one on the network is named. `usb` may be empty: none are
+/// Lists libsigrok's demo device, the USB oscilloscopes that libsigrok has a driver for (as the system knows them;
+/// nothing is sent to them), and a sample name for one on the network. If `usb` is empty, no USB oscilloscopes are
 /// listed.
 [[nodiscard]] std::unique_ptr<Driver> makeSigrokDriver(UsbProvider usb);
 

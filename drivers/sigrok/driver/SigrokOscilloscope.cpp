@@ -9,12 +9,12 @@ namespace tacto::sigrok_driver {
 
 namespace {
 
-// libsigrok's rigol-ds driver waits 3 s for a trigger in one go, asking all the time; its largest pause is 1 s.
+// libsigrok's rigol-ds driver waits up to 3 s for a trigger and asks all that time; its longest pause is 1 s.
 constexpr Seconds kLoopTimeout(5);
 constexpr Seconds kSilence(3);
-constexpr Seconds kLoopTimeoutUnseen(10);  // used where no relay sees the bytes: a long read looks like no read
+constexpr Seconds kLoopTimeoutUnseen(10);  // used without a relay: a long read then looks like silence
 constexpr Seconds kOpenTimeout(9);
-constexpr Seconds kArmTimeout(6);  // an earlier wait for a trigger may have 3 s to go
+constexpr Seconds kArmTimeout(6);  // an earlier wait for a trigger may last 3 s more
 
 class SigrokOscilloscope : public Oscilloscope {
 public:
@@ -31,7 +31,7 @@ public:
         acquisition_->closing = true;
         thread_->post([acquisition = acquisition_] { acquisition->instrument.reset(); });
         if (!thread_->idle(Seconds(0.6)) && relay_) relay_->cut();
-        thread_.reset();  // waits 0.8 s
+        thread_.reset();  // waits at most 0.8 s
     }
 
     const DeviceIdentity& identity() const noexcept override { return identity_; }
@@ -51,7 +51,7 @@ public:
         }
         const auto number = acquisition_->queue.arm();
         thread_->post([acquisition = acquisition_, plan = *plan_, number] { acquisition->acquire(plan, number); });
-        // A pulse that comes before the instrument is ready would be missed without a word.
+        // Waits, because a pulse that comes before the instrument is ready would be missed unnoticed.
         if (acquisition_->queue.waitStarted(number, kArmTimeout)) return {};
         if (const auto well = check(); !well) return well;
         acquisition_->queue.fail({ErrorCode::Timeout, fmt::format("{} has not begun to wait for a trigger for {:.0f} s",
@@ -97,7 +97,7 @@ private:
         return settings;
     }
 
-    const std::unique_ptr<TcpRelay> relay_;  // null where the connection is not bare TCP
+    const std::unique_ptr<TcpRelay> relay_;  // null if the connection is not plain TCP
     std::unique_ptr<SigrokThread> thread_;
     const std::shared_ptr<Acquisition> acquisition_;
     const DeviceIdentity identity_;
@@ -105,8 +105,8 @@ private:
     std::optional<RecordPlan> plan_;
 };
 
-/// A streaming one can take a record at any time; instruments wait for their own trigger, and libsigrok cannot force
-/// it.
+/// A streaming device can take a record at any time. Other instruments wait for their own trigger, which libsigrok
+/// cannot force.
 class StreamingOscilloscope final : public SigrokOscilloscope, public ForcedTrigger {
 public:
     using SigrokOscilloscope::SigrokOscilloscope;

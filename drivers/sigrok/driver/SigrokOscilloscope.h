@@ -1,15 +1,15 @@
-// SigrokOscilloscope.h - an oscilloscope that libsigrok speaks to.
+// SigrokOscilloscope.h - an oscilloscope that is driven through libsigrok.
 //
-// The instrument lives on a thread of its own (SigrokThread.h); the bench waits for it in arm() only, until it
-// waits for triggers (some 0.1 s, at most 6 s); poll() takes what has come. What goes wrong in between is poll()'s
-// error, and final: the device has to be opened again. An instrument from which nothing has come for some seconds
-// although something must is a Timeout.
+// A thread of its own drives the instrument (SigrokThread.h). The bench waits only in arm(), until the instrument waits
+// for triggers (about 0.1 s, at most 6 s); poll() returns finished records. poll() also reports any error that occurred
+// in between; such an error is final, and the device has to be opened again. Silence of some seconds where data must
+// come is a Timeout.
 //
-// Time stamps are the host's, taken when the samples arrive: libsigrok passes on no time of the trigger. Within a
-// record times are the instrument's; from record to record they are late by what reading it out takes (some 0.1 s).
+// Time stamps are the host's arrival times, because libsigrok passes on no trigger time. Times within a record come
+// from the instrument; the record as a whole is stamped late by the time that reading it out takes (about 0.1 s).
 //
-// Thread-safety: as Oscilloscope. Destruction takes at most 2 s; an instrument that keeps libsigrok longer is left to
-// its thread.
+// Thread-safety: as Oscilloscope. Destruction takes at most 2 s; if the instrument keeps libsigrok busy for longer, its
+// thread is left running.
 #pragma once
 
 #include <memory>
@@ -21,7 +21,7 @@
 
 namespace tacto::sigrok_driver {
 
-/// Opens what `uri` names. `itself` is the URI that the identity carries. Takes at most 12 s.
+/// Opens the instrument that `uri` names, within 12 s. `itself` is the URI for the identity.
 /// Errors: InvalidArgument, NotFound, Device, Timeout, Io.
 [[nodiscard]] Result<std::unique_ptr<Oscilloscope>> openOscilloscope(const ScopeUri& uri, const std::string& itself,
                                                                      const Clock& clock);

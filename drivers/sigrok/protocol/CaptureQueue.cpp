@@ -39,7 +39,7 @@ bool CaptureQueue::waitForRoom(std::uint64_t number) {
     std::unique_lock lock(mutex_);
     while (wanted(number)) {
         if (captures_.size() < kHeld) return true;
-        changed_.wait_for(lock, std::chrono::milliseconds(100));  // disarm() does not notify: it must not wait
+        changed_.wait_for(lock, std::chrono::milliseconds(100));  // disarm() must not wait, so it does not notify
     }
     return false;
 }

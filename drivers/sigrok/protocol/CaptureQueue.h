@@ -1,7 +1,7 @@
-// CaptureQueue.h - between an instrument's thread, which fills it, and the bench's, which polls.
+// CaptureQueue.h - a queue that an instrument's thread fills and the bench's thread polls.
 //
-// Holds what both need to know of each other: what was captured, what went wrong, which arming is in force, and when
-// the session's loop last turned. Shared: a thread that does not come back keeps it.
+// Holds what the two threads tell each other: captures, errors, the arming in force, and when the session's loop last
+// ran. Shared, so that the queue stays alive if the instrument's thread never ends.
 //
 // Thread-safety: any thread.
 #pragma once
@@ -24,32 +24,32 @@ class CaptureQueue {
 public:
     static constexpr std::size_t kHeld = 64;
 
-    /// Begins a new arming and drops captures of earlier ones; returns its number. 0 is never one.
+    /// Begins a new arming, drops captures of earlier ones and returns the new arming's number, which is never 0.
     std::uint64_t arm();
     void disarm() noexcept { armed_ = 0; }
     [[nodiscard]] bool armed() const noexcept { return armed_ != 0; }
-    /// Whether arming `number` is still in force. Also notes that the loop turns.
+    /// True if arming `number` is still in force. Also notes that the loop runs.
     [[nodiscard]] bool wanted(std::uint64_t number) noexcept;
 
-    /// The instrument waits for triggers now.
+    /// Notes that the instrument now waits for triggers.
     void started(std::uint64_t number);
-    /// Waits for that. False when it has failed or has not come within `timeout`.
+    /// Waits for started(). Returns false after fail() or if started() was not called within `timeout`.
     [[nodiscard]] bool waitStarted(std::uint64_t number, Seconds timeout);
 
-    /// Waits while kHeld captures lie here and `number` is in force. False when it no longer is.
+    /// Waits while kHeld captures are queued and `number` is in force. Returns false once `number` is not in force.
     [[nodiscard]] bool waitForRoom(std::uint64_t number);
     [[nodiscard]] bool hasRoom() const;
-    /// Dropped when `number` is no longer in force.
+    /// Adds `capture`, or drops it if `number` is no longer in force.
     void push(std::uint64_t number, Capture capture);
-    /// Final: the first one stays.
+    /// Stores a final error: the first error stays.
     void fail(Error error);
 
     [[nodiscard]] std::optional<Error> error() const;
     [[nodiscard]] std::optional<Capture> pop();
-    /// How long nothing has been heard of the instrument's thread.
+    /// Returns for how long the instrument's thread has not called.
     [[nodiscard]] Seconds sinceTurn() const noexcept;
 
-    /// ForcedTrigger: asks for a record without a trigger, and takes the request.
+    /// For ForcedTrigger: force() requests a record without a trigger, takeForced() takes the request.
     void force() noexcept { forced_ = true; }
     [[nodiscard]] bool takeForced() noexcept { return forced_.exchange(false); }
 

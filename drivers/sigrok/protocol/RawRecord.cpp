@@ -7,7 +7,7 @@ namespace tacto::sigrok_driver {
 
 namespace {
 
-/// One channel averaged by `times` from sample `first` on.
+/// Averages each `times` samples of one channel, from sample `first` on.
 void average(const std::vector<float>& raw, std::size_t first, std::size_t times, double scale,
              std::vector<float>& into) {
     for (std::size_t j = 0; j < into.size(); ++j) {
@@ -23,7 +23,7 @@ CaptureChannel channelOf(const char* name, const char* unit, const std::vector<f
     channel.name = name;
     channel.unit = unit;
     if (scale) {
-        // Converters reach a little beyond the ten divisions around the middle; at their ends nothing is certain.
+        // Converters reach a little beyond the ten divisions around the middle; values near their ends are unreliable.
         channel.high = 5 * scale->value() * factor;
         channel.low = -channel.high;
     }
@@ -61,7 +61,7 @@ double stepOf(const std::vector<float>& samples) {
         step = std::min(step, static_cast<double>(values[i]) - static_cast<double>(values[i - 1]));
     }
     const double span = static_cast<double>(values.back()) - static_cast<double>(values.front());
-    if (!(step > 1e-5 * span)) return 0;  // neighbours that differ by rounding
+    if (!(step > 1e-5 * span)) return 0;  // neighbours that differ by rounding only
     for (const float value : values) {
         const double steps = (static_cast<double>(value) - static_cast<double>(values.front())) / step;
         if (std::abs(steps - std::round(steps)) > 0.1) return 0;

@@ -1,4 +1,4 @@
-// RawRecord.h - samples as libsigrok gave them, and the Capture that is cut out of them.
+// RawRecord.h - samples as libsigrok delivered them, and the functions that cut a Capture out of them.
 #pragma once
 
 #include <optional>
@@ -11,22 +11,22 @@ namespace tacto::sigrok_driver {
 
 struct RawRecord {
     double rate_hz = 0;
-    double end_s = 0;            ///< session time of the end of the last sample
+    double end_s = 0;            ///< session time at the end of the last sample
     std::vector<float> voltage;  ///< V
-    std::vector<float> current;  ///< V across the shunt; empty without a current channel
-    double resolution = 0;       ///< the resolution that the driver states, V; 0 unknown
+    std::vector<float> current;  ///< volts across the shunt; empty without a current channel
+    double resolution = 0;       ///< resolution in volts that the driver states; 0 if unknown
 };
 
-/// The place where a signal goes through `level` (up where it is positive, down where it is negative), nearest to
-/// `near`, in samples with the fraction between two; nothing where it never does.
+/// Returns the place nearest to `near` where a signal crosses `level` (upward if `level` is positive, downward if
+/// negative), in samples with a fraction; nothing if the signal never crosses it.
 [[nodiscard]] std::optional<double> crossing(const std::vector<float>& samples, double level, double near);
 
-/// The size of the converter's steps: the smallest difference of two values when all are multiples of it and there are
-/// at least four; 0 otherwise.
+/// Returns the size of the converter's steps: the smallest difference between two values, if all values are multiples
+/// of that difference and there are at least four values; otherwise 0.
 [[nodiscard]] double stepOf(const std::vector<float>& samples);
 
-/// The record wanted around `trigger` (in raw samples), averaged down to the rate wanted. Nothing where the raw record
-/// is too short for it. Errors: Device naming the rate or the length that does not fit the plan.
+/// Cuts out the wanted record around `trigger` (in raw samples), averaged down to the wanted rate. Returns nothing if
+/// the raw record is too short. Errors: Device naming the rate or length that does not fit the plan.
 [[nodiscard]] Result<Capture> cut(const RawRecord& raw, const RecordPlan& plan, const Wiring& wiring, double trigger);
 
 }  // namespace tacto::sigrok_driver

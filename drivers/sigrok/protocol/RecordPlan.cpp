@@ -9,10 +9,10 @@ namespace tacto::sigrok_driver {
 namespace {
 
 constexpr double kFastest_hz = 500e6;             // see the header
-constexpr double kDivisionsUp = 4;                // divisions above the middle, on a screen of eight
+constexpr double kDivisionsUp = 4;                // divisions above the middle of a screen of eight divisions
 constexpr double kSmallestScale_V = 1e-3;         // libsigrok sends three decimals
-constexpr double kSmallestLevel_V = 1e-3;         // likewise
-constexpr std::size_t kStreamDepth = 10'000'000;  // the part of a stream that is kept: 80 MB for two channels
+constexpr double kSmallestLevel_V = 1e-3;         // libsigrok sends three decimals
+constexpr std::size_t kStreamDepth = 10'000'000;  // samples of a stream that are kept: 80 MB for two channels
 
 bool offers(const std::vector<std::string>& list, std::string_view one) {
     return std::ranges::find(list, one) != list.end();
@@ -72,7 +72,7 @@ Result<void> checkRange(const ScopeSettings& s, const ScopeTraits& traits) {
     return {};
 }
 
-/// The shortest screen that holds the record at a multiple of its rate.
+/// Chooses the shortest screen that holds the record at a multiple of the record's rate.
 Result<void> chooseScreen(RecordPlan& plan, const Abilities& abilities, std::size_t record) {
     const double wanted_s = static_cast<double>(plan.settings.samples) / plan.settings.sampleRate.value();
     std::optional<Fraction> best;
@@ -102,8 +102,8 @@ void placeTrigger(RecordPlan& plan, const Abilities& abilities) {
     if (!abilities.triggerPosition) return;
     plan.triggerAt_s = plan.settings.preTrigger * plan.screen_s;
     if (abilities.driver != "rigol-ds") return;
-    // libsigrok 0.5.2 multiplies by the number of time bases it knows instead of the divisions, and sends whole
-    // microseconds.
+    // libsigrok 0.5.2 multiplies by the number of time bases in its table instead of the number of divisions, and sends
+    // whole microseconds.
     const double right = (0.5 - plan.settings.preTrigger) * plan.screen_s;
     const double sent = std::round(right * 1e6) * 1e-6;
     plan.triggerPosition = 0.5 - right / (plan.timebase.value() * static_cast<double>(abilities.timebases.size()));
@@ -223,7 +223,7 @@ Result<RecordPlan> planRecord(const ScopeSettings& settings, const Abilities& ab
                            fmt::join(abilities.rates_hz, ", "));
         }
     } else {
-        // The length of a live record is known only when one has come; see the header.
+        // The length of a live record is known only after the first has come; see the header.
         plan.record = wiring.live || abilities.memory == 0 ? 0 : traits.memoryDepth;
         if (const auto screen = chooseScreen(plan, abilities, plan.record); !screen) return failure(screen);
         placeTrigger(plan, abilities);

@@ -1,17 +1,17 @@
-// RecordPlan.h - turns ScopeSettings into the settings of a libsigrok device, or into the reason why it cannot.
+// RecordPlan.h - turns ScopeSettings into the settings of a libsigrok device, or says why the device cannot do them.
 //
-// Instruments (those with a time base) sample a whole screen: `divisions` times the time per division, with as many
-// samples as the record has. The plan takes the shortest screen that holds the record wanted, at a sampling rate that
-// is a whole multiple of the one wanted; the multiple is averaged away, which makes the channel quieter, never coarser.
+// Instruments (devices with a time base) sample a whole screen: `divisions` times the time per division. The plan takes
+// the shortest screen that holds the wanted record at a whole multiple of the wanted sampling rate; averaging then
+// reduces the samples to the wanted rate, which lowers the noise and never the resolution.
 //
-// Each record is a single shot ("Memory"): the instrument is started, triggers, stops, and is read. "Live" reads the
-// screen of an instrument that goes on: quicker where the memory is large, but a record may be seen twice, so that one
-// that looks exactly like the one before it is taken for the same.
+// A "Memory" record is a single shot: the instrument is started, triggers, stops, and is read. "Live" reads the screen
+// of a running instrument: this is quicker if the memory is large, but may read a record twice, so a record that equals
+// the one before is taken for the same record.
 //
-// The rate of a record from memory is not in libsigrok: it is record length / (divisions * time per division) while the
-// converter keeps up. Lengths, from libsigrok's rigol-ds driver 0.5.2: DS1000D/E 1048576 samples, DS2000(A) and
-// MSO2000A 14000, DSO1000A 20480, DS1000Z and MSO1000Z 12000000, shared by the channels that are on. Its slowest
-// converter gives 500 MS/s on two channels (data sheets of DS1000E and DS1000Z), so no more is planned.
+// libsigrok does not give the rate of a record from memory: it is record length / (divisions * time per division) while
+// the converter keeps up. Lengths, from libsigrok's rigol-ds driver 0.5.2: DS1000D/E 1048576 samples, DS2000(A) and
+// MSO2000A 14000, DSO1000A 20480, DS1000Z and MSO1000Z 12000000, shared by the channels that are on. The slowest
+// converter gives 500 MS/s on two channels (data sheets of DS1000E and DS1000Z): the plan never uses more.
 #pragma once
 
 #include <optional>
@@ -23,10 +23,10 @@
 
 namespace tacto::sigrok_driver {
 
-/// The channels in use, and their purposes.
+/// The channels in use.
 struct Wiring {
     std::size_t voltage = 0;             ///< index into Abilities::channels
-    std::optional<std::size_t> current;  ///< likewise
+    std::optional<std::size_t> current;  ///< index into Abilities::channels
     Ohms shunt{0};
     std::optional<std::uint64_t> voltageProbe, currentProbe;
     bool falling = false;
@@ -36,28 +36,27 @@ struct Wiring {
 
 struct RecordPlan {
     ScopeSettings settings;
-    // Instruments:
+    // For instruments:
     Fraction timebase;
     std::optional<Fraction> voltageScale, currentScale;  ///< volts per division
     std::string triggerSource;
-    double triggerPosition = 0;  ///< as libsigrok's driver takes it
+    double triggerPosition = 0;  ///< in the units that libsigrok's driver expects
     double triggerAt_s = 0;      ///< from the record's start to the expected trigger
     double screen_s = 0;         ///< divisions * timebase
-    std::size_t record = 0;      ///< samples of each channel in a record; 0 unknown until the first
-    // Both:
+    std::size_t record = 0;      ///< samples of each channel in a record; 0: unknown until the first record
+    // For instruments and streams:
     double triggerLevel_V = 0;  ///< signed, at the trigger channel's probe
 };
 
-/// Samples of the memory of this Rigol or Agilent model; 0 for one that is not known.
+/// Returns the memory in samples of this Rigol or Agilent model, or 0 for an unknown model.
 [[nodiscard]] std::size_t memoryOf(std::string_view driver, std::string_view model) noexcept;
 
-/// Errors: InvalidArgument naming a channel that is not there, a probe factor or a source that cannot be set, and what
-/// there is.
+/// Errors: InvalidArgument naming a missing channel, or a probe factor or source that cannot be set, and the choices.
 [[nodiscard]] Result<Wiring> wire(const ScopeUri& uri, const Abilities& abilities);
 
 [[nodiscard]] ScopeTraits traitsOf(const Abilities& abilities, const Wiring& wiring);
 
-/// Errors: InvalidArgument naming the setting, its value and what the device takes.
+/// Errors: InvalidArgument naming the setting, its value and the values that the device accepts.
 [[nodiscard]] Result<RecordPlan> planRecord(const ScopeSettings& settings, const Abilities& abilities,
                                             const Wiring& wiring);
 

@@ -12,7 +12,7 @@ void StreamTrigger::add(std::size_t channel, std::span<const float> samples, dou
     auto& into = isCurrent ? current_ : voltage_;
     into.insert(into.end(), samples.begin(), samples.end());
     if (resolution > 0) resolution_ = resolution;
-    // A packet can only be late, so the earliest beginning that one of them allows is the nearest to the truth.
+    // A packet can only come late, so the earliest beginning computed from any packet is the most accurate.
     const double since = static_cast<double>(dropped_ + into.size()) / plan_.settings.sampleRate.value();
     if (!beginning_s_ || now_s - since < *beginning_s_) beginning_s_ = now_s - since;
 }
@@ -32,7 +32,7 @@ Result<Capture> StreamTrigger::cutAt(double at, bool untriggered) {
     RawRecord raw;
     raw.rate_hz = plan_.settings.sampleRate.value();
     raw.end_s = *beginning_s_ + static_cast<double>(dropped_ + first + samples) / raw.rate_hz;
-    // The estimate of the beginning gets earlier with time; records do not overlap for that.
+    // The estimate of the beginning moves earlier over time; records must still not overlap.
     raw.end_s = std::max(raw.end_s, lastEnd_s_ + static_cast<double>(samples) / raw.rate_hz);
     lastEnd_s_ = raw.end_s;
     raw.resolution = resolution_;
@@ -78,7 +78,7 @@ Result<std::optional<Capture>> StreamTrigger::next() {
 }
 
 void StreamTrigger::dropTo(std::size_t index) {
-    // Dropped in large pieces, as each drop moves what stays.
+    // Drops large pieces only, because each drop moves the samples that stay.
     if (index < std::max<std::size_t>(plan_.settings.samples, 65'536)) return;
     const auto erase = [&](std::vector<float>& from) {
         from.erase(from.begin(), from.begin() + static_cast<std::ptrdiff_t>(std::min(index, from.size())));

@@ -1,8 +1,8 @@
-// SigrokFormat.h - sigrok sessions (.sr), read and written by libsigrok: what PulseView and sigrok-cli save.
+// SigrokFormat.h - sigrok session files (.sr), as PulseView and sigrok-cli save them, read and written by libsigrok.
 //
-// Logic channels become 0 and 1 without a unit, analog ones volts: the file knows no other unit. So a channel in
-// amperes is written with " (A)" behind its name, and read back by that. Sampling rates are whole hertz there; the
-// start and the trigger are not kept.
+// Logic channels become 0 and 1 without a unit, analog channels volts, the only unit of the file format. A channel in
+// amperes is therefore written with " (A)" after its name and recognised by that when read. Sampling rates are whole
+// hertz; the start time and the trigger are not saved.
 //
 // Thread-safety: as CaptureFormat.
 #pragma once
@@ -20,8 +20,8 @@ public:
     Result<CaptureReading> read(const std::filesystem::path& path, const ReadOptions& options,
                                 const ReadWatch& watch) const override;
     bool canWrite() const noexcept override { return true; }
-    /// Errors: those of checkWritable(); InvalidArgument for a rate that is not a whole number of Hz (to a millionth of
-    /// itself); Io with what libsigrok says. An existing file is replaced only once all is written.
+    /// Errors: as checkWritable(); InvalidArgument for a rate that is not a whole number of Hz (relative tolerance
+    /// 1e-6); Io with libsigrok's message. An existing file is replaced only once everything is written.
     Result<void> write(const std::filesystem::path& path, const Capture& capture) const override;
 };
 

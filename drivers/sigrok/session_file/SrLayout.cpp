@@ -15,11 +15,11 @@ namespace {
 
 constexpr std::uint64_t kMaxText = 1'000'000;
 constexpr std::uint64_t kMaxChannels = 1024;
-constexpr std::uint64_t kMaxRatio = 1032;  // the most that deflate makes of one byte
+constexpr std::uint64_t kMaxRatio = 1032;  // largest factor by which deflate can compress
 
 using Values = std::map<std::string, std::string, std::less<>>;
 
-/// The device's section; nothing where there is none or more than one.
+/// Returns the section of the device; nothing unless there is exactly one.
 std::optional<Values> deviceOf(std::string_view metadata) {
     Values values;
     int devices = 0;
@@ -38,7 +38,7 @@ std::optional<Values> deviceOf(std::string_view metadata) {
     return devices == 1 ? std::optional(std::move(values)) : std::nullopt;
 }
 
-/// A whole number; `otherwise` where it is not there, nothing where it is not one or above `most`.
+/// Reads a whole number. Returns `otherwise` if the key is missing, nothing if the value is no number or above `most`.
 std::optional<std::uint64_t> numberIn(const Values& values, std::string_view key, std::uint64_t otherwise,
                                       std::uint64_t most) {
     const auto found = values.find(key);
@@ -47,7 +47,7 @@ std::optional<std::uint64_t> numberIn(const Values& values, std::string_view key
     return number && *number <= most ? number : std::nullopt;
 }
 
-/// Whether libsigrok understands `text` as the frequency that a reader would: "1 MHz", "2.5 kHz", "44100".
+/// True if libsigrok reads `text` as the frequency that a person would read: "1 MHz", "2.5 kHz", "44100".
 bool isFrequency(std::string_view text) {
     const auto value = takeNumber(text);
     if (!value || !(*value >= 0 && *value <= 1e18) || std::signbit(*value)) return false;
@@ -58,11 +58,11 @@ bool isFrequency(std::string_view text) {
     return unit.empty() || unit == "Hz" || unit == "hz" || unit == "HZ";
 }
 
-/// The entries of a .sr archive, as its directory states them.
+/// The entries of a .sr archive, as the archive's directory lists them.
 class Archive {
 public:
-    /// Errors: ParseError for what is not an archive, or has entries that are neither stored nor deflated or claim more
-    /// than deflate can give, so that a forged size cannot take memory.
+    /// Errors: ParseError if the file is no archive, or if an entry is neither stored nor deflated or states a larger
+    /// size than deflate can produce: a forged size must not use up memory.
     static Result<Archive> open(const ByteFile& file) {
         int error = 0;
         Archive archive(file.name(), Handle(::zip_open(file.name().c_str(), ZIP_RDONLY, &error)));
@@ -86,7 +86,7 @@ public:
         return fail(ErrorCode::ParseError, "{}: {}", name_, fmt::format(text, std::forward<Args>(args)...));
     }
     [[nodiscard]] bool has(std::string_view name) const { return entries_.contains(name); }
-    /// The pieces stand in one entry of this name, or in several, numbered from 1.
+    /// Returns the pieces: one entry with the name `base`, or several entries numbered from 1.
     [[nodiscard]] std::vector<SrPiece> piecesOf(const std::string& base) const {
         std::vector<SrPiece> pieces;
         const auto take = [&](const std::string& name) {
@@ -99,7 +99,7 @@ public:
         }
         return pieces;
     }
-    /// The text of an existing entry. Errors: ParseError where it is damaged or larger than `most`.
+    /// Returns the text of an existing entry. Errors: ParseError if it is damaged or larger than `most`.
     [[nodiscard]] Result<std::string> unpack(std::string_view name, std::uint64_t most) const {
         const auto& entry = entries_.find(name)->second;
         if (entry.size > most || entry.comp_size > most) {
@@ -109,7 +109,7 @@ public:
                                                                         &::zip_fclose);
         std::string text(static_cast<std::size_t>(entry.size), '\0');
         char beyond = 0;
-        // libzip compares size and checksum when it is asked for more than there is.
+        // libzip checks size and checksum only when asked for more bytes than there are.
         if (!file || ::zip_fread(file.get(), text.data(), text.size()) != static_cast<zip_int64_t>(text.size()) ||
             ::zip_fread(file.get(), &beyond, 1) != 0) {
             return incomplete("its entry {} is damaged", name);
@@ -147,7 +147,7 @@ Result<SrLayout> layoutFrom(const Archive& archive, const Values& device) {
             return archive.broken("analog channel {} has {} bytes; a multiple of 4 was expected", i + 1,
                                   SrLayout::sum(layout.analog.back()));
         }
-        // libsigrok reads each piece by itself: a sample may not lie across two.
+        // libsigrok reads each piece separately: a sample must not be split between two pieces.
         for (const auto& piece : layout.analog.back()) {
             if (piece.bytes % sizeof(float) != 0)
                 return archive.broken("analog channel {} ends within a sample", i + 1);

@@ -1,12 +1,12 @@
-// SrLayout.h - what a .sr file holds, before libsigrok is asked for it.
+// SrLayout.h - the layout of a .sr file, read before libsigrok reads the samples.
 //
-// A .sr file (sigrok session, version 2) is a zip archive: `version`, `metadata` (an INI text) and the samples, bits of
-// the logic channels together in logic-1-1, logic-1-2, ..., each analog channel as 32-bit floats in analog-1-N-1,
-// analog-1-N-2, ... (sigrok.org/wiki/File_format:Sigrok/v2).
+// A .sr file (sigrok session, version 2) is a zip archive of `version`, `metadata` (an INI text) and the samples: the
+// bits of all logic channels together in logic-1-1, logic-1-2, ..., and each analog channel as 32-bit floats in
+// analog-1-N-1, analog-1-N-2, ... (sigrok.org/wiki/File_format:Sigrok/v2).
 //
-// Checked here because libsigrok 0.5.2 is not careful with what it reads: a unit size of 0 is a division by zero there.
-// It says neither how much is coming nor whether all of it came: sizes and checksums are taken from the archive, so
-// that memory is taken once, progress is known, and a file that was cut short or damaged is refused.
+// Checked here because libsigrok 0.5.2 does not check what it reads: a unit size of 0 makes it divide by zero. It also
+// does not say how much data is coming or whether all of it came. Sizes and checksums are therefore read from the
+// archive, so that memory is allocated once, progress is known, and a damaged or shortened file is refused.
 //
 // Thread-safety: pure functions on files.
 #pragma once
@@ -28,18 +28,18 @@ struct SrPiece {
 
 struct SrLayout {
     std::size_t logicChannels = 0;
-    std::size_t unitSize = 0;  ///< bytes of a logic sample
+    std::size_t unitSize = 0;  ///< bytes per logic sample
     std::vector<SrPiece> logic;
     std::vector<std::vector<SrPiece>> analog;  ///< the pieces of each channel
     std::uint64_t bytes = 0;                   ///< bytes of all samples
-    /// The text in the metadata; empty where it is not stated. libsigrok reads a minus sign as a huge rate.
+    /// The sampling rate as the metadata states it, or empty. libsigrok reads a negative rate as a huge one.
     std::string samplerate;
-    bool samplerateIsSensible = true;  ///< the rate is not stated, or is a frequency of 0 or above
+    bool samplerateIsSensible = true;  ///< true if no rate is stated or it is a frequency of 0 or above
 
     [[nodiscard]] static std::uint64_t sum(const std::vector<SrPiece>& pieces) noexcept;
 };
 
-/// Errors: NotFound, Io; ParseError naming the file and what is wrong with it.
+/// Errors: NotFound, Io; ParseError naming the file and the fault.
 [[nodiscard]] Result<SrLayout> readSrLayout(const std::filesystem::path& path);
 
 }  // namespace tacto::sigrok_driver

@@ -10,7 +10,7 @@ namespace tacto::sigrok_driver {
 
 namespace {
 
-/// A main context of this thread for as long as a session runs: see SigrokThread.cpp.
+/// Gives this thread a main context of its own while a session runs: see SigrokThread.cpp.
 class OwnMainContext {
 public:
     OwnMainContext() : context_(g_main_context_new()) { g_main_context_push_thread_default(context_); }
@@ -25,12 +25,12 @@ private:
     GMainContext* const context_;
 };
 
-/// Checks that the bytes of one channel are those that were packed, piece by piece.
+/// Checks, piece by piece, that the bytes of one channel match the archive's sizes and checksums.
 class PieceCheck {
 public:
     explicit PieceCheck(const std::vector<SrPiece>& pieces) : pieces_(pieces) {}
 
-    /// False for bytes too many, or at the end of a piece that is not what it was.
+    /// Returns false if there are too many bytes, or if a finished piece does not match its checksum.
     [[nodiscard]] bool add(const void* data, std::size_t bytes) {
         const auto* from = static_cast<const Bytef*>(data);
         while (bytes > 0) {
@@ -92,7 +92,7 @@ public:
             return {};
         });
         session_ = nullptr;
-        // libsigrok does not tell a damaged file from its own troubles; here the file is the only thing there is.
+        // libsigrok does not tell a damaged file from its own faults; here only the file can be the cause.
         if (!done) return fail(ErrorCode::ParseError, "{}", done.error().message);
         if (!*done) return failure(*done);
         if (error_) return tl::unexpected<Error>(*error_);
@@ -144,7 +144,7 @@ private:
     }
 
     void receive(sigrok::Packet& packet) {
-        // Called from C: nothing may escape.
+        // C code calls this function, so no exception may leave it.
         if (error_) return;
         const auto taken = guarded(file_, [&]() -> Result<void> {
             const int type = packet.type()->id();
@@ -209,7 +209,7 @@ private:
     std::optional<Error> error_;
 };
 
-/// Channels of unequal length come from an interrupted acquisition.
+/// Cuts all channels to the shortest: unequal lengths come from an interrupted acquisition.
 void evenOut(CaptureReading& reading, const std::string& file) {
     auto& channels = reading.capture.channels;
     const auto size = [](const CaptureChannel& one) { return one.samples.size(); };

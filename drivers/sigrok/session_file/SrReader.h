@@ -10,9 +10,9 @@
 
 namespace tacto::sigrok_driver {
 
-/// Reads the samples of `file`, whose layout is `layout`. Channels of unequal length are cut to the shortest, with a
-/// warning. The sampling rate is 0 where the file states none. Errors: ParseError for damaged or missing samples, and
-/// with what libsigrok says; those of `watch`.
+/// Reads the samples of `file`, which has the layout `layout`. Cuts channels of unequal length to the shortest, with a
+/// warning. The sampling rate is 0 if the file states none. Errors: ParseError for damaged or missing samples and with
+/// libsigrok's message; those of `watch`.
 [[nodiscard]] Result<CaptureReading> readSr(const SrLayout& layout, const ReadWatch& watch, const std::string& file);
 
 }  // namespace tacto::sigrok_driver

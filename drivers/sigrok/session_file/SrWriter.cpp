@@ -22,7 +22,7 @@ bool isLogic(const CaptureChannel& channel) {
 
 std::string nameOf(const CaptureChannel& channel) { return channel.unit == "A" ? channel.name + " (A)" : channel.name; }
 
-/// Bit c of each sample is logic channel c.
+/// Packs the logic channels: bit c of each sample is channel c.
 std::vector<unsigned char> packed(const std::vector<const CaptureChannel*>& channels, std::size_t unit) {
     std::vector<unsigned char> bytes(channels.front()->samples.size() * unit, 0);
     for (std::size_t c = 0; c < channels.size(); ++c) {
@@ -44,7 +44,7 @@ void writeSession(const SigrokLibrary& library, const std::string& file, const C
     for (const auto* channel : logic) {
         (void)device->add_channel(index++, sigrok::ChannelType::LOGIC, channel->name);
     }
-    // libsigrok 0.5.2 takes an analog channel of index 0 for the end of its list.
+    // libsigrok 0.5.2 treats an analog channel with index 0 as the end of its list.
     index = std::max(index, 1U);
     std::vector<std::shared_ptr<sigrok::Channel>> analogChannels;
     for (const auto* channel : analog) {
@@ -59,7 +59,7 @@ void writeSession(const SigrokLibrary& library, const std::string& file, const C
         (void)output->receive(context->create_logic_packet(bytes.data(), bytes.size(), static_cast<unsigned>(unit)));
     }
     for (std::size_t i = 0; i < analog.size(); ++i) {
-        auto samples = analog[i]->samples;  // libsigrok takes a pointer to what it might change
+        auto samples = analog[i]->samples;  // a copy, because libsigrok takes a pointer to non-const samples
         (void)output->receive(context->create_analog_packet({analogChannels[i]}, samples.data(),
                                                             static_cast<unsigned>(samples.size()),
                                                             sigrok::Quantity::VOLTAGE, sigrok::Unit::VOLT, {}));
@@ -67,7 +67,7 @@ void writeSession(const SigrokLibrary& library, const std::string& file, const C
     (void)output->receive(context->create_end_packet());
 }
 
-/// The system's words, in a sentence of libsigrok's about an error of libzip's about it; else the whole.
+/// Returns the system's error text within `sentence` (libsigrok quoting libzip's error), or all of `sentence`.
 std::string systemReasonIn(const std::string& sentence) {
     for (const int reason : {ENOSPC, EDQUOT, EFBIG, EROFS, EACCES, EIO}) {
         auto said = std::generic_category().message(reason);

@@ -10,8 +10,8 @@
 
 namespace tacto::sigrok_driver {
 
-/// Replaces the file at `path` only once all of it is written. Errors: InvalidArgument for a rate that is not a whole
-/// number of Hz (to a millionth of itself), or for too many samples; Io with what libsigrok says.
+/// Replaces the file at `path` only once everything is written. Errors: InvalidArgument for a rate that is not a whole
+/// number of Hz (relative tolerance 1e-6), or for too many samples; Io with libsigrok's message.
 [[nodiscard]] Result<void> writeSr(const std::filesystem::path& path, const Capture& capture);
 
 }  // namespace tacto::sigrok_driver

@@ -52,7 +52,7 @@ Error currentError(std::string_view what, unsigned before) noexcept {
     std::string text;
     try {
         throw;
-    } catch (const Glib::Exception& error) {  // this glibmm's is no std::exception
+    } catch (const Glib::Exception& error) {  // in this version of glibmm not derived from std::exception
         text = error.what();
     } catch (const std::exception& error) {
         text = error.what();

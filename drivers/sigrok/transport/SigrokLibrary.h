@@ -1,13 +1,13 @@
-// SigrokLibrary.h - libsigrok, started: the one context of the process, and what it complains about.
+// SigrokLibrary.h - starts libsigrok and owns the process's only context; collects the errors that libsigrok logs.
 //
-// There is one per process: libsigrok's drivers are process-wide variables, and ending a second context would clean up
-// the devices of the first. It lives as long as it is held.
+// There is only one context per process, because libsigrok's drivers are process-wide variables: ending a second
+// context would clean up the devices of the first. The context lives while a shared pointer holds it.
 //
-// libsigrok's calls throw, sigrok::Error for a code and Glib::Error besides; what escapes from one of its C callbacks
-// would end the program. guarded() turns all of it into a Result.
+// libsigrok's calls throw sigrok::Error or Glib::Exception; an exception that escapes from one of its C callbacks would
+// end the program. guarded() turns every exception into a Result.
 //
-// Thread-safety: get() any thread. The context's scans, opens and closes touch shared lists of drivers: hold calls()
-// meanwhile. Sessions of different devices run at the same time, each on a thread of its own.
+// Thread-safety: get() any thread. Scans, opens and closes touch shared lists of drivers: hold calls() during them.
+// Sessions of different devices may run at the same time, each on its own thread.
 #pragma once
 
 #include <condition_variable>
@@ -23,20 +23,20 @@
 
 namespace tacto::sigrok_driver {
 
-/// The errors that libsigrok logged on the calling thread; it logs on the thread that called it.
+/// The errors that libsigrok logged on the calling thread, which is also the thread that called libsigrok.
 struct SigrokLog {
     unsigned errors = 0;  ///< errors since the thread began
-    std::string last;     ///< the newest, without the prefix
+    std::string last;     ///< the newest error, without libsigrok's prefix
 };
 [[nodiscard]] SigrokLog& sigrokLog() noexcept;
 
 class SigrokLibrary {
 public:
-    /// Errors: Io where libsigrok does not start.
+    /// Errors: Io if libsigrok does not start.
     [[nodiscard]] static Result<std::shared_ptr<SigrokLibrary>> get();
 
     [[nodiscard]] const std::shared_ptr<sigrok::Context>& context() const noexcept { return context_; }
-    /// Held by one at a time; ends with it.
+    /// The right to call libsigrok. Only one caller holds it at a time; destruction gives it back.
     class Turn {
     public:
         explicit Turn(SigrokLibrary& library) noexcept : library_(&library) {}
@@ -47,24 +47,24 @@ public:
     private:
         SigrokLibrary* library_;
     };
-    /// Errors: Timeout when another's turn has not ended for 5 s.
+    /// Errors: Timeout if another caller's turn has not ended after 5 s.
     [[nodiscard]] Result<Turn> calls();
 
 private:
     explicit SigrokLibrary(std::shared_ptr<sigrok::Context> context) : context_(std::move(context)) {}
 
-    // This is no timed mutex: the thread sanitizer does not know how the standard library locks one.
+    // Not a timed mutex, because the thread sanitizer does not know how the standard library locks one.
     std::mutex mutex_;
     std::condition_variable freed_;
     bool taken_ = false;  // guarded by mutex_
     const std::shared_ptr<sigrok::Context> context_;
 };
 
-/// The sentence for the exception that is being handled: `what` (or nothing), its text, and what libsigrok logged since
-/// `before`.
+/// Describes the exception that is being handled: `what` (if not empty), the exception's text, and the errors that
+/// libsigrok logged since `before`.
 [[nodiscard]] Error currentError(std::string_view what, unsigned before) noexcept;
 
-/// Runs `call` and turns whatever it throws into an Error Device that begins with `what`.
+/// Runs `call` and turns any exception into an Error of code Device that begins with `what`.
 template <class Call>
 [[nodiscard]] auto guarded(std::string_view what, Call&& call) noexcept -> Result<std::invoke_result_t<Call>> {
     const unsigned before = sigrokLog().errors;

@@ -19,12 +19,12 @@ struct SigrokThread::State {
     bool ended = false;     // guarded by mutex
 
     void loop() {
-        // libsigrok writes to an instrument that may have hung up without suppressing SIGPIPE.
+        // Blocks SIGPIPE, because libsigrok may write to an instrument that has hung up.
         sigset_t broken;
         sigemptyset(&broken);
         sigaddset(&broken, SIGPIPE);
         ::pthread_sigmask(SIG_BLOCK, &broken, nullptr);
-        // Without a context of its own, a session would take the process's main context, which is the window's.
+        // Without a context of its own, a session would use the process's main context, which the window uses.
         GMainContext* const own = g_main_context_new();
         g_main_context_push_thread_default(own);
         std::unique_lock lock(mutex);

@@ -1,10 +1,10 @@
-// SigrokThread.h - the thread on which everything of one instrument happens: scan, settings, session loop, close.
+// SigrokThread.h - the thread that does everything for one instrument: scan, settings, session loop, close.
 //
-// libsigrok runs a session on the GLib main context of its thread, and some of its calls wait for an instrument for as
-// long as that likes. So each instrument has a thread with a main context of its own, callers wait for it no longer
-// than they say, and one that never comes back is left behind with all it holds instead of stopping the program.
+// libsigrok runs a session on its thread's GLib main context, and some of its calls wait for an instrument without
+// limit. So each instrument has its own thread and main context, callers wait only as long as they choose, and a thread
+// that never returns is left behind with everything it holds instead of blocking the program.
 //
-// Thread-safety: post(), run() any thread but its own; construction and destruction one thread.
+// Thread-safety: any thread but this one may call post() and run(); one thread constructs and destroys.
 #pragma once
 
 #include <functional>
@@ -20,16 +20,16 @@ public:
     using Job = std::function<void()>;  ///< must not throw
 
     SigrokThread();
-    /// Ends after the jobs that are waiting. Waits for that at most 0.8 s, then leaves the thread to itself.
+    /// Ends the thread after the queued jobs. Waits at most 0.8 s, then leaves the thread running.
     ~SigrokThread();
     SigrokThread(const SigrokThread&) = delete;
     SigrokThread& operator=(const SigrokThread&) = delete;
 
-    /// Runs `job` after those before it. What it uses it must own: it may run after this object is gone.
+    /// Runs `job` after the earlier jobs. The job must own what it uses: it may run after this object is gone.
     void post(Job job);
-    /// Runs the job and waits. Errors: the job's; Timeout when it has not come back after `timeout` (it still runs).
+    /// Runs the job and waits. Errors: the job's; Timeout if it has not returned after `timeout` (it keeps running).
     [[nodiscard]] Result<void> run(std::function<Result<void>()> job, Seconds timeout, std::string_view what);
-    /// Whether nothing runs or waits, at the latest after `timeout`.
+    /// Waits at most `timeout`; true if no job runs or waits.
     [[nodiscard]] bool idle(Seconds timeout) const;
 
 private:

@@ -29,14 +29,14 @@ void setOption(int socket, int level, int option, int value) {
     ::setsockopt(socket, level, option, &value, sizeof value);
 }
 
-/// Closes so that the other side's read ends with an error rather than as an empty answer.
+/// Closes the socket so that the other side's read fails instead of returning an empty answer.
 void reset(int socket) noexcept {
     const linger now{1, 0};
     ::setsockopt(socket, SOL_SOCKET, SO_LINGER, &now, sizeof now);
     ::close(socket);
 }
 
-/// Connects within `timeout`; the socket, or an errno as a negative number.
+/// Connects within `timeout`. Returns the socket, or an errno as a negative number.
 int connectWithin(const addrinfo& address, Seconds timeout) {
     const int made = ::socket(address.ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, IPPROTO_TCP);
     if (made < 0) return -errno;
@@ -80,8 +80,8 @@ Result<int> connectTo(const std::string& host, const std::string& port, Seconds 
     return fail(ErrorCode::NotFound, "no instrument at {}:{}: {}", host, port, std::strerror(-last));
 }
 
-/// Whether the other end of an accepted connection is a socket of this process. Both ends of a loopback connection are
-/// on this computer, so a socket of ours that is bound to the other end's address is the other end.
+/// True if the other end of an accepted connection belongs to this process. Both ends of a loopback connection are on
+/// this computer, so a socket of this process that is bound to the other end's address is the other end.
 bool isOurOwn(int accepted) {
     sockaddr_in there{};
     sockaddr_in here{};
@@ -162,7 +162,7 @@ std::optional<Error> TcpRelay::fault() const {
 void TcpRelay::cut() noexcept {
     cut_ = true;
     const std::uint64_t one = 1;
-    [[maybe_unused]] const auto written = ::write(wake_, &one, sizeof one);  // fails only when it is set already
+    [[maybe_unused]] const auto written = ::write(wake_, &one, sizeof one);  // fails only if it is already set
 }
 
 void TcpRelay::setFault(ErrorCode code, std::string_view why) {
@@ -229,13 +229,13 @@ void TcpRelay::carry() noexcept {
     while (!cut_) {
         pollfd waiting[4] = {
             {wake_, POLLIN, 0}, {listener_, POLLIN, 0}, {upstream_, POLLIN, 0}, {downstream_, POLLIN, 0}};
-        if (downstream_ >= 0) waiting[1].fd = -1;  // only one conversation at a time, as with instruments
+        if (downstream_ >= 0) waiting[1].fd = -1;  // only one conversation at a time, as instruments allow
         ::poll(waiting, 4, -1);
         if (cut_) break;
         if (waiting[2].revents != 0) {
             heard_ = SteadyTime::now().time_since_epoch().count();
             if (downstream_ < 0 || !pass(upstream_, downstream_)) {
-                // Between two conversations an instrument may well hang up; the next one connects again.
+                // Between two conversations an instrument may hang up; the next conversation connects again.
                 if (downstream_ >= 0) setFault(ErrorCode::Device, "has hung up");
                 hangUp();
             }
@@ -244,7 +244,7 @@ void TcpRelay::carry() noexcept {
         } else if (waiting[1].revents != 0) {
             downstream_ = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
             if (downstream_ < 0) continue;
-            if (!isOurOwn(downstream_)) {  // any program of this computer may try; none but ours reaches the instrument
+            if (!isOurOwn(downstream_)) {  // any program on this computer can connect, but only ours is served
                 reset(std::exchange(downstream_, -1));
                 continue;
             }
@@ -254,7 +254,7 @@ void TcpRelay::carry() noexcept {
         }
     }
     hangUp();
-    // Ends a conversation too that was not accepted yet.
+    // Also ends a connection that has not been accepted yet.
     ::close(listener_);
 }
 
