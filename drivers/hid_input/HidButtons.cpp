@@ -10,7 +10,7 @@ namespace {
 constexpr std::uint16_t kButtonPage = 0x09;
 constexpr Usage kButtonUsages[] = {usageOf(0x01, 0x04), usageOf(0x01, 0x05), usageOf(0x01, 0x08), usageOf(0x0C, 0x03)};
 
-/// The outermost collection around one; kNoCollection for none.
+/// Returns the outermost collection around `collection`, or kNoCollection.
 std::uint16_t outermost(const HidDescriptor& descriptor, std::uint16_t collection) {
     while (collection != kNoCollection && descriptor.collections[collection].parent != kNoCollection)
         collection = descriptor.collections[collection].parent;
@@ -80,7 +80,7 @@ Result<HidButtons> HidButtons::of(const HidDescriptor& descriptor) {
 std::vector<HidButtons::Change> HidButtons::read(std::span<const std::uint8_t> report) {
     if (report.empty()) return {};
     const std::uint8_t number = numbered_ ? report[0] : 0;
-    const std::size_t ahead = numbered_ ? 0 : 8;  // bits of the number's byte, which is not there
+    const std::size_t ahead = numbered_ ? 0 : 8;  // bits of the number byte, which is missing here
     const auto length = std::ranges::find(lengths_, number, &Length::report);
     if (length == lengths_.end() || report.size() + ahead / 8 < length->bytes) return {};
     std::vector<std::optional<bool>> now(down_.size());

@@ -1,10 +1,10 @@
-// HidButtons.h - the buttons of a game pad, a joystick or a foot switch, as its report descriptor says, and what its
-// input reports say of them.
+// HidButtons.h - the buttons of a game pad, joystick or foot switch: finds them in the report descriptor and reads them
+// from input reports.
 //
-// A button is an input of one bit on the Button page (0x09) in an application collection of usage Joystick, Game Pad or
-// Multi-axis Controller (01:04, 01:05, 01:08) or Programmable Buttons (0C:03), which foot switches have. Mice and
-// keyboards have none of these: the window gets their keys from the system. Two such collections in one device are two
-// pads, and their buttons are told apart. (HID Usage Tables 1.4, sections 4, 12 and 15; hid-buttons.md.)
+// A button is a one-bit input on the Button page (0x09) in an application collection of usage Joystick, Game Pad or
+// Multi-axis Controller (01:04, 01:05, 01:08) or Programmable Buttons (0C:03), as foot switches have. Mice and
+// keyboards have none of these; the window gets their keys from the system. Two such collections in one device are two
+// pads with separate buttons. (HID Usage Tables 1.4, sections 4, 12 and 15; hid-buttons.md.)
 //
 // Thread-safety: one caller.
 #pragma once
@@ -17,9 +17,9 @@
 
 namespace tacto::hid {
 
-/// A top-level collection that may hold buttons.
+/// True for the usage of a top-level collection that may hold buttons.
 [[nodiscard]] bool isButtonUsage(Usage usage) noexcept;
-/// Whether the descriptor has such a collection.
+/// True if the descriptor has such a collection.
 [[nodiscard]] bool hasButtonUsage(const HidDescriptor& descriptor) noexcept;
 
 class HidButtons {
@@ -31,29 +31,29 @@ public:
 
     /// "1" for button 1; "2-1" for button 1 of a second pad.
     [[nodiscard]] const std::vector<std::string>& labels() const noexcept { return labels_; }
-    /// Bytes that the longest input report has, its number included.
+    /// Returns the bytes of the longest input report, number included.
     [[nodiscard]] std::size_t longest() const noexcept { return longest_; }
 
     struct Change {
-        std::size_t button = 0;  ///< index in labels()
+        std::size_t button = 0;  ///< index into labels()
         bool down = false;
         bool operator==(const Change&) const = default;
     };
-    /// The changes in the report, in the order of the buttons. `report` is as read: with its number in front where
-    /// reports are numbered. A report that is shorter than its descriptor says, or of no known number, changes nothing.
+    /// Returns the changes in the report, in button order. `report` is as read, with its number first if reports are
+    /// numbered. A report that is too short or has an unknown number changes nothing.
     [[nodiscard]] std::vector<Change> read(std::span<const std::uint8_t> report);
-    /// All buttons count as up: the device was plugged in again.
+    /// Marks all buttons as up, after the device was plugged in again.
     void forget();
 
 private:
     struct Bit {
         std::uint8_t report = 0;
-        std::uint32_t bit = 0;  ///< as HidField::bit
+        std::uint32_t bit = 0;  ///< position, as in HidField::bit
         std::size_t button = 0;
     };
     struct Length {
         std::uint8_t report = 0;
-        std::size_t bytes = 0;  ///< the report's length with the byte of its number
+        std::size_t bytes = 0;  ///< bytes of the report, number included
     };
     std::vector<std::string> labels_;
     std::vector<Bit> bits_;

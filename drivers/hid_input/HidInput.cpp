@@ -13,8 +13,8 @@ namespace tacto::hid {
 
 namespace {
 
-constexpr std::chrono::milliseconds kReadWait{20};    // closing takes up to so long, too
-constexpr std::chrono::milliseconds kLookAgain{200};  // how often a device that went is looked for again
+constexpr std::chrono::milliseconds kReadWait{20};    // closing may take this long too
+constexpr std::chrono::milliseconds kLookAgain{200};  // interval of looking for a device that was unplugged
 constexpr Usage kKeyboard = usageOf(0x01, 0x06), kKeypad = usageOf(0x01, 0x07);
 
 std::string identityOf(const HidDeviceInfo& info) {
@@ -34,7 +34,7 @@ struct Found {
     std::vector<std::uint8_t> descriptor;
 };
 
-/// The device's name, and why it cannot be used.
+/// Returns a sentence with the device's name and why it cannot be used.
 std::string cannot(const HidDeviceInfo& info, const std::string& why) {
     return fmt::format("{} cannot answer: {}.", info.label(), why);
 }
@@ -110,7 +110,7 @@ private:
     }
 
     void work() {
-        std::vector<std::uint8_t> report(buttons_.longest() + 1);  // one byte more, so that a longer report is seen
+        std::vector<std::uint8_t> report(buttons_.longest() + 1);  // one byte more, to detect a report that is too long
         while (!closing()) {
             if (!port_) {
                 openAgain();
@@ -156,15 +156,15 @@ private:
 
     const std::shared_ptr<const HidBackend> backend_;
     const Found found_;
-    HidButtons buttons_;                  // of thread_
+    HidButtons buttons_;                  // only thread_ uses it
     std::unique_ptr<HidPort> port_;       // only thread_ uses it; null while it is not plugged in
     std::string path_ = found_.hid.path;  // only thread_ uses it; where the device is, or was last
-    std::set<std::string> others_;        // only thread_ uses them; devices like it that were there before it went
+    std::set<std::string> others_;        // only thread_ uses it; similar devices that were there before ours went
     const ButtonListener listener_;
     std::mutex mutex_;
     std::condition_variable wake_;
     bool closing_ = false;  // guarded by mutex_
-    std::thread thread_;    // Last: starts when all else is ready
+    std::thread thread_;    // declared last: starts when everything else is ready
 };
 
 class HidInput final : public ButtonDevices {

@@ -1,9 +1,9 @@
-// HidInput.h - game pads and foot switches over hidraw. The kernel's own driver keeps the device, which hidraw shares.
+// HidInput.h - game pads and foot switches over hidraw, which shares the device with the kernel's own driver.
 //
-// Two devices of the same vendor, product and serial number (or none) that are plugged in cannot be told apart when one
-// is plugged in again, so neither can be used (H4). A device that was unplugged is opened again when one of the same
-// identity and report descriptor is plugged in; one like it that was there when it went stays another (H4). One that
-// types keys is a keyboard, and is not listed.
+// If two plugged-in devices have the same vendor, product and serial number (or none), they cannot be told apart after
+// a re-plug, so neither can be used (H4). An unplugged device is opened again when a device with the same identity and
+// report descriptor is plugged in; a similar device that was there when ours went is never taken for it (H4). A device
+// that types keys is a keyboard and is not listed.
 //
 // Thread-safety: as ButtonDevices.
 #pragma once
@@ -16,7 +16,7 @@
 namespace tacto::hid {
 
 [[nodiscard]] std::shared_ptr<const ButtonDevices> makeHidInput(std::shared_ptr<const HidBackend> backend);
-/// The devices of this computer.
+/// Returns the devices of this computer.
 [[nodiscard]] std::shared_ptr<const ButtonDevices> systemHidInput();
 
 }  // namespace tacto::hid

@@ -36,8 +36,8 @@ void BurstTimer::wrote(HidWrite what, Instant began, Instant ended, bool taken) 
         }
         return;
     }
-    if (!taken) return askStop();             // it is not known what the device made of it
-    if (what == HidWrite::Burst && asked_) {  // it may have been stopped meanwhile
+    if (!taken) return askStop();             // the device may or may not have taken the report
+    if (what == HidWrite::Burst && asked_) {  // forceOff() may have dropped the burst meanwhile
         end_ = ended + *asked_;
         asked_.reset();
         stopAt_.reset();

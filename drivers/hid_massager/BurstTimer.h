@@ -1,12 +1,12 @@
-// BurstTimer.h - what is to be written to a massager, and when: the burst, its repetitions, and the stop that ends it.
-// Times only: no bytes, no device, no clock of its own.
+// BurstTimer.h - decides what is written to a massager and when: the burst, its repetitions, and the stop that ends it.
+// Computes times only: it knows no bytes, no device and no clock of its own.
 //
-//   * A stop goes out at once, even just after another write; when that was too soon for the device, once more after
-//     the shortest write interval.
-//   * A stop that could not be written is tried again every kRetry, before anything else, until the device takes it.
-//   * A burst ends by itself: the stop is due its duration after the device took it.
+//   * A stop goes out at once, even just after another write. If that was too soon for the device, the stop is repeated
+//     after the shortest write interval.
+//   * If a stop cannot be written, it is retried every kRetry, before anything else, until the device takes it.
+//   * A burst ends by itself: its stop is due one burst duration after the device took the burst.
 //
-// Thread-safety: none; its owner locks.
+// Thread-safety: none; the owner locks.
 #pragma once
 
 #include <optional>
@@ -17,8 +17,8 @@ namespace tacto::hid {
 
 enum class HidWrite {
     Nothing,
-    Burst,   ///< the burst that was asked for
-    Repeat,  ///< the running burst, again: keep-alive
+    Burst,   ///< the burst that the caller asked for
+    Repeat,  ///< the running burst again, as keep-alive
     Stop,
 };
 
@@ -31,22 +31,22 @@ public:
 
     struct Due {
         HidWrite what = HidWrite::Nothing;
-        Instant at{Instant::max()};  ///< may lie in the past: at once
+        Instant at{Instant::max()};  ///< a time in the past means at once
     };
     [[nodiscard]] Due next() const noexcept;
 
-    /// A burst is wanted, in place of one that runs. A stop that is due goes first. Not while a write is under way.
+    /// Asks for a burst, which replaces a running one. A stop that is due goes first. Not to be called during a write.
     void askBurst(Instant duration) noexcept;
-    /// A burst that was asked for and not written is no longer wanted.
+    /// Drops a burst that was asked for but not written yet.
     void dropBurst() noexcept { asked_.reset(); }
-    /// Off at once; forgets the burst, asked for or running.
+    /// Asks for a stop at once; forgets the burst, whether asked for or running.
     void askStop() noexcept;
     /// Tells that the report from next() was written, from `began` to `ended`.
     void wrote(HidWrite what, Instant began, Instant ended, bool taken) noexcept;
 
-    /// A burst was taken, and no stop since.
+    /// True if the device took a burst and no stop since.
     [[nodiscard]] bool vibrating() const noexcept { return end_.has_value(); }
-    /// A stop is due that the device has not taken; one that merely repeats another does not count.
+    /// True if a stop is due that the device has not taken yet; a mere repetition of a taken stop does not count.
     [[nodiscard]] bool stopDue() const noexcept { return stopAt_.has_value() && !echo_; }
 
 private:
@@ -55,11 +55,11 @@ private:
     const Instant keepAlive_;  // 0: none
     const Instant shortest_;
     std::optional<Instant> asked_;   // duration of the burst that is wanted
-    std::optional<Instant> end_;     // the end of the running burst
+    std::optional<Instant> end_;     // when the running burst ends
     Instant repeatAt_{0};            // when to repeat while a burst runs
-    std::optional<Instant> stopAt_;  // a stop is due then
-    bool echo_ = false;              // the device may have missed a command: it is repeated
-    std::optional<Instant> last_;    // the last write ended then
+    std::optional<Instant> stopAt_;  // when the next stop is due
+    bool echo_ = false;              // true if the stop is repeated in case the device missed the first
+    std::optional<Instant> last_;    // when the last write ended
 };
 
 }  // namespace tacto::hid

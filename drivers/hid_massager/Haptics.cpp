@@ -23,10 +23,10 @@ constexpr std::uint16_t kFirstOwnOrdinal = 3;
 constexpr std::int64_t kStopWaveform = 0x1002;  // the waveform that stops; 0x1001 is "none"
 constexpr std::int64_t kBuzzContinuous = 0x1004;
 constexpr std::int64_t kRumbleContinuous = 0x1005;
-constexpr std::int64_t kFirstInkContinuous = 0x100B;  // up to 0x1011 a pen's waveforms, which last, too
+constexpr std::int64_t kFirstInkContinuous = 0x100B;  // up to 0x1011: pen waveforms, which also last until stopped
 constexpr std::int64_t kLastInkContinuous = 0x1011;
 constexpr Seconds kMillisecond{0.001};
-constexpr std::int64_t kMaxPlay_ms = 1000;  // as the longest burst
+constexpr std::int64_t kMaxPlay_ms = 1000;  // the longest burst
 
 ReportField plain(const HidField& field) {
     return {field.bit, field.bits, ByteOrder::Little, field.min, field.max, VibrationRole::Intensity};
@@ -40,7 +40,7 @@ bool holds(const HidField& field, std::int64_t value) noexcept {
 
 bool lasts(std::int64_t waveform) noexcept { return waveform == kBuzzContinuous || waveform == kRumbleContinuous; }
 
-/// A waveform that ends by itself.
+/// True for a waveform that ends by itself.
 bool isFinite(std::int64_t waveform) noexcept {
     return waveform > kStopWaveform && !lasts(waveform) &&
            !(waveform >= kFirstInkContinuous && waveform <= kLastInkContinuous);
@@ -112,7 +112,7 @@ Result<VibrationReports> hapticReports(const HapticControls& controls, std::span
     }
     const HapticControls::Entry* lasting = nullptr;
     const HapticControls::Entry* finite = nullptr;
-    Seconds playTime{0};  // how long the finite effect plays
+    Seconds playTime{0};  // time for which the device plays the finite effect
     std::vector<std::string> present;
     for (const auto& entry : controls.waveforms) {
         const auto waveform = valueOf(plain(entry.waveform), list);

@@ -9,7 +9,7 @@ namespace tacto::hid {
 namespace {
 
 constexpr std::size_t kMaxPushes = 16;
-constexpr std::size_t kMaxUsages = 1024;  // waiting for one main item
+constexpr std::size_t kMaxUsages = 1024;  // limit of usages that wait for one main item
 constexpr std::size_t kMaxDepth = 32;
 
 // HID 1.11 section 6.2.2: an item's tag and type, without its size bits.
@@ -32,13 +32,13 @@ enum Item : std::uint8_t {
     kUsageMax = 0x28,
 };
 constexpr std::uint8_t kLongItem = 0xFE;
-constexpr std::uint32_t kConstant = 1;  // bits of a main item's data
+constexpr std::uint32_t kConstant = 1;  // bit of a main item's data
 constexpr std::uint32_t kVariable = 2;
 
 struct Globals {
     std::uint16_t page = 0;
     std::int64_t min = 0;
-    std::uint32_t maxBits = 0;  // as written: signed only where min is negative
+    std::uint32_t maxBits = 0;  // maximum as written: signed only if min is negative
     std::int64_t maxSigned = 0;
     std::uint32_t size = 0;
     std::uint32_t count = 0;
@@ -75,7 +75,7 @@ private:
             if (bytes_.size() - at_ < 2) return wrong("a long item is cut off");
             const std::size_t length = std::size_t{bytes_[at_]} + 2;
             if (bytes_.size() - at_ < length) return wrong("a long item is cut off");
-            at_ += length;  // none is defined
+            at_ += length;  // skips long items: the standard defines none
             return {};
         }
         const std::size_t size = (prefix & 3) == 3 ? 4 : prefix & 3;
@@ -206,7 +206,7 @@ private:
     }
 
     Result<void> addFields(ReportKind kind, std::uint32_t flags, std::uint32_t first) {
-        if (now_.size > 32) return {};  // a buffer (contact images, descriptors): no control of ours
+        if (now_.size > 32) return {};  // a buffer (contact images, descriptors), not one of our controls
         if (now_.count > kMaxFields - out_.fields.size()) return wrong("more than {} controls", kMaxFields);
         HidField field;
         field.kind = kind;
@@ -219,7 +219,7 @@ private:
         field.collection = open_;
         for (std::uint32_t i = 0; i < now_.count; ++i) {
             field.bit = 8 + first + i * now_.size;
-            // The last usage stands for all further controls (section 6.2.2.8).
+            // The last usage applies to all further controls (section 6.2.2.8).
             if (!field.array && !usages_.empty()) field.usage = usages_[std::min<std::size_t>(i, usages_.size() - 1)];
             out_.fields.push_back(field);
         }
@@ -254,7 +254,7 @@ std::optional<std::size_t> HidDescriptor::lengthOf(ReportKind kind, std::uint8_t
 }
 
 std::uint16_t HidDescriptor::enclosing(std::uint16_t collection, Usage usage) const noexcept {
-    // A parent always stands before its children, so this ends.
+    // A parent always comes before its children in the list, so this loop ends.
     while (collection != kNoCollection && collections[collection].usage != usage) {
         collection = collections[collection].parent;
     }

@@ -16,7 +16,7 @@ namespace tacto::hid {
 
 namespace {
 
-/// The wishes in a URI.
+/// What a URI asks for.
 struct Wanted {
     DeviceUri uri;
     std::optional<std::uint16_t> vendor, product;
@@ -56,8 +56,8 @@ struct Candidate {
     std::string label, obstacle;
     std::uint16_t vendor = 0, product = 0;
     std::optional<HidDeviceInfo> hid;
-    const MassagerTemplate* byTemplate = nullptr;  // null: driven by its Haptics page
-    std::optional<UsbDeviceInfo> usb;              // a Trance Vibrator
+    const MassagerTemplate* byTemplate = nullptr;  // null: the device's Haptics page describes it
+    std::optional<UsbDeviceInfo> usb;              // set only for a Trance Vibrator
     bool byPlace = false;                          // told apart by its place, as another has the same serial number
 
     [[nodiscard]] const std::string& place() const { return hid ? hid->path : usb->path; }
@@ -71,12 +71,12 @@ struct Candidate {
     }
 };
 
-/// A serial number that would break the URI is left out: the device is found by the rest.
+/// True if a URI can contain `serial`; otherwise the URI omits it, and the other parameters identify the device.
 bool fitsIntoUri(const std::string& serial) {
     return !serial.empty() && serial.find_first_of("&=?") == std::string::npos;
 }
 
-/// An address that opens this device and no other.
+/// Returns a URI that opens this device and no other.
 std::string uriOf(const Candidate& one, const Wanted& wanted) {
     DeviceUri uri{"hid", fmt::format("{:04x}:{:04x}", one.vendor, one.product), {}};
     if (fitsIntoUri(one.serial)) uri.parameters.emplace_back("serial", one.serial);
@@ -102,7 +102,7 @@ public:
     bool runsOnVirtualClock() const noexcept override { return false; }
 
     std::vector<DeviceIdentity> list() const override {
-        // open() reports a template that cannot be read; what the others describe is still listed.
+        // Lists the devices of the readable templates; open() reports a template that cannot be read.
         const auto templates = loadMassagerTemplates(parts_.templates).value_or(std::vector<MassagerTemplate>{});
         std::vector<DeviceIdentity> found;
         for (const auto& one : candidates(templates, nullptr)) {
@@ -149,7 +149,7 @@ private:
                                  wanted.templateName, fmt::join(names, ", "));
     }
 
-    /// `named`: what describes the device that is asked for, whatever its identity.
+    /// If `named` is set, it describes the device that `wanted` asks for, whatever the device's identity.
     std::vector<Candidate> candidates(const std::vector<MassagerTemplate>& templates, const MassagerTemplate* named,
                                       const Wanted* wanted = nullptr) const {
         std::vector<Candidate> found;
@@ -190,7 +190,7 @@ private:
         if (!parts_.usb) return;
         if (wanted != nullptr && wanted->vendor &&
             (*wanted->vendor != kTranceVendor || *wanted->product != kTranceProduct)) {
-            return;  // USB is not started for it either
+            return;  // a URI for another device does not start USB
         }
         const auto context = parts_.usb();
         if (!context) return;
@@ -228,7 +228,7 @@ private:
         auto reports = chosen.byTemplate != nullptr ? chosen.byTemplate->reportsFor(*parsed)
                                                     : readHaptics(*parsed, *backend, *chosen.hid);
         if (!reports) return fail(reports.error().code, "{}: {}", chosen.label, reports.error().message);
-        // The descriptor is read again at each opening: the same socket may hold another device by then.
+        // Each opening reads the descriptor again, because the same socket may hold another device by then.
         OpenPort again = [backend = backend, wanted = *chosen.hid, expected = *descriptor,
                           byPlace = chosen.byPlace]() -> Result<std::unique_ptr<HidPort>> {
             for (const auto& info : backend->devices()) {

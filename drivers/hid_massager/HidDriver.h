@@ -1,18 +1,18 @@
-// HidDriver.h - vibration devices as massagers, by the scheme "hid".
+// HidDriver.h - opens vibration devices as massagers, with the URI scheme "hid".
 //
-//   hid:                                  the only one that is plugged in
+//   hid:                                  the only massager that is plugged in
 //   hid:054c:0ce6                         by vendor and product, as lsusb prints them
 //   hid:054c:0ce6?serial=1234             one of several
-//   hid:054c:0ce6?at=/dev/hidraw3         one of several that share their serial number or have none, by its node
-//   hid:0b49:064f?at=1-2                  or, for a Trance Vibrator, by its USB socket
-//   hid:1234:5678?template=dualsense      as this template says (its name, or a path to a file ending in .json)
+//   hid:054c:0ce6?at=/dev/hidraw3         one of several with the same serial number or none, by its device node
+//   hid:0b49:064f?at=1-2                  the same for a Trance Vibrator, by its USB socket
+//   hid:1234:5678?template=dualsense      described by this template (its name, or a path to a file ending in .json)
 //   hid:0b49:064f                         the Trance Vibrator
 //
-// What a device takes is found in this order: `template=`, the template that names its vendor and product, the Haptics
-// page of its own report descriptor. A template must fit the device's descriptor, or the device is refused (H4).
+// The reports of a device are taken from the first of these: `template=`, the template that names its vendor and
+// product, the Haptics page of its report descriptor. A device that the template does not fit is refused (H4).
 //
-// An address that is listed, or given as a choice, opens exactly that device.
-// A device that is plugged in and may not be opened is listed with the sentence that helps.
+// Each listed URI, and each URI offered as a choice, opens exactly one device.
+// A plugged-in device that this user may not open is listed with a sentence that says what helps.
 #pragma once
 
 #include <filesystem>
@@ -28,10 +28,10 @@ namespace tacto::hid {
 struct HidDriverParts {
     std::shared_ptr<const HidBackend> backend;
     std::filesystem::path templates;  ///< the folder resources/massagers
-    UsbProvider usb = {};             ///< opens the Trance Vibrator; empty: none
+    UsbProvider usb = {};             ///< used to open the Trance Vibrator; empty: none
 };
 
-/// The real devices of this computer.
+/// Returns the parts for the real devices of this computer.
 [[nodiscard]] HidDriverParts systemHid(std::filesystem::path templates, UsbProvider usb);
 
 [[nodiscard]] std::unique_ptr<Driver> makeHidDriver(HidDriverParts parts);

@@ -10,7 +10,7 @@ namespace tacto::hid {
 
 namespace {
 
-/// Without a watchdog that answers there is no output. `what` then happened to the device.
+/// Returns the error after the watchdog failed; `what` says what then happened to the device.
 Error unwatched(std::string_view device, std::string_view what, WatchdogState watchdog) {
     if (watchdog == WatchdogState::Ended)
         return {ErrorCode::Device, fmt::format("{} {}: its watchdog has ended", device, what)};
@@ -59,7 +59,7 @@ Result<void> HidMassager::connect() {
         const std::scoped_lock urgent(urgent_);
         old = std::move(port_);
     }
-    old.reset();  // released before the same device is opened again
+    old.reset();  // closes the old port before the same device is opened again
     auto port = open_();
     if (!port) return failure(port);
     {
@@ -76,7 +76,7 @@ Result<void> HidMassager::connect() {
     if (!stopped) return stopped;
     auto watchdog = port_->watch(reports_.stop);
     if (!watchdog) return fail(watchdog.error().code, "{}: {}", identity_.name, watchdog.error().message);
-    if (watchdog_) watchdog_->rest();  // an earlier one, whose stop the device has by now
+    if (watchdog_) watchdog_->rest();  // calms an earlier watchdog: the device has been stopped by now
     watchdog_ = std::move(*watchdog);
     return {};
 }
@@ -106,7 +106,7 @@ Result<void> HidMassager::vibrate(ApprovedBurst&& burst) {
     const auto offs = offs_;
     if (!clock_.isVirtual()) endBurstAfterStandstill();
     if (fault_ && !std::exchange(faultTold_, true)) return tl::unexpected<Error>(*fault_);
-    // A write that an earlier call gave up may still be under way.
+    // A write that an earlier call gave up on may still be running.
     if (!changed_.wait_for(lock, kTimeout, [&] { return !writing_; })) {
         return fail(ErrorCode::Timeout, "{} is still taking the report before; within {:.0f} ms was expected",
                     identity_.name, kTimeout.count() * 1e3);
@@ -132,14 +132,14 @@ Result<void> HidMassager::vibrate(ApprovedBurst&& burst) {
     const auto done = std::exchange(job_, std::nullopt)->done;
     if (done) return *done;
     if (offs != offs_) return {};
-    timer_.askStop();  // behind the write, if one is under way
+    timer_.askStop();  // due after the current write, if there is one
     changed_.notify_all();
     return fail(ErrorCode::Timeout, "{} did not take the report within {:.0f} ms", identity_.name,
                 kTimeout.count() * 1e3);
 }
 
 Result<void> HidMassager::reconnect(std::unique_lock<std::mutex>& lock) {
-    writing_ = true;  // keeps the thread away from the port
+    writing_ = true;  // keeps the driver's thread away from the port
     lock.unlock();
     const auto connected = connect();
     lock.lock();
@@ -156,7 +156,7 @@ Result<void> HidMassager::reconnect(std::unique_lock<std::mutex>& lock) {
 void HidMassager::forceOff() noexcept {
     {
         const std::scoped_lock urgent(urgent_);
-        // The report follows all the same: it shows that the device took the stop.
+        // The stop report is still sent afterwards: only its write proves that the device took the stop.
         if (port_) static_cast<void>(port_->stopNow());
     }
     {
@@ -170,7 +170,7 @@ void HidMassager::forceOff() noexcept {
 Instant HidMassager::serve(Instant now) noexcept {
     std::unique_lock lock(state_);
     for (;;) {
-        if (job_ && !job_->done && job_->offs != offs_) finish({});  // a stop came between: not sent
+        if (job_ && !job_->done && job_->offs != offs_) finish({});  // forceOff() came first, so the burst is not sent
         const auto due = timer_.next();
         if (writing_ || due.what == HidWrite::Nothing) return Instant::max();
         const bool farewell = quitting_ && due.what == HidWrite::Stop && !farewell_;
@@ -208,13 +208,13 @@ void HidMassager::serveOne(HidWrite what, std::unique_lock<std::mutex>& lock) no
     auto sent = send(sending_);
     lock.lock();
     writing_ = false;
-    // A stop that was asked for while this was under way stands behind it, also behind a stop.
+    // A stop that was asked for during this write is due after it, even if this write was itself a stop.
     timer_.wrote(what, began, clock_.now(), sent.has_value());
     if (offs != offs_) timer_.askStop();
     if (sent && what == HidWrite::Stop && watchdog_) watchdog_->rest();
     if (!sent) {
         if (sent.error().code != ErrorCode::Timeout) raise(sent.error());
-        timer_.dropBurst();  // this also drops one that waits behind a stop that failed
+        timer_.dropBurst();  // also drops a burst that waits behind a failed stop
     }
     if (isBurst || !sent) finish(std::move(sent));
     changed_.notify_all();
@@ -263,12 +263,12 @@ void HidMassager::run() {
         }
         serve(clock_.now());
         std::unique_lock lock(state_);
-        // A last stop that the device did not take can no longer be reported.
+        // If the device did not take the last stop, this can no longer be reported.
         if (quitting_ && (farewell_ || !timer_.stopDue())) return;
         if (quitting_) continue;
         const Instant now = clock_.now();
         const Instant beatAt = keepBeating(now);
-        const auto due = timer_.next();  // asked again: there may be something new since serve()
+        const auto due = timer_.next();  // asks again: something may be new since serve()
         if (writing_ || due.what == HidWrite::Nothing) {
             changed_.wait(lock);
         } else if (const Instant next = std::min(due.at, beatAt); next > now) {

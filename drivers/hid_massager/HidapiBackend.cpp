@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kMaxText = 126;  // characters of a USB string descriptor: (255 - 2) / 2
 
-/// A device's own text: untrusted, and other alphabets are not worth a conversion.
+/// Turns a device's own text, which is untrusted, into ASCII; other alphabets are not worth a conversion.
 std::string plain(const wchar_t* text) {
     std::string out;
     for (; text != nullptr && *text != L'\0' && out.size() < kMaxText; ++text) {

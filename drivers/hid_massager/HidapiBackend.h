@@ -1,4 +1,4 @@
-// HidapiBackend.h - HID devices through hidapi over hidraw, which leaves a device to the kernel's driver as well.
+// HidapiBackend.h - HID devices through hidapi over hidraw; the kernel's own driver keeps using the device too.
 //
 // Thread-safety: any thread.
 #pragma once

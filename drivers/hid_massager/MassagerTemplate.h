@@ -1,5 +1,5 @@
-// MassagerTemplate.h - a HID vibration device described in a file (resources/massagers/*.json), for devices whose
-// report descriptor does not say how they vibrate. Schema and an example: resources/massagers/README.md.
+// MassagerTemplate.h - describes a HID vibration device from a file (resources/massagers/*.json), for devices that do
+// not describe their vibration in the report descriptor. Schema and an example: resources/massagers/README.md.
 //
 // Thread-safety: parse and lookups are pure; loadMassagerTemplates() reads files.
 #pragma once
@@ -22,41 +22,41 @@ struct TemplateDevice {
 };
 
 struct MassagerTemplate {
-    std::string key;  ///< the file's name without ".json": what a URI's `template=` names
+    std::string key;  ///< the file's name without ".json", used in a URI's `template=`
     std::string title;
-    std::string source;  ///< the source of its figures
+    std::string source;  ///< where the template's figures come from
     std::vector<TemplateDevice> devices;
-    std::optional<Usage> usage;        ///< the top-level collection's usage; nothing: any that the device has
-    std::uint8_t report = 0;           ///< number of the output report; 0 where the device has none
-    std::vector<std::size_t> lengths;  ///< accepted, the number's byte included; the device's own descriptor chooses
+    std::optional<Usage> usage;        ///< usage of the top-level collection; empty: any
+    std::uint8_t report = 0;           ///< number of the output report; 0 if the device has none
+    std::vector<std::size_t> lengths;  ///< accepted report lengths in bytes, number included
     struct Constant {
         std::size_t byte = 0;
         std::vector<std::uint8_t> value;
     };
     std::vector<Constant> constants;
     std::vector<ReportField> fields;
-    std::optional<std::vector<std::uint8_t>> stop;  ///< its first bytes, 0 behind; nothing: the start report, fields 0
+    std::optional<std::vector<std::uint8_t>> stop;  ///< first bytes of the stop, then zeros; empty: start with fields 0
     Seconds keepAlive{0};
     Seconds shortestWrite{0};
 
     [[nodiscard]] const TemplateDevice* deviceOf(std::uint16_t vendor, std::uint16_t product) const noexcept;
-    /// The reports at this length. Errors: InvalidArgument naming the accepted lengths.
+    /// Returns the reports for this length. Errors: InvalidArgument naming the accepted lengths.
     [[nodiscard]] Result<VibrationReports> reports(std::size_t length) const;
-    /// The reports as the device's own descriptor has them. Errors: Unsupported where it has no such report, or of
-    /// another length: then this is not the device that the template describes.
+    /// Returns the reports in the length that the device's descriptor states. Errors: Unsupported if the descriptor has
+    /// no such report or another length: then this is not the device that the template describes.
     [[nodiscard]] Result<VibrationReports> reportsFor(const HidDescriptor& descriptor) const;
 };
 
 inline constexpr std::size_t kMaxTemplate = 65536;  ///< bytes
 
-/// `file` names the text in messages, and the key is made of it. Errors: ParseError "FILE: place: what is wrong".
+/// Parses a template; `file` appears in messages and gives the key. Errors: ParseError "FILE: place: what is wrong".
 [[nodiscard]] Result<MassagerTemplate> parseMassagerTemplate(std::string_view text, std::string_view file);
 
 /// Errors: NotFound, Io; as parseMassagerTemplate().
 [[nodiscard]] Result<MassagerTemplate> loadMassagerTemplate(const std::filesystem::path& file);
 
-/// Reads every *.json in the folder, by name. Errors: NotFound (the folder); as above; ParseError where two describe
-/// the same device, as chance would then decide which one it gets.
+/// Reads every *.json file in the folder, ordered by name. Errors: NotFound (the folder); as above; ParseError if two
+/// templates describe the same device, as chance would then decide which one applies.
 [[nodiscard]] Result<std::vector<MassagerTemplate>> loadMassagerTemplates(const std::filesystem::path& folder);
 
 }  // namespace tacto::hid

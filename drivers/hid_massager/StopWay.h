@@ -1,8 +1,8 @@
-// StopWay.h - how a process that shares nothing with the driver stops a massager: the device's node and what is sent
-// there. Travels to tactoscope-watchdog as its arguments, so that `ps` shows what it would send:
+// StopWay.h - how a separate process stops a massager: the device's node and the bytes to send to it. Passed to
+// tactoscope-watchdog as arguments, so `ps` shows what the watchdog would send:
 //
-//   hidraw /dev/hidraw0 0203000000                  write() these bytes
-//   usb /dev/bus/usb/001/002 4301000000000000       a control request without data: its SETUP packet
+//   hidraw /dev/hidraw0 0203000000                  the bytes to write()
+//   usb /dev/bus/usb/001/002 4301000000000000       the SETUP packet of a control request without data
 //
 // Thread-safety: plain data.
 #pragma once
@@ -18,10 +18,10 @@ struct StopWay {
     enum class Kind { Hidraw, Usb };
     Kind kind = Kind::Hidraw;
     std::string node;                 ///< "/dev/hidraw0", "/dev/bus/usb/001/002"
-    std::vector<std::uint8_t> bytes;  ///< hidraw: the stop report as the node takes it; USB: the 8 of the SETUP packet
+    std::vector<std::uint8_t> bytes;  ///< hidraw: the stop report as written to the node; USB: the 8-byte SETUP packet
 
     [[nodiscard]] std::vector<std::string> arguments() const;
-    /// `count` arguments without the program's name. Nothing for what arguments() does not write.
+    /// Reads `count` arguments, without the program's name. Returns nothing if arguments() would not write them so.
     [[nodiscard]] static std::optional<StopWay> read(int count, char** arguments);
     friend bool operator==(const StopWay&, const StopWay&) = default;
 };

@@ -1,4 +1,4 @@
-// Reading a template from its text and from its file.
+// Reads a template from its text or its file.
 #include <algorithm>
 
 #include "core/base/Csv.h"
@@ -21,7 +21,7 @@ std::optional<T> hexIn(std::string_view text) {
     return text.size() == 2 * sizeof(T) ? parseWhole<T>(text, 16) : std::nullopt;
 }
 
-/// Written as on the device and by lsusb.
+/// Four hexadecimal digits, as printed on the device and by lsusb.
 ValueKind<std::uint16_t> hex16Kind() {
     return codedKind<std::uint16_t>(
         "a text of four hexadecimal digits, as \"054C\",",
@@ -49,7 +49,7 @@ ValueKind<std::vector<std::uint8_t>> bytesKind() {
         [](const Bytes& bytes) { return json(fmt::format("{:02X}", fmt::join(bytes, " "))); });
 }
 
-// Parts of a template as a file has them.
+// The parts of a template as a file stores them.
 struct StoredUsage {
     std::uint16_t page = 0, id = 0;
 };
@@ -97,7 +97,7 @@ ValueKind<ReportField> fieldKind() {
         });
 }
 
-/// {"fields": 0}, the start report with its fields 0, or {"hex": "..."}.
+/// Reads {"fields": 0}, which means the start report with all fields 0, or {"hex": "..."}.
 ValueKind<MassagerTemplate> stopKind() {
     RecordFields<StoredStop> stored;
     stored.number("fields", &StoredStop::fields, {.low = 0, .high = 0}).leftOutIfEmpty = true;

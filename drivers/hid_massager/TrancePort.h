@@ -1,7 +1,7 @@
-// TrancePort.h - the ASCII Trance Vibrator (0B49:064F): no HID device, but one that vibrates by one control request,
+// TrancePort.h - the ASCII Trance Vibrator (0B49:064F). It is no HID device: one control request sets its vibration,
 // bmRequestType 0x43, bRequest 1, wValue = speed 0 to 255 (resources/design/wire/hid-vibration.md).
 //
-// HidMassager sees a device with one report of two bytes: 0, speed.
+// To HidMassager it looks like a device with one report of two bytes: 0 and the speed.
 //
 // Thread-safety: as HidPort.
 #pragma once
@@ -22,7 +22,7 @@ inline constexpr std::uint16_t kTranceProduct = 0x064F;
 
 class TrancePort final : public HidPort {
 public:
-    /// A control request of a full-speed bus takes a few milliseconds; a device that takes longer hangs.
+    /// Limit for one request: a full-speed bus needs a few milliseconds; a device that takes longer has hung.
     static constexpr Seconds kTimeout{0.2};
 
     /// Errors: as UsbControl::open().

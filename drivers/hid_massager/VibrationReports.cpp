@@ -7,7 +7,7 @@ namespace tacto::hid {
 
 namespace {
 
-/// The bit of the report where bit `i` of the value stands.
+/// Returns the position in the report of bit `i` of the value.
 std::size_t placeOf(const ReportField& field, std::size_t i) noexcept {
     if (field.order == ByteOrder::Little) return field.bit + i;
     const std::size_t lastByte = field.bits / 8 - 1;
@@ -108,9 +108,9 @@ std::int64_t valueOf(const ReportField& field, std::span<const std::uint8_t> rep
 
 namespace {
 
-/// The value that makes the device play for `duration` at least.
+/// Returns the value that makes the device play for at least `duration`.
 Result<std::int64_t> valueFor(const DurationField& ends, Seconds duration) {
-    constexpr double kRounding = 1e-9;  // 0.1 s is 100 units of 0.001 s despite binary fractions
+    constexpr double kRounding = 1e-9;  // so that 0.1 s is 100 units of 0.001 s despite binary fractions
     const double units = std::ceil(duration.count() / ends.unit.count() * (1 - kRounding));
     const double most = static_cast<double>(ends.at.max + ends.first);
     if (!(duration.count() > 0) || !(units <= most)) {

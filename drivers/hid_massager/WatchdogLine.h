@@ -1,24 +1,24 @@
-// WatchdogLine.h - what a program and its tactoscope-watchdog say to each other over a socket that keeps messages
-// apart. Each message is one byte. The end of the line without Leave is the program's death.
+// WatchdogLine.h - the messages, one byte each, between a program and its tactoscope-watchdog, over a socket that keeps
+// messages apart. If the line ends without Leave, the program has died.
 //
-// Thread-safety: values.
+// Thread-safety: constants.
 #pragma once
 
 #include <chrono>
 
 namespace tacto::hid {
 
-/// With output on, the stop follows after so long a silence of the program.
+/// While output is on, the watchdog sends the stop after the program has been silent for this long.
 inline constexpr std::chrono::milliseconds kWatchdogSilence{200};
 
-inline constexpr int kWatchdogSocket = 3;  ///< the watchdog's end is this file descriptor
+inline constexpr int kWatchdogSocket = 3;  ///< file descriptor of the watchdog's end of the line
 
 enum class WatchdogWord : char {
     Ready = 'r',   ///< watchdog: the device's node is open
-    Failed = 'f',  ///< watchdog: it could not be opened; the error's number follows as an int
+    Failed = 'f',  ///< watchdog: it could not open the node; the error number follows as an int
     Beat = 'b',    ///< program: output begins or continues; the watchdog answers with the same
     Rest = 'o',    ///< program: the device took its stop
-    Leave = 'q',   ///< program: ends in order, with the output off
+    Leave = 'q',   ///< program: it ends normally, with the output off
 };
 
 }  // namespace tacto::hid

@@ -28,7 +28,7 @@ tl::unexpected<Error> notDriven(ErrorCode code, fmt::format_string<Args...> text
                 fmt::format(text, std::forward<Args>(args)...));
 }
 
-/// Starts `program` with one end of a fresh line as its kWatchdogSocket. Returns an error's number, or 0.
+/// Starts `program` with `end` of a new line as its kWatchdogSocket. Returns an error number, or 0.
 int spawn(const std::filesystem::path& program, const StopWay& way, int end, pid_t& process) {
     auto words = way.arguments();
     words.insert(words.begin(), program.string());
@@ -38,7 +38,7 @@ int spawn(const std::filesystem::path& program, const StopWay& way, int end, pid
     posix_spawn_file_actions_t files;
     posix_spawn_file_actions_init(&files);
     posix_spawn_file_actions_adddup2(&files, end, kWatchdogSocket);
-    // The watchdog outlives this program, and must not keep a pipe open whose reader waits for this program's end.
+    // The watchdog outlives this program, and must not keep open a pipe that signals this program's end to a reader.
     for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
         posix_spawn_file_actions_addopen(&files, standard, "/dev/null", O_RDWR, 0);
     }
@@ -104,7 +104,7 @@ WatchdogProcess::~WatchdogProcess() {
     const char leave = static_cast<char>(WatchdogWord::Leave);
     if (resting_) static_cast<void>(send(line_, &leave, 1, MSG_NOSIGNAL | MSG_DONTWAIT));
     shutdown(line_, SHUT_WR);
-    // The watchdog ends when its line closes; answers to beats may come before.
+    // The watchdog ends when its line closes; late answers to beats may come first.
     const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(kEnd_ms);
     for (;;) {
         const auto left =
@@ -126,18 +126,18 @@ WatchdogState WatchdogProcess::beat() noexcept {
     auto got = recv(line_, &answer, 1, MSG_DONTWAIT);
     for (; got == 1; got = recv(line_, &answer, 1, MSG_DONTWAIT)) unanswered_.reset();
     if (got == 0) return WatchdogState::Ended;
-    // At rest there was nothing to answer.
+    // After rest() no beat was left unanswered.
     if (resting_ || !unanswered_) unanswered_ = now;
     resting_ = false;
     if (now - *unanswered_ > kUnansweredLimit) return WatchdogState::Silent;
     if (send(line_, &word, 1, MSG_NOSIGNAL | MSG_DONTWAIT) == 1) return WatchdogState::Watching;
-    const bool full = errno == EAGAIN || errno == EWOULDBLOCK || errno == ENOBUFS;  // it is full, and takes nothing out
+    const bool full = errno == EAGAIN || errno == EWOULDBLOCK || errno == ENOBUFS;  // full: the watchdog reads nothing
     return full ? WatchdogState::Silent : WatchdogState::Ended;
 }
 
 void WatchdogProcess::rest() noexcept {
     const char word = static_cast<char>(WatchdogWord::Rest);
-    // A line that is full or broken is found by the next beat().
+    // If the line is full or broken, the next beat() notices.
     static_cast<void>(send(line_, &word, 1, MSG_NOSIGNAL | MSG_DONTWAIT));
     resting_ = true;
 }

@@ -1,4 +1,4 @@
-// WatchdogProcess.h - a Watchdog in a process of its own: tactoscope-watchdog, which lies beside the running program.
+// WatchdogProcess.h - a Watchdog in its own process: tactoscope-watchdog, which lies next to the running program.
 //
 // Thread-safety: as Watchdog. start() any thread.
 #pragma once
@@ -15,14 +15,14 @@ namespace tacto::hid {
 
 class WatchdogProcess final : public Watchdog {
 public:
-    /// Where the program is expected.
+    /// Returns the path where the watchdog program is expected.
     [[nodiscard]] static std::filesystem::path programPath();
 
-    /// Starts it; it has the device's node open when this returns, which takes 1 s at most. Errors: NotFound (no such
-    /// program), Io (it does not start, or may not open the node), each saying that the massager is not driven.
+    /// Starts the watchdog; when this returns, within 1 s, it has the device's node open. Errors: NotFound (no such
+    /// program), Io (it does not start or may not open the node), each saying that the massager is not driven.
     [[nodiscard]] static Result<std::unique_ptr<Watchdog>> start(const StopWay& way,
                                                                  const std::filesystem::path& program = programPath());
-    /// Waits until the process has ended, 1 s at most: one that cannot deliver its stop keeps trying by itself.
+    /// Waits at most 1 s for the process to end; a watchdog that cannot deliver its stop keeps trying on its own.
     ~WatchdogProcess() override;
     WatchdogProcess(const WatchdogProcess&) = delete;
     WatchdogProcess& operator=(const WatchdogProcess&) = delete;
@@ -36,7 +36,7 @@ private:
     const pid_t process_;
     const int line_;
     bool resting_ = true;
-    std::optional<std::chrono::steady_clock::time_point> unanswered_;  // since then
+    std::optional<std::chrono::steady_clock::time_point> unanswered_;  // since when a beat is unanswered
 };
 
 }  // namespace tacto::hid

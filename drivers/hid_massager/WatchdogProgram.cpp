@@ -1,9 +1,9 @@
-// tactoscope-watchdog - sends a massager's stop report when the program that started it dies in any way (kill -9,
-// abort, out of memory), or is silent while output is on. Started by drivers/hid_massager/WatchdogProcess; of no use
-// by itself.
+// tactoscope-watchdog - sends a massager's stop report if the program that started it dies in any way (kill -9, abort,
+// out of memory), or is silent while output is on. Started by drivers/hid_massager/WatchdogProcess; useless when
+// started by hand.
 //
-// It has a session of its own and ignores what a terminal sends, so that Ctrl-C and Ctrl-Z reach only the program. The
-// device's node is opened at the start and stays the same device. All memory is taken before the first beat.
+// It has its own session and ignores a terminal's signals, so that Ctrl-C and Ctrl-Z reach only the program. It opens
+// the device's node once, at the start, and keeps that device. All memory is taken before the first beat.
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -27,7 +27,7 @@ using SteadyTime = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
 constexpr milliseconds kRetry{20};
-constexpr std::chrono::seconds kMaxRetries{60};  // a device that takes no stop for so long is beyond this program
+constexpr std::chrono::seconds kMaxRetries{60};  // a device that refuses a stop for this long cannot be helped
 constexpr unsigned kTransfer_ms = 200;
 
 enum class Sent { Taken, Gone, Failed };
@@ -49,7 +49,7 @@ public:
         return outcomeOf(sendControl());
     }
 
-    /// The dead program had taken interface 0 from the kernel's driver, which gets it back.
+    /// Returns interface 0 to the kernel's driver, from which the dead program had taken it.
     void giveBack() {
         if (way_.kind != StopWay::Kind::Usb) return;
         usbdevfs_ioctl command{0, USBDEVFS_CONNECT, nullptr};
@@ -80,19 +80,19 @@ void tell(WatchdogWord word, int error = 0) {
     send(kWatchdogSocket, message, sizeof message, MSG_NOSIGNAL);
 }
 
-/// Milliseconds until `when` for poll(), rounded up.
+/// Returns the milliseconds until `when` for poll(), rounded up.
 int timeUntil(SteadyTime::time_point when) {
     const auto left = std::chrono::ceil<milliseconds>(when - SteadyTime::now()).count();
     return left < 0 ? 0 : static_cast<int>(left);
 }
 
-/// Returns when there is nothing left to watch.
+/// Watches until nothing is left to watch.
 int watch(Device& device) {
     bool orphaned = false;
     bool stopDue = false;
     bool on = false;
-    SteadyTime::time_point silentAt{};  // while on
-    SteadyTime::time_point giveUpAt{};  // while orphaned
+    SteadyTime::time_point silentAt{};  // used while output is on
+    SteadyTime::time_point giveUpAt{};  // used while orphaned
     for (;;) {
         if (stopDue) {
             const auto sent = device.sendStop();
@@ -138,7 +138,7 @@ int main(int argumentCount, char** arguments) {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGTSTP, SIGTTIN, SIGTTOU, SIGUSR1, SIGUSR2}) {
         std::signal(signal, SIG_IGN);
     }
-    // Closes the program's files, which must not stay open after its death.
+    // Closes inherited files of the program, which must not stay open after the program's death.
     close_range(kWatchdogSocket + 1, ~0U, 0);
     auto way = StopWay::read(argumentCount - 1, arguments + 1);
     if (!way || fcntl(kWatchdogSocket, F_GETFD) < 0) {
@@ -151,7 +151,7 @@ int main(int argumentCount, char** arguments) {
         tell(WatchdogWord::Failed, errno);
         return 1;
     }
-    mlockall(MCL_CURRENT | MCL_FUTURE);  // if permitted, as it must run when memory is short
+    mlockall(MCL_CURRENT | MCL_FUTURE);  // if permitted, because the watchdog must run when memory is short
     tell(WatchdogWord::Ready);
     return watch(device);
 }

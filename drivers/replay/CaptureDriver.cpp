@@ -19,9 +19,9 @@ constexpr ScopeTraits kTraits{Hertz(1e9), 100'000'000, 32, Hertz(0)};
 
 bool within(double value, double low, double high) { return value >= low && value <= high; }
 
-/// Gives the captures of a folder one after the other. Arming makes the next file begin now; those after it keep
-/// their distance in time, so that intervals stay what they were and no file is waited for longer than it took.
-/// Settings are judged like an instrument's, but a file stays what it was recorded as.
+/// Plays the captures of a folder one after the other. Arming makes the next file begin now; later files keep their
+/// distance in time, so that intervals stay as recorded and no file takes longer than it did. Settings are checked as
+/// on an instrument, but do not change the recorded data.
 class ReplayedCaptures final : public Oscilloscope, public ReplayedDevice {
 public:
     ReplayedCaptures(std::vector<Capture> captures, DeviceIdentity identity, StatedOrigin origin, const Clock& clock)
@@ -69,7 +69,7 @@ public:
     }
 
 private:
-    /// The time at which |signal| first rises through the level; NaN where it never does.
+    /// Returns when |signal| first rises through the level; NaN if it never does.
     static double triggerOf(const Capture& capture, const ScopeSettings& settings) {
         const std::string_view unit = settings.triggerOnCurrent ? "A" : "V";
         const auto channel = std::ranges::find(capture.channels, unit, &CaptureChannel::unit);
@@ -83,11 +83,11 @@ private:
         return std::numeric_limits<double>::quiet_NaN();
     }
 
-    std::vector<Capture> captures_;  ///< captures; those before next_ were given away
+    std::vector<Capture> captures_;  ///< captures before next_ were already returned
     const DeviceIdentity identity_;
     const StatedOrigin origin_;
     const Clock& clock_;
-    double shift_s_ = 0;  ///< from a file's own time to the session's
+    double shift_s_ = 0;  ///< offset from a file's time to session time
     ScopeSettings settings_;
     std::size_t next_ = 0;
     bool armed_ = false;
@@ -125,7 +125,7 @@ public:
             return uri.refuse(ErrorCode::NotFound, "{} holds no capture; files {} were expected", uri.path,
                               fmt::join(formats_->suffixes(), ", "));
         }
-        // A simulated capture makes the instrument simulated; one that says nothing leaves its origin unknown.
+        // One simulated capture makes the instrument simulated; one without a statement leaves its origin unknown.
         std::optional<bool> simulated = false;
         for (const auto& file : files) {
             const auto stated = statedSimulated(file);

@@ -44,7 +44,7 @@ public:
         for (std::size_t s = 0; s < infos_.size(); ++s) {
             const auto& samples = recording_.streams[s].samples;
             const std::size_t channels = infos_[s].channels;
-            // Goes in the order recorded: a stamp that steps back comes with the sample before it.
+            // Keeps the recorded order: a sample with an earlier stamp is returned together with the sample before it.
             for (auto& i = next_[s]; i < samples.samples() && sessionTime(samples.t_s[i]) <= now; ++i) {
                 blocks[s].t_s.push_back(sessionTime(samples.t_s[i]));
                 const auto* row = samples.values.data() + i * channels;
@@ -81,7 +81,7 @@ private:
     const double origin_s_;  // the recording's first stamp
     const double opened_s_;
     std::vector<StreamInfo> infos_;
-    std::vector<std::size_t> next_;  // per stream, the first sample not yet read
+    std::vector<std::size_t> next_;  // for each stream the first sample not read yet
 };
 
 class RecordingDriver final : public Driver {

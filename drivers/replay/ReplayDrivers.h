@@ -1,10 +1,10 @@
-// ReplayDrivers.h - devices made of files, for the virtual clock as well as the steady one.
+// ReplayDrivers.h - devices that replay files, on the virtual clock as well as the steady clock.
 //
-//   recording:PATH            a recording (core/acquisition) replayed as a fingertip, first stamp = when it was opened
-//   recording:PATH?speed=2    the same, played twice as fast; its stamps shrink with it
-//   capture:FOLDER            captures of any format that is known, in the order of their names, as an oscilloscope
+//   recording:PATH            replays a recording (core/acquisition) as a fingertip; it begins when it is opened
+//   recording:PATH?speed=2    plays it twice as fast and compresses its time stamps
+//   capture:FOLDER            plays captures of any known format, in order of name, as an oscilloscope
 //
-// A file is not simulated: what it holds was measured once.
+// A replayed file is not marked as simulated, because its data were measured once.
 //
 // Thread-safety: as Driver.
 #pragma once

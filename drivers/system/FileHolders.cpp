@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether it is the same file, or another node of the same device.
+/// True if both are the same file, or nodes of the same device.
 bool isSame(const struct stat& a, const struct stat& b) {
     if (!S_ISCHR(a.st_mode) || !S_ISCHR(b.st_mode)) return false;
     return (a.st_dev == b.st_dev && a.st_ino == b.st_ino) || a.st_rdev == b.st_rdev;

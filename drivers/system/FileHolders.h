@@ -1,7 +1,7 @@
-// FileHolders.h - which other programs have a device's file open, so that a busy device is reported with the program
-// that must be closed, and no device is taken from a program that uses it.
+// FileHolders.h - finds which other programs have a device's file open, so that an error can name the program to close,
+// and no device is taken from a program that uses it.
 //
-// Thread-safety: pure but for reading /proc.
+// Thread-safety: any thread; reads /proc.
 #pragma once
 
 #include <filesystem>
@@ -16,12 +16,12 @@ struct FileHolder {
     std::string name;  ///< the program's name, as ps shows it; 15 characters at most
 };
 
-/// Other processes that have `file` open, by process number. Processes of other users are seen by root only, and what
-/// is not a character device, or not there, has no holders.
+/// Returns the other processes that have `file` open, by process number. Only root sees other users' processes. A
+/// `file` that is missing or no character device has no holders.
 [[nodiscard]] std::vector<FileHolder> holdersOf(const std::filesystem::path& file);
 
-/// "tactoscope-cli (pid 123) and cat (pid 124)"; for none "this program itself or one that this
-/// user may not see".
+/// Returns "tactoscope-cli (pid 123) and cat (pid 124)"; without holders "this program itself or one that this user may
+/// not see".
 [[nodiscard]] std::string textOf(const std::vector<FileHolder>& holders);
 
 }  // namespace tacto

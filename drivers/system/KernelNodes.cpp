@@ -27,7 +27,7 @@ std::vector<fs::path> kernelNodesOf(const std::string& socket) {
     for (const auto& interface : entriesOf(fs::path("/sys/bus/usb/devices") / socket)) {
         if (!interface.filename().string().starts_with(socket + ":")) continue;
         add(interface / "tty");
-        // A HID interface's device lies in between: 1-1:1.0/0003:054C:0CE6.0001/hidraw/hidraw0.
+        // For HID the path has the HID device in between: 1-1:1.0/0003:054C:0CE6.0001/hidraw/hidraw0.
         for (const auto& device : entriesOf(interface)) {
             std::error_code none;
             if (!fs::is_symlink(device, none)) add(device / "hidraw");

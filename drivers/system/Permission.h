@@ -1,10 +1,10 @@
-// Permission.h - what lets this user open a device that the system keeps from them: the sentence that every driver
-// gives, and the command in it.
+// Permission.h - the advice for a device that the system does not let this user open: a sentence with a command, used
+// by every driver.
 //
-// The shipped udev rules give devices to the user at the computer (uaccess). That does nothing for a login over
-// ssh, which has no seat; a group does.
+// The shipped udev rules give devices to the user at the computer (uaccess). They do not help a user who is logged in
+// over ssh and has no seat; membership in a group does.
 //
-// Thread-safety: pure but for reading the environment.
+// Thread-safety: any thread; reads the environment.
 #pragma once
 
 #include <string>
@@ -15,13 +15,13 @@ namespace tacto {
 enum class Login {
     Seat,    ///< at the computer itself
     Ssh,     ///< logged in from another computer
-    Unknown  ///< neither shows: a service, a container
+    Unknown  ///< cannot be told: a service, a container
 };
-/// Found by XDG_SEAT, the display's variables and SSH_CONNECTION.
+/// Looks at XDG_SEAT, the display's variables and SSH_CONNECTION.
 [[nodiscard]] Login thisLogin();
 
-/// "run \"./dev install-rules\" once, then plug the device in again." `device` is "1234:5678" for one that may not be
-/// in the shipped rules, else empty.
+/// Returns "run \"./dev install-rules\" once, then plug the device in again." `device` is "1234:5678" if the shipped
+/// rules may not name the device, else empty.
 [[nodiscard]] std::string permissionAdvice(std::string_view device = {}, Login login = thisLogin());
 
 }  // namespace tacto
