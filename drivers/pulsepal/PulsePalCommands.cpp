@@ -60,9 +60,9 @@ Result<VoltageCode> VoltageCode::of(Volts volts) {
     }
     const double exact = (v + kMaxVolts) / (2 * kMaxVolts) * kStepsOfRange;
     const double nearest = std::round(exact);
-    // A value within a millionth of a step of a code is on it.
+    // A value within a millionth of a step of a code is taken as that code.
     const double toward = std::abs(exact - nearest) <= 1e-6 ? nearest : v > 0 ? std::floor(exact) : std::ceil(exact);
-    // A positive voltage below half a step has no code of its own: the zero is nearer to 0 V than the one below.
+    // A positive voltage below half a step has no code of its own: the zero code is nearer than the code below 0 V.
     return VoltageCode(static_cast<std::uint16_t>(v > 0 ? std::max(toward, double{kZeroVolts}) : toward));
 }
 

@@ -1,11 +1,11 @@
-// PulsePalCommands.h - commands to Pulse Pal 2, as bytes, and its answers. Every command is a type of its own kind of
-// value, so that a duration cannot stand in a voltage's slot, and each parameter's number is written down once.
+// PulsePalCommands.h - the commands to Pulse Pal 2 as bytes, and its answers. Each kind of value has its own type, so
+// that a duration cannot be passed as a voltage, and each parameter's number is written only once.
 //
-// Source: firmware PulsePal_2_0_1.ino (sanworks/PulsePal), by pulsepal2.md. Little-endian, no checksum;
-// every command begins with D5.
+// Source: firmware PulsePal_2_0_1.ino (sanworks/PulsePal), described in pulsepal2.md. Little-endian, no checksum; every
+// command begins with D5.
 //
-// D5 52, continuous mode, is not here on purpose: outputs of this program end by themselves, and the order of its two
-// arguments differs between firmware versions, so that "off" for one is "on" for another.
+// D5 52, continuous mode, is left out on purpose: outputs of this program end by themselves, and the order of the
+// command's two arguments differs between firmware versions, so that "off" for one version is "on" for another.
 #pragma once
 
 #include <array>
@@ -21,24 +21,24 @@ namespace tacto::pulsepal {
 
 inline constexpr std::uint8_t kStart = 0xD5;
 inline constexpr int kChannels = 4;
-inline constexpr Micros kCycle{50};      ///< everything happens on this grid
-inline constexpr double kMaxVolts = 10;  ///< output range is ± this
+inline constexpr Micros kCycle{50};      ///< the time step of the device
+inline constexpr double kMaxVolts = 10;  ///< the output range is ± this voltage
 inline constexpr std::uint16_t kZeroVolts = 32768;
 inline constexpr std::uint32_t kMaxCycles = 72'000'000;  ///< 3600 s; the device's own menu allows no more
 
-/// A command's bytes; none is longer.
+/// A command's bytes; the longest command has 9.
 struct CommandBytes {
     std::array<std::uint8_t, 9> bytes{};
     std::size_t size = 0;
     [[nodiscard]] std::span<const std::uint8_t> view() const noexcept { return {bytes.data(), size}; }
 };
 
-/// An output, 1 to 4. Errors: InvalidArgument.
+/// An output channel, 1 to 4. Errors: InvalidArgument.
 class Channel {
 public:
     [[nodiscard]] static Result<Channel> of(int number);
     [[nodiscard]] std::uint8_t number() const noexcept { return number_; }
-    /// The channel's bit in a trigger's mask.
+    /// Returns the channel's bit in a trigger's mask.
     [[nodiscard]] std::uint8_t mask() const noexcept { return static_cast<std::uint8_t>(1U << (number_ - 1)); }
 
 private:
@@ -46,11 +46,11 @@ private:
     std::uint8_t number_;
 };
 
-/// A multiple of 50 µs.
+/// A duration in multiples of 50 µs.
 class Cycles {
 public:
-    /// Errors: InvalidArgument for a time that is negative, not finite, longer than an hour, or off the grid by more
-    /// than what decimal fractions lose in binary (1e-6 of a cycle); `what` names it.
+    /// Errors: InvalidArgument naming `what` if the time is negative, not finite, longer than an hour, or off the 50 µs
+    /// grid by more than the rounding error of decimal fractions in binary (1e-6 of a cycle).
     [[nodiscard]] static Result<Cycles> of(Micros time, const char* what);
     [[nodiscard]] static constexpr Cycles exactly(std::uint32_t count) noexcept { return Cycles(count); }
     [[nodiscard]] constexpr std::uint32_t count() const noexcept { return count_; }
@@ -63,8 +63,8 @@ private:
 
 /// A voltage as the converter's 16 bits: 0 is -10 V, 65535 is +10 V, 32768 stands for 0 V.
 ///
-/// Rounded toward 0 V, so that no phase exceeds what was approved and opposite phases mirror each other. (The maker's
-/// clients round upward, ceil((V + 10)/20 · 65535): the same for V ≤ 0, one step, 0.31 mV, more above.)
+/// Rounded toward 0 V, so that no phase exceeds the approved amplitude and opposite phases mirror each other. (The
+/// maker's clients round upward, ceil((V + 10)/20 · 65535): the same for V ≤ 0, one step, 0.31 mV, more above.)
 class VoltageCode {
 public:
     /// Errors: InvalidArgument outside ± 10 V, or not finite.
@@ -77,10 +77,10 @@ private:
     constexpr explicit VoltageCode(std::uint16_t code) : code_(code) {}
     std::uint16_t code_;
 };
-/// The output for a code; 0 V for 32768, the maker's zero, which is 0.15 mV off.
+/// Returns the output voltage of a code; 0 V for 32768, the maker's zero, although the true output is 0.15 mV off.
 [[nodiscard]] Volts voltsOf(std::uint16_t code) noexcept;
 
-/// The parameters' numbers on the wire.
+/// The parameters' numbers in the protocol.
 enum class Parameter : std::uint8_t {
     Biphasic = 1,
     Phase1Voltage = 2,
@@ -99,12 +99,12 @@ enum class Parameter : std::uint8_t {
     CustomTarget = 15,
     CustomLoop = 16,
     RestingVoltage = 17,
-    TriggerMode = 128,  ///< here the "channel" is a trigger input, 1 or 2
+    TriggerMode = 128,  ///< for this parameter the "channel" is a trigger input, 1 or 2
 };
-/// Bytes of its value: 1, 2 or 4; 0 for a number that is not a parameter.
+/// Returns the bytes of the parameter's value: 1, 2 or 4; 0 for an unknown parameter number.
 [[nodiscard]] std::size_t sizeOf(Parameter parameter) noexcept;
 
-// One function per kind of value; each takes only the parameters of its kind, which are named in its type.
+// One function per kind of value; its type lists the parameters that it accepts.
 enum class Switch : std::uint8_t {
     Biphasic = 1,
     LinkTrigger1 = 12,
@@ -126,7 +126,7 @@ enum class Duration : std::uint8_t {
 [[nodiscard]] CommandBytes set(Switch what, Channel channel, bool on) noexcept;
 [[nodiscard]] CommandBytes set(Voltage what, Channel channel, VoltageCode value) noexcept;
 [[nodiscard]] CommandBytes set(Duration what, Channel channel, Cycles value) noexcept;
-/// Parametric trains, not stored ones.
+/// Selects parametric trains instead of stored ones.
 [[nodiscard]] CommandBytes noCustomTrain(Channel channel) noexcept;
 
 [[nodiscard]] CommandBytes handshake() noexcept;
@@ -134,22 +134,22 @@ enum class Duration : std::uint8_t {
 [[nodiscard]] CommandBytes trigger(std::uint8_t mask) noexcept;
 /// Ends all trains. Not acknowledged.
 [[nodiscard]] CommandBytes abort() noexcept;
-/// Two aborts in one transfer: the device takes one command every 50 µs, and a trigger that came just before the first
-/// one starts its train behind it, which the second one ends.
+/// Two aborts in one transfer: the device takes one command every 50 µs. A trigger that came just before the first
+/// abort starts its train after it; the second abort ends that train.
 [[nodiscard]] CommandBytes abortTwice() noexcept;
 [[nodiscard]] CommandBytes disconnect() noexcept;
-/// Six characters for its display, padded with blanks.
+/// Sets the six characters on the device's display, padded with blanks.
 [[nodiscard]] CommandBytes clientName(std::string_view name) noexcept;
 
-/// The device's answer to a parameter.
+/// The device's answer to a parameter command.
 inline constexpr std::uint8_t kDone = 0x01;
 
 struct Handshake {
     std::uint32_t firmware = 0;
 };
 inline constexpr std::size_t kHandshakeSize = 5;
-/// Errors: ParseError for another length or first byte; Unsupported for a firmware that is not a Pulse Pal 2's known
-/// one (20, 21): model 1 has 8-bit voltages in the same slots.
+/// Errors: ParseError for a wrong length or first byte; Unsupported unless the firmware is a known one of Pulse Pal 2
+/// (20, 21): model 1 has 8-bit voltages in the same places.
 [[nodiscard]] Result<Handshake> readHandshake(std::span<const std::uint8_t> reply);
 
 }  // namespace tacto::pulsepal

@@ -10,11 +10,11 @@ namespace tacto::pulsepal {
 
 namespace {
 
-/// From the trigger's last byte to the onset: the device schedules it for the cycle after the next; two more are spare.
+/// From the trigger's last byte to the onset: the device starts on the next cycle but one; two more are spare.
 constexpr Instant kTriggerDelay = std::chrono::microseconds(200);
-/// How slow the device's clock may run and still let ours predict a train's end: 100 ppm twice (two crystals).
+/// The most that the device's clock may run slow for ours to predict a train's end: twice 100 ppm (two crystals).
 constexpr double kClockError = 200e-6;
-/// A device that says nothing for so long has answered all that another program asked before us: it takes a command
+/// After this much silence the device has answered everything that another program asked before us: it takes a command
 /// every 50 µs, and a USB frame is 1 ms.
 constexpr Seconds kLineSilence{0.005};
 
@@ -39,7 +39,7 @@ Result<std::unique_ptr<PulsePalStimulator>> PulsePalStimulator::open(Connect con
 PulsePalStimulator::~PulsePalStimulator() {
     forceOff();
     if (lost_) return;
-    // Waited for, so that the bytes are out before the transport closes. An error could no longer be reported.
+    // Waits, so that the bytes are sent before the transport closes. An error could no longer be reported.
     const Instant deadline = clock_.now() + toInstant(kTimeout);
     static_cast<void>(write(abortTwice(), deadline));
     static_cast<void>(write(disconnect(), deadline));
@@ -93,7 +93,7 @@ Result<void> PulsePalStimulator::readExactly(std::span<std::uint8_t> into, Insta
 
 void PulsePalStimulator::drain(Seconds quiet) {
     std::array<std::uint8_t, 64> stale{};
-    // Bounded: a device that talks without end is found out by its answer.
+    // The loop is bounded: a device that sends without end is recognised by its wrong answer.
     for (int i = 0; i < 64 && transport_->read(stale, quiet); ++i) {
     }
 }
@@ -180,7 +180,7 @@ Result<void> PulsePalStimulator::start(const ApprovedTrain& train, std::uint64_t
     silent_ = false;
     trainOffs_ = offs;
     const auto triggered = write(trigger(channel_.mask()), now + toInstant(kTimeout));
-    // A stop that came between may stand before the trigger; then it is repeated behind it.
+    // A stop that came in between may have been sent before the trigger; then it is sent again after the trigger.
     if (stoppedSince(offs)) sendAbort();
     if (!triggered) return lost(triggered.error());
     const double lasts = Seconds(wanted->duration.time()).count() * (1 + kClockError);

@@ -1,18 +1,18 @@
-// PulsePalStimulator.h - a Pulse Pal 2 as a Stimulator: one of its outputs, ± 10 V, for bench loads (a voltage source
-// is refused for a person).
+// PulsePalStimulator.h - one output of a Pulse Pal 2 as a Stimulator: ± 10 V, for bench loads (a voltage source is
+// refused for a person).
 //
-// Each train is programmed as a whole, every parameter of its channel, and triggered only after the device has
-// acknowledged each: what was turned at its joystick meanwhile does not count. Trains are finite; continuous mode is
-// never used, and the first status() after a train aborts, so that one left on at the joystick ends there.
-// The device reports nothing of its output: that a train runs is known from the clock alone, and while one does the
-// wire is left alone, for serial traffic shifts its pulses.
+// Each train is programmed completely, with every parameter of its channel, and triggered only after the device has
+// acknowledged each parameter: changes made at the joystick have no effect. Trains are finite; continuous mode is never
+// used, and the first status() after a train sends an abort, which ends a train left on at the joystick. The device
+// does not report its output: only the clock tells whether a train is running. During a train nothing is sent, because
+// serial traffic shifts the pulses.
 //
-// The device has three traps (pulsepal2.md): a command is one transfer, as half of one freezes the outputs; an abort is
-// sent twice, as a trigger before the first survives it; DTR must be set, or replies are lost: the opener does that
-// (UsbBulkOptions::dataTerminalReady).
+// The device has three traps (pulsepal2.md): a command must be one transfer, as half a command freezes the outputs; an
+// abort is sent twice, as a trigger just before the first abort survives it; DTR must be set by the opener, or replies
+// are lost (UsbBulkOptions::dataTerminalReady).
 //
-// A device that was unplugged, or that answered wrongly, is looked for again, by identity, when its status is asked
-// for: that is what a reset of the fault does.
+// status() looks again, by identity, for a device that was unplugged or answered wrongly: resetting the fault does just
+// this.
 //
 // Thread-safety: as Stimulator; forceOff() waits for no transfer.
 #pragma once
@@ -31,12 +31,12 @@ namespace tacto::pulsepal {
 
 class PulsePalStimulator final : public Stimulator {
 public:
-    static constexpr Seconds kTimeout{0.045};  ///< the longest that one exchange may take; status() has 50 ms
-    /// For the questions of open(): longer than the 0.5 s for which the firmware waits for the rest of a command.
+    static constexpr Seconds kTimeout{0.045};  ///< limit for one exchange; status() has 50 ms
+    /// For the questions in open(): longer than the 0.5 s for which the firmware waits for the rest of a command.
     static constexpr Seconds kGreetingTimeout{0.6};
 
-    /// Connects, ends what the device was doing, asks what it is and turns all four channels off. `uri` is what opens
-    /// it again, `serial` its USB serial number. `clock` outlives the device.
+    /// Connects, ends any output of the device, identifies it and turns all four channels off. `uri` opens the device
+    /// again, `serial` is its USB serial number. `clock` outlives the device.
     /// Errors: as `connect`; InvalidArgument for a channel that is not 1 to 4; ParseError, Unsupported for another
     /// device; Timeout for one that does not answer; Device.
     [[nodiscard]] static Result<std::unique_ptr<PulsePalStimulator>> open(Connect connect, std::string uri,
@@ -48,11 +48,11 @@ public:
 
     [[nodiscard]] const DeviceIdentity& identity() const noexcept override { return identity_; }
     [[nodiscard]] const SourceTraits& traits() const noexcept override { return traits_; }
-    /// Refuses, besides what Stimulator says, what programTrain() refuses, an expired approval, and a train while
-    /// another is in progress. A train that forceOff() overtakes is not begun, or cut, which is not an error.
+    /// Refuses what Stimulator and programTrain() refuse, an expired approval, and a train while another is in
+    /// progress. A train that forceOff() overtakes is not started, or is cut, which is no error.
     [[nodiscard]] Result<void> deliver(ApprovedTrain&& train) override;
     [[nodiscard]] Result<StimulatorStatus> status() override;
-    [[nodiscard]] Result<void> keepAlive() override;  ///< there is no dead-man; error Device while the device is lost
+    [[nodiscard]] Result<void> keepAlive() override;  ///< no dead-man switch; Device while the device is lost
     void forceOff() noexcept override;
 
 private:
@@ -62,10 +62,10 @@ private:
     [[nodiscard]] Result<void> write(const CommandBytes& command, Instant deadline);
     [[nodiscard]] Result<void> program(std::span<const CommandBytes> commands, Seconds timeout);
     [[nodiscard]] Result<void> readExactly(std::span<std::uint8_t> into, Instant deadline);
-    void drain(Seconds quiet);  // throws away what was answered, until nothing came for so long
+    void drain(Seconds quiet);  // discards input until nothing came for `quiet`
     [[nodiscard]] Result<void> ensureSilence();
     [[nodiscard]] Result<void> start(const ApprovedTrain& train, std::uint64_t offs);
-    /// Notes that the device is lost and passes the error on as the device's.
+    /// Marks the device as lost and returns the error with the device's name.
     [[nodiscard]] tl::unexpected<Error> lost(const Error& error);
     void sendAbort() noexcept;
     [[nodiscard]] bool stoppedSince(std::uint64_t offs) const noexcept {
@@ -79,15 +79,15 @@ private:
     const SourceTraits traits_;
     DeviceIdentity identity_;  // Constant once open() has returned
 
-    std::mutex urgent_;  // the pointer below; held for writeUrgent(), which does not wait, and for replacing it
+    std::mutex urgent_;  // guards transport_; held only for writeUrgent(), which does not wait, and to replace it
     std::unique_ptr<Transport> transport_;
-    std::atomic<std::uint64_t> offs_{0};  // forceOff() calls
+    std::atomic<std::uint64_t> offs_{0};  // number of forceOff() calls
 
-    // The session thread's own:
+    // Used only by the session thread:
     bool lost_ = true;
     bool silent_ = false;           // aborts were sent since the last train
-    std::uint64_t silentOffs_ = 0;  // offs_ then
-    std::uint64_t trainOffs_ = 0;   // offs_ when the last train began
+    std::uint64_t silentOffs_ = 0;  // value of offs_ when the aborts were sent
+    std::uint64_t trainOffs_ = 0;   // value of offs_ when the last train began
     Instant trainEnd_{0};
     std::uint64_t trains_ = 0;
 };

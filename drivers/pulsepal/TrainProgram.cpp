@@ -4,11 +4,11 @@ namespace tacto::pulsepal {
 
 namespace {
 
-/// The output changes on every cycle, but a phase of one is the converter's settling time (wire notes; the maker's
-/// menu takes 1). Two make a plateau.
+/// The output changes every cycle, but one cycle is just the converter's settling time (wire notes; the maker's menu
+/// allows 1). Two cycles give a plateau.
 constexpr std::uint32_t kMinPhaseCycles = 2;
 constexpr std::uint32_t kMinPauseCycles = 2;
-/// The last cycle lies behind the train's end.
+/// Includes the last cycle, which lies after the train's end.
 constexpr auto kCyclesLongestTrain = static_cast<std::uint64_t>(Micros(kLongestWithoutDeadMan) / kCycle) + 1;
 
 template <class T>
@@ -21,7 +21,7 @@ tl::unexpected<Error> unsupported(const Result<T>& failed) {
 SourceTraits sourceTraits() noexcept {
     SourceTraits traits;
     traits.drive = Drive::Voltage;
-    traits.gap = GapState::HoldsZero;  // the resting voltage is driven
+    traits.gap = GapState::HoldsZero;  // the device drives the resting voltage
     traits.amplitudeStep = 0;          // 16 bits over 20 V: 0.31 mV
     traits.amplitudeMax = kMaxVolts;
     traits.compliance = Volts(kMaxVolts);
@@ -74,7 +74,7 @@ Result<TrainProgram> programTrain(const PulseTrain& train, Channel channel) {
     if (!width2) return unsupported(width2);
 
     const std::uint64_t pulse = std::uint64_t{width1->count()} + gap->count() + width2->count();
-    std::uint64_t period = pulse + kMinPauseCycles;  // no rate is asked of a single pulse
+    std::uint64_t period = pulse + kMinPauseCycles;  // a single pulse needs no rate
     if (train.pulses > 1) {
         const auto asked = Cycles::of(Seconds(1 / train.rate.value()), "period");
         if (!asked) return unsupported(asked);
@@ -86,7 +86,7 @@ Result<TrainProgram> programTrain(const PulseTrain& train, Channel channel) {
         }
     }
     const std::uint64_t whole = period * static_cast<std::uint64_t>(train.pulses - 1) + pulse + 1;
-    // The gate refuses it earlier; here an error of the gate cannot start an output that does not end.
+    // The gate refuses it earlier; this check keeps a fault of the gate from starting an output that does not end.
     if (whole > kCyclesLongestTrain) {
         return fail(ErrorCode::Unsupported,
                     "Pulse Pal: a train of {:.6g} s; it has no dead-man switch, and at most {:.4g} s is accepted",

@@ -1,7 +1,7 @@
-// TrainProgram.h - a pulse train as Pulse Pal's parameters: which commands make a channel play it once.
+// TrainProgram.h - turns a pulse train into the parameter commands that make a Pulse Pal channel play it once.
 //
-// The device's inter-pulse interval runs from a pulse's end to the next onset, and its train duration ends all, so the
-// duration lies one cycle behind the last pulse: a pulse is never cut, and none begins after the last.
+// The device's inter-pulse interval runs from a pulse's end to the next onset, and its train duration ends everything.
+// The duration is therefore one cycle longer than the train: no pulse is cut, and none begins after the last.
 #pragma once
 
 #include <vector>
@@ -12,19 +12,19 @@
 
 namespace tacto::pulsepal {
 
-/// The output range of Pulse Pal 2. A voltage source without read-back: never for a person (the gate refuses it).
+/// The abilities of Pulse Pal 2. A voltage source without read-back: never for a person (the gate refuses it).
 [[nodiscard]] SourceTraits sourceTraits() noexcept;
 
 struct TrainProgram {
-    std::vector<CommandBytes> commands;    ///< all parameters of the channel, each of which is acknowledged
-    Cycles duration = Cycles::exactly(0);  ///< how long the whole train lasts, as programmed
+    std::vector<CommandBytes> commands;    ///< all parameters of the channel; the device acknowledges each
+    Cycles duration = Cycles::exactly(0);  ///< programmed length of the whole train
 };
 
 /// Errors: as validate(); Unsupported naming what the device cannot do: a train in mA, more than ± 10 V, a time off its
-/// 50 µs grid (rounding is done before approval), a pause between pulses of less than 2 cycles.
+/// 50 µs grid (times are rounded before approval), a pause of less than 2 cycles between pulses.
 [[nodiscard]] Result<TrainProgram> programTrain(const PulseTrain& train, Channel channel);
 
-/// Cuts a channel off from everything but our trigger: trigger inputs, stored trains, bursts, delays; rests at 0 V.
+/// Makes a channel respond to our trigger only: no trigger inputs, stored trains, bursts or delays; it rests at 0 V.
 [[nodiscard]] std::vector<CommandBytes> quietChannel(Channel channel);
 
 }  // namespace tacto::pulsepal

@@ -10,8 +10,8 @@ namespace {
 constexpr std::size_t kIdLength = 10;
 constexpr std::size_t kPlaceLength = 3;  // result, place, measurement
 constexpr std::size_t kMeasuredLength = kPlaceLength + 2 + 2 * kSamples;
-constexpr std::size_t kVersionLength = 7;  // result and two versions; a hash of the firmware follows
-constexpr std::size_t kHashLength = 6;     // four bytes, its kind, whether it is valid
+constexpr std::size_t kVersionLength = 7;  // result and two versions; the firmware's hash follows
+constexpr std::size_t kHashLength = 6;     // four bytes, the kind of hash, whether the hash is valid
 
 tl::unexpected<Error> wrongLength(Command command, std::size_t length, std::string_view expected) {
     return fail(ErrorCode::Device, "the stimulator's answer to {} has {} bytes; {} were expected", nameOf(command),
@@ -22,7 +22,7 @@ std::uint16_t wordAt(std::span<const std::uint8_t> bytes, std::size_t at) noexce
     return static_cast<std::uint16_t>(bytes[at] << 8 | bytes[at + 1]);
 }
 
-/// The result of a payload that is another than Ok.
+/// Returns the result of a payload if the result is not Ok.
 std::optional<ResultCode> refusedWith(std::span<const std::uint8_t> payload) noexcept {
     if (payload.empty() || payload[0] == 0) return std::nullopt;
     return static_cast<ResultCode>(payload[0]);

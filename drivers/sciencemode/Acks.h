@@ -1,8 +1,8 @@
-// Acks.h - what a ScienceMode4 device answers: typed results, from payloads.
+// Acks.h - parses a ScienceMode4 device's answers: payloads to typed results.
 //
-// A parser believes no length: a payload of another size than its ack has is refused.
+// No parser trusts a length: a payload whose size does not match its ack is refused.
 //
-// Source of every figure: resources/design/wire/sciencemode4.md.
+// Source of all figures: resources/design/wire/sciencemode4.md.
 //
 // Thread-safety: pure functions; nothing allocates on success.
 #pragma once
@@ -13,7 +13,7 @@
 
 namespace tacto::sciencemode {
 
-/// The first payload byte of an ack. Devices may send others; see meaningOf().
+/// The first payload byte of an ack. Devices may send other values; see meaningOf().
 enum class ResultCode : std::uint8_t {
     Ok = 0,
     Transfer = 1,
@@ -28,23 +28,23 @@ enum class ResultCode : std::uint8_t {
     Busy = 21,
     LowCurrent = 28,
 };
-/// The cause of the failure, half a sentence for refusal().
+/// Returns the cause of the failure as half a sentence for refusal().
 [[nodiscard]] std::string_view meaningOf(ResultCode code) noexcept;
-/// The error for an ack whose result is not Ok, code Device: "the stimulator refused LL_INIT: ...".
+/// Returns the error (code Device) for an ack that is not Ok: "the stimulator refused LL_INIT: ...".
 [[nodiscard]] tl::unexpected<Error> refusal(Command command, ResultCode code);
 
 inline constexpr std::size_t kSamples = 128;
 
-/// The answer to LL_CHANNEL_CONFIG: what the device measured during its own pulse.
+/// The answer to LL_CHANNEL_CONFIG: the device's measurement during its own pulse.
 struct ChannelConfigAck {
     ResultCode result = ResultCode::Ok;
-    bool complete = false;  ///< false: a result alone, nothing below is stated
+    bool complete = false;  ///< false: only the result is stated, nothing below
     int channel = 0;
     int connector = 0;
     Measurement measurement = Measurement::None;
-    std::uint16_t sampleTime_us = 0;                ///< it is not verified what this counts: see ReadBack.h
+    std::uint16_t sampleTime_us = 0;                ///< unverified on hardware what it means: see ReadBack.h
     bool measured = false;                          ///< samples follow
-    std::array<std::uint16_t, kSamples> samples{};  ///< magnitudes in 0.01 mA or 0.01 V; the sign is lost
+    std::array<std::uint16_t, kSamples> samples{};  ///< magnitudes in 0.01 mA or 0.01 V, without sign
 };
 
 enum class Stimulation : std::uint8_t { None = 0, LowLevel = 1, MidLevel = 2, MidLevelRunning = 3 };
@@ -53,8 +53,8 @@ struct StimStatusAck {
     std::uint8_t highVoltage = 0;
 };
 
-/// The beginning of an emulated device's identity. It makes nothing simulated: the address does. Where that says so and
-/// another identity answers, the device is not opened (H4).
+/// How an emulated device's identity begins. Only the address marks a device as simulated; if the address says
+/// "emulated" and another identity answers, the device is not opened (H4).
 inline constexpr std::string_view kEmulatedId = "EMU";
 
 struct DeviceIdAck {
@@ -71,11 +71,11 @@ struct ExtendedVersionAck {
     Version protocol;
 };
 
-/// Errors of each: Device for a payload that is not this ack.
+/// Errors of each function: Device if the payload is not this ack.
 [[nodiscard]] Result<ResultCode> readPlainAck(Command command, std::span<const std::uint8_t> payload);
-/// A result alone, or a result, a place and a measurement without samples, are acks too (an error, or no measurement).
+/// A result alone (an error), or a result, place and measurement without samples (no measurement), are valid acks too.
 [[nodiscard]] Result<void> readChannelConfigAck(std::span<const std::uint8_t> payload, ChannelConfigAck& into);
-// Of these, a result that is not Ok is a refusal().
+// In these, a result that is not Ok is the error refusal().
 [[nodiscard]] Result<StimStatusAck> readStimStatusAck(std::span<const std::uint8_t> payload);
 [[nodiscard]] Result<DeviceIdAck> readDeviceIdAck(std::span<const std::uint8_t> payload);
 [[nodiscard]] Result<ExtendedVersionAck> readExtendedVersionAck(std::span<const std::uint8_t> payload);

@@ -19,7 +19,7 @@ StopFrames makeStopFrames() {
         encodeFrame({static_cast<std::uint16_t>(Command::MidLevelStop), kMidStopNumber, {}}, frames.midLevel);
     frames.bothSize = frames.lowLevel.size + frames.midLevel.size;
     if (!low || !mid || frames.bothSize > frames.both.size()) {
-        std::abort();  // a device that cannot be stopped must not be opened
+        std::abort();  // a device that could not be stopped must not be opened
     }
     const auto end = std::ranges::copy(frames.lowLevel.view(), frames.both.begin()).out;
     std::ranges::copy(frames.midLevel.view(), end);
@@ -82,7 +82,7 @@ Result<std::span<const std::uint8_t>> Exchange::receive(Seconds allowed) {
             ++stray_;
         }
         const Instant now = clock_.now();
-        // A device that never pauses is not listened to forever, whatever the clock says.
+        // Stops listening to a device that never pauses, whatever the clock says.
         if (now >= deadline || taken > kMaxGarbage) return silence(junkBefore);
         const auto got = refill(Seconds(deadline - now));
         if (got) {

@@ -14,7 +14,7 @@ constexpr std::size_t kHeader = 9;  // start, length, CRC
 constexpr bool isStuffed(std::uint8_t byte) noexcept { return byte == kStart || byte == kEnd || byte == kEscape; }
 constexpr std::uint8_t masked(unsigned byte) noexcept { return static_cast<std::uint8_t>((byte & 0xFFU) ^ kMask); }
 
-/// The two escaped bytes at `at` and `at` + 2.
+/// Returns the number in the two escaped bytes at `at` and `at` + 2.
 std::size_t wordAt(const std::uint8_t* at) noexcept {
     return (static_cast<std::size_t>(masked(at[0])) << 8U) | masked(at[2]);
 }
@@ -88,7 +88,7 @@ FrameDecoder::Finding FrameDecoder::examine() noexcept {
             const bool whole = byte == kEnd && crc16(stuffed) == wordAt(&buffer_[6]) && unstuff();
             return whole ? Finding::Complete : Finding::Broken;
         } else if (byte == kStart || byte == kEnd) {
-            return Finding::Broken;  // the length lies: do not wait for what it claims
+            return Finding::Broken;  // the length is wrong: do not wait for so many bytes
         }
     }
     return Finding::Incomplete;

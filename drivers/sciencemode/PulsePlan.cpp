@@ -6,9 +6,9 @@ namespace tacto::sciencemode {
 namespace {
 
 constexpr double kRounding_us = 1e-6;
-constexpr double kCompliance_V = 150;  // the device's highest supply
+constexpr double kCompliance_V = 150;  // the device's highest supply voltage
 
-/// Adds `duration` at `current`, as several points where one is too short for it. Errors: as encodePoint(), but Device.
+/// Adds `duration` at `current_mA`, in several points if one cannot hold it. Errors: as encodePoint(), but Device.
 Result<void> addStretch(Points& points, std::string_view what, Micros duration, double current_mA) {
     const double us = std::round(duration.count());
     if (!(std::abs(duration.count() - us) <= kRounding_us) || !(us >= kMinPoint_us)) {
@@ -23,7 +23,7 @@ Result<void> addStretch(Points& points, std::string_view what, Micros duration, 
     }
     const int total = static_cast<int>(us);
     for (int piece = 0; piece < pieces; ++piece) {
-        // Equal parts: each is far above the least.
+        // Equal parts: each is far above the shortest point.
         const int from = total * piece / pieces;
         const int to = total * (piece + 1) / pieces;
         const Point point{Micros(to - from), Milliamps(current_mA)};

@@ -6,13 +6,13 @@
 namespace tacto::sciencemode {
 namespace {
 
-constexpr double kCoverage = 1.96;  // 95 %
-/// A measured current below this share of the commanded one found no way.
+constexpr double kCoverage = 1.96;  // coverage factor for 95 %
+/// Below this share of the commanded current, the circuit is open.
 constexpr double kNoCurrent = 0.1;
 
 double sampleAt(const ChannelConfigAck& ack, std::size_t index) noexcept { return ack.samples[index] * kSampleUnit; }
 
-/// The magnitude as it stands at the end of the leading phase: a straight line through the last two samples in it.
+/// Returns the magnitude at the end of the leading phase, from a straight line through the last two samples in it.
 std::optional<double> leadingEnd(const ChannelConfigAck& ack, double step_us, double width_us) noexcept {
     const double last = std::ceil(width_us / step_us - 1e-9) - 1;
     if (!(last >= 0) || !(last < static_cast<double>(kSamples))) return std::nullopt;
@@ -23,7 +23,7 @@ std::optional<double> leadingEnd(const ChannelConfigAck& ack, double step_us, do
     return std::max(0.0, value + slope * (width_us - last * step_us));
 }
 
-/// Sum of the samples in [from, to), or nothing when they end before.
+/// Returns the sum of the samples in [from, to), or nothing if the samples end earlier.
 std::optional<double> chargeIn(const ChannelConfigAck& ack, double step_us, double from_us, double to_us) noexcept {
     if (!(to_us <= step_us * static_cast<double>(kSamples))) return std::nullopt;
     double sum = 0;
@@ -41,7 +41,7 @@ void judgeBalance(const ChannelConfigAck& ack, const PulsePlan& plan, double ste
     const auto second = chargeIn(ack, step_us, secondAt, secondAt + plan.second.count());
     if (!first || !second || !(*first > 0) || !(*second > 0)) return;
     const double imbalance = std::abs(*first - *second) / std::max(*first, *second);
-    // Each phase has two edges, known to one step each, and a plateau known to one unit.
+    // Each phase has two edges, each uncertain by one step, and a plateau uncertain by one unit.
     const auto relative = [&](double width_us, double charge) {
         const double plateau = charge / width_us;
         return std::hypot(std::sqrt(2.0) * step_us / width_us, kSampleUnit / plateau) / std::sqrt(12.0);
@@ -74,7 +74,7 @@ PulseReading readPulse(const ChannelConfigAck& ack, const PulsePlan& plan, Volts
     const auto step = sampleStep(ack, plan);
     const double commanded = plan.amplitude.value();
     if (step) reading.samples = samplesOf(ack, *step);
-    if (!step || !(commanded > 0)) return reading;  // an amplitude of 0 measures nothing
+    if (!step || !(commanded > 0)) return reading;  // an amplitude of 0 gives no measurement
     const auto end = leadingEnd(ack, step->count(), plan.leading.count());
     if (!end) return reading;
     if (ack.measurement == Measurement::Current) {
@@ -84,10 +84,10 @@ PulseReading readPulse(const ChannelConfigAck& ack, const PulsePlan& plan, Volts
         judgeBalance(ack, plan, step->count(), reading);
     } else if (ack.measurement == Measurement::Voltage) {
         if (*end >= kAtCompliance * compliance.value()) reading.electrode = ElectrodeState::Open;
-        if (reading.electrode == ElectrodeState::Open) return reading;  // the current is not the commanded one
+        if (reading.electrode == ElectrodeState::Open) return reading;  // the current is not the commanded current
         const Ohms impedance(*end / (commanded * 1e-3));
         reading.electrode = impedance < kTouching ? ElectrodeState::Short : ElectrodeState::Ok;
-        if (*end > 0) reading.impedance = impedance;  // 0 is less than the last digit, not a measurement
+        if (*end > 0) reading.impedance = impedance;  // 0 means below the last digit, not a measurement
     }
     return reading;
 }

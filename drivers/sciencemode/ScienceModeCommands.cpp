@@ -7,10 +7,10 @@
 namespace tacto::sciencemode {
 namespace {
 
-constexpr int kZeroCurrent = 300;        // the code for 0 mA on the wire
-constexpr double kStepTolerance = 1e-6;  // share of a step: covers decimal steps that binary cannot hold
+constexpr int kZeroCurrent = 300;        // the code for 0 mA in the protocol
+constexpr double kStepTolerance = 1e-6;  // as a share of a step: decimal steps are inexact in binary
 
-/// `value` in steps, when it lies on one.
+/// Returns `value` in steps, if it is a whole number of steps.
 std::optional<long> stepsOf(double value, double step) noexcept {
     const double steps = value / step;
     if (!(std::abs(steps) <= 1e9)) return std::nullopt;

@@ -1,9 +1,9 @@
-// ScienceModeCommands.h - what the host says to a ScienceMode4 device: typed requests, to payloads.
+// ScienceModeCommands.h - the requests to a ScienceMode4 device: typed values to payloads.
 //
-// A builder refuses what the wire cannot carry (a wrapped field would be a wrong pulse): it never rounds and never
-// clamps.
+// A builder refuses values that the protocol cannot carry (a wrapped field would be a wrong pulse); it never rounds and
+// never clamps.
 //
-// Source of every figure: resources/design/wire/sciencemode4.md.
+// Source of all figures: resources/design/wire/sciencemode4.md.
 //
 // Thread-safety: pure functions; nothing allocates on success.
 #pragma once
@@ -29,8 +29,8 @@ enum class Command : std::uint16_t {
     UnknownCommand = 67,
     ExtendedVersion = 68,
 };
-[[nodiscard]] std::string_view nameOf(Command command) noexcept;  // as the vendor writes it: "LL_CHANNEL_CONFIG"
-/// The command of the answer to `command`.
+[[nodiscard]] std::string_view nameOf(Command command) noexcept;  // the vendor's name: "LL_CHANNEL_CONFIG"
+/// Returns the command number of the answer to `command`.
 [[nodiscard]] constexpr std::uint16_t ackOf(Command command) noexcept {
     return static_cast<std::uint16_t>(static_cast<std::uint16_t>(command) + 1);
 }
@@ -43,12 +43,12 @@ inline constexpr double kCurrentStep_mA = 0.5;
 inline constexpr int kMinPoint_us = 10;
 inline constexpr int kMaxPoint_us = 4095;  // 12 bits
 inline constexpr std::size_t kMaxPoints = 16;
-inline constexpr std::size_t kChannels = 4;  // 2 bits, and a connector bit
+inline constexpr std::size_t kChannels = 4;  // 2 bits, plus one bit for the connector
 
-/// A stretch of constant current. Several make a pulse.
+/// A stretch of constant current. Several points make a pulse.
 struct Point {
     Micros time{0};        ///< whole µs, 10 to 4095
-    Milliamps current{0};  ///< multiples of 0.5 mA, −130 to 130; signed: the phase's direction
+    Milliamps current{0};  ///< multiples of 0.5 mA, −130 to 130; the sign is the phase's direction
     bool operator==(const Point&) const = default;
 };
 
@@ -58,11 +58,11 @@ struct Points {
     std::size_t count = 0;
     [[nodiscard]] std::span<const Point> span() const noexcept { return {items.data(), count}; }
     [[nodiscard]] Micros duration() const noexcept;
-    [[nodiscard]] bool add(const Point& point) noexcept;  ///< false when full
+    [[nodiscard]] bool add(const Point& point) noexcept;  ///< returns false if full
 };
 
 struct Payload {
-    std::array<std::uint8_t, kMaxPayload> bytes;  // not cleared: only the first `size` bytes mean anything
+    std::array<std::uint8_t, kMaxPayload> bytes;  // not cleared: only the first `size` bytes are valid
     std::size_t size = 0;
     [[nodiscard]] std::span<const std::uint8_t> view() const noexcept { return {bytes.data(), size}; }
     void push(unsigned byte) noexcept { bytes[size++] = static_cast<std::uint8_t>(byte & 0xFFU); }

@@ -50,7 +50,7 @@ Result<Wanted> readUri(const DeviceUri& uri) {
     return wanted;
 }
 
-/// Asks who is there, then how it is.
+/// Asks for the device's identity, then for its state.
 Result<Sighting> ask(Result<std::unique_ptr<Transport>> opened, std::string place, std::string_view wanted,
                      const Clock& clock, bool emulated = false) {
     if (!opened) return failure(opened);
@@ -67,7 +67,7 @@ Result<Sighting> ask(Result<std::unique_ptr<Transport>> opened, std::string plac
     return Sighting{std::move(*found), std::move(place), *status, emulated};
 }
 
-/// The ports among `all` where a stimulator answers.
+/// Returns the ports among `all` on which a stimulator answers.
 std::vector<TransportPort> thatAnswer(const std::vector<TransportPort>& all, TransportPorts& ports,
                                       const Clock& clock) {
     auto answering = all;
@@ -76,9 +76,9 @@ std::vector<TransportPort> thatAnswer(const std::vector<TransportPort>& all, Tra
     return answering;
 }
 
-/// The result of `attempt(port, identity)` on the port where it succeeds. `identity` is the one that the device must
-/// have; empty: any. Errors: InvalidArgument where several stimulators are meant (H4); NotFound where there is no port;
-/// else the first attempt's, in a sentence of its own.
+/// Returns the result of `attempt(port, identity)` from the port where it succeeds. `identity` is the identity that the
+/// device must have, or empty for any. Errors: InvalidArgument if several stimulators match (H4); NotFound if there is
+/// no port; else the first attempt's error in a sentence of its own.
 template <class Attempt>
 auto theOneThatAnswers(const DeviceUri& uri, TransportPorts* ports, const Clock& clock, Attempt attempt)
     -> decltype(attempt(TransportPort{}, std::string_view{})) {
@@ -93,7 +93,7 @@ auto theOneThatAnswers(const DeviceUri& uri, TransportPorts* ports, const Clock&
     const auto named = [&](const TransportPort& port) {
         return !byAddress.empty() && port.place == byAddress.front().place;
     };
-    // The one with that USB serial number or in that socket before those that may have that identity.
+    // Tries the port with that USB serial number or socket before those whose device may have that identity.
     std::ranges::stable_partition(all, named);
     std::optional<Error> problem;
     for (const auto& port : all) {
@@ -103,7 +103,7 @@ auto theOneThatAnswers(const DeviceUri& uri, TransportPorts* ports, const Clock&
             if (made) return made;
             reason = made.error();
         }
-        // The first reason is reported, unless the port with that address gives one: its reason takes precedence.
+        // Reports the first reason, unless the port with that address gives one, which takes precedence.
         if (!problem || named(port)) problem = std::move(reason);
         if (named(port)) break;
     }

@@ -9,10 +9,10 @@ namespace tacto::sciencemode {
 
 namespace {
 
-/// A pulse this much of a period late moves those after it, so that none follows too fast.
+/// A pulse that is late by more than this share of a period delays the later pulses, so that none follows too soon.
 constexpr double kGridSlack = 0.1;
 
-/// No further pulse follows one whose electrode was open or unknown: what the train says of it stays.
+/// True if the train must end: after a pulse with an electrode that is open, shorted or unknown none follows.
 bool endsTrain(const PulseReading& reading, const SourceTraits& traits) noexcept {
     return reading.electrode == ElectrodeState::Open || reading.electrode == ElectrodeState::Short ||
            (traits.readsBack && !reading.impedance);
@@ -67,14 +67,14 @@ ScienceModeStimulator::~ScienceModeStimulator() {
     }
     const std::scoped_lock io(io_);
     if (exchange_ && !gone_.load())
-        endEverything();  // waits for the acks: the bytes are out before the transport closes
+        endEverything();  // waits for the acks, so the bytes are sent before the transport closes
 }
 
 void ScienceModeStimulator::disconnect() {
     exchange_.reset();
     gone_ = true;
     lowLevelOffs_ = kNotInitialised;
-    std::unique_ptr<Transport> old;  // closed after the lock is let go
+    std::unique_ptr<Transport> old;  // closed after the lock is released
     const std::scoped_lock urgent(urgent_);
     old = std::move(transport_);
 }
@@ -88,18 +88,18 @@ Result<Identification> ScienceModeStimulator::connect() {
         transport_ = std::move(*transport);
     }
     exchange_ = std::make_unique<Exchange>(*transport_, clock_);
-    // Asked before anything else: it may be some other instrument's serial port.
+    // Identifies the device before anything else: the port may belong to some other instrument.
     auto found = identify(*exchange_, settings_.emulated);
     if (found) {
         gone_ = false;
     } else {
-        disconnect();  // this unit gets nothing, not even a stop
+        disconnect();  // another unit: send it nothing, not even a stop
     }
     return found;
 }
 
 void ScienceModeStimulator::endEverything() {
-    // The results do not matter: "not initialised" is as good as "ok".
+    // The results are ignored: "not initialised" is as good as "ok".
     for (const auto stop : {Command::LowLevelStop, Command::MidLevelStop}) {
         static_cast<void>(exchange_->ask(stop));
     }
@@ -217,16 +217,16 @@ Result<ScienceModeStimulator::Sent> ScienceModeStimulator::firePulse(const Pulse
     if (stoppedSince(offs)) return Sent::Stopped;
     if (gone_) return fail(ErrorCode::Device, "stimulator {} is gone: unplugged, or its bus failed", identity_.serial);
     const auto sent = exchange_->send(Command::ChannelConfig, request.view());
-    // Afterwards: a thread that was held up on its way to the wire has sent this pulse no later than now, and none
-    // may follow it too fast.
+    // Read after the write: even if this thread was delayed before it, the pulse was sent no later than now, so the
+    // next pulse cannot follow too soon.
     written = clock_.now();
-    // A stop that came while the write was in flight may have reached the device before it: off again.
+    // A stop that came during the write may have reached the device before the pulse: send it again.
     if (stoppedSince(offs)) sendStop();
     if (exchange_->gone()) gone_ = true;
     if (!sent) return failure(sent);
     const auto answer = exchange_->receive(kAnswerTime + Seconds(plan.points.duration()));
     if (exchange_->gone()) gone_ = true;
-    if (stoppedSince(offs)) return Sent::Stopped;  // even on an error: the stop may have been faster
+    if (stoppedSince(offs)) return Sent::Stopped;  // even after an error: the stop may have come first
     if (!answer) return failure(answer);
     ChannelConfigAck ack;
     if (const auto read = readChannelConfigAck(*answer, ack); !read) return failure(read);
@@ -260,7 +260,7 @@ Result<void> ScienceModeStimulator::deliver(ApprovedTrain&& train) {
         if (stoppedSince(offs)) return {};
         return low;
     }
-    if (const auto still = accepts(consumed); !still) return still;  // initialising took time
+    if (const auto still = accepts(consumed); !still) return still;  // check again: initialising took time
     PulseReading reading;
     Instant first{0};
     const auto fired = firePulse(*plan, *request, offs, reading, first);
@@ -303,11 +303,11 @@ void ScienceModeStimulator::firePlayed(Instant now) {
     Play play;
     {
         const std::scoped_lock state(state_);
-        if (!playing() || now < play_->due) return;  // by now another train is playing
+        if (!playing() || now < play_->due) return;  // another train may be playing by now
         play = *play_;
     }
-    // Each pulse is judged on its own interval, as slipped pulses before it have moved it. A computer that slept is
-    // late.
+    // Judges each pulse by its own interval, because late pulses delay those after them. Time that the computer slept
+    // counts as lateness.
     const Instant late = now - play.due + (clock_.asleep() - play.asleep);
     PulseReading reading;
     Instant written{0};
@@ -321,7 +321,7 @@ void ScienceModeStimulator::firePlayed(Instant now) {
         fired = firePulse(play.plan, play.request, play.offs, reading, written);
     }
     if (!fired) {
-        // No caller waits for this answer, so that nobody else would switch off.
+        // No caller waits for this answer, so nobody else would switch off.
         forceOff();
         lowLevelOffs_ = kNotInitialised;
     }
@@ -357,7 +357,7 @@ void ScienceModeStimulator::run() {
         if (idle) {
             changed_.wait(state, [this] { return quitting_ || play_.has_value(); });
         } else if (const auto left = std::min(next, play_->due) - clock_.now(); left.count() > 0) {
-            changed_.wait_for(state, left);  // woken early by a newer train: looks again
+            changed_.wait_for(state, left);  // a newer train wakes it early: look again
         }
     }
 }

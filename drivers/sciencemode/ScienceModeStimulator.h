@@ -1,17 +1,16 @@
 // ScienceModeStimulator.h - a Hasomed P24 (or RehaMove3) as a Stimulator: a current source of 0 to 130 mA in steps of
 // 0.5 mA.
 //
-// deliver() sends low-level pulses, which end by themselves: the first from the caller's thread, so that nothing lies
-// between approval and wire, the others timed by the driver's own thread, each after the ack of the one before. An
-// electrode that is found off, shorted or not read, an ack that is missing or a refusal ends the train there. Pulses
-// never follow each other faster than the approved rate, and a train whose next pulse is kMaxLate late (a host that
-// slept) is given up. What repeats by itself in the device (mid level) is never begun here, only ended.
+// deliver() sends low-level pulses, which end by themselves: the first from the caller's thread, right after the
+// approval, the others from the driver's own thread, each after the ack of the pulse before. An electrode that is off,
+// shorted or not read, a missing ack or a refusal ends the train. Pulses never follow faster than the approved rate,
+// and a train is given up if its next pulse is kMaxLate late (for example after the host slept). Output that the device
+// repeats by itself (mid level) is never started here, only ended.
 //
-// A device that was unplugged is looked for again, by identity, when its status is asked for: that is what a reset of
-// the fault does.
+// status() looks again, by identity, for a device that was unplugged: resetting the fault does just this.
 //
-// Thread-safety: as Stimulator; forceOff() waits for no transfer. On a VirtualClock there is no thread and the owner
-// calls serve(); it is called nowhere else.
+// Thread-safety: as Stimulator; forceOff() waits for no transfer. On a VirtualClock there is no thread, and only the
+// owner calls serve().
 #pragma once
 
 #include <atomic>
@@ -32,30 +31,30 @@ namespace tacto::sciencemode {
 struct StimulatorSettings {
     int channel = 0;    ///< 0 to 3
     int connector = 0;  ///< 0 yellow, 1 green
-    /// It is not verified whether firmware honours a fixed level, so the compliance stated to the gate stays 150 V.
+    /// Unverified: whether firmware obeys a fixed level. So the compliance stated to the gate stays 150 V.
     HighVoltage highVoltage = HighVoltage::Default;
-    Measurement measurement = Measurement::Voltage;  ///< Voltage gives |Z|, Current the amplitude
-    /// The operator's word, in the address: what answers is an emulator, and what it gives is simulated (H4, H9).
+    Measurement measurement = Measurement::Voltage;  ///< Voltage gives |Z|, Current gives the amplitude
+    /// The operator states in the address that the device is an emulator; its results are then simulated (H4, H9).
     bool emulated = false;
 };
 
-/// A device's words about itself.
+/// What a device states about itself.
 struct Identification {
     std::string id;
     Version firmware;
     Version protocol;
 };
-/// `emulated`: whether an emulator is expected, whose identity begins with kEmulatedId. Errors: Device when it is none
-/// of this kind, speaks another protocol than version 4 (or 3: RehaMove3), or is another than that emulator; Timeout.
+/// Identifies the device. `emulated`: expects an emulator (kEmulatedId). Errors: Device if it is another kind of
+/// device, speaks another protocol than version 4 (or 3: RehaMove3), or is not that emulator; Timeout.
 [[nodiscard]] Result<Identification> identify(Exchange& exchange, bool emulated = false);
 
 class ScienceModeStimulator final : public Stimulator {
 public:
     static constexpr Seconds kMaxLate{0.04};
 
-    /// Connects, asks the device who it is, ends whatever it was doing and initialises low level. `wanted`, unless
-    /// empty, is the identity that it must have. `uri` is what opens it again. `clock` outlives the device.
-    /// Errors: as `connect` and identify(); NotFound when another device answered; Device when it refuses.
+    /// Connects, identifies the device, ends its output and initialises low level. The identity must be `wanted`,
+    /// unless that is empty. `uri` opens the device again. `clock` outlives the device. Errors: as `connect` and
+    /// identify(); NotFound if another device answered; Device if it refuses.
     [[nodiscard]] static Result<std::unique_ptr<ScienceModeStimulator>> open(Connect connect, std::string uri,
                                                                              std::string_view wanted,
                                                                              const StimulatorSettings& settings,
@@ -66,24 +65,24 @@ public:
 
     [[nodiscard]] const DeviceIdentity& identity() const noexcept override { return identity_; }
     [[nodiscard]] const SourceTraits& traits() const noexcept override { return traits_; }
-    /// Returns with the ack of the first pulse: 50 ms at most after the pulse's own end. Refuses, besides what
-    /// Stimulator says, what planPulse() refuses, an expired approval, and a train while another is in progress. A
-    /// train that forceOff() overtakes is cut, which is not an error; status() reports an electrode that is off.
+    /// Returns with the ack of the first pulse, at most 50 ms after that pulse's end. Refuses what Stimulator and
+    /// planPulse() refuse, an expired approval, and a train while another is in progress. A train that forceOff()
+    /// overtakes is cut, which is no error; status() reports an electrode that is off.
     [[nodiscard]] Result<void> deliver(ApprovedTrain&& train) override;
-    /// During a train, what its last pulse said; otherwise the device is asked. What ended a train early is the error
-    /// of the status() after it, once. `imbalance` is a lower bound (see ReadBack.h) and mostly absent.
+    /// Returns the last pulse's reading during a train; otherwise asks the device. If a train ended early, the next
+    /// status() returns the reason once, as an error. `imbalance` is a lower bound (see ReadBack.h), mostly empty.
     [[nodiscard]] Result<StimulatorStatus> status() override;
-    /// Asks the device nothing: this driver sends every pulse itself, so a train ends with the program. Errors: Device
-    /// when the device is gone.
+    /// Asks the device nothing: this driver sends every pulse itself, so a train ends when the program ends. Errors:
+    /// Device if the device is gone.
     [[nodiscard]] Result<void> keepAlive() override;
     void forceOff() noexcept override;
 
-    /// Sends the pulse that is due, if any, and returns when the next one is. For the driver's own thread, and for
-    /// tests on a virtual clock.
+    /// Sends the pulse that is due, if any, and returns when the next pulse is due. For the driver's own thread, and
+    /// for tests on a virtual clock.
     Instant serve(Instant now) noexcept;
 
     [[nodiscard]] ExchangeCounts counts();
-    /// The report of the newest low-level pulse, including its samples; nothing measured before the first. Any thread.
+    /// Returns the reading of the newest low-level pulse, with its samples; empty before the first pulse. Any thread.
     [[nodiscard]] PulseReading lastReading() const {
         const std::scoped_lock state(state_);
         return reading_;
@@ -98,18 +97,18 @@ private:
         int sent = 0;
         Instant period{0};
         Instant asleep{0};  ///< Clock::asleep() at the first pulse
-        Instant due{0};     ///< when the next is due; a pulse that slipped moves those after it
+        Instant due{0};     ///< when the next pulse is due; a late pulse delays the later ones
         std::uint64_t offs = 0;
     };
-    enum class Sent { Answered, Stopped };  ///< Stopped: forceOff() came between
+    enum class Sent { Answered, Stopped };  ///< Stopped: forceOff() was called in between
 
     ScienceModeStimulator(Connect connect, const StimulatorSettings& settings, const Clock& clock);
 
-    // These need io_ held:
+    // The next functions need io_ held:
     void disconnect();
-    [[nodiscard]] Result<Identification> connect();  // asks who is there, and nothing else
+    [[nodiscard]] Result<Identification> connect();  // identifies the device, and nothing else
     void endEverything();
-    /// A request with a plain ack. A stop since `offs` is repeated behind it.
+    /// Sends a request with a plain ack. If a stop came since `offs`, it is sent again after the request.
     [[nodiscard]] Result<void> command(Command command, const Payload& payload, std::uint64_t offs);
     [[nodiscard]] Result<void> ensureLowLevel(std::uint64_t offs);
     [[nodiscard]] Result<void> accepts(const ApprovedTrain& train);
@@ -133,17 +132,17 @@ private:
     const SourceTraits traits_;
     DeviceIdentity identity_;  // Constant once open() has returned
 
-    std::mutex io_;  // the transport's one caller; held for an exchange. Locked before the others
+    std::mutex io_;  // the transport's only caller; held for an exchange. Locked before the others
     std::unique_ptr<Exchange> exchange_;
-    std::uint64_t lowLevelOffs_ = kNotInitialised;  // offs_ when low level was initialised: any later stop ended it
+    std::uint64_t lowLevelOffs_ = kNotInitialised;  // offs_ when low level was initialised; a later stop ends it
     std::atomic<bool> gone_{false};
 
-    std::mutex urgent_;  // the pointer below; held for writeUrgent(), which does not wait, and for replacing it
+    std::mutex urgent_;  // guards transport_; held only for writeUrgent(), which does not wait, and to replace it
     std::unique_ptr<Transport> transport_;
 
-    std::atomic<std::uint64_t> offs_{0};  // forceOff() calls
+    std::atomic<std::uint64_t> offs_{0};  // number of forceOff() calls
 
-    mutable std::mutex state_;  // guards all below; held for copies only
+    mutable std::mutex state_;  // guards everything below; held only for copies
     std::optional<Play> play_;
     PulseReading reading_;
     std::optional<Error> ended_;  // why the last train ended early
@@ -151,7 +150,7 @@ private:
     std::condition_variable changed_;
     bool quitting_ = false;
 
-    std::thread thread_;  // Last: starts when all else is ready
+    std::thread thread_;  // declared last: starts when everything else is ready
 };
 
 }  // namespace tacto::sciencemode

@@ -21,7 +21,7 @@ using SteadyTime = std::chrono::steady_clock::time_point;
 std::string reason() { return std::strerror(errno); }
 
 SteadyTime deadlineOf(Seconds timeout) {
-    // A timeout that is not a number, or negative, does not wait; an hour is forever.
+    // An invalid or negative timeout means no wait; more than an hour becomes an hour.
     const double s = timeout.count() > 0 ? std::min(timeout.count(), 3600.0) : 0;
     return std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::nanoseconds>(Seconds(s));
 }
@@ -43,7 +43,7 @@ Wait waitFor(int terminal, short events, SteadyTime deadline) {
         if (found < 0) return Wait::Gone;
         if (found == 0) return Wait::Late;
         if ((look.revents & events) != 0) return Wait::Ready;
-        return Wait::Gone;  // hung up, or no terminal any more
+        return Wait::Gone;  // hung up, or no longer a terminal
     }
 }
 
@@ -56,7 +56,7 @@ Result<std::unique_ptr<Transport>> TtyTransport::open(const std::string& path) {
         const auto code = errno == ENOENT ? ErrorCode::NotFound : ErrorCode::Io;
         return fail(code, "terminal {} cannot be opened: {}", path, reason());
     }
-    // TIOCEXCL below stops other programs, but none of the superuser's; the lock stops those that ask for one.
+    // TIOCEXCL below keeps out other programs except the superuser's; the file lock keeps out those that ask for one.
     if (flock(terminal, LOCK_EX | LOCK_NB) != 0) {
         const bool locked = errno == EWOULDBLOCK;
         const auto why = reason();
@@ -142,7 +142,7 @@ bool TtyTransport::takeUrgent(Message& into) noexcept {
 void TtyTransport::sendUrgent() noexcept {
     Message message;
     while (takeUrgent(message)) {
-        // A terminal takes this few bytes at once; one that does not has no reader, and waiting is not allowed here.
+        // A terminal takes these few bytes at once. If it does not, nobody reads it, and waiting is not allowed here.
         std::size_t sent = 0;
         for (int attempt = 0; attempt < 4 && sent < message.size; ++attempt) {
             const auto part = ::write(terminal_, message.bytes.data() + sent, message.size - sent);
@@ -164,8 +164,8 @@ void TtyTransport::writeUrgent(std::span<const std::uint8_t> bytes) noexcept {
             message.size = bytes.size();
         }
     }
-    // The holder of the line sends what is queued before and after letting go; looked at again after each release, so
-    // that none stays behind.
+    // The thread that holds the line sends the queued messages before and after releasing it. The queue is checked
+    // again after each release, so that no message stays behind.
     for (;;) {
         if (!line_.try_lock()) return;
         sendUrgent();

@@ -1,11 +1,11 @@
 // TtyTransport.h - a Transport over a terminal device: the kernel's serial port of a USB device, or a pseudo-terminal
 // with an emulated device behind it.
 //
-// The terminal is raw and this program's alone while it is open: locked (flock), and closed to other programs than the
-// superuser's (TIOCEXCL).
+// While open, the terminal is in raw mode and belongs to this program alone: locked (flock), and closed to all other
+// programs except the superuser's (TIOCEXCL).
 //
-// Thread-safety: as Transport. An urgent message leaves on the caller's thread unless a write() is under way, which
-// then sends it before it returns.
+// Thread-safety: as Transport. An urgent message is sent on the caller's thread; during a write(), that write() sends
+// it before it returns.
 #pragma once
 
 #include <array>
@@ -19,8 +19,8 @@ namespace tacto::sciencemode {
 
 class TtyTransport final : public Transport {
 public:
-    /// Errors: NotFound for a path that is not there; Io for one that may not be opened, is not a terminal,
-    /// or is held by another program, which the message names.
+    /// Errors: NotFound for a missing path; Io if the path may not be opened, is no terminal, or is held by another
+    /// program, which the message names.
     [[nodiscard]] static Result<std::unique_ptr<Transport>> open(const std::string& path);
     ~TtyTransport() override;
     TtyTransport(const TtyTransport&) = delete;
@@ -28,7 +28,7 @@ public:
 
     [[nodiscard]] Result<void> write(std::span<const std::uint8_t> bytes, Seconds timeout) override;
     [[nodiscard]] Result<std::size_t> read(std::span<std::uint8_t> into, Seconds timeout) override;
-    /// Always 0: the kernel counts nothing.
+    /// Always 0: the kernel does not count lost bytes.
     [[nodiscard]] std::uint64_t dropped() const noexcept override { return 0; }
     void writeUrgent(std::span<const std::uint8_t> bytes) noexcept override;
 
@@ -43,8 +43,8 @@ private:
 
     const int terminal_;
     const std::string path_;
-    std::mutex line_;   // held while bytes of one message go out
-    std::mutex queue_;  // the rest; held for copies only. May be taken with line_ held
+    std::mutex line_;   // held while the bytes of one message are sent
+    std::mutex queue_;  // guards the rest; held only for copies. May be locked while line_ is held
     std::array<Message, 8> urgent_{};
     std::size_t urgentCount_ = 0;
 };

@@ -1,8 +1,8 @@
-// ByteRing.h - bytes in the order they came, at most so many: the oldest are dropped and counted.
+// ByteRing.h - a queue of bytes with a limited size: when full, the oldest bytes are dropped and counted.
 //
 // Allocates at construction only.
 //
-// Thread-safety: none; its owner locks.
+// Thread-safety: none; the owner locks.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ public:
     [[nodiscard]] bool empty() const noexcept { return size_ == 0; }
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
     [[nodiscard]] std::size_t capacity() const noexcept { return bytes_.size(); }
-    /// Bytes that had to go, since construction.
+    /// Returns how many bytes were dropped since construction.
     [[nodiscard]] std::uint64_t dropped() const noexcept { return dropped_; }
 
     void push(std::span<const std::uint8_t> arrived) noexcept {
@@ -42,7 +42,7 @@ public:
         size_ += arrived.size();
     }
 
-    /// The oldest bytes, as many as there are and fit; returns how many.
+    /// Takes the oldest bytes, as many as there are and fit into `into`; returns how many.
     [[nodiscard]] std::size_t pop(std::span<std::uint8_t> into) noexcept {
         const std::size_t taken = std::min(into.size(), size_);
         const std::size_t straight = std::min(taken, capacity() - first_);

@@ -45,7 +45,7 @@ Result<void> setUpSerial(UsbDevice& device, std::uint8_t interface, const UsbBul
                                    0,   // 1 stop bit
                                    0,   // no parity
                                    8};  // data bits
-    // Line coding means nothing to a device without a UART behind it, and it may stall the request (PSTN 1.2, 6.3.10).
+    // A device without a UART ignores the line coding, and may stall the request (PSTN 1.2, 6.3.10).
     const auto coded = device.controlOut({kClassToInterface, kSetLineCoding, 0, interface}, coding, kSetupTimeout);
     if (!coded && coded.error().code != ErrorCode::Device) return coded;
     if (!options.dataTerminalReady) return {};
@@ -54,7 +54,7 @@ Result<void> setUpSerial(UsbDevice& device, std::uint8_t interface, const UsbBul
 
 }  // namespace
 
-/// In the order of destruction, last first: the boxes end their transfers, then the device is closed.
+/// Destroyed from last to first: the inbox and outbox end their transfers, then the device is closed.
 struct UsbBulkTransport::Parts {
     Parts(std::shared_ptr<UsbDevice> opened, const UsbBulkPair& found, const UsbBulkOptions& options)
         : device(std::move(opened)),
@@ -101,7 +101,7 @@ UsbBulkTransport::~UsbBulkTransport() {
         return parts_->line.gone;
     }();
     if (parts_->lowersReady && !gone) {
-        // A device that does not answer cannot be notified, and that can no longer be reported.
+        // If the device does not answer, this error can no longer be reported.
         (void)setLineState(*parts_->device, *parts_->pair.communication, false, kFarewellTimeout);
     }
 }

@@ -1,5 +1,5 @@
-// Lock order: libusb calls us (hot-plug, transfers) while it holds locks that libusb_open() and libusb_close() take
-// too. So mutex_, which the callback takes, is never held around a call that can wait inside libusb.
+// Lock order: libusb calls our callbacks (hot-plug, transfers) while it holds locks that libusb_open() and
+// libusb_close() also take. So mutex_, which a callback takes, is never held during a call that can wait inside libusb.
 #include "drivers/usb/UsbContext.h"
 
 #include <algorithm>
@@ -27,10 +27,10 @@ struct UsbContext::Callbacks {
                 gone = *known;
                 self.present_.erase(known);
             } else {
-                return 0;  // reported twice: registering lists what is there while it may also arrive
+                return 0;  // already listed: registering lists all devices, and one may arrive meanwhile
             }
         } catch (...) {
-            return 0;  // there is no memory for one more entry: the device stays unlisted until it is plugged in again
+            return 0;  // no memory for one more entry: the device stays unlisted until it is plugged in again
         }
         if (gone != nullptr) libusb_unref_device(gone);
         return 0;
@@ -53,7 +53,7 @@ Result<std::shared_ptr<UsbContext>> UsbContext::start() {
         LIBUSB_HOTPLUG_ENUMERATE, LIBUSB_HOTPLUG_MATCH_ANY, LIBUSB_HOTPLUG_MATCH_ANY, LIBUSB_HOTPLUG_MATCH_ANY,
         &Callbacks::plugged, made.get(), &made->hotplug_);
     if (code != 0) return tl::unexpected(usbError(code, "USB", "listening for plugged devices"));
-    // Signals belong to the program's own threads: a Ctrl-C handler must not run in the middle of a callback.
+    // Blocks signals here: they belong to the program's own threads, and no Ctrl-C handler may run during a callback.
     sigset_t all;
     sigset_t before;
     sigfillset(&all);
@@ -77,7 +77,7 @@ void UsbContext::runEvents() noexcept {
     while (!ending_) {
         timeval timeout{60, 0};
         const int code = libusb_handle_events_timeout_completed(context_, &timeout, nullptr);
-        // An error that stays must not take a whole core.
+        // A lasting error must not keep a whole core busy.
         if (code != 0 && code != LIBUSB_ERROR_INTERRUPTED) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
 }

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint8_t kInput = 0x80;
 
-/// USB 2.0 section 9.3: little-endian, no data.
+/// Returns the SETUP packet (USB 2.0 section 9.3): little-endian, no data.
 std::array<std::uint8_t, 8> setupOf(const UsbRequest& request, std::uint16_t value) noexcept {
     return {request.type,
             request.request,

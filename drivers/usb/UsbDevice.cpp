@@ -13,10 +13,10 @@ namespace tacto {
 
 namespace {
 
-constexpr std::size_t kMaxControl = 4096;  // usbfs takes a page at most
+constexpr std::size_t kMaxControl = 4096;  // usbfs takes at most one page
 
-/// The end of one transfer, for the thread that waits for it. libusb's own synchronous calls are not used: they may
-/// run everybody's callbacks in the calling thread.
+/// Lets a thread wait for the end of one transfer. libusb's own synchronous calls are not used, because they may run
+/// all callbacks in the calling thread.
 struct Ended {
     std::mutex mutex;
     std::condition_variable changed;
@@ -26,7 +26,7 @@ struct Ended {
         auto& self = *static_cast<Ended*>(transfer->user_data);
         const std::lock_guard lock(self.mutex);
         self.over = true;
-        self.changed.notify_all();  // under the lock: the waiting thread may destroy this right after
+        self.changed.notify_all();  // under the lock: the waiting thread may destroy `self` right after
     }
 };
 
@@ -39,8 +39,8 @@ Result<std::shared_ptr<UsbDevice>> UsbDevice::open(std::shared_ptr<UsbContext> c
 }
 
 UsbDevice::~UsbDevice() {
-    // A serial port's kernel driver takes both its interfaces at once: all are released before any is given back. Even
-    // one that had no driver when it was claimed is given back, as a killed program may have left it so.
+    // A serial port's kernel driver takes both its interfaces at once, so all are released before any is returned. Even
+    // an interface that had no driver when claimed is returned, because a killed program may have left it so.
     for (const auto interface : claimed_) libusb_release_interface(handle_, interface);
     for (const auto interface : claimed_) libusb_attach_kernel_driver(handle_, interface);
     libusb_close(handle_);
@@ -58,7 +58,7 @@ Result<UsbBulkPair> UsbDevice::bulkPair(UsbFunction function) const {
 
 Result<void> UsbDevice::claim(std::uint8_t interface) {
     const auto taking = fmt::format("claiming interface {}", interface);
-    // 1: the kernel's own driver; another program's claim is none to libusb, and is refused below.
+    // 1 means the kernel's own driver. Another program's claim does not show here, but makes the claim below fail.
     if (libusb_kernel_driver_active(handle_, interface) == 1) {
         for (const auto& node : kernelNodesOf(info_.path)) {
             const auto holders = holdersOf(node);

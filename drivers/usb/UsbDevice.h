@@ -1,8 +1,8 @@
-// UsbDevice.h - an open USB device: its claimed interfaces, the kernel drivers that were asked to step aside, and
+// UsbDevice.h - an open USB device: claims its interfaces, detaches and restores the kernel's drivers, and sends
 // requests to its control endpoint.
 //
-// Destruction releases the interfaces, gives the device to the kernel's drivers, also where a program that was killed
-// before had left it without, and closes it; transfers must have ended before.
+// Destruction releases the interfaces, returns the device to the kernel's drivers (even if a killed program left it
+// without a driver) and closes it; all transfers must have ended before.
 // Thread-safety: one thread at a time, and never the event thread.
 #pragma once
 
@@ -29,7 +29,7 @@ struct UsbRequest {
 
 class UsbDevice {
 public:
-    /// Errors: NotFound (unplugged meanwhile); Io with the sentence that helps (not permitted).
+    /// Errors: NotFound (unplugged meanwhile); Io with a sentence that says what helps (not permitted).
     [[nodiscard]] static Result<std::shared_ptr<UsbDevice>> open(std::shared_ptr<UsbContext> context,
                                                                  const UsbDeviceInfo& info);
     ~UsbDevice();
@@ -38,18 +38,18 @@ public:
 
     [[nodiscard]] const UsbDeviceInfo& info() const noexcept { return info_; }
     [[nodiscard]] const std::string& label() const noexcept { return label_; }
-    /// Errors: Device where the device's descriptors cannot be read; as findBulkPair().
+    /// Errors: Device if the device's descriptors cannot be read; as findBulkPair().
     [[nodiscard]] Result<UsbBulkPair> bulkPair(UsbFunction function) const;
 
-    /// Takes an interface for this program alone, from the kernel's driver too, but never from another program: one
-    /// that has claimed it, or that has a node of the kernel's driver open (/dev/ttyACM0, /dev/hidraw0).
-    /// Errors: Io naming the program that holds it; Device (gone, or it has no such interface).
+    /// Takes an interface for this program alone, from the kernel's driver too, but never from another program that has
+    /// claimed it or has a node of the kernel's driver open (/dev/ttyACM0, /dev/hidraw0). Errors: Io naming the program
+    /// that holds it; Device (gone, or it has no such interface).
     [[nodiscard]] Result<void> claim(std::uint8_t interface);
 
-    /// Sends `data` with a request, and waits. Errors: Timeout; Device (gone, refused, took fewer bytes).
+    /// Sends a request with `data` and waits for its end. Errors: Timeout; Device (gone, refused, took fewer bytes).
     [[nodiscard]] Result<void> controlOut(const UsbRequest& request, std::span<const std::uint8_t> data,
                                           Seconds timeout);
-    /// Makes a stalled endpoint work again. Errors: Device (gone, refused).
+    /// Clears a stalled endpoint. Errors: Device (gone, refused).
     [[nodiscard]] Result<void> clearHalt(std::uint8_t endpoint);
 
     [[nodiscard]] libusb_device_handle* handle() const noexcept { return handle_; }

@@ -25,7 +25,7 @@ std::string socketOf(libusb_device* device) {
     return path;
 }
 
-/// A line of sysfs, which a device wrote: untrusted.
+/// Reads a line of sysfs; the text comes from the device and is untrusted.
 std::string kernelText(const std::string& socket, const char* attribute) {
     std::ifstream file("/sys/bus/usb/devices/" + socket + "/" + attribute);
     std::string line;

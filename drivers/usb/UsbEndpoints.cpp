@@ -24,12 +24,12 @@ std::span<const libusb_interface> interfacesOf(const libusb_config_descriptor& c
     return {configuration.interface, configuration.bNumInterfaces};
 }
 
-/// The default setting; null for an interface without any.
+/// Returns the default setting, or null for an interface without settings.
 const libusb_interface_descriptor* defaultOf(const libusb_interface& interface) {
     return interface.num_altsetting > 0 ? interface.altsetting : nullptr;
 }
 
-/// The data interface that a CDC union names; nothing where there is no union.
+/// Returns the data interface that a CDC union names, or nothing if there is no union.
 Result<std::optional<std::uint8_t>> unionOf(const libusb_interface_descriptor& communication, std::string_view device) {
     if (communication.extra == nullptr || communication.extra_length <= 0) return std::nullopt;
     std::span<const unsigned char> rest{communication.extra, static_cast<std::size_t>(communication.extra_length)};
@@ -53,14 +53,14 @@ Result<std::optional<std::uint8_t>> unionOf(const libusb_interface_descriptor& c
     return std::nullopt;
 }
 
-/// Fills the pair from the interface's endpoints; false where one of the two directions is missing.
+/// Fills the pair from the interface's endpoints. Returns false if one of the two directions is missing.
 Result<bool> takeEndpoints(const libusb_interface_descriptor& interface, std::string_view device, UsbBulkPair& pair) {
     if (interface.bInterfaceNumber > kMaxInterface) {
         return fail(ErrorCode::Device, "{}: an interface has number {}; 0 to {} was expected", device,
                     interface.bInterfaceNumber, kMaxInterface);
     }
     pair.interface = interface.bInterfaceNumber;
-    // libusb leaves the list out where the descriptors break off, and the number as the device said it.
+    // If the descriptors break off, libusb leaves out the list but keeps the number that the device stated.
     if (interface.endpoint == nullptr && interface.bNumEndpoints > 0) {
         return fail(ErrorCode::Device,
                     "{}: interface {} says it has {} endpoints and describes none; their descriptors were expected",
@@ -86,7 +86,7 @@ Result<bool> takeEndpoints(const libusb_interface_descriptor& interface, std::st
         auto& address = input ? pair.in : pair.out;
         if (address == endpoint.bEndpointAddress)
             return fail(ErrorCode::Device, "{}: {}", device, givenTwice("endpoint {:#04x}", address));
-        if (address != 0) continue;  // the first of each direction
+        if (address != 0) continue;  // keep the first endpoint of each direction
         address = endpoint.bEndpointAddress;
         (input ? pair.inPacket : pair.outPacket) = packet;
     }

@@ -1,4 +1,4 @@
-// UsbError.h - libusb's error codes as sentences. An error names the device, what was tried, and what happened.
+// UsbError.h - turns libusb's error codes into sentences that name the device, what was tried, and what happened.
 //
 // Thread-safety: pure functions.
 #pragma once
@@ -9,11 +9,11 @@
 
 namespace tacto {
 
-/// `code` is a LIBUSB_ERROR_..., negative. Timeout for LIBUSB_ERROR_TIMEOUT, Io where the operating system refuses
-/// (not permitted, in use), Device for all else.
+/// `code` is a negative LIBUSB_ERROR_... Returns Timeout for LIBUSB_ERROR_TIMEOUT, Io if the operating system refuses
+/// (not permitted, in use), otherwise Device.
 [[nodiscard]] Error usbError(int code, std::string_view device, std::string_view what);
 
-/// `status` is how a transfer ended: an enum libusb_transfer_status other than completed.
+/// `status` tells how a transfer ended: a libusb_transfer_status other than completed.
 [[nodiscard]] Error usbTransferError(int status, std::string_view device, std::string_view what);
 
 }  // namespace tacto

@@ -14,7 +14,7 @@ struct UsbInbox::Callbacks {
         auto& self = *slot.inbox;
         const std::lock_guard lock(self.line_.mutex);
         slot.flying = false;
-        // A cancelled or failed transfer may carry bytes too: they came before.
+        // A cancelled or failed transfer may also carry bytes, which came before it ended.
         const auto length = static_cast<std::size_t>(std::clamp(transfer->actual_length, 0, transfer->length));
         self.arrived_.push(std::span(slot.bytes).first(length));
         switch (transfer->status) {
@@ -81,7 +81,7 @@ Error UsbInbox::recover(std::unique_lock<std::mutex>& lock) {
     lock.unlock();
     const auto cleared = device_.clearHalt(endpoint_);
     lock.lock();
-    if (!cleared) return cleared.error();  // failure_ stays: the next read() tries again
+    if (!cleared) return cleared.error();  // failure_ is kept, so the next read() tries again
     failure_ = 0;
     if (const auto started = startLocked(); !started) {
         if (!line_.gone) failure_ = LIBUSB_TRANSFER_ERROR;

@@ -1,7 +1,7 @@
-// UsbInbox.h - what comes from a bulk IN endpoint: several transfers in flight at all times, one packet each, so that
-// a device that ends on a full packet is heard at once; and a bounded ring for what arrived. Inside drivers/usb only.
+// UsbInbox.h - receives from a bulk IN endpoint: several one-packet transfers are always in flight, so that even a
+// message that ends with a full packet arrives at once; a bounded ring stores the bytes. For drivers/usb only.
 //
-// Thread-safety: read() and close() one thread; dropped() any.
+// Thread-safety: one thread calls read() and close(); any thread may call dropped().
 #pragma once
 
 #include <cstddef>
@@ -20,17 +20,17 @@ class UsbOutbox;
 
 class UsbInbox {
 public:
-    /// All references outlive the inbox. `transfers` and `ringBytes` as in UsbBulkOptions.
+    /// All references must outlive the inbox. `transfers` and `ringBytes` are as in UsbBulkOptions.
     UsbInbox(UsbDevice& device, UsbLine& line, UsbOutbox& outbox, const UsbBulkPair& pair, std::size_t transfers,
              std::size_t ringBytes);
     ~UsbInbox();
     UsbInbox(const UsbInbox&) = delete;
     UsbInbox& operator=(const UsbInbox&) = delete;
 
-    /// Puts all transfers under way. Errors: Device; Io.
+    /// Submits all transfers. Errors: Device; Io.
     [[nodiscard]] Result<void> start();
-    /// Reads like Transport::read(). After a failed transfer the endpoint is cleared and started again, and the failure
-    /// is reported once. Tends the outbox while it waits.
+    /// Reads like Transport::read(). After a failed transfer it clears and restarts the endpoint, and reports the
+    /// failure once. While it waits, it also calls the outbox's tend().
     [[nodiscard]] Result<std::size_t> read(std::span<std::uint8_t> into, Seconds timeout);
     [[nodiscard]] std::uint64_t dropped() const noexcept;
     /// Ends all transfers.
@@ -54,10 +54,10 @@ private:
     UsbOutbox& outbox_;
     const std::uint8_t endpoint_;
 
-    // The line's lock guards all below.
+    // The line's mutex guards everything below.
     std::vector<Slot> slots_;  // never resized after construction
     ByteRing arrived_;
-    int failure_ = 0;  // the status of the first transfer that failed; 0: none
+    int failure_ = 0;  // status of the first failed transfer; 0: none
     bool closed_ = false;
 };
 

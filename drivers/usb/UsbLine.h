@@ -1,9 +1,9 @@
 // UsbLine.h - what the transfers of one open device share: a lock, a signal, and whether the device is still there.
-// Inside drivers/usb only.
+// Used only inside drivers/usb.
 //
-// Callbacks run on the event thread, take `mutex`, note what happened and notify. The lock is held for a submission
-// or a copy at most, never while something is waited for, so that a stop passes through at once. libusb_open(),
-// libusb_close() and the synchronous calls are never made under it: libusb holds locks of theirs in callbacks.
+// Callbacks run on the event thread, lock `mutex`, note what happened and notify. `mutex` is held only for a submission
+// or a copy, never during a wait, so that a stop passes at once. libusb_open(), libusb_close() and the synchronous
+// calls are never made while it is held, because libusb holds locks of its own during callbacks.
 //
 // Thread-safety: `mutex` guards the rest; callbacks run on the event thread.
 #pragma once
@@ -23,10 +23,10 @@ namespace tacto {
 struct UsbLine {
     std::mutex mutex;
     std::condition_variable changed;
-    bool gone = false;       ///< unplugged; nothing is submitted any more
-    bool outHalted = false;  ///< the OUT endpoint stalled and must be cleared by the device's own thread
+    bool gone = false;       ///< true once unplugged; then nothing more is submitted
+    bool outHalted = false;  ///< true if the OUT endpoint stalled; the device's own thread must clear it
 
-    /// Submits with `mutex` held. Returns libusb's code, 0 for done; notes an unplugged device.
+    /// Submits the transfer; needs `mutex` held. Returns libusb's code, 0 for success; sets `gone` if unplugged.
     [[nodiscard]] int submit(libusb_transfer* transfer) noexcept;
 };
 
@@ -35,10 +35,10 @@ struct FreeTransfer {
 };
 using UsbTransferPtr = std::unique_ptr<libusb_transfer, FreeTransfer>;
 
-/// Now plus `timeout`; nothing for one that is not 0 to 3600 s.
+/// Returns now plus `timeout`, or nothing if `timeout` is not 0 to 3600 s.
 [[nodiscard]] std::optional<std::chrono::steady_clock::time_point> deadlineAfter(Seconds timeout) noexcept;
 
-/// The range in the answer to a refused time-out.
+/// The allowed range, for the error about a refused timeout.
 inline constexpr const char* kTimeoutRange = "0 to 3600 s was expected";
 
 }  // namespace tacto

@@ -9,7 +9,7 @@ namespace tacto {
 
 namespace {
 
-/// How long close() lets a stop reach the device: ten times what a full-speed bus needs for 64 bytes among others.
+/// How long close() lets a stop reach the device: ten times what a busy full-speed bus needs for 64 bytes.
 constexpr auto kCloseTimeout = std::chrono::milliseconds(100);
 
 }  // namespace
@@ -31,18 +31,18 @@ struct UsbOutbox::Callbacks {
         if (transfer->status == LIBUSB_TRANSFER_COMPLETED) {
             ++self.delivered_;
         } else if (self.nextLength_ == 0 && transfer->status != LIBUSB_TRANSFER_CANCELLED) {
-            self.next_ = self.urgentBytes_;  // the device did not get it: it waits, unless a newer one does
+            self.next_ = self.urgentBytes_;  // the device did not get the message: keep it, unless there is a newer one
             self.nextLength_ = self.urgentLength_;
         }
         ended(self, transfer->status);
-        // After an error the device's own thread retries, or the two of them would spin.
+        // After an error only the device's own thread retries; retrying here too could loop without end.
         const bool fine = transfer->status == LIBUSB_TRANSFER_COMPLETED;
         if (fine && self.nextLength_ != 0) self.submitUrgent();
     }
 
     static void ended(UsbOutbox& self, int status) noexcept {
         if (status == LIBUSB_TRANSFER_NO_DEVICE) self.line_.gone = true;
-        // The control endpoint's stall ends by itself with the next SETUP packet.
+        // A stall of the control endpoint ends by itself with the next SETUP packet.
         if (status == LIBUSB_TRANSFER_STALL && self.endpoint_ != 0) self.line_.outHalted = true;
         self.line_.changed.notify_all();
     }
@@ -62,7 +62,7 @@ UsbOutbox::~UsbOutbox() { close(); }
 
 void UsbOutbox::fill(libusb_transfer* transfer, std::span<std::uint8_t> buffer, bool urgent) noexcept {
     const auto callback = urgent ? &Callbacks::urgentSent : &Callbacks::sent;
-    // There is no time-out of libusb's: the waiting caller cancels.
+    // No timeout of libusb's is used: the waiting caller cancels.
     if (endpoint_ == 0) {
         libusb_fill_control_transfer(transfer, device_.handle(), buffer.data(), callback, this, 0);
     } else {
@@ -125,7 +125,7 @@ void UsbOutbox::submitUrgent() noexcept {
     urgentBytes_ = next_;
     urgentLength_ = nextLength_;
     fill(urgent_.get(), std::span(urgentBytes_).first(urgentLength_), true);
-    if (line_.submit(urgent_.get()) != 0) return;  // remembered: tend() tries again
+    if (line_.submit(urgent_.get()) != 0) return;  // the message is kept: tend() tries again
     urgentNow_ = true;
     nextLength_ = 0;
 }

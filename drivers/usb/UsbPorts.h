@@ -1,4 +1,4 @@
-// UsbPorts.h - the sockets that hold a device of one of these products, each a TransportPort.
+// UsbPorts.h - lists the sockets that hold a device of one of these products, each as a TransportPort.
 //
 // Thread-safety: as TransportPorts.
 #pragma once
@@ -16,11 +16,11 @@ namespace tacto {
 struct UsbProduct {
     std::uint16_t vendor = 0;
     std::uint16_t product = 0;
-    std::string name = {};  ///< the product string that it must have; empty: any
+    std::string name = {};  ///< the product string that the device must have; empty: any
 };
 
-/// Where USB does not start (a container) there are no ports. A device without the function that `options` names is
-/// tried as a vendor-specific one.
+/// If USB does not start (in a container), there are no ports. A device without the function that `options` names is
+/// tried as a vendor-specific device.
 [[nodiscard]] std::shared_ptr<TransportPorts> makeUsbPorts(UsbProvider usb, std::vector<UsbProduct> products,
                                                            UsbBulkOptions options);
 

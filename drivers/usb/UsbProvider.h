@@ -1,4 +1,4 @@
-// UsbProvider.h - a program's one USB context, started when it is first asked for.
+// UsbProvider.h - the program's only USB context, started when first asked for.
 //
 // Thread-safety: any thread.
 #pragma once
@@ -10,10 +10,10 @@
 
 namespace tacto {
 
-/// Errors: as UsbContext::start(), each time: USB may come later.
+/// Errors: as UsbContext::start(). Each call tries again, because USB may become available later.
 using UsbProvider = std::function<Result<std::shared_ptr<UsbContext>>()>;
 
-/// The context lives as long as it or the provider is held.
+/// The context lives as long as the context itself or the provider is held.
 [[nodiscard]] UsbProvider makeUsbProvider();
 
 }  // namespace tacto
