@@ -9,7 +9,7 @@ namespace tacto::sensorboard {
 
 namespace {
 constexpr Seconds kWriteTime{0.5};
-constexpr unsigned kTokens = 250;  // the numbers above are stopUnheard()'s
+constexpr unsigned kTokens = 250;  // higher numbers are for stopUnheard()
 constexpr Word<Command> kCommandWords[] = {{"HELLO", Command::Hello},
                                            {"GET_CONFIGURATION", Command::GetConfiguration},
                                            {"SET_CONFIGURATION", Command::SetConfiguration},
@@ -70,7 +70,7 @@ Result<bool> BoardLink::fill(Seconds timeout) {
         return fail(ErrorCode::Device, "{}", got.error().message);
     }
     arrival_ = looked_;
-    // A waiting caller sees it come.
+    // A caller that waits sees the bytes at the moment they come.
     doubt_ = timeout > Seconds(0) ? Seconds(0) : Seconds(arrival_ - before);
     pending_ = std::span(buffer_).first(std::min(*got, buffer_.size()));
     return true;
@@ -131,7 +131,7 @@ Result<std::optional<Frame>> BoardLink::await(Command command, Reply answer, std
         if (left <= Instant(0) || counts().bytes - begin > kMaxNoise) return std::optional<Frame>{};
         const auto came = fill(Seconds(left));
         if (!came) return failure(came);
-        // The transport waited for its full timeout, whatever the clock says.
+        // The transport waited for its full timeout, even if a virtual clock did not move.
         if (!*came) return std::optional<Frame>{};
     }
 }

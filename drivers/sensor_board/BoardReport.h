@@ -1,7 +1,6 @@
-// BoardReport.h - what a board and its line have been like, for sessions and windows; and over several openings of the
-// same board.
+// BoardReport.h - combines the reports on a board and its line, also over several openings of the same board.
 //
-// Thread-safety: none needed.
+// Thread-safety: pure functions.
 #pragma once
 
 #include "core/devices/Device.h"
@@ -9,10 +8,10 @@
 
 namespace tacto::sensorboard {
 
-/// `now` with the counts from before the board was opened again. The clock's figures come from `now`.
+/// Returns `now` plus the counts from before the board was opened again. The clock's figures are those of `now`.
 [[nodiscard]] SensorBoardReport together(const SensorBoardReport& before, const SensorBoardReport& now) noexcept;
 
-/// Samples, blocks and bytes that are missing or were not used, of all streams and both ends.
+/// Returns how many samples, blocks and bytes are missing or unused, over all streams and both ends.
 [[nodiscard]] std::uint64_t lossesOf(const SensorBoardReport& report) noexcept;
 
 [[nodiscard]] DeviceReport rowsOf(const SensorBoardReport& report) noexcept;

@@ -7,16 +7,16 @@
 namespace tacto::sensorboard {
 
 namespace {
-constexpr std::size_t kRecent = 15;  // windows, half a minute: their shortest delay gives the offset
+constexpr std::size_t kRecent = 15;  // half a minute of windows; the shortest delay in them gives the offset
 constexpr int kHalvings = 3;
-constexpr std::size_t kMinKept = 4;   // points that the halvings leave
-constexpr double kRamp_s = 8e-3;      // the time over which a shift is spread: a usual block of acceleration
-constexpr double kSettle_s = 1;       // time in which a correction is meant to be caught up
-constexpr double kMaxDoubt_s = 5e-3;  // a host that was busy for longer says nothing of how often it looks
-constexpr double kDoubtOver = 64;     // messages: some 0.2 s
-constexpr double kMinStep_s = 1e-4;   // a smaller shift is not a step: under half a sample at 4 kHz
-constexpr double kCrystal = 100e-6;   // how far crystals are off, by their makers' tolerances
-constexpr double kFinest_s = 1e-6;    // the board's microsecond: no spread is taken to be less
+constexpr std::size_t kMinKept = 4;   // points left after all halvings
+constexpr double kRamp_s = 8e-3;      // a shift is spread over this time: a usual block of acceleration
+constexpr double kSettle_s = 1;       // time in which a correction should be made up
+constexpr double kMaxDoubt_s = 5e-3;  // upper limit, as one long pause of the host says little
+constexpr double kDoubtOver = 64;     // smoothing, in messages: about 0.2 s
+constexpr double kMinStep_s = 1e-4;   // a smaller shift is not counted as a step: under half a sample at 4 kHz
+constexpr double kCrystal = 100e-6;   // typical error of a crystal, by the makers' tolerances
+constexpr double kFinest_s = 1e-6;    // the board's resolution, the smallest spread assumed
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 }  // namespace
 
@@ -38,7 +38,7 @@ void ClockFit::observe(std::uint64_t device_us, Instant arrival, Seconds doubt) 
         knots_[0] = {0, 0};
         knotCount_ = 1;
     }
-    // The difference of two 64-bit numbers is exact; as a double it is good to a microsecond for 285 years.
+    // The difference of two 64-bit numbers is exact; as a double it keeps microseconds for 285 years.
     const double x = static_cast<double>(static_cast<std::int64_t>(device_us - first_us_)) * 1e-6;
     const double y = arrival_s - firstArrival_s_ - x;
     if (x >= windowEnds_) {
@@ -47,7 +47,7 @@ void ClockFit::observe(std::uint64_t device_us, Instant arrival, Seconds doubt) 
     }
     if (y - slope_ * x < lowest_.y - slope_ * lowest_.x) lowest_ = {x, y};
     doubt_s_ += (std::min(doubt.count(), kMaxDoubt_s) - doubt_s_) / kDoubtOver;
-    // A shorter delay than any before counts at once, a longer one when its window ends.
+    // A delay shorter than any before is used at once, a longer one only at the end of its window.
     base_ = std::min(base_, y - slope_ * x);
     follow(x, y);
 }
@@ -63,11 +63,11 @@ void ClockFit::closeWindow() {
     }
     lowest_ = {0, kInfinite};
     if (const auto line = fit()) {
-        // Applied as far as it is known better than what crystals are anyway; a bound is some four standard deviations.
+        // Applies the slope only as far as it is known better than a crystal's tolerance; the bound is about 4 sigma.
         const double deviation = line->uncertainty / 4;
         const double known = kCrystal * kCrystal / (kCrystal * kCrystal + deviation * deviation);
         slope_ = known * line->slope;
-        // y = arrival - board: its slope s is 1 / (1 + drift) - 1.
+        // y = arrival - board time, so its slope s is 1 / (1 + drift) - 1.
         const double drift = 1 / (1 + line->slope) - 1;
         report_.drift_ppm = drift * 1e6;
         report_.uncertainty_ppm = line->uncertainty * 1e6;
@@ -105,7 +105,7 @@ std::optional<ClockFit::Line> ClockFit::fit() {
             line.uncertainty = 2 * spread / line.extent;
             return line;
         }
-        // The lower half stays: what is above the median came late.
+        // Keeps the lower half: points above the median came late.
         wider_ = kept_;
         misses_.clear();
         for (const auto& p : kept_) misses_.push_back(miss(p));
@@ -136,16 +136,16 @@ void ClockFit::settle() noexcept {
 }
 
 void ClockFit::shiftBack(double x, double early) noexcept {
-    if (x < knots_[newest_].x) {  // a stream that lags behind the others
+    if (x < knots_[newest_].x) {  // from a stream that lags behind the others
         for (auto& knot : knots_) knot.correction -= early;
         return;
     }
-    // Spread over the samples of the block that has just come.
+    // Spreads the shift over the samples of the block that has just come.
     const double reached = correctionAt(x) - early;
     const double begin = x - kRamp_s;
     if (knots_[newest_].x > begin && knotCount_ > 1) {
         knots_[newest_] = {begin, correctionAt(begin)};
-        // Times at knots stay in order, whatever came before.
+        // Keeps the knots in time order, whatever came before.
         const Knot& before = knots_[(newest_ + kKnots - 1) % kKnots];
         if (before.x >= begin) knots_[newest_].x = (before.x + x) / 2;
     } else {
@@ -164,11 +164,11 @@ void ClockFit::follow(double x, double y) {
     const Knot last = knots_[newest_];
     if (x >= last.x + kKnotEvery_s) {
         const double line = base_ - margin() + slope_ * x;
-        // After a long silence nothing has to be kept even.
+        // After a long silence the stamps need not continue evenly.
         const bool resumed = x - last.x > kSettle_s;
         const Knot reached{x, resumed ? line : last.correction + rate_ * (x - last.x)};
         pushKnot(reached);
-        // The line's own slope, plus what brings the mapping onto the line.
+        // The line's own slope, plus the rate that brings the mapping onto the line.
         const double behind = line - reached.correction;
         rate_ = std::clamp(slope_ + behind / kSettle_s, slope_ - kMaxSlew, slope_ + kMaxSlew);
     }

@@ -1,4 +1,4 @@
-// Fields.h - little-endian fields in a payload, read without trusting its length.
+// Fields.h - reads little-endian fields from a payload without trusting its length.
 //
 // Thread-safety: none; one owner.
 #pragma once
@@ -12,7 +12,7 @@
 
 namespace tacto::sensorboard {
 
-/// Reads fields in order. Beyond the end every field is 0 and whole() is false.
+/// Reads fields in order. After the end, every field reads as 0 and whole() is false.
 class FieldReader {
 public:
     explicit FieldReader(std::span<const std::uint8_t> bytes) noexcept : bytes_(bytes) {}
@@ -21,7 +21,7 @@ public:
     [[nodiscard]] std::uint32_t u32() noexcept { return static_cast<std::uint32_t>(little(4)); }
     [[nodiscard]] std::uint64_t u64() noexcept { return little(8); }
     [[nodiscard]] double f32() noexcept { return static_cast<double>(std::bit_cast<float>(u32())); }
-    /// Text in `size` bytes, up to its first zero; bytes other than printable ASCII become "?".
+    /// Reads a text of `size` bytes, up to its first zero; bytes that are not printable ASCII become "?".
     [[nodiscard]] std::string text(std::size_t size) {
         std::string found;
         bool ended = false;
@@ -33,7 +33,7 @@ public:
         return found;
     }
     [[nodiscard]] std::span<const std::uint8_t> rest() const noexcept { return bytes_; }
-    /// True when every field was there and nothing is left over.
+    /// True if every field was present and nothing is left over.
     [[nodiscard]] bool whole() const noexcept { return !short_ && bytes_.empty(); }
 
 private:

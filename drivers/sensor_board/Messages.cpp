@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kNameBytes = 24, kSerialBytes = 16, kFirmwareBytes = 16, kDateBytes = 10, kReferenceBytes = 24;
 constexpr std::uint32_t kMaxRate_mhz = 1'000'000'000;  // 1 MHz
 
-// Their places are their numbers on the wire.
+// The index of each entry is its number in the protocol.
 constexpr std::array kKinds{StreamKind::Acceleration, StreamKind::Force, StreamKind::Taxels};
 constexpr std::array kUnits{StreamUnit::Count, StreamUnit::MetrePerSecondSquared, StreamUnit::Newton,
                             StreamUnit::Pascal};
@@ -27,7 +27,7 @@ std::uint8_t wireOf(const Values& values, Value value) noexcept {
     return static_cast<std::uint8_t>(std::ranges::find(values, value) - values.begin());
 }
 
-/// What comes behind the token.
+/// Returns the fields after the token.
 FieldReader fieldsOf(const Frame& frame) noexcept {
     return FieldReader(frame.payload.empty() ? frame.payload : frame.payload.subspan(1));
 }

@@ -1,7 +1,7 @@
-// Messages.h - what a board says, from payloads to values (PROTOCOL.md, sections 3 to 5). Pure: no I/O, no state.
+// Messages.h - turns a board's payloads into values (PROTOCOL.md, sections 3 to 5). Pure: no I/O, no state.
 //
-// Nothing here trusts the board: a payload of the wrong length, a field out of its range, a scale that is not a number
-// or a unit that does not go with the kind of stream is refused with one sentence.
+// Nothing here trusts the board: a wrong payload length, a field out of range, a scale that is not a number or a unit
+// that does not fit the kind of stream is refused in one sentence.
 #pragma once
 
 #include <optional>
@@ -17,12 +17,12 @@ namespace tacto::sensorboard {
 inline constexpr std::size_t kMaxStreams = 8;
 inline constexpr std::size_t kMaxColumns = 16;
 
-/// The beginning of an emulated board's serial number (PROTOCOL.md, section 4). It makes nothing simulated: the address
-/// does. Where that says so and another serial number answers, the board is not opened.
+/// How an emulated board's serial number begins (PROTOCOL.md, section 4). Only the address marks a board as simulated;
+/// if the address says "emulated" and another serial number answers, the board is not opened.
 inline constexpr std::string_view kEmulatedSerial = "EMU-";
 
 struct BoardIdentity {
-    int lowestVersion = 0;  ///< the oldest version of the protocol that the board speaks
+    int lowestVersion = 0;  ///< the oldest protocol version that the board speaks
     int highestVersion = 0;
     std::size_t streams = 0;
     std::string name;
@@ -47,7 +47,7 @@ struct StreamConfiguration {
     StreamKind kind = StreamKind::Acceleration;
     StreamUnit unit = StreamUnit::Count;
     SampleFormat format = SampleFormat::Int16;
-    std::uint32_t rate_mhz = 0;  ///< samples per second, in thousandths, as on the wire
+    std::uint32_t rate_mhz = 0;  ///< sampling rate in thousandths of hertz, as in the protocol
     std::vector<Column> columns;
 
     [[nodiscard]] double rate_hz() const noexcept { return rate_mhz / 1000.0; }
@@ -56,21 +56,21 @@ struct StreamConfiguration {
 struct StreamCalibration {
     std::uint8_t stream = 0;
     bool calibrated = false;
-    std::string date;                 ///< "2026-11-20"; empty where the board has none
-    std::string reference;            ///< certificate or procedure
-    std::vector<double> uncertainty;  ///< for each column's scale, relative, standard (k = 1)
+    std::string date;                 ///< "2026-11-20"; empty if the board states none
+    std::string reference;            ///< number of the certificate or procedure
+    std::vector<double> uncertainty;  ///< relative standard uncertainty (k = 1) of each column's scale
 };
 
 struct BoardStatus {
     bool running = false;
-    std::uint8_t faultyStreams = 0;  ///< bit i: the sensor of stream i does not answer
-    std::uint64_t time_us = 0;       ///< since power-up
+    std::uint8_t faultyStreams = 0;  ///< bit i is set if the sensor of stream i does not answer
+    std::uint64_t time_us = 0;       ///< time since power-up
     std::uint32_t samplesLost = 0;
     std::uint32_t blocksDropped = 0;
     std::uint32_t framesRefused = 0;
 };
 
-/// `samples` points into the payload: count * columns numbers, still to be checked against the stream's.
+/// `samples` points into the payload: count * columns numbers, not yet checked against the stream's configuration.
 struct DataBlock {
     std::uint8_t stream = 0;
     std::uint8_t count = 0;
@@ -87,21 +87,21 @@ struct Refusal {
     [[nodiscard]] std::string text() const;
 };
 
-/// The token of an answer; 0 for an unasked one.
+/// Returns the token of an answer, or 0 for a frame that nobody asked for.
 [[nodiscard]] std::uint8_t tokenOf(const Frame& frame) noexcept;
 
-/// Errors of each: ParseError naming the field, its value and what was expected.
+/// Errors of each function: ParseError naming the field, its value and what was expected.
 [[nodiscard]] Result<BoardIdentity> readIdentity(const Frame& frame);
 [[nodiscard]] Result<StreamConfiguration> readConfiguration(const Frame& frame);
 [[nodiscard]] Result<StreamCalibration> readCalibration(const Frame& frame);
 [[nodiscard]] Result<BoardStatus> readStatus(const Frame& frame);
 [[nodiscard]] Result<Refusal> readRefusal(const Frame& frame);
-/// The time at which DONE was said, if it answers `command`.
+/// Returns the board time in a DONE answer to `command`.
 [[nodiscard]] Result<std::uint64_t> readDone(const Frame& frame, Command command);
 /// Reads a block without allocating; returns nothing for a payload that is not a block.
 [[nodiscard]] std::optional<DataBlock> readBlock(const Frame& frame) noexcept;
 
-/// The payload of SET_CONFIGURATION after its token.
+/// Returns the payload of SET_CONFIGURATION without the token.
 [[nodiscard]] std::vector<std::uint8_t> configurationPayload(const StreamConfiguration& configuration);
 
 }  // namespace tacto::sensorboard

@@ -24,7 +24,7 @@ Result<void> PluggedBoard::read(std::span<SampleBlock> blocks) {
 Result<void> PluggedBoard::reconnect() {
     if (board_) {
         before_ = together(before_, board_->report());
-        board_.reset();  // released before the same device is opened again
+        board_.reset();  // closed before the same device is opened again
     }
     auto opened = open_(identity_.serial);
     if (!opened) return failure(opened);

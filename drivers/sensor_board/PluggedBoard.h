@@ -1,8 +1,8 @@
-// PluggedBoard.h - the sensor board that a driver hands out: one that is opened again, by its serial number, after it
+// PluggedBoard.h - the sensor board that the driver hands out; it can be opened again, by its serial number, after it
 // was unplugged.
 //
-// The board that comes back must be the same one, set as before: its streams do not change under a session that records
-// them. Its reports keep counting.
+// The board that comes back must be the same one with the same settings, so that the streams of a session that records
+// them do not change. The counts in its reports continue.
 //
 // Thread-safety: as TactileSensor; deviceReport() from any thread.
 #pragma once
@@ -18,7 +18,7 @@ namespace tacto::sensorboard {
 
 class PluggedBoard final : public TactileSensor, public ReportingDevice, public Reconnecting {
 public:
-    /// Opens the board of that serial number, wherever it is now.
+    /// Opens the board with that serial number in whatever socket it is now.
     using Open = std::function<Result<std::unique_ptr<SensorBoard>>(const std::string& serial)>;
 
     PluggedBoard(std::unique_ptr<SensorBoard> board, Open open);
@@ -33,8 +33,8 @@ private:
     const DeviceIdentity identity_;
     const std::vector<StreamInfo> streams_;
     const Open open_;
-    std::unique_ptr<SensorBoard> board_;  // null after a reconnect() that failed
-    SensorBoardReport before_;            // what earlier openings reported
+    std::unique_ptr<SensorBoard> board_;  // null after a failed reconnect()
+    SensorBoardReport before_;            // sum of the reports of earlier openings
     Latest<SensorBoardReport> report_;
 };
 

@@ -63,7 +63,7 @@ Result<void> SensorBoard::takeFrames(std::span<SampleBlock> blocks) {
                 ++current_.foreign;
             }
         }
-        // A board can send faster than the line it names, but not make this loop last forever.
+        // A board can send faster than its nominal line rate, but must not keep this loop running forever.
         if (link_.counts().bytes - begin >= kMaxRead) return {};
         const auto came = link_.fill(Seconds(0));
         if (!came) return failure(came);
@@ -146,7 +146,7 @@ Result<std::unique_ptr<SensorBoard>> SensorBoard::open(std::unique_ptr<Transport
     auto ready = board->identify(settings);
     if (ready) ready = board->measureDelay();
     if (ready) {
-        // Before it is acknowledged the board may have heard it all the same.
+        // Even without an acknowledgement the board may have heard START.
         board->began_ = true;
         ready = board->link_.order(Command::Start);
     }
@@ -183,7 +183,7 @@ Result<void> SensorBoard::identify(const SensorBoardSettings& settings) {
     }
     identity_ = {settings.uri, Role::Sensor,  who->name.empty() ? "sensor board" : who->name,
                  who->serial,  who->firmware, settings.emulated};
-    // A board that a program left running is stopped first: configurations are set in silence.
+    // First stops a board that another program left running: configurations are set while it is silent.
     if (const auto stopped = link_.order(Command::Stop); !stopped) return stopped;
     return configure(settings, who->streams);
 }
@@ -259,7 +259,7 @@ Result<void> SensorBoard::measureDelay() {
         const auto status = readStatus(*answer);
         if (!status) return fail(ErrorCode::Device, "{}", status.error().message);
         fit_.observe(status->time_us, link_.arrival());
-        // The board wrote it between question and answer (Cristian, Distributed Computing 3, 1989).
+        // The board wrote its time between question and answer (Cristian, Distributed Computing 3, 1989).
         current_.delayMost_s = std::min(current_.delayMost_s, toSeconds(link_.arrival() - link_.sent()));
         current_.board = *status;
     }

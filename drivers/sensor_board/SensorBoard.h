@@ -1,14 +1,14 @@
 // SensorBoard.h - a microcontroller with accelerometer, taxels and force sensor as a TactileSensor, over any Transport
-// that speaks the sensor board protocol (resources/firmware/sensor_board/PROTOCOL.md).
+// that uses the sensor board protocol (resources/firmware/sensor_board/PROTOCOL.md).
 //
-// open() asks who the board is, refuses a wrong version of the protocol, wrong units or garbage in one sentence, reads
+// open() identifies the board, refuses a wrong protocol version, wrong units or garbage in one sentence, reads
 // configuration and calibration, measures the line's delay and starts the streams. On a steady clock a thread listens,
-// so that the moment of arrival is known; read() takes what has arrived and never waits. Samples carry the board's own
-// time stamps, mapped to the session's clock (ClockFit.h); what is lost is counted and stays a gap in them.
+// so that arrival times are known; read() returns what has arrived and never waits. Samples carry the board's own time
+// stamps, mapped to the session's clock (ClockFit.h); lost samples are counted and stay gaps.
 //
-// Errors of read() are lasting: after one the board must be opened again. They are: the line failed (unplugged);
-// kGarbageBytes of noise and no valid frame for kGarbageTime; a board that began again, whose clock jumped by more than
-// kMaxJump ahead, or runs wrong by more than kMaxDrift.
+// Errors of read() are final; the board must then be opened again. They are: the line failed (unplugged); kGarbageBytes
+// of noise without a valid frame for kGarbageTime; the board restarted; its clock jumped ahead by more than kMaxJump,
+// or runs wrong by more than kMaxDrift.
 //
 // Thread-safety: as TactileSensor; report() from any thread.
 #pragma once
@@ -25,27 +25,27 @@
 
 namespace tacto {
 
-/// The state of a board and its line since open().
+/// The state of a board and its line, counted since open().
 struct SensorBoardReport {
-    std::array<sensorboard::StreamCounts, sensorboard::kMaxStreams> streams;  ///< by SensorBoard::streams()
+    std::array<sensorboard::StreamCounts, sensorboard::kMaxStreams> streams;  ///< indexed as SensorBoard::streams()
     sensorboard::LineCounts line;
     sensorboard::BoardStatus board;  ///< the last STATUS
-    std::uint64_t dropped = 0;       ///< bytes that the host did not read in time, about
-    std::uint64_t foreign = 0;       ///< valid frames of another version, of no known stream, or not well formed
+    std::uint64_t dropped = 0;       ///< approximate bytes that the host did not read in time
+    std::uint64_t foreign = 0;       ///< valid frames of another version or an unknown stream, or with a wrong format
     bool driftKnown = false;
     double drift_ppm = 0;  ///< how much faster the board's clock runs than the session's
     double driftUncertainty_ppm = 0;
-    double driftSpan_s = 0;  ///< board time that the drift stands on
-    double delayMost_s = 0;  ///< shortest round trip seen at open: stamps are late by no more, about
+    double driftSpan_s = 0;  ///< length of board time behind the drift
+    double delayMost_s = 0;  ///< shortest round trip at open: about the most that stamps are late
     std::uint64_t clockSteps = 0;
 };
 
 struct SensorBoardSettings {
-    std::string uri = "sensor:";     ///< the URI in its identity
-    std::string serial = {};         ///< the board that it must be; empty: any
-    double accelerationRate_hz = 0;  ///< 0: as the board is configured
-    double slowRate_hz = 0;          ///< rate of taxels and force; 0: as the board is configured
-    bool emulated = false;           ///< the operator's word, in the address: what it gives is simulated
+    std::string uri = "sensor:";     ///< the URI for the board's identity
+    std::string serial = {};         ///< serial number that the board must have; empty: any
+    double accelerationRate_hz = 0;  ///< 0: keep the board's own rate
+    double slowRate_hz = 0;          ///< rate of taxels and force; 0: keep the board's own
+    bool emulated = false;           ///< the operator's statement in the address: data are simulated
 };
 
 class SensorBoard final : public TactileSensor {
@@ -54,30 +54,30 @@ public:
     static constexpr Seconds kGarbageTime{0.5};
     static constexpr double kMaxJump_s = 0.1;
     static constexpr double kMaxDrift_ppm = 10'000;
-    static constexpr std::uint64_t kMaxLate = 8;    ///< late blocks in a row: the board began again
+    static constexpr std::uint64_t kMaxLate = 8;    ///< this many late blocks in a row mean that the board restarted
     static constexpr std::size_t kMaxRead = 65536;  ///< bytes taken by one read()
 
-    /// `clock` outlives the board. Waits for answers, about a second at most for a board that is well. Errors: Timeout
-    /// (it does not answer); Device (garbage, wrong units, refused, unplugged); Unsupported (wrong version of the
-    /// protocol, no stream); NotFound (another serial number).
+    /// Waits for answers, at most about a second if the board is in order. `clock` outlives the board. Errors: Timeout
+    /// (no answer); Device (garbage, wrong units, refused, unplugged); Unsupported (wrong protocol version, no stream);
+    /// NotFound (another serial number).
     [[nodiscard]] static Result<std::unique_ptr<SensorBoard>> open(std::unique_ptr<Transport> transport,
                                                                    const SensorBoardSettings& settings,
                                                                    const Clock& clock);
-    /// Tells the board to stop, without waiting.
+    /// Tells the board to stop, without waiting for an answer.
     ~SensorBoard() override;
 
     [[nodiscard]] const DeviceIdentity& identity() const noexcept override { return identity_; }
     [[nodiscard]] std::span<const StreamInfo> streams() const noexcept override { return infos_; }
     [[nodiscard]] Result<void> read(std::span<SampleBlock> blocks) override;
 
-    /// The calibrations read back from the board, one per stream. Constant while open.
+    /// The calibrations that were read from the board, one per stream. Constant while open.
     [[nodiscard]] const std::vector<sensorboard::StreamCalibration>& calibrations() const noexcept {
         return calibrations_;
     }
     [[nodiscard]] const sensorboard::StreamConfiguration& configuration(std::size_t stream) const noexcept {
         return tracks_[stream].configuration();
     }
-    /// The report at the last read(). Any thread.
+    /// Returns the report as of the last read(). Any thread.
     [[nodiscard]] SensorBoardReport report() const noexcept { return report_.read(); }
 
 private:
@@ -100,12 +100,12 @@ private:
     std::vector<StreamInfo> infos_;
     std::vector<sensorboard::StreamTrack> tracks_;
     std::vector<sensorboard::StreamCalibration> calibrations_;
-    std::array<int, sensorboard::kMaxStreams> trackOf_{};  // by the board's number; -1: not one of ours
+    std::array<int, sensorboard::kMaxStreams> trackOf_{};  // index: the board's stream number; -1: unused
     sensorboard::ClockFit fit_;
     Instant lastSound_{0};           // when a valid frame last came
-    std::uint64_t soundFrames_ = 0;  // by then
-    std::uint64_t bytesThen_ = 0;    // by then
-    bool began_ = false;             // START was acknowledged
+    std::uint64_t soundFrames_ = 0;  // value at lastSound_
+    std::uint64_t bytesThen_ = 0;    // value at lastSound_
+    bool began_ = false;             // true once START was acknowledged
     std::optional<Error> failed_;
     SensorBoardReport current_;
     Latest<SensorBoardReport> report_;

@@ -19,9 +19,9 @@ Result<Wanted> readUri(const DeviceUri& uri) {
     Wanted wanted;
     wanted.settings.uri = uri.text();
     wanted.settings.serial = uri.path;
-    // The streams that the roughness chain takes (core/dsp/SensorScales.h).
+    // The range of rates that the roughness analysis accepts (core/dsp/SensorScales.h).
     wanted.settings.accelerationRate_hz = from.quantity("rate", "Hz", 0, 100, 20'000);
-    // Slower than 20 Hz is stale between two samples (H7).
+    // At less than 20 Hz, data would count as stale between two samples (H7).
     wanted.settings.slowRate_hz = from.quantity("slowrate", "Hz", 0, 20, 2000);
     wanted.settings.emulated = from.choice("emulated", "no", {"yes", "no"}) == "yes";
     wanted.terminal = from.text("tty");
@@ -45,7 +45,7 @@ Opened findBoard(SensorBoardPorts& ports, const DeviceUri& uri, const Wanted& wa
     if (named.size() > 1) return uri.refuseChoice(addressesOf("sensor", named, all));
     std::optional<Error> problem;
     for (const auto& port : named.empty() ? all : named) {
-        // A board without a serial number in its USB descriptor is asked for it.
+        // If the USB descriptor has no serial number, the board itself is asked for it.
         if (named.empty() && !path.empty() && !port.serial.empty()) continue;
         auto one = wanted;
         if (port.place == path) one.settings.serial.clear();

@@ -5,7 +5,7 @@
 namespace tacto::sensorboard {
 
 namespace {
-/// How far `number` is ahead of `expected`, both wrapping; negative for behind.
+/// Returns how far `number` is ahead of `expected` (negative: behind); both numbers wrap around.
 std::int32_t ahead(std::uint32_t number, std::uint32_t expected) noexcept {
     return static_cast<std::int32_t>(number - expected);
 }
@@ -32,7 +32,7 @@ bool StreamTrack::sound(const DataBlock& block) const noexcept {
     const auto bytes = block.count * configuration_.columns.size() * bytesOf(configuration_.format);
     if (block.samples.size() != bytes) return false;
     if (!(std::abs(block.interval_ns - nominal_ns_) <= kIntervalTolerance * nominal_ns_)) return false;
-    // A time near the end of 64 bits is not a time since power-up: sums with it would wrap.
+    // A time near the 64-bit limit cannot be a time since power-up, and sums with it would overflow.
     constexpr std::uint64_t kMaxTime = std::uint64_t{1} << 53U;
     if (block.time_us > kMaxTime) return false;
     if (!begun_) return true;
@@ -68,7 +68,7 @@ StreamTrack::Verdict StreamTrack::take(const DataBlock& block) noexcept {
 
 void StreamTrack::append(const DataBlock& block, const ClockFit& clock, SampleBlock& into) const {
     const auto columns = configuration_.columns.size();
-    // Between two moments so close together the mapping is a line.
+    // Between two times this close together the mapping is a straight line.
     const double first = clock.toSession(static_cast<double>(block.time_us));
     const double span_us = (block.count - 1) * (block.interval_ns * 1e-3);
     const double last = clock.toSession(static_cast<double>(block.time_us) + span_us);

@@ -6,7 +6,7 @@ namespace tacto {
 
 namespace {
 
-/// A second of a board's stream, and room for a faster one.
+/// Holds a second of a board's stream, with room for a faster board.
 constexpr std::size_t kRingBytes = 128UL * 1024;
 
 class UsbSensorBoards final : public SensorBoardPorts {

@@ -1,4 +1,4 @@
-// UsbSensorBoards.h - sensor boards that are plugged in, found by VID:PID and product string, over libusb.
+// UsbSensorBoards.h - finds plugged-in sensor boards by VID:PID and product string, over libusb.
 //
 // Thread-safety: as SensorBoardPorts.
 #pragma once
@@ -14,7 +14,7 @@ namespace tacto {
 /// Opens a terminal for `tty=`; may be null.
 using OpenTerminal = std::function<Result<std::unique_ptr<Transport>>(const std::string& path)>;
 
-/// Where USB does not start (a container), only `tty=` opens anything.
+/// If USB does not start (in a container), only `tty=` opens a board.
 [[nodiscard]] std::shared_ptr<SensorBoardPorts> makeUsbSensorBoards(UsbProvider usb, OpenTerminal openTerminal);
 
 }  // namespace tacto

@@ -11,7 +11,7 @@ namespace tacto::sensorboard {
 
 namespace {
 constexpr std::size_t kCrcBytes = 4;
-constexpr std::uint8_t kFullGroup = 0xFF;  // 254 bytes and no zero
+constexpr std::uint8_t kFullGroup = 0xFF;  // a group of 254 bytes without a zero
 }  // namespace
 
 std::uint32_t crcOf(std::span<const std::uint8_t> bytes) noexcept {
@@ -61,7 +61,7 @@ std::optional<Frame> FrameDecoder::finish() noexcept {
 }
 
 std::optional<std::size_t> FrameDecoder::unstuff() noexcept {
-    // Stuffed bytes hold no zero: take() stops at them. Content never outgrows it.
+    // Stuffed bytes contain no zero, as take() stops there. The content is never longer than the stuffed bytes.
     std::size_t from = 0, to = 0;
     while (from < held_) {
         const std::size_t code = stuffed_[from];
@@ -81,7 +81,7 @@ std::vector<std::uint8_t> encodeCommand(Command command, std::uint8_t token, std
     putU32(content, crcOf(content));
 
     std::vector<std::uint8_t> sent{0};
-    std::size_t code = sent.size();  // where the length of the group will stand
+    std::size_t code = sent.size();  // index where the group's length is written
     sent.push_back(1);
     for (const auto byte : content) {
         if (byte != 0) {

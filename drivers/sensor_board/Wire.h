@@ -1,9 +1,9 @@
-// Wire.h - frames of the sensor board protocol (resources/firmware/sensor_board/PROTOCOL.md, sections 2 and 3) to and
-// from bytes, on the host's side.
+// Wire.h - the host's encoder and decoder for frames of the sensor board protocol
+// (resources/firmware/sensor_board/PROTOCOL.md, sections 2 and 3).
 //
 //   COBS( version | type | payload | CRC-32 ) | 00        content at most 254 bytes
 //
-// Written from the specification, apart from the firmware's C code, so that each tests the other.
+// Written from the specification and not from the firmware's C code, so that each tests the other.
 //
 // Thread-safety: a FrameDecoder has one owner; it never allocates.
 #pragma once
@@ -43,7 +43,7 @@ enum class Reply : std::uint8_t {
     Data = 0x50,
 };
 
-/// A frame with a right CRC. `payload` points into the decoder, until its next call.
+/// A frame with a correct CRC. `payload` points into the decoder and is valid until its next call.
 struct Frame {
     std::uint8_t version = 0;
     std::uint8_t type = 0;
@@ -54,23 +54,23 @@ struct Frame {
     }
 };
 
-/// The counts of a line. They only grow.
+/// Counts of one line; they only grow.
 struct LineCounts {
     std::uint64_t bytes = 0;
-    std::uint64_t frames = 0;     ///< frames whose CRC was right
-    std::uint64_t badCrc = 0;     ///< whole, and wrong
-    std::uint64_t malformed = 0;  ///< frames that were not COBS, or too short
-    std::uint64_t tooLong = 0;    ///< no delimiter where there must be one
+    std::uint64_t frames = 0;     ///< frames with a correct CRC
+    std::uint64_t badCrc = 0;     ///< complete frames with a wrong CRC
+    std::uint64_t malformed = 0;  ///< frames that were no valid COBS, or too short
+    std::uint64_t tooLong = 0;    ///< no delimiter where one must come
 
     [[nodiscard]] std::uint64_t bad() const noexcept { return badCrc + malformed + tooLong; }
 };
 
-/// Finds frames in a stream of any bytes. Holds one frame's bytes and no more; acts upon nothing before its CRC was
-/// right; finds the first whole frame after junk that ended with a delimiter.
+/// Finds frames in a stream of arbitrary bytes. Stores the bytes of one frame at most; uses a frame only after its CRC
+/// was checked; after junk that ends with a delimiter, finds the next complete frame.
 class FrameDecoder {
 public:
-    /// The next valid frame of `bytes`, from which it and all before it are taken; nothing when they are used up.
-    /// `while (const auto frame = decoder.take(bytes)) ...`
+    /// Removes bytes from the front of `bytes` up to the next valid frame and returns the frame; nothing if all are
+    /// used up: `while (const auto frame = decoder.take(bytes)) ...`
     [[nodiscard]] std::optional<Frame> take(std::span<const std::uint8_t>& bytes) noexcept;
     [[nodiscard]] const LineCounts& counts() const noexcept { return counts_; }
 
@@ -81,16 +81,16 @@ private:
     std::array<std::uint8_t, kMaxStuffed> stuffed_{};
     std::array<std::uint8_t, kMaxStuffed> content_{};
     std::size_t held_ = 0;
-    bool skipping_ = false;  // too long already
+    bool skipping_ = false;  // true if the frame is already too long
     LineCounts counts_;
 };
 
-/// A command's bytes, delimiter and a leading 00 included: the zero ends any junk before it.
-/// `payload` (after the token): at most kMaxPayload - 1 bytes.
+/// Returns a command's bytes with the delimiter and a leading 00, which ends any junk before it. `payload` (after the
+/// token): at most kMaxPayload - 1 bytes.
 [[nodiscard]] std::vector<std::uint8_t> encodeCommand(Command command, std::uint8_t token,
                                                       std::span<const std::uint8_t> payload = {});
 
-/// CRC-32/ISO-HDLC, zlib's.
+/// Returns the CRC-32/ISO-HDLC, as zlib does.
 [[nodiscard]] std::uint32_t crcOf(std::span<const std::uint8_t> bytes) noexcept;
 
 }  // namespace tacto::sensorboard

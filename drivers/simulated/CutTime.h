@@ -1,4 +1,4 @@
-// CutTime.h - when the output of a simulated device was switched off: the earliest moment of all that asked.
+// CutTime.h - when the output of a simulated device was switched off; of several requests, the earliest counts.
 //
 // Thread-safety: any thread; lock-free, so that forceOff() never waits.
 #pragma once
@@ -19,7 +19,7 @@ public:
                !at_.compare_exchange_weak(known, at.count(), std::memory_order_acq_rel, std::memory_order_acquire)) {
         }
     }
-    /// Trains from now on were not cut yet.
+    /// Forgets the cut: trains from now on are not cut.
     void forget() noexcept { at_.store(kNever.count(), std::memory_order_release); }
     [[nodiscard]] Instant at() const noexcept { return Instant(at_.load(std::memory_order_acquire)); }
 

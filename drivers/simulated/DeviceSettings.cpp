@@ -9,7 +9,7 @@ namespace tacto::sim {
 
 namespace {
 
-/// The faults of all `fault=` parameters.
+/// Reads all `fault=` parameters.
 FaultSchedule faultsIn(UriParameters& from, std::initializer_list<Fault> accepted) {
     FaultSchedule schedule;
     for (const auto value : from.each("fault")) {
@@ -18,10 +18,10 @@ FaultSchedule faultsIn(UriParameters& from, std::initializer_list<Fault> accepte
     return schedule;
 }
 
-/// It delivers the programmed value, as far as it states; nothing where it is out of order by its flaws.
+/// Returns the source's statement about its amplitude and times, or nothing if its flaws put it out of order.
 KnownLines statedBy(const SourceTraits& traits) {
     constexpr double kShortest_s = 1e-3, kLongest_s = 100;  // intervals
-    constexpr double kMinShareOfMax = 1e-3;                 // for a source without a grid
+    constexpr double kMinShareOfMax = 1e-3;                 // used if the source has no amplitude grid
     const auto& stated = traits.accuracy;
     const double least = traits.amplitudeStep > 0 ? traits.amplitudeStep : kMinShareOfMax * traits.amplitudeMax;
     if (!stated.amplitude || !stated.phaseWidth || !stated.gap || !stated.interval) return std::nullopt;
@@ -88,7 +88,7 @@ Result<StimulatorAndLoad> readStimulator(const DeviceUri& uri, std::uint64_t see
     auto& traits = settings.traits;
     const bool current = from.choice("mode", "voltage", {"voltage", "current"}) == "current";
     const std::string_view unit = current ? "A" : "V";
-    const double scale = current ? 1e3 : 1;  // traits count mA
+    const double scale = current ? 1e3 : 1;  // traits are in mA
     traits.drive = current ? Drive::Current : Drive::Voltage;
     traits.amplitudeMax = from.quantity("max", unit, current ? 0.13 : 100, 0, current ? 1 : 500) * scale;
     traits.amplitudeStep = from.quantity("step", unit, current ? 1e-4 : 0.05, 0, current ? 0.01 : 10) * scale;
@@ -102,7 +102,7 @@ Result<StimulatorAndLoad> readStimulator(const DeviceUri& uri, std::uint64_t see
     const bool drawn = from.choice("flaws", "drawn", {"drawn", "none"}) == "drawn";
     if (drawn) settings = drawnFlaws(settings);
     const StimulatorSettings before = settings;
-    // Named values replace drawn ones.
+    // Values given in the URI replace the drawn values.
     settings.gain = from.quantity("gain", "", settings.gain, 0.1, 10);
     settings.offset = from.quantity("offset", unit, settings.offset, current ? -0.01 : -10, current ? 0.01 : 10);
     settings.droop = from.quantity("droop", "", settings.droop, 0, 0.5);
@@ -113,8 +113,8 @@ Result<StimulatorAndLoad> readStimulator(const DeviceUri& uri, std::uint64_t see
     settings.widthGain = from.quantity("widthgain", "", 1, 0.8, 1.25);
     settings.widthError = Seconds(from.quantity("widtherror", "s", settings.widthError.count(), -1e-4, 1e-4));
     settings.gapError = Seconds(from.quantity("gaperror", "s", settings.gapError.count(), -1e-4, 1e-4));
-    // The twin states what it is off by at most, unless that is out of order: such a device does not know it. Its
-    // onsets jitter around the rhythm that the computer keeps.
+    // The simulated source states its largest errors, unless a flaw exceeds them: a device out of order does not know
+    // that. Its onsets jitter around the rhythm that the computer keeps.
     const StimulatorStatement stated;
     const double off = settings.gain == before.gain && drawn ? stated.gain : std::abs(settings.gain - 1);
     const double offset = settings.offset == before.offset && drawn ? (current ? stated.offset_ma : stated.offset_v)
@@ -162,7 +162,7 @@ Result<ScopeAndFlaws> readOscilloscope(const DeviceUri& uri, std::uint64_t seed)
     stated.shunt = from.quantity("shunttolerance", "", stated.shunt, 0, 0.5);
     stated.timeBase = from.quantity("timebasetolerance", "", stated.timeBase, 0, 0.1);
     if (from.choice("flaws", "drawn", {"drawn", "none"}) == "drawn") flaws = drawnFlaws(flaws, seed);
-    // Named values replace drawn ones.
+    // Values given in the URI replace the drawn values.
     flaws.noise = from.quantity("noise", "", flaws.noise, 0, 0.1);
     flaws.gain = from.quantity("gain", "", flaws.gain, 0.5, 2);
     flaws.offset = from.quantity("offset", "V", 0, -10, 10);

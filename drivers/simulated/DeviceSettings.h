@@ -1,4 +1,4 @@
-// DeviceSettings.h - what each simulated device's URI may say, read and checked.
+// DeviceSettings.h - reads and checks the parameters in the URI of each simulated device.
 //
 // Thread-safety: pure functions.
 #pragma once
@@ -23,14 +23,14 @@ struct FingerAndSensor {
 };
 struct StimulatorAndLoad {
     StimulatorSettings stimulator;
-    std::optional<Load> load;  ///< the load that `load=` says
+    std::optional<Load> load;  ///< the load given by `load=`
 };
 struct ScopeAndFlaws {
     ScopeTraits traits;
     ScopeFlaws flaws;
 };
 
-/// Errors of each: InvalidArgument naming the key, its value and what is accepted.
+/// Errors of each function: InvalidArgument naming the key, its value and what is accepted.
 [[nodiscard]] Result<FingerAndSensor> readFinger(const DeviceUri& uri, std::uint64_t seed);
 [[nodiscard]] Result<StimulatorAndLoad> readStimulator(const DeviceUri& uri, std::uint64_t seed);
 [[nodiscard]] Result<ScopeAndFlaws> readOscilloscope(const DeviceUri& uri, std::uint64_t seed);

@@ -1,7 +1,7 @@
-// FastNoise.h - cheap seeded noise for the kernels that make tens of thousands of samples in a millisecond.
+// FastNoise.h - fast seeded noise for loops that make tens of thousands of samples per millisecond.
 //
-// Uniform words from xoshiro256+; a normal draw is the sum of four 16-bit uniforms (variance 1, excess kurtosis -0.3,
-// bounded at 3.46): good enough for sensor noise, and a tenth of the cost of std::normal_distribution.
+// Uses xoshiro256+; a normal value is the sum of four 16-bit uniform values (variance 1, excess kurtosis -0.3, at most
+// 3.46): good enough for sensor noise, at a tenth of the cost of std::normal_distribution.
 #pragma once
 
 #include <cstdint>
@@ -30,12 +30,12 @@ public:
         return result;
     }
 
-    /// Uniform in [0, 1).
+    /// Returns a uniform value in [0, 1).
     [[nodiscard]] double uniform() noexcept { return static_cast<double>(bits() >> 11U) * 0x1.0p-53; }
 
-    /// Mean 0, standard deviation 1.
+    /// Returns a value with mean 0 and standard deviation 1.
     [[nodiscard]] double normal() noexcept {
-        // Adds all four 16-bit fields of a word at once: folds to two 17-bit sums, then to one 18-bit sum.
+        // Adds all four 16-bit fields of a word at once: first to two 17-bit sums, then to one 18-bit sum.
         const std::uint64_t word = bits();
         const std::uint64_t pairs = (word & 0x0000FFFF0000FFFFU) + ((word >> 16U) & 0x0000FFFF0000FFFFU);
         const auto sum = static_cast<std::int64_t>((pairs & 0xFFFFFFFFU) + (pairs >> 32U));
@@ -43,7 +43,7 @@ public:
     }
 
 private:
-    // One 16-bit uniform has s.d. sqrt((65536² - 1) / 12); four of them twice that.
+    // One 16-bit uniform value has the standard deviation sqrt((65536² - 1) / 12); the sum of four has twice that.
     static constexpr double kScale = 1.0 / 37837.2271;
     std::uint64_t state_[4];
 };

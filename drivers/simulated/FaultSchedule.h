@@ -1,9 +1,9 @@
-// FaultSchedule.h - what goes wrong with a simulated device, and when: one mechanism for all of them.
+// FaultSchedule.h - which faults a simulated device has, and when; the same mechanism for all devices.
 //
-// A fault is written `fault=NAME`, `fault=NAME@12s` (from then on) or `fault=NAME@12s..15s` (and gone again). Times are
-// the session's clock. Whether a fault is active is a function of time alone, so polling does not change it.
+// A fault is written `fault=NAME`, `fault=NAME@12s` (from then on) or `fault=NAME@12s..15s` (until then). Times are
+// those of the session's clock. Only the time decides whether a fault is active, so polling changes nothing.
 //
-// Thread-safety: const after parsing.
+// Thread-safety: constant after parsing.
 #pragma once
 
 #include <initializer_list>
@@ -17,27 +17,27 @@
 namespace tacto::sim {
 
 enum class Fault {
-    Unplug,   ///< every call fails with Device; a sensor sends nothing more
-    Stale,    ///< no new data come, and no error
+    Unplug,   ///< every call fails with Device; a sensor sends no more data
+    Stale,    ///< no new data, and no error
     Dropout,  ///< packets are lost
     Nan,      ///< values are not numbers
-    Garbage,  ///< replies fail their check
-    Drift,    ///< values or output wander off
-    Stuck,    ///< values stand still while stamps go on
+    Garbage,  ///< replies fail their checksum
+    Drift,    ///< values or output drift away
+    Stuck,    ///< values stay constant while time stamps go on
     StuckOn,  ///< output does not end by itself
-    Open,     ///< electrode lifted
+    Open,     ///< an electrode has come off
     Short,    ///< electrodes touch
-    Late,     ///< replies take longer than anyone waits
+    Late,     ///< replies come after the caller's timeout
 };
 [[nodiscard]] std::string_view nameOf(Fault fault) noexcept;  // "unplug", "stuck-on", ...
 
 class FaultSchedule {
 public:
-    /// Adds one `NAME[@FROM[..TO]]`. Errors: InvalidArgument naming the text and what this device accepts.
+    /// Adds one fault, `NAME[@FROM[..TO]]`. Errors: InvalidArgument naming the text and what this device accepts.
     [[nodiscard]] Result<void> add(std::string_view text, std::initializer_list<Fault> accepted);
 
     [[nodiscard]] bool active(Fault fault, Instant now) const noexcept { return since(fault, now).has_value(); }
-    /// When the stretch that is active now began.
+    /// Returns when the active period of `fault` began, or nothing if it is not active at `now`.
     [[nodiscard]] std::optional<Instant> since(Fault fault, Instant now) const noexcept;
     [[nodiscard]] bool empty() const noexcept { return entries_.empty(); }
 

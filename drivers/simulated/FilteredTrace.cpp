@@ -16,7 +16,7 @@ double FilteredTrace::Piece::at(double t_s, double filter_s) const noexcept {
 FilteredTrace::FilteredTrace(const std::deque<PlayedPulse>& pulses, Channel channel, double bandwidth_hz, double from_s,
                              double to_s)
     : filter_s_(1 / (2 * std::numbers::pi * bandwidth_hz)) {
-    // The newest pulse that began before the window is needed for its tail; older ones are not.
+    // The newest pulse before the window is needed for its tail; older pulses are not.
     auto first = std::partition_point(pulses.begin(), pulses.end(), [&](const auto& p) { return p.onset_s < from_s; });
     if (first != pulses.begin()) --first;
     const double begin = first == pulses.end() ? from_s : std::min(from_s, first->onset_s);
@@ -38,8 +38,8 @@ FilteredTrace::FilteredTrace(const std::deque<PlayedPulse>& pulses, Channel chan
 void FilteredTrace::append(double start_s, double end_s, const ExpCurve& curve, double tau_s) {
     Piece piece{start_s, end_s, curve.a - curve.b * filter_s_, curve.b, 0, tau_s, 0};
     if (tau_s > 0 && curve.c != 0) {
-        // Equal time constants would need t·exp(-t/T); a part in a thousand beside that is far below any bandwidth
-        // error.
+        // Equal time constants would need a term t·exp(-t/T); a difference of 1/1000 avoids it, at an error far below
+        // any bandwidth error.
         const double difference = tau_s - filter_s_;
         const double safe = std::abs(difference) < 1e-3 * filter_s_ ? 1e-3 * filter_s_ : difference;
         piece.c = curve.c * tau_s / safe;
@@ -57,11 +57,11 @@ double FilteredTrace::at(double t_s) const noexcept {
 
 std::optional<double> FilteredTrace::risesThrough(double level, double after_s) const noexcept {
     const auto excess = [&](const Piece& piece, double t) { return std::abs(piece.at(t, filter_s_)) - level; };
-    bool below = false;  // a signal already above has to fall first
+    bool below = false;  // a signal that is above at first must fall before it can rise
     for (const auto& piece : pieces_) {
         if (piece.end_s <= after_s) continue;
         const double from = std::max(after_s, piece.start_s);
-        // The places where one exponential or the other bends the piece, and even steps over the rest of it.
+        // Looks at the times where an exponential bends the piece, and at even steps over the rest of it.
         constexpr double kBends[] = {0.25, 0.5, 1, 2, 4, 8};
         double points[24];
         std::size_t count = 0;
@@ -99,7 +99,7 @@ void FilteredTrace::sample(double start_s, double step_s, std::vector<double>& o
     std::fill(out.begin(), out.end(), 0.0);
     std::size_t k = 0;
     for (const auto& piece : pieces_) {
-        // Sample k belongs to the piece that holds its moment; positions are found once per piece, not per sample.
+        // Sample k belongs to the piece that contains its time; the limits are computed once per piece, not per sample.
         const auto indexAfter = [&](double t) {
             const double position = std::ceil((t - start_s) / step_s);
             return position <= 0 ? std::size_t{0}
@@ -115,7 +115,7 @@ void FilteredTrace::sample(double start_s, double step_s, std::vector<double>& o
         const double filterStep = std::exp(-step_s / filter_s_);
         double line = piece.a + piece.b * t;
         const double lineStep = piece.b * step_s;
-        constexpr double kGone = 1e-12;  // volts or amperes too small to be seen; keeps denormals out of the loop
+        constexpr double kGone = 1e-12;  // volts or amperes, too small to be seen; avoids slow denormal numbers
         for (; k < end && (std::abs(own) > kGone || std::abs(filter) > kGone); ++k) {
             out[k] = line + own + filter;
             line += lineStep;

@@ -1,10 +1,10 @@
-// FilteredTrace.h - one channel's signal after a first-order low-pass, in closed form: what an oscilloscope's input
-// stage makes of the circuit's exact pieces.
+// FilteredTrace.h - the signal of one channel after a first-order low-pass, in closed form: the circuit's exact pieces
+// as an oscilloscope's input stage passes them.
 //
-// A piece a + b·t + c·exp(-t/τ) through a bandwidth of time constant T is again of that kind plus k·exp(-t/T), with k
-// fixed by the state at its start. Before, between and after the pulses the tails carry on.
+// A piece a + b·t + c·exp(-t/τ) after a low-pass of time constant T has the same form plus k·exp(-t/T), where the state
+// at its start gives k. The tails continue before, between and after the pulses.
 //
-// Thread-safety: const after building.
+// Thread-safety: constant after construction.
 #pragma once
 
 #include <deque>
@@ -18,22 +18,22 @@ namespace tacto::sim {
 class FilteredTrace {
 public:
     enum class Channel { Voltage, Current };
-    /// The signal of `pulses` over [from, to], seconds.
+    /// Computes the signal of `pulses` over [from_s, to_s].
     FilteredTrace(const std::deque<PlayedPulse>& pulses, Channel channel, double bandwidth_hz, double from_s,
                   double to_s);
 
-    /// The signal at `t_s`, exactly.
+    /// Returns the exact signal at `t_s`.
     [[nodiscard]] double at(double t_s) const noexcept;
-    /// The first moment after `after_s` at which |signal| rises through `level` > 0.
+    /// Returns the first time after `after_s` at which |signal| rises through `level` > 0.
     [[nodiscard]] std::optional<double> risesThrough(double level, double after_s) const noexcept;
-    /// `out[k]` = the signal at start + k · step. Costs two multiplications a sample.
+    /// Sets `out[k]` to the signal at start + k · step. Costs two multiplications per sample.
     void sample(double start_s, double step_s, std::vector<double>& out) const noexcept;
 
 private:
     struct Piece {
         double start_s, end_s;
-        double a, b, c, tau_s;  ///< c counts exp(-t / tau_s), 0 when tau_s is
-        double k;               ///< counts exp(-t / T)
+        double a, b, c, tau_s;  ///< c is the factor of exp(-t / tau_s), and 0 if tau_s is 0
+        double k;               ///< factor of exp(-t / T)
         [[nodiscard]] double at(double t_s, double filter_s) const noexcept;
     };
     void append(double start_s, double end_s, const ExpCurve& curve, double tau_s);

@@ -9,28 +9,28 @@ namespace tacto::sim {
 
 namespace {
 constexpr double kPi = std::numbers::pi;
-constexpr double kForceTime = 0.02;  // a hand presses within a few of these, s
+constexpr double kForceTime = 0.02;  // time constant in seconds; a hand presses within a few of these
 constexpr double kSpeedTime = 0.04;
-constexpr double kTouching = 0.01;     // N: below this the skin is off
+constexpr double kTouching = 0.01;     // N; below this the skin does not touch
 constexpr double kTremorForce = 0.03;  // tremor as a fraction of force, r.m.s.
 constexpr double kTremorSpeed = 0.05;
 constexpr double kTremorAir = 0.05;     // m/s² r.m.s. of an unsupported hand
-constexpr double kTremorContact = 0.6;  // the surface steadies it
+constexpr double kTremorContact = 0.6;  // factor on the tremor while the surface steadies the hand
 constexpr double kDrag = 0.9;           // m/s² r.m.s. at 1 N, 50 mm/s, friction 0.7
 constexpr double kDragFriction = 0.7;
 constexpr double kDragCorner = 80;      // Hz
-constexpr double kRelief = 0.17;        // share of the skin's motion that reaches the accelerometer
-constexpr double kFlicker = 0.75;       // m/s² per unit white force at 1 N, 50 mm/s
+constexpr double kRelief = 0.17;        // share of the skin's motion that the accelerometer measures
+constexpr double kFlicker = 0.75;       // m/s² per unit of white force, at 1 N and 50 mm/s
 constexpr double kNominalSpeed = 0.05;  // m/s
 constexpr std::array<double, 3> kDragAxis{1.0, 0.8, 0.8};
 constexpr std::array<double, 3> kSkinAxis{0.6, 0.3, 1.0};
 constexpr std::array<double, 3> kTremorAxis{0.6, 0.5, 0.6};
 
-// The taxel array: two rows of four, 2.5 mm apart, under a pad whose contact radius grows as a Hertz contact's does.
-// The array is equalised at 1 N, so only what remains of the dome's shape is left in its readings.
+// The taxel array: two rows of four, 2.5 mm apart, under a pad with a contact radius that grows as in a Hertz contact.
+// The array is equalised at 1 N, so its readings show only how the pressure's shape differs from that at 1 N.
 constexpr double kPitch = 2.5e-3;
 constexpr double kRadius1N = 6e-3;
-constexpr double kSmallestRadius = 0.75;  // share of kRadius1N: the pad covers the array at first touch
+constexpr double kSmallestRadius = 0.75;  // share of kRadius1N: at first touch the pad already covers the array
 constexpr double kDome = 0.02;
 constexpr double kContactArea = 1e-4;  // m²
 }  // namespace
@@ -52,7 +52,7 @@ double Finger::Resonator::next(double white) noexcept {
 
 void Finger::Wander::tune(double corner_hz, double rate_hz) noexcept {
     keep = std::exp(-2 * kPi * corner_hz / rate_hz);
-    // Variance of three equal poles driven by unit white noise: (1 + 4q + q²) / (1 - q)⁵, q = keep².
+    // Variance of three equal poles driven by white noise of variance 1: (1 + 4q + q²) / (1 - q)⁵, q = keep².
     const double q = keep * keep;
     gain = std::sqrt(std::pow(1 - q, 5) / (1 + 4 * q + q * q));
 }
@@ -80,7 +80,7 @@ Finger::Finger(const FingerSettings& settings, Instant opened)
     skinA1_ = -2 * (omega * omega - k * k) / a0;
     skinA2_ = -(k * k - 2 * settings_.damping * omega * k + omega * omega) / a0;
     heightGain_ = kRelief * omega * omega * k * k / a0;
-    // A white force sampled faster carries the same power per hertz.
+    // White force noise at a higher rate must keep the same power per hertz.
     flickerGain_ = kFlicker * std::sqrt(settings_.tickRate_hz / 4000) * omega * omega / a0;
     surface_ = surfaceOf(settings_.material);
     const std::lock_guard lock(mutex_);
@@ -120,7 +120,7 @@ Result<void> Finger::present(std::string_view material, MillimetresPerSecond spe
     }
     const double at = toSeconds(now);
     const double earliest = opened_ + kFirstContact.count();
-    // Motions planned up to now still happen in ticks that were not read yet; later ones do not.
+    // Plans motions up to `at`: they still happen in ticks not read yet, later motions do not.
     while (!presented_ && settings_.lift.count() > 0 && !targets_.empty() && targets_.back().from_s <= at) {
         planStroke(targets_.back().from_s + settings_.lift.count());
     }

@@ -1,14 +1,14 @@
-// Finger.h - a fingertip that slides, presses, trembles and lifts: where it is and what its skin does, tick by tick.
+// Finger.h - a simulated fingertip that slides, presses, trembles and lifts: its position and skin motion per tick.
 //
 // Motion: force and speed follow their targets as a hand does (force critically damped, speed first order), with
-// physiological tremor at 8 to 12 Hz. Skin: a damped second-order resonance excited by the relief under the contact
-// patch (as base motion) and by friction flicker (as a force), plus the slow 1/f-like fluctuation of friction that
+// physiological tremor at 8 to 12 Hz. Skin: a damped second-order resonance, driven by the relief under the contact
+// patch (as base motion) and by friction flicker (as a force), plus the slow 1/f-like variation of friction that
 // dominates on smooth surfaces. Contact accelerations grow with the square root of force.
 //
-// State moves only in step(), once per tick, so what happens depends on the tick's index and on when present() was
-// called, never on how the ticks were asked for.
+// The state changes only in step(), once per tick. The motion therefore depends on the tick's index and on when
+// present() was called, never on how the ticks were requested.
 //
-// Thread-safety: present() from any thread; everything else has one caller.
+// Thread-safety: any thread may call present(); one caller uses everything else.
 #pragma once
 
 #include <array>
@@ -35,12 +35,12 @@ struct FingerSettings {
     std::string material = "P120";
     MillimetresPerSecond speed{50};
     Newtons force{1.5};
-    Seconds stroke{4};     ///< contact time of one stroke; then the finger lifts
+    Seconds stroke{4};     ///< contact time of one stroke, before the finger lifts
     Seconds lift{1};       ///< time in the air between strokes; 0 = never lifts
     double tremor = 1;     ///< 1 = physiological, 0 = a robot
     Hertz resonance{250};  ///< the skin's resonance
     double damping = 0.3;
-    Millimetres gratingPeriod{0};  ///< 0 = the material's own
+    Millimetres gratingPeriod{0};  ///< 0 = the material's own period
     Micrometres gratingDepth{0};
     double tickRate_hz = 4000;
     std::uint64_t seed = 1;
@@ -49,16 +49,16 @@ struct FingerSettings {
 class Finger {
 public:
     static constexpr std::size_t kTaxels = 8;
-    /// Rest in the air after `opened`, so that baselines can be taken.
+    /// The finger rests in the air for this time after `opened`, so that baselines can be taken.
     static constexpr Seconds kFirstContact{0.5};
-    /// The time from one material to the next: off the old one, over, and down.
+    /// Time to change the material: lift, move over, and touch down.
     static constexpr Seconds kChange{0.25};
 
-    /// The first tick is at `opened`. `settings.material` must be known.
+    /// The first tick is at `opened`. `settings.material` must be a known material.
     Finger(const FingerSettings& settings, Instant opened);
 
-    /// Presents like SurfacePresenter::present(), called at `now`; ends the strokes of the settings. Targets change for
-    /// ticks after `now`. An unknown material or impossible value is refused and changes nothing.
+    /// Does what SurfacePresenter::present() requires, called at `now`, and ends the strokes of the settings. Targets
+    /// change for ticks after `now`. An unknown material or impossible value is refused and changes nothing.
     [[nodiscard]] Result<void> present(std::string_view material, MillimetresPerSecond speed, Newtons force,
                                        Instant now);
 

@@ -6,9 +6,9 @@ namespace tacto::sim {
 
 namespace {
 // Sandpaper: mean grain diameters d by FEPA 43-1 (P60 269 µm, P120 125 µm, P400 35 µm). Areal profilometry of P120
-// gives Sa = 42.4 µm (Nanovea, "Roughness and Particle Diameter of Sandpaper", 2018), Sa / d = 0.34, used for all
-// three. Correlation length d / 2; summits that bear load stand 2.5 d apart (an open coat). Rz of a Gaussian profile
-// over the usual sampling lengths is 6 to 7.5 Ra.
+// gives Sa = 42.4 µm (Nanovea, "Roughness and Particle Diameter of Sandpaper", 2018), so Sa / d = 0.34, used for all
+// three. Correlation length d / 2; load-bearing summits are 2.5 d apart (an open coat). Rz of a Gaussian profile over
+// the usual sampling lengths is 6 to 7.5 Ra.
 // Friction: dry fingertip, order of magnitude from the tribology of skin (glass above 1, rough solids near 0.6).
 constexpr std::array<Material, 7> kMaterials{{
     {"glass", Micrometres(0.01), Micrometres(0.07), Micrometres(50), Micrometres(90), 1.1, Millimetres(0),

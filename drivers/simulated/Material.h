@@ -1,4 +1,4 @@
-// Material.h - what the simulated finger can slide on, as data: each figure with where it comes from.
+// Material.h - the materials that the simulated finger can slide on; each figure with its source.
 //
 // Thread-safety: constants and pure functions.
 #pragma once
@@ -13,20 +13,20 @@ namespace tacto::sim {
 
 struct Material {
     std::string_view name;
-    Micrometres ra{0};                 ///< arithmetic mean roughness, of the relief without the grating
-    Micrometres rz{0};                 ///< mean peak-to-valley over five sampling lengths, grating included
-    Micrometres correlationLength{0};  ///< how the height correlates, exponential: exp(-|x| / length)
-    Micrometres asperitySpacing{0};    ///< distance of the summits that bear load
-    double friction = 0;               ///< skin on it, coefficient
+    Micrometres ra{0};                 ///< arithmetic mean roughness of the relief without the grating
+    Micrometres rz{0};                 ///< mean peak-to-valley height over five sampling lengths, with the grating
+    Micrometres correlationLength{0};  ///< of the heights; exponential: exp(-|x| / length)
+    Micrometres asperitySpacing{0};    ///< distance between the summits that bear load
+    double friction = 0;               ///< friction coefficient of skin on it
     Millimetres gratingPeriod{0};      ///< 0 = no grating
     Micrometres gratingDepth{0};       ///< peak to valley, sinusoidal
     std::string_view source;
 };
 
 [[nodiscard]] std::span<const Material> materials() noexcept;
-/// The material of that name (case matters, as printed on the back of the paper), or null.
+/// Returns the material of that name (case-sensitive, as printed on the back of the paper), or null.
 [[nodiscard]] const Material* findMaterial(std::string_view name) noexcept;
-/// "glass, plastic, paper, ..." for messages.
+/// Returns "glass, plastic, paper, ..." for messages.
 [[nodiscard]] std::string materialNames();
 
 }  // namespace tacto::sim

@@ -1,10 +1,10 @@
-// Motor.h - a vibration motor with an eccentric mass: it takes time to spin up and to run down. What is fastened to it
-// feels its vibration.
+// Motor.h - a vibration motor with an eccentric mass, which takes time to spin up and run down. A sensor fastened to
+// the motor measures its vibration.
 //
-// Speed follows the command as a critically damped second-order system, in closed form between commands; the
-// vibration's amplitude goes with the square of speed and its frequency with speed.
+// The speed follows the command as a critically damped second-order system, in closed form between commands. The
+// vibration's amplitude is proportional to the square of the speed, its frequency to the speed.
 //
-// Thread-safety: start() has one caller; at() any thread; cut() any thread, lock-free.
+// Thread-safety: one caller of start(); any thread may call at() and cut(); cut() is lock-free.
 #pragma once
 
 #include <deque>
@@ -30,11 +30,11 @@ public:
 
     explicit Motor(const MotorSettings& settings) : settings_(settings) {}
 
-    /// A command, 0 to 1, from `at` to `end`, in place of the one before.
+    /// Runs the motor at `command` (0 to 1) from `at` to `end`; replaces the command before.
     void start(Instant at, double command, Instant end);
     /// Ends the newest command.
     void cut(Instant now) noexcept { cut_.cut(now); }
-    /// The motion at a moment of the last kRemembered commands; nothing before them.
+    /// Returns the motion at `moment` within the last kRemembered commands; no motion before them.
     [[nodiscard]] Vibration at(Instant moment) const;
 
     static constexpr std::size_t kRemembered = 64;
@@ -42,7 +42,7 @@ public:
 private:
     struct Motion {
         double speed = 0;  ///< 1 = full
-        double rate = 0;   ///< 1/s
+        double rate = 0;   ///< change of speed, 1/s
     };
     struct Command {
         Motion from;
@@ -55,7 +55,7 @@ private:
 
     const MotorSettings settings_;
     mutable std::mutex mutex_;
-    std::deque<Command> commands_;  // guarded by mutex_; the newest last
+    std::deque<Command> commands_;  // guarded by mutex_; the newest at the back
     CutTime cut_;                   // the newest cut
 };
 

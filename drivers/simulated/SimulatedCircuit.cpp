@@ -78,7 +78,7 @@ double SimulatedCircuit::endOfOutput() const noexcept {
 
 void SimulatedCircuit::advance(double now_s) {
     const double ends = endOfOutput();
-    const double end_s = ends <= now_s ? ends : kInfinity;  // a dead-man moment still ahead may yet move
+    const double end_s = ends <= now_s ? ends : kInfinity;  // a dead-man time in the future may still move
     if (!pulses_.empty() && !pulses_.back().cut && end_s >= pulses_.back().onset_s && end_s < pulses_.back().end_s) {
         compute(pulses_.back(), end_s);
     }

@@ -1,12 +1,12 @@
-// SimulatedCircuit.h - the wires between a simulated source, a load and an oscilloscope: what was driven, and exactly
-// what voltage and current that made.
+// SimulatedCircuit.h - the wires between a simulated source, a load and an oscilloscope: which pulses were driven, and
+// exactly which voltage and current they caused.
 //
-// A train handed to play() happens by itself as time passes: each pulse is computed in closed form when its onset is
-// reached, from the residual voltage that the one before left on the load's capacitor. cut() truncates what runs, at
-// that moment; so does the dead-man time. What is read depends on those calls and their times, not on when anyone
-// looked. The newest kKept pulses stay readable.
+// A train passed to play() runs by itself as time passes: each pulse is computed in closed form at its onset, starting
+// from the voltage that the pulse before left on the load's capacitor. cut() and the dead-man time truncate the running
+// pulse at that moment. The results depend only on these calls and their times, not on when they are read. The newest
+// kKept pulses can be read.
 //
-// Thread-safety: every function from any thread; cut() is lock-free and never allocates.
+// Thread-safety: any thread; cut() is lock-free and never allocates.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@
 
 namespace tacto::sim {
 
-/// One pulse as a real source makes it: ramps included.
+/// One pulse as a real source makes it, with its ramps.
 struct DrivenPulse {
     struct Step {
         DriveSegment drive;
@@ -34,7 +34,7 @@ struct DrivenPulse {
     static constexpr std::size_t kMaxSteps = 12;
     std::array<Step, kMaxSteps> steps{};
     std::size_t count = 0;
-    DriveSegment rest;  ///< the source's state afterwards; its duration is ignored
+    DriveSegment rest;  ///< state of the source afterwards; its duration is ignored
     void add(const DriveSegment& drive, PulsePart part) noexcept {
         if (drive.duration_s > 0 && count < kMaxSteps) steps[count++] = {drive, part};
     }
@@ -45,18 +45,18 @@ struct DrivenTrain {
     DrivenPulse pulse;
     double onset_s = 0;
     int pulses = 1;
-    double period_s = 0.01;  ///< between pulses
-    double sourceOhm = 0;    ///< a voltage source's: its level sags by what the load's d.c. resistance draws
+    double period_s = 0.01;  ///< from one onset to the next
+    double sourceOhm = 0;    ///< of a voltage source; its level sags by the current into the load's d.c. resistance
     SourceLimits limits;
 };
 
-/// One pulse that happened.
+/// One pulse that was played.
 struct PlayedPulse {
-    std::uint64_t number = 0;  ///< counts from 1 over the circuit's life
+    std::uint64_t number = 0;  ///< number of the pulse, from 1 over the circuit's life
     double onset_s = 0;
     double end_s = 0;                   ///< when the drive ends
-    std::vector<ResponsePiece> pieces;  ///< start_s from onset_s; the last ones are the tail after end_s
-    PulseTotals totals;                 ///< tail included
+    std::vector<ResponsePiece> pieces;  ///< start_s counts from onset_s; the last pieces are the tail after end_s
+    PulseTotals totals;                 ///< sums over the pulse and its tail
     bool cut = false;
 };
 
@@ -65,26 +65,26 @@ public:
     static constexpr std::size_t kKept = 512;
     static constexpr double kTail_s = 0.5;
 
-    /// Fits this load from `now` on; its capacitor starts empty. What is playing continues into it at its next pulse.
+    /// Connects `load` at `now`, with an empty capacitor. A running train continues into it from its next pulse on.
     void fit(const Load& load, Instant now);
     [[nodiscard]] Load load() const;
-    /// Open, Short and StuckOn act on the circuit; the others are the stimulator's own.
+    /// Open, Short and StuckOn act on the circuit; the stimulator handles the other faults.
     void setFaults(const FaultSchedule& faults);
 
-    /// Starts `train` at its onset and allows output until `allowedUntil`. What was playing ends at `now`.
+    /// Plays `train` from its onset on, with output allowed until `allowedUntil`. A running train ends at `now`.
     void play(const DrivenTrain& train, Instant now, Instant allowedUntil);
-    /// Moves the dead-man moment; too late once output has ended by it.
+    /// Moves the dead-man time, unless it has already ended the output.
     void allowUntil(Instant moment, Instant now);
-    /// Output off at `now`. Undone only by the next play().
+    /// Switches the output off at `now`. Only the next play() switches it on again.
     void cut(Instant now) noexcept { cut_.cut(now); }
 
     [[nodiscard]] bool active(Instant now);
-    /// Trains that began so far.
+    /// Returns how many trains have begun.
     [[nodiscard]] std::uint64_t trainsBegun(Instant now);
-    /// Totals of the newest pulse whose drive has ended by `now`.
+    /// Returns the sums of the newest pulse that has ended by `now`.
     [[nodiscard]] std::optional<PulseTotals> lastPulse(Instant now);
 
-    /// Calls `look(pulses)` with the pulses that began by `now`, oldest first, while nothing changes.
+    /// Calls `look(pulses)` with the pulses that began by `now`, oldest first, while the lock is held.
     template <class Look>
     auto inspect(Instant now, Look&& look) {
         const std::lock_guard lock(mutex_);
@@ -94,13 +94,13 @@ public:
 
 private:
     static constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    /// The recipe of a pulse, for making it again shorter.
+    /// What is needed to compute a pulse again in a shorter form.
     struct Recipe {
         DrivenPulse pulse;
         SourceLimits limits;
         Circuit circuit;
         double startVoltage = 0;      ///< the capacitor's voltage at onset
-        double capacitorVoltage = 0;  ///< the capacitor's voltage where the drive ended
+        double capacitorVoltage = 0;  ///< the capacitor's voltage when the drive ended
     };
 
     void advance(double now_s);
@@ -112,19 +112,19 @@ private:
 
     mutable std::mutex mutex_;
     CutTime cut_;
-    // Guarded by mutex_, like all below.
+    // Guarded by mutex_, like everything below.
     double allowedUntil_ = kInfinity;
     Load load_;
     double fitted_s_ = 0;
     FaultSchedule faults_;
     std::optional<DrivenTrain> train_;
-    int pulse_ = 0;  // the train's pulse that plays next
+    int pulse_ = 0;  // the next pulse of the train to play
     double trainOnset_ = 0;
     std::uint64_t trains_ = 0;
     std::deque<PlayedPulse> pulses_;
     std::uint64_t played_ = 0;
     Recipe last_;
-    bool loadChanged_ = false;  // the load changed since the newest pulse
+    bool loadChanged_ = false;  // true if the load changed since the newest pulse
 };
 
 }  // namespace tacto::sim

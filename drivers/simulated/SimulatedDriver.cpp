@@ -16,7 +16,7 @@ struct Kind {
     Role role;
     std::string_view path;
     std::string_view name;
-    /// Keys that no other simulated device has: what "sim:" may be given directly.
+    /// Keys that only this simulated device has; a plain "sim:" accepts them too.
     std::vector<std::string_view> ownKeys;
 };
 
@@ -47,7 +47,7 @@ DeviceIdentity identityOf(const Kind& kind, const DeviceUri& uri, std::uint64_t 
     return {uri.text(), kind.role, std::string(kind.name), fmt::format("SIM-{}", seed), TACTOSCOPE_VERSION, true};
 }
 
-/// The world of a simulated device that is already in the set, or null.
+/// Returns the world of a simulated device that is already in the set, or null.
 std::shared_ptr<World> worldOf(const DeviceSet& devices) {
     const std::array<const Device*, 4> all{devices.sensor.get(), devices.stimulator.get(), devices.oscilloscope.get(),
                                            devices.massager.get()};
@@ -90,7 +90,7 @@ private:
                                    DeviceSet& into) {
         std::array<DeviceUri, 4> parts;
         for (const auto& [key, value] : uri.parameters) {
-            if (key == "flaws") {  // the flaws of every device that has any
+            if (key == "flaws") {  // applies to every device that has flaws
                 for (std::size_t i = 0; i < parts.size(); ++i) {
                     if (kinds()[i].role == Role::Stimulator || kinds()[i].role == Role::Oscilloscope) {
                         parts[i].parameters.emplace_back(key, value);
@@ -154,7 +154,7 @@ private:
         const auto read = readFinger(uri, world->seed());
         if (!read) return failure(read);
         auto finger = std::make_shared<Finger>(read->finger, world->clock().now());
-        if (read->sensor.onMotor) {  // a fingertip on a motor touches nothing, and nothing can be put under it
+        if (read->sensor.onMotor) {  // a fingertip on the motor touches no surface, and none can be presented to it
             const auto lifted = finger->present("", MillimetresPerSecond(0), Newtons(0), world->clock().now());
             if (!lifted) return failure(lifted);
         } else {

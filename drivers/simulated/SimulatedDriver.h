@@ -1,19 +1,19 @@
-// SimulatedDriver.h - the digital twin: a finger on a material, a stimulator with flaws, the load it drives, an
-// oscilloscope on that load and a massager, all seeded and all on the clock they are given.
+// SimulatedDriver.h - the digital twin: a finger on a material, a stimulator with flaws, its load, an oscilloscope on
+// that load and a massager; all use one seed and the clock they are given.
 //
-//   sim:                                                   every wanted role that is still empty
+//   sim:                                                   every wanted role that has no device yet
 //   sim:finger?material=P120&speed=50mm/s&force=1.5N       one stroke after another on sandpaper
 //   sim:stimulator?mode=current&gain=1.02&load=500ohm&fault=open@12s
 //   sim:oscilloscope?bits=12&noise=2mV
 //   sim:massager
-//   sim:finger?on=motor                                    the sensor board, fastened to the massager's motor
+//   sim:finger?on=motor                                    the sensor, fastened to the massager's motor
 //
 // Devices opened into one DeviceSet share one world: the oscilloscope sees what the stimulator drives. The load is
-// OpenContext::declaredLoad unless `load=` says otherwise. Same seed and same calls at the same times: same bytes,
-// however often the devices are read. Every key is checked; an unknown one is refused with the list of those known.
+// OpenContext::declaredLoad unless `load=` gives another. The same seed and the same calls at the same times give the
+// same bytes, however often the devices are read. An unknown key is refused with the list of known keys.
 //
-// The set gets a SurfacePresenter with a simulated finger that is not on the motor, and a LoadFitter with a simulated
-// stimulator.
+// With a simulated finger that is not on the motor, the set also gets a SurfacePresenter; with a simulated stimulator,
+// a LoadFitter.
 //
 // Thread-safety: as Driver.
 #pragma once
@@ -24,7 +24,7 @@
 
 namespace tacto {
 
-/// The driver of the scheme "sim". Runs on either clock.
+/// Makes the driver of the scheme "sim". Works with the virtual and the steady clock.
 [[nodiscard]] std::unique_ptr<Driver> makeSimulatedDriver();
 
 }  // namespace tacto

@@ -14,13 +14,13 @@ namespace tacto::sim {
 
 struct MassagerSettings {
     MotorSettings motor;
-    double step = 0;  ///< step between intensities; 0: it takes any
+    double step = 0;  ///< step between intensities; 0: any intensity
     FaultSchedule faults;
 };
 
 class SimulatedMassager final : public Massager, public WorldMember {
 public:
-    /// The world takes its motor for its own.
+    /// Stores its motor in the world.
     SimulatedMassager(DeviceIdentity identity, std::shared_ptr<World> world, const MassagerSettings& settings);
     ~SimulatedMassager() override { forceOff(); }
     SimulatedMassager(const SimulatedMassager&) = delete;
@@ -32,7 +32,7 @@ public:
     void forceOff() noexcept override { motor_->cut(world_->clock().now()); }
     [[nodiscard]] const std::shared_ptr<World>& world() const noexcept override { return world_; }
 
-    /// The motion that a hand on it would feel. Any thread.
+    /// Returns the motion of the motor at `moment`. Any thread.
     [[nodiscard]] Motor::Vibration vibrationAt(Instant moment) const { return motor_->at(moment); }
 
 private:

@@ -104,7 +104,7 @@ Result<void> SimulatedOscilloscope::forceTrigger() {
 std::optional<double> SimulatedOscilloscope::findTrigger(const std::deque<PlayedPulse>& pulses) const {
     const auto channel = settings_.triggerOnCurrent ? FilteredTrace::Channel::Current : FilteredTrace::Channel::Voltage;
     const double bandwidth = traits_.bandwidth.value();
-    // Takes one pulse at a time, so that a long wait with many pulses costs no more than the next trigger.
+    // Searches one pulse at a time, so that a long wait with many pulses takes no longer than up to the next trigger.
     for (std::size_t i = 0; i < pulses.size(); ++i) {
         const double next = i + 1 < pulses.size() ? pulses[i + 1].onset_s : pulses[i].end_s + 1;
         if (next <= searchFrom_s_) continue;
@@ -122,7 +122,7 @@ Result<std::optional<Capture>> SimulatedOscilloscope::poll() {
     return world_->circuit().inspect(now, [&](const std::deque<PlayedPulse>& pulses) -> std::optional<Capture> {
         const double length = static_cast<double>(settings_.samples) * step_s();
         if (!trigger_s_) trigger_s_ = findTrigger(pulses);
-        // The first of the two takes the record; a trigger within a running record is passed over.
+        // The earlier of the two makes the record; a trigger during a record is ignored.
         const bool untriggered = forced_s_ && (!trigger_s_ || *forced_s_ < *trigger_s_);
         const auto middle_s = untriggered ? forced_s_ : trigger_s_;
         if (!middle_s || *middle_s + (1 - settings_.preTrigger) * length > toSeconds(now)) return std::nullopt;
@@ -145,11 +145,11 @@ Capture SimulatedOscilloscope::render(const std::deque<PlayedPulse>& pulses, dou
     const double stated = stated_s(middle_s);
     Capture capture;
     capture.rate_hz = rate;
-    capture.start_s = std::ceil(stated * rate - before) / rate;  // the sample clock's own grid
+    capture.start_s = std::ceil(stated * rate - before) / rate;  // first sample on the grid of the sample clock
     capture.trigger_s = untriggered ? kNaN : stated;
     if (flaws_.stated.states) {
         capture.timeBaseTolerance = flaws_.stated.timeBase;
-        capture.stampTolerance_s = 0;  // all records have one clock
+        capture.stampTolerance_s = 0;  // all records use the same clock
         capture.gainShared = true;
     }
     capture.untriggered = untriggered;
@@ -192,7 +192,7 @@ void SimulatedOscilloscope::digitise(CaptureChannel& channel, const FilteredTrac
     const double noise = flaws_.noise * channel.high;
     const double perLsb = 1 / channel.lsb;
     const double shift = offset + flaws_.rangeOffset * channel.high;
-    // A cubic through the ends and the middle of the range: at most 1 of what it is multiplied with.
+    // The bow is a cubic through the ends and the middle of the range, scaled to at most 1 before the factor.
     const double bow = 1.5 * std::sqrt(3.0) * channelBow, perRange = 1 / channel.high;
     for (std::size_t k = 0; k < buffer_.size(); ++k) {
         const double x = buffer_[k] * perRange;

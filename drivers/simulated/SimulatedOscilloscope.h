@@ -1,9 +1,9 @@
-// SimulatedOscilloscope.h - two channels on the simulated load: the voltage across it and the current through a shunt.
+// SimulatedOscilloscope.h - an oscilloscope on the simulated load: the voltage across it and the current by a shunt.
 //
-// Nothing is sampled between triggers. A capture is rendered from the circuit's exact pieces, each passed through the
-// instrument's first-order bandwidth in closed form too, then given gain and offset error, noise and quantisation, and
-// clipped at the range. The sample clock runs freely: a trigger falls anywhere between two samples, and its time stamp
-// is exact, as an instrument's trigger interpolator makes it.
+// Nothing is sampled between triggers. A capture is computed from the circuit's exact pieces: first-order bandwidth in
+// closed form, gain and offset error, noise, quantisation, and clipping at the range. The sample clock runs freely: a
+// trigger falls anywhere between two samples, and its time stamp is exact, as from an instrument's trigger
+// interpolator.
 //
 // Thread-safety: as Oscilloscope.
 #pragma once
@@ -20,10 +20,10 @@
 
 namespace tacto::sim {
 
-/// The statements in the twin's data sheet: half-widths. Its flaws are drawn within them (science.md section 12).
+/// Half-widths stated in the twin's data sheet. The flaws are drawn within these limits (science.md section 12).
 struct ScopeStatement {
-    bool states = true;         ///< false: nothing of what follows (`accuracy=unknown`)
-    double gain = 0.005;        ///< relative; both channels have the same reference, so one gain error
+    bool states = true;         ///< false: states nothing (`accuracy=unknown`)
+    double gain = 0.005;        ///< relative; one gain error, as both channels share a reference
     double offset = 0.001;      ///< share of the range
     double linearity = 0.0005;  ///< share of the range
     double shunt = 0.001;       ///< relative
@@ -31,20 +31,20 @@ struct ScopeStatement {
 };
 
 struct ScopeFlaws {
-    double noise = 1e-4;                        ///< r.m.s., of the range
-    double gain = 1, offset = 0;                ///< the voltage channel's gain and offset; the offset in V
-    double currentGain = 1, currentOffset = 0;  ///< offset in A
-    double rangeOffset = 0;                     ///< both channels' offset, as a share of the range
-    double bow = 0;                             ///< largest departure from the straight line, as a share of the range
-    double currentBow = 0;                      ///< largest departure from the straight line of the current channel
-    /// What it states of a time since it was armed, over that time; a computer's clock is off the other way.
+    double noise = 1e-4;                        ///< r.m.s., as a share of the range
+    double gain = 1, offset = 0;                ///< of the voltage channel; the offset in V
+    double currentGain = 1, currentOffset = 0;  ///< of the current channel; the offset in A
+    double rangeOffset = 0;                     ///< offset of both channels, as a share of the range
+    double bow = 0;                             ///< largest deviation from a straight line, as a share of the range
+    double currentBow = 0;                      ///< the same for the current channel
+    /// Stated time since arming divided by true time; a computer's clock is off in the other direction.
     double timeBase = 1;
     ScopeStatement stated;
     FaultSchedule faults;
     std::uint64_t seed = 1;
 };
 
-/// Gains, offset, bow and time base drawn from `seed` within what is stated; the rest as in `otherwise`.
+/// Draws gains, offset, bow and time base from `seed` within the stated limits; the rest comes from `otherwise`.
 [[nodiscard]] ScopeFlaws drawnFlaws(const ScopeFlaws& otherwise, std::uint64_t seed);
 
 class SimulatedOscilloscope final : public Oscilloscope, public ForcedTrigger, public WorldMember {
@@ -63,17 +63,17 @@ public:
 
 private:
     [[nodiscard]] Result<void> answers(Instant now) const;
-    /// The true time from one sample to the next.
+    /// Returns the true time between two samples.
     [[nodiscard]] double step_s() const noexcept { return 1 / settings_.sampleRate.value() / flaws_.timeBase; }
     [[nodiscard]] std::optional<double> findTrigger(const std::deque<PlayedPulse>& pulses) const;
-    /// The instrument's reading of a time since it was armed, and back.
+    /// Converts a true session time to the time that the instrument states.
     [[nodiscard]] double stated_s(double true_s) const noexcept {
         return armed_s_ + (true_s - armed_s_) * flaws_.timeBase;
     }
     [[nodiscard]] double true_s(double stated_s) const noexcept {
         return armed_s_ + (stated_s - armed_s_) / flaws_.timeBase;
     }
-    /// A record around `middle_s`, where a trigger stood unless it is `untriggered`.
+    /// Makes a record around `middle_s`, which is the time of a trigger unless `untriggered`.
     [[nodiscard]] Capture render(const std::deque<PlayedPulse>& pulses, double middle_s, bool untriggered);
     void digitise(CaptureChannel& channel, const FilteredTrace& trace, double start_s, double gain, double offset,
                   double bow);
@@ -86,9 +86,9 @@ private:
     ScopeSettings wanted_, settings_;
     FastNoise noise_;
     bool armed_ = false;
-    double searchFrom_s_ = 0;  // triggers before this are over
+    double searchFrom_s_ = 0;  // triggers before this time are ignored
     std::optional<double> trigger_s_;
-    std::optional<double> forced_s_;  // a record is taken here unless a trigger comes before
+    std::optional<double> forced_s_;  // when a record is taken, unless a trigger comes first
     std::vector<double> buffer_;
 };
 

@@ -8,8 +8,8 @@
 namespace tacto::sim {
 
 namespace {
-constexpr double kFaultyDropouts = 0.3;   // share of packets lost while the fault "dropout" lasts
-constexpr double kForceDrift_N_s = 0.05;  // newtons per second while the fault "drift" lasts
+constexpr double kFaultyDropouts = 0.3;   // share of packets lost during the fault "dropout"
+constexpr double kForceDrift_N_s = 0.05;  // newtons per second during the fault "drift"
 constexpr double kPressureDrift_Pa_s = 500;
 constexpr double kTaxelOffset_Pa = 200;  // largest zero offset of a taxel
 
@@ -48,7 +48,7 @@ bool SimulatedSensor::packetLost(double t_s) const noexcept {
     const double share =
         std::max(settings_.dropouts, settings_.faults.active(Fault::Dropout, toInstant(t_s)) ? kFaultyDropouts : 0.0);
     if (share <= 0) return false;
-    // A packet's fate is a hash of its number, so it is the same in every stream and for every reader.
+    // A hash of the packet's number decides whether it is lost, so all streams and readers see the same losses.
     auto word = settings_.seed + 0x9E3779B97F4A7C15U * static_cast<std::uint64_t>(t_s / kPacket.count() + 1e-6);
     word = (word ^ (word >> 30U)) * 0xBF58476D1CE4E5B9U;
     word = (word ^ (word >> 27U)) * 0x94D049BB133111EBU;
@@ -64,7 +64,7 @@ void SimulatedSensor::noteFaults(Instant now) {
     drifting_s_ = drift ? toSeconds(now - *drift) : 0;
 }
 
-/// The fingertip's acceleration, averaged over the sample.
+/// Returns the fingertip's acceleration, averaged over the sample.
 std::array<double, 3> SimulatedSensor::felt() {
     std::array<double, 3> mean{};
     for (int tick = 0; tick < ticksPerSample_; ++tick) {
@@ -77,7 +77,7 @@ std::array<double, 3> SimulatedSensor::felt() {
     return mean;
 }
 
-/// The motor's acceleration, in a direction of its own, beside gravity.
+/// Returns the motor's acceleration in a fixed direction, plus gravity.
 std::array<double, 3> SimulatedSensor::shaken() {
     constexpr std::array<double, 3> kDirection{0.6, 0, 0.8};
     std::array<double, 3> out{0, 0, kGravity};

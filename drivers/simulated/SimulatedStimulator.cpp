@@ -10,10 +10,10 @@
 namespace tacto::sim {
 
 namespace {
-constexpr double kOpenOhms = 300e3;     // more than any skin or bench load
-constexpr double kTouchingOhms = 20;    // less than any
-constexpr double kVoltageFloor = 1e-4;  // V, s.d. of the read-back
-constexpr double kCurrentFloor = 2e-7;  // A
+constexpr double kOpenOhms = 300e3;     // higher than any skin or bench load
+constexpr double kTouchingOhms = 20;    // lower than any skin or bench load
+constexpr double kVoltageFloor = 1e-4;  // V, standard deviation of the read-back
+constexpr double kCurrentFloor = 2e-7;  // A, standard deviation of the read-back
 constexpr double kImbalanceNoise = 5e-4;
 constexpr double kImbalanceUncertainty = 2e-3;
 }  // namespace
@@ -93,7 +93,7 @@ DrivenPulse SimulatedStimulator::drivenPulse(const PulseTrain& train, Instant no
         gain *= 1 + std::min(kMaxDrift, kDriftPerSecond * toSeconds(now - *since));
     }
     gain *= 1 + settings_.coldGain * std::exp(-toSeconds(now - opened_) / kWarmUp.count());
-    // At an amplitude of 0 the output stays off at any offset.
+    // At an amplitude of 0 the output stays off, whatever the offset.
     magnitude = magnitude > 0 ? std::max(0.0, gain * magnitude + settings_.offset) : 0;
     const double sign = train.polarity == Polarity::Positive ? 1 : -1;
     const double lead = sign * magnitude;
@@ -117,12 +117,12 @@ DrivenPulse SimulatedStimulator::drivenPulse(const PulseTrain& train, Instant no
         return DriveSegment{traits.gap == GapState::HighImpedance ? Drive::HighImpedance : drive, 0, 0, duration};
     };
     const double edge = std::min(settings_.rise.count(), width / 2);
-    // A source that holds 0 V drives its falling edges too; one that opens its output just lets go, half an edge later,
-    // so that width at 50 % and charge stay.
+    // A source that holds 0 V drives its falling edges too. A source that opens its output only lets go, half an edge
+    // later, so that width at 50 % and charge stay the same.
     const bool drivesDown = traits.gap == GapState::HoldsZero;
     const double hold = drivesDown ? -edge : -edge / 2;
     DrivenPulse pulse;
-    // Above its level at first, and sagging from its beginning to its end.
+    // The level overshoots at first and sags from the phase's beginning to its end.
     const double sagged = 1 - settings_.droop;
     const auto plateau = [&](double level, double duration, PulsePart part) {
         const double early = settings_.overshoot > 0 ? std::min(kOvershoot.count(), duration / 4) : 0;
@@ -207,7 +207,7 @@ Result<StimulatorStatus> SimulatedStimulator::status() {
         return status;
     }
     const bool drove = std::abs(volts) > 5 * kVoltageFloor || std::abs(amps) > 5 * kCurrentFloor;
-    if (!drove) return status;  // an amplitude of 0 measures nothing
+    if (!drove) return status;  // an amplitude of 0 gives no measurement
     status.amplitude = traits().drive == Drive::Current ? 1e3 * std::abs(amps) : std::abs(volts);
     const bool open = std::abs(amps) < 5 * kCurrentFloor || std::abs(volts) > kOpenOhms * std::abs(amps);
     status.electrode = open ? ElectrodeState::Open : ElectrodeState::Ok;

@@ -9,21 +9,21 @@
 namespace tacto::sim {
 
 namespace {
-// How skin meets a surface. Lengths in metres.
-constexpr double kPatch = 2e-3;            // a fingerprint ridge's contact along the path: asperities average over it
-constexpr double kCoherent = 0.5;          // share of a grating's motion that the patch leaves, several ridges wide
-constexpr double kFollow = 100e-6;         // the pulp bridges relief deeper than this
-constexpr double kCorneum = 2e-6;          // the stratum corneum conforms to finer relief than this
-constexpr double kTaxelCompliance = 8e-6;  // relief finer than this presses evenly
-constexpr double kRidge = 60e-6;           // contact of one asperity with a ridge: low-pass in space
+// How skin touches a surface; lengths in metres.
+constexpr double kPatch = 2e-3;            // contact length of a fingerprint ridge: asperities average out over it
+constexpr double kCoherent = 0.5;          // share of a grating's motion that remains over several ridges
+constexpr double kFollow = 100e-6;         // the fingertip bridges relief deeper than this
+constexpr double kCorneum = 2e-6;          // the outer skin layer follows relief finer than this
+constexpr double kTaxelCompliance = 8e-6;  // relief finer than this presses evenly on a taxel
+constexpr double kRidge = 60e-6;           // contact length of one asperity with a ridge: a low-pass in space
 constexpr double kTaxelSide = 5e-3;
 constexpr double kBearingFraction = 0.05;  // share of the summits that carry the load
-constexpr double kMaxUneven = 0.75;        // a taxel's pressure never falls to nothing while the finger presses
+constexpr double kMaxUneven = 0.75;        // a taxel's pressure never falls to zero while the finger presses
 
 double metres(Micrometres length) { return length.value() * 1e-6; }
-double rms(Micrometres ra) { return metres(ra) * std::sqrt(std::numbers::pi / 2); }  // Gaussian profile
+double rms(Micrometres ra) { return metres(ra) * std::sqrt(std::numbers::pi / 2); }  // for a Gaussian profile
 
-/// A first-order recursion run once around the table to settle, then once more: periodic without a seam.
+/// Runs a first-order recursion twice around the table, first to settle, so that the result repeats without a seam.
 template <class Input>
 void runAround(std::vector<float>& table, double keep, const Input& input) {
     double state = 0;
@@ -64,7 +64,7 @@ void Surface::makeProfile(std::uint64_t seed) {
 
 double Surface::grating(std::size_t i) const noexcept {
     if (gratingAmplitude_ <= 0) return 0;
-    // A whole number of waves fits, so that the path repeats without a seam.
+    // Uses a whole number of waves, so that the path repeats without a seam.
     const double total = static_cast<double>(kCells) * kCell_m;
     const double waves = std::round(total / (material_.gratingPeriod.value() * 1e-3));
     const double turns = waves * static_cast<double>(i) / static_cast<double>(kCells);
@@ -76,7 +76,7 @@ void Surface::makeContact() {
     const double along = metres(material_.asperitySpacing) / kPatch;  // 1/sqrt(N) of N = (patch / spacing)²
     const double gain = std::min(1.0, along) * kFollow / (kFollow + rq);
     const double keep = std::exp(-kCell_m / kRidge);
-    // Asperities average out over the patch; the ridges of a grating move all of it together.
+    // Asperities average out over the patch; the ridges of a grating move the whole patch together.
     const double coherent = kCoherent * kFollow / (kFollow + gratingAmplitude_ / std::numbers::sqrt2) - gain;
     runAround(contact_, keep, [&](std::size_t i) {
         return (1 - keep) * (gain * static_cast<double>(height_[i]) + coherent * grating(i));
@@ -84,9 +84,9 @@ void Surface::makeContact() {
 }
 
 void Surface::makeBearing(std::uint64_t seed) {
-    // N summits carry the load under a taxel, a Poisson number: its pressure deviates by 1/sqrt(N), as far as the
-    // relief is deeper than the skin over the array can even out. A taxel bears on a summit or bridges a valley, so
-    // the deviation is bounded on both sides.
+    // Under a taxel N summits carry the load, a Poisson number, so its pressure deviates by 1/sqrt(N), as far as the
+    // relief is too deep for the skin over the array to even out. A taxel rests on a summit or bridges a valley, so the
+    // deviation has a limit in both directions.
     const double spacing = metres(material_.asperitySpacing);
     const double rq = rms(material_.ra);
     const double summits = kBearingFraction * kTaxelSide * kTaxelSide / (spacing * spacing);
@@ -126,7 +126,7 @@ Micrometres Surface::rz() const noexcept {
 Millimetres Surface::length() const noexcept { return Millimetres(static_cast<double>(kCells) * kCell_m * 1e3); }
 
 double Surface::bearing(std::size_t track, double x_m) const noexcept {
-    // Tracks lie side by side: far apart in the one table, so that they are unrelated.
+    // Neighbouring tracks read the table far apart, so that they are independent.
     constexpr auto kApart = kBearingCells / 8;
     const auto lateral = static_cast<double>(track * kApart + track * track * 37);
     return lookUp(bearing_, x_m / kBearingCell_m + lateral);

@@ -1,12 +1,11 @@
-// Surface.h - one specimen of a material: a height profile along the path, in space, so that a faster finger hears
+// Surface.h - one specimen of a material: a height profile along the path in space, so that a faster finger produces
 // higher frequencies.
 //
-// The profile is Gaussian with exponential correlation, scaled so that its Ra is the material's to the last digit, as a
-// certificate would state it, plus the material's grating; it repeats after length(). What the finger feels of it is
-// contactHeight(): the profile as far as skin can follow it. What the taxels feel is bearing(): how many summits
-// carry load under each of them.
+// The profile is Gaussian with exponential correlation, scaled to exactly the material's Ra (as a certificate would
+// state), plus the material's grating; it repeats after length(). The finger's skin follows contactHeight(), the
+// profile as far as skin can follow it. The taxels measure bearing(): how many summits carry load under each taxel.
 //
-// Thread-safety: const after construction.
+// Thread-safety: constant after construction.
 #pragma once
 
 #include <cstddef>
@@ -19,23 +18,23 @@ namespace tacto::sim {
 
 class Surface {
 public:
-    /// `seed` picks the specimen. Takes a few milliseconds.
+    /// `seed` selects the specimen. Takes a few milliseconds.
     Surface(const Material& material, std::uint64_t seed);
 
     [[nodiscard]] const Material& material() const noexcept { return material_; }
-    /// Measured on this specimen: the material's, or more with a grating.
+    /// Ra of this specimen: the material's Ra, or more with a grating.
     [[nodiscard]] Micrometres ra() const noexcept;
-    /// Measured on this specimen: mean peak-to-valley of five sampling lengths.
+    /// Rz of this specimen: mean peak-to-valley height of five sampling lengths.
     [[nodiscard]] Micrometres rz() const noexcept;
     [[nodiscard]] Millimetres length() const noexcept;
 
     /// Height in metres of cell `i` of the profile, cells kCell_m apart.
     [[nodiscard]] double profile(std::size_t i) const noexcept { return static_cast<double>(height_[i & kMask]); }
-    /// The profile averaged over the contact patch, metres, at `x_m` ≥ 0 along the path.
+    /// Returns the profile in metres, averaged over the contact patch at `x_m` ≥ 0 along the path.
     [[nodiscard]] double contactHeight(double x_m) const noexcept { return lookUp(contact_, x_m / kCell_m); }
-    /// Relative deviation of a taxel's pressure from the mean contact pressure, at `x_m` along track `track`.
+    /// Returns the relative deviation of a taxel's pressure from the mean, at `x_m` along track `track`.
     [[nodiscard]] double bearing(std::size_t track, double x_m) const noexcept;
-    /// How much of the fine friction flicker this surface excites, 0 (mirror) to 1 (coarser than skin can follow).
+    /// Returns how much fine friction flicker this surface causes, 0 (mirror) to 1 (coarser than skin can follow).
     [[nodiscard]] double flicker() const noexcept { return flicker_; }
 
     static constexpr double kCell_m = 5e-6;

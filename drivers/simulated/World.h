@@ -1,8 +1,8 @@
-// World.h - what the simulated devices of one bench have in common: the clock, the seed, the circuit between
-// stimulator, load and oscilloscope, the reference source and the massager's motor. Lives as long as any of them.
-// Beside it, what changes the world from outside: loads, the reference source, surfaces under the finger.
+// World.h - what the simulated devices of one bench share: clock, seed, the circuit between stimulator, load and
+// oscilloscope, the reference source and the massager's motor. Lives as long as any of these devices. Also holds the
+// classes that change the world from outside: loads, the reference source, surfaces under the finger.
 //
-// Thread-safety: any thread; the circuit and the motor have rules of their own.
+// Thread-safety: any thread; the circuit and the motor state their own rules.
 #pragma once
 
 #include <atomic>
@@ -27,11 +27,11 @@ public:
     [[nodiscard]] std::uint64_t seed() const noexcept { return seed_; }
     [[nodiscard]] SimulatedCircuit& circuit() noexcept { return circuit_; }
 
-    /// Voltage of a reference source in place of the load, V; 0: there is none.
+    /// Returns the voltage of a reference source that replaces the load, in V; 0: none.
     [[nodiscard]] double reference() const noexcept { return reference_V_.load(std::memory_order_acquire); }
     void setReference(double volts) noexcept { reference_V_.store(volts, std::memory_order_release); }
 
-    /// The massager's motor; null: there is no massager.
+    /// Returns the massager's motor, or null if there is no massager.
     [[nodiscard]] std::shared_ptr<Motor> motor() const {
         const std::scoped_lock lock(motorMutex_);
         return motor_;
@@ -50,14 +50,14 @@ private:
     std::shared_ptr<Motor> motor_;  // guarded by motorMutex_
 };
 
-/// Implemented by every simulated device, so that one opened later finds the world of those before it.
+/// Implemented by every simulated device, so that a device opened later finds the same world.
 class WorldMember {
 public:
     virtual ~WorldMember() = default;
     [[nodiscard]] virtual const std::shared_ptr<World>& world() const noexcept = 0;
 };
 
-/// Fits loads into the world's circuit.
+/// Connects loads to the world's circuit.
 class CircuitFitter final : public LoadFitter {
 public:
     explicit CircuitFitter(std::shared_ptr<World> world) : world_(std::move(world)) {}
@@ -67,7 +67,7 @@ private:
     const std::shared_ptr<World> world_;
 };
 
-/// Puts a voltage of known size on the oscilloscope.
+/// Applies a known voltage to the oscilloscope.
 class WorldReference final : public VoltageReference {
 public:
     explicit WorldReference(std::shared_ptr<World> world) : world_(std::move(world)) {}
