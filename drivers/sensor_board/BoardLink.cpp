@@ -49,7 +49,7 @@ void BoardLink::run() noexcept {
 }
 
 Result<bool> BoardLink::take() {
-    const bool broken = broken_.load(std::memory_order_acquire);  // asked first: what came before is taken now
+    const bool broken = broken_.load(std::memory_order_acquire);  // read first: earlier bytes are still taken below
     if (const auto chunk = ring_->pop()) {
         std::copy_n(chunk->bytes.begin(), chunk->size, buffer_.begin());
         pending_ = std::span(buffer_).first(chunk->size);

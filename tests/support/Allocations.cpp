@@ -14,7 +14,7 @@ bool tacto::test::countsAllocations() noexcept { return false; }
 #else
 bool tacto::test::countsAllocations() noexcept { return true; }
 
-// This is a file of its own, so that no call of new is inlined into its delete.
+// In a file of its own, so that the compiler cannot inline a call of new into its delete.
 void* operator new(std::size_t size) {
     ++allocations;
     if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;

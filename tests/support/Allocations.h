@@ -1,14 +1,14 @@
-// Allocations.h - counts what the calling thread takes with new. Link test_allocations: it replaces the program's
+// Allocations.h - counts the calling thread's allocations with new. Link test_allocations, which replaces the program's
 // operators.
 //
-// Thread-safety: any thread; each counts its own.
+// Thread-safety: any thread; each thread has its own count.
 #pragma once
 
 #include <cstddef>
 
 namespace tacto::test {
 
-/// False under the sanitizers, which bring their own operators: then `GTEST_SKIP() << kNotCounted;`
+/// Returns false under the sanitizers, which have their own operators: then use `GTEST_SKIP() << kNotCounted;`
 [[nodiscard]] bool countsAllocations() noexcept;
 inline constexpr const char* kNotCounted = "the sanitizers count allocations themselves";
 

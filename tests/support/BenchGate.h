@@ -1,4 +1,4 @@
-// BenchGate.h - a gate that allows a source what it can do on a bench load, and what it approves.
+// BenchGate.h - a safety gate that allows a source everything it can do on a bench load, and trains approved by it.
 //
 // Thread-safety: as SafetyGate.
 #pragma once
@@ -11,7 +11,7 @@
 
 namespace tacto::test {
 
-/// A gate for `source` on a 1 kohm bench load that allows up to 1000 V; nothing else is asked of it.
+/// Makes a gate for `source` on a 1 kohm bench load that allows up to 1000 V and has no other limits.
 [[nodiscard]] inline std::unique_ptr<SafetyGate> benchGate(const Clock& clock, const SourceTraits& source) {
     LimitRow row;
     row.quantity = tacto::Quantity::PeakVoltage;
@@ -29,7 +29,7 @@ namespace tacto::test {
     return gate;
 }
 
-/// What it approves now; no train follows for `interval`, or for as long as this one lasts.
+/// Returns `train` approved now; no train follows within `interval`, or within this train's length if that is longer.
 [[nodiscard]] inline ApprovedTrain approve(SafetyGate& gate, const Clock& clock, const PulseTrain& train,
                                            Seconds interval = Seconds(2)) {
     TrainRequest request;

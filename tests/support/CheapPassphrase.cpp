@@ -1,6 +1,6 @@
-// Linked or preloaded into a program: it makes the key of a passphrase at the least cost that libsodium accepts. At the
-// program's own, half a second and 256 MB, that is two thirds of what the tests of studies take. One test keeps the
-// full cost (tests/cli/StudyCommandTest.cpp); that it is the default is asked in tests/study/SealedTextTest.cpp.
+// Linked or preloaded into a program, this file derives a passphrase's key at the lowest cost that libsodium accepts.
+// At the program's own cost (0.5 s and 256 MB), keys take two thirds of the time of the study tests. One test keeps
+// this cost (tests/cli/StudyCommandTest.cpp); tests/study/SealedTextTest.cpp checks that it is the default.
 #include <dlfcn.h>
 #include <sodium.h>
 

@@ -1,4 +1,4 @@
-// Comes.h - asks again and again whether something has come.
+// Comes.h - waits until a condition becomes true, checking it again and again.
 //
 // Thread-safety: the caller's thread.
 #pragma once
@@ -8,7 +8,7 @@
 
 namespace tacto::test {
 
-/// Waits as long as a person would.
+/// Returns whether `condition` became true within `within`; the default is as long as a person would wait.
 template <class Condition>
 [[nodiscard]] bool comes(Condition condition, std::chrono::milliseconds within = std::chrono::seconds(5)) {
     const auto end = std::chrono::steady_clock::now() + within;

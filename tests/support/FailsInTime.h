@@ -1,8 +1,8 @@
-// FailsInTime.h - assertions about why something fails on the machine's clock.
+// FailsInTime.h - assertions about why something fails, for tests on the computer's real clock.
 //
-// A machine that stands still turns an expected error into one of three others: the answer came too late (Timeout), the
-// output is off by then (NotArmed), or the work was ended (Stopped). Only these are a missed deadline as InTime.h has
-// it; any other error is wrong however late it comes.
+// If the computer stalls, an expected error turns into one of three others: the answer came too late (Timeout), the
+// output was already off (NotArmed), or the work was ended (Stopped). Only these count as a missed deadline in the
+// sense of InTime.h; any other error is wrong, however late it comes.
 //
 // Thread-safety: as gtest's assertions.
 #pragma once

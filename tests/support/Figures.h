@@ -1,4 +1,4 @@
-// Figures.h - numbers that a script of tests/reference makes another way, for tests to be held against.
+// Figures.h - numbers that a script in tests/reference computes in another way, for tests to compare with.
 //
 // Thread-safety: any thread.
 #pragma once
@@ -8,7 +8,7 @@
 
 namespace tacto::test {
 
-/// tests/reference/<name>.json. Read with at(): a figure that is missing fails the test.
+/// Returns tests/reference/<name>.json. Read values with at(), so that a missing figure fails the test.
 [[nodiscard]] const nlohmann::json& figuresOf(std::string_view name);
 
 }  // namespace tacto::test

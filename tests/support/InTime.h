@@ -1,14 +1,14 @@
-// InTime.h - assertions about how late something may come, kept apart from assertions about what may never happen.
+// InTime.h - assertions about deadlines, kept apart from assertions about what must never happen.
 //
-// A machine that stands still makes a program late; it cannot make it deliver a train after a stop. On the machine's
-// clock whatever must happen is a deadline (a bench arms, delivers, waits: a status that comes 50 ms late switches it
-// off, as it should), and whatever must not happen is none. A test that failed by EXPECT_IN_TIME or ASSERT_IN_TIME
-// alone is tried again where the machine stood still (support/Standstill.cpp); any other failure is one. There an
-// ASSERT_IN_TIME also ends the test from within a function that the test calls.
+// A computer that stalls makes a program late, but cannot make it deliver a train after a stop. On the real clock,
+// everything that must happen has a deadline (for example, a status that comes 50 ms late rightly switches the bench
+// off); what must not happen has none. If a test fails only by EXPECT_IN_TIME or ASSERT_IN_TIME and the computer
+// stalled, it is tried again (support/Standstill.cpp); any other failure is final. In such tests an ASSERT_IN_TIME also
+// ends the test from within a function that the test calls.
 //
-// A Result missed a deadline only if its error is one that lateness causes: no answer in time (Timeout), the output off
-// by then (NotArmed), or the work ended (Stopped). A silent control loop, an approval that expired and a watchdog that
-// had to stop the output are Timeout. Every other error, a device's above all, is wrong however late it comes.
+// A Result counts as a missed deadline only if lateness can cause its error: no answer in time (Timeout), output
+// already off (NotArmed), or the work ended (Stopped). A silent control loop, an expired approval and a watchdog that
+// stopped the output are Timeout. Every other error, above all a device's, is wrong, however late it comes.
 //
 // Thread-safety: as gtest's assertions.
 #pragma once
@@ -18,10 +18,10 @@
 
 namespace tacto::test {
 
-/// What the message of a missed deadline begins with.
+/// How the message of a missed deadline begins.
 inline constexpr const char* kNotInTime = "not in time: ";
 
-/// `happened`: a truth, or a Result, whose error is shown.
+/// `happened` is a bool or a Result; the error of a Result is shown.
 template <class Happened>
 [[nodiscard]] testing::AssertionResult inTime(const char* what, const Happened& happened) {
     if (happened) return testing::AssertionSuccess();

@@ -1,6 +1,6 @@
-// Preloaded into a program: ends it by SIGKILL at the n-th time that it makes something durable (fsync, fdatasync),
-// where TACTO_KILL_AT_SYNC says n. Every committed row is made durable, so every n together are every event; a count
-// that the program does not reach kills nothing.
+// Preloaded into a program: kills it with SIGKILL at its n-th call that makes data durable (fsync, fdatasync), where n
+// is TACTO_KILL_AT_SYNC. Every committed row makes such a call, so that running with every n covers every event. If the
+// program makes fewer calls, nothing is killed.
 #include <atomic>
 #include <csignal>
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// Limits.h - the limit sets that are shipped, as their files are.
+// Limits.h - the shipped limit sets, read from their files.
 //
 // Thread-safety: the test's own thread.
 #pragma once
@@ -11,7 +11,7 @@
 
 namespace tacto::test {
 
-/// resources/limits.
+/// Returns the limit sets in resources/limits.
 inline const std::vector<LimitSet>& limitSets() {
     static const auto all = [] {
         std::vector<LimitSet> sets;

@@ -1,6 +1,6 @@
-// Linked into tests that run once more in another locale (tacto_in_locales() in tests/CMakeLists.txt), and does what Qt
-// does in the programs: the C library follows the environment. Where the locale that TACTO_LOCALE names is not there,
-// or writes no decimal comma, the program ends at once and has failed.
+// Linked into tests that also run in another locale (tacto_in_locales() in tests/CMakeLists.txt): sets the C library's
+// locale from the environment, as Qt does in the programs. If the locale TACTO_LOCALE is missing or has no decimal
+// comma, the program ends at once as failed.
 #include <clocale>
 #include <cstdio>
 #include <cstdlib>

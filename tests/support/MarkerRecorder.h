@@ -1,7 +1,7 @@
-// MarkerRecorder.h - a recorder of EEG as a test has it: connects to this computer's port and keeps the lines that
-// come.
+// MarkerRecorder.h - a test's stand-in for an EEG recorder: connects to a port of this computer and stores the lines
+// that arrive.
 //
-// Thread-safety: the test's own thread; lines() from any.
+// Thread-safety: the test's own thread; any thread may call lines().
 #pragma once
 
 #include <arpa/inet.h>
@@ -21,7 +21,7 @@
 
 namespace tacto::test {
 
-/// A port of 127.0.0.1 that no program has now; the socket holds it until it is closed.
+/// Reserves a port of 127.0.0.1 that no program uses; the socket keeps the port until it is closed.
 class HeldPort {
 public:
     HeldPort() = default;
@@ -42,7 +42,7 @@ private:
 class MarkerRecorder {
 public:
     enum class Reads { Everything, Nothing };
-    /// Tries for 20 s to connect.
+    /// Tries to connect for 20 s.
     explicit MarkerRecorder(std::uint16_t port, Reads reads = Reads::Everything) : reads_(reads) {
         reader_ = std::thread([this, port] { work(port); });
     }

@@ -1,6 +1,6 @@
-// Preloaded into a program: its clock on the wall is TACTO_CLOCK_AHEAD seconds ahead (behind: negative), from the
-// beginning or, where TACTO_CLOCK_FROM_SYNC says n, from the n-th time on that it makes something durable (fsync,
-// fdatasync). Clocks that never go back are left alone.
+// Preloaded into a program: moves its wall clock ahead by TACTO_CLOCK_AHEAD seconds (negative: back), from the start
+// or, if TACTO_CLOCK_FROM_SYNC is n, from its n-th call that makes data durable (fsync, fdatasync). Monotonic clocks
+// are not changed.
 #include <atomic>
 #include <cstdlib>
 #include <ctime>

@@ -25,7 +25,7 @@ std::pair<std::string, int> outputOf(const std::string& line) {
 }
 
 OtherProgram::OtherProgram(const std::filesystem::path& file, bool locked) {
-    // A spawned program has what it inherits from its first moment on; only the lock needs the file open here.
+    // A spawned program has its inherited files from the start; only the lock needs the file opened here.
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     constexpr int kItsOwn = 9;
@@ -39,7 +39,7 @@ OtherProgram::OtherProgram(const std::filesystem::path& file, bool locked) {
     std::string program = "/bin/sleep";
     std::string long_s = "600";
     std::array<char*, 3> arguments{program.data(), long_s.data(), nullptr};
-    std::array<char*, 1> environment{nullptr};  // without the libraries that tests preload
+    std::array<char*, 1> environment{nullptr};  // so without the libraries that tests preload
     const int spawned =
         posix_spawn(&process_, program.c_str(), &actions, nullptr, arguments.data(), environment.data());
     posix_spawn_file_actions_destroy(&actions);

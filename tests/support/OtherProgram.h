@@ -1,5 +1,5 @@
-// OtherProgram.h - other processes: one that has a file open and does nothing else, as a program that uses a device,
-// one that is run to its end, and one that is told what to do and killed.
+// OtherProgram.h - other processes: one that only keeps a file open (like a program that uses a device), one that runs
+// to its end, and one that takes commands and is killed.
 //
 // Thread-safety: the test's own thread.
 #pragma once
@@ -13,45 +13,45 @@
 
 namespace tacto::test {
 
-/// What a command line prints, and its exit code.
+/// Runs a command line and returns its output and exit code.
 [[nodiscard]] std::pair<std::string, int> outputOf(const std::string& line);
 
 class OtherProgram {
 public:
-    /// `locked`: it also holds the file's lock (flock). Returns when it has the file open.
+    /// If `locked`, the program also holds the file's lock (flock). Returns once the program has the file open.
     explicit OtherProgram(const std::filesystem::path& file, bool locked = false);
     ~OtherProgram();
     OtherProgram(const OtherProgram&) = delete;
     OtherProgram& operator=(const OtherProgram&) = delete;
 
-    /// "sleep (pid 123)": how a message names it.
+    /// Returns the program's name as messages show it: "sleep (pid 123)".
     [[nodiscard]] std::string text() const;
 
 private:
     pid_t process_ = -1;
-    int file_ = -1;  // the same open file, which keeps the lock until both have closed it
+    int file_ = -1;  // the same open file; its lock lasts until both processes close it
 };
 
-/// A program that drives a device until it is killed; on its input and output are words of this one. A signal that this
-/// program ignores, as SIGINT under nohup, ends it all the same.
+/// A program that drives a device until it is killed; this process writes its input and reads its output. A signal that
+/// this process ignores, such as SIGINT under nohup, still ends the program.
 class HostProcess {
 public:
-    /// The program and its arguments. Throws where it does not start.
+    /// `words` are the program and its arguments. Throws if the program does not start.
     explicit HostProcess(std::vector<std::string> words);
     ~HostProcess();
     HostProcess(const HostProcess&) = delete;
     HostProcess& operator=(const HostProcess&) = delete;
 
     void signal(int number) const;
-    /// Waits until it has printed something, and takes one byte of it; false when it ended without.
+    /// Waits until the program prints something and reads one byte of it; returns false if it ended without printing.
     [[nodiscard]] bool speaks() const;
-    /// The next line that it prints; nothing after 20 s, or when it has ended.
+    /// Returns the next line that the program prints; nothing after 20 s, or if the program has ended.
     [[nodiscard]] std::optional<std::string> readLine();
-    /// False when it does not listen any more.
+    /// Returns false if the program no longer reads its input.
     bool tell(const std::string& line) const;
-    /// Returns when the kernel has stopped every thread of it.
+    /// Stops the program; returns once the kernel has stopped all its threads.
     [[nodiscard]] bool stopAndWait() const;
-    /// Waits for its end; how it ended, as waitpid() says.
+    /// Waits for the program's end and returns its status as waitpid() gives it.
     [[nodiscard]] int ended();
 
 private:

@@ -1,4 +1,4 @@
-// PassingStimulator.h - wraps a stimulator, for tests that change one thing about it.
+// PassingStimulator.h - wraps a stimulator, for tests that change one detail of it.
 //
 // Thread-safety: as Stimulator.
 #pragma once
@@ -10,7 +10,7 @@
 
 namespace tacto::test {
 
-/// Forwards every call.
+/// Forwards every call to the wrapped stimulator.
 class PassingStimulator : public Stimulator {
 public:
     explicit PassingStimulator(std::unique_ptr<Stimulator> inner) : inner_(std::move(inner)) {}

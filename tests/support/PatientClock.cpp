@@ -1,13 +1,12 @@
-// A clock that waits for the machine, for tests of programs behind an emulated device: linked into the test, which
-// preloads it into the programs that it starts. All of them read the same time.
+// A clock that waits if the computer is slow, for tests of programs that use an emulated device. Linked into the test,
+// which preloads it into the programs that it starts, so that all of them read the same time.
 //
-// The thread that watches for standstills (Standstill.cpp) beats every few milliseconds, each time after a word to
-// another thread and a byte through a pseudo-terminal have come back. Between two beats at most kMaxBetween pass, and
-// they pass as slowly as programs share the processors: with eight that would run on two, a quarter as fast. Where the
-// machine stands still, hands nothing over or is busy with others, the deadlines of both ends wait with them: an answer
-// comes too late only where the program or the device is slow. Who reads CLOCK_MONOTONIC or CLOCK_BOOTTIME has this
-// time; who sleeps, or waits by poll, ppoll or a condition of C++, does so by it. The time on the wall is the
-// machine's.
+// The thread that watches for stalls (Standstill.cpp) beats every few milliseconds, each time after a message to
+// another thread and a byte through a pseudo-terminal have come back. Between two beats this clock advances by at most
+// kMaxBetween, slowed down by the load: with eight threads ready on two processors it runs a quarter as fast. If the
+// computer stalls, passes nothing on or is busy with other work, the deadlines of both ends wait too: an answer is late
+// only if the program or the device is slow. CLOCK_MONOTONIC and CLOCK_BOOTTIME show this time; sleeping and waiting by
+// poll, ppoll or a C++ condition variable follow it. Wall-clock time is not changed.
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
@@ -29,18 +28,18 @@ namespace {
 
 using Nanoseconds = std::int64_t;
 
-constexpr Nanoseconds kMaxBetween = 8'000'000;     // twice what is usual between two beats
-constexpr Nanoseconds kAbandoned = 5'000'000'000;  // after so long without a beat, the beating process is gone
+constexpr Nanoseconds kMaxBetween = 8'000'000;     // twice the usual time between two beats
+constexpr Nanoseconds kAbandoned = 5'000'000'000;  // after so long without a beat, the beating process has ended
 constexpr Nanoseconds kLook = 1'000'000;
-constexpr double kSlowest = 0.125;  // a test of 10 s is to end
+constexpr double kSlowest = 0.125;  // lower limit, so that a test of 10 s ends
 constexpr const char* kPageName = "TACTO_PATIENT_CLOCK";
 
-/// What all of them share. Written by the test's own watch alone.
+/// The data that all processes share. Only the test's own watch thread writes them.
 struct Page {
-    std::atomic<std::uint32_t> turn;  ///< odd while the rest is written
-    std::atomic<Nanoseconds> beat;    ///< by the machine's clock
+    std::atomic<std::uint32_t> turn;  ///< odd while the other members are being written
+    std::atomic<Nanoseconds> beat;    ///< time of the last beat on the real clock
     std::atomic<Nanoseconds> own;     ///< this clock's time at that beat
-    std::atomic<double> rate;         ///< its pace over the machine's; 0: nobody beats, time passes as the machine's
+    std::atomic<double> rate;         ///< this clock's speed relative to the real clock; 0: no beats, same speed
 };
 std::atomic<Page*> page{nullptr};
 bool isOwner = false;
@@ -70,8 +69,8 @@ struct Now {
     double rate = 1;
     bool isHeld = false;
 
-    /// How long to wait in the machine's time before looking again whether `end` has come in this clock's. This clock
-    /// is never faster, and its rate holds for a moment: waiting for all of it could be much too long.
+    /// Returns how much real time to wait before checking again whether `end` has come on this clock. This clock never
+    /// runs faster than the real clock and its rate may soon change: waiting for the whole time could be much too long.
     [[nodiscard]] Nanoseconds until(Nanoseconds end) const {
         const Nanoseconds left = end - own;
         if (left <= 0) return 0;
@@ -87,14 +86,14 @@ Now now() {
         const Nanoseconds beat = shared->beat, own = shared->own;
         const double rate = shared->rate;
         if (turn % 2 != 0 || shared->turn.load() != turn) continue;
-        const auto passed = std::max<Nanoseconds>(0, machine - beat);  // the beat may have come after the reading
+        const auto passed = std::max<Nanoseconds>(0, machine - beat);  // the beat may be newer than the reading
         if (rate == 0) return {own + passed, machine};
         const auto counted = static_cast<Nanoseconds>(rate * static_cast<double>(std::min(passed, kMaxBetween)));
         return {own + counted + std::max<Nanoseconds>(0, passed - kAbandoned), machine, rate, passed > kMaxBetween};
     }
 }
 
-/// Changes the rate from this moment on.
+/// Changes the rate from now on.
 void write(double rate) {
     const auto at = now();
     Page& shared = *page;
@@ -105,7 +104,7 @@ void write(double rate) {
     ++shared.turn;
 }
 
-/// The share of a processor that a thread gets which would run now.
+/// Returns the share of a processor that a thread that is ready to run gets.
 double shareOfProcessor() {
     static const int file = open("/proc/loadavg", O_RDONLY | O_CLOEXEC);
     char text[64]{};
@@ -117,10 +116,10 @@ double shareOfProcessor() {
     return std::clamp(static_cast<double>(sysconf(_SC_NPROCESSORS_ONLN)) / std::max(1, running), kSlowest, 1.0);
 }
 
-/// Opens what the test that started this program shares, or makes it: then this is the test.
+/// Opens the page shared by the test that started this program; without one, this is the test and makes the page.
 [[gnu::constructor]] void begin() {
     const char* const given = std::getenv(kPageName);
-    const auto mine = "/proc/" + std::to_string(getpid()) + "/fd/";  // a test that is tried again made it before
+    const auto mine = "/proc/" + std::to_string(getpid()) + "/fd/";  // a test that runs again made the page before
     const bool isGiven = given != nullptr && std::string(given).rfind(mine, 0) != 0;
     const int file = isGiven ? open(given, O_RDONLY | O_CLOEXEC) : memfd_create("clock", MFD_CLOEXEC);
     if (file < 0 || (!isGiven && ftruncate(file, sizeof(Page)) != 0)) return;
@@ -146,11 +145,11 @@ double shareOfProcessor() {
 
 }  // namespace
 
-/// The test's watch calls it every few milliseconds, while the machine does what it should.
+/// The test's watch thread calls this every few milliseconds, unless the computer stalls.
 extern "C" void tactoBeat() {
     if (isOwner) write(shareOfProcessor());
 }
-/// From here on time passes as the machine's.
+/// From here on this clock runs like the real clock.
 extern "C" void tactoRest() {
     if (isOwner) write(0);
 }
@@ -201,7 +200,7 @@ extern "C" int nanosleep(const std::timespec* time, std::timespec* left) {
     return ended == 0 ? 0 : -1;
 }
 
-/// A timer that this clock keeps: libusb's, which looks at the time again when it is over.
+/// Sets a timer on this clock; for libusb, which reads the time again when the timer expires.
 extern "C" int timerfd_settime(int timer, int flags, const itimerspec* time, itimerspec* before) {
     static auto* const set = next<int(int, int, const itimerspec*, itimerspec*)>("timerfd_settime");
     const bool isOff = time->it_value.tv_sec == 0 && time->it_value.tv_nsec == 0;
@@ -212,7 +211,7 @@ extern "C" int timerfd_settime(int timer, int flags, const itimerspec* time, iti
     return set(timer, flags, &machines, before);
 }
 
-/// A thread that waits longer than the machine's time looks again, as after any waking without a reason.
+/// A thread that has waited its share of real time wakes and checks again, as after any spurious wake-up.
 extern "C" int pthread_cond_clockwait(pthread_cond_t* condition, pthread_mutex_t* mutex, clockid_t clock,
                                       const std::timespec* until) {
     static auto* const wait =

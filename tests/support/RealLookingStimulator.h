@@ -1,4 +1,4 @@
-// RealLookingStimulator.h - a twin that a bench takes for a device.
+// RealLookingStimulator.h - a simulated stimulator that the bench takes for a real device.
 //
 // Thread-safety: as Stimulator.
 #pragma once
@@ -14,7 +14,7 @@ namespace tacto::test {
 /// Reports itself as real hardware.
 class RealLookingStimulator final : public PassingStimulator {
 public:
-    /// Has the twin's serial number, or one that no other test claims where the whole program drives it (OwnSerial).
+    /// Has the twin's serial number, or `serial`; tests that run the whole program use one of their own (OwnSerial).
     explicit RealLookingStimulator(std::unique_ptr<Stimulator> twin, const std::string& serial = "")
         : PassingStimulator(std::move(twin)), identity_(inner().identity()) {
         identity_.simulated = false;
@@ -26,7 +26,7 @@ public:
         return PassingStimulator::deliver(std::move(train));
     }
 
-    /// Trains and impedance checks so far; on the virtual clock.
+    /// Returns the number of trains and impedance checks so far; for use on the virtual clock.
     [[nodiscard]] int delivered() const noexcept { return delivered_; }
 
 private:

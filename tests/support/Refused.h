@@ -1,4 +1,4 @@
-// Refused.h - what a call must give, and what a refused one says: its code, and its sentence or a part of it.
+// Refused.h - helpers to check a Result: unwrap an accepted value, or match the code and sentence of an error.
 //
 // Thread-safety: pure functions.
 #pragma once
@@ -13,7 +13,7 @@
 
 namespace tacto::test {
 
-/// What a call gave; where it gave none, the test fails with what it said.
+/// Returns the value in `given`; if it holds an error, the test fails with the error's message.
 template <typename Given>
 auto accepted(Given given) {
     if constexpr (requires { given.error().message; }) {
@@ -22,7 +22,7 @@ auto accepted(Given given) {
     if constexpr (!std::is_void_v<typename Given::value_type>) return std::move(given).value();
 }
 
-/// A result that failed with a sentence that holds `says`, or that a matcher `says` matches.
+/// Matches a failed Result with a message that contains `says`, or that the matcher `says` accepts.
 MATCHER_P(refusedSaying, says, "is refused") {
     if (arg) {
         *result_listener << "it was accepted";
@@ -36,10 +36,10 @@ MATCHER_P(refusedSaying, says, "is refused") {
         return testing::Matches(says)(message);
 }
 
-/// A result that failed with `code`.
+/// Matches a failed Result with this code.
 MATCHER_P(refused, code, "is refused") { return !arg && arg.error().code == code; }
 
-/// With both.
+/// Matches a failed Result with this code and message.
 template <typename Says>
 auto refused(ErrorCode code, Says says) {
     return testing::AllOf(refused(code), refusedSaying(says));

@@ -1,4 +1,4 @@
-// Preloaded into a program with an alarm() for which a test does not want to wait: a second passes in 20 ms.
+// Preloaded into a program that uses alarm(): shortens each second of the alarm to 20 ms, so that a test need not wait.
 #include <sys/time.h>
 
 extern "C" unsigned alarm(unsigned seconds) {

@@ -1,14 +1,14 @@
-// Linked into tests that wait by the clock. The program switches its output off when 50 or 100 ms pass without a sign
-// of life, as it should; a machine that does not give it a processor for so long makes it do so without a fault.
+// Linked into tests that depend on real time. The program rightly switches its output off after 50 or 100 ms without a
+// sign of life; a computer that gives it no processor for so long causes this without a fault.
 //
-// A thread that sleeps a few milliseconds at a time and sends a byte through a pseudo-terminal sees how long the
-// machine stood still, and one that it wakes each time how long a word from thread to thread takes (a transfer of an
-// emulated USB device takes ten of them). Linux says how long each thread of the test and of the programs that it
-// started waited for a processor, and how long the processors were taken from the virtual machine: it may be another
-// thread's that stood still, not the watch's. A test that fails on a machine that does all of it in time has failed,
-// and so has one of which anything but a deadline failed (support/InTime.h). One that was only late on another machine
-// is tried again from the start, five times in all, each when the machine has been calm. What fails five times has
-// failed. Every retry is a line of the file that TACTO_RETRIES names: ./dev prints and counts them.
+// One thread sleeps a few milliseconds at a time and sends a byte through a pseudo-terminal, which shows how long the
+// computer stalled. A second thread, woken each time, shows how long a message between threads takes (a transfer of an
+// emulated USB device takes ten of them). Linux tells how long each thread of the test and of its programs waited for a
+// processor, and how much processor time the virtual machine lost, since another thread than the watch may have
+// stalled. A test that fails on a computer without stalls has failed, and so has a test with any failure other than a
+// deadline (support/InTime.h). A test that was only late on a stalled computer runs again, five times in all, each time
+// after the computer was calm; after five failures it has failed. Each retry adds a line to the file TACTO_RETRIES,
+// which ./dev prints and counts.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -36,13 +36,13 @@
 
 #include "tests/support/InTime.h"
 
-/// Comes from the patient clock where that is linked (PatientClock.cpp).
+/// Defined by the patient clock if that is linked (PatientClock.cpp).
 extern "C" [[gnu::weak]] void tactoBeat();
 extern "C" [[gnu::weak]] void tactoRest();
 
 namespace {
 
-/// The machine's time, whichever clock the test has.
+/// The real clock, whichever clock the test uses.
 struct Clock {
     using duration = std::chrono::nanoseconds;
     using rep = duration::rep;
@@ -57,13 +57,13 @@ struct Clock {
 };
 using Milliseconds = std::chrono::duration<double, std::milli>;
 
-constexpr Milliseconds kStill{25};    // half of the shortest that is waited for, the 50 ms of a stimulator's status
-constexpr Milliseconds kSlowWord{1};  // fifty times the usual: ten of them and back are half of 50 ms
+constexpr Milliseconds kStill{25};    // half of the shortest deadline, the 50 ms of a stimulator's status
+constexpr Milliseconds kSlowWord{1};  // fifty times the usual; ten such round trips are half of 50 ms
 constexpr int kTries = 5;
 constexpr const char* kTry = "TACTO_TEST_TRY";
 
-/// A pseudo-terminal. What is written at one end waits for a thread of the kernel's, which counts for no process,
-/// before it is read at the other. Not through the C library, as KernelFile.
+/// A pseudo-terminal. A byte written at one end waits for a kernel thread, which belongs to no process, before it can
+/// be read at the other. Avoids the C library, as KernelFile does.
 class KernelLine {
 public:
     KernelLine()
@@ -83,7 +83,7 @@ public:
     KernelLine(const KernelLine&) = delete;
     KernelLine& operator=(const KernelLine&) = delete;
 
-    /// Returns when a byte has come through.
+    /// Returns once a byte has passed through.
     void pass() const {
         char byte = 'x';
         if (works_ && ::syscall(SYS_write, slave_, &byte, 1) == 1) ::syscall(SYS_read, master_, &byte, 1);
@@ -94,7 +94,7 @@ private:
     bool works_ = false;
 };
 
-/// Two threads that pass a word to and fro.
+/// Two threads that pass a message back and forth.
 class Words {
 public:
     Words() : echo_([this] { run(); }) {}
@@ -141,11 +141,11 @@ private:
     std::atomic<bool> ending_{false};
     int passed_ = 0;
     int slow_ = 0;
-    std::thread echo_;  // last: starts when all else is ready
+    std::thread echo_;  // declared last: starts when everything else is ready
 };
 
-// Reads without the C library: umockdev stands in it under some tests, with a lock around every file that is opened,
-// and the thread sanitizer's report of a race there would wait for that lock and never end.
+// Reads without the C library: in some tests umockdev replaces its calls and locks around every open, and the thread
+// sanitizer's report of a race there would wait for that lock forever.
 class KernelFile {
 public:
     explicit KernelFile(const std::string& path)
@@ -160,7 +160,7 @@ private:
     const int number_;
 };
 
-/// The first 4 KiB; "" when it is gone.
+/// Returns the first 4 KiB, or "" if the file is gone.
 std::string contentOf(const std::string& path) {
     const KernelFile file(path);
     char text[4096];
@@ -168,7 +168,7 @@ std::string contentOf(const std::string& path) {
     return {text, static_cast<std::size_t>(std::max(0L, size))};
 }
 
-/// None when it is gone.
+/// Returns an empty list if the folder is gone.
 std::vector<std::string> namesIn(const std::string& folder) {
     const KernelFile file(folder);
     std::vector<std::string> names;
@@ -183,7 +183,7 @@ std::vector<std::string> namesIn(const std::string& folder) {
     return names;
 }
 
-/// How long threads were kept from a processor, as Linux counts it: the most within about 100 ms.
+/// Measures how long threads waited for a processor, as Linux counts it: the longest wait within about 100 ms.
 class Waits {
 public:
     void look() {
@@ -205,10 +205,10 @@ public:
 private:
     static constexpr Milliseconds kBetween{50};
     struct Count {
-        Milliseconds total, before;  ///< time lost by the last look, and what the look before it had added
+        Milliseconds total, before;  ///< time lost up to the last look, and what the look before added
     };
 
-    /// The stolen time of all processors.
+    /// Returns the stolen time of all processors together.
     [[nodiscard]] static Milliseconds stolen() {
         std::string cpu;
         double user = 0, nice = 0, system = 0, idle = 0, waiting = 0, interrupts = 0, soft = 0, steal = 0;
@@ -216,7 +216,7 @@ private:
             soft >> steal;
         return Milliseconds(1e3 * steal / static_cast<double>(::sysconf(_SC_CLK_TCK)));
     }
-    /// This process and those that it started.
+    /// Returns this process and the processes that it started.
     [[nodiscard]] static std::vector<std::string> processes() {
         std::vector<std::string> all{"/proc/self"};
         for (const auto& task : namesIn("/proc/self/task")) {
@@ -228,7 +228,7 @@ private:
     void take(const std::string& whose, Milliseconds total) {
         const auto [at, isNew] = counts_.try_emplace(whose, Count{total, Milliseconds(0)});
         auto& [last, before] = at->second;
-        // What was waited before the first look is not the test's; a thread that is new later is as young as that.
+        // Waits before the first look are not the test's; a thread that appears later has waited only since it started.
         const auto added = !isNew ? total - last : isFirst_ ? Milliseconds(0) : total;
         longest_ = std::max(longest_, before + added);
         last = total;
@@ -236,13 +236,13 @@ private:
     }
 
     Clock::time_point last_{};
-    bool isFirst_ = true;  ///< the first look
+    bool isFirst_ = true;  ///< true during the first look
     std::map<std::string, Count> counts_;
     Milliseconds longest_{0};
 };
 
-/// Whether anything failed that no standstill excuses. An ASSERT_IN_TIME ends its test from within a function that the
-/// test calls, too: a failure for want of that would not be a deadline.
+/// Notes whether anything failed that no stall excuses. Ends a test at an ASSERT_IN_TIME even within a function that
+/// the test calls: otherwise a later failure caused by it would not count as a deadline.
 class Failures : public testing::EmptyTestEventListener {
 public:
     void OnTestPartResult(const testing::TestPartResult& part) override {
@@ -257,7 +257,7 @@ public:
 
 private:
     const std::thread::id tests_ = std::this_thread::get_id();
-    std::atomic<bool> broken_{false};  // a test's threads may fail, too
+    std::atomic<bool> broken_{false};  // atomic: a test's other threads may fail too
 };
 
 class StandstillWatch : public testing::Environment {
@@ -265,7 +265,7 @@ public:
     void SetUp() override {
         testing::UnitTest::GetInstance()->listeners().Append(owned_.release());
         if (tactoBeat != nullptr) tactoBeat();
-        // Counts from here on, not from when the thread first gets a processor; and to the end.
+        // Measures from now on, not from when the thread first runs, and until the end.
         thread_ = std::thread([this, last = Clock::now()]() mutable {
             const KernelLine line;
             Words words;
@@ -315,10 +315,10 @@ public:
 
 private:
     static void nap() {
-        const timespec time{0, 4'000'000};  // the time between two looks: short against kStill, and cheap
+        const timespec time{0, 4'000'000};  // interval between two looks: short against kStill, and cheap
         ::syscall(SYS_nanosleep, &time, nullptr);
     }
-    /// A second without a standstill, or ten in all.
+    /// Waits for one second without a stall, but at most ten seconds.
     static void waitForCalm() {
         const auto begun = Clock::now();
         for (auto calm = begun, last = begun; last - calm < std::chrono::seconds(1);) {
@@ -341,18 +341,18 @@ private:
         ::execv("/proc/self/exe", arguments.data());
     }
 
-    std::unique_ptr<Failures> owned_ = std::make_unique<Failures>();  // owned here until tests begin; then by gtest
+    std::unique_ptr<Failures> owned_ = std::make_unique<Failures>();  // owned here until tests begin, then by gtest
     Failures* const failures_ = owned_.get();
     std::thread thread_;
     std::atomic<bool> ending_{false};
-    // The thread's, until it is joined:
+    // Used by the thread until it is joined:
     Milliseconds longest_{0};
     Milliseconds waited_{0};
     bool slowly_ = false;
     std::string said_;
 };
 
-// gtest owns it.
+// gtest owns this object.
 [[maybe_unused]] const auto* const kWatch = testing::AddGlobalTestEnvironment(new StandstillWatch);
 
 }  // namespace

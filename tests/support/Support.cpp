@@ -18,8 +18,8 @@ std::optional<std::filesystem::path> sharedData(std::string_view relative) {
 }
 
 ScratchDir::ScratchDir() {
-    // The name does not hold the process's number: a run starts more processes than there are numbers, and a killed one
-    // leaves its folder behind.
+    // The name does not contain the process number: process numbers repeat during a run, and a killed process leaves
+    // its folder behind.
     auto path = (std::filesystem::temp_directory_path() / "tactoscope-test-XXXXXX").string();
     if (::mkdtemp(path.data()) == nullptr) throw std::system_error(errno, std::generic_category(), path);
     path_ = path;

@@ -1,4 +1,4 @@
-// Support.h - what tests share: where files are, and scratch folders that clean up after themselves.
+// Support.h - helpers shared by all tests: paths of files, and temporary folders that remove themselves.
 //
 // Thread-safety: the test's own thread.
 #pragma once
@@ -10,15 +10,15 @@
 
 namespace tacto::test {
 
-/// The project's root folder.
+/// Returns the project's root folder.
 [[nodiscard]] std::filesystem::path sourceDir();
 
-/// A file or folder of ../shared/data, or nothing where a clone does not have it: then
-/// `GTEST_SKIP() << kNoSharedData;`
+/// Returns a file or folder in ../shared/data, or nothing if this clone does not have it; then use `GTEST_SKIP() <<
+/// kNoSharedData;`
 [[nodiscard]] std::optional<std::filesystem::path> sharedData(std::string_view relative);
 inline constexpr const char* kNoSharedData = "../shared/data is not here: real recordings are skipped";
 
-/// A fresh folder, removed with everything in it when the object goes.
+/// A new folder, removed with its contents by the destructor.
 class ScratchDir {
 public:
     ScratchDir();
@@ -26,17 +26,17 @@ public:
     ScratchDir(const ScratchDir&) = delete;
     ScratchDir& operator=(const ScratchDir&) = delete;
     [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
-    /// Writes a file below the folder, its owner's alone, and returns its path.
+    /// Writes a file in the folder, accessible only to its owner, and returns its path.
     std::filesystem::path write(std::string_view name, std::string_view content) const;
 
 private:
     std::filesystem::path path_;
 };
 
-/// The serial number of a unit that no other test drives, with nothing left of it on the computer.
+/// A serial number that no other test uses; removes everything that is stored for it on this computer.
 class OwnSerial {
 public:
-    /// Ten characters, another each time. `begins`: at most three.
+    /// Makes ten characters, different each time, beginning with `begins` (at most three characters).
     explicit OwnSerial(std::string_view begins = "P2");
     ~OwnSerial();
     OwnSerial(const OwnSerial&) = delete;

@@ -1,4 +1,4 @@
-// TakenAdvice.h - the options that a refusal names, as a user would type them after it.
+// TakenAdvice.h - extracts the options that an error message advises, as a user would type them.
 //
 // Thread-safety: pure functions.
 #pragma once
@@ -13,8 +13,8 @@
 
 namespace tacto::test {
 
-/// "…; --time-column 1 reads it" gives {"--time-column", "1"}; HZ, which stands for a rate that only the user knows,
-/// becomes 1000. Empty where nothing is advised.
+/// For "…; --time-column 1 reads it" returns {"--time-column", "1"}; HZ, which stands for a rate that only the user
+/// knows, becomes 1000. Returns an empty list if the sentence advises nothing.
 [[nodiscard]] inline std::vector<std::string> advisedWords(std::string_view sentence) {
     constexpr std::string_view kBegins[] = {"; --", ", --sample-rate "};
     std::size_t at = 0;
@@ -31,7 +31,7 @@ namespace tacto::test {
     return words;
 }
 
-/// `options` with `words` added, as the command line reads them.
+/// Returns `options` with `words` added, as the command line would read them.
 [[nodiscard]] inline ReadOptions withAdvice(ReadOptions options, const std::vector<std::string>& words) {
     for (std::size_t i = 0; i + 1 < words.size(); i += 2) {
         const auto& option = words[i];

@@ -1,5 +1,5 @@
-// Trials.h - how often a test of chance tries: a few times on the way (./dev test), as often as its claim needs before
-// a change lands (.ci/run: TACTO_TRIALS=ci), and ten times as often on demand (./dev campaign: TACTO_TRIALS=campaign).
+// Trials.h - how many trials a random test makes: a few during development (./dev test), as many as its claim needs in
+// CI (.ci/run: TACTO_TRIALS=ci), and ten times as many on demand (./dev campaign: TACTO_TRIALS=campaign).
 //
 // Thread-safety: reads the environment.
 #pragma once
@@ -24,7 +24,7 @@ template <class Count>
     return wanted == "ci" ? counts.ci : counts.local;
 }
 
-/// How often to try a race, where a try takes a second.
+/// Number of trials of a race, for trials of about a second.
 [[nodiscard]] inline int raceTrials() { return trials<int>({.local = 20, .ci = 20, .campaign = 200}); }
 
 }  // namespace tacto::test

@@ -1,4 +1,4 @@
-// WrappedTwin.h - the simulated bench with something of a test's own around its stimulator.
+// WrappedTwin.h - the simulated bench with a test's own wrapper around its stimulator.
 //
 // Thread-safety: as Driver and Stimulator.
 #pragma once
@@ -17,7 +17,7 @@
 
 namespace tacto::test {
 
-/// Also forwards what the bench and other twins ask of a simulated stimulator.
+/// Also forwards what the bench and the other simulated devices ask of a simulated stimulator.
 class WrappedStimulator : public PassingStimulator, public StatesCalibration, public sim::WorldMember {
 public:
     using PassingStimulator::PassingStimulator;
@@ -31,10 +31,10 @@ public:
 
 class WrappedBench final : public Driver {
 public:
-    /// Called while the driver opens its stimulator.
+    /// Called when the driver opens its stimulator; returns the wrapped stimulator.
     using Wrap = std::function<std::unique_ptr<Stimulator>(std::unique_ptr<Stimulator>, const OpenContext&)>;
 
-    /// `virtualTime`: whether it runs on the virtual clock; nothing: as sim: itself.
+    /// `virtualTime`: true if the bench runs on the virtual clock; empty: as the driver of "sim:" itself.
     explicit WrappedBench(Wrap wrap, std::optional<bool> virtualTime = {})
         : wrap_(std::move(wrap)), virtualTime_(virtualTime.value_or(twin_->runsOnVirtualClock())) {}
     std::string_view scheme() const noexcept override { return twin_->scheme(); }

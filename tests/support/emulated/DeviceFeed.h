@@ -1,7 +1,7 @@
-// DeviceFeed.h - an emulated device in real time: a thread of its own sends what is due, as a device's own clock does.
-// Its creator carries its bytes: an emulated USB node, a pseudo-terminal.
+// DeviceFeed.h - runs an emulated device in real time: its own thread sends what is due, as a device's own clock would.
+// The creator carries the bytes, through an emulated USB node or a pseudo-terminal.
 //
-// Thread-safety: all members any thread.
+// Thread-safety: any thread.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ public:
     using Send = std::function<void(std::span<const std::uint8_t>)>;
     using PowerUp = std::function<std::unique_ptr<Device>(Instant)>;
 
-    /// `send` is called by the thread, with nothing locked. The device is looked at again after `rest` at the earliest.
+    /// The thread calls `send` without a lock. It asks the device for bytes again after `rest` at the earliest.
     DeviceFeed(const Clock& clock, Send send, PowerUp powerUp, Instant rest = Instant(0))
         : clock_(clock),
           send_(std::move(send)),
@@ -36,26 +36,26 @@ public:
     DeviceFeed(const DeviceFeed&) = delete;
     DeviceFeed& operator=(const DeviceFeed&) = delete;
 
-    /// Bytes from the host.
+    /// Passes bytes from the host to the device.
     void receive(std::span<const std::uint8_t> bytes) {
         change([&] {
             if (powered_) device_->receive(bytes, clock_.now());
         });
     }
-    /// Without power it says nothing; with it again it begins anew.
+    /// Without power the device sends nothing; when power returns, it restarts.
     void power(bool on) {
         change([&] {
             if (on && !powered_) device_ = powerUp_(clock_.now());
             powered_ = on;
         });
     }
-    /// No more is sent; for an owner whose `send` ends before this does. May be repeated.
+    /// Ends sending, for an owner that destroys what `send` uses first. May be called again.
     void stop() {
         change([this] { quitting_ = true; });
         if (thread_.joinable()) thread_.join();
     }
 
-    /// Calls `look(device, now)` while no other thread does anything with the device.
+    /// Calls `look(device, now)` while no other thread can use the device.
     template <class Look>
     auto inspect(Look&& look) {
         const std::scoped_lock lock(mutex_);
@@ -98,7 +98,7 @@ private:
     std::unique_ptr<Device> device_;  // guarded by mutex_
     bool powered_ = true;             // guarded by mutex_
     bool quitting_ = false;           // guarded by mutex_
-    std::thread thread_;              // Last: starts when all else is ready
+    std::thread thread_;              // declared last: starts when everything else is ready
 };
 
 }  // namespace tacto::test

@@ -24,7 +24,7 @@ Result<std::unique_ptr<PseudoTerminal>> PseudoTerminal::open() {
     termios raw{};
     if (made->slave_ < 0 || tcgetattr(made->slave_, &raw) != 0)
         return fail(ErrorCode::Io, "pseudo-terminal {} cannot be opened: {}", made->path_, std::strerror(errno));
-    cfmakeraw(&raw);  // or what a client sends before it has set up the terminal comes back as an echo
+    cfmakeraw(&raw);  // otherwise what a client sends before it sets up the terminal is echoed
     tcsetattr(made->slave_, TCSANOW, &raw);
     return made;
 }

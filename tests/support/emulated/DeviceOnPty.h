@@ -1,7 +1,7 @@
-// DeviceOnPty.h - an emulated device behind a pseudo-terminal, for programs that open a terminal: this project's own,
-// in another process, or another program's.
+// DeviceOnPty.h - an emulated device behind a pseudo-terminal, for programs in other processes that open a terminal:
+// this project's programs or others.
 //
-// Thread-safety: all members any thread.
+// Thread-safety: any thread.
 #pragma once
 
 #include <string>
@@ -11,23 +11,23 @@
 
 namespace tacto::test {
 
-/// A pseudo-terminal whose client may come and go.
+/// A pseudo-terminal that clients can open and close.
 class PseudoTerminal {
 public:
-    /// Errors: Io when the system gives none.
+    /// Errors: Io if the system provides none.
     [[nodiscard]] static Result<std::unique_ptr<PseudoTerminal>> open();
     ~PseudoTerminal();
     PseudoTerminal(const PseudoTerminal&) = delete;
     PseudoTerminal& operator=(const PseudoTerminal&) = delete;
 
-    /// What to open, "/dev/pts/3".
+    /// Returns the path to open, such as "/dev/pts/3".
     [[nodiscard]] const std::string& path() const noexcept { return path_; }
-    /// From now on a thread hands on what the client writes.
+    /// Starts a thread that passes on what the client writes.
     void listen(std::function<void(std::span<const std::uint8_t>)> receive);
-    /// Ends that.
+    /// Stops the thread of listen().
     void stop();
-    /// As on USB, where the host fetches: waits for a client that does not read. What is not fetched within a second is
-    /// lost.
+    /// Waits for a client that does not read, as on USB, where the host fetches the data. Bytes not fetched within a
+    /// second are lost.
     void send(std::span<const std::uint8_t> bytes) const noexcept;
 
 private:
@@ -35,7 +35,7 @@ private:
 
     // Constant once open() has returned:
     int master_ = -1;
-    int slave_ = -1;  // held open
+    int slave_ = -1;  // held open so that clients can come and go
     int wake_ = -1;
     std::string path_;
     std::thread listener_;
@@ -44,7 +44,7 @@ private:
 template <class Device>
 class DeviceOnPty {
 public:
-    /// `clock` outlives it and is steady. The others as of DeviceFeed.
+    /// `clock` must outlive this object and be steady. The other arguments are those of DeviceFeed.
     DeviceOnPty(std::unique_ptr<PseudoTerminal> terminal, const Clock& clock,
                 typename DeviceFeed<Device>::PowerUp powerUp, Instant rest = Instant(0))
         : terminal_(std::move(terminal)),
@@ -55,7 +55,7 @@ public:
     ~DeviceOnPty() { terminal_->stop(); }
 
     [[nodiscard]] const std::string& path() const noexcept { return terminal_->path(); }
-    /// Calls `look(device, now)` while nothing else does.
+    /// Calls `look(device, now)` while no other thread can use the device.
     template <class Look>
     auto inspect(Look&& look) {
         return feed_.inspect(std::forward<Look>(look));

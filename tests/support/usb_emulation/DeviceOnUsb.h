@@ -1,7 +1,7 @@
-// DeviceOnUsb.h - an emulated device plugged into the emulated bus: its driver meets it through the real libusb, on the
-// steady clock.
+// DeviceOnUsb.h - an emulated device plugged into the emulated bus; its driver reaches it through the real libusb, on
+// the steady clock.
 //
-// Thread-safety: all members any thread.
+// Thread-safety: any thread.
 #pragma once
 
 #include "tests/support/emulated/DeviceFeed.h"
@@ -12,7 +12,7 @@ namespace tacto::test {
 template <class Device>
 class DeviceOnUsb {
 public:
-    /// `powerUp` and `rest` as of DeviceFeed. `description` has its bulk endpoints as number 1.
+    /// `powerUp` and `rest` are those of DeviceFeed. The bulk endpoints in `description` must have number 1.
     DeviceOnUsb(UsbTestbed& bed, const Clock& clock, UsbDescription description,
                 typename DeviceFeed<Device>::PowerUp powerUp, int port = 1, Instant rest = Instant(0))
         : feed_(
@@ -28,7 +28,7 @@ public:
     DeviceOnUsb(const DeviceOnUsb&) = delete;
     DeviceOnUsb& operator=(const DeviceOnUsb&) = delete;
 
-    /// Out of the socket and without power.
+    /// Unplugs the device, which also cuts its power.
     void unplug() {
         usb_.unplug();
         feed_.power(false);
@@ -38,7 +38,7 @@ public:
         usb_.plug();
     }
     [[nodiscard]] EmulatedUsbDevice& usb() noexcept { return usb_; }
-    /// Calls `look(device, now)` while nothing else does.
+    /// Calls `look(device, now)` while no other thread can use the device.
     template <class Look>
     auto inspect(Look&& look) {
         return feed_.inspect(std::forward<Look>(look));

@@ -81,7 +81,7 @@ void EmulatedHidDevice::unplug() {
         const std::lock_guard lock(e.mutex);
         if (!e.fifo) return;
         fifo = std::move(e.fifo);
-        constexpr std::uint8_t kWake[] = {0};  // the waiter in poll() reads, and read() says EIO
+        constexpr std::uint8_t kWake[] = {0};  // lets a program that waits in poll() call read(), which fails with EIO
         (void)fifo->put(kWake);
         e.changed.notify_all();
     }

@@ -1,7 +1,7 @@
-// EmulatedHidDevice.h - a USB HID device without hardware: as /dev/hidrawN, and as the USB device behind it. Reports
-// are as on the wire: with their number in front where the report descriptor numbers them, without otherwise.
+// EmulatedHidDevice.h - a USB HID device without hardware, as /dev/hidrawN and as the USB device behind it. Reports
+// have the bus format: the number comes first if the report descriptor numbers them.
 //
-// Input reports go to the programs that have the node open; it keeps none while no program has.
+// Input reports go to the programs that have the node open; if there is none, they are lost.
 //
 // Thread-safety: as EmulatedUsbDevice.
 #pragma once
@@ -18,15 +18,15 @@
 namespace tacto::test {
 
 struct HidBehaviour {
-    /// An output report; what is returned are input reports that answer it.
+    /// Handles an output report; returns the input reports that answer it.
     std::function<std::vector<UsbBytes>(std::span<const std::uint8_t>)> onReport = {};
-    /// The host asks for a feature report by number. Left out, or nothing: what the host set last, or a refusal.
+    /// Returns the feature report of this number. Empty function or result: what the host set last, or a refusal.
     std::function<std::optional<UsbBytes>(std::uint8_t)> onFeature = {};
 };
 
 class EmulatedHidDevice {
 public:
-    /// Plugged in at once, into port `port`; its node is /dev/hidraw<port - 1>.
+    /// Plugs the device into port `port` at once; its node is /dev/hidraw<port - 1>.
     EmulatedHidDevice(UsbTestbed& testbed, std::uint16_t vendor, std::uint16_t product, std::string serial,
                       UsbBytes reportDescriptor, HidBehaviour behaviour, int port = 1);
     ~EmulatedHidDevice();
@@ -35,26 +35,26 @@ public:
 
     void unplug();
     void plug();
-    /// An input report that the device sends by itself.
+    /// Sends an input report on the device's own initiative.
     void send(std::span<const std::uint8_t> report);
 
-    /// The next hidraw write takes so many bytes only, as counted by write().
+    /// Makes the next hidraw write take only this many bytes, as counted by write().
     void takeOnly(std::size_t bytes);
-    /// All hidraw writes fail with this errno until it is 0.
+    /// Makes all hidraw writes fail with this errno until called with 0.
     void refuseWrites(int error);
-    /// hidraw writes wait while held: a slow device.
+    /// While held, hidraw writes wait, as on a slow device.
     void hold(bool held);
 
-    /// Waits until the device got so many output reports in all, and returns all of them; fewer after 5 s.
+    /// Waits until the device got `count` output reports in total, and returns all; returns fewer after 5 s.
     [[nodiscard]] std::vector<UsbBytes> waitForReports(std::size_t count) const;
-    /// Feature reports that the host set, in order.
+    /// Returns the feature reports that the host set, in order.
     [[nodiscard]] std::vector<UsbBytes> featuresSet() const;
-    /// The USB device behind it, which answers no transfers.
+    /// Returns the USB device behind the node, which answers no transfers.
     [[nodiscard]] EmulatedUsbDevice& usb() noexcept;
 
 private:
     struct Emulation;
-    std::shared_ptr<Emulation> emulation_;  // umockdev owns it, too, as long as a client has the node open
+    std::shared_ptr<Emulation> emulation_;  // umockdev also owns it while a client has the node open
 };
 
 }  // namespace tacto::test

@@ -1,14 +1,14 @@
-// EmulatedUsbDevice.h - a USB device without hardware, seen by the real libusb of this process and its children.
-// Bytes in, bytes out: what the host writes goes to `onBytes`, whose answer goes back to the host; what a device says
-// by itself is send(). Faults happen on the test's command.
+// EmulatedUsbDevice.h - a USB device without hardware, which the real libusb of this process and its children sees.
+// Bytes from the host go to `onBytes`, which returns the answer; send() sends bytes on the device's own initiative.
+// Faults happen when the test asks for them.
 //
-// It behaves as the kernel and the bus do: packets end transfers, an interface must be claimed before its endpoints are
-// used, a kernel driver must have let go before, a stall stays until it is cleared, and an unplugged device that comes
-// back is a new one with another address.
+// Behaves like the kernel and the bus: packets end transfers; an interface must be claimed, and released by the
+// kernel's driver, before its endpoints are used; a stall lasts until it is cleared; a device that is plugged in again
+// is a new device with another address.
 //
-// Thread-safety: all members any thread. `onBytes` and `onRequest` are called by whichever thread moves the bytes
-// (umockdev's, mostly), each one call at a time, with nothing locked; they must not wait for the host, and what
-// they share with the test is atomic or locked.
+// Thread-safety: any thread. `onBytes` and `onRequest` are called by whichever thread moves the bytes (mostly
+// umockdev's), each one call at a time and without a lock. They must not wait for the host, and data that they share
+// with the test must be atomic or locked.
 #pragma once
 
 #include <chrono>
@@ -26,7 +26,7 @@
 
 namespace tacto::test {
 
-/// A SETUP packet as the device gets it.
+/// A SETUP packet as the device receives it.
 struct UsbSetup {
     std::uint8_t type = 0;
     std::uint8_t request = 0;
@@ -39,16 +39,16 @@ struct UsbSetup {
 using UsbBytes = std::vector<std::uint8_t>;
 
 struct UsbBehaviour {
-    /// One OUT transfer; what is returned goes to the IN endpoint of the same number (nothing: no answer).
+    /// Handles one OUT transfer; the result goes to the IN endpoint of the same number (empty: no answer).
     std::function<UsbBytes(std::span<const std::uint8_t>)> onBytes = {};
-    /// A class or vendor request, with its data for an output; nothing: the device stalls it. Left out: outputs are
-    /// taken, inputs stalled.
+    /// Handles a class or vendor request, with its data if it is an output; an empty result stalls it. Without this
+    /// function, outputs are accepted and inputs stalled.
     std::function<std::optional<UsbBytes>(const UsbSetup&, std::span<const std::uint8_t>)> onRequest = {};
 };
 
 class EmulatedUsbDevice {
 public:
-    /// Plugged in at once into port `port` of bus 1, unless `plugged` is false.
+    /// Plugs the device into port `port` of bus 1 at once, unless `plugged` is false.
     EmulatedUsbDevice(UsbTestbed& testbed, UsbDescription description, UsbBehaviour behaviour, int port = 1,
                       bool plugged = true);
     ~EmulatedUsbDevice();
@@ -57,50 +57,50 @@ public:
 
     void unplug();
     void plug();
-    /// The socket it is plugged into: "1-1".
+    /// Returns the socket that the device is plugged into: "1-1".
     [[nodiscard]] std::string socket() const;
-    /// Its folder in /sys, for devices below it.
+    /// Returns the device's folder in /sys, for devices below it.
     [[nodiscard]] std::string sysfs() const;
 
-    /// The device says something by itself. `end`: with an empty packet after a full last one, as a good device does.
+    /// Sends bytes on the device's own initiative. `end`: with an empty packet after a full last one, as is correct.
     void send(std::uint8_t endpoint, std::span<const std::uint8_t> bytes, bool end = false);
-    /// One packet, however large it is: for a device that lies about its lengths.
+    /// Sends one packet of any size, for a device that states wrong lengths.
     void sendPacket(std::uint8_t endpoint, std::span<const std::uint8_t> packet);
 
     /// Stalls the endpoint until the host clears it.
     void stall(std::uint8_t endpoint);
-    /// The endpoint takes and gives nothing while held; control requests are held with endpoint 0.
+    /// While held, the endpoint takes and gives nothing; endpoint 0 holds control requests.
     void hold(std::uint8_t endpoint, bool held);
-    /// The next OUT transfer is taken in part.
+    /// Makes the device take only a part of the next OUT transfer.
     void takeOnly(std::uint8_t endpoint, std::size_t bytes);
-    /// Lets users other than root open it, or not.
+    /// Allows or forbids users other than root to open the device.
     void permit(bool permitted);
     /// Claims an interface as another program would.
     void claimElsewhere(std::uint8_t interface);
-    /// The kernel's driver lets go without coming back: what a program that was killed leaves behind.
+    /// Makes the kernel's driver let go and not return, as after a program was killed.
     void loseKernelDriver();
-    /// The kernel's driver offers it as this terminal, "ttyACM0", of `interface`, until it is unplugged. Returns the
-    /// file that is behind /dev/ttyACM0.
+    /// Makes the kernel's driver offer `interface` as a terminal of this name ("ttyACM0") until unplugged. Returns the
+    /// real file behind /dev/ttyACM0.
     [[nodiscard]] std::filesystem::path addTerminal(const std::string& name, int interface = 0);
-    /// The file that is behind its node in /dev/bus/usb.
+    /// Returns the real file behind the device's node in /dev/bus/usb.
     [[nodiscard]] std::filesystem::path nodeFile() const;
 
-    /// Waits until so many of the host's transfers wait at the endpoint; false after 5 s.
+    /// Waits until this many transfers of the host wait at the endpoint; returns false after 5 s.
     [[nodiscard]] bool waitForWaiting(std::uint8_t endpoint, std::size_t transfers) const;
-    /// Waits until the device got so many OUT transfers in all, and returns all of them; fewer after 5 s.
+    /// Waits until the device got this many OUT transfers in total, and returns all; returns fewer after 5 s.
     [[nodiscard]] std::vector<UsbBytes> waitForReceived(std::size_t transfers) const;
-    /// Class and vendor requests that the device got, in order.
+    /// Returns the class and vendor requests that the device got, in order.
     [[nodiscard]] std::vector<UsbSetup> requests() const;
-    /// Waits until there are so many requests, and returns them; fewer after 5 s.
+    /// Waits until there are `count` requests, and returns them; returns fewer after 5 s.
     [[nodiscard]] std::vector<UsbSetup> waitForRequests(std::size_t count) const;
-    /// Whether the kernel's driver holds its interfaces now.
+    /// True while the kernel's driver holds the device's interfaces.
     [[nodiscard]] bool kernelDriverBound() const;
-    /// Times that a host cleared a stall.
+    /// Returns how often a host cleared a stall.
     [[nodiscard]] int cleared() const;
 
 private:
     struct Emulation;
-    std::shared_ptr<Emulation> emulation_;  // umockdev owns it, too, as long as a client has the node open
+    std::shared_ptr<Emulation> emulation_;  // umockdev also owns it while a client has the node open
 };
 
 }  // namespace tacto::test

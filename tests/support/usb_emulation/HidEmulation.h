@@ -1,7 +1,7 @@
 // HidEmulation.h - the inside of an EmulatedHidDevice: HidrawCalls.cpp answers system calls on /dev/hidrawN,
-// HidReports.cpp is the device that they lead to, EmulatedHidDevice.cpp what a test calls.
+// HidReports.cpp emulates the device behind them, EmulatedHidDevice.cpp offers the functions for tests.
 //
-// Thread-safety: every entry locks `mutex`, which guards all but what says otherwise.
+// Thread-safety: every public function locks `mutex`, which guards everything unless stated otherwise.
 #pragma once
 
 #include <condition_variable>
@@ -48,9 +48,9 @@ struct EmulatedHidDevice::Emulation {
     const HidBehaviour behaviour;
     const std::string node;
     const int minor;
-    UMockdevIoctlBase* const handler;  // the device's: it keeps this
+    UMockdevIoctlBase* const handler;  // the device's handler, which keeps this object alive
 
-    mutable std::mutex mutex;  // guards all below but usb
+    mutable std::mutex mutex;  // guards everything below except usb
     mutable std::condition_variable changed;
     std::unique_ptr<HidrawNode> fifo;  // null: unplugged
     int readers = 0;
@@ -60,7 +60,7 @@ struct EmulatedHidDevice::Emulation {
     std::optional<std::size_t> takeOnly;
     int writeError = 0;
     bool held = false;
-    std::vector<UMockdevIoctlClient*> waiting;  // referenced
+    std::vector<UMockdevIoctlClient*> waiting;  // holds a reference to each
 
     EmulatedUsbDevice usb;
 };

@@ -8,7 +8,7 @@ namespace tacto::test {
 
 namespace {
 
-/// Whether the descriptor has a Report ID item (HID 1.11, section 6.2.2).
+/// True if the descriptor has a Report ID item (HID 1.11, section 6.2.2).
 bool numbersReports(std::span<const std::uint8_t> descriptor) {
     constexpr std::uint8_t kReportId = 0x84;
     for (std::size_t at = 0; at < descriptor.size();) {

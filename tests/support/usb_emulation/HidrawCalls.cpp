@@ -12,7 +12,7 @@ namespace tacto::test {
 
 namespace {
 
-constexpr long kRealRead = -100;  // umockdev: let the read() through to the FIFO
+constexpr long kRealRead = -100;  // tells umockdev to pass the read() on to the FIFO
 
 }  // namespace
 
@@ -103,7 +103,7 @@ long EmulatedHidDevice::Emulation::ioctl(UMockdevIoctlClient* client, int& error
             constexpr std::string_view kName = "Acme Loopback HID";
             return put({reinterpret_cast<const std::uint8_t*>(kName.data()), kName.size() + 1});
         }
-        // Both start with the report's number, 0 where reports have none.
+        // Both requests begin with the report's number, 0 if reports have none.
         case _IOC_NR(HIDIOCSFEATURE(0)):
             setFeature(numbered ? bytes : bytes.subspan(1), bytes[0]);
             return static_cast<long>(length);
@@ -134,12 +134,12 @@ void EmulatedHidDevice::Emulation::write(UMockdevIoctlClient* client) {
         umockdev_ioctl_client_complete(client, -1, error);
         return;
     }
-    // Byte 0 is the report's number; it goes over the wire only where reports have one.
+    // Byte 0 is the report's number; it is sent over the bus only if reports have one.
     const auto answers = take(numbered ? bytes : bytes.subspan(std::min<std::size_t>(1, bytes.size())));
     {
         const std::lock_guard lock(mutex);
         for (const auto& answer : answers) {
-            if (fifo && readers > 0) (void)fifo->put(answer);  // a full one drops, as the kernel's
+            if (fifo && readers > 0) (void)fifo->put(answer);  // a full FIFO drops the report, as the kernel does
         }
     }
     publish();

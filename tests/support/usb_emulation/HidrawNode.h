@@ -1,5 +1,5 @@
-// HidrawNode.h - the way of input reports into /dev/hidrawN: a FIFO in packet mode (O_DIRECT), so that poll() and
-// read() are the kernel's and each read() gives one report. Writes and ioctls go to EmulatedHidDevice.
+// HidrawNode.h - delivers input reports to /dev/hidrawN: a FIFO in packet mode (O_DIRECT), so that the kernel itself
+// does poll() and read(), and each read() gives one report. Writes and ioctls go to EmulatedHidDevice.
 //
 // Thread-safety: none; HidEmulation locks.
 #pragma once
@@ -17,9 +17,9 @@ public:
     HidrawNode(const HidrawNode&) = delete;
     HidrawNode& operator=(const HidrawNode&) = delete;
 
-    /// False where no more reports fit (64): the kernel, too, keeps 64 and drops the rest.
+    /// Returns false if no more reports fit: like the kernel, keeps 64 reports and drops the rest.
     [[nodiscard]] bool put(std::span<const std::uint8_t> report) noexcept;
-    /// Throws away what the program has not read.
+    /// Discards what the program has not read.
     void drain() noexcept;
 
 private:

@@ -1,5 +1,5 @@
-// Published.h - a test's thread and umockdev's hand objects to each other through GLib, with locks that the thread
-// sanitizer cannot see; it does see this.
+// Published.h - a test's thread and umockdev's thread pass objects to each other through GLib, with locks that the
+// thread sanitizer does not see. These functions make the hand-over visible to it.
 //
 // Thread-safety: any thread.
 #pragma once
@@ -12,14 +12,14 @@ namespace tacto::test {
 
 inline std::atomic<unsigned> publications{0};
 
-/// Called when one side is done with an object and lets the other have it.
+/// Called when one side has finished with an object and passes it on.
 inline void publish() noexcept { publications.fetch_add(1, std::memory_order_acq_rel); }
 
-/// The other side takes it over.
+/// Called when the other side takes the object over.
 inline void takeOver() noexcept { (void)publications.load(std::memory_order_acquire); }
 
-/// Has `callback` answer a signal of umockdev's. What is behind it lives as long as the handler, which a program
-/// that still has the node open keeps: a test may be done with a device before the program is.
+/// Connects `callback` to a signal of umockdev. `emulation` lives as long as the handler, which a program that still
+/// has the node open keeps alive: a test may finish with a device before the program does.
 template <class T>
 void connect(UMockdevIoctlBase* handler, const char* signal, GCallback callback, const std::shared_ptr<T>& emulation) {
     const auto release = [](void* user, GClosure*) {
@@ -29,7 +29,7 @@ void connect(UMockdevIoctlBase* handler, const char* signal, GCallback callback,
     g_signal_connect_data(handler, signal, callback, new std::shared_ptr<T>(emulation), release, GConnectFlags{});
 }
 
-/// The object behind the pointer that umockdev hands back.
+/// Returns the object behind the pointer that umockdev passes back.
 template <class T>
 [[nodiscard]] T& seen(void* user) noexcept {
     takeOver();

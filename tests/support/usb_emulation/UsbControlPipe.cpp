@@ -45,7 +45,7 @@ void EmulatedUsbDevice::Emulation::control(std::unique_lock<std::mutex>& lock, U
     } else {
         const std::size_t taken = std::min(answer->size(), data.size());
         std::copy_n(answer->begin(), taken, data.begin());
-        // More than was asked for is babble on the bus.
+        // More bytes than were asked for are an overflow (babble) on the bus.
         const int status = answer->size() > data.size() ? -EOVERFLOW : 0;
         wire.finish(std::move(urb), status, taken);
     }
@@ -59,7 +59,7 @@ EmulatedUsbDevice::Emulation::Answer EmulatedUsbDevice::Emulation::controlNow(st
     const IoctlData data(umockdev_ioctl_data_resolve(argument, 0, sizeof(usbdevfs_ctrltransfer), nullptr));
     const auto& asked = *reinterpret_cast<const usbdevfs_ctrltransfer*>(data->data);
     const UsbSetup setup{asked.bRequestType, asked.bRequest, asked.wValue, asked.wIndex, asked.wLength};
-    if ((setup.type & kInputBit) != 0) return refuse(ENOTTY);  // no test needs one
+    if ((setup.type & kInputBit) != 0) return refuse(ENOTTY);  // no test needs input requests
     if ((setup.type & kTypeMask) != kVendor && (setup.type & kRecipientMask) == 1) {
         const auto owner = claims.find(setup.index & 0xFFU);
         if (owner == claims.end() || owner->second != client) return refuse(EBUSY);

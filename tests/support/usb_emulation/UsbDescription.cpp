@@ -17,7 +17,7 @@ Bytes join(std::initializer_list<Bytes> parts) {
     return whole;
 }
 
-/// Bus powered, 100 mA; correctTotalLength() fills the length in.
+/// Bus powered, 100 mA; correctTotalLength() fills in the length.
 Bytes configurationHeader(std::uint8_t interfaces) { return {9, 2, 0, 0, interfaces, 1, 0, 0x80, 50}; }
 
 Bytes interfaceOf(std::uint8_t number, std::uint8_t endpoints, std::uint8_t cls, std::uint8_t sub,
@@ -51,7 +51,7 @@ UsbDescription cdcAcmDevice(std::uint16_t vendor, std::uint16_t product, std::st
                                {5, 0x24, 0, 0x10, 1},  // CDC 1.10
                                {5, 0x24, 1, 0, 1},     // call management over the data interface
                                {4, 0x24, 2, 2},        // line coding and line state
-                               {5, 0x24, 6, 0, 1},     // union: 0 controls 1
+                               {5, 0x24, 6, 0, 1},     // union: interface 0 controls interface 1
                                interrupt(0x82, 8),
                                interfaceOf(1, 2, 0x0A, 0, 0),
                                bulk(0x01, packet),

@@ -1,5 +1,4 @@
-// UsbDescription.h - what an emulated device says of itself: its identity and its descriptors, as bytes, so that a
-// test can make them lie.
+// UsbDescription.h - an emulated device's identity and descriptors, as bytes, so that a test can falsify them.
 //
 // Thread-safety: pure functions.
 #pragma once
@@ -18,31 +17,31 @@ struct UsbDescription {
     std::string name = "Loopback";
     std::string serial = "SN001";
     int speed_mbit = 480;
-    /// The configuration descriptor and all that follows it, as sent by GET_DESCRIPTOR.
+    /// The configuration descriptor and everything after it, as sent by GET_DESCRIPTOR.
     std::vector<std::uint8_t> configuration;
-    /// Interfaces that a driver of the kernel holds when the device is plugged in; they come and go together.
+    /// Interfaces that a kernel driver holds when the device is plugged in; it takes and releases them together.
     std::vector<std::uint8_t> kernelInterfaces;
     std::string kernelDriver = "cdc_acm";
 
-    /// The 18 bytes of the device descriptor.
+    /// Returns the 18 bytes of the device descriptor.
     [[nodiscard]] std::vector<std::uint8_t> deviceDescriptor() const;
 };
 
-/// A serial port: communication interface 0 (interrupt IN 0x82), data interface 1 (bulk OUT 0x01, IN 0x81), held by
-/// cdc_acm.
+/// Describes a serial port: communication interface 0 (interrupt IN 0x82) and data interface 1 (bulk OUT 0x01, IN
+/// 0x81), held by cdc_acm.
 [[nodiscard]] UsbDescription cdcAcmDevice(std::uint16_t vendor, std::uint16_t product, std::string serial,
                                           std::uint16_t packet = 64);
-/// One vendor-specific interface 0: bulk OUT 0x01, bulk IN 0x81.
+/// Describes one vendor-specific interface 0: bulk OUT 0x01, bulk IN 0x81.
 [[nodiscard]] UsbDescription vendorDevice(std::uint16_t vendor, std::uint16_t product, std::string serial,
                                           std::uint16_t packet = 512);
-/// One HID interface 0: interrupt IN 0x81, interrupt OUT 0x01, held by usbhid.
+/// Describes one HID interface 0: interrupt IN 0x81, interrupt OUT 0x01, held by usbhid.
 [[nodiscard]] UsbDescription hidDevice(std::uint16_t vendor, std::uint16_t product, std::string serial,
                                        std::size_t reportDescriptorLength);
 
-/// Length of the whole configuration written into its first descriptor: after a test changed it.
+/// Writes the configuration's total length into its first descriptor, after a test has changed it.
 void correctTotalLength(UsbDescription& description);
 
-/// What a well-behaved reader finds in a configuration: each endpoint's packet size and interface.
+/// What a correct parser finds in a configuration: each endpoint's packet size and interface.
 struct EndpointFacts {
     std::uint8_t interface = 0;
     std::size_t packet = 0;

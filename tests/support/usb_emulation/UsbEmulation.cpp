@@ -72,7 +72,7 @@ EmulatedUsbDevice::Emulation::Answer EmulatedUsbDevice::Emulation::ioctl(std::un
                                                                          UMockdevIoctlClient* client) {
     const auto request = umockdev_ioctl_client_get_request(client);
     const IoctlData argument(umockdev_ioctl_client_get_arg(client));
-    g_object_ref(argument.get());  // get_arg lends
+    g_object_ref(argument.get());  // get_arg does not pass on ownership
     const bool reaping =
         request == USBDEVFS_REAPURB || request == USBDEVFS_REAPURBNDELAY || request == USBDEVFS_DISCARDURB;
     if (!connected.contains(client) && !reaping) return refuse(ENODEV);
@@ -93,7 +93,7 @@ EmulatedUsbDevice::Emulation::Answer EmulatedUsbDevice::Emulation::ioctl(std::un
             const bool claimed = claims.contains(asked.interface) || elsewhere.contains(asked.interface);
             if (!claimed && !(kernelBound && held)) return refuse(ENODATA);
             auto driver = claimed ? std::string("usbfs") : description.kernelDriver;
-            // The request is declared as one that only takes (_IOW): what it gives must be sent back by hand.
+            // The request is declared as input only (_IOW), so its result must be sent back by hand.
             umockdev_ioctl_data_update(data.get(), offsetof(usbdevfs_getdriver, driver),
                                        reinterpret_cast<std::uint8_t*>(driver.data()),
                                        static_cast<int>(driver.size() + 1));
@@ -158,13 +158,13 @@ EmulatedUsbDevice::Emulation::Answer EmulatedUsbDevice::Emulation::driverIoctl(U
     const auto interface = static_cast<unsigned>(as<usbdevfs_ioctl>(data).ifno);
     switch (as<usbdevfs_ioctl>(data).ioctl_code) {
         case USBDEVFS_DISCONNECT:
-            // The kernel does not ask whose driver it is: a program's claim goes as well.
+            // Like the kernel, does not check whose driver it is: this removes a program's claim as well.
             if (claims.erase(interface) + elsewhere.erase(interface) > 0) return {};
             if (!kernelBound) return refuse(ENODATA);
             kernelBound = false;
             return {};
         case USBDEVFS_CONNECT:
-            // A driver of several interfaces binds through its first, and needs all of them.
+            // A driver of several interfaces binds through the first one, and needs all of them.
             if (kernelBound || held.empty() || held.front() != interface) return {};
             if (std::ranges::any_of(held,
                                     [&](unsigned one) { return claims.contains(one) || elsewhere.contains(one); })) {
@@ -192,7 +192,7 @@ EmulatedUsbDevice::Emulation::Answer EmulatedUsbDevice::Emulation::submit(std::u
                                                                           const void* client) {
     Urb urb{resolve(argument, 0, sizeof(usbdevfs_urb)), client};
     const auto length = static_cast<std::size_t>(std::max(urb.get().buffer_length, 0));
-    // The URB's data keep the buffer's; writing to one reaches the client when the URB is reaped.
+    // The URB's data also keep the buffer; bytes written to it reach the client when the URB is reaped.
     if (length > 0) (void)resolve(urb.data.get(), offsetof(usbdevfs_urb, buffer), length);
     if (urb.get().type == USBDEVFS_URB_TYPE_CONTROL) {
         if (length < kSetupSize) return refuse(EINVAL);
@@ -220,7 +220,7 @@ EmulatedUsbDevice::Emulation::Answer EmulatedUsbDevice::Emulation::bulkNow(std::
     const auto& asked = as<usbdevfs_bulktransfer>(data);
     const auto endpoint = static_cast<std::uint8_t>(asked.ep);
     if (!wire.knows(endpoint)) return refuse(ENOENT);
-    if ((endpoint & kInputBit) != 0) return refuse(ENOTTY);  // no test needs one
+    if ((endpoint & kInputBit) != 0) return refuse(ENOTTY);  // no test needs input endpoints here
     const auto owner = claims.find(wire.interfaceOf(endpoint));
     if (owner == claims.end() || owner->second != client) return refuse(EBUSY);
     if (!wire.takes(endpoint)) return refuse(ETIMEDOUT);
@@ -237,7 +237,7 @@ EmulatedUsbDevice::Emulation::Answer EmulatedUsbDevice::Emulation::bulkNow(std::
 }
 
 void EmulatedUsbDevice::Emulation::pump(std::unique_lock<std::mutex>& lock) {
-    if (pumping) return;  // the pumping caller continues until nothing moves
+    if (pumping) return;  // the caller that is pumping continues until nothing moves
     pumping = true;
     while (auto transfer = wire.advance()) {
         received.push_back(transfer->bytes);

@@ -1,7 +1,7 @@
 // UsbEmulation.h - the inside of an EmulatedUsbDevice: the kernel's side of its node (usbfs) and the device behind it.
 // UsbEmulation.cpp answers system calls, UsbControlPipe.cpp requests to endpoint 0, EmulatedUsbDevice.cpp the test.
 //
-// Thread-safety: who takes a lock is called with it held; it guards all but what says otherwise.
+// Thread-safety: functions with a `lock` argument need it held; `mutex` guards everything unless stated otherwise.
 #pragma once
 
 #include <condition_variable>
@@ -17,7 +17,7 @@
 
 namespace tacto::test {
 
-// The form of a control request (USB 2.0, 9.3).
+// The layout of a control request (USB 2.0, 9.3).
 constexpr std::size_t kSetupSize = 8;
 constexpr std::uint8_t kInputBit = 0x80;
 
@@ -32,7 +32,7 @@ struct EmulatedUsbDevice::Emulation {
     static void onConnected(UMockdevIoctlBase* /*base*/, UMockdevIoctlClient* client, gpointer user);
     static void onVanished(UMockdevIoctlBase* /*base*/, UMockdevIoctlClient* client, gpointer user);
 
-    /// What an ioctl is answered with.
+    /// The result of an ioctl.
     struct Answer {
         long result = 0;
         int error = 0;
@@ -46,11 +46,11 @@ struct EmulatedUsbDevice::Emulation {
     Answer bulkNow(std::unique_lock<std::mutex>& lock, UMockdevIoctlData* argument, const void* client);
     Answer clearHalt(unsigned endpoint);
     void control(std::unique_lock<std::mutex>& lock, Urb urb);
-    /// What the device says to a request; nothing: it stalls. `data` is what came with it.
+    /// Returns the device's answer to a request; nothing if it stalls. `data` came with the request.
     std::optional<UsbBytes> answerTo(std::unique_lock<std::mutex>& lock, const UsbSetup& setup,
                                      std::span<const std::uint8_t> data);
     std::optional<UsbBytes> standard(const UsbSetup& setup) const;
-    /// Moves what can move; calls the device with the lock let go.
+    /// Moves all transfers that can proceed; releases the lock while it calls the device.
     void pump(std::unique_lock<std::mutex>& lock);
     void showReapable() {
         if (node) node->setReapable(wire.canReap());
@@ -62,17 +62,17 @@ struct EmulatedUsbDevice::Emulation {
     const UsbBehaviour behaviour;
     const std::string socket;
     const std::string sysfs;
-    std::string terminal;  // the terminal's folder in /sys; empty: none. Used by the test's thread only
+    std::string terminal;  // the terminal's folder in /sys, or empty. Only the test's thread uses it
 
-    mutable std::mutex mutex;  // guards all below
+    mutable std::mutex mutex;  // guards everything below
     mutable std::condition_variable changed;
     UsbWire wire;
-    UMockdevIoctlBase* const handler;  // the device's: it keeps this
+    UMockdevIoctlBase* const handler;  // the device's handler, which keeps this object alive
     std::unique_ptr<UsbNode> node;     // null: unplugged
-    std::string path;                  // path of the node, as "/dev/bus/usb/001/002"
+    std::string path;                  // path of the node, such as "/dev/bus/usb/001/002"
     unsigned mode = 0666;
     bool kernelBound = false;
-    std::set<const void*> connected;  // open files of this plug-in; those of an earlier one stay dead
+    std::set<const void*> connected;  // open files of this plug-in; files of earlier ones stay dead
     std::map<unsigned, const void*> claims;
     std::set<unsigned> elsewhere;
     bool controlHeld = false;

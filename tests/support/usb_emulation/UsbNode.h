@@ -1,7 +1,7 @@
-// UsbNode.h - the device node of an emulated USB device. umockdev would make it a regular file, for which poll() is
-// always ready, so that libusb spins. It is the slave of a pseudo-terminal instead, whose flow control gives poll()
-// the meaning it has for usbfs: stopped is "nothing to reap", running is "an URB can be reaped" (POLLOUT), and
-// closing the master is "disconnected" (POLLERR and POLLHUP).
+// UsbNode.h - the device node of an emulated USB device. umockdev would make it a regular file, on which poll() is
+// always ready, so that libusb would spin. Here it is the slave of a pseudo-terminal, where flow control gives poll()
+// the meaning it has for usbfs: stopped means "nothing to reap", running means "an URB can be reaped" (POLLOUT), and a
+// closed master means "disconnected" (POLLERR and POLLHUP).
 //
 // Thread-safety: none; UsbEmulation locks.
 #pragma once
@@ -14,7 +14,7 @@ class UsbNode {
 public:
     /// Makes the node at `path` with permission bits `mode`.
     UsbNode(const std::filesystem::path& path, unsigned mode);
-    ~UsbNode();  ///< disconnects the program that has it open
+    ~UsbNode();  ///< disconnects a program that has the node open
     UsbNode(const UsbNode&) = delete;
     UsbNode& operator=(const UsbNode&) = delete;
 

@@ -11,19 +11,19 @@
 namespace tacto::test {
 
 UsbTestbed::UsbTestbed() {
-    // umockdev_in_mock_environment() goes by a link count of /sys, which some containers do not have.
+    // umockdev_in_mock_environment() relies on a link count of /sys that some containers do not have.
     const char* preloaded = std::getenv("LD_PRELOAD");
     if (preloaded == nullptr || std::string_view(preloaded).find("libumockdev-preload") == std::string_view::npos) {
         throw std::runtime_error(
             "no umockdev in this process: start it through tests/support/usb_emulation/"
             "with-emulated-usb, as ctest does");
     }
-    // umockdev sleeps 0 us after each system call that it answers; with the usual slack that is 50 us.
+    // umockdev sleeps 0 us after each system call that it answers; the usual timer slack makes this 50 us.
     prctl(PR_SET_TIMERSLACK, 1UL);
     std::signal(SIGPIPE, SIG_IGN);
-    std::signal(SIGHUP, SIG_IGN);  // an unplugged device is a terminal that hangs up
+    std::signal(SIGHUP, SIG_IGN);  // unplugging hangs up the pseudo-terminal of a device
     testbed_ = umockdev_testbed_new();
-    // UnprivilegedUser must see it too.
+    // UnprivilegedUser must have access too.
     std::filesystem::permissions(root(), std::filesystem::perms(0755));
 }
 
@@ -42,7 +42,7 @@ constexpr uid_t kUnprivilegedUser = 65534;
 
 UnprivilegedUser::UnprivilegedUser(const UsbTestbed& testbed) {
     if (geteuid() != 0) return;
-    // umockdev's own sockets are not what permissions are about.
+    // The permissions that tests check do not concern umockdev's own sockets.
     for (const auto& entry : std::filesystem::recursive_directory_iterator(testbed.root() / "ioctl")) {
         std::filesystem::permissions(entry, std::filesystem::perms(0777));
     }

@@ -1,7 +1,7 @@
-// UsbTestbed.h - a USB bus without hardware, for the process that makes it and those that it starts: umockdev answers
-// their system calls on /sys, /dev and udev. Made first in a test, before libusb or hidapi starts.
+// UsbTestbed.h - a USB bus without hardware, for the process that creates it and its children: umockdev answers their
+// system calls on /sys, /dev and udev. A test must create it before libusb or hidapi starts.
 //
-// Works only in a program started through with-emulated-usb; elsewhere the constructor throws and says so.
+// Works only in a program started through with-emulated-usb; otherwise the constructor throws and says so.
 // Thread-safety: the test's own thread.
 #pragma once
 
@@ -21,9 +21,9 @@ public:
     UsbTestbed& operator=(const UsbTestbed&) = delete;
 
     [[nodiscard]] _UMockdevTestbed* get() const noexcept { return testbed_; }
-    /// The real place of the emulated /sys and /dev.
+    /// Returns the real folder that holds the emulated /sys and /dev.
     [[nodiscard]] std::filesystem::path root() const;
-    /// The next device address on the bus; a real bus too gives another one at each plug-in.
+    /// Returns the next device address on the bus; as on a real bus, each plug-in gets another one.
     [[nodiscard]] std::uint8_t nextAddress() noexcept { return ++address_; }
 
 private:
@@ -31,8 +31,8 @@ private:
     std::uint8_t address_ = 1;  // 1 is the root hub
 };
 
-/// While it lives, this process is a user without privileges, so that permissions count for root too. Other threads
-/// must not plug or unplug meanwhile.
+/// While this object lives, the process is a user without privileges, so that permissions apply even to root. Other
+/// threads must not plug or unplug meanwhile.
 class UnprivilegedUser {
 public:
     explicit UnprivilegedUser(const UsbTestbed& testbed);

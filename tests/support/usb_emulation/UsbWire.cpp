@@ -9,7 +9,7 @@
 namespace tacto::test {
 
 namespace {
-constexpr std::uint8_t kInput = 0x80;  // mark of an endpoint address for input
+constexpr std::uint8_t kInput = 0x80;  // bit that marks an endpoint address as input
 }
 
 void ReleaseIoctlData::operator()(_UMockdevIoctlData* data) const noexcept { g_object_unref(data); }
@@ -87,7 +87,7 @@ void UsbWire::disconnect() {
     }
 }
 
-/// On IN endpoints, puts packets into waiting URBs.
+/// Moves packets into waiting URBs of an IN endpoint.
 void UsbWire::fill(Endpoint& endpoint) {
     while (!endpoint.waiting.empty() && !endpoint.packets.empty()) {
         Urb& urb = endpoint.waiting.front();

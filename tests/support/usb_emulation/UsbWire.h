@@ -1,6 +1,6 @@
-// UsbWire.h - the endpoints of one emulated device and the URBs that wait at them: what the host's controller and the
-// kernel's usbfs do between an ioctl and the device. Packets keep the sizes that a bus gives them: an IN transfer ends
-// with a short packet or a full buffer, and a packet larger than what is left of the buffer is an overflow.
+// UsbWire.h - the endpoints of one emulated device and the URBs that wait at them: the work of the host controller and
+// the kernel's usbfs between an ioctl and the device. Packets keep their sizes as on a bus: an IN transfer ends with a
+// short packet or a full buffer, and a packet larger than the rest of the buffer is an overflow.
 //
 // Thread-safety: none; EmulatedUsbDevice locks.
 #pragma once
@@ -25,11 +25,11 @@ struct ReleaseIoctlData {
 };
 using IoctlData = std::unique_ptr<_UMockdevIoctlData, ReleaseIoctlData>;
 
-/// One URB as the client submitted it, in the emulator's memory.
+/// One URB as the client submitted it, in the emulator's own memory.
 struct Urb {
     IoctlData data;
     const void* owner = nullptr;  ///< the open file that submitted it and will reap it
-    std::size_t filled = 0;       ///< bytes of an IN transfer that came so far
+    std::size_t filled = 0;       ///< bytes of an IN transfer received so far
     [[nodiscard]] usbdevfs_urb& get() const noexcept;
     [[nodiscard]] std::span<std::uint8_t> buffer() const noexcept;
 };
@@ -38,32 +38,32 @@ class UsbWire {
 public:
     explicit UsbWire(std::map<std::uint8_t, EndpointFacts> endpoints);
 
-    /// The device has `bytes` for the host: split into packets; `end` adds an empty one after a full last one.
+    /// Queues `bytes` of the device for the host, split into packets; `end` adds an empty packet after a full last one.
     void queue(std::uint8_t endpoint, std::span<const std::uint8_t> bytes, bool end);
-    /// One packet as it is, whatever its size.
+    /// Queues one packet of any size without splitting it.
     void queuePacket(std::uint8_t endpoint, std::span<const std::uint8_t> packet);
 
     void setHalted(std::uint8_t endpoint, bool halted);
-    /// While held, the endpoint answers nothing (NAK): transfers wait until it is let go.
+    /// While held, the endpoint answers nothing (NAK), and transfers wait.
     void setHeld(std::uint8_t endpoint, bool held);
-    /// The next OUT transfer ends after so many bytes.
+    /// Makes the next OUT transfer end after this many bytes.
     void takeOnly(std::uint8_t endpoint, std::size_t bytes);
-    /// Whether an OUT transfer would be taken now.
+    /// True if an OUT transfer would be accepted now.
     [[nodiscard]] bool takes(std::uint8_t endpoint) const;
 
     [[nodiscard]] bool knows(std::uint8_t endpoint) const noexcept { return facts_.contains(endpoint); }
     [[nodiscard]] std::uint8_t interfaceOf(std::uint8_t endpoint) const { return facts_.at(endpoint).interface; }
 
-    /// A bulk or interrupt URB arrives.
+    /// Accepts a bulk or interrupt URB.
     void submit(Urb urb);
-    /// Takes it back, if it still waits: it ends as cancelled.
+    /// Cancels an URB if it still waits; it then ends as cancelled.
     [[nodiscard]] bool discard(std::uintptr_t clientAddress);
-    /// Ends one that needs no waiting, as a control transfer does. `actual` as usbfs counts.
+    /// Ends an URB that need not wait, as in a control transfer. `actual` is counted as in usbfs.
     void finish(Urb urb, int status, std::size_t actual);
-    /// Everything that waits ends with -ESHUTDOWN.
+    /// Ends all waiting URBs with -ESHUTDOWN.
     void disconnect();
 
-    /// Moves packets into waiting URBs, and OUT transfers to the device: the next of those, or nothing.
+    /// Moves packets into waiting URBs, and returns the next OUT transfer for the device, if there is one.
     struct OutTransfer {
         std::uint8_t endpoint = 0;
         std::vector<std::uint8_t> bytes;
@@ -71,9 +71,9 @@ public:
     [[nodiscard]] std::optional<OutTransfer> advance();
 
     [[nodiscard]] bool canReap() const noexcept { return !done_.empty(); }
-    /// The oldest ended URB of an open file, if there is one.
+    /// Returns the oldest finished URB of an open file, if there is one.
     [[nodiscard]] std::optional<Urb> reap(const void* owner);
-    /// The open file was closed: its URBs go with it, unreaped.
+    /// Drops the URBs of an open file that was closed.
     void forget(const void* owner);
     [[nodiscard]] std::size_t waitingAt(std::uint8_t endpoint) const;
     [[nodiscard]] std::uint64_t finished() const noexcept { return finished_; }

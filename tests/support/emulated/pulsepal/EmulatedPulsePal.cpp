@@ -108,7 +108,7 @@ void EmulatedPulsePal::advance(Instant now) {
             // The interrupt routine itself waits for the byte: no cycle passes, and no output changes.
             if (handle()) {
                 waiting_.reset();
-                // Its time is counted in cycles, of which none has passed: trains continue where they stood.
+                // The device counts time in cycles, and none has passed: trains continue where they stopped.
                 for (auto& output : outputs_) {
                     output.next += last - cycle_;
                     output.end += last - cycle_;

@@ -6,11 +6,11 @@ namespace tacto::sciencemode {
 
 namespace {
 
-constexpr int kNoCurrent = 300;        // what 0 mA is on the wire
+constexpr int kNoCurrent = 300;        // the code for 0 mA in the protocol
 constexpr std::size_t kIdBytes = 10;   // bytes of an identity
-constexpr std::size_t kHashBytes = 6;  // four bytes, its kind, whether it is valid
+constexpr std::size_t kHashBytes = 6;  // four bytes, the kind of hash, whether it is valid
 
-/// Points from the front of `bytes`, which is moved past them.
+/// Reads points from the front of `bytes` and moves `bytes` past them.
 std::optional<Points> takePoints(std::span<const std::uint8_t>& bytes, std::size_t count) noexcept {
     if (bytes.size() < 4 * count) return std::nullopt;
     Points points;
@@ -20,7 +20,7 @@ std::optional<Points> takePoints(std::span<const std::uint8_t>& bytes, std::size
         if (point.time.count() < kMinPoint_us || !(std::abs(point.current.value()) <= kMaxCurrent_mA)) {
             return std::nullopt;
         }
-        static_cast<void>(points.add(point));  // it asks for at most 16
+        static_cast<void>(points.add(point));  // never full: callers ask for at most 16
     }
     return points;
 }

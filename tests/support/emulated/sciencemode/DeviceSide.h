@@ -1,6 +1,6 @@
-// DeviceSide.h - the other half of the ScienceMode4 protocol: requests from payloads, and answers to payloads.
+// DeviceSide.h - the device's side of the ScienceMode4 protocol: reads requests from payloads, writes answers.
 //
-// Source of every figure: resources/design/wire/sciencemode4.md.
+// Source of all figures: resources/design/wire/sciencemode4.md.
 //
 // Thread-safety: pure functions.
 #pragma once
@@ -10,7 +10,7 @@
 namespace tacto::sciencemode {
 
 [[nodiscard]] Point decodePoint(std::span<const std::uint8_t, 4> bytes) noexcept;
-/// Nothing when the payload is not one that the driver's builders make.
+/// Returns nothing if the payload is not one that the driver builds.
 [[nodiscard]] std::optional<LowLevelInit> readLowLevelInit(std::span<const std::uint8_t> payload) noexcept;
 [[nodiscard]] std::optional<ChannelConfig> readChannelConfig(std::span<const std::uint8_t> payload) noexcept;
 

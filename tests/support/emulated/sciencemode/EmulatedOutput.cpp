@@ -15,14 +15,14 @@ DriveSegment segmentOf(const Point& point) noexcept {
     return {drive, level, level, Seconds(point.time).count()};
 }
 
-/// The part of a pulse that each point belongs to: points before the first pause lead, opposite points recharge.
+/// Returns which part of a pulse a point belongs to: points before the first pause lead, opposite points recharge.
 PulsePart partOf(const Points& points, std::size_t index) noexcept {
     const double level = points.items[index].current.value();
     const double lead = points.items[0].current.value();
     if (level == 0) return PulsePart::Gap;
     if (level != lead) return PulsePart::SecondPhase;
     for (std::size_t i = 0; i < index; ++i) {
-        if (points.items[i].current.value() != lead) return PulsePart::Rest;  // a further pulse of the train
+        if (points.items[i].current.value() != lead) return PulsePart::Rest;  // a later pulse of the train
     }
     return PulsePart::LeadingPhase;
 }
@@ -46,7 +46,7 @@ const EmittedPulse& EmulatedOutput::play(const Points& points, int channel, bool
 
     PulseResponse response(circuit, limits, capacitor_V_);
     if (!pulses_.empty() && onset > pulses_.back().end) {
-        // What was left on the load leaks away until this pulse.
+        // The voltage left on the load decays until this pulse.
         static_cast<void>(
             response.add({Drive::HighImpedance, 0, 0, toSeconds(onset - pulses_.back().end)}, PulsePart::Rest));
         response.restart();

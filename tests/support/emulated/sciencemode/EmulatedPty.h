@@ -11,7 +11,7 @@ namespace tacto::sciencemode {
 class EmulatedPty : public test::DeviceOnPty<EmulatedStimulator> {
 public:
     using DeviceOnPty::DeviceOnPty;
-    /// `clock` outlives it and is steady. Errors: Io when the system gives no pseudo-terminal.
+    /// `clock` must outlive this object and be steady. Errors: Io if the system provides no pseudo-terminal.
     [[nodiscard]] static Result<std::unique_ptr<EmulatedPty>> open(EmulatedSettings settings, const Clock& clock) {
         auto terminal = test::PseudoTerminal::open();
         if (!terminal) return failure(terminal);

@@ -12,7 +12,7 @@ Payload resultAlone(ResultCode result) noexcept {
     return payload;
 }
 
-/// What the load made of a pulse.
+/// Returns the result code that the load causes for a pulse.
 ResultCode resultOf(const EmittedPulse& pulse, bool open) noexcept {
     if (open) return ResultCode::Electrode;
     const double commanded = std::abs(pulse.points.items[0].current.value()) * 1e-3;
@@ -29,7 +29,7 @@ void EmulatedStimulator::receive(std::span<const std::uint8_t> bytes, Instant no
     advance(now);
     if (garbage_ > 0) {
         std::vector<std::uint8_t> noise(garbage_);
-        // Looks like frames now and then, which is worse than noise.
+        // The noise sometimes looks like frames, which is harder to handle than plain noise.
         for (std::size_t i = 0; i < noise.size(); ++i) {
             noise[i] = static_cast<std::uint8_t>(i % 37 == 0 ? 0xF0 : i % 2 == 1 ? 0x81 : 0x55 + i % 5);
         }

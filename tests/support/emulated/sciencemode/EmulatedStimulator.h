@@ -1,13 +1,12 @@
-// EmulatedStimulator.h - a ScienceMode4 device without hardware: bytes in, bytes out, pulses on a load, all on the time
-// it is given. No I/O and no thread: a pseudo-terminal, an emulated USB node or a test carries its bytes.
+// EmulatedStimulator.h - a ScienceMode4 device without hardware: takes and returns bytes and puts pulses on a load, at
+// the times it is given. No I/O and no thread: a pseudo-terminal, an emulated USB node or a test carries the bytes.
 //
-// It does what a P24 is documented to do: low-level pulses that end by themselves and are answered with their
-// read-back, and results as the load makes them. A repetition in mid level, which another program may have begun, goes
-// on until it is stopped. Every pulse is kept with its time, so that silence can be judged. It answers wrongly on
-// demand.
+// Does what the P24's documentation says: low-level pulses end by themselves and are answered with their read-back and
+// a result that depends on the load. A mid-level repetition, which another program may have begun, continues until it
+// is stopped. Every pulse is kept with its time, so that tests can check for silence. Faulty answers come on request.
 //
-// Assumed where the wire description is silent: LL_CHANNEL_CONFIG before LL_INIT, or after a stop, is answered "not
-// initialised"; one during a pulse "busy"; LL_INIT ends mid level.
+// Assumed where the protocol notes say nothing: LL_CHANNEL_CONFIG before LL_INIT, or after a stop, is answered "not
+// initialised"; during a pulse it is answered "busy"; LL_INIT ends mid level.
 //
 // Thread-safety: none; the owner locks. Time never goes back between calls.
 #pragma once
@@ -28,23 +27,23 @@ struct EmulatedSettings {
     Version protocol{4, 0, 0};
     Load load = Load::resistor(Ohms(1000));
     Volts compliance{150};
-    Seconds latency{500e-6};  ///< the time from a request (or the end of its pulse) to the ack
+    Seconds latency{500e-6};  ///< from a request (or the end of its pulse) to the ack
     bool sampleTimeIsTotal = false;
 };
 
-/// The ways in which an ack fails.
+/// Ways in which an ack can be wrong.
 enum class AckFault {
     Drop,         ///< never sent
     Delay,        ///< sent after EmulatedStimulator::kLate
     Duplicate,    ///< sent twice
-    Junk,         ///< bytes that look like a frame's beginning before it
-    WrongLength,  ///< the frame's length field lies
+    Junk,         ///< preceded by bytes that look like the beginning of a frame
+    WrongLength,  ///< with a wrong length field in the frame
     WrongCrc,
-    WrongNumber,   ///< answers with another packet number
-    WrongCommand,  ///< the ack of another command
-    Truncated,     ///< a payload a byte too short, in a sound frame
-    WrongChannel,  ///< LL_CHANNEL_CONFIG: as if another channel had been used
-    Refused,       ///< result 4: the stimulation unit does not answer
+    WrongNumber,   ///< with another packet number
+    WrongCommand,  ///< as the ack of another command
+    Truncated,     ///< one byte of the payload missing, in a valid frame
+    WrongChannel,  ///< LL_CHANNEL_CONFIG: answers for another channel
+    Refused,       ///< with result 4: the stimulation unit does not answer
 };
 
 class EmulatedStimulator {
@@ -53,24 +52,24 @@ public:
 
     explicit EmulatedStimulator(EmulatedSettings settings = {});
 
-    /// Bytes from the host.
+    /// Receives bytes from the host.
     void receive(std::span<const std::uint8_t> bytes, Instant now);
-    /// Bytes for the host that are due by `now`; returns how many were written to `into`.
+    /// Moves bytes for the host that are due by `now` into `into`; returns how many.
     [[nodiscard]] std::size_t transmit(std::span<std::uint8_t> into, Instant now);
-    /// When the next bytes for the host are due.
+    /// Returns when the next bytes for the host are due.
     [[nodiscard]] std::optional<Instant> nextTransmit() const noexcept;
 
-    /// The next `times` acks go wrong in this way, after those asked for before.
+    /// Makes the next `times` acks wrong in this way, after the faults requested before.
     void misbehave(AckFault fault, int times = 1);
-    /// Requests are not understood any more: every one is answered with `bytes` of noise, for ever.
+    /// Answers every request with `bytes` of noise from now on.
     void talkGarbage(std::size_t bytes) { garbage_ = bytes; }
     void fit(const Load& load, Instant now);
-    /// Another program has begun a repetition in mid level: one pulse of `points` every `period`, from now on.
+    /// Acts as if another program had begun a mid-level repetition: one pulse of `points` every `period`, from now on.
     void startRepeating(const Points& points, Seconds period, Instant now);
-    /// The mains go: output ends, everything is forgotten but the pulses.
+    /// Cuts the power: output ends, and everything is forgotten except the recorded pulses.
     void powerCycle(Instant now);
 
-    /// Every pulse that began by `now`, oldest first.
+    /// Returns every pulse that began by `now`, oldest first.
     [[nodiscard]] const std::deque<EmittedPulse>& pulses(Instant now);
     [[nodiscard]] bool repeating(Instant now);
     [[nodiscard]] Stimulation state(Instant now);
@@ -96,7 +95,7 @@ private:
     const EmulatedSettings settings_;
     EmulatedOutput output_;
     FrameDecoder decoder_;
-    std::deque<Outgoing> outgoing_;  // answers by due time
+    std::deque<Outgoing> outgoing_;  // answers, sorted by due time
     std::deque<AckFault> faults_;
     std::size_t garbage_ = 0;
     std::array<std::uint64_t, 128> requests_{};

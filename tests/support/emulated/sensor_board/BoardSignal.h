@@ -1,4 +1,4 @@
-// BoardSignal.h - what an emulated board's sensors feel.
+// BoardSignal.h - the signals that an emulated board's sensors measure.
 //
 // Thread-safety: none; one owner.
 #pragma once
@@ -11,37 +11,37 @@
 
 namespace tacto::sensorboard {
 
-/// Moved in steps of one acceleration sample; read at any step.
+/// Advances in steps of one acceleration sample; can be read at any step.
 class BoardSignal {
 public:
     static constexpr std::size_t kTaxels = 8;
     virtual ~BoardSignal() = default;
     virtual void step() = 0;
-    /// x, y, z in m/s².
+    /// Returns x, y, z in m/s².
     [[nodiscard]] virtual std::array<double, 3> acceleration() const = 0;
     [[nodiscard]] virtual std::array<double, kTaxels> pressures_Pa() const = 0;
     [[nodiscard]] virtual double force_N() const = 0;
 };
 
-/// The simulated finger, one tick of it to a step.
+/// The simulated finger; one step is one tick of the finger.
 class FingerSignal final : public BoardSignal {
 public:
-    /// `settings.tickRate_hz` is the board's acceleration rate.
+    /// `settings.tickRate_hz` must be the board's acceleration rate.
     FingerSignal(const sim::FingerSettings& settings, Instant opened) : finger_(settings, opened) {}
 
     void step() override { finger_.step(); }
     std::array<double, 3> acceleration() const override { return finger_.acceleration(); }
     std::array<double, kTaxels> pressures_Pa() const override;
     double force_N() const override { return finger_.force_N(); }
-    /// The finger on which to present surfaces; present() may be called on any thread.
+    /// Returns the finger, on which surfaces can be presented; any thread may call present().
     [[nodiscard]] sim::Finger& finger() noexcept { return finger_; }
 
 private:
     sim::Finger finger_;
 };
 
-/// Counts its steps: a sample's values tell its number, and any that is missing shows. x counts single steps and y
-/// thousands of them, taxel i and force the same with i added; all in LSB of `step` of their unit.
+/// Counts its steps, so that a sample's values give its number and missing samples show. x counts single steps, y
+/// thousands; taxel i and force count single steps plus i; all in units of one LSB.
 class CountingSignal final : public BoardSignal {
 public:
     static constexpr std::int64_t kModulo = 1000;
@@ -50,9 +50,9 @@ public:
     std::array<double, kTaxels> pressures_Pa() const override;
     double force_N() const override;
 
-    static constexpr double kAcceleration = 0.0048828125;  ///< m/s² a count, as the emulated board's LSB
-    static constexpr double kPressure = 2;                 ///< Pa
-    static constexpr double kForce = 0.0005;               ///< N
+    static constexpr double kAcceleration = 0.0048828125;  ///< m/s² per count, as the emulated board's LSB
+    static constexpr double kPressure = 2;                 ///< Pa per count
+    static constexpr double kForce = 0.0005;               ///< N per count
 
 private:
     std::int64_t steps_ = 0;

@@ -235,7 +235,7 @@ void EmulatedBoard::sendBlock(Stream& stream, std::vector<std::uint8_t> bytes, s
 void EmulatedBoard::queue(std::span<const std::uint8_t> bytes, Instant at) {
     if (silent_) return;
     const double late_s = settings_.latency.count() - settings_.jitter.count() * std::log(1 - random_.uniform());
-    lastDue_ = std::max(lastDue_, at + toInstant(late_s));  // a line keeps the order
+    lastDue_ = std::max(lastDue_, at + toInstant(late_s));  // a line keeps the order of frames
     std::vector<std::uint8_t> sent(bytes.begin(), bytes.end());
     if (garbage_) {
         sent.resize(kNoiseBytes);

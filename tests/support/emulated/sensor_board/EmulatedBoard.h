@@ -1,10 +1,10 @@
-// EmulatedBoard.h - a sensor board without hardware: bytes in, bytes out, all on the time it is given. It speaks
-// through the C99 encoder that firmware compiles (resources/firmware/sensor_board). No I/O and no thread:
-// EmulatedBoardLine, a pseudo-terminal or an emulated USB node carries its bytes.
+// EmulatedBoard.h - a sensor board without hardware: takes and returns bytes at the times it is given. It uses the C99
+// encoder of the firmware (resources/firmware/sensor_board). No I/O and no thread: EmulatedBoardLine, a pseudo-terminal
+// or an emulated USB node carries the bytes.
 //
-// Its clock runs apart from the host's; its line loses, doubles, swaps and spoils blocks; it falls silent, talks
-// garbage, starts over. All of it follows from the seed and from when it is asked, and is counted, so that a test knows
-// exactly what must be missing.
+// Its clock drifts from the host's; its line loses, doubles, swaps and corrupts blocks; it can fall silent, send
+// garbage or restart. Everything depends only on the seed and the times of the calls, and is counted, so that a test
+// knows exactly what must be missing.
 //
 // Three streams: 0 acceleration (3 × int16), 1 taxels (8 × int16), 2 force (1 × int16, or int32).
 //
@@ -25,12 +25,12 @@
 
 namespace tacto::sensorboard {
 
-/// What the line does to blocks, as shares of them.
+/// What the line does to blocks, as shares of all blocks.
 struct LineFlaws {
     double drop = 0;       ///< not sent
     double duplicate = 0;  ///< sent twice
-    double swap = 0;       ///< sent behind the following one
-    double flip = 0;       ///< the chance that one bit is wrong, the delimiter's apart
+    double swap = 0;       ///< sent after the following block
+    double flip = 0;       ///< chance of one wrong bit outside the delimiter
 };
 
 struct EmulatedBoardSettings {
@@ -38,19 +38,19 @@ struct EmulatedBoardSettings {
     std::string serial = "EMU-0001";
     std::string firmware = TACTOSCOPE_VERSION;
     std::uint8_t lowestVersion = 1, highestVersion = 1;
-    double tickRate_hz = 4000;  ///< rate of the signal's steps; every stream's rate divides it
+    double tickRate_hz = 4000;  ///< rate of the signal's steps, a multiple of each stream's rate
     double rate_hz = 4000;
     double slowRate_hz = 200;
     std::uint8_t blockSamples = 32, slowBlockSamples = 2;
-    bool wideForce = false;                ///< force as int32
-    std::optional<std::uint8_t> unit;      ///< unit of acceleration, in place of the right one
-    std::optional<std::uint8_t> done;      ///< the command that each DONE names, in place of the right one
+    bool wideForce = false;                ///< send force as int32
+    std::optional<std::uint8_t> unit;      ///< a wrong unit for acceleration; empty: the right unit
+    std::optional<std::uint8_t> done;      ///< a wrong command in each DONE; empty: the right command
     double drift_ppm = 0;                  ///< how much faster its clock runs than the host's
-    std::uint64_t powerUp_us = 1'234'567;  ///< what its clock says when it is made
-    Seconds latency{300e-6};               ///< delay of a frame on its way, at least
-    Seconds jitter{0};                     ///< mean of an exponential delay on top
+    std::uint64_t powerUp_us = 1'234'567;  ///< its clock's time when the board is made
+    Seconds latency{300e-6};               ///< least delay of a frame
+    Seconds jitter{0};                     ///< mean of an additional exponential delay
     LineFlaws flaws;
-    std::size_t bufferBytes = 65536;  ///< with more bytes, new blocks are thrown away
+    std::size_t bufferBytes = 65536;  ///< when this buffer is full, new blocks are discarded
     std::uint64_t seed = 1;
 };
 
@@ -58,42 +58,42 @@ class EmulatedBoard {
 public:
     static constexpr std::size_t kStreams = 3;
 
-    /// What became of the blocks of one stream since START.
+    /// What happened to the blocks of one stream since START.
     struct Fate {
         std::uint64_t made = 0;     ///< blocks
-        std::uint64_t samples = 0;  ///< in them
-        std::uint64_t lost = 0;     ///< blocks that will not arrive whole and in their turn
+        std::uint64_t samples = 0;  ///< samples in these blocks
+        std::uint64_t lost = 0;     ///< blocks that do not arrive intact and in order
         std::uint64_t lostSamples = 0;
-        std::uint64_t late = 0;     ///< frames that arrive a second time, or behind a later one
-        std::uint64_t flipped = 0;  ///< frames that arrive with a wrong bit; they count as lost
+        std::uint64_t late = 0;     ///< frames that arrive twice, or after a later frame
+        std::uint64_t flipped = 0;  ///< frames that arrive with a wrong bit; also counted as lost
     };
 
     EmulatedBoard(std::unique_ptr<BoardSignal> signal, EmulatedBoardSettings settings, Instant now);
 
-    /// Bytes from the host.
+    /// Receives bytes from the host.
     void receive(std::span<const std::uint8_t> bytes, Instant now);
-    /// Bytes for the host that are due by `now`; returns how many were written to `into`.
+    /// Moves bytes for the host that are due by `now` into `into`; returns how many.
     [[nodiscard]] std::size_t transmit(std::span<std::uint8_t> into, Instant now);
-    /// When the next bytes for the host are due, if it can be told.
+    /// Returns when the next bytes for the host are due, if that is known.
     [[nodiscard]] std::optional<Instant> nextTransmit() const noexcept;
 
-    /// Samples are still taken, and nothing is sent any longer.
+    /// Keeps sampling but sends nothing from now on.
     void fallSilent() noexcept { silent_ = true; }
-    /// Replaces every frame by noise, from now on or no longer.
+    /// Replaces every frame by noise while `on`.
     void talkGarbage(bool on) noexcept { garbage_ = on; }
-    /// From now on the line treats blocks in this way.
+    /// Applies these flaws to blocks from now on.
     void spoil(const LineFlaws& flaws) noexcept { flaws_ = flaws; }
-    /// The next block of `stream` is not sent.
+    /// Does not send the next block of `stream`.
     void dropNext(std::size_t stream) noexcept { dropNext_[stream] = true; }
-    /// The sensor of `stream` makes `samples` samples that the board does not fetch.
+    /// Makes the sensor of `stream` take `samples` samples that the board does not fetch.
     void overrun(std::size_t stream, std::uint32_t samples);
-    /// The watchdog bites: the clock begins at 0, and so do the blocks, without a START.
+    /// Acts like a watchdog reset: clock and block numbers begin at 0, without a START.
     void restart(Instant now);
     void jumpClock(Seconds ahead);
 
     [[nodiscard]] const Fate& fate(std::size_t stream) const noexcept { return streams_[stream].fate; }
     [[nodiscard]] bool running() const noexcept { return running_; }
-    /// The time on its own clock.
+    /// Returns the time on the board's own clock.
     [[nodiscard]] std::uint64_t time_us(Instant now) const noexcept;
     [[nodiscard]] BoardSignal& signal() noexcept { return *signal_; }
     [[nodiscard]] const tsb_configuration& configuration(std::size_t stream) const noexcept {
@@ -104,12 +104,12 @@ private:
     struct Stream {
         tsb_configuration configuration{};
         std::uint8_t blockSamples = 1;
-        std::int64_t divisor = 1;  // ticks a sample
+        std::int64_t divisor = 1;  // ticks per sample
         std::uint32_t sequence = 0, index = 0, skip = 0;
         std::uint64_t blockTime_us = 0;
-        std::uint8_t held = 0;  // samples in the block under way
+        std::uint8_t held = 0;  // samples in the unfinished block
         std::array<std::int32_t, 128> raw{};
-        std::vector<std::uint8_t> waiting;  // a block that the next one overtakes
+        std::vector<std::uint8_t> waiting;  // a block that is sent after the next one
         Fate fate;
     };
     struct Outgoing {
@@ -146,7 +146,7 @@ private:
     Instant lastDue_{0};
     bool running_ = false, silent_ = false, garbage_ = false;
     double started_us_ = 0;
-    std::int64_t tick_ = 0;  // the next one
+    std::int64_t tick_ = 0;  // the next tick
     double nextStatus_us_ = 0;
     std::uint32_t samplesLost_ = 0, blocksDropped_ = 0;
 };

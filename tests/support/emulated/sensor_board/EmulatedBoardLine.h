@@ -1,7 +1,7 @@
-// EmulatedBoardLine.h - an emulated board at the other end of a Transport, in this process, and as what is plugged in.
-// As DeviceLine; for tests and for training.
+// EmulatedBoardLine.h - connects an emulated board to a Transport in the same process, and lists it as a plugged-in
+// board. Like DeviceLine; for tests and for training.
 //
-// Thread-safety: every function from any thread.
+// Thread-safety: any thread.
 #pragma once
 
 #include <memory>
@@ -14,14 +14,14 @@ namespace tacto::sensorboard {
 
 class EmulatedBoardLine final : public test::DeviceLine, public SensorBoardPorts {
 public:
-    /// Without a `signal` it has the simulated finger.
+    /// Without a `signal` the board uses the simulated finger.
     EmulatedBoardLine(const Clock& clock, VirtualClock* movable, EmulatedBoardSettings settings = {},
                       std::unique_ptr<BoardSignal> signal = nullptr);
 
-    /// The one board, while it is plugged in.
+    /// Returns the only board while it is plugged in.
     [[nodiscard]] std::vector<TransportPort> list() const override;
     [[nodiscard]] Result<std::unique_ptr<Transport>> open(const TransportPort& port) override;
-    /// Errors: Unsupported, always.
+    /// Always returns the error Unsupported.
     [[nodiscard]] Result<std::unique_ptr<Transport>> openTerminal(const std::string& path) override;
 
     template <class Look>

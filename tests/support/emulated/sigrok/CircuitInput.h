@@ -1,7 +1,7 @@
-// CircuitInput.h - the simulated circuit at the inputs of an emulated oscilloscope: channel 1 across the load, channel
-// 2 across a low-side shunt, both through the instrument's bandwidth.
+// CircuitInput.h - connects the simulated circuit to the inputs of an emulated oscilloscope: channel 1 across the load,
+// channel 2 across a low-side shunt, both limited to the instrument's bandwidth.
 //
-// Thread-safety: one caller; the circuit has its own rules.
+// Thread-safety: one caller; the circuit states its own rules.
 #pragma once
 
 #include "core/base/Clock.h"
@@ -12,7 +12,7 @@ namespace tacto::sigrok_driver {
 
 class CircuitInput final : public ScopeInput {
 public:
-    /// `circuit` and `clock` outlive it. The shunt is small against the load: it is not part of the circuit.
+    /// `circuit` and `clock` must outlive this object. The shunt is small against the load and not part of the circuit.
     CircuitInput(sim::SimulatedCircuit& circuit, const Clock& clock, Ohms shunt, Hertz bandwidth = Hertz(70e6))
         : circuit_(circuit), clock_(clock), shunt_(shunt), bandwidth_(bandwidth) {}
 

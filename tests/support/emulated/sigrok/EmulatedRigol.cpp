@@ -73,7 +73,7 @@ std::string EmulatedRigol::ask(std::string_view what) {
     if (what == ":WAV:YREF") return answer(kZeroCode);
     if (what == ":WAV:STAT") return fmt::format("IDLE,{}\n", length());
     if (what == ":WAV:DATA") return block();
-    return "";  // as the instrument: what it does not know it does not answer
+    return "";  // like the instrument: no answer to an unknown command
 }
 
 std::string EmulatedRigol::askChannel(const Channel& channel, std::string_view what) const {
@@ -89,7 +89,7 @@ void EmulatedRigol::setChannel(Channel& channel, std::string_view what, std::str
     const auto number = parseNumber(value);
     if (what == "DISP") channel.on = value == "ON" || value == "1";
     if (what == "PROB" && number) {
-        channel.scale_V *= *number / channel.probe;  // the range at the input stays
+        channel.scale_V *= *number / channel.probe;  // keeps the range at the input
         channel.probe = *number;
     }
     if (what == "SCAL" && number && *number > 0) channel.scale_V = *number;
@@ -115,7 +115,7 @@ void EmulatedRigol::set(std::string_view what, std::string_view value) {
         state_ = what == ":RUN" ? State::Running : State::Waiting;
         if (what == ":SING") trigger_s_.reset();
         complete_ = false;
-        // Nothing triggers before the part of the record in front of the trigger is filled.
+        // No trigger is accepted before the part of the record that precedes the trigger is filled.
         searchFrom_s_ = toSeconds(clock_.now()) + before_s();
     } else if (what == ":STOP") {
         state_ = State::Stopped;

@@ -1,8 +1,8 @@
-// EmulatedRigol.h - a Rigol DS2072A as one talks to it: its commands answered, its records taken from a signal.
+// EmulatedRigol.h - an emulated Rigol DS2072A: answers its commands and takes its records from a signal.
 //
-// Written from the maker's public command set (DS2000A programming guide) and from what libsigrok's rigol-ds driver
-// asks; it answers that and nothing more. Eight bits, 25 steps a division, 14 divisions; 14000 samples of memory shared
-// by the channels that are on, 1400 on the screen; noise of 0.4 steps, so that no two records are the same.
+// Written from the maker's public command set (DS2000A programming guide) and the commands that libsigrok's rigol-ds
+// driver sends; it answers only those. Eight bits, 25 steps a division, 14 divisions; 14000 samples of memory shared by
+// the channels that are on, 1400 on the screen; noise of 0.4 steps, so that no two records are equal.
 //
 // Thread-safety: one caller; no I/O.
 #pragma once
@@ -24,26 +24,26 @@ namespace tacto::sigrok_driver {
 class ScopeInput {
 public:
     virtual ~ScopeInput() = default;
-    /// The first moment from `from_s` to `to_s` at which input `channel` (0, 1) goes through `level_V`, upwards or
+    /// Returns the first time from `from_s` to `to_s` at which input `channel` (0, 1) crosses `level_V`, upwards or
     /// downwards.
     [[nodiscard]] virtual std::optional<double> passes(int channel, double level_V, bool upwards, double from_s,
                                                        double to_s) = 0;
-    /// `out[k]` = input `channel` at start + k * step.
+    /// Sets `out[k]` to input `channel` at start + k * step.
     virtual void sample(int channel, double start_s, double step_s, std::vector<double>& out) = 0;
 };
 
 class EmulatedRigol {
 public:
-    /// `model`: as it names itself; every one answers as a DS2072A does.
+    /// `model` is only the name that the instrument reports; every model answers as a DS2072A.
     EmulatedRigol(std::shared_ptr<ScopeInput> input, const Clock& clock, std::uint64_t seed = 1,
                   std::string model = "DS2072A");
 
-    /// Takes one command, without its end of line. The answer with its own; empty where none is due.
+    /// Takes one command without its end of line; returns the answer with one, or an empty text if no answer is due.
     [[nodiscard]] std::string take(std::string_view command);
 
-    /// Whether it waits for a trigger.
+    /// True if the instrument waits for a trigger.
     [[nodiscard]] bool waiting();
-    /// Records read out completely, to the last channel that is on.
+    /// Returns how many records were read out completely, with all channels that are on.
     [[nodiscard]] std::uint64_t readOut() const noexcept { return readOut_; }
 
 private:
@@ -56,7 +56,7 @@ private:
     struct Channel {
         bool on = true;
         double probe = 1;
-        double scale_V = 1;  ///< a division
+        double scale_V = 1;  ///< volts per division
         std::string coupling = "DC";
     };
     enum class State { Stopped, Waiting, Running };
@@ -77,14 +77,14 @@ private:
     sim::FastNoise noise_;
     std::array<Channel, 2> channels_;
     double timebase_s_ = 1e-3;
-    double offset_s_ = 0;  // the time from the trigger to the middle of the screen
+    double offset_s_ = 0;  // time from the trigger to the middle of the screen
     int source_ = 0;
     bool rising_ = true;
     double level_V_ = 0;
     State state_ = State::Running;
     double searchFrom_s_ = 0;
-    std::optional<double> trigger_s_;  // trigger of the record that is taken, or was
-    bool complete_ = false;            // the record has come to its end
+    std::optional<double> trigger_s_;  // trigger of the current or last record
+    bool complete_ = false;            // true once the record is complete
     std::size_t depth_ = kMemory;
     bool memory_ = false;  // :WAV:MODE RAW
     int read_ = 0;         // :WAV:SOUR

@@ -42,7 +42,7 @@ EmulatedScopeServer::~EmulatedScopeServer() {
 void EmulatedScopeServer::unplug() noexcept {
     ending_ = true;
     const std::uint64_t one = 1;
-    [[maybe_unused]] const auto written = ::write(wake_, &one, sizeof one);  // fails only when it is set already
+    [[maybe_unused]] const auto written = ::write(wake_, &one, sizeof one);  // fails only if it is already set
 }
 
 bool EmulatedScopeServer::waits(Seconds timeout) {
@@ -96,7 +96,7 @@ bool EmulatedScopeServer::answer(int socket, std::string_view command) {
     }
     if (silent_) return true;
     if (waiting) {
-        // An instrument takes its time to answer too; without any, the asking would take a whole core.
+        // An instrument also takes time to answer; without this wait the repeated questions would keep a core busy.
         std::array<pollfd, 1> woken{{{wake_, POLLIN, 0}}};
         ::poll(woken.data(), woken.size(), 2);
     }

@@ -1,7 +1,7 @@
-// EmulatedScopeServer.h - an emulated oscilloscope behind a TCP port on loopback, as instruments have one (5555), with
-// the ways in which they fail.
+// EmulatedScopeServer.h - an emulated oscilloscope behind a TCP port on loopback, like an instrument's port 5555, with
+// typical failures.
 //
-// Thread-safety: any thread. A thread of its own serves; one conversation at a time.
+// Thread-safety: any thread. Its own thread serves one conversation at a time.
 #pragma once
 
 #include <atomic>
@@ -18,15 +18,15 @@
 
 namespace tacto::sigrok_driver {
 
-/// What happens when the next block of samples is asked for.
+/// What happens at the next request for a block of samples.
 enum class ScopeFault {
     None,
     HangUp,     ///< the connection ends in the middle of the block
-    Silence,    ///< half of the block, then nothing ever
-    Garbage,    ///< bytes that are no block at all
+    Silence,    ///< half of the block, then silence
+    Garbage,    ///< bytes that are no block
     LongBlock,  ///< the header promises more than is sent
-    Endless,    ///< announces and sends a whole megabyte where a record was asked for
-    Trickle,    ///< a block in pieces of a kilobyte, with a pause after each
+    Endless,    ///< a whole megabyte instead of a record
+    Trickle,    ///< a block in pieces of a kilobyte with pauses
 };
 
 class EmulatedScopeServer {
@@ -39,23 +39,23 @@ public:
 
     [[nodiscard]] std::uint16_t port() const noexcept { return port_; }
     void setFault(ScopeFault fault) noexcept { fault_ = fault; }
-    /// Answers nothing any longer, whatever is asked.
+    /// Answers no request from now on.
     void fallSilent() noexcept { silent_ = true; }
-    /// The plug is pulled: the conversation ends and no other begins.
+    /// Acts as if unplugged: the conversation ends and no other begins.
     void unplug() noexcept;
 
-    /// Whether it waits for a trigger, at the latest after `timeout`.
+    /// Waits at most `timeout`; true if the instrument waits for a trigger.
     [[nodiscard]] bool waits(Seconds timeout);
-    /// Whether `records` were read out, at the latest after `timeout`.
+    /// Waits at most `timeout`; true if `records` records were read out.
     [[nodiscard]] bool hasReadOut(std::uint64_t records, Seconds timeout);
     [[nodiscard]] std::uint64_t readOut();
-    /// Every command so far, oldest first.
+    /// Returns every command so far, oldest first.
     [[nodiscard]] std::vector<std::string> heard();
 
 private:
     EmulatedScopeServer(std::unique_ptr<EmulatedRigol> scope, int listener, std::uint16_t port, int wake);
     void serve() noexcept;
-    /// False at the end of the conversation.
+    /// Returns false at the end of the conversation.
     [[nodiscard]] bool answer(int socket, std::string_view command);
     [[nodiscard]] bool send(int socket, std::string_view bytes) noexcept;
 
@@ -69,7 +69,7 @@ private:
     std::condition_variable changed_;
     const std::unique_ptr<EmulatedRigol> scope_;  // guarded by mutex_
     std::vector<std::string> heard_;              // guarded by mutex_
-    std::thread thread_;                          // Last: starts when all else is ready
+    std::thread thread_;                          // declared last: starts when everything else is ready
 };
 
 }  // namespace tacto::sigrok_driver
