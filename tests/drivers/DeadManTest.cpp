@@ -1,4 +1,4 @@
-// H2 end to end: a device whose train would last 20 s lives in this process, as the hardware does; its host is a child
+// H2 end to end: a device with a train of 20 s lives in this process, as the hardware would. Its host is a child
 // process that sends heartbeats through a pipe. Whatever happens to the host, the output must end.
 #include <chrono>
 #include <functional>
@@ -21,7 +21,7 @@ namespace {
 
 constexpr Seconds kHeartbeat{0.05};
 
-/// The host: beats until it is killed, stopped or orphaned.
+/// The host: sends heartbeats until it is killed, stopped or orphaned.
 class BeatingHost {
 public:
     BeatingHost() {
@@ -48,13 +48,13 @@ public:
         close(pipe_);
     }
 
-    /// Waits up to `longest` and returns whether a heartbeat came.
+    /// Waits up to `longest`; returns true if a heartbeat came.
     [[nodiscard]] bool beat(std::chrono::milliseconds longest) const {
         pollfd wait{pipe_, POLLIN, 0};
         if (poll(&wait, 1, static_cast<int>(longest.count())) <= 0) return false;
         char bytes[64];
         if (read(pipe_, bytes, sizeof bytes) > 0) return true;
-        std::this_thread::sleep_for(longest);  // the host is gone: the pipe is at its end for good
+        std::this_thread::sleep_for(longest);  // the host is gone, so the pipe stays at its end
         return false;
     }
     void send(int signalNumber) const { kill(child_, signalNumber); }
@@ -74,7 +74,7 @@ protected:
         circuit_ = &dynamic_cast<sim::WorldMember&>(*devices_.stimulator).world()->circuit();
     }
 
-    /// Starts the train, 50 pulses a second. The gate is asked right before, as its approvals are short.
+    /// Starts the train, 50 pulses a second. Asks the gate just before, because its approvals expire soon.
     void begin() {
         const auto gate = benchGate(clock_, devices_.stimulator->traits());
         auto train = voltagePulse(5);
@@ -94,7 +94,7 @@ protected:
         }
     }
 
-    /// Right after a heartbeat, so that none is under way in the pipe.
+    /// Runs until just after a heartbeat, so that none is left in the pipe.
     void runToHeartbeat() {
         for (int i = 0; i < 1000 && !host_.beat(std::chrono::milliseconds(10)); ++i) {
         }
@@ -102,7 +102,7 @@ protected:
     }
 
     [[nodiscard]] bool outputOn() { return circuit_->active(clock_.now()); }
-    /// The end of the newest pulse.
+    /// Returns the end of the newest pulse.
     [[nodiscard]] Instant lastOutput() {
         return circuit_->inspect(clock_.now(), [](const auto& pulses) { return toInstant(pulses.back().end_s); });
     }
@@ -137,7 +137,7 @@ TEST_F(DeadMan, OutputEndsWithin2100MillisecondsOfAHang) {
     runFor(Seconds(2.5));
     EXPECT_FALSE(outputOn());
     EXPECT_LE(lastOutput() - hung, std::chrono::milliseconds(2100));
-    host_.send(SIGCONT);  // a host that wakes up again must not revive the output
+    host_.send(SIGCONT);  // a host that continues must not switch the output on again
     runFor(Seconds(0.5));
     EXPECT_FALSE(outputOn());
 }

@@ -1,5 +1,5 @@
-// The shipped example, resources/examples/four-touches: what the twin's fingertip gives in four touches, so that all of
-// the chain has something to do. With TACTO_WRITE_EXAMPLE set to a folder, its files are written there again.
+// The shipped example, resources/examples/four-touches: four touches by the twin's fingertip, which use the whole
+// chain. If TACTO_WRITE_EXAMPLE names a folder, the test writes the example's files there again.
 #include <cmath>
 #include <cstdlib>
 #include <fmt/format.h>
@@ -26,12 +26,12 @@ struct Touch {
     const char* material;
     double speed_mmps, force_n, until_s;
 };
-// The finger begins in the air, so that sliding differs from a rest; it touches smooth and rough, light and firm.
+// Begins in the air, so that sliding differs from rest; then touches smooth and rough, lightly and firmly.
 constexpr Touch kTouches[] = {
     {"plastic", 50, 0.3, 1.75}, {"P120", 50, 0.4, 2.75}, {"P60", 50, 4, 7}, {"plastic", 50, 4.5, 8.5}};
 constexpr double kRest_s = 0.75, kEnd_s = 8.75;
 
-/// Everything that the twin's fingertip measures, a block for each stream.
+/// Returns everything that the twin's fingertip measures, one block per stream.
 std::vector<SampleBlock> feltByTheTwin() {
     SimBench bench;
     bench.open("sim:finger");
@@ -58,7 +58,7 @@ std::vector<SampleBlock> feltByTheTwin() {
     return blocks;
 }
 
-/// The table as the file has it: in whole mg, Pa and mN.
+/// Formats the table as in the file: whole mg, Pa and mN.
 std::string tableOf(const StreamInfo& info, const SampleBlock& block) {
     const bool fast = info.kind == StreamKind::Acceleration;
     std::string out = fast                             ? "x,y,z\n"
@@ -102,7 +102,7 @@ TEST(ExampleRecording, IsWhatTheTwinFeels) {
         ASSERT_EQ(stream->samples.samples(), blocks[s].samples());
         ASSERT_EQ(stream->info.channels, infos[s].channels);
         EXPECT_NEAR(stream->samples.t_s.front(), blocks[s].t_s.front(), 1e-6);
-        // Another mathematical library may round differently: two steps of the sensor or of the file.
+        // Another maths library may round differently: allow two steps of the sensor or of the file.
         const double step = infos[s].kind == StreamKind::Acceleration ? 0.02
                             : infos[s].kind == StreamKind::Force      ? 0.002
                                                                       : 2;
@@ -127,7 +127,7 @@ TEST(ExampleRecording, MovesEverythingThatTheChainShows) {
     EXPECT_GT(summary.R.max, 0.75);
     EXPECT_LT(summary.P.min, 0.1);
     EXPECT_GT(summary.P.max, 0.7);
-    // Each of the four conditions occurs: smooth and rough, lightly and firmly.
+    // Each of the four conditions must occur: smooth and rough, lightly and firmly.
     for (const bool rough : {false, true}) {
         for (const bool firm : {false, true}) {
             std::size_t frames = 0;

@@ -111,7 +111,7 @@ TEST(Finger, PressingWithoutSlidingIsAsQuietAsRest) {
 }
 
 TEST(Finger, FasterSlidingShiftsTheSpectrumUp) {
-    // A fine grating on glass: its spatial frequency times the speed, 40 Hz to 160 Hz.
+    // A fine grating on glass: its spatial frequency times the speed gives 40 Hz to 160 Hz.
     const std::string grating = "&grating=1mm&depth=200um&tremor=0";
     double last = 0;
     for (const double speed : {40.0, 80.0, 160.0}) {
@@ -151,7 +151,7 @@ TEST(Finger, TrembleAtEightToTwelveHertz) {
     double mean = 0;
     for (std::size_t i = from; i < force.size(); ++i) mean += force[i];
     mean /= static_cast<double>(force.size() - from);
-    std::map<int, double> power;  // per hertz
+    std::map<int, double> power;  // power per hertz
     for (int tenth = 20; tenth < 300; tenth += 2) {
         double re = 0, im = 0;
         for (std::size_t i = from; i < force.size(); ++i) {
@@ -176,7 +176,7 @@ TEST(Finger, TaxelsShareTheForceOverTheContact) {
         for (std::size_t c = 0; c < 8; ++c) mean += taxels.values[i * 8 + c] - baseline[c];
         n += 8;
     }
-    EXPECT_NEAR(mean / n, 4 / 1e-4, 0.1 * 4 / 1e-4);  // 1 cm²
+    EXPECT_NEAR(mean / n, 4 / 1e-4, 0.1 * 4 / 1e-4);  // contact area 1 cm²
 }
 
 TEST(Finger, SameSeedSameBytesAndAnotherSeedOthers) {
@@ -233,9 +233,9 @@ TEST(Finger, PresentingActsAtItsMomentHoweverLateTheReading) {
     EXPECT_EQ(often[2].values, once[2].values);
     const auto& force = once[2];
     const auto at = [&](double t) { return force.values[static_cast<std::size_t>(t * 200)]; };
-    EXPECT_LT(std::abs(at(0.45)), 0.02);  // rest first, for the baseline
+    EXPECT_LT(std::abs(at(0.45)), 0.02);  // at rest first, for the baseline
     EXPECT_NEAR(at(1.5), 0.5, 0.1);
-    EXPECT_LT(std::abs(at(1.83)), 0.05);  // lifted between two materials
+    EXPECT_LT(std::abs(at(1.83)), 0.05);  // lifted between the two materials
     EXPECT_NEAR(at(2.5), 3, 0.5);
     EXPECT_LT(std::abs(at(3.5)), 0.02);
 }

@@ -1,4 +1,4 @@
-// A twin's flaws: drawn from the seed within what its devices state, none where none are wanted, and an oscilloscope
+// The flaws of simulated devices: drawn from the seed within the stated limits, absent on request, and an oscilloscope
 // that states nothing (science.md section 12).
 #include <cmath>
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace tacto::test {
 namespace {
 
-/// The voltage plateau of 40 V into 1 kohm, as the oscilloscope of this seed shows it; and its capture.
+/// Returns the voltage plateau of 40 V into 1 kohm as the oscilloscope with this seed shows it, and the capture.
 std::pair<double, Capture> shown(std::uint64_t seed, const std::string& parameters) {
     SimBench bench("1 kohm", seed);
     EXPECT_TRUE(bench.tryOpen("sim:stimulator?" + parameters));
@@ -36,7 +36,7 @@ TEST(SimulatedFlaws, AreDrawnFromTheSeedWithinWhatIsStated) {
     for (std::uint64_t seed = 1; seed <= 12; ++seed) {
         const auto [volts, capture] = shown(seed, "flaws=drawn");
         EXPECT_EQ(volts, shown(seed, "flaws=drawn").first) << "the same seed, the same flaws";
-        // Stimulator: 0.5 % gain, 0.2 % cold, 0.3 % droop, 0.2 % source; oscilloscope: 0.5 %.
+        // Stated limits. Stimulator: gain 0.5 %, cold 0.2 %, droop 0.3 %, source 0.2 %; oscilloscope: 0.5 %.
         EXPECT_NEAR(volts, 40, 0.02 * 40) << seed;
         EXPECT_EQ(capture.channels[0].gainTolerance, 0.005);
         EXPECT_TRUE(notStated(capture).empty()) << notStatedText(capture);

@@ -1,4 +1,4 @@
-// The simulated massager: how its motor moves, and what it does when it is faulty.
+// The simulated massager: how its motor moves, and how its faults behave.
 #include <cmath>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// NaiveFeatures.h - science.md's features written down as directly as possible, to judge the twin with something that
-// is not the product's own chain: direct Fourier sums over Hann windows, means removed in place of the band-pass.
+// NaiveFeatures.h - computes science.md's features as directly as possible, to check the twin independently of the
+// product's own chain: direct Fourier sums over Hann windows, with means removed instead of a band-pass.
 //
 // Thread-safety: pure functions.
 #pragma once
@@ -17,12 +17,12 @@ namespace tacto::test {
 struct NaiveFrame {
     double t_s = 0;
     double power = 0;     ///< 5 Hz to 1 kHz
-    double h = 0;         ///< share of it above 200 Hz
+    double h = 0;         ///< share of `power` above 200 Hz
     double v = 0;         ///< taxel variance / mean²
     double centroid = 0;  ///< Hz
 };
 
-/// Frames of 64 ms of 4 kHz acceleration and 200 Hz taxels after `from_s`, one every `hop_s`. `baseline` is per taxel.
+/// Returns a frame of 64 ms of 4 kHz acceleration and 200 Hz taxels per `hop_s` after `from_s`. `baseline`: per taxel.
 inline std::vector<NaiveFrame> naiveFrames(const SampleBlock& acceleration, const SampleBlock& taxels,
                                            std::span<const double> baseline, double from_s, double hop_s = 0.064) {
     constexpr std::size_t kWindow = 256;

@@ -18,7 +18,7 @@ ScopeSettings record(double rate, std::size_t samples, double level) {
 }
 
 TEST(SimulatedOscilloscope, TriggerTimeIsExactBetweenSamples) {
-    // A straight edge of 10 V in 100 µs passes 5 V exactly 50 µs after its onset, less nothing but 8 ns of bandwidth.
+    // A straight edge of 10 V in 100 µs passes 5 V exactly 50 µs after its onset; the bandwidth adds only 8 ns.
     SimBench bench;
     bench.open("sim:oscilloscope?noise=0");
     bench.open("sim:stimulator?rise=100us&jitter=20us");
@@ -28,7 +28,7 @@ TEST(SimulatedOscilloscope, TriggerTimeIsExactBetweenSamples) {
         const auto capture = bench.capture();
         const double onset = bench.circuit().inspect(bench.clock.now(), [](const auto& p) { return p.back().onset_s; });
         EXPECT_NEAR(capture.trigger_s - onset, 50e-6, 20e-9);
-        // The record agrees: straight line between the two samples around the trigger.
+        // The record must agree: straight line between the two samples around the trigger.
         const auto& v = capture.channels[0].samples;
         const double at = (capture.trigger_s - capture.start_s) * capture.rate_hz;
         const auto k = static_cast<std::size_t>(at);
@@ -133,7 +133,7 @@ TEST(SimulatedOscilloscope, NoiseAndResolutionAreAsStated) {
     const auto noisy = fine.capture();
     double square = 0;
     for (std::size_t i = 0; i < 1500; ++i) {
-        square += std::pow(static_cast<double>(noisy.channels[0].samples[i]), 2);  // taken before the trigger
+        square += std::pow(static_cast<double>(noisy.channels[0].samples[i]), 2);  // samples from before the trigger
     }
     EXPECT_NEAR(std::sqrt(square / 1500), 0.05, 0.004);
 }
@@ -182,7 +182,7 @@ TEST(SimulatedOscilloscope, SameSeedSameBytes) {
 }
 
 TEST(FilteredTrace, AgreesWithNumericalIntegrationOfTheFilter) {
-    // One pulse into the RC load through 100 kHz, against small explicit steps of the same first-order filter.
+    // Compares one pulse into the RC load through 100 kHz with small explicit steps of the same first-order filter.
     SimBench bench("200 ohm + 10 kohm || 50 nF");
     bench.open("sim:stimulator?rise=5us&latency=0&jitter=0");
     bench.deliver(voltagePulse(20));

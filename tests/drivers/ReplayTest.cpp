@@ -1,4 +1,4 @@
-// Recordings and captures as devices: the suites that every device must pass, and what is particular to files.
+// Recordings and captures as devices: the suites that every device must pass, and behaviour that only files have.
 #include <cmath>
 #include <fstream>
 #include <gmock/gmock.h>
@@ -18,7 +18,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// 2 s of acceleration at 1 kHz and taxels at 50 Hz that start at 100 s on their own clock.
+/// Writes 2 s of acceleration at 1 kHz and taxels at 50 Hz; their own clock starts at 100 s.
 void writeRecording(const ScratchDir& folder, const std::string& origin = {}) {
     std::string acceleration = "time,X\n";
     for (int i = 0; i < 2000; ++i) acceleration += fmt::format("{:.3f},{}\n", 100 + i * 0.001, i);
@@ -82,7 +82,7 @@ public:
     }
     Oscilloscope& device() override { return *bench_.devices.oscilloscope; }
     const Clock& clock() const override { return bench_.clock; }
-    // A folder is due as soon as its first record would have ended: time stands still until a test needs it.
+    // A folder's first record is due once it would have ended, so time must not pass until a test needs it to.
     void wait(Seconds) override {}
     bool pulse() override { return false; }
     bool unplug() override { return false; }

@@ -1,4 +1,4 @@
-// The simulated sensor board on the simulated massager's motor.
+// The simulated sensor board, fastened to the simulated massager's motor.
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ struct Board {
         auto burst = gate.approve(VibrationBurst{intensity, Seconds(0.1)});
         EXPECT_TRUE(bench.devices.massager->vibrate(std::move(*burst)).has_value());
     }
-    /// Root mean square beside gravity, of the samples from `from` to `until`.
+    /// Returns the root mean square, without gravity, of the samples from `from` to `until`.
     [[nodiscard]] double strength(double from, double until) const {
         const auto& block = blocks[0];
         double squares = 0, n = 0;

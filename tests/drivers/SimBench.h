@@ -1,4 +1,4 @@
-// SimBench.h - simulated devices on a virtual clock, with a gate that approves for them: the fixture of these tests.
+// SimBench.h - the fixture of these tests: simulated devices on a virtual clock, and a gate that approves trains.
 //
 // Thread-safety: the test's own thread.
 #pragma once
@@ -18,20 +18,20 @@ class SimBench {
 public:
     explicit SimBench(std::string declaredLoad = "1 kohm", std::uint64_t seed = 1);
 
-    /// Opens one URI; failing that, the test's failure says why.
-    /// Without flaws unless `uri` says otherwise: these tests look at one flaw at a time.
+    /// Opens one URI; if that fails, so does the test, with the reason.
+    /// Devices have no flaws unless `uri` asks for them: these tests look at one flaw at a time.
     void open(std::string_view uri, const std::set<Role>& wanted = {});
-    /// Opens like open(), for what should be refused.
+    /// Opens like open(), for URIs that may be refused.
     [[nodiscard]] Result<void> tryOpen(std::string_view uri, const std::set<Role>& wanted = {});
     void wait(Seconds duration) { clock.advanceTo(clock.now() + toInstant(duration)); }
 
-    /// A symmetric train at 200 µs a phase, approved for the open stimulator.
+    /// Approves a symmetric train of 200 µs a phase for the open stimulator.
     [[nodiscard]] ApprovedTrain approved(const PulseTrain& train);
-    /// Delivers and waits `after`. The test fails when the device refuses.
+    /// Delivers the train and waits `after`. If the device refuses, the test fails.
     void deliver(const PulseTrain& train, Seconds after = Seconds(0.06));
-    /// Oscilloscope settings applied, then armed.
+    /// Applies the oscilloscope settings, then arms.
     void arm(const ScopeSettings& settings);
-    /// The next capture, which must be there.
+    /// Returns the next capture; if there is none, the test fails.
     [[nodiscard]] Capture capture();
     [[nodiscard]] sim::SimulatedCircuit& circuit();
 
@@ -45,10 +45,10 @@ private:
     std::unique_ptr<SafetyGate> gate_;
 };
 
-/// A train of one pulse at `volts`, 200 µs a phase.
+/// Makes a train of one pulse of `volts`, 200 µs a phase.
 [[nodiscard]] PulseTrain voltagePulse(double volts, double gap_us = 100);
 [[nodiscard]] PulseTrain currentPulse(double milliamps, double gap_us = 100);
-/// Largest magnitude of a channel.
+/// Returns the largest magnitude of a channel.
 [[nodiscard]] double peakOf(const CaptureChannel& channel);
 
 }  // namespace tacto::test

@@ -1,4 +1,4 @@
-// The simulated devices against the suites that every device must pass.
+// Runs the suites that every device must pass on the simulated devices.
 #include "drivers/simulated/SimulatedMassager.h"
 #include "tests/drivers/SimBench.h"
 #include "tests/drivers/conformance/MassagerConformance.h"
@@ -11,7 +11,7 @@ namespace {
 
 constexpr Seconds kPlugTime{1000};
 
-/// All simulated rigs share this: the plug is pulled by a fault that comes due.
+/// Common part of all simulated rigs: a scheduled fault pulls the plug.
 template <class Rig>
 class SimRig : public Rig {
 public:

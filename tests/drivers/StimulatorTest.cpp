@@ -22,7 +22,7 @@ ScopeSettings fastRecord(double triggerLevel = 5) {
     return settings;
 }
 
-/// Peak current in mA that the oscilloscope sees of 40 V.
+/// Returns the peak current in mA that the oscilloscope sees for a pulse of 40 V.
 double peakIntoRc(const std::string& parameters, double gap_us, bool secondPhase) {
     SimBench bench(kRcLoad);
     bench.open("sim:oscilloscope?noise=0");
@@ -41,7 +41,7 @@ double peakIntoRc(const std::string& parameters, double gap_us, bool secondPhase
 }
 
 TEST(SimulatedStimulator, PeakCurrentsIntoTheRcLoadAreThoseOfItsEquations) {
-    // tests/reference/loads.py, each within the few tenths of a percent that 20 ns edges and 10 MS/s leave.
+    // Values from tests/reference/loads.py; 20 ns edges and 10 MS/s explain the few tenths of a percent of tolerance.
     const auto& scipy = figuresOf("loads").at("bench_load_40_v");
     EXPECT_NEAR(peakIntoRc("&gap=highz", 100, false), scipy.at("leading_ma").get<double>(), 2);
     EXPECT_NEAR(peakIntoRc("&gap=highz", 100, true), scipy.at("second_ma_high_impedance").get<double>(), 3.6);
@@ -153,7 +153,7 @@ TEST(SimulatedStimulator, ResidualVoltageCarriesFromPulseToPulse) {
     bench.deliver(train);
     bench.circuit().inspect(bench.clock.now(), [](const auto& pulses) {
         ASSERT_EQ(pulses.size(), 3U);
-        // The first starts from an empty capacitor: 20 V / 200 ohm. The others meet what has not leaked away.
+        // The first pulse starts from an empty capacitor: 20 V / 200 ohm. The others meet the remaining charge.
         EXPECT_NEAR(pulses[0].totals.peakCurrent_A, 0.1, 1e-3);
         EXPECT_LT(pulses[1].totals.peakCurrent_A, 0.06);
         EXPECT_GT(pulses[1].totals.peakCurrent_A, 0.02);
@@ -191,7 +191,7 @@ TEST(SimulatedStimulator, ForceOffTruncatesThePulseInProgress) {
     auto train = voltagePulse(20);
     train.pulses = 5;
     ASSERT_TRUE(bench.devices.stimulator->deliver(bench.approved(train)).has_value());
-    bench.wait(Seconds(10e-3 + 100e-6));  // this is the middle of the second pulse's leading phase
+    bench.wait(Seconds(10e-3 + 100e-6));  // the middle of the second pulse's leading phase
     bench.devices.stimulator->forceOff();
     bench.wait(Seconds(1));
     bench.circuit().inspect(bench.clock.now(), [](const auto& pulses) {

@@ -12,7 +12,7 @@ class EveryMaterial : public testing::TestWithParam<Material> {};
 TEST_P(EveryMaterial, HasTheStatedRoughness) {
     const Surface surface(GetParam(), 3);
     if (GetParam().gratingPeriod.value() > 0) {
-        EXPECT_NEAR(surface.ra().value(), 24, 1);  // as its source says: relief and ridges together
+        EXPECT_NEAR(surface.ra().value(), 24, 1);  // as the material's source says, for relief and ridges together
     } else {
         EXPECT_NEAR(surface.ra().value(), GetParam().ra.value(), 1e-3 * GetParam().ra.value());
     }

@@ -15,8 +15,8 @@ const std::set<Role> kAll{Role::Sensor, Role::Stimulator, Role::Oscilloscope, Ro
 
 struct BadUri {
     const char* uri;
-    const char* names;     // the message names this
-    const char* accepted;  // what is accepted, as the refusal says it
+    const char* names;     // text that the message must contain
+    const char* accepted;  // the accepted values, as the message states them
 };
 
 class RefusedUris : public testing::TestWithParam<BadUri> {};

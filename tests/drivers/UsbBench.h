@@ -1,6 +1,6 @@
-// UsbBench.h - a bench over the real libusb on the emulated bus, in real time, with its session.
+// UsbBench.h - a bench with its session over the real libusb on the emulated bus, in real time.
 //
-// Thread-safety: the test's own thread; the bench has its own rules.
+// Thread-safety: the test's own thread; the bench states its own rules.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -22,13 +22,13 @@ namespace tacto::test {
 class UsbBench : public testing::Test {
 protected:
     [[nodiscard]] virtual Registry registry() = 0;
-    /// This runs before the plugged-in devices go.
+    /// Runs before the plugged-in devices are destroyed.
     void TearDown() override {
         bench_.reset();
         usb_ = {};
     }
 
-    /// Opens what is plugged in.
+    /// Opens the plugged-in devices.
     void open(const std::vector<DeviceUri>& uris, const std::set<Role>& needed) {
         auto drivers = registry();
         auto devices = drivers.open(uris, needed, OpenContext{*clock_, 1, "1 kohm"});

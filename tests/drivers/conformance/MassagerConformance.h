@@ -1,6 +1,6 @@
-// MassagerConformance.h - what every massager must do. A driver's tests give a factory, as in StimulatorConformance.h.
+// MassagerConformance.h - tests for every massager. A driver's tests give a factory, see StimulatorConformance.h.
 //
-// Thread-safety: the suite calls from its own thread, and forceOff() from others.
+// Thread-safety: the suite calls from its own thread, but forceOff() from other threads too.
 #pragma once
 
 #include <functional>
@@ -19,9 +19,9 @@ public:
     [[nodiscard]] virtual Massager& device() = 0;
     [[nodiscard]] virtual const Clock& clock() const = 0;
     virtual void wait(Seconds duration) = 0;
-    /// Whether the motor vibrates perceptibly; nothing where the rig cannot feel it.
+    /// True if the motor vibrates perceptibly; nothing if the rig cannot tell.
     [[nodiscard]] virtual std::optional<bool> vibrating() = 0;
-    /// Pulls the plug; false where the rig cannot.
+    /// Pulls the plug; returns false if the rig cannot.
     [[nodiscard]] virtual bool unplug() = 0;
 };
 

@@ -128,7 +128,7 @@ TEST_P(OscilloscopeConformance, AForcedRecordIsMarkedOverlapsNoOtherAndLeavesItW
     if (forced == nullptr) GTEST_SKIP() << "this oscilloscope takes no record without a trigger";
     ASSERT_IN_TIME(device().configure(usual()));
     EXPECT_THAT(forced->forceTrigger(), refused(ErrorCode::Unsupported)) << "it is not armed";
-    double free_s = toSeconds(rig_->clock().now());  // from here on no record has been
+    double free_s = toSeconds(rig_->clock().now());  // no record covers times from here on
     ASSERT_IN_TIME(device().arm());
     for (int i = 0; i < 2; ++i) {
         ASSERT_IN_TIME(forced->forceTrigger());

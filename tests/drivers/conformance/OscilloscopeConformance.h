@@ -1,4 +1,4 @@
-// OscilloscopeConformance.h - what every oscilloscope must do. A driver's tests give a factory, as in
+// OscilloscopeConformance.h - tests that every oscilloscope must pass. A driver's tests give a factory, see
 // StimulatorConformance.h.
 //
 // Thread-safety: the test's own thread.
@@ -21,9 +21,9 @@ public:
     [[nodiscard]] virtual Oscilloscope& device() = 0;
     [[nodiscard]] virtual const Clock& clock() const = 0;
     virtual void wait(Seconds duration) = 0;
-    /// One biphasic pulse of 10 V, 200 µs a phase, on the voltage channel, within 50 ms; false where the rig cannot.
+    /// Puts a biphasic pulse of 10 V, 200 µs a phase, on the voltage channel within 50 ms; false if the rig cannot.
     [[nodiscard]] virtual bool pulse() = 0;
-    /// Pulls the plug; false where the rig cannot.
+    /// Pulls the plug; returns false if the rig cannot.
     [[nodiscard]] virtual bool unplug() = 0;
 };
 
@@ -36,7 +36,7 @@ class OscilloscopeConformance : public testing::TestWithParam<OscilloscopeKind> 
 protected:
     void SetUp() override;
     [[nodiscard]] Oscilloscope& device() { return rig_->device(); }
-    /// 2 ms at up to 1 MS/s, trigger at 5 V.
+    /// Settings: 2 ms at up to 1 MS/s, trigger at 5 V.
     [[nodiscard]] ScopeSettings usual() const;
     [[nodiscard]] std::optional<Capture> captured();
 

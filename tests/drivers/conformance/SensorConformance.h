@@ -1,4 +1,4 @@
-// SensorConformance.h - what every tactile sensor must do. A driver's tests give a factory, as in
+// SensorConformance.h - tests that every tactile sensor must pass. A driver's tests give a factory, see
 // StimulatorConformance.h.
 //
 // Thread-safety: the test's own thread.
@@ -21,7 +21,7 @@ public:
     [[nodiscard]] virtual TactileSensor& device() = 0;
     [[nodiscard]] virtual const Clock& clock() const = 0;
     virtual void wait(Seconds duration) = 0;
-    /// Pulls the plug; false where the rig cannot.
+    /// Pulls the plug; returns false if the rig cannot.
     [[nodiscard]] virtual bool unplug() = 0;
 };
 
@@ -33,7 +33,7 @@ struct SensorKind {
 class SensorConformance : public testing::TestWithParam<SensorKind> {
 protected:
     void SetUp() override;
-    /// Reads everything that comes in `duration`, every `step`.
+    /// Reads every `step` for `duration` and collects everything.
     void collect(Seconds duration, Seconds step);
     [[nodiscard]] TactileSensor& device() { return rig_->device(); }
 

@@ -136,7 +136,7 @@ TEST_P(StimulatorConformance, ForceOffFromAnotherThreadWhileDelivering) {
         while (!done.load()) device().forceOff();
     });
     for (int i = 0; i < 20; ++i) {
-        // A stop may come between: then the train is refused or cut, and neither is a crash or a hang.
+        // A stop may come in between: the train is then refused or cut. Both are fine; a crash or a hang is not.
         static_cast<void>(device().deliver(approved(3)));
         rig_->wait(Seconds(0.05));
     }

@@ -1,8 +1,8 @@
-// StimulatorConformance.h - what every stimulator must do, whatever its make. A driver's tests give a factory:
+// StimulatorConformance.h - tests that every stimulator must pass, whatever its make. A driver's tests give a factory:
 //
 //   INSTANTIATE_TEST_SUITE_P(PulsePal, StimulatorConformance, testing::Values(StimulatorKind{"PulsePal", makeRig}));
 //
-// Thread-safety: the suite calls from its own thread, and forceOff() from others.
+// Thread-safety: the suite calls from its own thread, but forceOff() from other threads too.
 #pragma once
 
 #include <functional>
@@ -15,7 +15,7 @@
 
 namespace tacto::test {
 
-/// A stimulator on a 1 kohm load (real, faked or simulated) with the means to look at it from outside.
+/// A stimulator on a 1 kohm load (real, faked or simulated), with functions to observe it from outside.
 class StimulatorRig {
 public:
     virtual ~StimulatorRig() = default;
@@ -23,11 +23,11 @@ public:
     [[nodiscard]] virtual const Clock& clock() const = 0;
     /// Lets time pass, for the clock and the device.
     virtual void wait(Seconds duration) = 0;
-    /// Whether the output is on, seen from the load; nothing where the rig cannot see that.
+    /// True if the output, measured at the load, is on; nothing if the rig cannot measure it.
     [[nodiscard]] virtual std::optional<bool> outputOn() = 0;
-    /// Closes the device; outputOn() still answers.
+    /// Closes the device; outputOn() still works afterwards.
     virtual void close() = 0;
-    /// Pulls the plug; false where the rig cannot.
+    /// Pulls the plug; returns false if the rig cannot.
     [[nodiscard]] virtual bool unplug() = 0;
 };
 
@@ -39,10 +39,10 @@ struct StimulatorKind {
 class StimulatorConformance : public testing::TestWithParam<StimulatorKind> {
 protected:
     void SetUp() override;
-    /// `pulses` at 100 Hz of a small amplitude, approved now.
+    /// Approves `pulses` pulses of a small amplitude at 100 Hz.
     [[nodiscard]] ApprovedTrain approved(int pulses = 1);
     [[nodiscard]] Stimulator& device() { return rig_->device(); }
-    /// The status, read as the bench does.
+    /// Returns the status as the bench would read it.
     [[nodiscard]] StimulatorStatus status();
     void expectOutput(bool on);
 
@@ -50,7 +50,7 @@ protected:
     std::unique_ptr<SafetyGate> gate_;
 };
 
-/// The amplitude that the tests use: 5 V or 5 mA.
+/// Returns the amplitude that the tests use: 5 V or 5 mA.
 [[nodiscard]] Amplitude smallAmplitude(const SourceTraits& source);
 
 }  // namespace tacto::test

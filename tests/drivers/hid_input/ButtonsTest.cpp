@@ -1,4 +1,4 @@
-// HidButtons: what a descriptor offers as buttons, and what each report says of them.
+// HidButtons: which buttons a descriptor offers, and what each report says about them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ TEST(HidButtons, APadHasItsTwelveAndNeitherSticksNorHat) {
         EXPECT_THAT(buttons.read(padReport({button})), ElementsAre(Change{std::size_t(button - 1), true})) << button;
         auto moved = padReport({button});
         moved[0] = 0;     // a stick
-        moved[7] = 0x12;  // what the vendor sends
+        moved[7] = 0x12;  // a byte of the vendor's own
         EXPECT_THAT(buttons.read(moved), IsEmpty()) << "held: one press";
         EXPECT_THAT(buttons.read(padReport({})), ElementsAre(Change{std::size_t(button - 1), false})) << button;
     }
@@ -66,7 +66,7 @@ TEST(HidButtons, ACutReportChangesNothing) {
 }
 
 TEST(HidButtons, WithoutButtonsOrWithTooManyItIsRefusedWithWhatItHas) {
-    // The sticks of a pad alone; the buttons of a mouse; 200 buttons.
+    // In turn: only the sticks of a pad; the buttons of a mouse; 200 buttons.
     const Bytes sticks{0x05, 0x01, 0x09, 0x05, 0xA1, 0x01, 0x75, 0x08, 0x95, 0x02, 0x15,
                        0x00, 0x26, 0xFF, 0x00, 0x09, 0x30, 0x09, 0x31, 0x81, 0x02, 0xC0};
     EXPECT_THAT(buttonsOf(sticks), refused(ErrorCode::Unsupported, "2 other inputs and no button"));

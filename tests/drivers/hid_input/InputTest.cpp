@@ -1,4 +1,4 @@
-// HidInput over fake devices: which are offered, what their listener hears, and what comes of one that is unplugged.
+// HidInput with fake devices: which devices are offered, what a listener hears, and what happens after unplugging.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// A listener's record in words: "down 4", "gone".
+/// Records what a listener hears, in words: "down 4", "gone".
 class Heard {
 public:
     ButtonListener listener() {
@@ -27,7 +27,7 @@ public:
         const std::scoped_lock lock(mutex_);
         return all_;
     }
-    /// Whether so many were heard within 5 s.
+    /// Waits up to 5 s; true if `count` events were heard.
     [[nodiscard]] bool wait(std::size_t count) const {
         std::unique_lock lock(mutex_);
         return changed_.wait_for(lock, std::chrono::seconds(5), [&] { return all_.size() >= count; });
@@ -76,7 +76,7 @@ TEST_F(HidInputTest, PadsAndPedalsAreOfferedWithTheirButtonsAndWhatTypesIsNot) {
 }
 
 TEST_F(HidInputTest, WhatCannotBeUsedSaysWhyAndIsNotOpened) {
-    plug(0x0001, "", Bytes{0x05});  // cut off
+    plug(0x0001, "", Bytes{0x05});  // a truncated descriptor
     plug(0x0002, "", Bytes{0x05, 0x01, 0x09, 0x05, 0xA1, 0x01, 0xC0}, 0x10005);
     plug(0x0003, "", padDescriptor()).setPermitted(false);
     const auto list = devices->list();
@@ -139,9 +139,9 @@ TEST_F(HidInputTest, AnotherDeviceTakesNoPlaceOfOneThatWent) {
     pad.unplug();
     ASSERT_IN_TIME(heard.wait(1));
     other.send(padReport({1}));
-    pad.setDescriptor(pedalDescriptor());  // a device with the same numbers, and another descriptor
+    pad.setDescriptor(pedalDescriptor());  // same numbers, but another descriptor: another device
     pad.plug();
-    std::this_thread::sleep_for(std::chrono::milliseconds(500));  // time in which nothing may happen
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));  // nothing may happen in this time
     EXPECT_THAT(heard.all(), ElementsAre("gone"));
     EXPECT_EQ(other.openings(), 0);
 }
@@ -154,11 +154,11 @@ TEST_F(HidInputTest, OneLikeItThatWasThereBesideItTakesNoPlaceOfIt) {
     auto& spare = plug(0xC216, "", padDescriptor());  // a spare pad for the next participant
     pad.unplug();
     ASSERT_IN_TIME(heard.wait(1));
-    std::this_thread::sleep_for(std::chrono::milliseconds(500));  // time in which nothing may happen
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));  // nothing may happen in this time
     EXPECT_THAT(heard.all(), ElementsAre("gone"));
     EXPECT_EQ(spare.openings(), 0);
     pad.plug();
-    std::this_thread::sleep_for(std::chrono::milliseconds(500));  // nothing tells the two apart
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));  // nothing may happen: the two cannot be told apart
     EXPECT_THAT(heard.all(), ElementsAre("gone"));
     spare.unplug();
     ASSERT_IN_TIME(heard.wait(2));

@@ -1,4 +1,4 @@
-// PadDescriptors.h - report descriptors of pads and pedals, made from what is known of their reports (hid-buttons.md).
+// PadDescriptors.h - report descriptors of pads and pedals, from known facts on their reports (hid-buttons.md).
 //
 // Thread-safety: pure functions.
 #pragma once
@@ -7,7 +7,7 @@
 
 namespace tacto::test {
 
-/// Four sticks, a hat, 12 buttons and two bytes of the vendor's, 8 bytes without a number: as a Logitech F310 at D.
+/// Four sticks, a hat, 12 buttons and two vendor bytes, 8 bytes without a number: like a Logitech F310 in mode D.
 inline Bytes padDescriptor() {
     return {0x05, 0x01, 0x09, 0x04, 0xA1, 0x01, 0xA1, 0x02,                                      // joystick, logical
             0x75, 0x08, 0x95, 0x04, 0x15, 0x00, 0x26, 0xFF, 0x00,                                // 4 × 8 bits
@@ -15,11 +15,11 @@ inline Bytes padDescriptor() {
             0x75, 0x04, 0x95, 0x01, 0x25, 0x07, 0x09, 0x39, 0x81, 0x42,                          // hat
             0x75, 0x01, 0x95, 0x0C, 0x25, 0x01,                                                  // 12 × 1 bit
             0x05, 0x09, 0x19, 0x01, 0x29, 0x0C, 0x81, 0x02,                                      // buttons 1 to 12
-            0x06, 0x00, 0xFF, 0x75, 0x08, 0x95, 0x02, 0x26, 0xFF, 0x00, 0x09, 0x01, 0x81, 0x02,  // the vendor's
+            0x06, 0x00, 0xFF, 0x75, 0x08, 0x95, 0x02, 0x26, 0xFF, 0x00, 0x09, 0x01, 0x81, 0x02,  // vendor bytes
             0xC0, 0xC0};
 }
 
-/// A report of padDescriptor(): the sticks at rest, the hat at none, and these buttons down, from 1.
+/// Makes a report of padDescriptor(): sticks and hat at rest, and the buttons in `down` (counted from 1) pressed.
 inline Bytes padReport(std::initializer_list<int> down) {
     Bytes report{0x80, 0x7F, 0x80, 0x7F, 0x08, 0x00, 0x00, 0xFF};
     for (const int button : down) {
@@ -29,13 +29,13 @@ inline Bytes padReport(std::initializer_list<int> down) {
     return report;
 }
 
-/// Three pedals in two bytes without a number: Programmable Buttons of the Consumer page, as VEC's.
+/// Three pedals in two bytes without a number: Programmable Buttons of the Consumer page, like VEC's pedals.
 inline Bytes pedalDescriptor() {
     return {0x05, 0x0C, 0x09, 0x03, 0xA1, 0x01, 0x05, 0x09, 0x19, 0x01, 0x29, 0x03, 0x15, 0x00, 0x25,
             0x01, 0x95, 0x03, 0x75, 0x01, 0x81, 0x02, 0x95, 0x01, 0x75, 0x0D, 0x81, 0x01, 0xC0};
 }
 
-/// Two joysticks of two buttons in one device, by report number: an adapter of two pads.
+/// Two joysticks of two buttons each in one device, told apart by report number, like an adapter for two pads.
 inline Bytes twoPadsDescriptor() {
     Bytes bytes;
     for (const std::uint8_t number : {std::uint8_t{1}, std::uint8_t{2}}) {

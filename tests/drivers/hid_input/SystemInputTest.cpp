@@ -1,4 +1,4 @@
-// Game pads on the real hidapi, over emulated devices.
+// Game pads through the real hidapi, on emulated devices.
 #include <algorithm>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ protected:
     UsbTestbed bed;
     std::mutex mutex;
     std::condition_variable changed;
-    std::vector<int> heard;  // button from 1, negative where it came up; ±1000: back, gone
+    std::vector<int> heard;  // the button's number, negative if released; ±1000: device back, gone
 };
 
 TEST_F(SystemInput, APadIsListedAndItsButtonsAreHeardUntilItIsUnpluggedAndAfterItIsBack) {

@@ -1,4 +1,4 @@
-// BurstTimer: what is written when, to the nanosecond.
+// BurstTimer: what is written and when, to the nanosecond.
 #include <gtest/gtest.h>
 
 #include "drivers/hid_massager/BurstTimer.h"
@@ -89,7 +89,7 @@ TEST(BurstTimer, ABurstThatFailedOrWasOvertakenIsStopped) {
     timer.wrote(HidWrite::Stop, milliseconds(2), milliseconds(2), true);
 
     timer.askBurst(milliseconds(100));
-    timer.askStop();  // the stop comes while the burst is under way
+    timer.askStop();  // the stop comes while the burst is being written
     timer.wrote(HidWrite::Burst, milliseconds(3), milliseconds(4), true);
     EXPECT_FALSE(timer.vibrating());
     expectDue(timer, HidWrite::Stop, Instant(0));

@@ -1,5 +1,5 @@
-// The HID massager against the suite that every massager must pass: its own thread on the steady clock, and served on a
-// virtual one.
+// Runs the suite that every massager must pass on the HID massager: with its own thread on the steady clock, and served
+// by the test on a virtual clock.
 #include <thread>
 
 #include "drivers/hid_massager/HidMassager.h"

@@ -1,4 +1,4 @@
-// HidDescriptor and Haptics: where a device's controls stand.
+// HidDescriptor and Haptics: at which positions a device's controls are.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <random>
@@ -59,7 +59,7 @@ TEST(HidDescriptor, FindsEachControlWithItsReportOffsetSizeAndRange) {
 }
 
 TEST(HidDescriptor, PaddingMovesWhatFollowsAndIsNoControl) {
-    // 3 bits constant, then a 5-bit control, then another report's control at its own beginning.
+    // 3 constant bits, then a 5-bit control, then a control of another report, which begins at that report's start.
     const auto descriptor =
         parsed({0x06, 0x00, 0xFF, 0x09, 0x01, 0xA1, 0x01, 0x85, 0x01, 0x75, 0x03, 0x95, 0x01, 0x91, 0x01, 0x09, 0x02,
                 0x15, 0x00, 0x25, 0x1F, 0x75, 0x05, 0x91, 0x02, 0x85, 0x02, 0x09, 0x03, 0x75, 0x08, 0x91, 0x02, 0xC0});
@@ -109,9 +109,9 @@ TEST(HidDescriptor, WhatLiesOrGoesBeyondTheTablesIsRefused) {
     EXPECT_THAT(refusal({0x29, 0x04}), HasSubstr("minimum"));
     EXPECT_THAT(refusal({0x19, 0x00, 0x2A, 0xFF, 0xFF}), HasSubstr("at most"));
     EXPECT_THAT(refusal({0x15, 0x05, 0x25, 0x01, 0x75, 0x08, 0x95, 0x01, 0x91, 0x02}), HasSubstr("empty"));
-    // 65535 controls of 65535 bits: no report is that long.
+    // 65535 controls of 65535 bits: no report can be that long.
     EXPECT_THAT(refusal({0x76, 0xFF, 0xFF, 0x96, 0xFF, 0xFF, 0x91, 0x02}), HasSubstr("longer"));
-    // Each fits into a report's length, all together are too long.
+    // Each report has a permitted length, but all together have too many controls.
     Bytes many{0x75, 0x01, 0x96, 0xFF, 0x0F};
     for (std::uint8_t report = 1; report < 6; ++report) many.insert(many.end(), {0x85, report, 0x91, 0x02});
     EXPECT_THAT(refusal(many), HasSubstr("4096 controls"));
@@ -141,7 +141,7 @@ TEST(HidDescriptor, AnyPrefixAndAnyChangedByteIsReadOrRefusedAndFieldsStayInside
     EXPECT_GT(read, 500);
 }
 
-/// Intensity, trigger and repeat count of hapticDescriptor(), then these two, u16 and u8.
+/// Controls to follow intensity, trigger and repeat count of hapticDescriptor(): a u16 and a u8.
 const Bytes kCutoffControl{0x05, 0x0E, 0x09, 0x28, 0x15, 0x00, 0x26, 0xE8, 0x03, 0x75, 0x10, 0x95, 0x01, 0x91, 0x02};
 const Bytes kRetriggerControl{0x05, 0x0E, 0x09, 0x25, 0x15, 0x00, 0x26, 0xFF, 0x00, 0x75, 0x08, 0x95, 0x01, 0x91, 0x02};
 
@@ -158,22 +158,22 @@ hid::VibrationReports hapticsOf(const Bytes& descriptor, const Bytes& list) {
 
 TEST(Haptics, TheWaveformThatLastsIsTriggeredByItsOrdinalAndStoppedByTwo) {
     RecordProperty("hazard", "H4");
-    // Ordinal 3 is a click of unknown duration, 4 a rumble.
+    // Ordinal 3 is a click of unknown duration, ordinal 4 a rumble.
     const auto reports = hapticsOf(hapticDescriptor(), Bytes{2, 0x03, 0x10, 0x05, 0x10, 0, 0, 0, 0});
     EXPECT_EQ(hid::startBytes(reports, 1).value(), (Bytes{1, 0xFF, 0xFF, 4, 0}));
     EXPECT_EQ(hid::startBytes(reports, 0.5).value(), (Bytes{1, 0x00, 0x80, 4, 0}));
     EXPECT_EQ(reports.stop, (Bytes{1, 0, 0, 2, 0}));
     EXPECT_FALSE(reports.ends);
-    // The other way round it is ordinal 3.
+    // With the list reversed the rumble is ordinal 3.
     EXPECT_EQ(hapticsOf(hapticDescriptor(), Bytes{2, 0x04, 0x10, 0x03, 0x10, 0, 0, 0, 0}).start[3], 3);
 }
 
 TEST(Haptics, AWaveformOfKnownDurationIsRepeatedAsOftenAsTheBurstLastsAndEndsByItself) {
     RecordProperty("hazard", "H2");
-    // Ordinal 3 is a click of 50 ms, 4 a rumble that lasts until it is stopped.
+    // Ordinal 3 is a click of 50 ms, ordinal 4 a rumble that lasts until it is stopped.
     const Bytes list{2, 0x03, 0x10, 0x05, 0x10, 50, 0, 0, 0};
     const auto reports = hapticsOf(hapticDescriptor(), list);
-    EXPECT_EQ(hid::startBytes(reports, 1, Seconds(0.1)).value(), (Bytes{1, 0xFF, 0xFF, 3, 1}));  // 2 plays
+    EXPECT_EQ(hid::startBytes(reports, 1, Seconds(0.1)).value(), (Bytes{1, 0xFF, 0xFF, 3, 1}));  // plays twice
     EXPECT_EQ(hid::startBytes(reports, 1, Seconds(0.05)).value(), (Bytes{1, 0xFF, 0xFF, 3, 0}));
     EXPECT_EQ(hid::startBytes(reports, 1, Seconds(0.051)).value(), (Bytes{1, 0xFF, 0xFF, 3, 1}));
     EXPECT_EQ(hid::startBytes(reports, 0.5, Seconds(1)).value(), (Bytes{1, 0x00, 0x80, 3, 19}));
@@ -183,7 +183,7 @@ TEST(Haptics, AWaveformOfKnownDurationIsRepeatedAsOftenAsTheBurstLastsAndEndsByI
     for (const double wrong : {0.0, -1.0, std::nan(""), 1e300}) {
         EXPECT_FALSE(hid::startBytes(reports, 1, Seconds(wrong))) << wrong;
     }
-    // Where it has a retrigger period, one play follows the other.
+    // With a retrigger period, one play follows the other without a pause.
     const auto spaced = hapticsOf(hapticDescriptor(kRetriggerControl), list);
     EXPECT_EQ(hid::startBytes(spaced, 1, Seconds(0.1)).value(), (Bytes{1, 0xFF, 0xFF, 3, 1, 50}));
 }
@@ -202,7 +202,7 @@ TEST(Haptics, ADeviceThatOnlyClicksOrSendsTooLittleIsRefused) {
     const auto controls = accepted(hid::findHaptics(parsed(hapticDescriptor())));
     EXPECT_THAT(hid::hapticReports(controls, Bytes{2, 0x03, 0x10, 0x03, 0x10, 0, 0, 0, 0}),
                 refused(ErrorCode::Unsupported, testing::AllOf(HasSubstr("1003"), HasSubstr("1004"))));
-    // Stop, none, a pen's ink and a play of more than a second are not bursts, whatever their durations.
+    // None, stop, a pen's ink waveform and a play of more than a second cannot be bursts, whatever their durations.
     for (const std::uint8_t waveform : Bytes{0x01, 0x02, 0x0B}) {
         EXPECT_FALSE(hid::hapticReports(controls, Bytes{2, waveform, 0x10, 0x02, 0x10, 50, 0, 50, 0})) << int{waveform};
     }
@@ -214,7 +214,7 @@ TEST(Haptics, ADeviceThatOnlyClicksOrSendsTooLittleIsRefused) {
 TEST(Haptics, ADescriptorWithoutAControllerSaysWhatIsMissing) {
     EXPECT_THAT(hid::findHaptics(parsed(outputDescriptor(5, 32))), refusedSaying("0E:01"));
     auto headless = hapticDescriptor();
-    // The manual trigger stands under another usage.
+    // Gives the manual trigger another usage.
     for (std::size_t i = 0; i + 1 < headless.size(); ++i) {
         if (headless[i] == 0x09 && headless[i + 1] == 0x21) headless[i + 1] = 0x22;
     }

@@ -1,4 +1,4 @@
-// HidDriver: which device a URI names, and what it is told.
+// HidDriver: which device a URI names, and which reports it gets.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -65,14 +65,14 @@ TEST_F(HidDriverTest, ADualSenseIsListedAndOpenedAndGetsItsOwnReport) {
 TEST_F(HidDriverTest, ADeviceWithAHapticsPageNeedsNoTemplate) {
     RecordProperty("hazard", "H4");
     const auto pad = plug(0x1234, 0x5678, "H", hapticDescriptor(), 0x000E0001);
-    pad->setFeature({2, 0x03, 0x10, 0x04, 0x10, 50, 0, 0, 0});  // ordinal 3 clicks for 50 ms
+    pad->setFeature({2, 0x03, 0x10, 0x04, 0x10, 50, 0, 0, 0});  // ordinal 3 is a click of 50 ms
     ASSERT_EQ(driver()->list().size(), 1u);
     const auto opened = open("hid:");
     ASSERT_IN_TIME(opened);
     SafetyGate gate(clock);
     auto burst = gate.approve(VibrationBurst{1, Seconds(0.5)});
     ASSERT_IN_TIME(devices.massager->vibrate(std::move(*burst)));
-    EXPECT_EQ(pad->last(), (Bytes{1, 0xFF, 0xFF, 3, 9}));  // 10 times, then it is over by itself
+    EXPECT_EQ(pad->last(), (Bytes{1, 0xFF, 0xFF, 3, 9}));  // plays 10 times, then ends by itself
     devices.massager->forceOff();
     EXPECT_IN_TIME(pad->waitForLast({1, 0, 0, 2, 0}));
 }
@@ -100,7 +100,7 @@ TEST_F(HidDriverTest, EachOfTwoIsListedWithAnAddressThatOpensItAndNoOther) {
     RecordProperty("hazard", "H4");
     plug(0x054C, 0x0CE6, "A1", outputDescriptor(2, 48));
     plug(0x054C, 0x0CE6, "A2", outputDescriptor(2, 48));
-    plug(0x054C, 0x05C4, "", outputDescriptor(5, 32));  // the second version tells no serial number
+    plug(0x054C, 0x05C4, "", outputDescriptor(5, 32));  // the second hardware version has no serial number
     plug(0x054C, 0x05C4, "", outputDescriptor(5, 32));
     plug(0x054C, 0x0DF2, "same", outputDescriptor(2, 63));
     plug(0x054C, 0x0DF2, "same", outputDescriptor(2, 63));
@@ -118,7 +118,7 @@ TEST_F(HidDriverTest, EachOfTwoIsListedWithAnAddressThatOpensItAndNoOther) {
             EXPECT_EQ(hidraw->plugged[other]->openNow(), other == i ? 1 : 0) << uris[i];
         }
     }
-    // What is offered to choose from are those addresses.
+    // The error message offers these addresses as a choice.
     for (const auto& uri : uris) EXPECT_THAT(open("hid:"), refused(ErrorCode::InvalidArgument, uri));
     EXPECT_THAT(open("hid:054c:05c4"), refused(ErrorCode::InvalidArgument, uris[2] + " or " + uris[3]));
     EXPECT_THAT(open("hid:054c:05c4?at=/dev/hidraw9"), refused(ErrorCode::NotFound, "hidraw9"));

@@ -1,7 +1,6 @@
-// FakeHid.h - HID devices without a system under them: what is written to them is kept, and their faults come on the
-// test's command.
+// FakeHid.h - fake HID devices that need no system: they record what is written to them and fail when the test asks.
 //
-// Thread-safety: every function from any thread.
+// Thread-safety: any thread.
 #pragma once
 
 #include <condition_variable>
@@ -25,14 +24,14 @@ public:
 
     void unplug();
     void plug();
-    /// Writes wait while held: a slow device.
+    /// While held, writes wait, as on a slow device.
     void hold(bool held);
-    /// The next write takes so many bytes only.
+    /// Makes the next write take only this many bytes.
     void takeOnly(std::size_t bytes);
-    /// While it refuses, all writes fail.
+    /// While `refused`, all writes fail.
     void refuse(bool refused);
     void setFeature(Bytes report);
-    /// An input report that the device sends by itself.
+    /// Sends an input report on the device's own initiative.
     void send(Bytes report);
     void setDescriptor(Bytes descriptor);
     void setPermitted(bool permitted);
@@ -41,27 +40,27 @@ public:
         Instant at{0};  ///< when the device took it
         Bytes bytes;
     };
-    /// All writes that the device took whole, in order.
+    /// Returns all writes that the device took completely, in order.
     [[nodiscard]] std::vector<Write> writes() const;
     [[nodiscard]] Bytes last() const;
-    /// Waits until the device took so many; false after 5 s.
+    /// Waits until the device took `count` writes; returns false after 5 s.
     [[nodiscard]] bool waitForWrites(std::size_t count) const;
-    /// Waits until a write is held; false after 5 s.
+    /// Waits until a write is held; returns false after 5 s.
     [[nodiscard]] bool waitForHeld() const;
-    /// Waits until the last report is this one; false after 5 s.
+    /// Waits until the last report is `report`; returns false after 5 s.
     [[nodiscard]] bool waitForLast(const Bytes& report) const;
     [[nodiscard]] int attempts() const;
     [[nodiscard]] int openings() const;
     [[nodiscard]] int openNow() const;
-    /// While it refuses, no watchdog starts for its ports; a running one has ended.
+    /// While `refused`, no watchdog starts for the device's ports, and a running one has ended.
     void refuseWatch(bool refused);
-    /// The watchdogs of its ports run on and do not answer.
+    /// While `silent`, the watchdogs of the device's ports run but do not answer.
     void silenceWatch(bool silent);
-    /// Times that a port's watchdog was told that output is on; whether the last word was that it is off.
+    /// beats(): how often a port's watchdog was told that output is on. watchRests(): true if it was last told "off".
     [[nodiscard]] int beats() const;
     [[nodiscard]] bool watchRests() const;
     [[nodiscard]] Bytes watchedStop() const;
-    /// Has a port's stopNow() send this report past all that waits.
+    /// Makes a port's stopNow() send this report ahead of everything that waits.
     void setUrgentStop(Bytes report);
 
     [[nodiscard]] bool plugged() const;
@@ -88,7 +87,7 @@ private:
     std::optional<std::size_t> takeOnly_;
     bool plugged_ = true, refused_ = false, held_ = false, watchRefused_ = false, watchSilent_ = false, resting_ = true;
     int beats_ = 0, waiting_ = 0, attempts_ = 0, openings_ = 0, openNow_ = 0;
-    std::uint64_t session_ = 0;  // plug() makes old ports useless
+    std::uint64_t session_ = 0;  // plug() changes it, which makes old ports useless
 };
 
 class FakeHidBackend final : public hid::HidBackend {
@@ -100,12 +99,12 @@ public:
     Result<std::unique_ptr<hid::HidPort>> open(const hid::HidDeviceInfo& info) const override;
 };
 
-/// A report descriptor with one output report of `length` bytes (its number's byte included), on a game pad.
+/// Makes a game pad's descriptor with one output report of `length` bytes, the number byte included.
 [[nodiscard]] Bytes outputDescriptor(std::uint8_t number, std::size_t length);
 /// A haptic controller as in resources/design/wire/hid-vibration.md: output report 1 with u16 intensity, u8 ordinal, u8
-/// repeat, then `moreControls`; feature report 2 with the waveforms of ordinals 3 and 4, then their durations.
+/// repeat count, then `moreControls`; feature report 2 with the waveforms of ordinals 3 and 4, then their durations.
 [[nodiscard]] Bytes hapticDescriptor(const Bytes& moreControls = {});
-/// The two-motor reports of a made-up device: number 5, 8 bytes, weak at byte 4, strong at byte 5.
+/// Two-motor reports of an invented device: number 5, 8 bytes, weak motor at byte 4, strong motor at byte 5.
 [[nodiscard]] hid::VibrationReports padReports(Seconds keepAlive = Seconds(0), Seconds shortestWrite = Seconds(0));
 
 }  // namespace tacto::test

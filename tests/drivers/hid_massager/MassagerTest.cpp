@@ -1,5 +1,5 @@
-// HidMassager on a fake port, on the steady clock with its own thread: every way out, and a slow device told from a
-// broken one.
+// HidMassager on a fake port, on the steady clock with its own thread: every situation in which it must stop, and the
+// difference between a slow and a broken device.
 #include <future>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -79,13 +79,13 @@ TEST_F(HidMassagerTest, WithoutAWatchdogNothingIsWrittenButTheStop) {
     device.refuseWatch(false);
     open();
     EXPECT_EQ(device.watchedStop(), kOff);
-    device.refuseWatch(true);  // it ended
+    device.refuseWatch(true);  // the watchdog has ended
     const auto before = device.writes().size();
     EXPECT_THAT(vibrate(), refused(ErrorCode::Device, "is not driven: its watchdog has ended"));
     ASSERT_IN_TIME(device.waitForWrites(before + 1));
     EXPECT_EQ(device.last(), kOff);
     device.refuseWatch(false);
-    EXPECT_IN_TIME(vibrate());  // this sends another one
+    EXPECT_IN_TIME(vibrate());  // this starts another watchdog
 }
 
 TEST_F(HidMassagerTest, TheWatchdogIsToldThatOutputIsOnUntilTheDeviceTookItsStop) {
@@ -95,7 +95,7 @@ TEST_F(HidMassagerTest, TheWatchdogIsToldThatOutputIsOnUntilTheDeviceTookItsStop
     ASSERT_IN_TIME(vibrate(Seconds(0.3)));
     EXPECT_FALSE(device.watchRests());
     ASSERT_IN_TIME(device.waitForWrites(3));
-    EXPECT_IN_TIME(device.beats() >= 4);  // they come every 50 ms
+    EXPECT_IN_TIME(device.beats() >= 4);  // one every 50 ms
     massager->forceOff();
     ASSERT_IN_TIME(device.waitForWrites(4));
     massager.reset();
@@ -115,7 +115,7 @@ TEST_F(HidMassagerTest, AWatchdogThatEndsOrFallsSilentInABurstEndsTheBurstAndItI
     device.refuseWatch(true);
     endsTheBurst(ErrorCode::Device, "Pad was stopped: its watchdog has ended");
     device.refuseWatch(false);
-    ASSERT_IN_TIME(vibrate(Seconds(1)));  // this sends another one
+    ASSERT_IN_TIME(vibrate(Seconds(1)));  // this starts another watchdog
     device.silenceWatch(true);
     endsTheBurst(ErrorCode::Timeout, "Pad was stopped: its watchdog has not answered for 500 ms");
 }
@@ -129,7 +129,7 @@ TEST_F(HidMassagerTest, ABurstIsAsLongAsItWasApproved) {
     EXPECT_EQ(writes[2].bytes, kOff);
     const double lasted = toSeconds(writes[2].at - writes[1].at);
     EXPECT_GE(lasted, 0.1 - 1e-6);
-    EXPECT_IN_TIME(lasted <= 0.2);  // a loaded machine may be late
+    EXPECT_IN_TIME(lasted <= 0.2);  // allows for a busy computer
 }
 
 TEST_F(HidMassagerTest, KeepAliveRepeatsTheBurst) {
@@ -187,7 +187,7 @@ TEST_F(HidMassagerTest, ForceOffNeitherAllocatesNorWaitsForAWriteThatIsUnderWay)
     massager->forceOff();
     massager->forceOff();
     EXPECT_EQ(allocationsOfThisThread(), before);
-    EXPECT_EQ(device.writes().size(), 1u);  // it returned before the write was over
+    EXPECT_EQ(device.writes().size(), 1u);  // forceOff() returned before the write ended
     device.hold(false);
     static_cast<void>(late.get());
     EXPECT_IN_TIME(device.waitForLast(kOff));
@@ -202,7 +202,7 @@ TEST_F(HidMassagerTest, APortThatCanStopAtOnceIsAskedTo) {
     auto late = std::async(std::launch::async, [&] { return vibrate(); });
     ASSERT_IN_TIME(device.waitForHeld());
     massager->forceOff();
-    EXPECT_EQ(device.last(), urgent);  // though the write before is held
+    EXPECT_EQ(device.last(), urgent);  // although the previous write is held
     device.hold(false);
     static_cast<void>(late.get());
     EXPECT_IN_TIME(device.waitForLast(kOff));
@@ -233,7 +233,7 @@ TEST_F(HidMassagerTest, AShortWriteIsAFaultAndStopped) {
     ASSERT_IN_TIME(device.waitForWrites(2));
     EXPECT_EQ(device.last(), kOff);
     EXPECT_IN_TIME(vibrate());
-    EXPECT_EQ(device.openings(), 2);  // it is opened again after a fault
+    EXPECT_EQ(device.openings(), 2);  // opened again after the fault
 }
 
 TEST_F(HidMassagerTest, ARefusedReportIsAFaultAndTheStopIsTriedUntilItIsTaken) {
@@ -257,7 +257,7 @@ TEST_F(HidMassagerTest, AStopThatFailsBetweenCallsIsReportedOnceAndSentWhenItCan
     device.refuse(true);
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(5);
     while (device.attempts() < before + 2 && std::chrono::steady_clock::now() < deadline) std::this_thread::yield();
-    ASSERT_IN_TIME(device.attempts() >= before + 2);  // tried again by itself
+    ASSERT_IN_TIME(device.attempts() >= before + 2);  // retried without a call
     const auto told = vibrate();
     ASSERT_FALSE(told);
     EXPECT_CODE_IN_TIME(told.error().code, ErrorCode::Device);
@@ -313,7 +313,7 @@ TEST_F(HidMassagerTest, ClosingWhileABurstIsUnderWayStopsBehindIt) {
     RecordProperty("hazard", "H2");
     open();
     device.hold(true);
-    ASSERT_FALSE(vibrate());  // slow, and still under way
+    ASSERT_FALSE(vibrate());  // slow, and still running
     auto closing = std::async(std::launch::async, [&] { massager.reset(); });
     ASSERT_IN_TIME(device.waitForHeld());
     device.hold(false);

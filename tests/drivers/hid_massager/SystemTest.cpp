@@ -1,4 +1,4 @@
-// The HID driver on the real hidapi, and the Trance Vibrator on the real libusb, over emulated devices.
+// The HID driver on the real hidapi, and the Trance Vibrator on the real libusb, with emulated devices.
 #include <cerrno>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -68,7 +68,7 @@ TEST_F(HidSystem, ABurstGoesOutAndEndsByItselfAndClosingStops) {
     ASSERT_IN_TIME(burst.size() >= 3U);
     EXPECT_THAT(burst, testing::ElementsAre(kOff, kOn, kOff));
     ASSERT_IN_TIME(vibrate(1, Seconds(1)));
-    // A stop within 4 ms of the report before, the shortest time between two writes, would be sent twice.
+    // A stop within 4 ms (the shortest time between two writes) of the previous report would be sent twice.
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     devices = {};
     const auto stopped = pad.waitForReports(5);
@@ -84,7 +84,7 @@ TEST_F(HidSystem, AShortWriteAndARefusalAreFaults) {
     EXPECT_THAT(vibrate(1, Seconds(0.1)),
                 refused(ErrorCode::Device, AllOf(HasSubstr("10 bytes"), HasSubstr("48 were expected"))));
     auto again = vibrate(1, Seconds(0.1));  // opened again
-    // On a busy machine starting the watchdog takes longer than the 100 ms of an approval; the next one finds it open.
+    // On a busy computer the watchdog may start too late for the approval of 100 ms; the next try finds it running.
     if (!again && again.error().message.find("approval expired") != std::string::npos) again = vibrate(1, Seconds(0.1));
     ASSERT_IN_TIME(again);
     pad.refuseWrites(EIO);
@@ -115,7 +115,7 @@ TEST_F(HidSystem, UnpluggedInABurstIsAFaultAndTheSameDeviceServesAgain) {
     ASSERT_FALSE(gone);
     EXPECT_CODE_IN_TIME(gone.error().code, ErrorCode::Device);
     pad.plug();
-    // On a busy machine starting the watchdog takes longer than the 100 ms of an approval; a later one finds it open.
+    // On a busy computer the watchdog may start too late for the approval of 100 ms; it is then running at a later try.
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(5);
     Result<void> again;
     do {
@@ -168,7 +168,7 @@ protected:
 
     UsbTestbed bed;
     const UsbProvider provider = makeUsbProvider();
-    std::shared_ptr<UsbContext> context = provider().value();  // kept, so that it is one for the whole test
+    std::shared_ptr<UsbContext> context = provider().value();  // kept, so that the whole test uses one context
     const SteadyClock clock;
     SafetyGate gate{clock};
     DeviceSet devices;
@@ -227,7 +227,7 @@ TEST_F(TranceTest, AStopPassesARequestThatTheDeviceDoesNotTake) {
     EXPECT_EQ(speeds(device).back(), 0);
 }
 
-/// The conformance suite on the real hidapi.
+/// Rig for the conformance suite on the real hidapi.
 class SystemRig final : public MassagerRig {
 public:
     SystemRig() {

@@ -1,4 +1,4 @@
-// MassagerTemplate: the shipped files, byte by byte, and what is refused.
+// MassagerTemplate: the shipped files, byte by byte, and templates that are refused.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -64,7 +64,7 @@ TEST(MassagerTemplate, ADeviceWhoseDescriptorSaysOtherwiseIsRefused) {
                 refusedSaying("no output report 2"));
 }
 
-/// A template that is accepted, with one piece of its text replaced.
+/// Returns a valid template with one piece of its text replaced.
 std::string with(std::string_view from = "", std::string_view to = "") {
     std::string text = R"({"title": "Pad", "source": "test", "devices": [{"vendor": "1234", "product": "abCD",
         "name": "Pad"}], "usage": {"page": "0001", "id": "0005"}, "report": {"number": 5, "lengths": [8],

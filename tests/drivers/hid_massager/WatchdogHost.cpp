@@ -1,5 +1,5 @@
-// A host for WatchdogTest: opens the massager that its argument names, begins a burst of 1 s, prints a line, and dies
-// as it is told by its standard input: "abort", "segv", "exit"; it is killed or stopped from outside otherwise.
+// A host for WatchdogTest: opens the massager named by its argument, begins a burst of 1 s, prints a line, and ends as
+// standard input says: "abort", "segv", "exit"; otherwise a signal from outside kills or stops it.
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -22,7 +22,7 @@ int main(int argumentCount, char** arguments) {
     const auto uri = DeviceUri::parse(arguments[1]);
     DeviceSet devices;
     Result<void> opened;
-    // libusb's first look at the bus takes a moment.
+    // libusb needs a moment to list the bus.
     for (int attempt = 0; attempt < 50; ++attempt) {
         opened = driver->open(*uri, {}, OpenContext{clock}, devices);
         if (opened || opened.error().code != ErrorCode::NotFound) break;
@@ -45,7 +45,7 @@ int main(int argumentCount, char** arguments) {
     const std::string how = word;
     if (how == "abort") std::abort();
     if (how == "segv") {
-        std::signal(SIGSEGV, SIG_DFL);  // a sanitizer would make an exit of it
+        std::signal(SIGSEGV, SIG_DFL);  // a sanitizer's handler would turn the signal into an exit
         std::raise(SIGSEGV);
     }
     if (how == "exit") _exit(0);

@@ -1,5 +1,5 @@
-// H2 end to end: another process drives an emulated massager and dies in the middle of a burst. The device lives here,
-// as hardware would: it must be sent its stop, which the dead process cannot do.
+// H2 end to end: another process drives an emulated massager and dies in the middle of a burst. The device lives in
+// this process, as hardware would, and must get its stop, which the dead process cannot send.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -33,8 +33,8 @@ constexpr std::size_t kReportLength = 48;
 
 struct Death {
     const char* name;
-    const char* word;  ///< the word for the host; empty: it is sent `signal`
-    int signal;        ///< the signal that ends it; 0: it exits
+    const char* word;  ///< the command for the host; empty: the test sends `signal`
+    int signal;        ///< the signal that ends the host; 0: it exits
 };
 constexpr std::array<Death, 5> kDeaths{{{"Kill9", "", SIGKILL},
                                         {"Abort", "abort", SIGABRT},
@@ -113,7 +113,7 @@ TEST(WatchdogStandstill, AProgramThatStandsStillInABurstIsStoppedForAndStaysOff)
     EXPECT_EQ(pad.waitForReports(3).back(), padReport(0));
     EXPECT_IN_TIME(Steady::now() - stopped <= kStopWithin);
     host.signal(SIGCONT);
-    ASSERT_TRUE(host.tell("over"));  // and it ends in order
+    ASSERT_TRUE(host.tell("over"));  // the host then ends normally
     EXPECT_EQ(host.ended(), 0);
     for (std::size_t i = 2; i < pad.waitForReports(3).size(); ++i) EXPECT_EQ(pad.waitForReports(3)[i], padReport(0));
 }
@@ -136,13 +136,13 @@ TEST_F(WatchdogProcessTest, TriesUntilTheDeviceTakesTheStop) {
     ASSERT_IN_TIME(watchdog);
     pad.refuseWrites(EIO);
     ASSERT_IN_TIME((*watchdog)->beat() == hid::WatchdogState::Watching);
-    watchdog->reset();  // as a death: no word that the output is off
+    watchdog->reset();  // like a death: without a word that the output is off
     EXPECT_TRUE(pad.waitForReports(0).empty());
     pad.refuseWrites(0);
     EXPECT_EQ(pad.waitForReports(1).back(), padReport(0));
 }
 
-/// The processes that this one's threads have started.
+/// Returns the processes that this process's threads have started.
 std::vector<pid_t> children() {
     std::vector<pid_t> all;
     for (const auto& thread : std::filesystem::directory_iterator("/proc/self/task")) {
@@ -162,7 +162,7 @@ TEST_F(WatchdogProcessTest, OneThatStandsStillOrHasEndedIsNoWatchdog) {
     std::erase_if(started, [&](pid_t one) { return std::find(before.begin(), before.end(), one) != before.end(); });
     ASSERT_EQ(started.size(), 1U);
     auto state = hid::WatchdogState::Watching;
-    // How long beats are taken, at most 1.5 s.
+    // Measures for how long beats are accepted, at most 1.5 s.
     const auto beats = [&] {
         const auto begun = Steady::now();
         while (Steady::now() - begun < milliseconds(1500)) {
@@ -173,7 +173,7 @@ TEST_F(WatchdogProcessTest, OneThatStandsStillOrHasEndedIsNoWatchdog) {
         return Steady::now() - begun;
     };
     EXPECT_IN_TIME(beats() >= milliseconds(1500)) << "one that runs answers";
-    (*watchdog)->rest();  // nothing is left unanswered from before
+    (*watchdog)->rest();  // so no earlier beat is left unanswered
     kill(started.front(), SIGSTOP);
     const auto deaf = beats();
     EXPECT_GE(deaf, hid::Watchdog::kUnansweredLimit);
@@ -195,7 +195,7 @@ TEST_F(WatchdogProcessTest, EndedInOrderSendsNothing) {
     ASSERT_IN_TIME(watchdog);
     ASSERT_IN_TIME((*watchdog)->beat() == hid::WatchdogState::Watching);
     (*watchdog)->rest();
-    watchdog->reset();  // returns when its process has ended
+    watchdog->reset();  // returns once its process has ended
     EXPECT_TRUE(pad.waitForReports(0).empty());
 }
 

@@ -1,4 +1,4 @@
-// Pulse Pal's commands, byte by byte, and each parameter in its own slot of the emulated device.
+// Pulse Pal's commands, byte by byte, and each parameter at its own place in the emulated device.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <limits>
@@ -111,7 +111,7 @@ TEST(PulsePalCommands, VoltagesRoundTowardZeroWithinOneStepOfTheMakersFormula) {
         ASSERT_LE(std::abs(code - makers), v > 0 ? 1 : 0) << v;
         ASSERT_LE(std::abs(voltsOf(static_cast<std::uint16_t>(code)).value()), std::abs(v) + 1e-9) << v;
         ASSERT_NEAR(voltsOf(static_cast<std::uint16_t>(code)).value(), v, 1.5 * 20 / 65535)
-            << v;  // 32768 is 0 V, half a step aside
+            << v;  // 32768 stands for 0 V, half a step off
         if (std::abs(v) > 20.0 / 65535) {
             ASSERT_EQ(code + volts(-v).code(), 65535) << v;
         }
@@ -128,7 +128,7 @@ TEST(PulsePalCommands, WhatIsOutOfRangeIsRefusedNotClamped) {
     }
     EXPECT_THAT(Cycles::of(Micros(75), "phase width"), refusedSaying(AllOf(HasSubstr("75"), HasSubstr("50 us"))));
     EXPECT_EQ(Cycles::of(Micros(200), "x").value().count(), 4u);
-    EXPECT_EQ(Cycles::of(Seconds(0.1 + 0.2), "x").value().count(), 6000u);  // decimal fractions in binary
+    EXPECT_EQ(Cycles::of(Seconds(0.1 + 0.2), "x").value().count(), 6000u);  // decimal fractions are inexact in binary
     for (const int number : {0, 5, -1}) EXPECT_FALSE(Channel::of(number));
     EXPECT_EQ(channel(3).mask(), 0b100);
 }
@@ -153,7 +153,7 @@ PulseTrain train(double v, int pulses, double rate) {
     return made;
 }
 
-/// The phases that the emulated device plays for a train.
+/// Returns the phases that the emulated device plays for a train.
 std::vector<EmittedPhase> played(const PulseTrain& wanted, int on = 1) {
     const auto program = programTrain(wanted, channel(on));
     EXPECT_TRUE(program) << program.error().message;
@@ -230,7 +230,7 @@ TEST(PulsePalTrain, WhatTheDeviceCannotDoIsRefusedByName) {
     offGrid.interPhaseGap = Micros(10);
     EXPECT_THAT(refusal(offGrid), HasSubstr("inter-phase gap"));
     EXPECT_THAT(refusal(train(1, 2, 60)), HasSubstr("period"));
-    EXPECT_TRUE(programTrain(train(1, 1, 60), channel(1)));  // no rate is asked of one pulse
+    EXPECT_TRUE(programTrain(train(1, 1, 60), channel(1)));  // a single pulse needs no rate
     offGrid = train(1, 1, 100);
     offGrid.phaseWidth = Micros(50);
     EXPECT_THAT(refusal(offGrid), HasSubstr("100 us or more"));

@@ -1,4 +1,4 @@
-// The Pulse Pal driver on the emulated device against the suite that every stimulator must pass.
+// Runs the suite that every stimulator must pass on the Pulse Pal driver with the emulated device.
 #include "tests/drivers/conformance/StimulatorConformance.h"
 #include "tests/drivers/pulsepal/PulsePalLine.h"
 

@@ -1,4 +1,4 @@
-// PulsePalDriver: which device a URI names.
+// PulsePalDriver: which device a URI opens.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -40,7 +40,7 @@ TEST_F(PulsePalDriverTest, ListsAndOpensByUri) {
     for (const auto& identity : list) {
         accepted(open(identity.uri + "?channel=2"));
         EXPECT_EQ(devices.stimulator->identity().uri, identity.uri + "?channel=2");
-        // The socket is not a serial number: a calibration would count for any device plugged in there (H4).
+        // The socket must not serve as serial number: a calibration would then apply to any device in that socket (H4).
         EXPECT_EQ(devices.stimulator->identity().serial, identity.serial);
     }
     EXPECT_FALSE(makePulsePalDriver(ports)->runsOnVirtualClock());

@@ -30,7 +30,7 @@ Result<void> PulsePalLine::receive(std::span<const std::uint8_t> bytes, Instant 
 }
 
 void PulsePalLine::receiveUrgent(std::span<const std::uint8_t> bytes, Instant now) noexcept {
-    // Like a transfer that is still queued: the same bytes again add nothing.
+    // Acts like a transfer that is still queued: the same bytes again add nothing.
     const bool queued = device_.pending(now) > 0;
     if (queued && !written_.empty() && std::ranges::equal(written_.back(), bytes)) return;
     keepWritten(bytes);
@@ -43,7 +43,7 @@ std::size_t PulsePalLine::transmit(std::span<std::uint8_t> into, Instant now) {
     return got;
 }
 
-/// The device's next cycle.
+/// Returns the time of the device's next cycle.
 std::optional<Instant> PulsePalLine::nextTransmit(Instant now) { return now + Instant(std::chrono::microseconds(50)); }
 
 PulsePalBench::PulsePalBench(int channel) : line(std::make_shared<PulsePalLine>(clock, &clock)) {

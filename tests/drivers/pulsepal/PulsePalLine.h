@@ -1,7 +1,7 @@
-// PulsePalLine.h - an emulated Pulse Pal at the other end of a Transport, in this process, as DeviceLine; it loses its
-// power when it is unplugged. And a driver on such a line.
+// PulsePalLine.h - connects an emulated Pulse Pal, which loses its power when unplugged, to a Transport in this process
+// (see DeviceLine). Also a driver on such a line.
 //
-// Thread-safety: every function of the line from any thread.
+// Thread-safety: any thread may call the line's functions.
 #pragma once
 
 #include <memory>
@@ -15,12 +15,12 @@ namespace tacto::test {
 
 class PulsePalLine final : public DeviceLine {
 public:
-    /// `ready`: whether transports set DTR.
+    /// `ready`: true if transports set DTR.
     PulsePalLine(const Clock& clock, VirtualClock* movable, bool ready = true, std::uint32_t firmware = 21);
 
-    /// The next write breaks off after so many bytes and reports a time-out.
+    /// Makes the next write stop after this many bytes and report a timeout.
     void breakOff(std::size_t bytes);
-    /// From now on its answers consist of this byte, as many as it would send; nothing: its own answers.
+    /// From now on, replaces each byte of the answers by `byte`; nothing: restores the real answers.
     void garble(std::optional<std::uint8_t> byte);
 
     template <class Look>
@@ -48,7 +48,7 @@ private:
     std::optional<std::uint8_t> garbled_;
 };
 
-/// A driver on such a line, with a gate that approves for it, on the virtual clock.
+/// A driver on such a line, with a gate that approves trains, on the virtual clock.
 class PulsePalBench {
 public:
     explicit PulsePalBench(int channel = 1);
@@ -56,7 +56,7 @@ public:
     void wait(Seconds duration) { clock.advanceTo(clock.now() + toInstant(duration)); }
     [[nodiscard]] ApprovedTrain approved(const PulseTrain& train);
     [[nodiscard]] Result<void> deliver(const PulseTrain& train) { return stimulator->deliver(approved(train)); }
-    /// The status, which must be there.
+    /// Returns the status; if there is none, the test fails.
     [[nodiscard]] StimulatorStatus status();
 
     VirtualClock clock;
@@ -67,10 +67,10 @@ private:
     std::unique_ptr<SafetyGate> gate_;
 };
 
-/// 200 µs a phase, 100 µs between, symmetric.
+/// A symmetric train with 200 µs a phase and a gap of 100 µs.
 [[nodiscard]] PulseTrain pulseTrain(double volts, int pulses = 1, double rate_hz = 100);
 
-/// Ports that lead to lines.
+/// Ports that open these lines.
 class PulsePalPorts final : public TransportPorts {
 public:
     std::vector<std::pair<TransportPort, std::shared_ptr<PulsePalLine>>> plugged;

@@ -1,4 +1,4 @@
-// PulsePalStimulator on the emulated device: what is put out, the firmware's traps, and every way out.
+// PulsePalStimulator on the emulated device: its output, the firmware's traps, and every way in which output must end.
 #include <deque>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ class PulsePal : public testing::Test {
 protected:
     PulsePalBench bench;
     std::uint64_t commands(std::uint8_t code) {
-        bench.wait(Seconds(0.001));  // the device takes one command in 50 µs
+        bench.wait(Seconds(0.001));  // the device takes one command per 50 µs
         return bench.line->inspect([&](auto& device, Instant now) {
             static_cast<void>(device.active(now));
             return device.commands(code);
@@ -67,7 +67,7 @@ TEST_F(PulsePal, OneTransferForEachCommandAndNeverContinuousMode) {
     for (const auto& transfer : bench.line->written()) {
         ASSERT_EQ(transfer.at(0), 0xD5);
         EXPECT_NE(transfer.at(1), kContinuous);
-        // A transfer is one whole command; the doubled abort is two.
+        // A transfer must be one whole command; only the double abort is two.
         const auto again = std::find(transfer.begin() + 1, transfer.end(), std::uint8_t{0xD5});
         EXPECT_TRUE(again == transfer.end() || transfer == (Bytes{0xD5, 0x50, 0xD5, 0x50}) || transfer.at(1) == 0x4A);
     }
@@ -103,7 +103,7 @@ TEST_F(PulsePal, ATriggerThatIsKeptDuringATrainDoesNotSurviveTheStop) {
     RecordProperty("hazard", "H2");
     ASSERT_TRUE(bench.deliver(pulseTrain(2, 50)));
     bench.wait(Seconds(0.02));
-    // A foreign trigger, through the device's own firmware habit: kept while the train runs.
+    // Another program's trigger, which the firmware keeps while the train runs.
     bench.line->inspect([](auto& device, Instant now) { device.receive(pulsepal::trigger(1).view(), now); });
     bench.wait(Seconds(0.001));
     bench.stimulator->forceOff();
@@ -114,7 +114,7 @@ TEST_F(PulsePal, ATriggerThatIsKeptDuringATrainDoesNotSurviveTheStop) {
 }
 
 TEST(PulsePalFirmware, OneAbortIsNotEnoughForAKeptTrigger) {
-    // Shows why the driver sends two: the emulated firmware really does this.
+    // Shows why the driver sends two aborts: the emulated firmware really behaves like this.
     RecordProperty("hazard", "H2");
     for (const bool twice : {false, true}) {
         VirtualClock clock;
@@ -134,7 +134,7 @@ TEST(PulsePalFirmware, OneAbortIsNotEnoughForAKeptTrigger) {
 
 TEST_F(PulsePal, AStopThatComesBeforeTheTriggerIsRepeatedBehindIt) {
     RecordProperty("hazard", "H2");
-    // The stop is on the wire ahead of the trigger, which was decided before.
+    // The stop is sent before a trigger that was already decided.
     bench.line->onWrite([&](std::span<const std::uint8_t> bytes) {
         if (bytes[1] == kTrigger) bench.stimulator->forceOff();
     });
@@ -169,7 +169,7 @@ TEST_F(PulsePal, AContinuousModeThatWasLeftOnEndsWithTheFirstStatus) {
     ASSERT_FALSE(bench.line->active());
     ASSERT_TRUE(bench.deliver(pulseTrain(2, 2)));
     bench.wait(Seconds(0.04));
-    EXPECT_TRUE(bench.line->active());  // past its programmed end
+    EXPECT_TRUE(bench.line->active());  // past the train's programmed end
     EXPECT_FALSE(bench.status().delivering);
     EXPECT_FALSE(bench.line->active());
 }
@@ -177,7 +177,7 @@ TEST_F(PulsePal, AContinuousModeThatWasLeftOnEndsWithTheFirstStatus) {
 TEST_F(PulsePal, ForceOffAllocatesNothing) {
     RecordProperty("hazard", "H2");
     if (!countsAllocations()) GTEST_SKIP() << kNotCounted;
-    // Uses a transport of its own, as the emulated one keeps what is written.
+    // Uses its own transport, because the emulated one stores what is written.
     struct Sink final : Transport {
         int urgent = 0;
         std::deque<std::uint8_t> answer;
@@ -213,7 +213,7 @@ TEST_F(PulsePal, AWriteThatBrokeOffIsNotFollowedByATrigger) {
     bench.line->breakOff(3);
     EXPECT_THAT(bench.deliver(pulseTrain(2)), refused(ErrorCode::Timeout));
     EXPECT_EQ(commands(kTrigger), 0u);
-    EXPECT_FALSE(bench.deliver(pulseTrain(2)));  // lost until its status was asked
+    EXPECT_FALSE(bench.deliver(pulseTrain(2)));  // the device counts as lost until its status is read
     ASSERT_TRUE(bench.stimulator->status());
     EXPECT_TRUE(bench.deliver(pulseTrain(2)));
     bench.wait(Seconds(0.01));
@@ -240,7 +240,7 @@ TEST(PulsePalFirmware, WithoutTheRestOfACommandItFreezesWithItsOutputsAsTheyAre)
     const auto program = accepted(pulsepal::programTrain(pulseTrain(5, 100), *pulsepal::Channel::of(1)));
     for (const auto& command : program.commands) device.receive(command.view(), Instant(0));
     device.receive(pulsepal::trigger(1).view(), std::chrono::milliseconds(10));
-    // This comes in the middle of a leading phase:
+    // This command comes in the middle of a leading phase:
     device.receive(Bytes{0xD5, 0x4A, 0x02}, std::chrono::microseconds(20'100));
     EXPECT_FALSE(device.frozen(std::chrono::milliseconds(500)));
     EXPECT_TRUE(device.frozen(std::chrono::milliseconds(600)));
@@ -320,7 +320,7 @@ TEST_F(PulsePal, ATrainOffTheGridIsRefusedByTheGateAndByTheDriver) {
     EXPECT_FALSE(gate->approve(request));
     request.train = pulseTrain(10.1);
     EXPECT_FALSE(gate->approve(request));
-    // A gate for a finer device approves it; the driver refuses all the same.
+    // A gate for a finer device approves the train, but the driver still refuses it.
     SourceTraits finer = bench.stimulator->traits();
     finer.widthStep = Micros(1);
     const auto loose = benchGate(bench.clock, finer);
@@ -356,7 +356,7 @@ TEST_F(PulsePal, IsRefusedForAPerson) {
     setup.person->rampStep = Milliamps(1);
     SafetyGate gate(bench.clock);
     EXPECT_THAT(gate.configure(setup), refusedSaying("voltage source is refused for a person"));
-    // The same setup with a current source is accepted: it was the source that was refused.
+    // The same setup with a current source is accepted: only the source was refused.
     setup.source.drive = Drive::Current;
     EXPECT_TRUE(gate.configure(setup));
 }

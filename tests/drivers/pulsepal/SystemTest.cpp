@@ -1,4 +1,4 @@
-// The Pulse Pal driver on the real libusb, over an emulated CDC-ACM device with the emulated firmware behind it.
+// The Pulse Pal driver on the real libusb, with an emulated CDC-ACM device and the emulated firmware behind it.
 #include <gtest/gtest.h>
 #include <mutex>
 
@@ -15,7 +15,7 @@ namespace {
 
 class PulsePalUsb : public UsbTest {
 protected:
-    /// The firmware needs cycles to answer; each transfer is given its own.
+    /// Carries one transfer and advances the time, because the firmware needs some cycles to answer it.
     UsbBytes carry(std::span<const std::uint8_t> bytes) {
         const std::scoped_lock lock(mutex);
         time = std::max(time, clock.now());

@@ -1,4 +1,4 @@
-// Acks: what a device answers is taken only in its documented length and range.
+// Acks: answers are accepted only in their documented length and range.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

@@ -1,4 +1,4 @@
-// Bytes.h - bytes as a wire description writes them: "F0 81 55".
+// Bytes.h - bytes from a text as protocol documents write them: "F0 81 55".
 //
 // Thread-safety: pure functions.
 #pragma once

@@ -1,4 +1,4 @@
-// Requests: each parameter in its own place on the wire, and refused where it does not fit.
+// Requests: each parameter is encoded at its own place, or refused if it does not fit.
 #include <gtest/gtest.h>
 #include <limits>
 #include <rapidcheck.h>
@@ -26,7 +26,7 @@ Points onePoint(double us = 200, double mA = 5) {
 TEST(ScienceModePoint, EveryTimeAndCurrentComesBack) {
     RecordProperty("hazard", "H4");
     for (int us = kMinPoint_us; us <= kMaxPoint_us; ++us) {
-        // Tries all 521 currents at the ends of each nibble, and some elsewhere.
+        // Tries all 521 currents at times near multiples of 16 and 256, and some currents at the other times.
         const int stride = us % 256 < 2 || us % 16 == 15 ? 1 : 29;
         for (int half = -260; half <= 260; half += stride) {
             const Point point{Micros(us), Milliamps(half / 2.0)};
@@ -38,7 +38,7 @@ TEST(ScienceModePoint, EveryTimeAndCurrentComesBack) {
 
 TEST(ScienceModePoint, TimeAndCurrentHaveBitsOfTheirOwn) {
     RecordProperty("hazard", "H4");
-    // Time 12 bits, current 10 bits + 300, ten bits of nothing: read here bit by bit, from the wire description alone.
+    // 12 bits of time, 10 bits of current + 300, ten zero bits: checked bit by bit, only from the protocol document.
     const bool held = rc::check("point layout", [] {
         const int us = *rc::gen::inRange(kMinPoint_us, kMaxPoint_us + 1);
         const int half = *rc::gen::inRange(-260, 261);

@@ -1,4 +1,4 @@
-// The ScienceMode driver on the emulated device against the suite that every stimulator must pass.
+// Runs the suite that every stimulator must pass on the ScienceMode driver with the emulated device.
 #include "tests/drivers/conformance/StimulatorConformance.h"
 #include "tests/drivers/sciencemode/ScienceModeBench.h"
 
@@ -11,7 +11,7 @@ public:
     Stimulator& device() override { return *bench_.stimulator; }
     const Clock& clock() const override { return bench_.clock; }
     void wait(Seconds duration) override { bench_.wait(duration); }
-    /// A train at 100 Hz is on when a pulse comes within a period and a half.
+    /// Counts the output as on if a pulse comes within one and a half periods of 100 Hz.
     std::optional<bool> outputOn() override {
         const auto before = bench_.line->pulses();
         bench_.wait(Seconds(0.015));

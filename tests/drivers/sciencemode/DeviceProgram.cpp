@@ -1,5 +1,5 @@
-// An emulated stimulator behind a pseudo-terminal, for a person's or another language's client. Prints the terminal to
-// open; at the end of its input, what it put out.
+// An emulated stimulator behind a pseudo-terminal, for a client that a person runs or that uses another language.
+// Prints the terminal to open, and at the end of its input the pulses that it put out.
 //
 //   sciencemode_device ["200 ohm + 10 kohm || 50 nF"]
 #include <cstdio>

@@ -1,4 +1,4 @@
-// sciencemode: URIs, which device they open, and the same through a terminal.
+// The scheme sciencemode: which device a URI opens, over USB ports and through a terminal.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <map>
@@ -21,7 +21,7 @@ using sciencemode::Command;
 using std::chrono::milliseconds;
 using testing::HasSubstr;
 
-/// Sockets with emulated devices in them.
+/// USB sockets that hold emulated devices.
 class EmulatedPorts final : public TransportPorts {
 public:
     explicit EmulatedPorts(const Clock& clock) : clock_(clock) {}
@@ -73,7 +73,7 @@ protected:
 
 TEST_F(ScienceModeUri, OpensTheOneThatAnswersAsAStimulator) {
     const auto other = ports_->add({"A1", "1-1", ""}, named("whatever"));
-    other->inspect([](auto& device, Instant) { device.misbehave(AckFault::Drop, 1000); });  // some other STM32
+    other->inspect([](auto& device, Instant) { device.misbehave(AckFault::Drop, 1000); });  // some other STM32 device
     ports_->add({"A2", "1-2", ""}, named("P24-000002"));
     ASSERT_IN_TIME(open("sciencemode:"));
     EXPECT_EQ(serial(), "P24-000002");
@@ -262,7 +262,7 @@ TEST_F(ScienceModePty, StopReachesTheDevice) {
     ASSERT_TRUE(pty_->inspect([](auto& device, Instant now) { return device.repeating(now); }));
     ASSERT_IN_TIME(devices_.stimulator->status().value_or(StimulatorStatus{}).delivering);
     devices_.stimulator->forceOff();
-    const auto status = devices_.stimulator->status();  // the ack of the status comes behind the stops
+    const auto status = devices_.stimulator->status();  // the ack of the status comes after those of the stops
     ASSERT_IN_TIME(status);
     EXPECT_FALSE(status->delivering);
     EXPECT_FALSE(pty_->inspect([](auto& device, Instant now) { return device.repeating(now); }));
@@ -294,7 +294,7 @@ TEST_F(ScienceModePty, ATerminalThatAnotherProgramHasLockedIsRefusedAndThatProgr
                                                           HasSubstr("close that program"))));
     }
     ASSERT_IN_TIME(open("sciencemode:?tty=" + pty_->path()));
-    // Two parts of this program cannot share it either.
+    // The same program cannot open the terminal twice either.
     EXPECT_EQ(TtyTransport::open(pty_->path()).error().code, ErrorCode::Io);
 }
 
@@ -312,7 +312,7 @@ TEST_F(ScienceModePty, AReadWaitsNoLongerThanItIsAllowed) {
 TEST_F(ScienceModePty, UrgentMessagesAndFramesNeverMix) {
     RecordProperty("hazard", "H2");
     auto transport = accepted(TtyTransport::open(pty_->path()));
-    // Pauses between, or their acks alone would fill the line.
+    // With pauses, because otherwise their acks alone would fill the line.
     std::vector<std::jthread> stoppers;
     for (int i = 0; i < 3; ++i) {
         stoppers.emplace_back([&](const std::stop_token& stop) {

@@ -19,7 +19,7 @@ Result<void> EmulatedLine::receive(std::span<const std::uint8_t> bytes, Instant 
 }
 
 void EmulatedLine::receiveUrgent(std::span<const std::uint8_t> bytes, Instant /*now*/) noexcept {
-    // Sending the same bytes again adds nothing.
+    // Ignores bytes that are already queued.
     for (std::size_t i = 0; i < urgentCount_; ++i) {
         if (std::ranges::equal(std::span(urgent_[i]).first(urgentSize_[i]), bytes)) return;
     }

@@ -1,7 +1,7 @@
-// EmulatedLine.h - an emulated stimulator at the other end of a Transport, in this process. As DeviceLine; a device
-// that is unplugged loses its power.
+// EmulatedLine.h - connects an emulated stimulator, which loses its power when unplugged, to a Transport in this
+// process (see DeviceLine).
 //
-// Thread-safety: every function from any thread.
+// Thread-safety: any thread.
 #pragma once
 
 #include <array>
@@ -42,7 +42,7 @@ public:
 
 private:
     [[nodiscard]] Result<void> receive(std::span<const std::uint8_t> bytes, Instant now) override;
-    /// Like a transfer that is queued: heard the next time, and never allocated.
+    /// Queues the bytes, as a transfer would be; the device receives them at the next call. Never allocates.
     void receiveUrgent(std::span<const std::uint8_t> bytes, Instant now) noexcept override;
     [[nodiscard]] std::size_t transmit(std::span<std::uint8_t> into, Instant now) override;
     [[nodiscard]] std::optional<Instant> nextTransmit(Instant now) override;

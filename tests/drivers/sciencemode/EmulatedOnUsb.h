@@ -14,7 +14,7 @@ public:
         : DeviceOnUsb(bed, clock, cdcAcmDevice(0x0483, 0x5740, "P24-EMU-1"), [settings = std::move(settings)](Instant) {
               return std::make_unique<sciencemode::EmulatedStimulator>(settings);
           }) {}
-    /// Since it was plugged in.
+    /// Returns the number of pulses since the device was plugged in.
     [[nodiscard]] std::size_t pulses() {
         return inspect([](auto& device, Instant now) { return device.pulses(now).size(); });
     }

@@ -1,4 +1,4 @@
-// The emulated device against physics and against the protocol's rules, without the driver.
+// Checks the emulated device against physics and the protocol's rules, without the driver.
 #include <gtest/gtest.h>
 
 #include "tests/support/emulated/sciencemode/EmulatedStimulator.h"
@@ -21,7 +21,7 @@ Points biphasicPoints(double mA = 5) {
 
 class EmulatedScienceMode : public testing::Test {
 protected:
-    /// The payload of the answer, once it is there.
+    /// Sends a command and returns the payload of its answer.
     std::vector<std::uint8_t> ask(Command command, const Payload& payload = {}) {
         FrameBytes frame;
         EXPECT_TRUE(encodeFrame({static_cast<std::uint16_t>(command), number_, payload.view()}, frame));
@@ -163,7 +163,7 @@ TEST_F(EmulatedScienceMode, ResidualVoltageCarriesFromPulseToPulse) {
     ASSERT_TRUE(readChannelConfigAck(first, one));
     ASSERT_TRUE(readChannelConfigAck(second, two));
     EXPECT_NEAR(one.samples[0] * 0.01, 1.0, 0.01);
-    // 16.5 V on the capacitor, leaking with 500 µs for the 500 µs until the next.
+    // 16.5 V on the capacitor decay with a time constant of 500 µs during the 500 µs before the next pulse.
     const double left = 5e-3 * 10e3 * (1 - std::exp(-0.4)) * std::exp(-1.0);
     EXPECT_NEAR(two.samples[0] * 0.01, 1.0 + left, 0.05);
 }

@@ -1,4 +1,4 @@
-// A request and its ack over a line that misbehaves.
+// A request and its ack over a faulty line.
 #include <chrono>
 #include <deque>
 #include <gmock/gmock.h>
@@ -62,7 +62,7 @@ TEST_F(ScienceModeExchange, ALateAckIsNotTakenForTheNextOne) {
     RecordProperty("hazard", "H10");
     misbehave(AckFault::Delay);
     ASSERT_EQ(askStatus().error().code, ErrorCode::Timeout);
-    clock_.advanceTo(clock_.now() + milliseconds(40));  // it is there now
+    clock_.advanceTo(clock_.now() + milliseconds(40));  // now the answer is there
     const auto id = accepted(exchange_.ask(Command::DeviceId));
     EXPECT_EQ(id.size(), 11U);
     EXPECT_EQ(exchange_.counts().strayAcks, 1U);
@@ -124,12 +124,12 @@ TEST_F(ScienceModeExchange, AMinuteOfGarbageCostsAMinuteAndNoMore) {
     EXPECT_EQ(asked, 1200);
     EXPECT_GT(exchange_.counts().junkBytes, 1200U * 2000U);
     line_->inspect([](auto& device, Instant) { device.talkGarbage(0); });
-    // The half command from the garbage may still cost the first answer.
+    // An incomplete command in the garbage may still spoil the first answer.
     static_cast<void>(askStatus());
     EXPECT_TRUE(askStatus().has_value());
 }
 
-/// Gives garbage without end, and no time passes.
+/// Sends endless garbage while no time passes.
 class EndlessNoise final : public Transport {
 public:
     Result<void> write(std::span<const std::uint8_t>, Seconds) override { return {}; }

@@ -1,4 +1,4 @@
-// The frames of ScienceMode4: the vendor's own bytes, and every way in which a stream can be wrong.
+// The frames of ScienceMode4: the vendor's own bytes, and all kinds of faulty streams.
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -26,7 +26,7 @@ std::vector<std::uint8_t> frameOf(Command command, std::uint8_t number, std::spa
     return frameOf(static_cast<std::uint16_t>(command), number, payload);
 }
 
-/// A packet that owns its payload.
+/// A packet with its own copy of the payload.
 struct Taken {
     std::uint16_t command;
     std::uint8_t number;
@@ -34,7 +34,7 @@ struct Taken {
     bool operator==(const Taken&) const = default;
 };
 
-/// All packets of `bytes`, given to the decoder in pieces of `piece`.
+/// Decodes all packets of `bytes`, passed to the decoder in pieces of `piece` bytes.
 std::vector<Taken> takeAll(FrameDecoder& decoder, std::span<const std::uint8_t> bytes, std::size_t piece = 4096) {
     std::vector<Taken> all;
     while (!bytes.empty()) {
@@ -55,7 +55,7 @@ Points goldenPoints() {
     return points;
 }
 
-// The frames in resources/design/wire/sciencemode4.md.
+// Checks the frames in resources/design/wire/sciencemode4.md.
 TEST(ScienceModeFrame, GoldenFramesByteForByte) {
     RecordProperty("hazard", "H4");
     EXPECT_EQ(frameOf(Command::LowLevelInit, 1, payloadOf(LowLevelInit{}).view()),
@@ -92,7 +92,7 @@ TEST(ScienceModeFrame, WhatIsEncodedDecodesToTheSameWhateverItsBytes) {
         const auto command = *rc::gen::inRange<int>(0, kMaxCommand + 1);
         const auto number = *rc::gen::inRange<int>(0, kMaxNumber + 1);
         const auto length = *rc::gen::inRange<std::size_t>(0, kMaxPayload + 1);
-        // Half of the bytes are those that must be stuffed.
+        // Half of the bytes are ones that must be stuffed.
         const auto payload = *rc::gen::container<std::vector<std::uint8_t>>(
             length, rc::gen::oneOf(rc::gen::arbitrary<std::uint8_t>(),
                                    rc::gen::element<std::uint8_t>(0xF0, 0x0F, 0x81, 0x55, 0xA5, 0x5A)));
@@ -121,7 +121,7 @@ TEST(ScienceModeFrame, RefusesWhatTheFrameCannotCarry) {
 TEST(ScienceModeDecoder, FindsTheNextFrameAfterAnyJunk) {
     RecordProperty("hazard", "H10");
     const bool held = rc::check("resynchronisation", [] {
-        // Junk made of what frames are made of, which is the worst there is.
+        // Junk made of the bytes that frames use, which is the hardest case.
         const auto junk = *rc::gen::container<std::vector<std::uint8_t>>(
             rc::gen::oneOf(rc::gen::arbitrary<std::uint8_t>(),
                            rc::gen::element<std::uint8_t>(0xF0, 0x81, 0x55, 0x54, 0x51, 0x58, 0x0F, 0xF0, 0x81)));
@@ -129,7 +129,7 @@ TEST(ScienceModeDecoder, FindsTheNextFrameAfterAnyJunk) {
         const auto frame = frameOf(Command::ChannelConfig, 60, payload);
         auto bytes = junk;
         bytes.insert(bytes.end(), frame.begin(), frame.end());
-        // The frame that follows shows at the latest what the junk had begun.
+        // A second frame makes the decoder finish whatever the junk had begun.
         bytes.insert(bytes.end(), frame.begin(), frame.end());
         FrameDecoder decoder;
         const auto all = takeAll(decoder, bytes, *rc::gen::inRange<std::size_t>(1, 30));
@@ -181,7 +181,7 @@ TEST(ScienceModeDecoder, TruncatedFramesLoseOnlyThemselves) {
 }
 
 TEST(ScienceModeDecoder, LengthAndCrcMayThemselvesLookLikeStartAndEnd) {
-    // 165 bytes make a low length byte of A5, which is escaped to F0; 90 make 5A, escaped to 0F.
+    // A length of 165 gives the low byte A5, which is escaped as F0; a length of 90 gives 5A, escaped as 0F.
     for (const std::size_t length : {165U, 90U}) {
         const std::vector<std::uint8_t> payload(length - kFrameOverhead - 2, 7);
         const auto frame = frameOf(Command::ChannelConfig, 1, payload);
@@ -194,7 +194,7 @@ TEST(ScienceModeDecoder, LengthAndCrcMayThemselvesLookLikeStartAndEnd) {
 }
 
 TEST(ScienceModeDecoder, RefusesStuffingThatNoEncoderMakes) {
-    // A sound CRC over a body in which an ordinary byte is escaped, and one that ends in an escape.
+    // Two bodies with a correct CRC: one escapes an ordinary byte, one ends in the middle of an escape.
     for (const auto* stuffed : {"04 00 81 54", "04 00 81"}) {
         auto body = bytesOf(stuffed);
         const auto crc = crc16(body);

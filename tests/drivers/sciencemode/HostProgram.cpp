@@ -1,6 +1,6 @@
-// A host for KillTest: opens the stimulator behind the terminal it is given and sends it a train of 20 s, until it is
-// killed or gives the train up. Prints a line when it delivers. With "again" as its second argument it sends another
-// train after one that was given up because the machine was late.
+// A host for KillTest: opens the stimulator behind the given terminal, prints a line and sends it a train of 20 s,
+// until it is killed or the train fails. With "again" as second argument it sends another train after one that failed
+// because the computer was late.
 #include <cstdio>
 #include <cstring>
 #include <thread>
@@ -13,7 +13,7 @@ namespace {
 
 using namespace tacto;
 
-/// Returns when the train has failed.
+/// Sends a train; returns its error once it has failed.
 Error sendTrain(sciencemode::ScienceModeStimulator& stimulator, const Clock& clock) {
     const auto gate = test::benchGate(clock, stimulator.traits());
     const auto begun = stimulator.deliver(test::approve(*gate, clock, test::biphasic(5, 400, 20), Seconds(24)));

@@ -1,5 +1,5 @@
 // H2 end to end: another process sends a train of 20 s to the emulated stimulator through a terminal, and is killed or
-// hung. The device lives here, as hardware would: what it puts out must end by itself.
+// suspended. The device lives in this process, as hardware would: its output must end by itself.
 #include <csignal>
 #include <gtest/gtest.h>
 #include <optional>
@@ -19,7 +19,7 @@ using std::chrono::milliseconds;
 
 class ScienceModeKill : public testing::Test {
 protected:
-    /// Returns once the host delivers. `again`: it sends another train where the machine made one too late.
+    /// Returns once the host delivers. `again`: the host sends another train if the computer made one too late.
     void startHost(bool again = false) {
         RecordProperty("hazard", "H2");
         pty_ = accepted(EmulatedPty::open({}, clock_));
@@ -28,14 +28,14 @@ protected:
         host_.emplace(std::move(words));
         ASSERT_IN_TIME(host_->speaks()) << "the host ended without delivering";
     }
-    /// The train continues by itself: the driver's own thread has sent some of it.
+    /// Starts a train and waits until the driver's own thread has sent some of its pulses.
     void startTrain() {
         ASSERT_NO_FATAL_FAILURE(startHost());
         ASSERT_IN_TIME(comes([&] { return pulses() >= 4; }));
         ASSERT_IN_TIME(delivering());
     }
     static void passTime(milliseconds duration) { std::this_thread::sleep_for(duration); }
-    /// Twenty pulses a second.
+    /// True while pulses come; the train has twenty pulses a second.
     [[nodiscard]] bool delivering() { return clock_.now() - lastOutput() < milliseconds(500); }
     [[nodiscard]] std::size_t pulses() {
         return pty_->inspect([](auto& device, Instant now) { return device.pulses(now).size(); });
@@ -71,7 +71,7 @@ TEST_F(ScienceModeKill, OutputEndsWithin2100MillisecondsOfAHangAndStaysOff) {
 }
 
 TEST_F(ScienceModeKill, ControlRunGoesOnFor10Seconds) {
-    // 200 answers are needed, and a busy machine makes one late: then the host gives up the train and sends another.
+    // The run needs 200 answers, and a busy computer may be late with one: the host then sends another train.
     ASSERT_NO_FATAL_FAILURE(startHost(true));
     const Instant begun = clock_.now();
     passTime(milliseconds(10'000));

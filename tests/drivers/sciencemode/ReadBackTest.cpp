@@ -1,4 +1,4 @@
-// The meaning of 128 magnitudes for the electrodes, and what they cannot tell.
+// What 128 magnitudes say about the electrodes, and what they cannot show.
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -20,7 +20,7 @@ PulsePlan planOf(double mA, double width_us = 200) {
     return *planPulse(train);
 }
 
-/// The ack that physics gives.
+/// Returns the ack that follows from physics.
 ChannelConfigAck ackOf(const PulsePlan& plan, const Load& load, Measurement measurement, bool total = false) {
     ChannelConfigAck ack;
     ack.complete = true;
@@ -47,7 +47,7 @@ TEST(ScienceModeReadBack, ImpedanceIsThatAtTheEndOfTheLeadingPhase) {
             const auto read = reading(mA, load, Measurement::Voltage, width);
             EXPECT_EQ(read.electrode, ElectrodeState::Ok) << name;
             ASSERT_TRUE(read.impedance.has_value()) << name;
-            // 0.5 % of the magnitude, and the last digit of 0.01 V.
+            // Tolerance: 0.5 % of the magnitude, plus the last digit of 0.01 V.
             EXPECT_NEAR(read.impedance->value(), wanted, 0.005 * wanted + 0.011 / (mA * 1e-3)) << name << ", " << width;
             EXPECT_FALSE(read.amplitude.has_value()) << "the current was not measured";
             EXPECT_FALSE(read.imbalance.has_value());
@@ -115,7 +115,7 @@ TEST(ScienceModeReadBack, MagnitudesNeverProveBalanceButDoProveItsAbsence) {
     const auto plan = planOf(10, 1000);
     auto ack = ackOf(plan, Load::resistor(Ohms(1000)), Measurement::Current);
     EXPECT_FALSE(readPulse(ack, plan, Volts(150)).imbalance.has_value()) << "two equal magnitudes may have one sign";
-    // The second phase 10 % weaker.
+    // Makes the second phase 10 % weaker.
     const double step = sampleStep(ack, plan)->count();
     for (std::size_t i = 0; i < kSamples; ++i) {
         if (static_cast<double>(i) * step >= 1100) ack.samples[i] = static_cast<std::uint16_t>(ack.samples[i] * 9 / 10);
@@ -138,7 +138,7 @@ TEST(ScienceModeReadBack, WithoutSamplesNothingIsClaimed) {
     ack.measurement = Measurement::Voltage;
     read = readPulse(ack, plan, Volts(150));
     EXPECT_EQ(read.electrode, ElectrodeState::NotMeasured) << "a sample time of 0 places no sample";
-    ack.sampleTime_us = 1;  // 128 µs end within the leading phase
+    ack.sampleTime_us = 1;  // 128 samples of 1 µs end within the leading phase
     read = readPulse(ack, plan, Volts(150));
     EXPECT_EQ(read.electrode, ElectrodeState::NotMeasured);
     EXPECT_FALSE(read.impedance.has_value());

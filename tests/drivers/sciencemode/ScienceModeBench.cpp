@@ -32,7 +32,7 @@ ScienceModeBench::ScienceModeBench(sciencemode::EmulatedSettings device, science
 ScienceModeBench::~ScienceModeBench() = default;
 
 void ScienceModeBench::wait(Seconds duration) {
-    static_cast<void>(line->pulses());  // the bytes on their way to the device arrive before time passes
+    static_cast<void>(line->pulses());  // lets bytes on their way reach the device before time passes
     const Instant until = clock.now() + toInstant(duration);
     while (stimulator) {
         const Instant next = stimulator->serve(clock.now());

@@ -1,4 +1,4 @@
-// ScienceModeBench.h - a ScienceMode stimulator on an emulated device, with a gate that approves for it.
+// ScienceModeBench.h - a ScienceMode stimulator on an emulated device, with a gate that approves its trains.
 //
 // Thread-safety: the test's own thread.
 #pragma once
@@ -8,20 +8,20 @@
 
 namespace tacto::test {
 
-/// Runs on the virtual clock, unless told otherwise.
+/// Uses the virtual clock, unless another one is given.
 class ScienceModeBench {
 public:
     explicit ScienceModeBench(sciencemode::EmulatedSettings device = {}, sciencemode::StimulatorSettings settings = {});
     ~ScienceModeBench();
 
-    /// Lets time pass; pulses are sent when they are due.
+    /// Lets time pass; due pulses are sent meanwhile.
     void wait(Seconds duration);
-    /// `pulses` biphasic pulses of `milliamps`, 200 µs a phase, 100 µs between, approved now.
+    /// Approves `pulses` biphasic pulses of `milliamps`, 200 µs a phase, 100 µs between the phases.
     [[nodiscard]] ApprovedTrain approved(double milliamps, int pulses = 1, double rate_hz = 100);
     [[nodiscard]] ApprovedTrain approved(const PulseTrain& train, Seconds interval = Seconds(2));
-    /// deliver(), then time for the train to end.
+    /// Calls deliver(), then waits until the train has ended.
     [[nodiscard]] Result<void> deliver(const PulseTrain& train);
-    /// The status, which must be there.
+    /// Returns the status; if there is none, the test fails.
     [[nodiscard]] StimulatorStatus status();
 
     VirtualClock clock;
@@ -32,11 +32,11 @@ private:
     std::unique_ptr<SafetyGate> gate_;
 };
 
-/// A train as approved() makes it.
+/// Makes the train that approved() approves.
 [[nodiscard]] PulseTrain biphasic(double milliamps, int pulses = 1, double rate_hz = 100);
-/// Another program may have left this behind: a pulse every 50 ms in mid level. For inspect().
+/// Starts a pulse every 50 ms in mid level, as another program may have done. For use in inspect().
 void startRepeating(sciencemode::EmulatedStimulator& device, Instant now);
-/// Whether a train failed because a thread was late: a pulse, an answer, or a delivery after its approval expired.
+/// True if a train failed because of a late thread: a late pulse or answer, or a delivery after the approval expired.
 [[nodiscard]] bool cameLate(const Error& error);
 
 }  // namespace tacto::test

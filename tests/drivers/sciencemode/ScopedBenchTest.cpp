@@ -1,5 +1,5 @@
-// A whole bench on an emulated P24 and an oscilloscope on its load: a record belongs to one command by its time, also
-// where a check pulse comes shortly before a train (H12), and what it shows of a wrong train is found (H3).
+// A whole bench with an emulated P24 and an oscilloscope on its load. The time of a record decides which command it
+// belongs to, even if a check pulse precedes a train closely (H12), and a wrong train is found in the records (H3).
 #include <algorithm>
 #include <cmath>
 #include <gmock/gmock.h>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kOhm = 1000;
 
-/// Shows the emulated stimulator's output, on a resistor.
+/// An oscilloscope that shows the emulated stimulator's output on a resistor.
 class ScopeOnLine final : public Oscilloscope {
 public:
     ScopeOnLine(const Clock& clock, EmulatedLine& line, double gain, double stampTolerance_s)

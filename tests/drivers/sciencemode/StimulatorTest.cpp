@@ -1,4 +1,4 @@
-// The ScienceMode driver on the emulated device: who is there, what goes out, what comes back.
+// The ScienceMode driver on the emulated device: identification, pulses sent, answers received.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ void setLoad(ScienceModeBench& bench, const Load& load) {
     bench.line->inspect([&](auto& device, Instant now) { device.fit(load, now); });
 }
 
-/// 9 ms from onset to onset or more.
+/// Expects eight pulses with at least 9 ms from onset to onset.
 void expectEightNoneTooSoon(ScienceModeBench& bench) {
     const auto pulses = bench.line->pulseList();
     ASSERT_EQ(pulses.size(), 8U);
@@ -36,14 +36,14 @@ void expectEightNoneTooSoon(ScienceModeBench& bench) {
     }
 }
 
-/// Whether opening what `line` has, as `wanted`, succeeds.
+/// Opens the device on `line` as `wanted`; returns whether that succeeds.
 Result<void> opens(const std::shared_ptr<EmulatedLine>& line, const Clock& clock, std::string_view wanted = {}) {
     const auto opened = ScienceModeStimulator::open(line->connector(), "sciencemode:", wanted, {}, clock);
     if (!opened) return failure(opened);
     return {};
 }
 
-// --- who is there ---------------------------------------------------------------------------------------------------
+// --- identification --------------------------------------------------------------------------------------------------
 
 TEST(ScienceModeOpen, SaysWhoAnswered) {
     RecordProperty("hazard", "H4");
@@ -98,7 +98,7 @@ TEST(ScienceModeOpen, EndsWhateverTheDeviceWasDoing) {
     EXPECT_FALSE(line->inspect([](auto& device, Instant now) { return device.repeating(now); }));
 }
 
-// --- what goes out --------------------------------------------------------------------------------------------------
+// --- pulses sent -----------------------------------------------------------------------------------------------------
 
 TEST(ScienceModeDeliver, EachParameterArrivesInItsOwnPlace) {
     RecordProperty("hazard", "H4");
@@ -149,7 +149,7 @@ TEST(ScienceModeDeliver, HundredsOfPulsesGoThroughEveryPacketNumber) {
 TEST(ScienceModeDeliver, RefusesWithoutAByteOnTheWire) {
     RecordProperty("hazard", "H1");
     ScienceModeBench bench;
-    // A gate that knows a finer device approves what this one cannot do.
+    // A gate that assumes a finer device approves a train that this device cannot play.
     SourceTraits finer = bench.stimulator->traits();
     finer.amplitudeStep = 0;
     finer.amplitudeMax = 500;
@@ -197,7 +197,7 @@ TEST(ScienceModeDeliver, AHostThatIsALittleLateNeverHurriesAfterwards) {
 
 TEST(ScienceModeDeliver, APulseHeldUpOnItsWayToTheWireIsNotFollowedTooFast) {
     RecordProperty("hazard", "H1");
-    int writes = 0;  // the bench writes to its end
+    int writes = 0;  // declared before the bench, which writes until it is destroyed
     ScienceModeBench bench;
     bench.line->onWrite([&] {
         if (++writes % 2 == 0) bench.clock.advanceTo(bench.clock.now() + milliseconds(4));
@@ -233,7 +233,7 @@ TEST(ScienceModeDeliver, AComputerThatSleptGivesTheTrainUp) {
     ASSERT_TRUE(bench.stimulator->deliver(bench.approved(5, 50)).has_value());
     bench.wait(Seconds(0.1));
     const auto before = bench.line->pulses();
-    bench.clock.sleepFor(std::chrono::seconds(3));  // the steady clock stands still meanwhile
+    bench.clock.sleepFor(std::chrono::seconds(3));  // meanwhile the steady clock does not advance
     bench.wait(Seconds(1));
     EXPECT_EQ(bench.line->pulses(), before);
     EXPECT_FALSE(bench.stimulator->status().has_value());
@@ -255,7 +255,7 @@ TEST(ScienceModeDeliver, AHostThatSleptGivesTheTrainUp) {
     EXPECT_TRUE(bench.stimulator->status().has_value()) << "it is reported once";
 }
 
-// --- what comes back ------------------------------------------------------------------------------------------------
+// --- answers received ------------------------------------------------------------------------------------------------
 
 TEST(ScienceModeStatus, ReadsTheImpedanceOfTheBenchLoadsBack) {
     for (const auto& [name, load] : benchLoads()) {
@@ -301,7 +301,7 @@ TEST(ScienceModeStatus, ALiftedElectrodeEndsTheTrainAtThatPulse) {
     EXPECT_FALSE(status.impedance.has_value());
 }
 
-/// A good pulse afterwards does not hide it.
+/// A later good pulse must not hide the fault.
 TEST(ScienceModeStatus, NoPulseFollowsOneThatFoundNoElectrode) {
     RecordProperty("hazard", "H3");
     for (const auto& load : {Load::openCircuit(), Load::shortCircuit(), Load::resistor(Ohms(5))}) {
@@ -334,7 +334,7 @@ TEST(ScienceModeStatus, ACurrentThatIsNotReachedIsAFaultWithItsReason) {
     EXPECT_THAT(bench.stimulator->deliver(bench.approved(5)), refused(ErrorCode::Device, "did not reach its current"));
 }
 
-// --- a device that misbehaves ---------------------------------------------------------------------------------------
+// --- a faulty device -------------------------------------------------------------------------------------------------
 
 TEST(ScienceModeFaults, AFirstPulseWithoutASoundAckFailsTheDelivery) {
     RecordProperty("hazard", "H10");
@@ -348,7 +348,7 @@ TEST(ScienceModeFaults, AFirstPulseWithoutASoundAckFailsTheDelivery) {
         ScienceModeBench bench;
         misbehave(bench, fault);
         EXPECT_THAT(bench.stimulator->deliver(bench.approved(5, 10)), refused(code, text)) << text;
-        bench.stimulator->forceOff();  // as the session does
+        bench.stimulator->forceOff();  // as the session would do
         bench.wait(Seconds(0.2));
         EXPECT_EQ(bench.line->pulses(), 1U) << "no more pulses follow";
         EXPECT_TRUE(bench.deliver(biphasic(5)).has_value()) << "a good device is taken up again";

@@ -1,4 +1,4 @@
-// Off means off: from any thread, at any moment, without waiting for anything.
+// forceOff() works from any thread, at any moment, without waiting for anything.
 #include <algorithm>
 #include <atomic>
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ using sciencemode::Command;
 using std::chrono::microseconds;
 using std::chrono::milliseconds;
 
-/// The commands of what was written, in order.
+/// Returns the commands in `written`, in order.
 std::vector<Command> commandsOf(const std::vector<std::vector<std::uint8_t>>& written) {
     std::vector<Command> commands;
     for (const auto& bytes : written) {
@@ -75,10 +75,10 @@ TEST(ScienceModeStop, CutsThePulseThatIsBeingPutOut) {
 
 TEST(ScienceModeStop, IsRepeatedAfterAWriteThatWasInFlight) {
     RecordProperty("hazard", "H2");
-    int writes = 0;  // the bench writes to its end
+    int writes = 0;  // declared before the bench, which writes until it is destroyed
     ScienceModeBench bench;
     bench.line->onWrite([&] {
-        // The stop overtakes the pulse that is already being handed over.
+        // The stop overtakes the pulse that is being written.
         if (++writes == 1) bench.stimulator->forceOff();
     });
     EXPECT_TRUE(bench.stimulator->deliver(bench.approved(5, 10)).has_value()) << "a stop is not an error";
@@ -94,7 +94,7 @@ TEST(ScienceModeStop, IsRepeatedAfterAWriteThatWasInFlight) {
 TEST(ScienceModeStop, DuringInitialisationPreventsTheFirstPulse) {
     RecordProperty("hazard", "H2");
     ScienceModeBench bench;
-    bench.stimulator->forceOff();  // so that deliver() has to initialise
+    bench.stimulator->forceOff();  // deliver() must then initialise again
     bench.line->onWrite([&, writes = 0]() mutable {
         if (++writes == 1) bench.stimulator->forceOff();
     });
@@ -149,7 +149,7 @@ TEST(ScienceModeStop, NeverAllocates) {
 
 TEST(ScienceModeStop, AnAcceptedPulseCostsNoAllocation) {
     if (!countsAllocations()) GTEST_SKIP() << kNotCounted;
-    // Everything between approval and wire; the emulated device behind the hook does allocate.
+    // Checks everything between approval and wire; only the emulated device behind the hook allocates.
     ScienceModeBench bench;
     ASSERT_TRUE(bench.deliver(biphasic(5)).has_value());
     auto approval = bench.approved(5);
@@ -186,7 +186,7 @@ protected:
     ApprovedTrain approved(int pulses, double rate_hz) {
         return approve(*gate_, clock_, biphasic(5, pulses, rate_hz), Seconds(2));
     }
-    /// Asks until the train is over; the time it took at most is the test's own time limit.
+    /// Asks until the train is over; the test's own time limit bounds the wait.
     Result<StimulatorStatus> untilDone() {
         for (;;) {
             auto status = stimulator_->status();
@@ -202,7 +202,7 @@ protected:
 };
 
 TEST_F(ScienceModeThreads, TheDriversOwnThreadSendsTheRestOfATrain) {
-    // A busy machine may make a train late, and a train that is too late is given up: then another is tried.
+    // On a busy computer a train may be late and be given up: another train is then tried.
     for (int attempt = 0; attempt < 20; ++attempt) {
         const auto before = line_->pulses();
         auto outcome = stimulator_->deliver(approved(20, 200));
@@ -250,7 +250,7 @@ TEST_F(ScienceModeThreads, ForceOffFromManyThreadsWhileDelivering) {
     const Instant quietUntil = clock_.now() + milliseconds(50);
     while (clock_.now() < quietUntil) std::this_thread::sleep_for(milliseconds(5));
     EXPECT_EQ(line_->pulses(), after);
-    // Afterwards it works as before.
+    // Afterwards the stimulator works as before.
     EXPECT_IN_TIME(stimulator_->deliver(approved(1, 100)));
     EXPECT_EQ(line_->pulses(), after + 1);
 }
@@ -266,7 +266,7 @@ TEST_F(ScienceModeThreads, NoPulseFollowsAStopThatNothingWasInFlightAt) {
     }
     RecordProperty("delivered", delivered);
     EXPECT_IN_TIME(delivered >= kRounds / 2) << "most were refused: there was nothing to stop";
-    // Each pulse after a stop of its train has a stop of its own behind it.
+    // Each pulse that was sent after a stop is followed by another stop.
     const auto commands = commandsOf(line_->written());
     EXPECT_NE(commands.back(), Command::ChannelConfig);
     const auto after = line_->pulses();

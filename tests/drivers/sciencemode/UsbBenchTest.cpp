@@ -1,4 +1,4 @@
-// A whole bench on a stimulator that is plugged in: found, driven, unplugged in the middle, found again.
+// A whole bench with a plugged-in stimulator: found, driven, unplugged in the middle of a train, found again.
 #include "drivers/sciencemode/ScienceModeDriver.h"
 #include "drivers/usb/UsbPorts.h"
 #include "tests/drivers/UsbBench.h"

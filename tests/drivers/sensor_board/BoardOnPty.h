@@ -1,4 +1,4 @@
-// BoardOnPty.h - the emulated sensor board in real time: behind a pseudo-terminal, for `sensor:?tty=` and for programs
+// BoardOnPty.h - the emulated sensor board in real time behind a pseudo-terminal, for `sensor:?tty=` and for programs
 // in another process.
 //
 // Thread-safety: as DeviceOnPty.
@@ -9,12 +9,12 @@
 
 namespace tacto::test {
 
-/// A board that streams is looked at once a millisecond, as full-speed USB does.
+/// A streaming board is asked for bytes once a millisecond, as on full-speed USB.
 inline constexpr Instant kBoardRest = std::chrono::milliseconds(1);
 
 using MakeSignal = std::function<std::unique_ptr<sensorboard::BoardSignal>(Instant)>;
-/// A board that has power now and waits for START. Without a signal it counts (CountingSignal), so that a sample that
-/// is missing shows.
+/// Makes a board that has power and waits for START. Without a signal the board counts (CountingSignal), so that
+/// missing samples show.
 [[nodiscard]] inline auto poweredBoard(sensorboard::EmulatedBoardSettings settings, MakeSignal signal = {}) {
     return [settings = std::move(settings), signal = std::move(signal)](Instant now) {
         return std::make_unique<sensorboard::EmulatedBoard>(
@@ -24,7 +24,7 @@ using MakeSignal = std::function<std::unique_ptr<sensorboard::BoardSignal>(Insta
 
 class BoardOnPty : public DeviceOnPty<sensorboard::EmulatedBoard> {
 public:
-    /// Throws where the system gives no pseudo-terminal.
+    /// Throws if the system provides no pseudo-terminal.
     explicit BoardOnPty(const Clock& clock, sensorboard::EmulatedBoardSettings settings = {})
         : DeviceOnPty(PseudoTerminal::open().value(), clock, poweredBoard(std::move(settings)), kBoardRest) {}
 };

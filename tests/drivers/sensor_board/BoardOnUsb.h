@@ -9,10 +9,10 @@
 
 namespace tacto::test {
 
-/// How a board shows its two endpoints; PROTOCOL.md, section 1, allows either.
+/// The kind of interface with the two endpoints; PROTOCOL.md, section 1, allows both kinds.
 enum class BoardInterface { Serial, Vendor };
 
-/// The descriptors of a board, with the product string that boards are known by.
+/// Returns a board's descriptors, with the product string that identifies boards.
 [[nodiscard]] inline UsbDescription boardDescription(BoardInterface kind, const std::string& serial) {
     auto made = kind == BoardInterface::Serial ? cdcAcmDevice(kSensorBoardVendor, kSensorBoardProduct, serial)
                                                : vendorDevice(kSensorBoardVendor, kSensorBoardProduct, serial);

@@ -1,4 +1,4 @@
-// The board's clock on the session's: drift found and stated honestly, stamps late by the line's delay and never early.
+// Maps the board's clock to the session's: the drift is found with an honest uncertainty; stamps are never early.
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
@@ -11,17 +11,17 @@ namespace {
 
 using sensorboard::ClockFit;
 
-/// A board that says something every 4 ms, and a line that takes its time.
+/// A board that sends a message every 4 ms, over a line with delays.
 class Line {
 public:
     double drift_ppm = 0;
-    double wander_ppm = 0;  // as the temperature goes up and down, once in 20 minutes
+    double wander_ppm = 0;  // slow drift, as with temperature, with a period of 20 minutes
     double least_s = 0.3e-3;
     double mean_s = 1e-3;
-    double poll_s = 0;  // the host looks only so often, a little irregularly
+    double poll_s = 0;  // interval at which the host reads, a little irregular
     Random random{7, "line"};
 
-    /// Board time of a true one.
+    /// Returns the board's time at the true time `t_s`.
     [[nodiscard]] std::uint64_t board_us(double t_s) const {
         const double w = 2 * std::numbers::pi / 1200;
         const double wandered = wander_ppm * 1e-6 * (1 - std::cos(w * t_s)) / w;
@@ -33,13 +33,13 @@ public:
         while (nextPoll_ < arrived) nextPoll_ += poll_s * (1 + 0.05 * random.uniform());
         return nextPoll_;
     }
-    /// Runs from `begin_s` to `end_s`; `look(t, board_us, arrival)` follows each message.
+    /// Runs from `begin_s` to `end_s`; calls `look(t, board_us, arrival)` after each message.
     template <class Look>
     void run(ClockFit& fit, double begin_s, double end_s, Look&& look) {
         double last = 0;
         for (auto i = std::llround(begin_s * 250); i < std::llround(end_s * 250); ++i) {
             const double t = static_cast<double>(i) / 250;
-            last = std::max(last, arrival_s(t));  // in order
+            last = std::max(last, arrival_s(t));  // keeps the order
             fit.observe(board_us(t), toInstant(last));
             look(t, board_us(t), last);
         }
@@ -159,7 +159,7 @@ TEST(SensorBoardClock, AStalledHostMovesNothing) {
     ClockFit fit;
     line.run(fit, 0, 60);
     const auto before = *fit.report().drift_ppm;
-    line.least_s = 3;  // nothing is read for 3 s, again and again
+    line.least_s = 3;  // nothing is read for 3 s at a time
     line.run(fit, 60, 63);
     line.least_s = 0.3e-3;
     line.run(fit, 63, 100);
@@ -173,12 +173,12 @@ TEST(SensorBoardClock, SamplesStayEvenlySpacedWhileItLearns) {
     RecordProperty("hazard", "H7");
     Line line;
     line.drift_ppm = -80;
-    line.mean_s = 3e-3;  // much to learn
+    line.mean_s = 3e-3;  // large delays, so that much must be corrected
     ClockFit fit;
     double last = 0;
     line.run(fit, 0, 60, [&](double t, std::uint64_t board, double) {
         if (t < 1) return;
-        // Sixteen samples before each message, at 4 kHz.
+        // Sixteen samples at 4 kHz before each message.
         const double begin = fit.toSession(static_cast<double>(board) - 4000);
         const double end = fit.toSession(static_cast<double>(board));
         ASSERT_NEAR(end - begin, 4e-3, 4e-3 * 0.011) << t;

@@ -1,4 +1,4 @@
-// The sensor board against the suite that every tactile sensor must pass.
+// Runs the suite that every tactile sensor must pass on the sensor board.
 #include "tests/drivers/conformance/SensorConformance.h"
 #include "tests/drivers/sensor_board/SensorBoardBench.h"
 
@@ -44,7 +44,7 @@ EmulatedBoardSettings drifting() {
 EmulatedBoardSettings losing() {
     EmulatedBoardSettings settings;
     settings.flaws = {0.001, 0.01, 0.001, 0.001};
-    settings.slowBlockSamples = 1;  // so that one that is lost is half a percent of a second
+    settings.slowBlockSamples = 1;  // one lost block is then half a percent of a second
     return settings;
 }
 

@@ -1,4 +1,4 @@
-// URIs to boards: found by serial number, parameters checked, obstacles told.
+// Which board a URI opens: found by serial number, parameters checked, obstacles reported.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ namespace {
 using namespace sensorboard;
 using testing::HasSubstr;
 
-/// Several emulated boards, one that may not be opened, and a terminal.
+/// Ports with several emulated boards, one that may not be opened, and a terminal.
 class Ports final : public SensorBoardPorts {
 public:
     explicit Ports(VirtualClock& clock) {
@@ -46,7 +46,7 @@ public:
     std::vector<std::shared_ptr<EmulatedBoardLine>> lines;
     std::vector<TransportPort> extra;
     std::string terminal;
-    std::string hideSerial;  ///< the board that shows no serial number in its USB descriptor
+    std::string hideSerial;  ///< the board without a serial number in its USB descriptor
     int opened = 0;
 };
 
@@ -100,7 +100,7 @@ TEST_F(SensorBoardDriverTest, EachOfTwoIsListedWithAnAddressThatOpensItAndNoOthe
     EXPECT_EQ(devices_.sensor->identity().serial, "TSB-2");
     EXPECT_EQ(ports_->opened, 1);
     devices_.sensor.reset();
-    // The board tells its own serial number when it is asked.
+    // The board itself states its serial number when asked.
     ASSERT_TRUE(open("sensor:TSB-2").has_value());
     EXPECT_EQ(devices_.sensor->identity().serial, "TSB-2");
     EXPECT_EQ(ports_->opened, 2);

@@ -1,5 +1,5 @@
-// Boards and lines that are not well: what is lost is counted exactly and stays a gap, what is nonsense is refused in
-// one sentence, and nothing makes the host wait or grow.
+// Faulty boards and lines: losses are counted exactly and stay gaps, nonsense is refused in one sentence, and nothing
+// makes the host wait or use more memory.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <random>
@@ -15,7 +15,7 @@ using namespace sensorboard;
 using sensorboard::Command;
 using testing::HasSubstr;
 
-/// Calls what a test does to the board.
+/// Calls `what` with the board.
 template <class What>
 void with(SensorBoardBench& bench, What&& what) {
     bench.line->inspect([&](EmulatedBoard& board, Instant now) {
@@ -28,7 +28,7 @@ EmulatedBoard::Fate fateOf(SensorBoardBench& bench, std::size_t stream) {
     return bench.line->inspect([&](EmulatedBoard& board, Instant) { return board.fate(stream); });
 }
 
-/// The losses of every stream are what the board's own counts say.
+/// Expects the losses of every stream to equal the board's own counts.
 void expectExactCounts(SensorBoardBench& bench) {
     const auto report = bench.board->report();
     for (std::size_t s = 0; s < EmulatedBoard::kStreams; ++s) {
@@ -47,13 +47,13 @@ TEST(SensorBoardFaults, LostSpoiltSwappedAndRepeatedBlocksAreCountedExactly) {
     SensorBoardBench bench(settings);
     bench.openFor(Seconds(20));
     with(bench, [](EmulatedBoard& board, Instant) { board.spoil({}); });
-    ASSERT_TRUE(bench.run(Seconds(0.2)).has_value());  // runs until a block follows the last one that was lost
+    ASSERT_TRUE(bench.run(Seconds(0.2)).has_value());  // long enough for a block to follow the last lost one
     expectExactCounts(bench);
     EXPECT_GT(fateOf(bench, 0).lost, 50U);
     EXPECT_GT(fateOf(bench, 0).late, 50U);
     EXPECT_GE(bench.board->report().line.bad(), fateOf(bench, 0).flipped);
 
-    // Every sample stands where its number says; a missing one is a gap in the stamps.
+    // Every sample is where its number says; a missing sample is a gap in the stamps.
     const auto& acceleration = bench.blocks[0];
     std::int64_t missing = 0;
     for (std::size_t i = 1; i < acceleration.samples(); ++i) {
@@ -149,7 +149,7 @@ TEST(SensorBoardFaults, AMomentOfGarbageIsOnlyAGap) {
     EXPECT_GT(report.line.bad(), 0U);
 }
 
-/// Noise without end: as much as is asked for, each read a millisecond.
+/// Endless noise: fills every read, and each read takes a millisecond.
 class NoiseTransport final : public Transport {
 public:
     explicit NoiseTransport(VirtualClock& clock) : clock_(clock) {}
@@ -179,7 +179,7 @@ TEST(SensorBoardFaults, ADeviceThatAnswersGarbageIsNotOpened) {
     EXPECT_LT(clock.now(), std::chrono::seconds(2));
 }
 
-/// A line that turns to noise, without end, once it is told to.
+/// A line that turns to endless noise when told to.
 class TurningTransport final : public Transport {
 public:
     TurningTransport(std::unique_ptr<Transport> sound, VirtualClock& clock) : sound_(std::move(sound)), noise_(clock) {}
@@ -266,7 +266,7 @@ TEST(SensorBoardFaults, AnotherVersionOfTheProtocolIsRefused) {
 TEST(SensorBoardFaults, ADoneOfAnotherCommandIsNotTakenForThisOne) {
     RecordProperty("hazard", "H4");
     EmulatedBoardSettings settings;
-    settings.done = static_cast<std::uint8_t>(Command::Start);  // said of STOP, which is asked first
+    settings.done = static_cast<std::uint8_t>(Command::Start);  // also sent for STOP, the first command
     SensorBoardBench bench(settings);
     EXPECT_THAT(bench.tryOpen(), refused(ErrorCode::Device, "it says that it has done command"));
 }

@@ -1,5 +1,5 @@
-// The firmware's C code against the frames of PROTOCOL.md: here, on 32 bits without a library, and on a big-endian
-// machine where one can be emulated.
+// Checks the firmware's C code with the frames of PROTOCOL.md: on this computer, on 32 bits without a C library, and on
+// a big-endian machine if one can be emulated.
 #include <cstdio>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -37,7 +37,7 @@ Bytes replay(const Bytes& in) {
     return out;
 }
 
-/// The output of a program for the input `in`.
+/// Runs a program with the input `in` and returns its output.
 Bytes run(const std::string& program, const Bytes& in) {
     const ScratchDir scratch;
     const auto given = scratch.write("in", std::string(in.begin(), in.end()));
@@ -103,7 +103,7 @@ TEST(SensorBoardFirmware, HostSendsTheGoldenCommands) {
     using sensorboard::Command;
     const auto sent = [](Command command, std::uint8_t token, const Bytes& payload = {}) {
         auto bytes = encodeCommand(command, token, payload);
-        EXPECT_EQ(bytes.front(), 0);  // ends whatever came before
+        EXPECT_EQ(bytes.front(), 0);  // the zero ends whatever came before
         bytes.erase(bytes.begin());
         return bytes;
     };

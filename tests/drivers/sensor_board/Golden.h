@@ -1,6 +1,6 @@
 // Golden.h - the golden frames of PROTOCOL.md, read from the document itself.
 //
-// Thread-safety: reads files; no state.
+// Thread-safety: any thread; reads files.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +14,13 @@ struct GoldenFrame {
     std::string text;  ///< "HELLO, token 1"
     std::vector<std::uint8_t> bytes;
     [[nodiscard]] bool fromHost() const noexcept { return bytes.size() > 2 && typeByte() < 0x40; }
-    /// COBS leaves the second byte of content, which is not zero, where it is.
+    /// COBS does not change the second byte of the content, because it is not zero.
     [[nodiscard]] std::uint8_t typeByte() const noexcept { return bytes[2]; }
 };
 
-/// All frames, in their order.
+/// Returns all frames in their order.
 [[nodiscard]] const std::vector<GoldenFrame>& goldenFrames();
-/// The frame whose text begins with `text`.
+/// Returns the frame with a text that begins with `text`.
 [[nodiscard]] const std::vector<std::uint8_t>& golden(std::string_view text);
 
 }  // namespace tacto::test

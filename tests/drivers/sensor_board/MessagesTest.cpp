@@ -1,4 +1,4 @@
-// The statements that a board may make, and the ones that are refused in one sentence.
+// Which messages of a board are accepted, and which are refused in one sentence.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ using sensorboard::Command;
 using Bytes = std::vector<std::uint8_t>;
 using testing::HasSubstr;
 
-/// The payload of a golden frame.
+/// Returns the payload of a golden frame.
 Bytes payloadOf(std::string_view text) {
     FrameDecoder decoder;
     std::span<const std::uint8_t> bytes(golden(text));
@@ -26,7 +26,7 @@ Bytes payloadOf(std::string_view text) {
 
 Frame frameOf(Reply reply, const Bytes& payload) { return {kVersion, static_cast<std::uint8_t>(reply), payload}; }
 
-/// A configuration payload with one byte other than in the golden one.
+/// Changes one byte of the golden configuration payload and returns the error.
 std::string refusalOf(std::size_t at, std::uint8_t value) {
     auto payload = payloadOf("CONFIGURATION");
     payload[at] = value;

@@ -1,4 +1,4 @@
-// The board in real time: a thread listens, the session's thread reads, the window's thread asks how it goes.
+// The board in real time: one thread listens, the session's thread reads, the window's thread reads the report.
 #include <atomic>
 #include <gtest/gtest.h>
 #include <thread>
@@ -25,7 +25,7 @@ protected:
         ASSERT_IN_TIME(opened);
         board_ = std::move(*opened);
     }
-    /// Reads every 2 ms, as a session does, until `enough`, 20 s at most. The first error ends it.
+    /// Reads every 2 ms, as a session does, until `enough` or 20 s. Returns the first error.
     template <class Enough>
     Result<void> readUntil(Enough&& enough) {
         for (const Instant end = clock_.now() + std::chrono::seconds(20); clock_.now() < end && !enough();) {
@@ -65,7 +65,7 @@ TEST_F(SensorBoardRealTime, NothingIsLostAndNothingIsStampedAhead) {
     EXPECT_IN_TIME(report.streams[0].lostBlocks + report.streams[1].lostBlocks + report.streams[2].lostBlocks == 0U);
     EXPECT_EQ(report.line.bad(), 0U);
     EXPECT_IN_TIME(report.dropped == 0U);
-    // A machine that is busy may delay a thread, not reorder what it reads.
+    // A busy computer may delay a thread, but must not reorder the samples.
     EXPECT_TRUE(std::is_sorted(blocks_[0].t_s.begin(), blocks_[0].t_s.end()));
 }
 

@@ -1,4 +1,4 @@
-// SensorBoardBench.h - an emulated board on a virtual clock and the driver's device on it: the fixture of these tests.
+// SensorBoardBench.h - the fixture of these tests: an emulated board on a virtual clock, and the driver's device on it.
 //
 // Thread-safety: the test's own thread.
 #pragma once
@@ -18,12 +18,12 @@ public:
     explicit SensorBoardBench(sensorboard::EmulatedBoardSettings settings = {},
                               std::unique_ptr<sensorboard::BoardSignal> signal = nullptr);
 
-    /// Opens the board; failing that, the test's failure says why.
+    /// Opens the board; if that fails, so does the test, with the reason.
     void open(const SensorBoardSettings& settings = {});
-    /// And lets it run well for so long.
+    /// Opens the board and runs it for `duration` without faults.
     void openFor(Seconds duration);
     [[nodiscard]] Result<std::unique_ptr<SensorBoard>> tryOpen(const SensorBoardSettings& settings = {});
-    /// Lets time pass and reads every `step`, adding to `blocks`. The first error ends it.
+    /// Lets time pass and reads every `step` into `blocks`. Returns the first error.
     Result<void> run(Seconds duration, Seconds step = Seconds(0.002));
 
     VirtualClock clock;
@@ -32,7 +32,7 @@ public:
     std::vector<SampleBlock> blocks;
 };
 
-/// The step of a CountingSignal that an acceleration sample shows.
+/// Returns the step of a CountingSignal from an acceleration sample.
 [[nodiscard]] std::int64_t stepOf(const SampleBlock& acceleration, std::size_t sample);
 
 }  // namespace tacto::test

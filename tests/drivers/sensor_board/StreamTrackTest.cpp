@@ -1,4 +1,4 @@
-// One stream: what is missing is counted to the block and the sample, numbers become values, nonsense is not used.
+// One stream: losses are counted to the block and sample, raw numbers become values, nonsense is not used.
 #include <gtest/gtest.h>
 
 #include "drivers/sensor_board/StreamTrack.h"
@@ -18,7 +18,7 @@ StreamConfiguration configuration(SampleFormat format = SampleFormat::Int16, std
     return made;
 }
 
-/// Blocks of four samples of a stream without a flaw.
+/// Makes blocks of four samples of a flawless stream.
 class Source {
 public:
     DataBlock at(std::uint32_t n) {
@@ -87,7 +87,7 @@ TEST(SensorBoardStream, NumbersMayWrap) {
     StreamTrack track(configuration());
     Source source;
     EXPECT_EQ(track.take(source.at(0)), Verdict::Next);
-    // Half way round twice, as after a very long gap, then over the end.
+    // Advances by almost half the number range twice, as after a very long gap, then past the end of the range.
     auto block = source.at(0x70000000U);
     block.index = 0x70000000U;
     EXPECT_EQ(track.take(block), Verdict::Next);

@@ -1,5 +1,5 @@
-// A board that is well: every sample once, with its value and its time, for ten minutes; what it says of itself read
-// back; and what the control loop makes of it.
+// A board in order: delivers every sample once, with its value and time, for ten minutes; its statements are read back;
+// and the control loop uses its data.
 #include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -88,7 +88,7 @@ TEST(SensorBoard, TenMinutesWithNothingLostAndTheDriftKnownToOnePartPerMillion) 
     std::array<StreamHealth, 3> health{StreamHealth(4000), StreamHealth(200), StreamHealth(200)};
     std::uint64_t samples = 0;
     for (int second = 0; second < 600; ++second) {
-        const auto read = bench.run(Seconds(1), Seconds(0.25e-3));  // as a thread that listens sees it come
+        const auto read = bench.run(Seconds(1), Seconds(0.25e-3));  // reads as often as a listening thread would
         ASSERT_TRUE(read.has_value()) << read.error().message;
         for (std::size_t s = 0; s < 3; ++s) {
             health[s].feed(bench.blocks[s], bench.board->streams()[s].channels);
@@ -111,7 +111,7 @@ TEST(SensorBoard, TenMinutesWithNothingLostAndTheDriftKnownToOnePartPerMillion) 
     EXPECT_LT(report.driftUncertainty_ppm, 1);
     EXPECT_GT(report.driftSpan_s, 300);
     EXPECT_TRUE(report.board.running);
-    // Data in the host's hands are as old as the line is slow.
+    // Data are at least as old as the line's delay.
     EXPECT_GT(report.delayMost_s, 300e-6);
     EXPECT_LT(report.delayMost_s, 10e-3);
 }
@@ -148,7 +148,7 @@ TEST(SensorBoard, StampsAreTrueWithinTheLinesDelay) {
     const auto& acceleration = bench.blocks[0];
     const std::size_t i = acceleration.samples() - 1;
     const double truth = begin_s + static_cast<double>(stepOf(acceleration, i)) / 4000 / (1 - 80e-6);
-    // The host looks every 2 ms: that is how well it can know.
+    // The host reads every 2 ms, which limits how well it knows the time.
     EXPECT_NEAR(acceleration.t_s[i], truth, bench.board->report().delayMost_s + 2.5e-3);
 }
 
@@ -189,7 +189,7 @@ TEST(SensorBoard, StopsTheBoardWhenItGoes) {
 TEST(SensorBoard, OpensABoardThatAProgramLeftRunning) {
     SensorBoardBench bench;
     bench.openFor(Seconds(0.5));
-    auto killed = std::move(bench.board);  // it never says stop
+    auto killed = std::move(bench.board);  // never sends STOP
     bench.clock.advanceTo(bench.clock.now() + std::chrono::seconds(1));
     bench.openFor(Seconds(0.5));
     EXPECT_EQ(bench.board->report().streams[0].lostBlocks, 0U);

@@ -1,4 +1,4 @@
-// A board on a serial port: the emulated one behind a pseudo-terminal, opened as `sensor:?tty=`, in real time.
+// A board on a serial port: an emulated board behind a pseudo-terminal, opened as `sensor:?tty=`, in real time.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ protected:
         devices_ = {};
         return driver_->open(*DeviceUri::parse("sensor:" + parameters), {}, {clock_}, devices_);
     }
-    /// Reads every 2 ms, as a session does, until `enough` or for 10 s. The first error ends it.
+    /// Reads every 2 ms, as a session does, until `enough` or for 10 s. Returns the first error.
     template <class Enough>
     Result<void> readUntil(Enough enough) {
         blocks_.assign(devices_.sensor->streams().size(), {});
@@ -35,7 +35,7 @@ protected:
     }
 
     SteadyClock clock_;
-    // The USB that there may be has no part in this.
+    // Keeps the computer's own USB out of this test.
     std::unique_ptr<Driver> driver_ = makeSensorBoardDriver(
         makeUsbSensorBoards([] { return fail(ErrorCode::Io, "no USB here"); }, sciencemode::TtyTransport::open));
     DeviceSet devices_;

@@ -1,5 +1,5 @@
-// A bench with a sensor board over the real libusb, in real time: what is lost is counted, shown and kept; a board that
-// is unplugged ends the output, and comes back after a reset.
+// A bench with a sensor board over the real libusb, in real time: losses are counted, shown and recorded; unplugging
+// the board ends the output, and the board returns after a reset.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -44,7 +44,7 @@ protected:
         ASSERT_IN_TIME(bench_->drive(DriveSource::Manual, 0.5, 1));
         ASSERT_IN_TIME(comes([&] { return bench_->telemetry().trainsDelivered > 0; }));
     }
-    /// The bodies of all events of a kind, once the bench is closed.
+    /// Closes the bench and returns the bodies of all events of a kind.
     [[nodiscard]] std::vector<nlohmann::json> eventsOf(const std::string& kind) {
         bench_.reset();
         EXPECT_TRUE(session_->close());
@@ -76,12 +76,12 @@ TEST_F(SensorBoardBenchOnUsb, WhatIsLostIsCountedInTheStreamsAndKeptInTheSession
     RecordProperty("hazard", "H7");
     open();
     ASSERT_IN_TIME(comes([&] { return reported("samples") > 500; }));
-    ASSERT_IN_TIME(bench_->telemetry().gaps == 0U);  // a machine that stands still loses samples by itself
+    ASSERT_IN_TIME(bench_->telemetry().gaps == 0U);  // a computer that stalls would lose samples itself
     device_.inspect([](auto& board, Instant) { board.dropNext(0); });
     ASSERT_IN_TIME(comes([&] { return bench_->telemetry().gaps == 1; })) << "a gap is never bridged";
     EXPECT_IN_TIME(reported("frames_lost") == 1);
     EXPECT_IN_TIME(reported("samples_lost") == 32);
-    // The control loop looks every 100 ms.
+    // The control loop checks every 100 ms.
     ASSERT_IN_TIME(bench_->wait(Seconds(0.3)));
 
     const auto reports = eventsOf("device report");

@@ -24,7 +24,7 @@ EmulatedBoardSettings settingsFor(const std::string& serial) {
     return settings;
 }
 
-/// NaN where there is no such row.
+/// Returns NaN if there is no such row.
 double valueOf(const DeviceReport& report, std::string_view key) {
     for (const auto& row : report.rows()) {
         if (row.key == key) return row.value;
@@ -41,7 +41,7 @@ protected:
     [[nodiscard]] bool listed(std::size_t boards) {
         return comes([&] { return driver_->list().size() == boards; });
     }
-    /// Reads every 2 ms, as a session does, for `time` at most. The first error ends it.
+    /// Reads every 2 ms, as a session does, for at most `time`. Returns the first error.
     Result<void> readFor(std::chrono::milliseconds time) {
         blocks_.resize(devices_.sensor->streams().size());
         const auto end = std::chrono::steady_clock::now() + time;
@@ -70,7 +70,7 @@ TEST_F(SensorBoardOnUsb, IsFoundAndOpenedBySerialNumberWhicheverInterfaceItShows
         EXPECT_EQ(devices_.sensor->identity().serial, number);
         ASSERT_IN_TIME(readFor(300ms));
         EXPECT_IN_TIME(blocks_[0].samples() > 400U);
-        // The last read may have ended between a block of the one and the block of the other, of two samples each.
+        // The last read may have ended between the two streams' blocks of two samples each.
         EXPECT_NEAR(static_cast<double>(blocks_[1].samples()), static_cast<double>(blocks_[2].samples()), 2);
         for (auto& block : blocks_) block.clear();
     }
@@ -106,7 +106,7 @@ TEST_F(SensorBoardOnUsb, TenSecondsOfAllStreamsLoseNothing) {
     EXPECT_IN_TIME(report.losses == 0U);
     const double uncertainty = valueOf(report, "drift_uncertainty_ppm");
     EXPECT_NEAR(valueOf(report, "drift_ppm"), 50, 3 * uncertainty);
-    // From the first of the quickest messages to the last of them: on a busy machine they may lie close together.
+    // Measured between the first and last of the quickest messages; on a busy computer they may be close together.
     EXPECT_IN_TIME(valueOf(report, "drift_span_s") > 1);
     EXPECT_LT(valueOf(report, "drift_span_s"), 11);
     EXPECT_IN_TIME(valueOf(report, "delay_most_s") < 0.05);

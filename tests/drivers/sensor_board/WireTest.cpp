@@ -1,5 +1,5 @@
-// Frames out of a stream of any bytes: every wrong bit is noticed, junk costs no more than the frame it runs into, and
-// nothing makes the decoder hold more than one frame.
+// Frames from a stream of arbitrary bytes: every wrong bit is noticed, junk costs only the frame that follows it
+// without a delimiter, and the decoder never stores more than one frame.
 #include <gtest/gtest.h>
 #include <random>
 #include <rapidcheck.h>
@@ -21,7 +21,7 @@ struct Taken {
     bool operator==(const Taken&) const = default;
 };
 
-/// All frames of `bytes`, given in pieces of `piece`.
+/// Decodes all frames of `bytes`, passed to the decoder in pieces of `piece` bytes.
 std::vector<Taken> takeAll(FrameDecoder& decoder, std::span<const std::uint8_t> bytes, std::size_t piece = 4096) {
     std::vector<Taken> all;
     while (!bytes.empty()) {
@@ -61,7 +61,7 @@ TEST(SensorBoardWire, EveryWrongBitOfEveryFrameIsNoticedAndCostsNoOtherFrame) {
             const bool delimiter = bit / 8 == spoilt.size() - 1;
             FrameDecoder decoder;
             const auto taken = takeAll(decoder, golden("STOP") + spoilt + golden("START") + golden("HELLO"));
-            // Without its delimiter the frame takes the next one with it.
+            // Without its delimiter the frame also spoils the next one.
             const std::size_t kept = delimiter ? 2 : 3;
             ASSERT_EQ(taken.size(), kept) << frame.text << ", bit " << bit;
             EXPECT_EQ(taken.front().type, TSB_STOP);
@@ -120,7 +120,7 @@ TEST(SensorBoardWire, WhatIsTooLongIsPassedOverAndCountedOnce) {
 }
 
 TEST(SensorBoardWire, TheLongestFrameFitsAndAByteMoreDoesNot) {
-    // Content without a zero: one full group.
+    // Content without a zero forms one full group.
     Bytes content{1, 0x7F};
     while (content.size() < kMaxContent - 4) content.push_back(0x33);
     for (std::uint8_t last = 1; last < 255; ++last) {
@@ -132,7 +132,7 @@ TEST(SensorBoardWire, TheLongestFrameFitsAndAByteMoreDoesNot) {
         FrameDecoder decoder;
         EXPECT_EQ(takeAll(decoder, Bytes{0xFF} + sealed + Bytes{0}).size(), 1U);
         EXPECT_EQ(takeAll(decoder, Bytes{0xFF} + sealed + Bytes{1, 0}).size(), 0U) << "256 bytes before the zero";
-        // The firmware makes the same of it.
+        // The firmware must produce the same frame.
         std::array<std::uint8_t, TSB_FRAME_MOST> frame{};
         tsb_writer writer{};
         tsb_begin(&writer, frame.data(), 1, 0x7F);
@@ -209,7 +209,7 @@ TEST(SensorBoardWire, WhatTheHostSendsIsWhatTheFirmwareHears) {
         tsb_receiver receiver{};
         tsb_command command{};
         int heard = 0;
-        // The line had something before, whatever it was.
+        // The line carried arbitrary bytes before.
         const auto before = *rc::gen::arbitrary<Bytes>();
         for (const auto byte : before) (void)tsb_receive(&receiver, byte, &command);
         for (const auto byte : bytes) heard += tsb_receive(&receiver, byte, &command);

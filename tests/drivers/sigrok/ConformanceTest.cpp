@@ -10,14 +10,14 @@ class LanRig final : public OscilloscopeRig {
 public:
     Oscilloscope& device() override { return lan_.scope(); }
     const Clock& clock() const override { return lan_.bench().clock; }
-    /// Signal time, and the real time in which a record that is complete reaches the bench.
+    /// Lets signal time pass, and as much real time, in which a complete record reaches the bench.
     void wait(Seconds duration) override {
         lan_.pass(duration);
         std::this_thread::sleep_for(duration);
     }
     bool pulse() override {
-        if (!lan_.instrument().waits(Seconds(5))) return true;  // disarmed: it waits for none, and still there is one
-        lan_.bench().wait(Seconds(0.02));                       // the part before the trigger fills
+        if (!lan_.instrument().waits(Seconds(5))) return true;  // disarmed: no wait for a trigger, but there is a pulse
+        lan_.bench().wait(Seconds(0.02));                       // the part before the trigger must fill
         lan_.bench().deliver(voltagePulse(10), Seconds(0));
         lan_.pass(Seconds(0.01));
         return true;

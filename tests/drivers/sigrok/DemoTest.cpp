@@ -75,7 +75,7 @@ TEST(SigrokDemo, ItsSquareAndSineAreCapturedAndMeasured) {
         last = capture->trigger_s;
         ASSERT_EQ(capture->channels.size(), 2U);
         EXPECT_EQ(capture->samples(), 5000U);
-        // A0: a square of ±10 V; A1: a sine of ±10 V, over 100 ohm.
+        // A0 is a square wave of ±10 V, A1 a sine of ±10 V over 100 ohm.
         const auto& volts = capture->channels[0].samples;
         EXPECT_EQ(*std::ranges::max_element(volts), 10.0F);
         EXPECT_EQ(*std::ranges::min_element(volts), -10.0F);
@@ -104,7 +104,7 @@ TEST(SigrokDemo, ItsSquareIsMeasuredLikeAPulseTrain) {
     ASSERT_IN_TIME(capture);
     ASSERT_EQ(capture->channels.size(), 1U) << "no current channel was named";
     const auto& volts = capture->channels[0].samples;
-    // Equal phases: the period is what libsigrok's demo makes of it; each rising edge stands one period after the last.
+    // The phases are equal, so each rising edge comes one period, as libsigrok's demo sets it, after the one before.
     std::vector<std::size_t> edges;
     for (std::size_t i = 1; i < volts.size(); ++i) {
         if (volts[i - 1] < 0 && volts[i] > 0) edges.push_back(i);

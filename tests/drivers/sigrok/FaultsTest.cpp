@@ -1,4 +1,4 @@
-// Instruments that fail in the middle of it: each is an error, none a hang or a crash.
+// Instruments that fail in the middle of a record: each failure gives an error, never a hang or a crash.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

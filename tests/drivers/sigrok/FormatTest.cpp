@@ -27,7 +27,7 @@ protected:
                                               const ReadWatch& watch = {}) const {
         return format_.read(at(name), options, watch);
     }
-    /// Expects a refusal that names the file and `what`.
+    /// Expects an error that names the file and contains `what`.
     void expectRefused(const std::string& name, const std::string& what) const {
         EXPECT_THAT(read(name), refused(ErrorCode::ParseError, testing::AllOf(HasSubstr(name), HasSubstr(what))))
             << name;
@@ -69,7 +69,7 @@ TEST_F(SrFile, TheRealOscilloscopesCaptureAgreesWithItsCsv) {
     EXPECT_EQ(sr.capture.channels[0].name, "SDA");
     EXPECT_EQ(sr.capture.channels[1].name, "SCL");
     ASSERT_EQ(sr.capture.samples(), 100'000U);
-    // Its own table: TIME,CH1,CH2 after the header.
+    // The instrument's own table: TIME,CH1,CH2 after the header.
     std::ifstream csv(data / "RTC.csv");
     std::string line;
     while (std::getline(csv, line) && !line.starts_with("TIME")) {
@@ -233,7 +233,7 @@ TEST_F(SrFile, WhatMakesNoSenseIsRefused) {
 }
 
 TEST_F(SrFile, ASamplingRateThatIsNoneIsRefusedUnlessTheUserGivesOne) {
-    // libsigrok takes "-1 MHz" for 18 exahertz.
+    // libsigrok reads "-1 MHz" as 18 exahertz.
     const auto put = [&](const std::string& rate) {
         std::ofstream(at("rate.sr"), std::ios::binary)
             << zipOf({{"version", "2"},

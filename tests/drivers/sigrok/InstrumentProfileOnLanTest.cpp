@@ -1,5 +1,5 @@
-// The way from the data sheet to the uncertainty: an emulated instrument names itself, its profile states its gain, and
-// a figure has no U until the probe is stated, too (hazard H9).
+// From data sheet to uncertainty: an emulated instrument states its name, its profile states its gain, and a figure has
+// no expanded uncertainty U until the probe's is stated too (hazard H9).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-/// The instrument's statement from openDevices() under `uri`.
+/// Returns the statement that openDevices() makes about the instrument under `uri`.
 Result<InstrumentStatement> statementUnder(const std::string& uri, const Clock& clock) {
     std::vector<std::unique_ptr<Driver>> drivers;
     drivers.push_back(makeSigrokDriver({}));
@@ -31,7 +31,7 @@ Result<InstrumentStatement> statementUnder(const std::string& uri, const Clock& 
     return devices->scopeStatement;
 }
 
-/// A pulse of 10 V as a `model` captures it, with what is stated of it under its address and `keys` more.
+/// Returns a pulse of 10 V captured by a `model`, with the statements for its address and the additional `keys`.
 Capture captured(const std::string& model, const std::string& keys) {
     ScopeOnLan lan("", "sim:stimulator", model);
     ScopeSettings settings;
@@ -52,7 +52,7 @@ Capture captured(const std::string& model, const std::string& keys) {
     const auto statement = statementUnder(lan.uri() + keys, lan.bench().clock);
     EXPECT_IN_TIME(statement);
     if (!capture || !*capture || !statement) return {};
-    applyStatement(**capture, *statement);  // done as Bench does it
+    applyStatement(**capture, *statement);  // as Bench does
     return std::move(**capture);
 }
 
@@ -80,7 +80,7 @@ TEST(InstrumentProfileOnLan, AStatedProbeGivesTheBudgetItsU) {
     EXPECT_THAT(capture.channels[0].statedBy, HasSubstr("probe: the device's address"));
     const auto volts = measureChannel(capture, 0);
     const auto amps = measureChannel(capture, 1);
-    // Rectangular: 2 % of 50 V, and 1 % of 10 V for the probe.
+    // Rectangular distributions: 2 % of 50 V, and 1 % of 10 V for the probe.
     EXPECT_NEAR(volts.uncertainty.amplitude, std::hypot(1.0, 0.1) / std::sqrt(3.0), 0.1);
     EXPECT_TRUE(std::isfinite(amps.uncertainty.amplitude));
 }
@@ -100,7 +100,7 @@ TEST(InstrumentProfileOnLan, AnInstrumentWithoutAProfileStatesNothing) {
                                                 "the shunt of current", "the time base"));
 }
 
-/// Gives it the name that a driver would give it, whatever it is.
+/// An oscilloscope with the name that a driver would give it.
 class NamedScope : public Oscilloscope {
 public:
     explicit NamedScope(bool simulated) { identity_.simulated = simulated; }

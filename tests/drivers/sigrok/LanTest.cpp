@@ -1,4 +1,4 @@
-// Pulses of the twin, through the whole way to an instrument on the network.
+// Pulses of the simulated stimulator, measured by an instrument on the network.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ TEST(ScopeOnLan, APulseHasItsAmplitudeWidthAndInterval) {
     ASSERT_IN_TIME(capture);
     ASSERT_IN_TIME(capture->has_value());
     ASSERT_EQ((*capture)->channels.size(), 2U);
-    const double lsb_V = 5 / 25.0;  // 5 V a division
+    const double lsb_V = 5 / 25.0;  // 5 V per division
     EXPECT_NEAR((*capture)->channels[0].lsb, lsb_V, 1e-6);
     const auto volts = measureChannel(**capture, 0);
     ASSERT_EQ(volts.measuredPulses, 2U) << testing::PrintToString(volts.warnings);
@@ -51,7 +51,7 @@ TEST(ScopeOnLan, APulseHasItsAmplitudeWidthAndInterval) {
     EXPECT_NEAR(volts.interval_s.mean, 2.5e-3, 1e-6);
     const auto amps = measureChannel(**capture, 1);
     ASSERT_EQ(amps.measuredPulses, 2U) << testing::PrintToString(amps.warnings);
-    const double lsb_A = 0.05 / 25 / ScopeOnLan::kShuntOhm;  // 0.13 V of range: 50 mV a division
+    const double lsb_A = 0.05 / 25 / ScopeOnLan::kShuntOhm;  // 0.13 V of range: 50 mV per division
     EXPECT_NEAR((*capture)->channels[1].lsb, lsb_A, 1e-9);
     EXPECT_NEAR(amps.amplitude.mean, 0.01, lsb_A / 2);
     EXPECT_NEAR(amps.width_s.mean, 200e-6, 1e-6);

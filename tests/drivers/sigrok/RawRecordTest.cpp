@@ -43,7 +43,7 @@ TEST(RawRecord, SeesTheConvertersStepsButNotAFewValuesOrRounding) {
 TEST(RawRecord, CutsAroundTheTriggerAveragesAndConvertsTheShunt) {
     RawRecord raw;
     raw.rate_hz = 1000;
-    raw.end_s = 10;  // 400 samples: from 9.6 s
+    raw.end_s = 10;  // 400 samples that begin at 9.6 s
     for (int i = 0; i < 400; ++i) {
         raw.voltage.push_back(i < 200 ? 0.0F : 8.0F);
         raw.current.push_back(i < 200 ? 0.0F : 0.5F);
@@ -51,7 +51,7 @@ TEST(RawRecord, CutsAroundTheTriggerAveragesAndConvertsTheShunt) {
     Wiring wiring;
     wiring.current = 1;
     wiring.shunt = Ohms(100);
-    auto plan = planFor(250, 40);  // 4 raw samples each, 160 in all, 40 of them before the trigger
+    auto plan = planFor(250, 40);  // 4 raw samples per sample, 160 in all, 40 before the trigger
     plan.currentScale = Fraction{1, 10};
     const auto capture = accepted(cut(raw, plan, wiring, 199.5));
     EXPECT_EQ(capture.rate_hz, 250);

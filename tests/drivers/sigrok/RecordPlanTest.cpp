@@ -12,7 +12,7 @@ namespace {
 using namespace sigrok_driver;
 using testing::HasSubstr;
 
-/// A DS2072A as libsigrok 0.5.2 describes it (sigrok-cli --show).
+/// Returns a DS2072A's abilities as libsigrok 0.5.2 reports them (sigrok-cli --show).
 Abilities ds2072a() {
     Abilities a;
     a.driver = "rigol-ds";
@@ -67,18 +67,18 @@ TEST(RecordPlan, KnowsTheMemoryOfTheSeriesLibsigrokDrives) {
 
 TEST(RecordPlan, TakesTheShortestScreenWhoseRateIsAMultiple) {
     const auto abilities = ds2072a();
-    // 2 ms at 1 MHz: 200 us/div would sample at 2.5 MHz, which is not a multiple.
+    // 2 ms at 1 MHz: 200 us/div would sample at 2.5 MHz, which is no multiple of 1 MHz.
     const auto plan = accepted(planRecord(planSettings(1e6, 2000), abilities, wiring(abilities)));
     EXPECT_DOUBLE_EQ(plan.timebase.value(), 500e-6);
     EXPECT_EQ(plan.record, 7000U);
-    // 250 us at 2.5 MHz: 20 us/div is 280 us at 25 MHz.
+    // 250 us at 2.5 MHz: 20 us/div gives 280 us at 25 MHz.
     EXPECT_DOUBLE_EQ(planRecord(planSettings(2.5e6, 625), abilities, wiring(abilities))->timebase.value(), 20e-6);
 }
 
 TEST(RecordPlan, TheRangeIsTheNextOneUpAndTheShuntTurnsMilliampsIntoVolts) {
     const auto abilities = ds2072a();
     const auto plan = accepted(planRecord(planSettings(1e6, 2000), abilities, wiring(abilities)));
-    EXPECT_EQ(plan.voltageScale, (Fraction{5, 1}));       // 13 V: 4 divisions of 5 V
+    EXPECT_EQ(plan.voltageScale, (Fraction{5, 1}));       // 13 V needs 4 divisions of 5 V
     EXPECT_EQ(plan.currentScale, (Fraction{500, 1000}));  // 18 mA * 100 ohm = 1.8 V
     EXPECT_EQ(plan.triggerSource, "CH1");
     EXPECT_DOUBLE_EQ(plan.triggerLevel_V, 5);
@@ -94,8 +94,7 @@ TEST(RecordPlan, TheRangeIsTheNextOneUpAndTheShuntTurnsMilliampsIntoVolts) {
 TEST(RecordPlan, TheTriggerPositionMakesUpForLibsigroksScale) {
     const auto abilities = ds2072a();
     const auto plan = accepted(planRecord(planSettings(1e6, 2000), abilities, wiring(abilities)));
-    // What libsigrok will send: -(position - 0.5) * timebase * number of time bases. Wanted: a tenth before the
-    // trigger.
+    // libsigrok will send -(position - 0.5) * timebase * number of time bases. A tenth before the trigger is wanted.
     const double sent = -(plan.triggerPosition - 0.5) * 500e-6 * static_cast<double>(abilities.timebases.size());
     EXPECT_NEAR(sent, 0.4 * 14 * 500e-6, 1e-9);
     EXPECT_NEAR(plan.triggerAt_s, 0.1 * 7e-3, 1e-9);

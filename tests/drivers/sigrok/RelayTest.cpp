@@ -16,7 +16,7 @@ namespace {
 
 using sigrok_driver::TcpRelay;
 
-/// A socket that is closed with its owner.
+/// Closes its socket when destroyed.
 class Socket {
 public:
     explicit Socket(int number) : number_(number) {}
@@ -93,7 +93,7 @@ TEST_F(RelayTest, PassesBothWaysAndConnectsAnewForTheNextConversation) {
         });
         EXPECT_EQ(receive(client, large.size()), large);
         sender.join();
-        client.close();  // libsigrok ends conversations, not the instrument
+        client.close();  // libsigrok, not the instrument, ends conversations
         EXPECT_EQ(receive(instrument, 1), "");
         EXPECT_FALSE(relay->fault().has_value());
         EXPECT_LT(relay->silence().count(), 60);
@@ -135,7 +135,7 @@ TEST_F(RelayTest, AConnectionOfAnotherProcessIsClosedAndNothingOfItReachesTheIns
     const Socket instrument(::accept(listener_, nullptr, nullptr));
     auto address = loopback(relay->port());
     const pid_t other = fork();
-    if (other == 0) {  // system calls only: this process has threads
+    if (other == 0) {  // only system calls here, because this process has threads
         const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
         if (::connect(socket, generic(address), sizeof address) != 0) _exit(2);
         static_cast<void>(::send(socket, "*RST\r\n", 6, MSG_NOSIGNAL));
@@ -146,7 +146,7 @@ TEST_F(RelayTest, AConnectionOfAnotherProcessIsClosedAndNothingOfItReachesTheIns
     ASSERT_EQ(waitpid(other, &status, 0), other);
     ASSERT_TRUE(WIFEXITED(status));
     EXPECT_EQ(WEXITSTATUS(status), 0) << "it was not hung up on";
-    // The relay's own client is served after it, and what it says is the first that arrives.
+    // The relay serves its own client afterwards, and that client's bytes are the first to arrive.
     const Socket client(::socket(AF_INET, SOCK_STREAM, 0));
     connect(client, relay->port());
     ASSERT_EQ(::send(client, "*IDN?\r\n", 7, 0), 7);
@@ -159,7 +159,7 @@ TEST(Relay, RefusedAndUnknownHostsAreNotFound) {
 }
 
 TEST(Relay, AHostThatDoesNotAnswerIsATimeoutOrUnreachableButSoon) {
-    // 192.0.2.0/24 is reserved for documentation: no host is there. Without a network it is refused at once.
+    // 192.0.2.0/24 is reserved for documentation, so no host answers. Without a network the connection fails at once.
     const auto since = std::chrono::steady_clock::now();
     EXPECT_FALSE(TcpRelay::start("192.0.2.1", "5555", Seconds(0.3)).has_value());
     EXPECT_IN_TIME(std::chrono::steady_clock::now() - since < std::chrono::seconds(3));

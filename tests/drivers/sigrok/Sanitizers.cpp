@@ -1,6 +1,6 @@
-// libsigrok 0.5.2 loses memory: 2 kB for each question after the trigger (rigol-ds), some hundred bytes for each .sr
-// that is opened or written. Only what it allocated itself is passed over, and for that the leak checker has to see
-// whole stacks: libsigrok and GLib are built without frame pointers.
+// libsigrok 0.5.2 leaks memory: 2 kB for each question about the trigger (rigol-ds), some hundred bytes for each .sr
+// file that is opened or written. Only leaks that libsigrok allocated itself are ignored; for that the leak checker
+// needs whole stacks, because libsigrok and GLib are built without frame pointers.
 #ifdef TACTOSCOPE_SANITIZED
 extern "C" {
 const char* __asan_default_options();

@@ -38,7 +38,7 @@ void ScopeOnLan::arm(const ScopeSettings& settings) {
     ASSERT_IN_TIME(configured);
     const auto armed = scope().arm();
     ASSERT_IN_TIME(armed);
-    // So much signal time that the part of a record before the trigger is filled.
+    // Waits enough signal time to fill the part of a record before the trigger.
     bench_.wait(Seconds(0.05));
 }
 

@@ -1,9 +1,9 @@
-// ScopeOnLan.h - the whole way to an oscilloscope on the network, on one machine: a simulated stimulator drives a
-// simulated load, an emulated instrument measures that, libsigrok reads it over TCP, and the bench gets captures.
+// ScopeOnLan.h - an oscilloscope "on the network", on one computer: a simulated stimulator drives a simulated load, an
+// emulated instrument measures it, libsigrok reads the instrument over TCP, and the bench gets captures.
 //
-// The signal lives on a virtual clock; the conversation takes the real time that it takes.
+// The signal runs on a virtual clock; the conversation takes real time.
 //
-// Thread-safety: the test's own thread; the emulated instrument serves on another.
+// Thread-safety: the test's own thread; the emulated instrument has its own thread.
 #pragma once
 
 #include "core/devices/Oscilloscope.h"
@@ -17,7 +17,7 @@ class ScopeOnLan {
 public:
     static constexpr double kShuntOhm = 10;
 
-    /// `parameters` are the URI's besides the channels'; `model` is what the instrument calls itself.
+    /// `parameters` are the URI's parameters except the channels; `model` is the name that the instrument states.
     explicit ScopeOnLan(const std::string& parameters = "", const std::string& stimulator = "sim:stimulator",
                         const std::string& model = "DS2072A");
 
@@ -26,11 +26,11 @@ public:
     [[nodiscard]] SimBench& bench() { return bench_; }
     [[nodiscard]] std::string uri() const;
 
-    /// Settings applied, armed, the instrument waiting.
+    /// Applies the settings, arms, and waits until the instrument waits for a trigger.
     void arm(const ScopeSettings& settings);
-    /// Signal time passes; then the instrument's record, if one is complete, is read out.
+    /// Lets signal time pass, then waits until a complete record, if there is one, has been read out.
     void pass(Seconds duration);
-    /// The next capture, at most `timeout` of real time later.
+    /// Returns the next capture; waits at most `timeout` of real time.
     [[nodiscard]] Result<std::optional<Capture>> poll(Seconds timeout = Seconds(5));
     /// Closes the device.
     void close() { opened_.oscilloscope.reset(); }

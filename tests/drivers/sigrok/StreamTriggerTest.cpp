@@ -19,7 +19,7 @@ RecordPlan triggeredPlan(std::size_t samples, double level) {
     return plan;
 }
 
-/// Zero with pulses of 10 V and 5 samples that begin at `onsets`.
+/// Makes a signal of zeros with pulses of `height` and 5 samples at `onsets`.
 std::vector<float> pulses(std::size_t length, const std::vector<std::size_t>& onsets, float height = 10) {
     std::vector<float> signal(length, 0.0F);
     for (const auto onset : onsets) {
@@ -32,7 +32,7 @@ TEST(StreamTrigger, OneRecordPerPulseHoweverThePacketsFall) {
     const auto seed = testing::UnitTest::GetInstance()->random_seed();
     std::mt19937 random(static_cast<std::mt19937::result_type>(seed));
     for (int round = 0; round < 50; ++round) {
-        const auto signal = pulses(200'000, {1000, 1020, 30'000, 150'000});  // the second is within the first record
+        const auto signal = pulses(200'000, {1000, 1020, 30'000, 150'000});  // the second lies in the first record
         StreamTrigger trigger(triggeredPlan(100, 5), {});
         std::vector<Capture> found;
         std::uniform_int_distribution<std::size_t> sizes(1, 40'000);

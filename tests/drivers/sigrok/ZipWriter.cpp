@@ -10,12 +10,12 @@ void put(std::string& into, std::uint64_t value, int bytes) {
     for (int i = 0; i < bytes; ++i) into.push_back(static_cast<char>(value >> (8 * i) & 0xffU));
 }
 
-/// The part that the local header and the directory share, from "version needed" to the extra field's length.
+/// Returns the part common to local header and directory, from "version needed" to the extra field's length.
 std::string common(const std::pair<std::string, std::string>& entry, std::size_t packed, int level) {
     std::string text;
     put(text, 20, 2);
     put(text, 0, 2);
-    put(text, level == 0 ? 0 : 8, 2);  // stored, deflated
+    put(text, level == 0 ? 0 : 8, 2);  // stored or deflated
     put(text, 0, 4);
     put(text, ::crc32_z(0, reinterpret_cast<const Bytef*>(entry.second.data()), entry.second.size()), 4);
     put(text, packed, 4);

@@ -1,4 +1,4 @@
-// ZipWriter.h - zip archives for tests: files that no program would write, and large ones soon written.
+// ZipWriter.h - makes zip archives for tests: broken ones, and large ones in little time.
 //
 // Thread-safety: the test's own thread.
 #pragma once
@@ -9,7 +9,7 @@
 
 namespace tacto::test {
 
-/// `level`: zlib's, 0 = stored.
+/// `level` is zlib's compression level; 0 = stored.
 [[nodiscard]] std::string zipOf(const std::vector<std::pair<std::string, std::string>>& entries, int level = 0);
 
 }  // namespace tacto::test

@@ -1,10 +1,10 @@
-// A host for SuspendTest: a whole bench on the steady clock, to be stopped and continued by signals. Prints a line for
-// each train that it writes to its device, with the time of CLOCK_MONOTONIC in nanoseconds.
+// A host for SuspendTest: a whole bench on the steady clock, which signals stop and continue. For each train that it
+// writes to its device it prints a line with the time of CLOCK_MONOTONIC in nanoseconds.
 //
 //   suspend_host sim | massager | pulsepal (emulated in this process) | /dev/pts/3 (a ScienceMode stimulator behind it)
 //
-// Commands on stdin, one a line: "go" arms and drives by hand, and prints "on" or "refused ..."; "state" prints the
-// interlock's state and its reason.
+// Commands on stdin, one per line: "go" arms and drives by hand, and prints "on" or "refused ..."; "state" prints the
+// interlock's state and the reason for it.
 #include <cstdio>
 #include <ctime>
 #include <iostream>
@@ -23,7 +23,7 @@
 namespace tacto {
 namespace {
 
-/// One write, so that no line is torn and none waits in a buffer.
+/// Prints in one write, so that no line is split or waits in a buffer.
 void say(const std::string& line) {
     const auto text = line + "\n";
     if (write(STDOUT_FILENO, text.data(), text.size()) < 0) std::_Exit(3);
@@ -97,7 +97,7 @@ int run(const std::string& which) {
     config.devices = std::move(*devices);
     config.clock = clock;
     config.limits = {test::generousLimits()};
-    // 200 ms of pulses every 500 ms: many a stop comes in the middle of a train.
+    // 200 ms of pulses every 500 ms: many stops then come in the middle of a train.
     config.profile.encoding.train.pulses = 20;
     config.profile.encoding.train.rate = Hertz(100);
     if (pulsePal) {

@@ -1,5 +1,5 @@
-// H2 end to end: a process that delivers is stopped by SIGSTOP and resumes by SIGCONT. It is a race between its
-// threads, so it is tried many times. No train may reach the device afterwards until the operator arms again.
+// H2 end to end: SIGSTOP stops a process that delivers trains, and SIGCONT continues it. Its threads then race, so the
+// test has many trials. After SIGCONT no train may reach the device until the operator arms again.
 #include <charconv>
 #include <csignal>
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ class Host : public HostProcess {
 public:
     explicit Host(const std::string& which) : HostProcess({TACTO_SUSPEND_HOST, which}) {}
 
-    /// The answer to a command; the trains that come before it are kept. Empty after 20 s.
+    /// Sends a command and returns its answer; keeps the trains printed before it. Empty after 20 s.
     [[nodiscard]] std::string ask(const std::string& command) {
         if (!tell(command)) return {};
         for (;;) {
@@ -41,7 +41,7 @@ public:
             trains_.push_back(at);
         }
     }
-    /// CLOCK_MONOTONIC of each write to the device.
+    /// Returns the CLOCK_MONOTONIC time of each write to the device.
     [[nodiscard]] const std::vector<std::int64_t>& trains() const { return trains_; }
 
 private:
@@ -50,10 +50,10 @@ private:
 
 struct Tried {
     int trials = 0;
-    int wentOn = 0;  ///< delivered again without arming
+    int wentOn = 0;  ///< trials in which it delivered again without arming
 };
 
-/// Stops and continues `host` at random moments. `outputSince` counts what the device itself put out after a moment of
+/// Stops and continues `host` at random moments. `outputSince` counts the device's own output after a given time of
 /// CLOCK_MONOTONIC.
 template <class OutputSince>
 void tryManyTimes(Host& host, OutputSince outputSince) {
@@ -62,7 +62,7 @@ void tryManyTimes(Host& host, OutputSince outputSince) {
     testing::Test::RecordProperty("seed", std::to_string(seed));
     Random random(seed, "suspended process");
     Tried tried;
-    // A machine that stands still by itself faults the bench before the trial: then the trial does not count.
+    // If the computer stalls, the bench faults before the trial: the trial then does not count.
     for (int attempt = 0; tried.trials < wanted && attempt < 3 * wanted; ++attempt) {
         const auto gone = host.ask("go");
         ASSERT_IN_TIME(!gone.empty());
@@ -74,7 +74,7 @@ void tryManyTimes(Host& host, OutputSince outputSince) {
         const auto continued = monotonic_ns();
         host.signal(SIGCONT);
         ++tried.trials;
-        // A bench that continues delivers within 0.5 s; one that does not says so within a few milliseconds.
+        // A bench that wrongly continues delivers within 0.5 s; otherwise it reports the fault within milliseconds.
         constexpr std::string_view kFaulted = "state faulted the control loop was silent for more than 100 ms";
         std::string state;
         for (int look = 0; look < 60 && state != kFaulted; ++look) {

@@ -1,4 +1,4 @@
-// The shipped udev rules, as text, and `./dev install-rules`.
+// The text of the shipped udev rules, and `./dev install-rules`.
 #include <cstdlib>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ std::string textOf(const std::filesystem::path& path) {
 
 std::filesystem::path rules() { return sourceDir() / "resources/udev/70-tactoscope.rules"; }
 
-/// The devices in lines with `key` as their first key, as "0483:5740", lower case as sysfs has them.
+/// Returns the devices in lines that begin with `key`, as "0483:5740", in lower case as in sysfs.
 std::set<std::string> permitted(const std::string& key, const std::string& also = "") {
     const std::regex line("^" + key + "\\{idVendor\\}==\"([0-9a-f]{4})\", " + key +
                           "\\{idProduct\\}==\"([0-9a-f]{4})\", TAG\\+=\"uaccess\"" + also);
@@ -60,7 +60,7 @@ TEST(UdevRules, AreCopiedByInstallRules) {
 
 class InstallRules : public testing::Test {
 protected:
-    /// The exit code; what it said goes to said().
+    /// Runs install-rules and returns its exit code; said() returns its messages.
     int run(const std::string& options) const {
         const auto command = fmt::format("{} install-rules {} 2>{}", (sourceDir() / "dev").string(), options,
                                          (scratch.path() / "said").string());

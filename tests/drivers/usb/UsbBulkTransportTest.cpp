@@ -37,7 +37,7 @@ TEST_F(UsbBulk, AWriteIsOneTransferHoweverLong) {
 }
 
 TEST_F(UsbBulk, AnAnswerOfExactlyOneFullPacketArrivesAtOnce) {
-    // Without an empty packet behind it, a larger buffer would wait for more.
+    // No empty packet follows, so that a larger buffer would wait for more.
     EmulatedUsbDevice device(bed, cdcAcmDevice(0x0483, 0x5740, "S", 64), {});
     const auto transport = open(device);
     ASSERT_IN_TIME(transport);
@@ -209,7 +209,7 @@ TEST_F(UsbBulk, APacketLargerThanTheDeviceSaidIsAFaultAndReadingGoesOn) {
     ASSERT_IN_TIME(transport);
     device.sendPacket(kIn, UsbBytes(100, 1));
     UsbBytes into(256);
-    ASSERT_EQ(transport->read(into, kLong).value(), 64u);  // what fitted is not hidden
+    ASSERT_EQ(transport->read(into, kLong).value(), 64u);  // the bytes that fitted are returned
     EXPECT_THAT(transport->read(into, kLong), refused(ErrorCode::Device, "more than was asked for"));
     device.send(kIn, bytesOf("fine"));
     EXPECT_EQ(readAll(*transport, 4), bytesOf("fine"));

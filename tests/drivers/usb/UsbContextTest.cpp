@@ -49,7 +49,7 @@ TEST_F(UsbContext_, ADeviceThatIsNotPermittedIsListedWithTheSentenceThatFixesIt)
         EXPECT_THAT(context->find({0x0483, 0x5740}), refused(ErrorCode::Io, testing::Eq(list.front().obstacle())));
         EXPECT_THAT(UsbBulkTransport::open(context, list.front(), {}), refused(ErrorCode::Io, "./dev install-rules"));
     }
-    // Permission comes without plugging: the same device, looked up again, can be opened.
+    // Permission can change without a re-plug: the next look-up shows that the same device can be opened.
     device.permit(true);
     const UnprivilegedUser user(bed);
     const auto list = context->devices();

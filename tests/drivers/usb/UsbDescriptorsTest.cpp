@@ -1,4 +1,4 @@
-// Devices with lying descriptors, as the real libusb reads them.
+// Devices with false descriptors, as the real libusb reads them.
 #include <gmock/gmock.h>
 
 #include "tests/drivers/usb/UsbFixture.h"
@@ -14,23 +14,23 @@ using testing::HasSubstr;
 
 class UsbDescriptors : public UsbTest {
 protected:
-    /// Plugs in a device, opens it, and returns why that failed; "" where it did not.
+    /// Plugs in a device, opens it, and returns the error; an empty message means that opening succeeded.
     [[nodiscard]] Error refusal(const UsbDescription& description, UsbFunction function) {
         const EmulatedUsbDevice device(bed, description, {}, 1);
-        // A device with descriptors that libusb cannot read at all is not even listed: one that is plugged in after it
-        // tells when it would have been.
+        // libusb does not list a device at all if its descriptors are unreadable: a second device, plugged in after it,
+        // shows when the first would have been listed.
         const EmulatedUsbDevice after(bed, vendorDevice(0x1209, 2, "after"), {}, 2);
         if (!comes([&] { return context->find({0x1209, 2}).has_value(); })) return {ErrorCode::Timeout, "no hot-plug"};
         const auto found = context->find({description.vendor, description.product});
         if (!found) return found.error();
 #ifdef TACTOSCOPE_ADDRESS_SANITIZED
-        // libusb 1.0.26 loses an interface's settings (40 bytes) where the descriptors break off within it.
+        // libusb 1.0.26 leaks an interface's settings (40 bytes) if the descriptors break off within them.
         const __lsan::ScopedDisabler notOurs;
 #endif
         auto opened = UsbBulkTransport::open(context, *found, {.function = function});
         return opened ? Error{ErrorCode::Io, ""} : opened.error();
     }
-    /// Where the endpoint's descriptor starts.
+    /// Returns where the endpoint's descriptor starts.
     [[nodiscard]] static std::size_t endpointAt(const UsbBytes& bytes, std::uint8_t address) {
         std::size_t at = 0;
         while (!(bytes.at(at + 1) == 5 && bytes.at(at + 2) == address)) at += bytes.at(at);
@@ -79,7 +79,7 @@ TEST_F(UsbDescriptors, TheSameEndpointTwiceIsRefused) {
     const UsbBytes again(bytes.begin() + static_cast<std::ptrdiff_t>(at),
                          bytes.begin() + static_cast<std::ptrdiff_t>(at + 7));
     bytes.insert(bytes.end(), again.begin(), again.end());
-    bytes[13] = 3;  // the interface's endpoints
+    bytes[13] = 3;  // number of the interface's endpoints
     correctTotalLength(lying);
     EXPECT_EQ(refusal(lying, UsbFunction::Vendor).code, ErrorCode::Device);
 }
@@ -99,7 +99,7 @@ TEST_F(UsbDescriptors, AUnionThatNamesNoDataInterfaceIsRefused) {
 
 TEST_F(UsbDescriptors, EveryLengthByteMayLie) {
     RecordProperty("hazard", "H10");
-    // Refused, or taken where the lie makes no difference; never a crash, a hang or a read beyond the bytes.
+    // Refused, or accepted if the false value makes no difference; never a crash, a hang or a read out of bounds.
     int refused = 0;
     for (const auto* honest : {&serial, &vendor}) {
         const auto function = honest == &serial ? UsbFunction::CdcAcm : UsbFunction::Vendor;
@@ -122,7 +122,7 @@ TEST_F(UsbDescriptors, ATotalLengthThatLiesIsSurvived) {
         lying.configuration[2] = static_cast<std::uint8_t>(total);
         lying.configuration[3] = static_cast<std::uint8_t>(total >> 8);
         const auto error = refusal(lying, UsbFunction::Vendor);
-        // Short of the endpoints there is nothing to open; beyond the end, only what is there counts.
+        // If the length ends before the endpoints, nothing can be opened; a length beyond the end changes nothing.
         if (total < 30) {
             EXPECT_NE(error.message, "") << total;
         }

@@ -1,6 +1,6 @@
 // UsbFixture.h - an emulated bus and the real libusb on it, for the tests of drivers/usb.
 //
-// Thread-safety: the test's own thread; transports as they say.
+// Thread-safety: the test's own thread; transports state their own rules.
 #pragma once
 
 #include <chrono>
@@ -18,8 +18,8 @@ namespace tacto::test {
 
 inline constexpr std::uint8_t kIn = 0x81;
 inline constexpr std::uint8_t kOut = 0x01;
-inline constexpr Seconds kLong{5};      ///< to wait for something that comes
-inline constexpr Seconds kShort{0.05};  ///< to wait for something that does not
+inline constexpr Seconds kLong{5};      ///< to wait for something that must come
+inline constexpr Seconds kShort{0.05};  ///< to wait for something that must not come
 
 inline UsbBytes bytesOf(std::string_view text) { return {text.begin(), text.end()}; }
 inline UsbBytes echo(std::span<const std::uint8_t> bytes) { return {bytes.begin(), bytes.end()}; }
@@ -46,7 +46,7 @@ protected:
         return opened ? std::move(*opened) : nullptr;
     }
 
-    /// Reads until `count` bytes are together, or nothing more comes.
+    /// Reads until `count` bytes have come, or no more come.
     [[nodiscard]] static UsbBytes readAll(Transport& transport, std::size_t count) {
         UsbBytes all;
         std::array<std::uint8_t, 4096> piece{};

@@ -50,8 +50,8 @@ TEST_F(UsbFlood, GarbageThatIsNotReadStaysBoundedAndIsCounted) {
     EXPECT_EQ(transport->dropped(), kSent - 1000);
     const auto kept = readAll(*transport, 1000);
     ASSERT_EQ(kept.size(), 1000u);
-    EXPECT_TRUE(std::equal(mark.begin(), mark.end(), kept.end() - 3));  // the newest is what stays
-    // A write and a stop pass through all of it.
+    EXPECT_TRUE(std::equal(mark.begin(), mark.end(), kept.end() - 3));  // the newest bytes are kept
+    // A write and a stop still get through.
     EXPECT_IN_TIME(transport->write(bytesOf("hello"), kLong));
     transport->writeUrgent(bytesOf("stop"));
     EXPECT_EQ(device.waitForReceived(2).back(), bytesOf("stop"));
@@ -70,7 +70,7 @@ TEST_F(UsbFlood, AWriteIsHandedToLibusbAtOnce) {
     }
     std::ranges::nth_element(latencies_us, latencies_us.begin() + 250);
     RecordProperty("median_us", std::to_string(latencies_us[250]));
-    EXPECT_IN_TIME(latencies_us[250] < 2000);  // umockdev's own round trip is in it; the benchmark judges 200 us
+    EXPECT_IN_TIME(latencies_us[250] < 2000);  // includes umockdev's own round trip; the benchmark checks for 200 us
 }
 
 TEST_F(UsbFlood, EmptyPacketsAreNotBytes) {

@@ -5,7 +5,7 @@
 namespace tacto::test {
 namespace {
 
-/// The time in which a waiting call must notice; the measured figure is under 2 ms without sanitizers.
+/// Limit for a waiting call to notice; without sanitizers the measured time is below 2 ms.
 constexpr Seconds kNoticed{0.25};
 
 class UsbUnplug : public UsbTest {
@@ -53,7 +53,7 @@ TEST_F(UsbUnplug, AWriteInFlightReturnsAtOnce) {
     ASSERT_FALSE(after);
     EXPECT_CODE_IN_TIME(after.error().code, ErrorCode::Device);
     EXPECT_IN_TIME(immediate < kNoticed);
-    transport->writeUrgent(bytesOf("stop"));  // without a device it does no harm
+    transport->writeUrgent(bytesOf("stop"));  // harmless without a device
 }
 
 TEST_F(UsbUnplug, WhatArrivedBeforeIsStillRead) {
@@ -79,7 +79,7 @@ TEST_F(UsbUnplug, TheSameDeviceIsFoundAgainAndWorks) {
     ASSERT_IN_TIME(waitForDevices(1));
     const auto found = context->find(who);
     ASSERT_IN_TIME(found);
-    // The old transport may still be there while the new one works.
+    // The old transport may still exist while the new one works.
     auto again = UsbBulkTransport::open(context, *found, {});
     ASSERT_IN_TIME(again);
     ASSERT_IN_TIME((*again)->write(bytesOf("back"), kLong));
@@ -99,7 +99,7 @@ TEST_F(UsbUnplug, ATransportIsDestroyedWithTransfersInFlight) {
         transport.reset();
         device.hold(kOut, false);
     }
-    EXPECT_TRUE(device.waitForReceived(0).empty());  // all of them were cancelled
+    EXPECT_TRUE(device.waitForReceived(0).empty());  // all transfers were cancelled
 }
 
 TEST_F(UsbUnplug, PullingThePlugAtAnyMomentIsAnErrorAndNothingWorse) {
@@ -107,7 +107,7 @@ TEST_F(UsbUnplug, PullingThePlugAtAnyMomentIsAnErrorAndNothingWorse) {
     for (int round = 0; round < 30; ++round) {
         auto transport = open(device, vendor);
         ASSERT_IN_TIME(transport);
-        // The session's thread works and the stop comes from another until the device is gone.
+        // One thread works and another sends stops until the device is gone.
         auto working = std::async(std::launch::async, [&] {
             std::array<std::uint8_t, 64> into{};
             for (;;) {

@@ -25,7 +25,7 @@ TEST_F(UsbUrgent, GoesOutBehindTheWriteInFlightAndAheadOfTheNext) {
     auto writing = std::async(std::launch::async, [&] { return transport->write(bytesOf("train"), kLong); });
     ASSERT_IN_TIME(device.waitForWaiting(kOut, 1));
     transport->writeUrgent(bytesOf("stop"));
-    ASSERT_IN_TIME(device.waitForWaiting(kOut, 2));  // they stand in the queue before the call returned
+    ASSERT_IN_TIME(device.waitForWaiting(kOut, 2));  // both are queued before the call returns
     device.hold(kOut, false);
     ASSERT_IN_TIME(writing.get());
     ASSERT_IN_TIME(transport->write(bytesOf("next"), kLong));
@@ -73,7 +73,7 @@ TEST_F(UsbUrgent, AStallDoesNotLoseIt) {
     std::array<std::uint8_t, 8> into{};
     auto reading = std::async(std::launch::async, [&] { return transport->read(into, kLong); });
     transport->writeUrgent(bytesOf("stop"));
-    // The session's thread, which waits for a reply, clears the stall and sends it again.
+    // The thread that waits for a reply clears the stall and sends the stop again.
     EXPECT_THAT(device.waitForReceived(1), ElementsAre(bytesOf("stop")));
     device.send(kIn, bytesOf("ok"));
     EXPECT_EQ(reading.get().value(), 2u);

@@ -13,7 +13,7 @@ sim::FilteredTrace::Channel kindOf(int channel) {
 
 std::optional<double> CircuitInput::passes(int channel, double level_V, bool upwards, double from_s, double to_s) {
     const double level = std::abs(level_V) / factor(channel);
-    if (!(level > 0) || (level_V > 0) != upwards) return std::nullopt;  // pulses leave zero through no other
+    if (!(level > 0) || (level_V > 0) != upwards) return std::nullopt;  // a pulse from 0 V meets no other edge
     using Found = std::optional<double>;
     return circuit_.inspect(clock_.now(), [&](const auto& pulses) -> Found {
         for (std::size_t i = 0; i < pulses.size(); ++i) {
