@@ -26,10 +26,10 @@ class HidButtons {
 public:
     static constexpr std::size_t kMaxButtons = 128;
 
-    /// Errors: Unsupported, naming what the device has and what is accepted.
+    /// Errors: Unsupported, naming the device's inputs and the accepted ones.
     [[nodiscard]] static Result<HidButtons> of(const HidDescriptor& descriptor);
 
-    /// "1" for button 1; "2-1" for button 1 of a second pad.
+    /// Names of the buttons: "1" for button 1; "2-1" for button 1 of a second pad.
     [[nodiscard]] const std::vector<std::string>& labels() const noexcept { return labels_; }
     /// Returns the bytes of the longest input report, number included.
     [[nodiscard]] std::size_t longest() const noexcept { return longest_; }

@@ -52,7 +52,7 @@ public:
 private:
     [[nodiscard]] Instant spaced() const noexcept { return last_ ? *last_ + shortest_ : Instant(0); }
 
-    const Instant keepAlive_;  // 0: none
+    const Instant keepAlive_;  // interval of repeats; 0: none
     const Instant shortest_;
     std::optional<Instant> asked_;   // duration of the burst that is wanted
     std::optional<Instant> end_;     // when the running burst ends

@@ -34,11 +34,11 @@ struct HapticControls {
     std::uint8_t listReport = 0;  ///< number of the feature report that lists the waveforms
     std::size_t listLength = 0;
     struct Entry {
-        std::uint16_t ordinal = 0;  ///< 3 and above
+        std::uint16_t ordinal = 0;  ///< number of the waveform in the list, 3 or above
         HidField waveform;
         std::optional<HidField> duration;  ///< ms; empty if the same report does not state it
     };
-    std::vector<Entry> waveforms;  ///< by ordinal
+    std::vector<Entry> waveforms;  ///< in order of ordinal
 };
 
 /// Returns the first usable controller of the descriptor. Errors: Unsupported naming what is missing.

@@ -1,4 +1,4 @@
-// HidBackend.h - a way to find and open HID devices: hidapi over hidraw, or a fake in tests.
+// HidBackend.h - the interface to find and open HID devices: hidapi over hidraw, or a fake in tests.
 //
 // Thread-safety: any thread.
 #pragma once
@@ -22,7 +22,7 @@ struct HidDeviceInfo {
     Usage usage = 0;     ///< usage of a top-level collection; 0 if hidapi does not know
     bool permitted = true;
 
-    /// "HID device 054c:0ce6 at /dev/hidraw0 (serial 17)", for messages.
+    /// Returns "HID device 054c:0ce6 at /dev/hidraw0 (serial 17)", for messages.
     [[nodiscard]] std::string label() const;
     /// Says in a sentence why this user cannot open the device and what helps; empty for a permitted device.
     [[nodiscard]] std::string obstacle() const;

@@ -35,7 +35,7 @@ inline constexpr std::uint16_t kNoCollection = 0xFFFF;
 struct HidCollection {
     Usage usage = 0;
     std::uint8_t type = 0;                 ///< 0 physical, 1 application, 2 logical ...
-    std::uint16_t parent = kNoCollection;  ///< index, or kNoCollection
+    std::uint16_t parent = kNoCollection;  ///< index of the enclosing collection, or kNoCollection
 };
 
 /// One control. Padding is not stored as a control.
@@ -44,7 +44,7 @@ struct HidField {
     std::uint8_t report = 0;  ///< the report's number; 0 if reports have none
     Usage usage = 0;          ///< 0 in an array, which holds usages as values
     std::uint32_t bit = 0;    ///< first bit within the report, counted including the number byte
-    std::uint8_t bits = 0;    ///< 1 to 32
+    std::uint8_t bits = 0;    ///< size in bits, 1 to 32
     std::int64_t min = 0;     ///< logical minimum
     std::int64_t max = 0;     ///< logical maximum; ≥ min
     bool array = false;

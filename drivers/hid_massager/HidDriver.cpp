@@ -49,7 +49,7 @@ Result<Wanted> readUri(const DeviceUri& uri) {
     return wanted;
 }
 
-/// A device that can be a massager.
+/// A device that can be opened as a massager.
 struct Candidate {
     std::string name;
     std::string serial;

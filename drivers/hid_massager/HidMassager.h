@@ -66,7 +66,7 @@ public:
     [[nodiscard]] bool vibrating() const;
 
 private:
-    /// One vibrate() in progress.
+    /// One running call of vibrate().
     struct Job {
         Instant expires{0};
         std::uint64_t offs = 0;  // value of offs_ when the call began

@@ -1,7 +1,7 @@
 // MassagerTemplate.h - describes a HID vibration device from a file (resources/massagers/*.json), for devices that do
 // not describe their vibration in the report descriptor. Schema and an example: resources/massagers/README.md.
 //
-// Thread-safety: parse and lookups are pure; loadMassagerTemplates() reads files.
+// Thread-safety: any thread; loadMassagerTemplates() reads files, everything else is pure.
 #pragma once
 
 #include <filesystem>

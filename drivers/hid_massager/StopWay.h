@@ -17,7 +17,7 @@ namespace tacto::hid {
 struct StopWay {
     enum class Kind { Hidraw, Usb };
     Kind kind = Kind::Hidraw;
-    std::string node;                 ///< "/dev/hidraw0", "/dev/bus/usb/001/002"
+    std::string node;                 ///< such as "/dev/hidraw0" or "/dev/bus/usb/001/002"
     std::vector<std::uint8_t> bytes;  ///< hidraw: the stop report as written to the node; USB: the 8-byte SETUP packet
 
     [[nodiscard]] std::vector<std::string> arguments() const;

@@ -33,7 +33,7 @@ enum class ByteOrder { Little, Big };
 /// byte 0, as in HID. Big: whole bytes, the highest first.
 struct ReportField {
     std::uint32_t bit = 8;
-    std::uint8_t bits = 8;  ///< 1 to 32
+    std::uint8_t bits = 8;  ///< size in bits, 1 to 32
     ByteOrder order = ByteOrder::Little;
     std::int64_t min = 0;    ///< value at intensity 0
     std::int64_t max = 255;  ///< value at intensity 1; above min. If min is negative: two's complement

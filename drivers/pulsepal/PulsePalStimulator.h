@@ -42,7 +42,7 @@ public:
     [[nodiscard]] static Result<std::unique_ptr<PulsePalStimulator>> open(Connect connect, std::string uri,
                                                                           std::string serial, int channel,
                                                                           const Clock& clock);
-    ~PulsePalStimulator() override;  ///< output off
+    ~PulsePalStimulator() override;  ///< switches the output off
     PulsePalStimulator(const PulsePalStimulator&) = delete;
     PulsePalStimulator& operator=(const PulsePalStimulator&) = delete;
 
@@ -85,7 +85,7 @@ private:
 
     // Used only by the session thread:
     bool lost_ = true;
-    bool silent_ = false;           // aborts were sent since the last train
+    bool silent_ = false;           // true if aborts were sent since the last train
     std::uint64_t silentOffs_ = 0;  // value of offs_ when the aborts were sent
     std::uint64_t trainOffs_ = 0;   // value of offs_ when the last train began
     Instant trainEnd_{0};

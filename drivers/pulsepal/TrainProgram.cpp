@@ -22,7 +22,7 @@ SourceTraits sourceTraits() noexcept {
     SourceTraits traits;
     traits.drive = Drive::Voltage;
     traits.gap = GapState::HoldsZero;  // the device drives the resting voltage
-    traits.amplitudeStep = 0;          // 16 bits over 20 V: 0.31 mV
+    traits.amplitudeStep = 0;          // continuous: 16 bits over 20 V give steps of only 0.31 mV
     traits.amplitudeMax = kMaxVolts;
     traits.compliance = Volts(kMaxVolts);
     traits.widthStep = kCycle;

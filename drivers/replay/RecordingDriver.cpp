@@ -78,7 +78,7 @@ private:
     const DeviceIdentity identity_;
     const Clock& clock_;
     const double speed_;
-    const double origin_s_;  // the recording's first stamp
+    const double origin_s_;  // the recording's first time stamp
     const double opened_s_;
     std::vector<StreamInfo> infos_;
     std::vector<std::size_t> next_;  // for each stream the first sample not read yet

@@ -42,8 +42,8 @@ struct ChannelConfigAck {
     int channel = 0;
     int connector = 0;
     Measurement measurement = Measurement::None;
-    std::uint16_t sampleTime_us = 0;                ///< unverified on hardware what it means: see ReadBack.h
-    bool measured = false;                          ///< samples follow
+    std::uint16_t sampleTime_us = 0;                ///< its meaning is unverified on hardware: see ReadBack.h
+    bool measured = false;                          ///< true if the ack contains samples
     std::array<std::uint16_t, kSamples> samples{};  ///< magnitudes in 0.01 mA or 0.01 V, without sign
 };
 

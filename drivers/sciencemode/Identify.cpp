@@ -3,7 +3,7 @@
 namespace tacto::sciencemode {
 
 namespace {
-constexpr int kOldestProtocol = 3;  // RehaMove3, nearly the same
+constexpr int kOldestProtocol = 3;  // RehaMove3; nearly the same protocol
 constexpr int kNewestProtocol = 4;  // P24
 }  // namespace
 

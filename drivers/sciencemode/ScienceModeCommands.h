@@ -41,7 +41,7 @@ enum class Measurement : std::uint8_t { None = 0, Current = 1, Voltage = 2, Sour
 inline constexpr double kMaxCurrent_mA = 130;
 inline constexpr double kCurrentStep_mA = 0.5;
 inline constexpr int kMinPoint_us = 10;
-inline constexpr int kMaxPoint_us = 4095;  // 12 bits
+inline constexpr int kMaxPoint_us = 4095;  // largest value of 12 bits
 inline constexpr std::size_t kMaxPoints = 16;
 inline constexpr std::size_t kChannels = 4;  // 2 bits, plus one bit for the connector
 

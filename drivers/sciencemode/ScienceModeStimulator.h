@@ -59,7 +59,7 @@ public:
                                                                              std::string_view wanted,
                                                                              const StimulatorSettings& settings,
                                                                              const Clock& clock);
-    ~ScienceModeStimulator() override;  ///< output off
+    ~ScienceModeStimulator() override;  ///< switches the output off
     ScienceModeStimulator(const ScienceModeStimulator&) = delete;
     ScienceModeStimulator& operator=(const ScienceModeStimulator&) = delete;
 

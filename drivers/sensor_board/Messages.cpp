@@ -11,7 +11,7 @@ namespace tacto::sensorboard {
 namespace {
 
 constexpr std::size_t kNameBytes = 24, kSerialBytes = 16, kFirmwareBytes = 16, kDateBytes = 10, kReferenceBytes = 24;
-constexpr std::uint32_t kMaxRate_mhz = 1'000'000'000;  // 1 MHz
+constexpr std::uint32_t kMaxRate_mhz = 1'000'000'000;  // 1 MHz in millihertz
 
 // The index of each entry is its number in the protocol.
 constexpr std::array kKinds{StreamKind::Acceleration, StreamKind::Force, StreamKind::Taxels};

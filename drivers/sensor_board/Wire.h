@@ -18,9 +18,9 @@
 namespace tacto::sensorboard {
 
 inline constexpr std::uint8_t kVersion = 1;
-inline constexpr std::size_t kMaxContent = 254;  ///< version to CRC
-inline constexpr std::size_t kMinContent = 6;    ///< version, type, CRC
-inline constexpr std::size_t kMaxStuffed = 255;  ///< before the delimiter
+inline constexpr std::size_t kMaxContent = 254;  ///< bytes from version to CRC
+inline constexpr std::size_t kMinContent = 6;    ///< bytes of version, type and CRC
+inline constexpr std::size_t kMaxStuffed = 255;  ///< bytes before the delimiter
 inline constexpr std::size_t kMaxPayload = kMaxContent - kMinContent;
 
 enum class Command : std::uint8_t {

@@ -20,7 +20,7 @@ FaultSchedule faultsIn(UriParameters& from, std::initializer_list<Fault> accepte
 
 /// Returns the source's statement about its amplitude and times, or nothing if its flaws put it out of order.
 KnownLines statedBy(const SourceTraits& traits) {
-    constexpr double kShortest_s = 1e-3, kLongest_s = 100;  // intervals
+    constexpr double kShortest_s = 1e-3, kLongest_s = 100;  // range of intervals
     constexpr double kMinShareOfMax = 1e-3;                 // used if the source has no amplitude grid
     const auto& stated = traits.accuracy;
     const double least = traits.amplitudeStep > 0 ? traits.amplitudeStep : kMinShareOfMax * traits.amplitudeMax;

@@ -173,7 +173,7 @@ void Finger::moveHand() noexcept {
 
 void Finger::feel() noexcept {
     const double z = contactForce_ > 0 ? surface_->contactHeight(position_) : 0;
-    const double slip = 2 * speed_ / (speed_ + kNominalSpeed);  // 1 at the nominal speed, 0 at rest
+    const double slip = 2 * speed_ / (speed_ + kNominalSpeed);  // factor: 1 at the nominal speed, 0 at rest
     const double f = flickerScale_ * slip * noise_.normal();
     const double excited = heightGain_ * (z - 2 * z1_ + z2_) + flickerGain_ * (f + 2 * f1_ + f2_);
     const double skin = excited + skinA1_ * s1_ + skinA2_ * s2_;

@@ -76,18 +76,18 @@ public:
 
 private:
     struct Target {
-        double from_s;           ///< holds for ticks after this
-        const Surface* surface;  ///< null: as before
+        double from_s;           ///< the target applies to ticks after this time
+        const Surface* surface;  ///< null: the surface stays the same
         double speed_m_s;
         double force_N;
     };
-    /// Unit-variance narrow-band noise: two poles at `frequency`.
+    /// Narrow-band noise of variance 1: two poles at `frequency_hz`.
     struct Resonator {
         double a1 = 0, a2 = 0, gain = 0, y1 = 0, y2 = 0;
         void tune(double frequency_hz, double bandwidth_hz, double rate_hz) noexcept;
         double next(double white) noexcept;
     };
-    /// Unit-variance noise below a corner: three real poles.
+    /// Noise of variance 1 below a corner frequency: three real poles.
     struct Wander {
         double keep = 0, gain = 0, y1 = 0, y2 = 0, y3 = 0;
         void tune(double corner_hz, double rate_hz) noexcept;
@@ -106,7 +106,7 @@ private:
     std::map<std::string, std::unique_ptr<Surface>, std::less<>> surfaces_;  // guarded by mutex_, entries never go
     std::mutex mutex_;
     std::deque<Target> targets_;      // guarded by mutex_
-    std::atomic<double> nextTarget_;  // when follow() has something to do
+    std::atomic<double> nextTarget_;  // time after which follow() must run
     bool presented_ = false;          // guarded by mutex_
     std::string presentedMaterial_;   // guarded by mutex_
     double landed_ = 0;               // guarded by mutex_: when the presented contact begins

@@ -32,7 +32,7 @@ public:
 
     /// Runs the motor at `command` (0 to 1) from `at` to `end`; replaces the command before.
     void start(Instant at, double command, Instant end);
-    /// Ends the newest command.
+    /// Ends the newest command at `now`.
     void cut(Instant now) noexcept { cut_.cut(now); }
     /// Returns the motion at `moment` within the last kRemembered commands; no motion before them.
     [[nodiscard]] Vibration at(Instant moment) const;

@@ -115,7 +115,7 @@ void SimulatedCircuit::begin(double onset_s, double end_s) {
     const double residual = residualAt(onset_s);
     PlayedPulse next;
     if (pulses_.size() >= kKept) {
-        next = std::move(pulses_.front());  // reuses the memory of its pieces
+        next = std::move(pulses_.front());  // reuses the memory of the oldest pulse
         pulses_.pop_front();
     }
     next.number = ++played_;

@@ -46,7 +46,7 @@ struct DrivenTrain {
     double onset_s = 0;
     int pulses = 1;
     double period_s = 0.01;  ///< from one onset to the next
-    double sourceOhm = 0;    ///< of a voltage source; its level sags by the current into the load's d.c. resistance
+    double sourceOhm = 0;    ///< output resistance; forms a voltage divider with the load's d.c. resistance
     SourceLimits limits;
 };
 

@@ -1,6 +1,6 @@
 // ByteRing.h - a queue of bytes with a limited size: when full, the oldest bytes are dropped and counted.
 //
-// Allocates at construction only.
+// Allocates only at construction.
 //
 // Thread-safety: none; the owner locks.
 #pragma once

@@ -14,7 +14,7 @@ namespace tacto {
 struct UsbIdentity {
     std::uint16_t vendor = 0;
     std::uint16_t product = 0;
-    std::string serial = {};  ///< empty: any
+    std::string serial = {};  ///< empty: any serial number
     friend bool operator==(const UsbIdentity&, const UsbIdentity&) = default;
 };
 
@@ -33,7 +33,7 @@ struct UsbDeviceInfo {
     [[nodiscard]] bool is(const UsbIdentity& wanted) const noexcept;
     /// Returns the file that a program opens, such as "/dev/bus/usb/001/002"; changes with each plug-in.
     [[nodiscard]] std::string node() const;
-    /// "USB device 0483:5740 at 1-4.2 (serial 17)", for messages.
+    /// Returns "USB device 0483:5740 at 1-4.2 (serial 17)", for messages.
     [[nodiscard]] std::string label() const;
     /// Says in a sentence why this user cannot open the device and what helps; empty for a permitted device.
     [[nodiscard]] std::string obstacle() const;

@@ -97,7 +97,7 @@ Result<void> UsbOutbox::send(std::span<const std::uint8_t> bytes, Seconds timeou
     submittedAt_ = std::chrono::steady_clock::now();
     if (!line_.changed.wait_until(lock, *deadline, [&] { return !sendingNow_; })) {
         libusb_cancel_transfer(sending_.get());
-        line_.changed.wait(lock, [&] { return !sendingNow_; });  // the kernel ends it at once
+        line_.changed.wait(lock, [&] { return !sendingNow_; });  // the kernel ends a cancelled transfer at once
     }
     if (sendingStatus_ != LIBUSB_TRANSFER_COMPLETED) {
         auto error = usbTransferError(sendingStatus_, device_.label(), fmt::format("writing {} bytes", bytes.size()));

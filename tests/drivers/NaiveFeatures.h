@@ -16,10 +16,10 @@ namespace tacto::test {
 
 struct NaiveFrame {
     double t_s = 0;
-    double power = 0;     ///< 5 Hz to 1 kHz
+    double power = 0;     ///< power from 5 Hz to 1 kHz
     double h = 0;         ///< share of `power` above 200 Hz
     double v = 0;         ///< taxel variance / mean²
-    double centroid = 0;  ///< Hz
+    double centroid = 0;  ///< spectral centroid in Hz
 };
 
 /// Returns a frame of 64 ms of 4 kHz acceleration and 200 Hz taxels per `hop_s` after `from_s`. `baseline`: per taxel.

@@ -208,7 +208,7 @@ TEST(SimulatedStimulator, DeadManEndsATrainThatIsNotKeptAlive) {
         SimBench bench;
         bench.open("sim:stimulator?deadman=2s");
         auto train = voltagePulse(5);
-        train.pulses = 600;  // 6 s
+        train.pulses = 600;  // a train of 6 s
         ASSERT_TRUE(bench.devices.stimulator->deliver(bench.approved(train)).has_value());
         for (int i = 0; i < 50; ++i) {
             bench.wait(Seconds(0.1));
@@ -234,7 +234,7 @@ TEST(SimulatedStimulator, DeliversUntilTheHeartbeatStopsAndStaysOff) {
     bench.open("sim:stimulator");
     auto train = voltagePulse(5);
     train.pulses = 1000;
-    train.rate = Hertz(50);  // 20 s
+    train.rate = Hertz(50);  // a train of 20 s
     ASSERT_TRUE(bench.devices.stimulator->deliver(bench.approved(train)).has_value());
     for (int i = 0; i < 100; ++i) {
         bench.wait(Seconds(0.1));

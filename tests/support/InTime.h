@@ -3,8 +3,8 @@
 // A computer that stalls makes a program late, but cannot make it deliver a train after a stop. On the real clock,
 // everything that must happen has a deadline (for example, a status that comes 50 ms late rightly switches the bench
 // off); what must not happen has none. If a test fails only by EXPECT_IN_TIME or ASSERT_IN_TIME and the computer
-// stalled, it is tried again (support/Standstill.cpp); any other failure is final. In such tests an ASSERT_IN_TIME also
-// ends the test from within a function that the test calls.
+// stalled, it is tried again; any other failure is final. If support/Standstill.cpp, which does this, is linked, an
+// ASSERT_IN_TIME also ends the test from within a function that the test calls.
 //
 // A Result counts as a missed deadline only if lateness can cause its error: no answer in time (Timeout), output
 // already off (NotArmed), or the work ended (Stopped). A silent control loop, an expired approval and a watchdog that

@@ -3,7 +3,7 @@
 // Every call, the sink's calls and the destructor (which closes the device) included, happens on the thread that opened
 // the device (SigrokThread).
 //
-// Thread-safety: the thread that opened it.
+// Thread-safety: only the thread that opened the device.
 #pragma once
 
 #include <atomic>

@@ -13,7 +13,7 @@ namespace tacto::sigrok_driver {
 
 namespace {
 
-constexpr std::size_t kMaxSamples = 500'000'000;  // libsigrok counts the bytes of a packet in an int
+constexpr std::size_t kMaxSamples = 500'000'000;  // limited because libsigrok counts the bytes of a packet in an int
 
 bool isLogic(const CaptureChannel& channel) {
     return channel.unit.empty() &&

@@ -240,7 +240,7 @@ void TcpRelay::carry() noexcept {
                 hangUp();
             }
         } else if (waiting[3].revents != 0 && !pass(downstream_, upstream_)) {
-            hangUp();  // libsigrok is done with this conversation
+            hangUp();  // libsigrok has ended this conversation
         } else if (waiting[1].revents != 0) {
             downstream_ = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
             if (downstream_ < 0) continue;

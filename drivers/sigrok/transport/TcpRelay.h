@@ -55,7 +55,7 @@ private:
     /// Delays a question about the trigger if it comes too soon after the last one. Returns false after cut().
     [[nodiscard]] bool pace(std::string_view request) noexcept;
 
-    const std::string place_;  // "192.0.2.1:5555"
+    const std::string place_;  // for messages, such as "192.0.2.1:5555"
     std::string host_, service_;
     Seconds timeout_{3};
     int upstream_;                                   // the instrument; -1 while not connected. Only thread_ uses it
@@ -63,7 +63,7 @@ private:
     std::chrono::steady_clock::time_point asked_{};  // when libsigrok last asked about the trigger; for thread_ only
     const int listener_;                             // closed by the thread when it ends
     const std::uint16_t port_;
-    const int wake_;  // eventfd
+    const int wake_;  // eventfd that wakes the thread
     std::atomic<bool> cut_{false};
     std::atomic<std::chrono::steady_clock::rep> heard_;
     mutable std::mutex mutex_;

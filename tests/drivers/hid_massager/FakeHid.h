@@ -17,7 +17,7 @@ namespace tacto::test {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// One device; outlives its ports.
+/// One fake device; must outlive its ports.
 class FakeHidDevice {
 public:
     FakeHidDevice(const Clock& clock, hid::HidDeviceInfo info, Bytes descriptor);

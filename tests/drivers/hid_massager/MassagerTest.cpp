@@ -218,7 +218,7 @@ TEST_F(HidMassagerTest, ASlowDeviceIsATimeoutAndItsBurstIsStopped) {
     ASSERT_IN_TIME(device.waitForWrites(3));
     EXPECT_EQ(device.writes()[1].bytes, kOn);  // the write that was held
     EXPECT_EQ(device.writes()[2].bytes, kOff);
-    EXPECT_IN_TIME(vibrate());  // slow is not broken
+    EXPECT_IN_TIME(vibrate());  // a slow device is not a broken one
     EXPECT_EQ(device.openings(), 1);
 }
 

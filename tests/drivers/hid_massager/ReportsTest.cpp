@@ -1,4 +1,4 @@
-// VibrationReports: a burst's intensity as bytes.
+// VibrationReports: how a burst's intensity becomes bytes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <limits>

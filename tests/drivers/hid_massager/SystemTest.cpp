@@ -83,7 +83,7 @@ TEST_F(HidSystem, AShortWriteAndARefusalAreFaults) {
     pad.takeOnly(10);
     EXPECT_THAT(vibrate(1, Seconds(0.1)),
                 refused(ErrorCode::Device, AllOf(HasSubstr("10 bytes"), HasSubstr("48 were expected"))));
-    auto again = vibrate(1, Seconds(0.1));  // opened again
+    auto again = vibrate(1, Seconds(0.1));  // opens the device again
     // On a busy computer the watchdog may start too late for the approval of 100 ms; the next try finds it running.
     if (!again && again.error().message.find("approval expired") != std::string::npos) again = vibrate(1, Seconds(0.1));
     ASSERT_IN_TIME(again);

@@ -21,7 +21,7 @@ Bytes bytesOf(const CommandBytes& command) { return {command.view().begin(), com
 Channel channel(int number) { return Channel::of(number).value(); }
 VoltageCode volts(double v) { return VoltageCode::of(Volts(v)).value(); }
 
-// The commands in resources/design/wire/pulsepal2.md.
+// Checks the commands in resources/design/wire/pulsepal2.md.
 TEST(PulsePalCommands, GoldenBytes) {
     EXPECT_EQ(bytesOf(handshake()), (Bytes{0xD5, 0x48}));
     EXPECT_EQ(bytesOf(trigger(0b0101)), (Bytes{0xD5, 0x4D, 0x05}));

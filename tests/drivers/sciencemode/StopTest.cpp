@@ -57,7 +57,7 @@ TEST(ScienceModeStop, CutsThePulseThatIsBeingPutOut) {
     auto train = biphasic(5, 1, 20);
     train.phaseWidth = Micros(4000);
     auto approval = bench.approved(train);
-    // Another thread stops it, while deliver() waits for the pulse's ack.
+    // The stop frame that another thread would send while deliver() waits for the pulse's ack.
     FrameBytes stop = stopFrames().lowLevel;
     ASSERT_TRUE(bench.stimulator->deliver(std::move(approval)).has_value());
     EXPECT_FALSE(bench.line->pulseList().front().cut);
@@ -110,7 +110,7 @@ TEST(ScienceModeStop, EndsALongTrainWithin2100MillisecondsOfAControlLoopThatHang
     SafetyGate gate(bench.clock);
     Heartbeat heartbeat;
     StimulatorSession session(*bench.stimulator, gate, heartbeat, bench.clock, {});
-    ASSERT_TRUE(bench.stimulator->deliver(bench.approved(5, 1000, 50)).has_value());  // 20 s
+    ASSERT_TRUE(bench.stimulator->deliver(bench.approved(5, 1000, 50)).has_value());  // a train of 20 s
     const auto runFor = [&](Seconds duration, bool loopAlive) {
         const Instant until = bench.clock.now() + toInstant(duration);
         while (bench.clock.now() < until) {

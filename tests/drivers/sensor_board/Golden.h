@@ -11,7 +11,7 @@
 namespace tacto::test {
 
 struct GoldenFrame {
-    std::string text;  ///< "HELLO, token 1"
+    std::string text;  ///< such as "HELLO, token 1"
     std::vector<std::uint8_t> bytes;
     [[nodiscard]] bool fromHost() const noexcept { return bytes.size() > 2 && typeByte() < 0x40; }
     /// COBS does not change the second byte of the content, because it is not zero.

@@ -108,7 +108,7 @@ TEST(ScopeOnLan, ProbesCouplingScaleAndTriggerReachTheInstrument) {
 
 TEST(ScopeOnLan, LiveGivesEachRecordOnce) {
     ScopeOnLan lan("&record=live");
-    auto s = lanSettings(200e3, 1400);  // 1400 points over 7 ms
+    auto s = lanSettings(200e3, 1400);  // 1400 samples over 7 ms
     lan.arm(s);
     lan.bench().deliver(voltagePulse(10), Seconds(0.06));
     const auto first = lan.poll();

@@ -48,7 +48,7 @@ std::string zipOf(const std::vector<std::pair<std::string, std::string>>& entrie
         directory += "PK\1\2";
         put(directory, 20, 2);
         directory += common(entry, packed.size(), level);
-        put(directory, 0, 8);  // comment, disk, attributes
+        put(directory, 0, 8);  // comment length, disk number, attributes
         put(directory, 0, 2);
         put(directory, archive.size(), 4);
         directory += entry.first;

@@ -70,7 +70,7 @@ TEST_F(EmulatedHid, ReportsGoOutAndComeBackWhole) {
     const auto hid = open();
     ASSERT_IN_TIME(hid);
     UsbBytes out(65, 0x11);
-    out[0] = 0;  // no number
+    out[0] = 0;  // the report has no number
     ASSERT_EQ(hid_write(hid.get(), out.data(), out.size()), 65);
     EXPECT_THAT(device.waitForReports(1), ElementsAre(UsbBytes(64, 0x11)));
     EXPECT_EQ(read(hid), UsbBytes(64, 0xEE));

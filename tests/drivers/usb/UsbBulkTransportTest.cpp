@@ -37,7 +37,7 @@ TEST_F(UsbBulk, AWriteIsOneTransferHoweverLong) {
 }
 
 TEST_F(UsbBulk, AnAnswerOfExactlyOneFullPacketArrivesAtOnce) {
-    // No empty packet follows, so that a larger buffer would wait for more.
+    // Without an empty packet after it, a larger buffer would make libusb wait for more.
     EmulatedUsbDevice device(bed, cdcAcmDevice(0x0483, 0x5740, "S", 64), {});
     const auto transport = open(device);
     ASSERT_IN_TIME(transport);

@@ -107,7 +107,7 @@ TEST_F(UsbUrgent, ManyThreadsMayStopWhileOneWritesAndReads) {
     for (auto& stopper : stoppers) stopper.join();
     std::size_t works = 0;
     for (const auto& transfer : device.waitForReceived(301)) {
-        ASSERT_TRUE(transfer == bytesOf("work") || transfer == bytesOf("S"));  // never mixed
+        ASSERT_TRUE(transfer == bytesOf("work") || transfer == bytesOf("S"));  // the two messages are never mixed
         works += transfer == bytesOf("work") ? 1 : 0;
     }
     EXPECT_EQ(works, 300u);

@@ -45,7 +45,7 @@ struct EmulatedBoardSettings {
     bool wideForce = false;                ///< send force as int32
     std::optional<std::uint8_t> unit;      ///< a wrong unit for acceleration; empty: the right unit
     std::optional<std::uint8_t> done;      ///< a wrong command in each DONE; empty: the right command
-    double drift_ppm = 0;                  ///< how much faster its clock runs than the host's
+    double drift_ppm = 0;                  ///< how much faster the board's clock runs than the host's
     std::uint64_t powerUp_us = 1'234'567;  ///< its clock's time when the board is made
     Seconds latency{300e-6};               ///< least delay of a frame
     Seconds jitter{0};                     ///< mean of an additional exponential delay
@@ -60,7 +60,7 @@ public:
 
     /// What happened to the blocks of one stream since START.
     struct Fate {
-        std::uint64_t made = 0;     ///< blocks
+        std::uint64_t made = 0;     ///< blocks made
         std::uint64_t samples = 0;  ///< samples in these blocks
         std::uint64_t lost = 0;     ///< blocks that do not arrive intact and in order
         std::uint64_t lostSamples = 0;

@@ -86,8 +86,8 @@ private:
     std::optional<double> trigger_s_;  // trigger of the current or last record
     bool complete_ = false;            // true once the record is complete
     std::size_t depth_ = kMemory;
-    bool memory_ = false;  // :WAV:MODE RAW
-    int read_ = 0;         // :WAV:SOUR
+    bool memory_ = false;  // state of :WAV:MODE; true: RAW
+    int read_ = 0;         // channel of :WAV:SOUR
     std::uint64_t readOut_ = 0;
 };
 

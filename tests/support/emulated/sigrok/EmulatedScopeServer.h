@@ -61,7 +61,7 @@ private:
 
     const int listener_;
     const std::uint16_t port_;
-    const int wake_;  // eventfd
+    const int wake_;  // eventfd that wakes the thread
     std::atomic<bool> ending_{false};
     std::atomic<bool> silent_{false};
     std::atomic<ScopeFault> fault_{ScopeFault::None};
