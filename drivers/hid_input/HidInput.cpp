@@ -157,8 +157,8 @@ private:
     const std::shared_ptr<const HidBackend> backend_;
     const Found found_;
     HidButtons buttons_;                  // only thread_ uses it
-    std::unique_ptr<HidPort> port_;       // only thread_ uses it; null while it is not plugged in
-    std::string path_ = found_.hid.path;  // only thread_ uses it; where the device is, or was last
+    std::unique_ptr<HidPort> port_;       // only thread_ uses it; null while the device is unplugged
+    std::string path_ = found_.hid.path;  // only thread_ uses it; the device's present or last path
     std::set<std::string> others_;        // only thread_ uses it; similar devices that were there before ours went
     const ButtonListener listener_;
     std::mutex mutex_;

@@ -208,7 +208,7 @@ void HidMassager::serveOne(HidWrite what, std::unique_lock<std::mutex>& lock) no
     auto sent = send(sending_);
     lock.lock();
     writing_ = false;
-    // A stop that was asked for during this write is due after it, even if this write was itself a stop.
+    // A stop that was asked for during this write goes out after it, even if this write was itself a stop.
     timer_.wrote(what, began, clock_.now(), sent.has_value());
     if (offs != offs_) timer_.askStop();
     if (sent && what == HidWrite::Stop && watchdog_) watchdog_->rest();

@@ -9,7 +9,7 @@ constexpr std::uint8_t kStart = 0xF0;
 constexpr std::uint8_t kEnd = 0x0F;
 constexpr std::uint8_t kEscape = 0x81;
 constexpr std::uint8_t kMask = 0x55;
-constexpr std::size_t kHeader = 9;  // start, length, CRC
+constexpr std::size_t kHeader = 9;  // bytes of start, length and CRC
 
 constexpr bool isStuffed(std::uint8_t byte) noexcept { return byte == kStart || byte == kEnd || byte == kEscape; }
 constexpr std::uint8_t masked(unsigned byte) noexcept { return static_cast<std::uint8_t>((byte & 0xFFU) ^ kMask); }

@@ -162,7 +162,7 @@ std::optional<Error> TcpRelay::fault() const {
 void TcpRelay::cut() noexcept {
     cut_ = true;
     const std::uint64_t one = 1;
-    [[maybe_unused]] const auto written = ::write(wake_, &one, sizeof one);  // fails only if it is already set
+    [[maybe_unused]] const auto written = ::write(wake_, &one, sizeof one);  // fails only if wake_ is already set
 }
 
 void TcpRelay::setFault(ErrorCode code, std::string_view why) {

@@ -42,7 +42,7 @@ EmulatedScopeServer::~EmulatedScopeServer() {
 void EmulatedScopeServer::unplug() noexcept {
     ending_ = true;
     const std::uint64_t one = 1;
-    [[maybe_unused]] const auto written = ::write(wake_, &one, sizeof one);  // fails only if it is already set
+    [[maybe_unused]] const auto written = ::write(wake_, &one, sizeof one);  // fails only if wake_ is already set
 }
 
 bool EmulatedScopeServer::waits(Seconds timeout) {
