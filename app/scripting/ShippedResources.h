@@ -1,6 +1,6 @@
-// ShippedResources.h - what the program was built with, from resources/: the limit sets, the instrument profiles, the
-// default profile, and what the shipped protocols must read like. No file and no environment variable replaces it
-// (hazard H1: the floor cannot be moved; hazard H9: nor can what an oscilloscope is said to be worth).
+// ShippedResources.h - the files of resources/ that are built into the program: the limit sets, the instrument
+// profiles, the default profile and the digests of the shipped protocols. No file and no environment variable replaces
+// them, so nobody can lower the safety floor (hazard H1) or change the accuracy stated for an oscilloscope (hazard H9).
 //
 // Thread-safety: constant.
 #pragma once

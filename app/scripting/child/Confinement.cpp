@@ -24,7 +24,7 @@ constexpr std::array kNeeded = {
     SYS_recvfrom,
     SYS_sendto,
     SYS_ppoll,
-    SYS_close,  // what is open
+    SYS_close,  // files that are already open
     SYS_mmap,
     SYS_munmap,
     SYS_mremap,
@@ -69,7 +69,7 @@ constexpr unsigned kMachine = 0;
 
 void confine() noexcept {
     if (kMachine == 0) return;
-    ::tzset();  // from a file
+    ::tzset();  // reads a file, so it must be called first
     std::vector<sock_filter> program;
     const auto load = [&](std::size_t offset) {
         program.push_back(BPF_STMT(BPF_LD | BPF_W | BPF_ABS, static_cast<unsigned>(offset)));
@@ -86,7 +86,7 @@ void confine() noexcept {
     answer(SECCOMP_RET_ERRNO | EPERM);
     const sock_fprog filter{static_cast<unsigned short>(program.size()), program.data()};
     if (::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) return;
-    // All threads are bound: what one may do, another could be made to do.
+    // Applies to all threads: a thread without the filter could be made to act for the others.
     static_cast<void>(::syscall(SYS_seccomp, SECCOMP_SET_MODE_FILTER, SECCOMP_FILTER_FLAG_TSYNC, &filter));
 }
 

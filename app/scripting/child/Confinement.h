@@ -1,12 +1,12 @@
-// Confinement.h - takes from this process what running a script does not need: files, network, other processes.
+// Confinement.h - takes files, network and other processes away from this process: a script needs none of them.
 //
-// Thread-safety: called once; it counts for all threads of the process.
+// Thread-safety: called once; takes effect for all threads of the process.
 #pragma once
 
 namespace tacto {
 
-/// From here on, system calls other than those for memory, time, locks and open files fail with EPERM (seccomp). Where
-/// the kernel has no such filter nothing changes: then this process is just a process.
+/// From here on, system calls other than those for memory, time, locks and open files fail with EPERM (seccomp). If the
+/// kernel has no such filter, this function changes nothing.
 void confine() noexcept;
 
 }  // namespace tacto

@@ -6,7 +6,7 @@
 namespace tacto {
 
 int HostBridge::callingLine() const {
-    // A new Error carries the stack: "wait@tactoscope:host:1\nrun@file:///.../x.js:12\n...".
+    // The stack of a new Error looks like this: "wait@tactoscope:host:1\nrun@file:///.../x.js:12\n...".
     const QString stack = engine_.newErrorObject(QJSValue::GenericError).property(QStringLiteral("stack")).toString();
     const QString mark = QLatin1Char('@') + scriptUrl_ + QLatin1Char(':');
     const qsizetype at = stack.indexOf(mark);
@@ -20,7 +20,7 @@ int HostBridge::callingLine() const {
 QJSValue HostBridge::call(int index, const QJSValue& arguments) {
     const int line = callingLine();
     const auto given = toJson(arguments);
-    if (engine_.hasError()) return {};  // a getter of the script's own threw
+    if (engine_.hasError()) return {};  // a getter of the script threw an exception
     const HostAnswer answer = given ? calls_.call(index, *given, line) : calls_.refuse(index, given.error().message);
     if (!answer.failure) return toJs(engine_, answer.value);
 

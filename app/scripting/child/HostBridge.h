@@ -1,4 +1,4 @@
-// HostBridge.h - the one QObject behind the host objects. Scripts never hold it: the functions they see are closures.
+// HostBridge.h - the only QObject behind the host objects. Scripts see functions (closures) and never this object.
 //
 // Thread-safety: the engine's thread.
 #pragma once
@@ -20,11 +20,11 @@ public:
     HostBridge(QJSEngine& engine, HostCalls& calls, QString scriptUrl)
         : engine_(engine), calls_(calls), scriptUrl_(std::move(scriptUrl)) {}
 
-    /// Calls the table's function `index`; a failure becomes a JavaScript Error with the operator's sentence.
+    /// Calls function `index` of the table. A failure becomes a JavaScript Error with the operator's sentence.
     Q_INVOKABLE QJSValue call(int index, const QJSValue& arguments);
 
-    /// The failure that `thrown` was made for, if it is the very object that a call threw: a script can catch that one
-    /// and throw it again, but make none like it (hazard H9). Remembers the last kFailures.
+    /// Returns the number of a failure if `thrown` is the very object that a failed call threw. A script can throw that
+    /// object again, but cannot make one like it (hazard H9). Remembers the last kFailures.
     [[nodiscard]] std::optional<std::int64_t> failureOf(const QJSValue& thrown) const;
 
 private:
@@ -33,7 +33,7 @@ private:
     QJSEngine& engine_;
     HostCalls& calls_;
     const QString scriptUrl_;
-    std::deque<std::pair<QJSValue, std::int64_t>> failures_;  // the thrown values, each with its number
+    std::deque<std::pair<QJSValue, std::int64_t>> failures_;  // thrown values and the numbers of their failures
 };
 
 }  // namespace tacto

@@ -1,6 +1,6 @@
 // JsValue.h - plain data across the border between a script and the program: JSON in, JSON out.
 //
-// Only copies cross: a script never holds a reference into the program, nor the program one into the script.
+// Only copies cross: neither the script nor the program ever holds a reference into the other.
 //
 // Thread-safety: the engine's thread.
 #pragma once
@@ -12,13 +12,13 @@
 
 namespace tacto {
 
-/// A deep copy. Whole numbers become integers; NaN and infinities stay what they are; undefined is null, and absent as
-/// a member. Getters of the script's objects run; what one throws is lost, its value is then whatever
-/// the engine makes of it. Errors: InvalidArgument for a function or symbol, a value nested
-/// deeper than 32 levels (a cycle), or more than 10 million elements.
+/// Returns a deep copy. Whole numbers become integers; NaN and infinities are kept. Undefined becomes null; a member
+/// that is undefined is left out. Getters of the script's objects run; an exception from a getter is lost, and the
+/// engine decides which value is copied. Errors: InvalidArgument for a function or symbol, a value nested deeper than
+/// 32 levels (a cycle), or more than 10 million elements.
 [[nodiscard]] Result<nlohmann::json> toJson(const QJSValue& value);
 
-/// A deep copy of plain objects and arrays. NaN, an absent value, becomes null.
+/// Returns a deep copy made of plain objects and arrays. NaN, which stands for an absent value, becomes null.
 [[nodiscard]] QJSValue toJs(QJSEngine& engine, const nlohmann::json& value);
 
 }  // namespace tacto

@@ -16,15 +16,15 @@ namespace tacto {
 
 namespace {
 
-/// What the engine compiles at run time cannot be unwound: std::bad_alloc from within it would abort the program, where
-/// interpreted code lets evaluate() catch it. Set before any engine exists.
+/// Machine code that the engine compiles cannot be unwound: std::bad_alloc inside it would abort the program. With
+/// interpreted code, evaluate() catches std::bad_alloc. Set before any engine exists.
 [[maybe_unused]] const bool kInterpreted = qputenv("QV4_FORCE_INTERPRETER", "1");
 
 const QString kHostFile = QStringLiteral("tactoscope:host");
 const QString kStartFile = QStringLiteral("tactoscope:start");
 
-/// Runs before the script: what it looks up here cannot have been tampered with, and what the functions do later
-/// looks nothing up that a script can change.
+/// Runs before the script, so the script cannot have changed anything that is looked up here. Later the functions look
+/// up nothing that a script can change.
 const QString kInstall = QStringLiteral(R"js(
 (function (host, global, table, makers) {
     "use strict";
@@ -59,7 +59,7 @@ const QString kInstall = QStringLiteral(R"js(
 })
 )js");
 
-/// The engine turns a path into a file URL, which is what its stack traces name.
+/// The engine turns a path into a file URL; its stack traces name that URL.
 QString urlOf(const std::string& file) {
     const QString name = QString::fromStdString(file);
     return name.startsWith(QLatin1Char('/')) ? QUrl::fromLocalFile(name).toString() : name;
@@ -178,12 +178,12 @@ void Sandbox::Engine::installHost(const std::vector<SeenFunction>& functions) {
     QJSEngine::setObjectOwnership(bridge.get(), QJSEngine::CppOwnership);
     const QJSValue install = js.evaluate(kInstall, kHostFile);
     const QJSValue done = install.call({js.newQObject(bridge.get()), js.globalObject(), table, makers});
-    // Without its host objects a script would run against nothing, or against its own inventions.
+    // Without its host objects a script would run against nothing, or against objects of its own.
     if (done.isError()) qFatal("host objects could not be installed: %s", qPrintable(done.toString()));
 }
 
 std::optional<Thrown> Sandbox::load() {
-    // A script's `let` and `const` are seen by its own text only, so the question what it defines is put at its end.
+    // Only the script's own text sees its `let` and `const`, so the check for its functions is appended to that text.
     const QStringList& names = engine_->hostNames;
     const QString text = QStringLiteral("\"use strict\"; ") + QString::fromStdString(engine_->text) +
                          QStringLiteral("\n;({ run: typeof run === 'function' ? run : null, held: [") +
@@ -209,7 +209,7 @@ std::optional<Thrown> Sandbox::load() {
 }
 
 std::optional<Thrown> Sandbox::run(const nlohmann::json& parameters) {
-    const std::string given = dumpJson(parameters, -1, true);  // ASCII: a JavaScript literal whatever it holds
+    const std::string given = dumpJson(parameters, -1, true);  // ASCII, so it is always a valid JavaScript literal
     return engine_->evaluate(QStringLiteral("run(") + QString::fromStdString(given) + QLatin1Char(')'), kStartFile);
 }
 
@@ -224,14 +224,13 @@ std::optional<Thrown> Sandbox::Engine::evaluate(const QString& code, const QStri
     }
     if (result != nullptr) *result = value;
     if (trace.isEmpty() && !value.isError()) return std::nullopt;
-    if (trace.isEmpty() && from == kStartFile) return std::nullopt;  // run() returned an Error, it threw none
+    if (trace.isEmpty() && from == kStartFile) return std::nullopt;  // run() returned an Error without throwing it
     return errorFrom(value, trace);
 }
 
 Thrown Sandbox::Engine::errorFrom(const QJSValue& thrown, const QStringList& trace) const {
     Thrown error;
-    // "function:line:column:file", innermost first; the innermost line of the script itself is what its author can act
-    // on.
+    // "function:line:column:file", innermost first. The author can act on the innermost line of the script itself.
     static const QRegularExpression frame(QStringLiteral(R"(^(.*?):(-?\d+):(-?\d+):(.*)$)"));
     const QString url = urlOf(file);
     // Where the stack ran out, Qt 6.8 gives the innermost frame any number. A script cut short ends behind the text.
@@ -248,7 +247,7 @@ Thrown Sandbox::Engine::errorFrom(const QJSValue& thrown, const QStringList& tra
     if (error.line == 0) error.line = lineIn(thrown.property(QStringLiteral("lineNumber")).toString());
 
     error.failure = bridge->failureOf(thrown);
-    if (error.failure) return error;  // the program knows its code and sentence
+    if (error.failure) return error;  // the program knows this failure's code and sentence
     if (!thrown.isError()) {
         error.reason = thrown.toString().toStdString();
         if (thrown.isObject() && !thrown.isCallable()) {
@@ -258,7 +257,7 @@ Thrown Sandbox::Engine::errorFrom(const QJSValue& thrown, const QStringList& tra
     }
     const QString name = thrown.property(QStringLiteral("name")).toString();
     const QString message = thrown.property(QStringLiteral("message")).toString();
-    if (name == QStringLiteral("TypeError") && message == QStringLiteral("Type error")) {  // the engine says just this
+    if (name == QStringLiteral("TypeError") && message == QStringLiteral("Type error")) {  // the engine's whole message
         error.reason = "TypeError: something that belongs to the program, or is constant, was written or deleted";
         return error;
     }

@@ -1,9 +1,9 @@
-// Sandbox.h - a JavaScript engine that holds ECMAScript and the host objects, and nothing else.
+// Sandbox.h - a JavaScript engine with only ECMAScript and the host objects.
 //
-// No file, module, network, console or Qt object exists in it. The host objects are frozen and their globals can
-// neither be written, deleted nor redefined; scripts run in strict mode, so that an attempt is an error and not
-// silence. The one QObject behind them is held in a closure that no script can look into. What would not work here
-// (promises, as there is no event loop) or is not ECMAScript's (URL) is taken away; Math.random follows the seed.
+// Scripts find no file, module, network, console or Qt object here. The host objects are frozen, and their globals
+// cannot be written, deleted or redefined. Scripts run in strict mode, so that such an attempt throws an error. The
+// only QObject behind the host objects is held in a closure that no script can look into. Promises (there is no event
+// loop) and everything outside ECMAScript (URL) are removed; Math.random follows the seed.
 //
 // Thread-safety: constructed, used and destroyed by one thread.
 #pragma once
@@ -28,38 +28,38 @@ struct SeenFunction {
 /// The outcome of a call.
 struct HostAnswer {
     nlohmann::json value;
-    std::optional<std::int64_t> failure = {};  ///< the program's number for it: it threw
+    std::optional<std::int64_t> failure = {};  ///< set if the call threw: the program's number of this failure
     int code = 0;                              ///< the failure's code
-    std::string text;                          ///< what the operator reads
+    std::string text;                          ///< the failure's sentence for the operator
 };
 
-/// Receives what scripts call.
+/// Receives the calls that scripts make.
 class HostCalls {
 public:
     virtual ~HostCalls() = default;
-    /// `function`: its place in the table. `line`: where in the script the call stands; 0 when unknown.
+    /// `function`: index in the table. `line`: the script's line with the call; 0 if unknown.
     virtual HostAnswer call(int function, const nlohmann::json& arguments, int line) = 0;
-    /// Answers a call whose arguments cannot be handed over.
+    /// Answers a call with arguments that cannot be handed over.
     virtual HostAnswer refuse(int function, const std::string& why) = 0;
 };
 
-/// What a script threw.
+/// An exception from a script.
 struct Thrown {
     std::string reason;
-    int line = 0;                              ///< 0 when unknown
-    std::optional<std::int64_t> failure = {};  ///< the failure of the call itself
+    int line = 0;                              ///< 0 if unknown
+    std::optional<std::int64_t> failure = {};  ///< the failed host call, if its own error was thrown
     bool outOfMemory = false;
 };
 
 class Sandbox {
 public:
-    /// `calls` outlives the sandbox. `file`: as errors name it.
+    /// `calls` must outlive the sandbox. `file`: the script's name in errors.
     Sandbox(HostCalls& calls, const std::vector<SeenFunction>& functions, std::string file, std::string text);
     ~Sandbox();
     Sandbox(const Sandbox&) = delete;
     Sandbox& operator=(const Sandbox&) = delete;
 
-    /// Runs the script's top level. What it threw, or nothing when it went well.
+    /// Runs the script's top level. Returns the exception, or nothing on success.
     [[nodiscard]] std::optional<Thrown> load();
     /// Calls run(parameters).
     [[nodiscard]] std::optional<Thrown> run(const nlohmann::json& parameters);

@@ -1,6 +1,6 @@
-// tactoscope-script: runs protocol scripts for the program that started it, and nothing else. It has no device, no file
-// and no session: what a script calls goes to the program through one socket (ScriptMessage.h), and a script that makes
-// the engine crash ends this process alone (hazard H10).
+// tactoscope-script: runs protocol scripts for the program that started it, and does nothing else. It has no device,
+// file or session: calls from a script go to the program through one socket (ScriptMessage.h). A script that crashes
+// the engine ends only this process (hazard H10).
 #include <QCoreApplication>
 #include <csignal>
 #include <cstdio>
@@ -20,7 +20,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Without the program this process has nothing to do.
+/// Without the program, this process has nothing to do.
 [[noreturn]] void end(int code) noexcept { std::_Exit(code); }
 
 class Program final : public HostCalls {
@@ -71,7 +71,7 @@ std::vector<SeenFunction> functionsIn(const json& table) {
     return functions;
 }
 
-/// When memory is short this process is the one that the kernel should end.
+/// Tells the kernel to end this process first if memory runs short.
 void offerItself() noexcept {
     if (std::FILE* file = std::fopen("/proc/self/oom_score_adj", "we"); file != nullptr) {
         static_cast<void>(std::fputs("1000", file));
@@ -114,7 +114,7 @@ int serve() {
 }  // namespace tacto
 
 int main(int argc, char** argv) {
-    ::syscall(SYS_close_range, tacto::kScriptSocket + 1, ~0U, 0);  // closes whatever the program left open
+    ::syscall(SYS_close_range, tacto::kScriptSocket + 1, ~0U, 0);  // closes everything else that the program left open
     int type = 0;
     socklen_t size = sizeof type;
     if (argc != 1 || ::getsockopt(tacto::kScriptSocket, SOL_SOCKET, SO_TYPE, &type, &size) != 0) {
@@ -124,10 +124,10 @@ int main(int argc, char** argv) {
     const rlimit none{0, 0};
     setrlimit(RLIMIT_CORE, &none);
     std::signal(SIGPIPE, SIG_IGN);
-    std::signal(SIGINT, SIG_IGN);  // Ctrl+C of a terminal is the program's, which ends this process in its own order
+    std::signal(SIGINT, SIG_IGN);  // the program handles Ctrl+C and then ends this process
     std::signal(SIGHUP, SIG_IGN);
     tacto::offerItself();
     const QCoreApplication application(argc, argv);
-    // The engine of a script that ended somehow is not taken down.
+    // Ends without destroying the engine: a script may have left it in any state.
     tacto::end(tacto::serve());
 }

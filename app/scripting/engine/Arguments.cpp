@@ -17,7 +17,7 @@ constexpr std::string_view kOptions = "options";
 
 std::string_view rootOf(std::string_view name) { return name.substr(0, name.find('.')); }
 
-/// "trains" of "options.trains".
+/// Returns "trains" for "options.trains".
 std::string_view spokenName(std::string_view name) {
     return name.starts_with(kOptionPrefix) ? name.substr(kOptionPrefix.size()) : name;
 }
@@ -70,7 +70,7 @@ tl::unexpected<Error> Arguments::wrong(std::string_view name, const nlohmann::js
     return otherThanExpected(function_.fullName(), name, value, accepted);
 }
 
-/// A typing error in an option must not silently leave a default in force.
+/// A mistyped option must not silently leave its default in force.
 Result<void> Arguments::checkMembers(std::string_view of) const {
     const auto& value = passed(of);
     if (value.is_null()) return {};

@@ -1,9 +1,9 @@
-// Arguments.h - what a script passed to a host function, checked against the function's parameters before it is called.
+// Arguments.h - the arguments of a call to a host function, checked against its parameters before the function runs.
 //
-// Functions read by the names of their parameters and check nothing again but how values relate. To read a name or a
-// type that the function did not declare is a mistake of the program: std::logic_error.
+// Host functions read arguments by parameter name and check only how values relate to each other. Reading a name or
+// type that the function did not declare is a mistake in the program: std::logic_error.
 //
-// Thread-safety: values. The function and the list outlive them.
+// Thread-safety: values. The function and the list must outlive them.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -15,17 +15,16 @@
 
 namespace tacto {
 
-/// One line for messages: the value as JSON, shortened to 60 characters.
+/// Returns the value as JSON on one line, for messages; shortened to 60 characters.
 [[nodiscard]] std::string shown(const nlohmann::json& value);
 
 class Arguments {
 public:
     /// Errors: InvalidArgument in one sentence that names function, argument, value and what is accepted: for a wrong
-    /// type, NaN or an infinity, a number outside its range, a word or an option that there is not, and an argument
-    /// that is missing.
+    /// type, NaN or an infinity, a number outside its range, an unknown word or option, or a missing argument.
     [[nodiscard]] static Result<Arguments> check(const HostFunction& function, const nlohmann::json& list);
 
-    // The number; if it was left out, the parameter's default, or without one `fallback`, NaN, or empty.
+    // An argument that was left out has its parameter's default; without a default: `fallback`, NaN or empty.
     [[nodiscard]] double number(std::string_view name) const;
     [[nodiscard]] double number(std::string_view name, double fallback) const;
     [[nodiscard]] int whole(std::string_view name, int fallback = 0) const;
@@ -33,20 +32,20 @@ public:
     [[nodiscard]] std::string text(std::string_view name) const;
     [[nodiscard]] const nlohmann::json& list(std::string_view name) const;
     [[nodiscard]] const nlohmann::json& object(std::string_view name) const;
-    /// The load, as parseLoad() reads it.
+    /// Returns the load in the form that parseLoad() reads.
     [[nodiscard]] std::string load(std::string_view name) const;
-    /// Null where it was left out.
+    /// Returns null if the argument was left out.
     [[nodiscard]] const nlohmann::json& any(std::string_view name) const;
     [[nodiscard]] bool has(std::string_view name) const;
-    /// Passed as null: not known, which is something else than left out.
+    /// True if the script passed null, which means "not known"; false if it left the argument out.
     [[nodiscard]] bool isNull(std::string_view name) const;
     /// Everything that was passed, in order.
     [[nodiscard]] const nlohmann::json& all() const noexcept { return list_; }
 
-    /// "bench.loadSafety", of the function that was called.
+    /// Returns the object of the called function: "bench.loadSafety".
     [[nodiscard]] std::string_view object() const noexcept { return function_.object; }
 
-    /// The error for what a function finds wrong by itself: "bench.wait: seconds is 3, ACCEPTED is expected".
+    /// Returns the error for a value that the function rejects: "bench.wait: seconds is 3, ACCEPTED is expected".
     [[nodiscard]] tl::unexpected<Error> wrong(std::string_view name, const nlohmann::json& value,
                                               std::string_view accepted) const;
 
@@ -62,7 +61,7 @@ private:
     const nlohmann::json& list_;
 };
 
-/// "analysis.calibration: direction is 3, "up", "down" or "" is expected".
+/// Returns an error such as: analysis.calibration: direction is 3, "up", "down" or "" is expected.
 [[nodiscard]] tl::unexpected<Error> otherThanExpected(std::string_view function, std::string_view name,
                                                       const nlohmann::json& value, std::string_view accepted);
 

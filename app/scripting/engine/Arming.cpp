@@ -33,7 +33,7 @@ Result<ArmRequest> confirmedArming(ScriptSession& session, const std::string& lo
         session.noteConfirmed(question.confirms);
     }
     request.operatorConfirmed = true;
-    request.declaredLoadConfirmed = true;  // the text says what is connected, and that it is not measured
+    request.declaredLoadConfirmed = true;  // the text names the connected load and says that it is not measured
     request.confirmed = question.confirms;
     return request;
 }

@@ -13,11 +13,11 @@ namespace tacto {
 
 namespace {
 
-/// The memory for a script that only declares something.
+/// Memory limit in bytes for a script that is only read for its declaration.
 constexpr std::size_t kMaxMemory = std::size_t{512} << 20;
 constexpr std::size_t kMaxDeclared = 4'000'000;  // bytes
 
-/// Takes protocol() and refuses everything else: a declaration has no bench.
+/// Accepts protocol() and refuses every other call, because a declaration has no bench.
 class DeclarationPort final : public HostPort {
 public:
     Result<nlohmann::json> call(const HostFunction& function, const nlohmann::json& arguments, int) override {
@@ -30,7 +30,7 @@ public:
             return fail(ErrorCode::InvalidArgument,
                         "the lines outside run(p) declare more than the {} bytes that are accepted", kMaxDeclared);
         }
-        // Here, so that the script's error names its line.
+        // Checked inside the call, so that the script's error names its line.
         if (const auto sound = parseDeclaration(arguments[0], arguments[1], arguments[2]); !sound)
             return failure(sound);
         if (declared_) return fail(ErrorCode::InvalidArgument, "protocol() was called twice");
@@ -41,14 +41,14 @@ public:
     std::optional<nlohmann::json> declared_;
 };
 
-/// Whether a script's text names a host function that asks this question.
+/// True if the script's text names a host function that asks this question.
 bool mayAsk(const QString& text, std::string_view question) {
     return std::ranges::any_of(hostFunctions(), [&](const HostFunction& function) {
         if (std::ranges::find(function.asks, question) == function.asks.end()) return false;
         const auto of = [](std::string_view word) {
             return QRegularExpression::escape(QString::fromUtf8(word.data(), static_cast<qsizetype>(word.size())));
         };
-        // "bench . loadSafety . load": blanks around each dot.
+        // Matches "bench . loadSafety . load" too: blanks around each dot.
         const auto object = of(function.object).replace(QStringLiteral("\\."), QStringLiteral("\\s*\\.\\s*"));
         const QRegularExpression call(QStringLiteral(R"(\b%1\s*\.\s*%2\b)").arg(object, of(function.name)));
         return call.match(text).hasMatch();
@@ -62,7 +62,7 @@ void findQuestions(const ProtocolSource& source, ProtocolDeclaration& declaratio
     for (auto matches = asks.globalMatch(text); matches.hasNext();) {
         const auto match = matches.next();
         std::string name = match.captured(2).toStdString();
-        if (!name.empty() && match.captured(3) == "+") name += '*';  // "dmm-" + load: its beginning is known
+        if (!name.empty() && match.captured(3) == "+") name += '*';  // "dmm-" + load: only the beginning is known
         if (name.empty()) {
             declaration.hasOtherQuestions = true;
         } else if (std::find(declaration.questions.begin(), declaration.questions.end(), name) ==
@@ -70,14 +70,14 @@ void findQuestions(const ProtocolSource& source, ProtocolDeclaration& declaratio
             declaration.questions.push_back(name);
         }
     }
-    // The questions stand in the order in which a form shows them.
+    // The questions are listed in the order in which a form shows them.
     for (const std::string_view question :
          {"setup", "dmm-*", "dmm-u-*", "serial-*", "wiring", kConfirmArming, "surface-*", "fit-load"}) {
         if (mayAsk(text, question)) declaration.questions.emplace_back(question);
     }
 }
 
-/// Read by one process after the other: scripts that come with the program harm none.
+/// One process reads all shipped scripts, one after another: they do no harm.
 struct Kept {
     std::mutex mutex;
     std::unique_ptr<ScriptProcess> process;  // guarded

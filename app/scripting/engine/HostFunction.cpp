@@ -4,7 +4,7 @@
 
 namespace tacto {
 
-/// The tables, each beside what it describes.
+/// The tables; each stands in the file of its functions.
 using HostTable = std::vector<HostFunction>();
 HostTable generalFunctions, randomFunctions, outputFunctions, captureFunctions, surfaceFunctions, stateFunctions,
     settingFunctions, knownLoadFunctions, absoluteReferenceFunctions, fingertipFunctions, loadSafetyFunctions,
@@ -20,7 +20,7 @@ std::string HostFunction::fullName() const {
 const std::vector<HostFunction>& hostFunctions() {
     static const std::vector<HostFunction> all = [] {
         std::vector<HostFunction> out;
-        // An object comes after the object that holds it.
+        // An object must come after the object that contains it.
         const std::pair<std::string_view, std::vector<HostTable*>> objects[] = {
             {"", {generalFunctions}},
             {"random", {randomFunctions}},
@@ -70,7 +70,7 @@ const HostParameter* hostOption(std::string_view path) {
 
 namespace {
 
-/// "bench.capture({ trains, rate_hz })": members of other arguments than the options are not written out.
+/// Returns "bench.capture({ trains, rate_hz })": members are listed for the options only.
 std::string heading(const HostFunction& function) {
     if (function.kind == HostKind::Property) return function.fullName();
     std::vector<std::string_view> arguments, members;

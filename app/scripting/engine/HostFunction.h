@@ -1,5 +1,5 @@
-// HostFunction.h - the host objects as data: every function a script can call, with the description that its arguments
-// are checked against and its reference is made from. A function without a description cannot be written down.
+// HostFunction.h - the host objects as data: every function that a script can call, with its description. Arguments are
+// checked against the description, the reference is made from it, and no function can be defined without one.
 //
 // Thread-safety: the tables are constant; calls come from the script's thread.
 #pragma once
@@ -19,7 +19,7 @@ namespace tacto {
 class Arguments;
 class ScriptSession;
 
-/// A host function: it runs with arguments that fit its parameters.
+/// Runs a host function with arguments that fit its parameters.
 using HostCall = Result<nlohmann::json>(ScriptSession& session, const Arguments& arguments);
 
 enum class HostKind {
@@ -28,31 +28,31 @@ enum class HostKind {
 };
 
 struct HostFunction {
-    /// "bench", "bench.loadSafety"; empty for a global function; set by hostFunctions().
+    /// "bench", "bench.loadSafety"; empty for a global function. Set by hostFunctions().
     std::string_view object = {};
     std::string_view name = {};
     HostKind kind = HostKind::Function;
     std::vector<HostParameter> parameters = {};
-    std::string_view text = {};               ///< what it does, one or two sentences
-    std::string_view returns = {};            ///< empty for nothing
-    std::string_view errors = {};             ///< when it throws; empty when only wrong arguments make it throw
-    std::vector<std::string_view> asks = {};  ///< questions to the operator that scripts are searched for
-    std::optional<Role> needs = {};           ///< without a device of this role the call fails
-    bool failsDisarmed = false;               ///< a failure, of its arguments too, leaves the output disarmed
+    std::string_view text = {};               ///< what the function does, in one or two sentences
+    std::string_view returns = {};            ///< empty if it returns nothing
+    std::string_view errors = {};             ///< when it throws; empty if it throws only for wrong arguments
+    std::vector<std::string_view> asks = {};  ///< questions to the operator that a search of the script reports
+    std::optional<Role> needs = {};           ///< the call fails without a device of this role
+    bool failsDisarmed = false;               ///< any failure disarms the output, also one caused by wrong arguments
     HostCall* call = nullptr;
-    /// Serves functions that must hand the script's own values back: an expression for the function, in which `native`
-    /// is the call above. Runs in strict mode before the script does.
+    /// For functions that must return the script's own values: a JavaScript expression for the function. In it,
+    /// `native` is `call` above. Evaluated in strict mode before the script runs.
     std::string_view javascript = {};
-    std::vector<HostParameter> passes = {};  ///< the parameters passed to `native`, where those are not `parameters`
+    std::vector<HostParameter> passes = {};  ///< the parameters of `native`, if they differ from `parameters`
 
-    /// "bench.wait", "progress".
+    /// Returns "bench.wait", or "progress" for a global function.
     [[nodiscard]] std::string fullName() const;
 };
 
 /// All functions, grouped by object.
 [[nodiscard]] const std::vector<HostFunction>& hostFunctions();
 
-/// The option with that path, "analysis.variation.detection_ma". Null if there is none.
+/// Returns the option with this path ("analysis.variation.detection_ma"), or null if there is none.
 [[nodiscard]] const HostParameter* hostOption(std::string_view path);
 
 }  // namespace tacto

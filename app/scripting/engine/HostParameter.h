@@ -1,5 +1,5 @@
 // HostParameter.h - one argument of a host function, or one member of an argument: its type, unit, range and default.
-// The dispatcher checks what a script passes against it, and the reference is written from it.
+// The dispatcher checks the arguments from scripts against it, and the reference is generated from it.
 //
 // Thread-safety: values.
 #pragma once
@@ -20,31 +20,31 @@ enum class ValueType {
     Flag,
     List,
     Object,
-    Load,  ///< ohms, or a text as parseLoad() reads it
-    Any,   ///< the function checks it itself
+    Load,  ///< ohms, or a text that parseLoad() accepts
+    Any,   ///< checked by the function itself
 };
 
-/// The beginning of the names of all members of the last argument.
+/// All members of the last argument have names that begin like this.
 inline constexpr std::string_view kOptionPrefix = "options.";
 
 struct HostParameter {
-    /// "seconds"; "options.trains" for a member of the last argument, which may be left out and takes no other members
-    /// than those that are listed; "from.roughness" for a member of another argument.
+    /// "seconds"; "from.roughness" for a member of an argument; "options.trains" for a member of the last argument,
+    /// which may be left out and accepts only the members in the table.
     std::string_view name;
     ValueType type = ValueType::Any;
     std::string_view unit = {};                ///< "s", "ohm"; empty for values without a unit
-    std::string_view about = {};               ///< what it is
-    AcceptedNumbers numbers = {};              ///< Number and Whole
+    std::string_view about = {};               ///< what the value means
+    AcceptedNumbers numbers = {};              ///< for Number and Whole: the accepted range
     ValueType items = ValueType::Any;          ///< type of a list's elements
-    std::vector<std::string_view> words = {};  ///< the texts that are accepted; empty for any
+    std::vector<std::string_view> words = {};  ///< the accepted texts; empty: any text
     std::size_t mostCharacters = 0;            ///< the longest text; 0: any length
     bool mayBeLeftOut = false;
     bool mayBeEmpty = false;          ///< a text
-    bool mayBeNull = false;           ///< null and NaN mean: not known
-    nlohmann::json usual = {};        ///< the value where it is left out
-    std::string_view usualText = {};  ///< the usual value in words, where the function works it out
+    bool mayBeNull = false;           ///< null and NaN are accepted and mean "not known"
+    nlohmann::json usual = {};        ///< the value if the argument is left out
+    std::string_view usualText = {};  ///< the default in words, if the function computes it
 
-    // The range. Tables write it so: number("seconds", "s", "on the bench's clock").range(0, 86'400).otherwise(1)
+    // The range. Tables use it like this: number("seconds", "s", "on the bench's clock").range(0, 86'400).otherwise(1)
     [[nodiscard]] HostParameter range(double from, double to) const;
     [[nodiscard]] HostParameter atLeast(double from) const;
     [[nodiscard]] HostParameter above(double from) const;
@@ -56,14 +56,14 @@ struct HostParameter {
     [[nodiscard]] HostParameter otherwise(nlohmann::json value) const;
     [[nodiscard]] HostParameter optional(std::string_view whereLeftOut = {}) const;
 
-    /// The accepted values, for errors and for the reference: "a whole number from 1 to 64".
+    /// Returns the accepted values for errors and for the reference: "a whole number from 1 to 64".
     [[nodiscard]] std::string accepted() const;
     [[nodiscard]] bool accepts(const nlohmann::json& value) const;
-    /// The value where it is left out, with its unit; empty where there is none.
+    /// Returns the default with its unit, or an empty text if there is none.
     [[nodiscard]] std::string defaultText() const;
 };
 
-/// Parameters by their type, for the tables of host functions.
+/// Makes parameters by their type, for the tables of host functions.
 namespace takes {
 [[nodiscard]] HostParameter number(std::string_view name, std::string_view unit, std::string_view about);
 [[nodiscard]] HostParameter whole(std::string_view name, std::string_view about);

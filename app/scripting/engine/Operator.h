@@ -1,6 +1,6 @@
 // Operator.h - the person at the bench, as a protocol script sees them: they confirm, choose and enter.
 //
-// Headless, the answers are given in advance (`--set NAME=...`), and a question without one fails with its name.
+// Without a window or terminal, answers are given in advance (`--set NAME=...`); a question without one fails by name.
 //
 // Thread-safety: ask() is called on the script's thread and may block; cancel() from any thread wakes it.
 #pragma once
@@ -25,30 +25,30 @@ struct OperatorQuestion {
     std::string text;                                          ///< the sentence the operator reads
     std::vector<std::pair<std::string, std::string>> choices;  ///< Choose: key and explanation
     std::string unit;                                          ///< Enter: unit of a number; empty for text
-    bool number = false;                                       ///< Enter: a number is wanted
+    bool number = false;                                       ///< Enter: the answer must be a number
     std::optional<double> min;
     std::optional<double> max;
     std::string drawing;  ///< name of a shipped drawing to show; may be empty
-    /// Confirm: what exactly is confirmed. An answer that was given in advance must be this text and no "yes"; several,
-    /// one to a line, answer a question that is put several times. Empty: "yes" does.
+    /// Confirm: the exact text that the operator confirms. An answer given in advance must be this text, not "yes". A
+    /// question that is asked several times takes several texts, one per line. If empty, "yes" is enough.
     std::string confirms{};
-    /// Confirm, at a terminal: the word that is typed.
+    /// Confirm, at a terminal: the word that the operator types.
     std::string word = "yes";
-    /// The question's number at this desk, so that an answer to an earlier question does not answer this one.
+    /// The question's number at this desk: an answer to an earlier question cannot answer this one.
     std::uint64_t id = 0;
 };
 
 class Operator {
 public:
     virtual ~Operator() = default;
-    /// How long output may go on while a question waits, unless present() is called again: the operator has the stop,
-    /// as long as there is something to press.
+    /// How long the output may continue while a question waits and present() is not called. A call of present() says
+    /// that the operator can press the stop.
     [[nodiscard]] virtual Seconds unwatchedFor() const { return Seconds(35); }  // longer than a terminal's arming waits
-    /// Called by ask() while it waits and the operator could press the stop. Set by the run.
+    /// Called by ask() while it waits and the operator can press the stop. Set by the run.
     std::function<void()> present;
-    /// true for Confirm, the key for Choose, a number or text for Enter.
-    /// Errors: NotFound when there is no operator to answer, naming the question; Stopped when refused or cancelled;
-    /// InvalidArgument for an answer outside what is accepted; NotArmed for the confirmation of another text.
+    /// Returns true for Confirm, the key for Choose, a number or text for Enter. Errors: NotFound, naming the question,
+    /// if there is no operator; Stopped if refused or cancelled; InvalidArgument if the answer is not accepted;
+    /// NotArmed if another text was confirmed.
     [[nodiscard]] virtual Result<nlohmann::json> ask(const OperatorQuestion& question) = 0;
     /// Makes a waiting ask() return Stopped.
     virtual void cancel() noexcept = 0;

@@ -9,7 +9,7 @@ namespace tacto {
 
 namespace {
 
-/// The answer to be given in advance, as it is typed.
+/// Returns the answer that can be given in advance, as the operator types it.
 std::string presetFor(const OperatorQuestion& question) {
     return question.confirms.empty() ? fmt::format("--set {}=...", question.name)
                                      : fmt::format("--set {}=\"{}\"", question.name, question.confirms);

@@ -42,7 +42,7 @@ constexpr Word<ProtocolView> kViews[] = {{"trials", ProtocolView::Trials},
                                          {"slides", ProtocolView::Slides},
                                          {"none", ProtocolView::None}};
 
-/// The view for a script that declares none, suggested by its kind and its devices.
+/// Returns the view that the kind and the devices suggest, for a script that declares none.
 ProtocolView usualView(const ProtocolDeclaration& declaration) {
     const auto kind = resultTraits(declaration.kind).kind;
     if (kind == ResultKind::LoadSafety) return ProtocolView::Loads;
@@ -135,7 +135,7 @@ Result<ProtocolSettings> applySettings(const ProtocolDeclaration& declaration,
             auto value = parseSetting(*parameter, text);
             if (!value) return failure(value);
             out.parameters[key] = *value;
-            // Which of a script's choices was made says nothing in the operator's own words.
+            // A choice only selects one of the script's own texts; it contains no words of the operator.
             (parameter->type == ParameterType::Choice ? out.chosen : out.given).insert(key);
             continue;
         }

@@ -29,7 +29,7 @@ fs::path environmentPath(const char* name) {
     return value == nullptr ? fs::path() : fs::path(value);
 }
 
-/// The digest of the shipped protocol with that name; null for another name.
+/// Returns the digest of the shipped protocol with this name, or null for any other name.
 const ShippedProtocol* digestOfShipped(std::string_view name) {
     const auto all = shippedProtocols();
     const auto at = std::ranges::find(all, name, &ShippedProtocol::name);
@@ -61,7 +61,7 @@ Result<ProtocolSource> readScript(const fs::path& path) {
     source.sha256 = QCryptographicHash::hash(bytes, QCryptographicHash::Sha256).toHex().toStdString();
     const auto* built = digestOfShipped(source.name);
     source.shipped = built != nullptr && built->sha256 == source.sha256;
-    // Wherever it lies, also in the program's own folder: the name says what was reviewed.
+    // Refused in every folder, also in the program's own: the name stands for a reviewed script.
     if (built != nullptr && !source.shipped) return fail(ErrorCode::InvalidArgument, "{}", nameIsTaken(path));
     QStringDecoder utf8(QStringDecoder::Utf8, QStringDecoder::Flag::Stateless);
     const QString text = utf8(bytes);
@@ -72,7 +72,7 @@ Result<ProtocolSource> readScript(const fs::path& path) {
     return source;
 }
 
-/// Scripts of a folder by name; leaves out what is missing or unreadable.
+/// Returns the scripts of a folder by name, without missing or unreadable ones.
 std::map<std::string, fs::path> scriptsIn(const fs::path& folder) {
     std::map<std::string, fs::path> found;
     std::error_code failed;
@@ -94,7 +94,7 @@ Result<fs::path> resourcesFolder() {
         return !folder.empty() && fs::is_directory(folder / "protocols", failed);
     };
     if (const auto set = environmentPath("TACTOSCOPE_RESOURCES"); !set.empty()) {
-        // An explicit wish is not silently replaced by something else.
+        // A folder that the user chose explicitly is not silently replaced.
         if (usable(set)) return set;
         return fail(ErrorCode::NotFound, "TACTOSCOPE_RESOURCES is {}, a folder with protocols/ is expected",
                     set.string());
@@ -121,7 +121,7 @@ Result<fs::path> drawingFile(std::string_view name) {
     for (fs::directory_iterator entry(*resources / "drawings", failed), end; !failed && entry != end;
          entry.increment(failed))
         if (entry->path().extension() == ".svg") known.insert(entry->path().stem().string());
-    // Looked up, never joined: a script's word is not a path.
+    // The name is looked up in the list, never joined to a path: a script must not choose a path.
     if (const auto found = known.find(std::string(name)); found != known.end())
         return *resources / "drawings" / (*found + ".svg");
     return fail(ErrorCode::InvalidArgument, "there is no drawing \"{}\"; there are: {}", name, fmt::join(known, ", "));
@@ -129,7 +129,7 @@ Result<fs::path> drawingFile(std::string_view name) {
 
 fs::path userProtocolsFolder() {
     const auto data = dataFolder();
-    return data.is_absolute() ? data / "protocols" : fs::path();  // never a script of the folder it starts in
+    return data.is_absolute() ? data / "protocols" : fs::path();  // never relative to the current folder
 }
 
 ProtocolLibrary::ProtocolLibrary() : user_(userProtocolsFolder()) {

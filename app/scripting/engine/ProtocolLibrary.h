@@ -1,8 +1,8 @@
-// ProtocolLibrary.h - where protocol scripts are: those shipped with the program, and the lab's own.
+// ProtocolLibrary.h - finds protocol scripts: those shipped with the program and those of the laboratory.
 //
-// The name of a shipped script belongs to it: a file of the lab's that carries it is refused, and listed as such. A
-// script is called shipped only when its bytes are those that the program was built with; one that lies in the
-// program's folder and differs says where it lies, as the lab's own do.
+// The name of a shipped script is reserved: a laboratory's file with this name is refused, and listed as refused. A
+// script is called shipped only if its bytes are those that the program was built with. Other scripts, even in the
+// program's own folder, are reported with their path.
 //
 // Thread-safety: constant after construction.
 #pragma once
@@ -16,18 +16,18 @@
 
 namespace tacto {
 
-/// The program's resources folder (protocols/, examples/, limit sets beside the built-in ones ...):
-/// $TACTOSCOPE_RESOURCES; else `resources` beside or above the executable (a build inside the source tree); else the
-/// installed share folder. Errors: NotFound naming what was tried.
+/// Returns the program's resources folder (protocols/, examples/, additional limit sets ...): $TACTOSCOPE_RESOURCES;
+/// else `resources` next to or above the executable (a build inside the source tree); else the installed share folder.
+/// Errors: NotFound naming the folders that were tried.
 [[nodiscard]] Result<std::filesystem::path> resourcesFolder();
 
-/// The file of a shipped drawing ("wiring"). Errors: InvalidArgument naming those there are.
+/// Returns the file of a shipped drawing ("wiring"). Errors: InvalidArgument naming the existing drawings.
 [[nodiscard]] Result<std::filesystem::path> drawingFile(std::string_view name);
 
-/// $XDG_DATA_HOME/tactoscope/protocols, or ~/.local/share/tactoscope/protocols. Need not exist.
+/// Returns $XDG_DATA_HOME/tactoscope/protocols, or ~/.local/share/tactoscope/protocols, even if it does not exist.
 [[nodiscard]] std::filesystem::path userProtocolsFolder();
 
-/// A file among the scripts that cannot be run, and why.
+/// A script file that cannot be run, and the reason.
 struct RefusedScript {
     std::filesystem::path path;
     std::string why;
@@ -35,18 +35,18 @@ struct RefusedScript {
 
 class ProtocolLibrary {
 public:
-    /// The usual two folders. A folder that is not there holds no protocols.
+    /// Uses the two standard folders. A missing folder holds no protocols.
     ProtocolLibrary();
     ProtocolLibrary(std::filesystem::path shipped, std::filesystem::path user);
 
-    /// Every protocol, by name.
+    /// Returns every protocol, sorted by name.
     [[nodiscard]] std::vector<ProtocolSource> list() const;
-    /// Every script that list() leaves out.
+    /// Returns every script that list() leaves out.
     [[nodiscard]] std::vector<RefusedScript> refused() const;
 
-    /// A protocol's name, or the path of a .js file.
-    /// Errors: NotFound naming it and the known names; Io; InvalidArgument above 1 MB, for a text that is not UTF-8, or
-    /// for a file of the lab's with the name of a shipped protocol.
+    /// Finds a protocol by its name or by the path of a .js file. Errors: NotFound naming it and the known names; Io;
+    /// InvalidArgument for more than 1 MB, a text that is not UTF-8, or a laboratory's file with the name of a shipped
+    /// protocol.
     [[nodiscard]] Result<ProtocolSource> find(std::string_view nameOrPath) const;
 
 private:
@@ -54,7 +54,7 @@ private:
     [[nodiscard]] Listing listing() const;
 
     std::filesystem::path shipped_;
-    std::string missing_;  ///< why there are no shipped ones
+    std::string missing_;  ///< why no shipped protocols were found
     std::filesystem::path user_;
 };
 

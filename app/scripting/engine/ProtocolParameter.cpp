@@ -27,10 +27,10 @@ constexpr Word<ParameterType> kTypes[] = {{"number", ParameterType::Number},   {
                                           {"file", ParameterType::File}};
 constexpr std::string_view kReferenceStep = "reference";
 
-/// A double holds every whole number up to here, but not every larger one.
+/// A double holds every whole number up to this one exactly, but not every larger one.
 constexpr double kMaxWholeNumber = 9007199254740992;  // 2^53
 
-/// A range no wider than from -`widest` to `widest`.
+/// Returns the parameter's range, limited to -`widest` to `widest`.
 AcceptedNumbers rangeOf(const ProtocolParameter& parameter, double widest = std::numeric_limits<double>::max()) {
     return {.low = std::max(parameter.min.value_or(-widest), -widest),
             .high = std::min(parameter.max.value_or(widest), widest),
@@ -49,7 +49,7 @@ bool hasChoice(const ProtocolParameter& parameter, const std::string& key) {
                        [&](const auto& choice) { return choice.first == key; });
 }
 
-/// The value as the script takes it, or what would be accepted.
+/// Returns the value in the form that the script takes, or an error that says what is accepted.
 Result<Json> accepted(const ProtocolParameter& parameter, const Json& value) {
     const auto refuse = [&](const std::string& wanted) -> tl::unexpected<Error> {
         return fail(ErrorCode::InvalidArgument, "{} is {}, {} is expected", parameter.name,
@@ -141,7 +141,7 @@ Result<void> readChoices(const Json& given, const Json& order, ProtocolParameter
     return {};
 }
 
-/// A number for an option of a host function has that option's unit and range.
+/// If the parameter stands for an option of a host function, it takes that option's unit and range.
 Result<void> takeOption(const Json& given, const std::string& where, ProtocolParameter& out) {
     auto path = declaredText(given, where, "option", false, kMaxDeclaredTitle);
     if (!path) return failure(path);
@@ -173,7 +173,7 @@ bool isName(std::string_view name) {
            std::all_of(name.begin(), name.end(), [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
 }
 
-/// In these parameters the operator vouches for what the program cannot know, so the field must say what it is.
+/// With these parameters the operator vouches for a fact that the program cannot check, so the field must name it.
 Result<void> saysWhatItVouchesFor(const ProtocolParameter& parameter) {
     struct OperatorStated {
         std::string_view name, unit, word;

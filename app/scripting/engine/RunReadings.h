@@ -1,7 +1,7 @@
 // RunReadings.h - the readings and calibrations that the program itself made during one run. A script refers to them by
-// number; nothing else that it says about them counts (hazard H1: a script asks, it never vouches).
+// number; the program ignores anything else it says about them (hazard H1: a script asks, it never vouches).
 //
-// Thread-safety: none; as ScriptSession, which holds it.
+// Thread-safety: none; ScriptSession holds it and has none either.
 #pragma once
 
 #include <cstdint>
@@ -16,14 +16,14 @@
 
 namespace tacto {
 
-/// The command when a capture was taken: s, and V or mA by the source. NaN where it is not known.
+/// The command at the time of a capture, in seconds and in the source's unit (V or mA). NaN: not known.
 struct CapturedCommand {
     double amplitude = 0;
     double interval_s = 0;
     double width_s = 0;
     double gap_s = 0;
-    bool calibrationApplied = false;  ///< something else than the command was programmed
-    bool simulated = false;           ///< the capture is of a simulated instrument
+    bool calibrationApplied = false;  ///< the programmed value differed from the command
+    bool simulated = false;           ///< captured by a simulated instrument
 };
 
 /// One reading of measure.pulse().
@@ -32,30 +32,30 @@ struct OwnReading {
     std::vector<CapturedCommand> commands;  ///< one for each capture
     nlohmann::json read;                    ///< amplitude, interval_s, width_s, gap_s as measured; null: not measured
     std::string unit;                       ///< the amplitude's unit: V or mA
-    // The oscilloscope's statement, in the amplitude's unit; NaN: not stated.
+    // The oscilloscope's own statement, in the amplitude's unit; NaN: not stated.
     double gainTolerance = kNaN;
     double probeTolerance = kNaN;
     double linearityTolerance = 0;
     double resolution = kNaN;
     double fullScale = kNaN;
     double timeBaseTolerance = kNaN;
-    double stampTolerance_s = kNaN;  ///< 0 where one record holds all of it
+    double stampTolerance_s = kNaN;  ///< 0 if a single record holds the whole reading
     std::string statedBy{};
     double samplingStep_s = 0;
 };
 
-/// One result of analysis.calibration() that rests on own readings alone.
+/// A result of analysis.calibration() that uses only readings of this run.
 struct OwnCalibration {
     std::string quantity;
-    nlohmann::json found;                ///< as the function returned it
-    std::vector<std::int64_t> readings;  ///< their numbers
+    nlohmann::json found;                ///< as analysis.calibration() returned it
+    std::vector<std::int64_t> readings;  ///< the numbers of the readings
     bool simulated = false;
-    std::optional<double> gainTolerance;  ///< the instrument's, as a relative half-width; nothing: not stated
+    std::optional<double> gainTolerance;  ///< the instrument's relative half-width; nothing: not stated
     std::string statedBy;                 ///< "the instrument" or "the operator"
-    bool calibrationApplied = false;      ///< one of the readings had its calibration applied
+    bool calibrationApplied = false;      ///< at least one reading was taken with a calibration applied
 };
 
-/// The form of `value` that scripts get and hand back: NaN and the infinities are null, whole numbers have no fraction.
+/// Returns `value` as scripts get it and hand it back: NaN and infinities become null, whole numbers have no fraction.
 [[nodiscard]] nlohmann::json asScriptsSeeIt(nlohmann::json value);
 
 class RunReadings {
@@ -63,15 +63,15 @@ public:
     [[nodiscard]] std::int64_t add(OwnReading reading);
     [[nodiscard]] std::int64_t add(OwnCalibration calibration);
 
-    /// The readings with these numbers, for one calibration. Errors: InvalidArgument for a number without a reading, or
-    /// a reading or capture that comes twice.
+    /// Returns the readings with these numbers, for one calibration. Errors: InvalidArgument for an unknown number, or
+    /// for a reading or capture that occurs twice.
     [[nodiscard]] Result<std::vector<const OwnReading*>> readings(const std::vector<std::int64_t>& numbers) const;
-    /// Remembers what a host function returned, where scripts hand on whole objects.
+    /// Remembers the result of a host function that scripts hand on as a whole object.
     void note(nlohmann::json made);
-    /// True for what was noted, unchanged.
+    /// True if note() got exactly this value.
     [[nodiscard]] bool noted(const nlohmann::json& said) const;
 
-    /// Nothing for a number that belongs to no calibration.
+    /// Returns null if no calibration has this number.
     [[nodiscard]] const OwnCalibration* calibration(const nlohmann::json& number) const noexcept;
 
 private:
@@ -80,11 +80,11 @@ private:
     std::vector<nlohmann::json> made_;
 };
 
-/// A calibrated quantity, and what was commanded of it.
+/// A calibrated quantity, and the member of CapturedCommand with its commanded value.
 struct OwnQuantity : CalibratedQuantity {
     double CapturedCommand::*commanded;
 };
-/// Null for another id.
+/// Returns null for an unknown id.
 [[nodiscard]] const OwnQuantity* ownQuantity(std::string_view id) noexcept;
 
 }  // namespace tacto

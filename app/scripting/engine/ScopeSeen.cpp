@@ -10,7 +10,7 @@ namespace tacto {
 
 namespace {
 
-/// NaN wins: what one capture does not state is not known of all.
+/// NaN wins: a value that one capture does not state is not known for all captures.
 void widen(double& largest, double value) {
     if (std::isnan(value) || value > largest) largest = value;
 }

@@ -1,7 +1,7 @@
-// ScopeSeen.h - what the oscilloscope of a run stated of itself, over all captures that the script was given: what the
-// run's figures rest on. The program writes it into the results; a script cannot say it in its place (hazard H9).
+// ScopeSeen.h - the accuracy that the oscilloscope stated in all captures given to the script: the basis of the run's
+// figures. The program writes it into the results; a script cannot state it instead (hazard H9).
 //
-// Thread-safety: none; as ScriptSession, which holds it.
+// Thread-safety: none; ScriptSession holds it and has none either.
 #pragma once
 
 #include <cmath>
@@ -17,17 +17,17 @@ namespace tacto {
 class ScopeSeen {
 public:
     void add(const Capture& capture);
-    /// Sets the result of an absolute reference, as a sentence.
+    /// Sets the result of an absolute reference, written as a sentence.
     void setAbsolute(std::string text) { absolute_ = std::move(text); }
     [[nodiscard]] bool any() const noexcept { return !channels_.empty(); }
-    /// Whether every record so far stated how good its time stamp is; true before the first.
+    /// True if every record so far stated the tolerance of its time stamp; true before the first record.
     [[nodiscard]] bool stampsStated() const noexcept { return !std::isnan(stamp_s_); }
 
-    /// A row per channel: {"name", "serial", "channel", "unit", "gain_pct", "offset", "lsb", "probe_pct",
-    /// "linearity", "timebase_ppm", "stamp_s", "stated_by"}: the largest of all captures, null where one does not state
-    /// it.
+    /// Returns a row per channel: {"name", "serial", "channel", "unit", "gain_pct", "offset", "lsb", "probe_pct",
+    /// "linearity", "timebase_ppm", "stamp_s", "stated_by"}: the largest value of all captures; null if one capture
+    /// does not state it.
     [[nodiscard]] nlohmann::json rows(const DeviceIdentity& scope) const;
-    /// What the absolute scale of the voltage rests on, and what is not stated, in sentences.
+    /// Returns sentences that say what the absolute voltage scale is based on, and what is not stated.
     [[nodiscard]] std::vector<std::string> restsOn() const;
 
 private:

@@ -26,11 +26,11 @@ namespace {
 
 using nlohmann::json;
 
-/// For a process that does not even compute: it was stopped from outside, or the machine stands still.
+/// Limit for a process that uses no processor time: it was stopped from outside, or the machine stands still.
 constexpr std::chrono::minutes kMaxSilence{10};
 constexpr std::chrono::milliseconds kMaxStart{3000};
-constexpr std::chrono::milliseconds kLastMoments{200};  // how long a process whose socket is closed may still run
-constexpr int kTimesOnABusyMachine = 10;                // one second of the processor's time may take this many seconds
+constexpr std::chrono::milliseconds kLastMoments{200};  // how long a process may still run after its socket closed
+constexpr int kTimesOnABusyMachine = 10;                // one second of processor time may take up to this many seconds
 
 int findRunLine(const std::string& text) {
     static const QRegularExpression run(QStringLiteral(R"(\bfunction\s*\*?\s*run\s*\(|\b(?:const|let|var)\s+run\s*=)"));
@@ -40,7 +40,7 @@ int findRunLine(const std::string& text) {
     return static_cast<int>(code.left(match.capturedStart()).count(QLatin1Char('\n'))) + 1;
 }
 
-/// The table of functions that there are: with it the script's process knows what can be called.
+/// Returns the table of existing functions; it tells the script's process what can be called.
 json tableOfFunctions() {
     json table = json::array();
     for (const auto& function : hostFunctions()) {
@@ -52,7 +52,7 @@ json tableOfFunctions() {
     return table;
 }
 
-/// Processor time that a process has used; nothing once it is gone.
+/// Returns the processor time that a process has used, or nothing once the process is gone.
 std::optional<std::chrono::nanoseconds> timeUsedBy(pid_t pid) {
     clockid_t clock{};
     timespec used{};
@@ -62,7 +62,7 @@ std::optional<std::chrono::nanoseconds> timeUsedBy(pid_t pid) {
 
 }  // namespace
 
-/// How long the script may go without a call or an end. With a `limit`, calls give it no new time.
+/// Limits the time that a script may take without a call or an end. With a `limit`, calls do not extend it.
 class ScriptProcess::Patience {
 public:
     Patience(pid_t pid, std::optional<std::chrono::milliseconds> limit) : pid_(pid), limit_(limit) { begin(); }
@@ -97,7 +97,7 @@ private:
 
 namespace {
 
-/// A number where one stands; other values do no harm.
+/// Returns the number under `key`, or `otherwise` if the value is not a number.
 std::int64_t wholeIn(const json& message, const char* key, std::int64_t otherwise) {
     const auto at = message.find(key);
     return at != message.end() && at->is_number_integer() ? at->get<std::int64_t>() : otherwise;
@@ -192,7 +192,7 @@ bool ScriptProcess::awaitEnd() const noexcept {
     return ending_;
 }
 
-/// Waits for its end.
+/// Waits for the end of the process.
 void ScriptProcess::reap() noexcept {
     if (reaped_) return;
     siginfo_t how{};
@@ -224,7 +224,7 @@ std::optional<ScriptError> ScriptProcess::run(const nlohmann::json& parameters) 
     return serve({{"run", parameters}}, std::nullopt);
 }
 
-/// Hands the message over and answers calls until the script says that it has ended.
+/// Sends the message and answers calls until the script reports its end.
 std::optional<ScriptError> ScriptProcess::serve(const json& message, std::optional<std::chrono::milliseconds> limit) {
     if (reaped_) return error(ErrorCode::Io, "the script's process is gone");
     if (!ready_) {
@@ -246,7 +246,7 @@ std::optional<ScriptError> ScriptProcess::serve(const json& message, std::option
     }
 }
 
-/// Empty for a message that calls nothing.
+/// Returns nothing for a message that calls no function.
 std::optional<Result<void>> ScriptProcess::answer(const json& message, Patience& patience) {
     const auto& functions = hostFunctions();
     const WhileWaiting waiting = watching(patience);
@@ -266,16 +266,16 @@ std::optional<Result<void>> ScriptProcess::answer(const json& message, Patience&
     const auto line = std::clamp<std::int64_t>(wholeIn(message, "line", 0), 0, lines_);
     if (line > 0) lastLine_ = static_cast<int>(line);
     auto value = port_->call(function, *given, static_cast<int>(line));
-    patience.called();  // a call takes as long as it does
+    patience.called();  // the duration of a host call does not count against the script
     if (value) {
         auto sent = sendMessage(socket_, {{"value", std::move(*value)}}, waiting);
         if (sent || sent.error().code != ErrorCode::InvalidArgument) return sent;
-        value = failure(sent);  // too much to be handed over
+        value = failure(sent);  // the value is too large to hand over
     }
     return sendMessage(socket_, remember(value.error()), waiting);
 }
 
-/// Kept short: what is wrong may be shown whole in it.
+/// Shortens the message, because it may contain the entire rejected value.
 json ScriptProcess::remember(Error error) {
     error.message = shortened(error.message, kMaxReason);
     if (failures_.size() == kFailures) failures_.pop_front();
@@ -287,7 +287,7 @@ std::optional<ScriptError> ScriptProcess::endedBy(const json& ended) const {
     if (ended.is_null()) return std::nullopt;
     if (!ended.is_object()) return error(ErrorCode::ParseError, "ended in a way that no script can");
     const auto line = static_cast<int>(std::clamp<std::int64_t>(wholeIn(ended, "line", 0), 0, lines_));
-    // The code and the sentence of a failed call are the program's own, whatever the script made of them.
+    // Code and sentence of a failed call come from the program, whatever the script did with them.
     const auto number = wholeIn(ended, "failure", 0);
     for (const auto& [known, failed] : failures_)
         if (known == number) return error(failed.code, failed.message, line);
@@ -297,10 +297,10 @@ std::optional<ScriptError> ScriptProcess::endedBy(const json& ended) const {
     return error(ErrorCode::ParseError, textIn(ended, "reason"), line);
 }
 
-/// Ends it: nothing more can come of it.
+/// Ends the process, because nothing more can come from it.
 ScriptError ScriptProcess::lost(const Error& why) {
     const bool asked = ending_;
-    // A process that closed its socket and lives on has not ended by itself.
+    // A process that closed its socket but lives on has not ended by itself.
     const bool byItself = why.code == ErrorCode::Io && endsWithin(kLastMoments);
     if (!byItself) end();
     reap();

@@ -1,10 +1,10 @@
-// ScriptProcess.h - a script in a process of its own, tactoscope-script: it holds the engine and nothing else, so that
-// what makes the engine crash, hang or take all memory ends that process and not the gate's (hazard H10).
+// ScriptProcess.h - a script in its own process, tactoscope-script, which holds only the engine. If the engine crashes,
+// hangs or takes all memory, that process ends and the gate's process continues (hazard H10).
 //
-// What comes from it is bounded and read like a stranger's word: a call names a function of the table and hands over
-// plain data; the code and the sentence of a failure are the program's own, whatever the script does with it.
+// The program limits and distrusts everything that this process sends. A call names a function of the table and hands
+// over plain data. Code and text of a failure come from the program, whatever the script does with them.
 //
-// Thread-safety: one thread makes, loads and runs; end() and awaitEnd() from any.
+// Thread-safety: one thread makes, loads and runs; end() and awaitEnd() may be called from any thread.
 #pragma once
 
 #include <atomic>
@@ -27,17 +27,17 @@
 
 namespace tacto {
 
-/// Receives what scripts call.
+/// Receives the calls that scripts make.
 class HostPort {
 public:
     virtual ~HostPort() = default;
-    /// `line`: where in the script the call stands; 0 when unknown. An error is thrown in the script.
+    /// `line`: the script's line with the call; 0 if unknown. A returned error is thrown in the script.
     virtual Result<nlohmann::json> call(const HostFunction& function, const nlohmann::json& arguments, int line) = 0;
 };
 
-/// Why a script ended: what was thrown, and where.
+/// Why and where a script ended.
 struct ScriptError {
-    ErrorCode code = ErrorCode::InvalidArgument;  ///< the failed host call's code; ParseError for errors of the script
+    ErrorCode code = ErrorCode::InvalidArgument;  ///< of the failed host call; ParseError for script errors
     std::string reason;
     std::string file;
     int line = 0;
@@ -46,11 +46,11 @@ struct ScriptError {
 
 class ScriptProcess {
 public:
-    /// How long a script may compute between two calls, in the processor's time; more ends it.
+    /// Longest processor time that a script may use between two calls; then its process is ended.
     static constexpr std::chrono::seconds kMaxThought{60};
 
-    /// Starts `program`; where that is empty tactoscope-script, which is beside this one. `memory`: bytes by which it
-    /// may grow. Errors: NotFound where it is missing; Io where the system starts nothing.
+    /// Starts `program`, or tactoscope-script next to this program if it is empty. `memory`: bytes by which the process
+    /// may grow. Errors: NotFound if the program is missing; Io if the system cannot start it.
     [[nodiscard]] static Result<std::unique_ptr<ScriptProcess>> start(std::size_t memory,
                                                                       std::filesystem::path program = {});
     /// Ends the process.
@@ -58,23 +58,23 @@ public:
     ScriptProcess(const ScriptProcess&) = delete;
     ScriptProcess& operator=(const ScriptProcess&) = delete;
 
-    /// Runs the script's top level. The error, or nothing when it went well. After `limit` of the processor's time,
-    /// where there is one, the process is ended: Timeout; and once `stopped` says so, which is asked meanwhile:
-    /// Stopped. `port` outlives this.
+    /// Runs the script's top level. Returns the error, or nothing on success. Ends the process with Timeout after
+    /// `limit` (processor time), if given, and with Stopped once `stopped`, which is polled meanwhile, returns true.
+    /// `port` must outlive this object.
     [[nodiscard]] std::optional<ScriptError> load(HostPort& port, const ProtocolSource& source,
                                                   std::optional<std::chrono::milliseconds> limit = {},
                                                   std::function<bool()> stopped = {});
-    /// Calls run(parameters) of the script that was loaded.
+    /// Calls run(parameters) of the loaded script.
     [[nodiscard]] std::optional<ScriptError> run(const nlohmann::json& parameters);
 
-    /// Ends the process now. load() and run() return, once a call that is under way has ended.
+    /// Ends the process now. load() and run() return as soon as a running host call has ended.
     void end() noexcept;
-    /// Waits until the process has ended; returns whether it was asked to. For a thread that does nothing else.
+    /// Waits until the process has ended. Returns true if end() was called before. Blocks, so give it its own thread.
     [[nodiscard]] bool awaitEnd() const noexcept;
-    /// Whether it has ended, by itself or not: it loads and runs nothing any longer.
+    /// True if the process has ended for any reason. It cannot load or run anything then.
     [[nodiscard]] bool ended() const noexcept;
     [[nodiscard]] pid_t id() const noexcept { return pid_; }
-    /// Line of `function run` in the loaded script, or 1.
+    /// Returns the line of `function run` in the loaded script, or 1.
     [[nodiscard]] int runLine() const noexcept { return runLine_; }
 
 private:
@@ -93,15 +93,15 @@ private:
     void reap() noexcept;
 
     static constexpr std::size_t kFailures = 256;
-    bool ready_ = false;  // it has said that it is ready
+    bool ready_ = false;  // the process has said that it is ready
     const pid_t pid_;
     const int socket_;
-    std::atomic<bool> ending_{false};  // asked to
-    std::mutex life_;                  // so that no other process with its number is ended
-    std::atomic<bool> reaped_{false};  // changed under it
-    int status_ = 0;                   // once reaped
+    std::atomic<bool> ending_{false};  // end() was called
+    std::mutex life_;                  // prevents ending another process that got the same number
+    std::atomic<bool> reaped_{false};  // changed with `life_` held
+    int status_ = 0;                   // valid once reaped
     HostPort* port_ = nullptr;
-    std::function<bool()> stopped_;  // asked while the process is waited for
+    std::function<bool()> stopped_;  // polled while waiting for the process
     std::string file_;
     int lines_ = 0;  // lines in the script
     int runLine_ = 1;

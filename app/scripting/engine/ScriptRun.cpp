@@ -22,7 +22,7 @@ namespace tacto {
 namespace {
 constexpr std::chrono::seconds kHostCallLimit{5};
 
-/// Writes without the C library's streams: the thread that stands still may hold them, and stderr may take nothing.
+/// Writes without the C library's streams: the stopped thread may hold their lock, and stderr may accept nothing.
 [[noreturn]] void endProgram(const std::string& why) {
     if (takesMore(STDERR_FILENO)) static_cast<void>(!::write(STDERR_FILENO, why.data(), why.size()));
     std::abort();
@@ -30,7 +30,7 @@ constexpr std::chrono::seconds kHostCallLimit{5};
 
 }  // namespace
 
-/// Unguarded members belong to the script's thread until that has ended, then to wait()'s caller.
+/// Members without a guard belong to the script's thread until it has ended, then to the caller of wait().
 struct ScriptRun::State final : HostPort {
     State(RunRequest given, std::unique_ptr<ScriptProcess> started)
         : request(std::move(given)), session(request), process(std::move(started)) {}
@@ -39,25 +39,25 @@ struct ScriptRun::State final : HostPort {
     ScriptSession session;
     nlohmann::json declared;
     std::optional<ScriptError> error;
-    bool stoppedInTime = false;  // the stop came before the script's end
+    bool stoppedInTime = false;  // the stop came before the script ended
     bool running = false;
     int line = 0;  // the line of the last host call
 
-    std::mutex control;  // held for moments only
+    std::mutex control;  // held only for moments
     std::condition_variable woken;
     bool paused = false;    // guarded by control
     bool stopping = false;  // guarded by control
     bool lost = false;      // guarded by control: the script's process ended by itself
-    bool ended = false;     // guarded by control: the script's thread has let go of everything
-    bool over = false;      // guarded by control: the bench may be gone
+    bool ended = false;     // guarded by control: the script's thread has released everything
+    bool over = false;      // guarded by control: the bench may no longer exist
     std::string stoppedBy;  // guarded by control
-    std::optional<std::chrono::steady_clock::time_point> endedAt;  // guarded by control: the output, from outside
+    std::optional<std::chrono::steady_clock::time_point> endedAt;  // guarded by control: output ended from outside
 
     const std::unique_ptr<ScriptProcess> process;
     std::thread thread;                    // serves the process
-    std::thread watch;                     // waits for its end, also during a host call
-    std::unique_ptr<MemoryGuard> memory;   // guards what the script makes the program keep
-    std::optional<ScriptOutcome> outcome;  // wait()'s caller only
+    std::thread watch;                     // waits for the process to end, also during a host call
+    std::unique_ptr<MemoryGuard> memory;   // limits the memory that the program keeps for the script
+    std::optional<ScriptOutcome> outcome;  // used only by the caller of wait()
 
     Result<nlohmann::json> call(const HostFunction& function, const nlohmann::json& arguments, int from) override;
     [[nodiscard]] Result<nlohmann::json> callChecked(const HostFunction& function, const nlohmann::json& arguments);
@@ -90,19 +90,19 @@ Result<nlohmann::json> ScriptRun::State::call(const HostFunction& function, cons
         if (lost) return fail(ErrorCode::Stopped, "the script's process has ended");
     }
     if (declares) {
-        // The first declaration counts, and none inside run(p): the program read it so.
+        // Only the first declaration counts, and run(p) cannot declare, because the program read the script that way.
         if (running || !declared.is_null()) return fail(ErrorCode::InvalidArgument, "protocol() was called twice");
         declared = arguments;
         return nlohmann::json();
     }
     if (const auto& end = session.endedWith()) return tl::unexpected<Error>(*end);
-    request.bench->attend();  // a script that calls runs
+    request.bench->attend();  // a script that makes calls is running
     try {
         auto answer = callChecked(function, arguments);
         if (!answer && function.failsDisarmed) request.bench->disarm();
         request.bench->attend();
         return answer;
-    } catch (const std::exception& surprise) {  // a library's exception, as from JSON: the script gets it as an Error
+    } catch (const std::exception& surprise) {  // from a library such as JSON: an Error in the script
         if (function.failsDisarmed) request.bench->disarm();
         return fail(ErrorCode::InvalidArgument, "{}: {}", function.fullName(), surprise.what());
     }
@@ -128,9 +128,9 @@ void ScriptRun::State::stop(const char* by) noexcept {
     process->end();
 }
 
-/// Called with `control` held. The output goes first.
+/// Call with `control` held. Switches the output off first.
 void ScriptRun::State::endOutput(const char* by) noexcept {
-    if (request.pilot != nullptr) request.pilot->endRun();  // a flag: no test takes this stop for its own
+    if (request.pilot != nullptr) request.pilot->endRun();  // sets a flag: no test takes this stop for its own
     request.bench->stop(by);
     if (!endedAt) endedAt = std::chrono::steady_clock::now();
 }
@@ -141,7 +141,7 @@ void ScriptRun::State::wake() noexcept {
     if (request.pilot != nullptr) request.pilot->cancel();
 }
 
-/// A script whose process is gone drives nothing, whichever call of it is under way.
+/// A script without a process must not drive anything, whatever host call it still has under way.
 void ScriptRun::State::watchProcess() noexcept {
     if (process->awaitEnd()) return;
     {
@@ -166,19 +166,19 @@ std::optional<ScriptError> ScriptRun::State::loadAndRun() {
 void ScriptRun::State::execute() {
     try {
         error = loadAndRun();
-    } catch (const std::exception& surprise) {  // memory, above all
+    } catch (const std::exception& surprise) {  // mostly exhausted memory
         process->end();
         error = ScriptError{ErrorCode::Io, surprise.what(), fileOf(request.script), line};
     }
-    request.bench->disarm();  // done however it ended: returned, threw, crashed or was ended
+    request.bench->disarm();  // in every case: run() returned, threw, crashed or was ended
     const std::lock_guard lock(control);
-    stoppedInTime = stopping;  // it stopped, even where the script swallowed the stop
+    stoppedInTime = stopping;  // the run was stopped, even if the script caught the error
     ended = true;
     woken.notify_all();
 }
 
-/// Whether it has ended. After a stop its process is gone at once, and a host call wakes within milliseconds; a call
-/// that does not would leave the bench in two hands.
+/// Returns whether the script's thread has ended. After a stop the process is gone at once and a host call returns
+/// within milliseconds; a call that does not return would leave the bench with two users.
 bool ScriptRun::State::waitForEnd(std::optional<std::chrono::milliseconds> limit) {
     std::unique_lock lock(control);
     const auto until = std::chrono::steady_clock::now() + limit.value_or(std::chrono::milliseconds(0));
@@ -198,14 +198,14 @@ bool ScriptRun::State::waitForEnd(std::optional<std::chrono::milliseconds> limit
     return true;
 }
 
-/// The title and the settings of a report are those that the operator saw, not what a script declares by the clock
-/// (hazard H9).
+/// A report shows the title and settings that the operator saw, not what a script declares later, for instance
+/// depending on the clock (hazard H9).
 std::optional<ScriptError> ScriptRun::State::checkDeclared() {
     std::optional<ProtocolDeclaration> now;
     if (declared.is_array()) {
         if (auto read = parseDeclaration(declared[0], declared[1], declared[2])) now = std::move(*read);
     }
-    if (!request.declaration) {  // it was not read before
+    if (!request.declaration) {  // the script was not read before
         request.declaration = std::move(now);
         return std::nullopt;
     }
@@ -254,7 +254,7 @@ void ScriptRun::State::conclude() {
     memory.reset();
     {
         const std::lock_guard lock(control);
-        over = true;  // from here on stop() does not touch the bench
+        over = true;  // from here on stop() leaves the bench alone
     }
     session.recordExposure();
     ScriptOutcome result;
@@ -269,7 +269,7 @@ void ScriptRun::State::conclude() {
         result.line = error->line;
         result.error = Error{error->code, error->text()};
     }
-    // Even if the script swallowed it, it is the end of the run: no verdict stands on what came after it.
+    // This error ends the run even if the script caught it: no verdict may be based on what came after it.
     if (!result.error && session.endedWith()) {
         result.verdict = session.endedWith()->code == ErrorCode::Stopped ? ScriptVerdict::Stopped : ScriptVerdict::None;
         result.line = line;
@@ -307,14 +307,14 @@ void ScriptRun::State::writeVerdict() {
     }
     if (auto shown = shownInReports(outcome->results); !shown.is_null())
         (void)request.session->reportItem(session.now(), {{"kind", "results"}, {"results", std::move(shown)}});
-    // A protocol that judges nothing may say what it found all the same: that stands where the verdict would.
+    // A protocol that judges nothing may still report reasons: they take the place of the verdict.
     const bool judged = outcome->verdict != ScriptVerdict::None;
     if (!judged && (outcome->error || outcome->reasons.empty())) return session.recordBasis(outcome->results);
     auto written =
         request.session->verdict(session.now(), request.script.name, judged ? nameOf(outcome->verdict) : "none",
                                  outcome->reasons, outcome->results);
     if (written || outcome->error) return;
-    outcome->verdict = ScriptVerdict::None;  // a verdict that is not on disk was not given (hazard H8)
+    outcome->verdict = ScriptVerdict::None;  // a verdict that is not on disk does not count (hazard H8)
     outcome->error = written.error();
 }
 
@@ -328,7 +328,7 @@ Result<std::unique_ptr<ScriptRun>> ScriptRun::start(RunRequest request) {
     const auto memory = request.memoryLimit.value_or(MemoryGuard::usualLimit());
     auto process = ScriptProcess::start(memory, request.program);
     if (!process) return failure(process);
-    request.bench->resume();  // a pause from before this run is over
+    request.bench->resume();  // ends a pause from before this run
     std::unique_ptr<ScriptRun> run(new ScriptRun(std::make_unique<State>(std::move(request), std::move(*process))));
     State& state = *run->state_;
     state.faultsBefore = state.request.bench->faults();

@@ -1,12 +1,12 @@
 // ScriptRun.h - one run of a protocol script against a bench, on a thread of its own.
 //
-// Promise (hazard H10): a script reaches the world through the host objects alone, from a process of its own
-// (ScriptProcess.h). stop() reaches the bench's outputs without the script's help; calls that wait come back with an
-// error, and the script's process is ended whatever it does. A process that ends by itself, a crash of the engine, is
-// an end of the run like an exception. Leaving run() by any door disarms.
+// Promise (hazard H10): a script acts only through the host objects, from its own process (ScriptProcess.h). stop()
+// switches the bench's outputs off without help from the script. Waiting calls return an error, and the script's
+// process is ended whatever it does. If that process crashes, the run ends as after an exception. However run() ends,
+// the bench is disarmed.
 //
-// Thread-safety: stop(), pause(), resume() and paused() from any thread, as often as wanted; wait functions have one
-// caller.
+// Thread-safety: stop(), pause(), resume() and paused() from any thread, any number of times; only one thread may call
+// the wait functions.
 #pragma once
 
 #include <chrono>
@@ -43,37 +43,37 @@ struct ScriptProgress {
 
 struct RunRequest {
     ProtocolSource script;
-    /// What readDeclaration() gave and the operator saw: what the session says that the script is. A script that
-    /// declares something else when it runs is ended before run(p). Nothing where the script was not read before: its
-    /// own counts.
+    /// The declaration from readDeclaration(), as the operator saw it and the session records it. If the running script
+    /// declares something else, it is ended before run(p). If empty, the script was not read before and the declaration
+    /// of the run is used.
     std::optional<ProtocolDeclaration> declaration = {};
-    nlohmann::json parameters = nlohmann::json::object();  ///< from applySettings()
-    std::set<std::string> operatorGave;                    ///< names of the parameters that the operator set on purpose
-    /// Bytes by which the script's process may grow, and the program while it runs; the usual limit of MemoryGuard
-    /// where nothing is said.
+    nlohmann::json parameters = nlohmann::json::object();  ///< as applySettings() returns them
+    std::set<std::string> operatorGave;                    ///< names of the parameters that the operator set
+    /// Bytes by which the script's process, and the program during the run, may grow. Default: the usual limit of
+    /// MemoryGuard.
     std::optional<std::size_t> memoryLimit;
     std::uint64_t seed = 1;
     Bench* bench = nullptr;               ///< used by nobody else until the run is over, except for stop()
-    std::filesystem::path program;        ///< runs instead of tactoscope-script, where it is not empty
-    StopMark asked = {};                  ///< the bench's stops() when the operator asked for the run
-    SessionWriter* session = nullptr;     ///< where null, nothing is recorded
-    PilotSession* pilot = nullptr;        ///< what the object `pilot` works on; null: there is none
-    Operator* operatorDesk = nullptr;     ///< not owned; where null, every question fails with its name
-    std::filesystem::path captureFolder;  ///< each capture as a CSV file there; empty writes none
+    std::filesystem::path program;        ///< runs instead of tactoscope-script, unless empty
+    StopMark asked = {};                  ///< the bench's stops() when the operator requested the run
+    SessionWriter* session = nullptr;     ///< null: nothing is recorded
+    PilotSession* pilot = nullptr;        ///< the session behind the object `pilot`; null: none
+    Operator* operatorDesk = nullptr;     ///< not owned; null: every question fails by name
+    std::filesystem::path captureFolder;  ///< each capture is written there as a CSV file; empty: none
     std::function<void(const ScriptProgress&)> onProgress;  ///< on the script's thread; may be empty
     std::function<void(const std::string&)> onLog;          ///< on the script's thread; may be empty
-    /// A trial as record.trial() was given it, with `condition` and `trial`. On the script's thread; may be empty.
+    /// A trial as given to record.trial(), with `condition` and `trial`. Called on the script's thread; may be empty.
     std::function<void(const nlohmann::json&)> onTrial;
     std::function<void(const Capture&)> onCapture;  ///< every capture; on the script's thread; may be empty
 };
 
 enum class ScriptVerdict { None, Pass, Fail, Indeterminate, Stopped };
-/// None has no word: it is null in JSON.
+/// None has no word: JSON shows null.
 inline constexpr Word<ScriptVerdict> kScriptVerdicts[] = {{"pass", ScriptVerdict::Pass},
                                                           {"fail", ScriptVerdict::Fail},
                                                           {"indeterminate", ScriptVerdict::Indeterminate},
                                                           {"stopped", ScriptVerdict::Stopped}};
-/// Empty for None.
+/// Returns an empty text for None.
 [[nodiscard]] constexpr std::string_view nameOf(ScriptVerdict verdict) noexcept {
     return wordFor(kScriptVerdicts, verdict, "");
 }
@@ -81,39 +81,39 @@ inline constexpr Word<ScriptVerdict> kScriptVerdicts[] = {{"pass", ScriptVerdict
 struct ScriptOutcome {
     ScriptVerdict verdict = ScriptVerdict::None;
     std::vector<std::string> reasons;  ///< reasons for the verdict, one sentence each
-    /// What the verdict was given; null without one. After an early end what record.partial() kept, with partial: true.
+    /// The results given with the verdict, or null. After an early end: those of record.partial(), with partial: true.
     nlohmann::json results;
-    std::optional<Error> error;  ///< "file:line: reason" when run() did not return
-    std::string file;            ///< the file in which the error stands
+    std::optional<Error> error;  ///< "file:line: reason" if run() did not return
+    std::string file;            ///< the file with the error
     int line = 0;
-    std::uint64_t expectedFaults = 0;  ///< faults that the script's trips provoke on purpose, find and reset
+    std::uint64_t expectedFaults = 0;  ///< faults that the script provoked on purpose, found and reset
     std::vector<std::string> log;      ///< the lines from log()
 };
 
 class ScriptRun {
 public:
-    /// Starts the script. Errors: Stopped when a stop of the bench has come since `request.asked`; InvalidArgument
-    /// without a bench; as ScriptProcess::start().
+    /// Starts the script. Errors: Stopped if the bench was stopped after `request.asked`; InvalidArgument without a
+    /// bench; as ScriptProcess::start().
     [[nodiscard]] static Result<std::unique_ptr<ScriptRun>> start(RunRequest request);
-    /// Stops, waits as wait() does.
+    /// Stops the script, then waits like wait().
     ~ScriptRun();
     ScriptRun(const ScriptRun&) = delete;
     ScriptRun& operator=(const ScriptRun&) = delete;
 
-    /// Outputs off now; then the script is ended. Safe before, during and after the run. Not for a signal handler
-    /// itself: call it from the thread that the handler wakes.
+    /// Switches the outputs off, then ends the script. Allowed before, during and after the run. A signal handler must
+    /// not call this; the thread that it wakes may.
     void stop(const char* by) noexcept;
-    /// Bench paused; the script waits at its next host call.
+    /// Pauses the bench; the script waits at its next host call.
     void pause() noexcept;
     void resume() noexcept;
-    /// The number of the script's process, to look at it or to end it.
+    /// Returns the process id of the script, for inspecting or ending it.
     [[nodiscard]] int processId() const noexcept;
-    /// Whether it waits, or will wait at its next host call.
+    /// True if the script waits or will wait at its next host call.
     [[nodiscard]] bool paused() const noexcept;
 
-    /// Blocks until the script has ended. On return the bench is disarmed.
+    /// Blocks until the script has ended; then the bench is disarmed.
     [[nodiscard]] ScriptOutcome wait();
-    /// Waits as wait() does, but gives up after `time`: nothing then, and the script continues.
+    /// Waits like wait(), but returns nothing after `time`; the script continues.
     [[nodiscard]] std::optional<ScriptOutcome> waitFor(std::chrono::milliseconds time);
 
 private:
@@ -122,10 +122,10 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// start() and wait() in one.
+/// Calls start() and wait().
 [[nodiscard]] Result<ScriptOutcome> runProtocol(RunRequest request);
 
-/// Every host object and function: name, parameters, units, errors, as Markdown. The help's reference.
+/// Returns the reference for the help: every host object and function with parameters, units and errors, as Markdown.
 [[nodiscard]] std::string scriptReference();
 
 }  // namespace tacto

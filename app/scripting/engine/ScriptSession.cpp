@@ -34,7 +34,7 @@ Result<nlohmann::json> ScriptSession::ask(const OperatorQuestion& question) {
     auto answer = request_.operatorDesk->ask(question);
     request_.operatorDesk->present = {};
     request_.bench->attend();
-    // The keys of a choice are the script's words; what was entered is the operator's.
+    // The key of a choice is the script's word; a text that was entered is the operator's.
     if (question.kind == OperatorQuestion::Kind::Enter && answer && answer->is_string()) {
         answered_.insert(answer->get<std::string>());
     }
@@ -58,7 +58,7 @@ Result<void> ScriptSession::askTo(std::string name, std::string text) {
 void ScriptSession::log(const std::string& text) {
     log_.push_back(text);
     if (request_.onLog) request_.onLog(text);
-    // A log line that cannot be written is no reason to end a run; the next row that must be kept will say so.
+    // A log line that cannot be written does not end the run: the next row that must be kept will report the error.
     if (request_.session != nullptr) (void)request_.session->log(now(), "info", text);
 }
 
@@ -71,7 +71,7 @@ tl::unexpected<Error> ScriptSession::endWith(Error error) {
     return tl::unexpected<Error>(*end_);
 }
 
-/// The uncertainty of the whole way from the load to the reading; nothing where the operator did not say.
+/// Returns the uncertainty of the whole path from load to reading, or nothing if the operator stated none.
 InstrumentStatement ScriptSession::operatorsStatement() const {
     InstrumentStatement out;
     const Stated nothingElse{0, "the operator"};
@@ -111,9 +111,9 @@ nlohmann::json ScriptSession::hold(std::vector<Capture> captures) {
 
 namespace {
 
-/// Whether the trains that a record shows were all programmed with the same amplitude and interval; where the encoder
-/// moves in steps from level to level, the train before them too. Else a reading has no known command: a mean over
-/// unlike trains would pass for an error of the stimulator (hazard H1).
+/// True if all trains in a record were programmed with the same amplitude and interval. If the encoder moves in steps
+/// from level to level, the train before the record must match too. Otherwise the reading has no known command: a mean
+/// over unlike trains would look like an error of the stimulator (hazard H1).
 bool programmedAlike(const Capture& capture, const Telemetry& now, const EncodingProfile& encoding) {
     constexpr double kSame = 1e-3;    // relative
     constexpr double kNear_s = 0.05;  // seconds from the planned onset to the trigger
@@ -124,7 +124,7 @@ bool programmedAlike(const Capture& capture, const Telemetry& now, const Encodin
         if (std::isfinite(train.amplitude) && toSeconds(train.onset) < end_s) programmed.push_back(train);
     }
     std::ranges::sort(programmed, {}, &ProgrammedTrain::onset);
-    // The one at the trigger, as programmedFor() finds it; a check pulse may come shortly before it.
+    // The train at the trigger, as programmedFor() finds it; a check pulse may come shortly before.
     auto first = std::ranges::min_element(programmed, {}, [&](const ProgrammedTrain& train) {
         return std::abs(toSeconds(train.onset) - capture.trigger_s);
     });
@@ -141,8 +141,8 @@ bool programmedAlike(const Capture& capture, const Telemetry& now, const Encodin
 
 }  // namespace
 
-/// The command to the stimulator, on its own grid: the gate judged it and the device was programmed to it. A record
-/// with more than one command has no amplitude: another train's would pass for an error of the stimulator.
+/// Returns the command that the gate judged and the device was programmed to, on the device's grid. A record with
+/// several commands has no amplitude: another train's amplitude would look like an error of the stimulator.
 CapturedCommand ScriptSession::commandOf(const Capture& capture) const {
     const auto& bench = *request_.bench;
     const Telemetry now = bench.telemetry();
@@ -317,13 +317,13 @@ nlohmann::json ScriptSession::takePartial() {
     if (const auto kind = kindOf(out); !kind.empty()) out["kind"] = kind;
     addBasis(out);
     out["partial"] = true;
-    out["verdict"] = nullptr;  // nothing that ended early passes, whatever its result so far (hazard H9)
+    out["verdict"] = nullptr;  // a run that ended early never passes, whatever its result so far (hazard H9)
     if (request_.session == nullptr) return out;
     for (const auto& table : partialTables_) {
         nlohmann::json item = table;
         item["kind"] = table.value("kind", "") == "matrix" ? "matrix" : "table";
         item["caption"] = table.value("caption", "") + " (partial: the run ended early)";
-        // The run has failed already, and says so; a table that cannot be written changes nothing.
+        // The run has already failed and reports that; a table that cannot be written changes nothing.
         (void)request_.session->reportItem(now(), item);
     }
     return out;
@@ -366,7 +366,7 @@ void ScriptSession::recordBasis(const nlohmann::json& results) {
     for (const auto* key : {"kind", "decision_rule", "rests_on", "not_evaluated", "instruments", "reference"}) {
         if (results.contains(key)) basis[key] = results[key];
     }
-    // A report without it says that it is not known.
+    // If the basis is missing, the report says that it is not known.
     (void)request_.session->reportItem(now(), {{"kind", "basis"}, {"results", std::move(basis)}});
 }
 

@@ -1,8 +1,8 @@
-// ScriptSession.h - what one run of a script works on: bench, session file, operator, and what it has gathered so
-// far. The host functions are written against this.
+// ScriptSession.h - the data that the host functions of one run work on: bench, session file, operator and results so
+// far.
 //
-// Captures are large, so scripts hold handles and the samples stay here: the last kHeldCaptures of them, and the
-// first of each condition for the report.
+// Captures are large, so scripts hold handles and this object holds the samples: those of the last kHeldCaptures
+// captures, and of the first capture of each condition for the report.
 //
 // Thread-safety: none; ScriptRun lets one thread in at a time.
 #pragma once
@@ -34,7 +34,7 @@ class ScriptSession {
 public:
     static constexpr std::size_t kHeldCaptures = 64;
 
-    /// `request` outlives the session; its bench is not null, or no host function is ever called.
+    /// `request` must outlive the session. Its bench may be null only if no host function is called.
     explicit ScriptSession(const RunRequest& request);
 
     [[nodiscard]] Bench& bench() noexcept { return *request_.bench; }
@@ -48,61 +48,60 @@ public:
 
     /// Errors: as Operator::ask(); NotFound naming the question without an operator.
     [[nodiscard]] Result<nlohmann::json> ask(const OperatorQuestion& question);
-    /// Asks the operator to do something, and to confirm it. Errors: as ask().
+    /// Asks the operator to do something and to confirm that it is done. Errors: as ask().
     [[nodiscard]] Result<void> askTo(std::string name, std::string text);
-    /// The text that the operator confirmed in this run, until a load is changed.
+    /// True if the operator confirmed this text in this run and no load has changed since.
     [[nodiscard]] bool hasConfirmed(const std::string& text) const { return confirmed_.contains(text); }
     void noteConfirmed(const std::string& text) { confirmed_.insert(text); }
     void forgetConfirmed() { confirmed_.clear(); }
-    /// The run ends with `error`: every host call from now on fails with it, and so does the run, also where the script
-    /// catches it.
+    /// Ends the run with `error`: every later host call fails with it, and so does the run, even if the script catches
+    /// the error.
     [[nodiscard]] tl::unexpected<Error> endWith(Error error);
     [[nodiscard]] const std::optional<Error>& endedWith() const noexcept { return end_; }
     void log(const std::string& text);
     void progress(const ScriptProgress& progress);
 
-    /// Keeps captures and returns their handles, objects for the script.
+    /// Keeps captures and returns their handles as objects for the script.
     [[nodiscard]] nlohmann::json hold(std::vector<Capture> captures);
-    /// The captures behind a list of handles. Errors: InvalidArgument for what is not a handle or is held no longer.
+    /// Returns the captures for a list of handles. Errors: InvalidArgument for an invalid or expired handle.
     [[nodiscard]] Result<std::vector<const Capture*>> held(const nlohmann::json& handles) const;
-    /// The command of each capture when it was taken. Errors: as held().
+    /// Returns the command at the time of each capture. Errors: as held().
     [[nodiscard]] Result<std::vector<CapturedCommand>> commandsOf(const nlohmann::json& handles) const;
 
-    /// The program's own readings and results in this run.
+    /// Readings and results that the program itself made in this run.
     [[nodiscard]] RunReadings& own() noexcept { return own_; }
-    /// The number that the operator gave the parameter `name` on purpose; nothing where it is the script's default.
+    /// Returns the number that the operator set for parameter `name`, or nothing if it has the script's default.
     [[nodiscard]] std::optional<double> operatorsNumber(const std::string& name) const;
-    /// Whether the operator gave this text: as a parameter, as the answer to a question, or as one word of these
-    /// (between blanks or semicolons).
+    /// True if the operator gave this text as a parameter, as an answer, or as one word of either (words are separated
+    /// by blanks or semicolons).
     [[nodiscard]] bool isOperatorsText(const std::string& text) const;
-    /// The profile as the operator chose it, before the script changed anything for its run.
+    /// Returns the profile as the operator chose it, without changes made by the script.
     [[nodiscard]] const Profile& chosenProfile() const noexcept { return chosen_; }
 
-    /// Every device is a twin.
+    /// True if every device is simulated.
     [[nodiscard]] bool isSimulated() const;
-    /// A procedure of several steps keeps one T from its first step on. Errors: InvalidArgument naming `procedure`
-    /// where it has not begun, and where it begins again.
+    /// Returns the T that a procedure of several steps keeps from its first step on. Errors: InvalidArgument naming
+    /// `procedure` if it has not begun, or has begun again.
     template <class T>
     [[nodiscard]] Result<T*> begun(std::string_view procedure);
     template <class T>
     [[nodiscard]] Result<T*> begin(std::string_view procedure, T first);
 
-    /// Writes an item of the report, or a measured value; nothing where the run is not recorded. Errors: of the session
-    /// file.
+    /// Writes a report item or a measured value. Does nothing if the run is not recorded. Errors: of the session file.
     [[nodiscard]] Result<void> reportItem(const nlohmann::json& item);
     [[nodiscard]] Result<void> reportText(const std::string& text) {
         return reportItem({{"kind", "text"}, {"text", text}});
     }
-    /// Keeps it as the event "script: KIND": no event of the program begins like this, and "script not started" is one
-    /// (hazard H9).
+    /// Writes the event "script: KIND". The program's own events never begin like this; "script not started" is one of
+    /// them (hazard H9).
     [[nodiscard]] Result<void> keepEvent(const std::string& kind, const nlohmann::json& details);
     [[nodiscard]] Result<void> keepMeasurement(std::string_view name, const nlohmann::json& values);
 
-    /// Records a trial with the captures it was measured on. Errors: of the session file, of the capture folder.
+    /// Records a trial with its captures. Errors: of the session file, of the capture folder.
     [[nodiscard]] Result<int> addTrial(const std::string& condition, const nlohmann::json& measured);
     [[nodiscard]] const std::vector<nlohmann::json>& trials() const noexcept { return trials_; }
 
-    /// One capture of each condition, in the order first met: what plot.waveforms shows.
+    /// One capture of each condition, in the order of their first occurrence, for plot.waveforms.
     struct Exemplar {
         std::string condition;
         std::optional<std::int64_t> row;  ///< the row in the session file
@@ -110,34 +109,34 @@ public:
     };
     [[nodiscard]] std::span<const Exemplar> exemplars() const noexcept { return exemplars_; }
 
-    /// The largest exposure of the run so far, row by row, as report figures take it.
+    /// Returns the largest exposures of the run so far, row by row, in the form of report figures.
     [[nodiscard]] nlohmann::json worstExposure() const;
-    /// Writes worstExposure() into the session, once, at the end: what its report says of exposure.
+    /// Writes worstExposure() into the session once, at the end, for the report.
     void recordExposure();
 
-    /// A fault that the script provoked, found as it should be, and reset: it does not void the run.
+    /// Counts a fault that the script provoked, found as expected, and reset: it does not void the run.
     void noteExpectedFault() noexcept { ++expectedFaults_; }
     [[nodiscard]] std::uint64_t expectedFaults() const noexcept { return expectedFaults_; }
 
-    /// Code that prints and reads results goes by their kind, not by what they happen to hold: the kind of the analysis
-    /// that the script returns, else the kind that it declares.
+    /// Returns the kind by which results are printed and read: that of the analysis returned by the script, else the
+    /// kind that the script declares. The contents of the results do not matter.
     [[nodiscard]] std::string kindOf(const nlohmann::json& results) const;
 
-    /// Keeps results for the case that the run ends early, and tables {caption, rows, columns} for the report.
+    /// Keeps results in case the run ends early, and tables {caption, rows, columns} for the report.
     void keepPartial(nlohmann::json results, nlohmann::json tables);
-    /// The kept results, marked, and their tables written into the report; null where nothing was kept.
+    /// Returns the kept results, marked as partial, and writes their tables into the report; null if none were kept.
     [[nodiscard]] nlohmann::json takePartial();
 
     void judge(ScriptVerdict verdict, std::vector<std::string> reasons, nlohmann::json results);
-    /// Writes what `results` rest on into the session, for the report of a run that has no verdict.
+    /// Writes what `results` are based on into the session, for the report of a run that has no verdict.
     void recordBasis(const nlohmann::json& results);
-    /// Moves what the run has come to into `outcome`.
+    /// Moves the results of the run into `outcome`.
     void finish(ScriptOutcome& outcome);
     [[nodiscard]] std::vector<std::string> takeLog() { return std::move(log_); }
 
 private:
     [[nodiscard]] InstrumentStatement operatorsStatement() const;
-    /// Adds what the run's captures state to its results.
+    /// Adds the accuracy that the captures state to the run's results.
     void addBasis(nlohmann::json& results) const;
     ScopeSeen scopeSeen_;
     struct Held {

@@ -21,17 +21,17 @@ namespace {
 constexpr std::chrono::milliseconds kPollInterval{20};
 constexpr std::size_t kMaxGuardedBytes = std::size_t{2} << 30;
 
-/// Resident memory of this process in bytes, by its /proc/self/statm; 0 where the system does not tell.
+/// Returns this process's resident memory in bytes from /proc/self/statm, or 0 if the system does not tell.
 std::size_t resident(int statm) noexcept {
     char line[128];
     const ssize_t read = ::pread(statm, line, sizeof line, 0);
     std::string_view pages(line, read > 0 ? static_cast<std::size_t>(read) : 0);
-    pages.remove_prefix(std::min(pages.find(' ') + 1, pages.size()));  // the first number is of addresses
+    pages.remove_prefix(std::min(pages.find(' ') + 1, pages.size()));  // the first number counts addresses
     const auto inMemory = parseWhole<std::size_t>(pages.substr(0, pages.find(' ')));
     return inMemory.value_or(0) * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
 }
 
-/// Memory that programs can still be given, in bytes.
+/// Returns the memory in bytes that the system can still give to programs.
 std::size_t available() noexcept {
     std::FILE* file = std::fopen("/proc/meminfo", "re");
     if (file == nullptr) return kMaxGuardedBytes;
@@ -47,7 +47,7 @@ std::size_t available() noexcept {
     return kilobytes == 0 ? kMaxGuardedBytes : std::size_t{1024} * kilobytes;
 }
 
-/// The first number in a file of the kernel's; nothing where it has none ("max").
+/// Returns the first number in a file of the kernel, or nothing if it has none ("max").
 std::optional<std::size_t> numberIn(const std::string& path) {
     std::ifstream file(path);
     std::size_t value = 0;
@@ -55,7 +55,7 @@ std::optional<std::size_t> numberIn(const std::string& path) {
     return value;
 }
 
-/// The bytes that this program's control group leaves it: its own group and those around it.
+/// Returns the bytes that the control groups of this program leave: its own group and all enclosing groups.
 std::size_t leftByGroup() {
     std::size_t left = std::numeric_limits<std::size_t>::max();
     std::ifstream groups("/proc/self/cgroup");
@@ -72,7 +72,7 @@ std::size_t leftByGroup() {
     return left;
 }
 
-/// What a resource limit leaves of what this program has taken by that reckoning: the `field`th of /proc/self/statm.
+/// Returns what a resource limit leaves after what this program uses: field `field` of /proc/self/statm.
 std::size_t leftByLimit(int resource, int field) {
     rlimit limit{};
     if (::getrlimit(static_cast<__rlimit_resource_t>(resource), &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)

@@ -1,5 +1,5 @@
-// MemoryGuard.h - watches how much memory a process takes while a script runs: the script's own, and the program's,
-// which keeps what the script tells it to keep. Otherwise the kernel would kill one of them (hazard H10).
+// MemoryGuard.h - watches the memory of a process while a script runs: of the script's process, and of the program,
+// which keeps data for the script. Without this limit the kernel might kill one of them (hazard H10).
 //
 // Thread-safety: constructed and destroyed by one thread; `onExceeded` is called once, from the guard's own thread.
 #pragma once
@@ -14,12 +14,12 @@ namespace tacto {
 
 class MemoryGuard {
 public:
-    /// What a script may grow by, and make the program grow by, in bytes: 2 GiB, or half of the memory that is free now
-    /// if that is less, or of what a resource limit or a control group leaves.
+    /// Returns the number of bytes by which a script, and the program because of it, may grow: 2 GiB, or less if half
+    /// of the free memory, a resource limit or a control group allows less.
     [[nodiscard]] static std::size_t usualLimit();
 
-    /// Calls `onExceeded` when the process has grown by more than `most` bytes since now. Looks every 20 ms, and calls
-    /// `eachTime` then.
+    /// Calls `onExceeded` when the process has grown by more than `most` bytes from now on. Checks every 20 ms, and
+    /// calls `eachTime` at every check.
     explicit MemoryGuard(std::function<void()> onExceeded, std::size_t most = usualLimit(),
                          std::function<void()> eachTime = {});
     ~MemoryGuard();
@@ -30,7 +30,7 @@ private:
     void watch(std::size_t most);
 
     std::function<void()> onExceeded_, eachTime_;
-    const int statm_;  // open from the start on: later nothing may be opened
+    const int statm_;  // opened at the start, because files cannot be opened later
     std::mutex mutex_;
     std::condition_variable ending_;
     bool ended_ = false;  // guarded

@@ -18,12 +18,12 @@ constexpr std::size_t kHead = 4;
 
 tl::unexpected<Error> gone() { return fail(ErrorCode::Io, "the script's process is gone"); }
 
-/// Moves bytes through a socket, whatever the other end does meanwhile.
+/// Moves bytes through a socket, whatever the other end does.
 class Mover {
 public:
     Mover(int socket, const WhileWaiting& waiting) : socket_(socket), waiting_(waiting) {}
 
-    /// Moves all of the bytes, or returns an error. `move`: recv() or send() of what is left.
+    /// Moves all bytes, or returns an error. `move`: recv() or send() of the remaining bytes.
     template <class Move>
     Result<void> all(std::size_t size, short when, Move move) {
         for (std::size_t done = 0; done < size;) {
@@ -43,7 +43,7 @@ public:
     }
 
 private:
-    /// Judged by the clock: an end that sends a byte now and then is waited for no longer than a silent one.
+    /// Checks the elapsed time: an end that sends a byte now and then gets no more time than a silent one.
     Result<void> look() {
         if (!waiting_ || std::chrono::steady_clock::now() < next_) return {};
         next_ = std::chrono::steady_clock::now() + kLook;
@@ -85,7 +85,7 @@ Result<nlohmann::json> receiveMessage(int socket, const WhileWaiting& waiting) {
         size |= static_cast<std::size_t>(static_cast<unsigned char>(head[i])) << (8 * i);
     if (size > kMaxFrame) return fail(ErrorCode::ParseError, "a message of {} bytes", size);
     std::string frame;
-    constexpr std::size_t kBlock = std::size_t{1} << 20;  // announced bytes may never come
+    constexpr std::size_t kBlock = std::size_t{1} << 20;  // read in blocks, because announced bytes may never come
     while (frame.size() < size) {
         const std::size_t have = frame.size();
         frame.resize(std::min(size, have + kBlock));

@@ -1,4 +1,4 @@
-// The line through the readings of a calibration, and its uncertainty.
+// Fits a line through the readings of a calibration, with its uncertainty.
 #include <cmath>
 #include <optional>
 
@@ -11,7 +11,7 @@ namespace tacto::host::analysis {
 
 namespace {
 
-/// The numbers of the run's own readings that `rows` name; nothing where a row names none.
+/// Returns the numbers of the run's own readings in `rows`, or nothing if a row has no number.
 std::optional<std::vector<std::int64_t>> ownNumbers(const Json& rows) {
     std::vector<std::int64_t> numbers;
     for (const auto& row : rows) {
@@ -22,11 +22,11 @@ std::optional<std::vector<std::int64_t>> ownNumbers(const Json& rows) {
     return numbers;
 }
 
-/// Levels of a kept calibration are told apart at least this well, relative to the largest.
+/// Levels of a kept calibration are distinguished at least this finely, relative to the largest.
 constexpr double kWidestLevel = 0.05;
 
-/// A calibration of the run's own readings: commands, readings and the instrument's statements come from the program,
-/// whatever else the rows say. `errors` grow to what the instrument states, and never shrink.
+/// A calibration made of the run's own readings: commands, readings and the instrument's statements come from the
+/// program, whatever else the rows say. `errors` are enlarged to what the instrument states, never reduced.
 class OwnSeries {
 public:
     OwnSeries(ScriptSession& session, const OwnQuantity& quantity, std::vector<std::int64_t> numbers,
@@ -42,7 +42,7 @@ public:
         }
     }
 
-    /// Errors: InvalidArgument for a reading whose captures were commanded differently, or whose command is not known.
+    /// Errors: InvalidArgument for a reading with captures of different commands or with an unknown command.
     [[nodiscard]] Result<void> fill(std::vector<CalibrationReading>& rows) const {
         for (std::size_t i = 0; i < rows.size(); ++i) {
             const auto& commands = readings_[i]->commands;
@@ -60,8 +60,8 @@ public:
         return {};
     }
 
-    /// The captures carry what the operator or else the instrument states; everything else is unknown, whatever a
-    /// script says of it.
+    /// Captures carry the operator's statement, or else the instrument's. Anything else is unknown, whatever a script
+    /// says about it.
     void widen(InstrumentErrors& errors) {
         const bool amplitude = quantity_.isAmplitude();
         const double stated = worst(amplitude ? &OwnReading::gainTolerance : &OwnReading::timeBaseTolerance);
@@ -71,7 +71,7 @@ public:
             made_.gainTolerance = stated;
         }
         widenTo(errors.gainTolerance, stated);
-        errors.offsetTolerance = 0;  // levels are read from their own baseline
+        errors.offsetTolerance = 0;  // levels are measured from their own baseline
         if (amplitude) {
             widenTo(errors.probeTolerance, worst(&OwnReading::probeTolerance));
             widenTo(errors.linearityTolerance, worst(&OwnReading::linearityTolerance));
@@ -92,7 +92,7 @@ public:
     }
 
 private:
-    /// The largest of the readings; NaN where one of them does not state it.
+    /// Returns the largest value of all readings; NaN if one reading does not state it.
     [[nodiscard]] double worst(double OwnReading::*member) const {
         double most = 0;
         for (const auto* reading : readings_) {
@@ -101,7 +101,7 @@ private:
         }
         return most;
     }
-    /// A script's own figure may widen what is stated, and never stands for it.
+    /// A script's own figure may enlarge the stated error but cannot replace it.
     static void widenTo(double& error, double stated) {
         error = std::isnan(stated) || std::isnan(error) ? stated : std::max(error, stated);
     }
@@ -202,7 +202,7 @@ namespace tacto {
 
 std::vector<HostFunction> calibrationAnalysis() {
     using namespace takes;
-    constexpr double kLargest = 1e9;  // the largest tolerance
+    constexpr double kLargest = 1e9;  // largest tolerance
     return {
         {.name = "calibration",
          .parameters =

@@ -1,4 +1,4 @@
-// Computed transitions: the largest step from train to train.
+// Computed transitions: the largest step from one train to the next.
 #include <cmath>
 
 #include "app/scripting/host/analysis/RunAnalysis.h"
@@ -27,7 +27,7 @@ Json toJson(const LargestSteps& steps) {
             {"interval", toJson(steps.interval, steps.interval.interval)}};
 }
 
-/// The largest steps as a reader wants them beside each other.
+/// Returns the largest steps side by side, for a reader.
 Json largestOf(const TransitionReport& report, double traverse_s) {
     Json rows = Json::array();
     const auto add = [&](const std::string& movement, const LargestSteps& steps) {
@@ -60,7 +60,7 @@ Json gridOf(const std::vector<std::vector<double>>& cells) {
     return rows;
 }
 
-/// The steps that are too large, in sentences.
+/// Returns sentences about the steps that are too large.
 std::vector<std::string> tooLarge(const LargestSteps& steps, const char* movement) {
     std::vector<std::string> reasons;
     const auto judge = [&](const char* what, const TransitionStep& step, double jnd, double from, double to,
@@ -93,7 +93,7 @@ std::vector<HostParameter> sweepSettings(bool ofOptions) {
 
 Result<Json> computedTransitions(ScriptSession& session, const Arguments& arguments, int lines, double traverse,
                                  bool jumps) {
-    // Computing takes no longer than a moment, as a stop does not wait for it.
+    // Computing may take only a moment, because a stop cannot interrupt it.
     constexpr double kMaxSweep_s = 12'000;
     if (!(lines * traverse <= kMaxSweep_s))
         return arguments.wrong("traverse_s", traverse, fmt::format("at most {:g} s divided by the lines", kMaxSweep_s));

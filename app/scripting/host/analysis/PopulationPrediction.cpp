@@ -36,7 +36,7 @@ std::vector<HostParameter> variationParameters() {
         number("options.area_cm2", "cm2", "electrode area: R_p falls with it and C grows")
             .range(0, 1000)
             .optional("the profile's, or 1 where it has none,")};
-    // Names of parameters stay where they are.
+    // Parameters keep views of these names, so the names stay in memory.
     static const auto names = [] {
         std::vector<std::array<std::string, 2>> made;
         for (const auto& field : populationFields()) {
@@ -79,7 +79,7 @@ Drive sourceFrom(const Arguments& arguments) {
     return arguments.text("options.source") == "voltage" ? Drive::Voltage : Drive::Current;
 }
 
-/// The connected stimulator where it drives as asked, else one without flaws.
+/// Returns the connected stimulator if it drives as requested, else an ideal one.
 SourceTraits traitsFor(Bench& bench, Drive drive) {
     const auto& stimulator = bench.devices().stimulator;
     if (stimulator && stimulator->traits().drive == drive) return stimulator->traits();
@@ -143,7 +143,7 @@ Result<VariationOptions> variationOptionsFrom(ScriptSession& session, const Argu
 }
 
 Result<Variation> predicted(ScriptSession& session, const VariationOptions& options, const std::string& label) {
-    // The bench's stop is asked for while the threads work: a wait of no time fails once it came.
+    // Checks for a stop of the bench while the threads work: bench.wait(0) fails after a stop.
     std::stop_source stop;
     std::optional<Error> stopped;
     auto found = predictVariation(options, stop.get_token(), [&](std::size_t done, std::size_t total) {
@@ -156,7 +156,7 @@ Result<Variation> predicted(ScriptSession& session, const VariationOptions& opti
     });
     if (!found && found.error().code != ErrorCode::Stopped) return found;
     if (stopped) {
-        // The work done by then stands as a partial result, in the run's outcome and its report.
+        // Keeps the work done so far as a partial result, for the run's outcome and its report.
         if (found) session.keepPartial(toJson(*found, options), Json::array());
         return tl::unexpected<Error>(*stopped);
     }

@@ -1,4 +1,4 @@
-// RunAnalysis.h - what is judged and predicted, for the object "analysis" and for the steps of protocols.
+// RunAnalysis.h - judgements and predictions, for the object "analysis" and for the steps of protocols.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -18,29 +18,29 @@ struct CalibrationAsked {
     std::string quantity = "amplitude";
     double tolerance_pct = 2;  ///< relative to the command at each level
     CalibrationOptions fit;
-    /// The instrument's own statements come from the readings; these may widen them.
+    /// The readings carry the instrument's own statements; these errors may enlarge them.
     InstrumentErrors errors;
 };
-/// The calibration of one quantity as analysis.calibration() returns it; `readings` as it takes them. Errors:
+/// Returns the calibration of one quantity as analysis.calibration() does and takes the same `readings`. Errors:
 /// InvalidArgument for an entry that is no reading; as fitCalibration().
 [[nodiscard]] Result<Json> calibrationOf(ScriptSession& session, const Json& readings, const CalibrationAsked& asked);
 
-/// The result of analysis.separability(). Errors: InvalidArgument named after the function that was called.
+/// Returns the result of analysis.separability(). Errors: InvalidArgument naming the called function.
 [[nodiscard]] Result<Json> separabilityOf(const Arguments& arguments, const Json& trials,
                                           std::vector<std::string> conditions);
 
-/// Members lines, traverse_s and jumps of "options" or "settings".
+/// Returns the members lines, traverse_s and jumps of "options" or "settings".
 [[nodiscard]] std::vector<HostParameter> sweepSettings(bool ofOptions);
-/// The result of analysis.transitions(), by the encoding in force.
+/// Returns the result of analysis.transitions() for the present encoding.
 [[nodiscard]] Result<Json> computedTransitions(ScriptSession& session, const Arguments& arguments, int lines,
                                                double traverse_s, bool jumps);
 
-/// The options of analysis.variation().
+/// Returns the parameters that are options of analysis.variation().
 [[nodiscard]] std::vector<HostParameter> variationParameters();
-/// Profile, limits and, where it drives as asked, the stimulator are the bench's, the seed is the run's. Errors:
-/// InvalidArgument for thresholds that are not in order.
+/// Takes profile and limits from the bench, its stimulator too if it drives as requested, and the seed from the run.
+/// Errors: InvalidArgument for thresholds in the wrong order.
 [[nodiscard]] Result<VariationOptions> variationOptionsFrom(ScriptSession& session, const Arguments& arguments);
-/// Errors: when the run is stopped; what was predicted until then is kept as partial.
+/// Errors: if the run is stopped; the prediction up to then is kept as partial.
 [[nodiscard]] Result<Variation> predicted(ScriptSession& session, const VariationOptions& options,
                                           const std::string& label);
 

@@ -1,4 +1,4 @@
-// Whether conditions can be told apart.
+// Decides whether conditions can be told apart.
 #include <cmath>
 #include <set>
 #include <string>
@@ -12,7 +12,7 @@ namespace tacto::host::analysis {
 
 namespace {
 
-// Computing takes no longer than a moment, as a stop does not wait for it.
+// Computing may take only a moment, because a stop cannot interrupt it.
 constexpr std::size_t kMaxTrials = 20'000, kMaxConditions = 64;
 
 Result<std::vector<SeparabilityTrial>> trialsFrom(const Arguments& arguments, const Json& rows) {

@@ -1,5 +1,5 @@
-// An absolute reference beside the known load: a gain error that voltage and current share cancels in V/I, and shows
-// only on a voltage of known size (science.md section 12).
+// An absolute reference in addition to the known load. A gain error shared by voltage and current cancels in V/I; only
+// a voltage of known size shows it (science.md section 12).
 #include <cmath>
 #include <fmt/format.h>
 
@@ -15,15 +15,15 @@ namespace tacto::host::bench {
 
 namespace {
 
-/// A level of the voltage channel: mean and noise, and the capture that shows it.
+/// A level of the voltage channel: mean, noise and its capture.
 struct Level {
     double mean = kNaN, noise = kNaN;
     std::size_t samples = 0;
     Capture capture;
 };
 
-/// Puts `volts` of the reference source (0: its leads shorted) on the voltage input: by itself on a simulated bench,
-/// else by the operator's hands.
+/// Puts `volts` of the reference source on the voltage input (0: with its leads shorted). A simulated bench does this
+/// by itself; otherwise the operator does it.
 Result<void> apply(ScriptSession& session, double volts) {
     if (auto& source = session.bench().devices().reference) return source->applyVoltage(volts);
     session.forgetConfirmed();
@@ -37,7 +37,7 @@ Result<void> apply(ScriptSession& session, double volts) {
                                      volts));
 }
 
-/// Errors: Unsupported where the oscilloscope takes no record without a trigger; Timeout.
+/// Errors: Unsupported if the oscilloscope cannot record without a trigger; Timeout.
 Result<Level> levelAt(ScriptSession& session, double volts, double range_V) {
     if (auto applied = apply(session, volts); !applied) return failure(applied);
     Bench& bench = session.bench();
@@ -45,7 +45,7 @@ Result<Level> levelAt(ScriptSession& session, double volts, double range_V) {
     settings.sampleRate = std::min(Hertz(1e5), bench.devices().oscilloscope->traits().maxRate);
     settings.samples = 5000;
     settings.voltageRange = Volts(range_V);
-    settings.triggerLevel = 0.98 * range_V;  // a level that nothing reaches
+    settings.triggerLevel = 0.98 * range_V;  // a level that no signal reaches
     if (auto asked = bench.requestCaptures(1, settings, Seconds(0.2)); !asked) return failure(asked);
     constexpr double kTimeout_s = 10, kPoll_s = 0.05;
     for (double waited = 0; waited < kTimeout_s; waited += kPoll_s) {
@@ -70,7 +70,7 @@ Result<Level> levelAt(ScriptSession& session, double volts, double range_V) {
     return fail(ErrorCode::Timeout, "bench.readReference: the oscilloscope gave no record in {} s", kTimeout_s);
 }
 
-/// The difference of both levels; an offset cancels in it.
+/// Returns the difference of both levels, in which an offset cancels.
 Reading differenceOf(const Level& high, const Level& zero, double source_pct) {
     const auto voltage = findChannel(high.capture, "voltage");
     const auto& channel = high.capture.channels[*voltage];
@@ -87,7 +87,7 @@ Reading differenceOf(const Level& high, const Level& zero, double source_pct) {
     return readingOf(value, std::move(rows), {});
 }
 
-/// The rule is the same everywhere: |reading - reference| + U ≤ tolerance.
+/// Judges the reading by the usual rule: |reading - reference| + U ≤ tolerance.
 Result<Json> read(ScriptSession& session, double volts, double source_pct, double tolerance_pct) {
     Bench& bench = session.bench();
     bench.disarm();

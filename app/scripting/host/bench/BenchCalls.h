@@ -1,4 +1,4 @@
-// BenchCalls.h - what the steps of protocols take from the object "bench".
+// BenchCalls.h - functions of the object "bench" that the steps of protocols use.
 #pragma once
 
 #include <cstddef>
@@ -14,33 +14,33 @@ namespace tacto::host::bench {
 
 using Json = nlohmann::json;
 
-/// Fits `load`: by itself on a simulated bench, else the operator does, asked `request` under the name `question`.
-/// Output that is on stays on.
+/// Fits `load`. A simulated bench does this by itself; otherwise the operator is asked `request`, as question
+/// `question`. Output that is on stays on.
 [[nodiscard]] Result<void> changeLoad(ScriptSession& session, const std::string& load, const char* question,
                                       const std::string& request);
 
-/// Sets the members of the profile's encoding section that `changes` has; the others stay. Errors: InvalidArgument for
-/// an unknown key or a value outside its range; as Bench::setProfile().
+/// Changes the members in `changes` of the profile's encoding section; the others stay. Errors: InvalidArgument for an
+/// unknown key or a value outside its range; as Bench::setProfile().
 [[nodiscard]] Result<void> changeEncoding(Bench& bench, const Json& changes);
 
-/// The value of bench.devices and bench.calibration.
+/// Return the values of bench.devices and bench.calibration.
 [[nodiscard]] Json devicesOf(ScriptSession& session);
 [[nodiscard]] Result<Json> storedCalibration(ScriptSession& session);
 
 struct KnownLoad {
     double load_ohm;
-    double tolerance_pct;     ///< how far the reading may lie from the load, its uncertainty included
-    double itsTolerance_pct;  ///< the load's own
+    double tolerance_pct;     ///< allowed distance of the reading from the load, including its uncertainty
+    double itsTolerance_pct;  ///< tolerance of the load itself
 };
-/// Whether a known load reads as it should, judged and recorded: { load_ohm, measured_ohm, expanded_ohm, deviation_pct,
-/// expanded_uncertainty_pct, allowed_pct, verdict, passed, reason }; `reading` is one of measure.pulse(). Errors: Io.
+/// Judges and records whether a known load reads correctly: { load_ohm, measured_ohm, expanded_ohm, deviation_pct,
+/// expanded_uncertainty_pct, allowed_pct, verdict, passed, reason }. `reading`: from measure.pulse(). Errors: Io.
 [[nodiscard]] Result<Json> judgeReference(ScriptSession& session, const Json& reading, const KnownLoad& known);
-/// bench.readKnownLoad(): arms, reads one train of the strongest command, and judges it. The output stays armed.
+/// bench.readKnownLoad(): arms, reads one train of the strongest command, and judges the load. Output stays armed.
 [[nodiscard]] Result<Json> knownLoad(ScriptSession& session, double load_ohm, double tolerance_pct);
 
-/// Members of "settings" of a reference source: reference_v, 0 for none, and reference_u_pct.
+/// Returns the members of "settings" for a reference source: reference_v (0: no source) and reference_u_pct.
 [[nodiscard]] std::vector<HostParameter> absoluteSettings();
-/// The result of bench.readReference(); null where the settings have no source.
+/// Returns the result of bench.readReference(), or null if the settings name no source.
 [[nodiscard]] Result<Json> absoluteReading(ScriptSession& session, const Arguments& arguments, double tolerance_pct);
 
 struct Sliding {
@@ -48,23 +48,23 @@ struct Sliding {
     double speed_mm_s = 50;
     double force_n = 1;
 };
-/// Puts a surface under the finger, or asks for it (question surface-MATERIAL). Errors: InvalidArgument for an unknown
-/// surface; NotFound without an answer; Stopped.
+/// Puts a surface under the finger, or asks the operator to do it (question surface-MATERIAL). Errors: InvalidArgument
+/// for an unknown surface; NotFound without an answer; Stopped.
 [[nodiscard]] Result<void> slide(ScriptSession& session, const Sliding& sliding);
 
-// Oscilloscope records of the trains that come next.
+// Oscilloscope records of the next trains.
 
-/// How much of a record lies before a train's onset.
+/// Share of a record that lies before a train's onset.
 inline constexpr double kPreTrigger = 0.15;
-/// The time after the last pulse of a train in which the charge runs off.
+/// Time after the last pulse of a train in which the charge decays.
 inline constexpr Seconds kTrainTail{3e-4};
 
-/// A record of one whole train of the bench's encoding and its tail: rate, length and place of the trigger.
+/// Returns settings to record one whole train of the bench's encoding and its tail: rate, length and trigger position.
 [[nodiscard]] ScopeSettings trainRecord(const Bench& bench, Hertz rate);
-/// the present |Z|; 1 kΩ until it was measured
+/// Returns the present |Z|; 1 kΩ until it has been measured.
 [[nodiscard]] Ohms presentLoad(const Telemetry& now) noexcept;
 
-/// How the records are taken. NaN, and 0 samples: as the present command, train and |Z| suggest.
+/// Options of a record. NaN, and 0 samples: chosen from the present command, train and |Z|.
 struct CaptureOptions {
     int trains = 1;
     double rate_hz = kNaN;
@@ -72,11 +72,11 @@ struct CaptureOptions {
     double voltageRange_v = kNaN;
     double currentRange_ma = kNaN;
     double trigger_v = kNaN;
-    /// The intervals between the trains are wanted: where the oscilloscope does not state how good the time
-    /// stamps of its records are, one record holds them all.
+    /// True if the intervals between trains are needed. If the oscilloscope does not state the tolerance of its time
+    /// stamps, one record then holds all trains.
     bool intervals = false;
 };
-/// Waits for the trains. Errors: Timeout when fewer came; InvalidArgument where intervals are wanted and nothing is
+/// Waits for the trains. Errors: Timeout if too few came; InvalidArgument if intervals are needed but nothing is
 /// driven; as Bench::capture().
 [[nodiscard]] Result<std::vector<Capture>> captureTrains(ScriptSession& session, const CaptureOptions& options);
 

@@ -1,4 +1,4 @@
-// Oscilloscope records of the trains that come next.
+// Oscilloscope records of the next trains.
 #include <algorithm>
 #include <cmath>
 
@@ -8,7 +8,7 @@ namespace tacto::host::bench {
 
 namespace {
 
-/// Trains in one record, where it is to hold their intervals.
+/// Fewest and most trains in one record that must show their intervals.
 constexpr int kMinTrainsInOne = 2, kMaxTrainsInOne = 8;
 
 double given(double option, double usual) { return std::isfinite(option) ? option : usual; }
@@ -27,10 +27,10 @@ ScopeSettings scopeSettings(Bench& bench, const CaptureOptions& options) {
     return settings;
 }
 
-/// One record that holds `trains` trains at the present interval: from one record to another their distance is known
-/// only as well as the records' time stamps are (science.md section 12).
+/// Takes one record with `trains` trains at the present interval. Between two records the interval is known only as
+/// well as the records' time stamps (science.md section 12).
 Result<std::vector<Capture>> captureInOne(Bench& bench, int trains, ScopeSettings settings) {
-    constexpr double kBefore = 0.05, kSpare = 0.1;  // a share of the record, and a share of an interval
+    constexpr double kBefore = 0.05, kSpare = 0.1;  // shares of the record and of an interval
     constexpr double kMaxSamples = 5e5, kMinRate_hz = 1e5;
     const double interval_s = bench.telemetry().interval_s;
     if (!(interval_s > 0) || !std::isfinite(interval_s))

@@ -1,4 +1,4 @@
-// A known load, read and judged before anything that is measured on it is believed.
+// Reads and judges a known load before any measurement on it is trusted.
 #include <cmath>
 #include <string_view>
 
@@ -13,7 +13,7 @@ namespace tacto::host::bench {
 
 namespace {
 
-/// The fault of a check that did not pass, as a sentence.
+/// Returns a sentence that says why a check did not pass.
 std::string whyNot(std::string_view verdict, const Json& check, double load, double tolerance_pct) {
     const auto at = [&check](const char* key) { return check.value(key, Json()); };
     const auto text = [&](const char* key, const char* missing) {
@@ -38,11 +38,11 @@ std::string whyNot(std::string_view verdict, const Json& check, double load, dou
 
 }  // namespace
 
-/// The rule is the same everywhere: |reading - reference| + U ≤ tolerance (science.md section 12).
+/// Judges the reading by the usual rule: |reading - reference| + U ≤ tolerance (science.md section 12).
 Result<Json> judgeReference(ScriptSession& session, const Json& reading, const KnownLoad& known) {
     const auto [load, tolerance_pct, load_pct] = known;
     const double measured = numberOr(reading, "load_ohm");
-    // 95 % of a rectangle of the resistor's own tolerance.
+    // The resistor's tolerance is a rectangular distribution; 0.95 of its half-width covers 95 %.
     const double expanded = std::hypot(numberOr(reading, "load_expanded_ohm"), 0.95 * load_pct / 100 * load);
     const double off_pct = 100 * (measured / load - 1);
     const auto verdict = guardBandedName(off_pct, 100 * expanded / load, tolerance_pct);

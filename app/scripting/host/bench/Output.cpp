@@ -1,4 +1,4 @@
-// The output of the bench: arm, drive, wait, fit a load.
+// The output of the bench: arming, driving, waiting, fitting a load.
 #include "app/scripting/engine/Arming.h"
 #include "app/scripting/host/bench/BenchCalls.h"
 

@@ -1,4 +1,4 @@
-// The changes that a protocol makes to the profile and the stimulator for its run: encoding, electrode area,
+// Changes that a protocol makes to the profile and the stimulator for its run: encoding, electrode area and
 // calibration.
 #include <algorithm>
 #include <optional>
@@ -57,8 +57,8 @@ Result<Json> setEncoding(ScriptSession& session, const Arguments& arguments) {
     return done(changeEncoding(session.bench(), arguments.object("changes")));
 }
 
-/// A script may take a smaller electrode than the operator's profile states; a larger one would move the floor of the
-/// density limits (hazard H1). Where the profile states none, the operator must have given the same number.
+/// A script may use a smaller electrode than the operator's profile states. A larger one would raise what the density
+/// limits allow (hazard H1). If the profile states no area, the operator must have given the same number.
 Result<Json> setElectrodeArea(ScriptSession& session, const Arguments& arguments) {
     const auto area = arguments.number("area");
     const auto& stated = session.chosenProfile().electrodeArea;

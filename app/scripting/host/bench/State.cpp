@@ -1,4 +1,4 @@
-// The state of the bench for a protocol, and what stands on it.
+// The state of the bench for a protocol, and the loads of the bench set.
 #include <algorithm>
 #include <limits>
 
@@ -59,7 +59,7 @@ Result<Json> conditions(ScriptSession& session, const Arguments&) {
 
 Result<Json> live(ScriptSession& session, const Arguments&) { return stateOf(session); }
 
-/// A long run is seen more coarsely, so that its figure stays readable and the memory flat.
+/// A long run is sampled more coarsely, so that its figure stays readable and memory use bounded.
 Result<Json> watch(ScriptSession& session, const Arguments& arguments) {
     constexpr std::size_t kMaxStates = 2000;
     constexpr Seconds kShortestWait{0.001};

@@ -1,4 +1,4 @@
-// Surfaces under the finger: presenting conditions, and the references that give roughness its scale.
+// Surfaces under the finger: presents conditions, and reads the references that set the scale of roughness.
 #include <algorithm>
 #include <cmath>
 
@@ -19,13 +19,13 @@ Result<void> slide(ScriptSession& session, const Sliding& sliding) {
 
 namespace {
 
-/// A slide with the options speed_mm_s and force_n; `usualForce_n` where the function has no default.
+/// Returns a slide with the options speed_mm_s and force_n; `usualForce_n` if the function has no default force.
 Sliding slidingOver(std::string material, const Arguments& arguments, double usualForce_n = 1) {
     return {std::move(material), arguments.number("options.speed_mm_s"),
             arguments.number("options.force_n", usualForce_n)};
 }
 
-/// Waits until R and P stayed within `tolerance` for half a second. False when they did not by `limit_s`.
+/// Waits until R and P have stayed within `tolerance` for half a second. Returns false if that takes over `limit_s`.
 Result<bool> settle(Bench& bench, double tolerance, double limit_s) {
     constexpr double kStep_s = 0.1;
     constexpr std::size_t kSteady = 5;
@@ -86,7 +86,7 @@ Result<Json> measureReference(ScriptSession& session, const Arguments& arguments
     bench.disarm();
     if (auto slid = slide(session, slidingOver(material, arguments)); !slid) return failure(slid);
     if (auto driven = bench.drive(DriveSource::Sensor); !driven) return failure(driven);
-    if (auto waited = bench.wait(Seconds(0.5)); !waited) return failure(waited);  // the finger lands and speeds up
+    if (auto waited = bench.wait(Seconds(0.5)); !waited) return failure(waited);  // the finger lands and starts
     std::vector<double> h, v;
     const double end = toSeconds(session.now()) + duration;
     while (toSeconds(session.now()) < end) {
@@ -109,7 +109,7 @@ Result<Json> measureReference(ScriptSession& session, const Arguments& arguments
 Result<Json> setReferences(ScriptSession& session, const Arguments& arguments) {
     const Json& smooth = arguments.object("smooth");
     const Json& rough = arguments.object("rough");
-    // The scale of R, and so the amplitude of trains, is felt on this rig and not made up (hazard H7).
+    // The scale of R sets the amplitude of trains, so it must be measured on this rig, not made up (hazard H7).
     for (const auto& [name, said] : {std::pair("smooth", &smooth), std::pair("rough", &rough)}) {
         if (!session.own().noted(*said))
             return arguments.wrong(name, *said, "what bench.measureReference() returned in this run, unchanged,");
@@ -121,14 +121,14 @@ Result<Json> setReferences(ScriptSession& session, const Arguments& arguments) {
     int set = 0;
     for (const auto& [key, scale] : {std::pair<const char*, ReferenceScale*>{"h", &spectral}, {"v", &taxel}}) {
         const ReferenceScale measured{numberOr(smooth, key), numberOr(rough, key)};
-        if (std::isnan(measured.smooth) && std::isnan(measured.rough)) continue;  // this rig does not have that feature
+        if (std::isnan(measured.smooth) && std::isnan(measured.rough)) continue;  // this rig lacks that feature
         *scale = measured;
         ++set;
     }
     if (set == 0) return arguments.wrong("smooth", smooth, "what bench.measureReference() returned");
     settings.calibrated = true;
-    settings.uncertainty.reset();  // one slide over each reference does not tell how well it repeats
-    // The references are of this fingertip from now on; scales of another one are not.
+    settings.uncertainty.reset();  // a single slide over each reference shows no repeatability
+    // From now on the references belong to this fingertip; the scales of another fingertip are dropped.
     if (const auto& sensor = session.bench().devices().sensor; sensor && settings.sensor) {
         if (matchOf(*settings.sensor, sensor->identity().serial) == FingertipMatch::Another) settings.sensor.reset();
     }

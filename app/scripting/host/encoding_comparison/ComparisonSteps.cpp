@@ -1,4 +1,4 @@
-// The object "bench.encodingComparison", the steps of the comparison of encodings: what scripts can call, and what each
+// The object "bench.encodingComparison", the steps of the encoding comparison: the functions for scripts and what each
 // does.
 #include <algorithm>
 #include <array>
@@ -22,14 +22,14 @@ using Json = nlohmann::json;
 
 constexpr const char* kUsual = "texture_to_amplitude";
 constexpr std::array kLevels{0.25, 0.5, 0.75};
-constexpr double kAtLeast_jnd = 0.01;  // differences below this are not told apart
+constexpr double kAtLeast_jnd = 0.01;  // smaller differences are treated as none
 
 struct Named {
     std::string name;
     double roughness, pressure;
 };
 
-/// The state of a comparison: the first of the encodings is the default, with which the others are compared.
+/// The state of a comparison. The first encoding is the default; the others are compared with it.
 struct Comparison {
     double low = 0, high = 0, load_ohm = 0, load_pct = 0, traverse_s = 0;
     Json reference = {};
@@ -62,7 +62,7 @@ Json listOf(const std::vector<Named>& places) {
     return out;
 }
 
-// NaN where a value was not measured, or does not exist.
+// NaN: a value was not measured, or does not exist.
 
 double largest(const std::vector<double>& values) {
     double most = -std::numeric_limits<double>::infinity();
@@ -84,7 +84,7 @@ double mean(const std::vector<double>& values) {
     return values.empty() ? kNaN : sum / static_cast<double>(values.size());
 }
 
-/// The values of one member of the rows.
+/// Returns the values of member `key` of all rows.
 std::vector<double> columnOf(const Json& rows, const char* key) {
     std::vector<double> values;
     for (const auto& row : rows) values.push_back(numberOr(row, key));
@@ -93,14 +93,14 @@ std::vector<double> columnOf(const Json& rows, const char* key) {
 
 double best(const Json& pair) { return largest({numberOr(pair, "amplitude_jnd"), numberOr(pair, "interval_jnd")}); }
 
-/// Compares one axis: pairs that share its level do not concern it.
+/// Returns the smallest distance on one axis; pairs with the same level on it are left out.
 double smallestApart(const Json& pairs, const char* key) {
     auto values = columnOf(pairs, key);
     std::erase_if(values, [](double value) { return value <= 1; });
     return smallest(values);
 }
 
-/// Neighbours differ by one level in R or in P; each pair counts on the axis that tells it best.
+/// Neighbours differ by one level in R or in P. Each pair counts on the axis that separates it best.
 Json neighboursOf(const Json& pairs) {
     const auto between = [&pairs](const std::string& a, const std::string& b) {
         const auto pair = std::ranges::find_if(pairs, [&](const Json& row) {
@@ -125,7 +125,7 @@ Json neighboursOf(const Json& pairs) {
             {"mean_jnd", numberOrNull(mean(all))}};
 }
 
-/// The difference of two values in just-noticeable differences; below 0 where the second is smaller.
+/// Returns the difference of two values in just-noticeable differences; negative if the second is smaller.
 double difference(const Json& from, const Json& to, const char* quantity) {
     const bool isAmplitude = std::string_view(quantity) == "amplitude";
     const char* key = isAmplitude ? "amplitude_v" : "interval_s";
@@ -134,8 +134,8 @@ double difference(const Json& from, const Json& to, const char* quantity) {
     return b < a ? -size : size;
 }
 
-/// The distances that a curve gives, of one assignment: by what is felt as amplitude and as interval, not by what sets
-/// it.
+/// Returns the distances of a curve for one assignment. They are sorted by what a person feels (amplitude, interval),
+/// not by the input that sets it.
 std::array<double, 6> distancesOf(const Json& each) {
     const Json& n = each["neighbours"];
     const bool usual = each["assignment"] == kUsual;
@@ -147,8 +147,8 @@ std::array<double, 6> distancesOf(const Json& each) {
             numberOr(each, "gradual_jnd")};
 }
 
-/// How far the two assignments of a curve differ as measured, once smooth-high and rough-low have changed places: the
-/// largest over all distances and conditions, in just-noticeable differences. NaN until both were measured.
+/// Returns how far the two assignments of a curve differ as measured, after smooth-high and rough-low are swapped: the
+/// largest difference of all distances and conditions, in just-noticeable differences. NaN until both were measured.
 double asymmetryOf(const Json& done) {
     std::vector<double> found;
     for (const auto& usual : done) {
@@ -168,7 +168,7 @@ double asymmetryOf(const Json& done) {
     return largest(found);
 }
 
-/// Against the default, signed: where a condition's amplitude and interval went, and what that did to the distances.
+/// Compares with the default, signed: the changes of each condition's amplitude and interval, and of the distances.
 Json differenceRow(const Json& each, const Json& base) {
     Json row = {{"encoding", each["name"]}};
     for (std::size_t i = 0; i < each["conditions"].size(); ++i) {
@@ -187,7 +187,7 @@ Json differenceRow(const Json& each, const Json& base) {
     return row;
 }
 
-/// Each condition under each encoding, and how far it moved against the default.
+/// Returns each condition under each encoding, with its change against the default.
 Json conditionRows(const Json& done, const Json& differences) {
     Json rows = Json::array();
     for (std::size_t i = 0; i < done.size(); ++i) {
@@ -204,7 +204,7 @@ Json conditionRows(const Json& done, const Json& differences) {
     return rows;
 }
 
-/// All curves within a hundredth of the best: measurement does not tell them apart.
+/// Names all curves within a hundredth of the best, because a measurement cannot tell them apart.
 template <class Key>
 std::string bestOf(const std::vector<Json>& curves, const Key& key) {
     std::vector<double> values;
@@ -230,7 +230,7 @@ std::string conclusionOf(const Json& done) {
         bestOf(curves, [](const Json& each) { return -numberOr(each, "gradual_jnd"); }));
 }
 
-/// What the figures say by themselves, and where their meaning ends.
+/// Returns what the figures show by themselves, and the limits of what they mean.
 std::string symmetryOf(double asymmetry) {
     return fmt::format(
         "Swapping R and P is a symmetry of this metric: it exchanges smooth-high and rough-low, and texture and "
@@ -240,7 +240,7 @@ std::string symmetryOf(double asymmetry) {
         std::isnan(asymmetry) ? "" : fmt::format(" (measured: within {:.2f} JND)", std::max(kAtLeast_jnd, asymmetry)));
 }
 
-/// Says once what is the same for all.
+/// States once what is the same for all encodings.
 std::string sameForAll(const Json& done) {
     const auto known = [](const Json& estimate, const char* key) {
         const double value = numberOr(estimate, key);
@@ -351,7 +351,7 @@ Result<Json> conclude(ScriptSession& session, const Arguments& arguments) {
         if (each["smallest_pair_jnd"].is_null() || each["neighbours"]["min_jnd"].is_null())
             reasons.push_back(each["name"].get<std::string>() + ": a condition or a level was not measured");
     }
-    // A comparison has no pass: it has a verdict only where it could not be made.
+    // A comparison cannot pass: it has a verdict only if it could not be made.
     const bool missing = !reasons.empty();
     if (!missing) reasons = {symmetryOf(asymmetry), conclusionOf(done)};
     return Json{{"reference", reference},

@@ -1,4 +1,4 @@
-// Functions without a bench: declaring, progress, the verdict, the log.
+// Functions without a bench: declaration, progress, verdict and log.
 #include "app/scripting/engine/Arguments.h"
 #include "app/scripting/engine/ScriptSession.h"
 
@@ -42,7 +42,7 @@ Result<Json> log(ScriptSession& session, const Arguments& arguments) {
     return Json();
 }
 
-Result<Json> protocol(ScriptSession&, const Arguments&) { return Json(); }  // read when the script was declared
+Result<Json> protocol(ScriptSession&, const Arguments&) { return Json(); }  // the declaration was read earlier
 
 }  // namespace
 
@@ -68,7 +68,7 @@ std::vector<HostFunction> generalFunctions() {
              "max: \"analysis.variation.detection_ma\".",
          .errors = "Throws for a key, type, role or range that does not fit.",
          .call = host::general::protocol,
-         .javascript =  // Objects keep the order they were written in; JSON does not.
+         .javascript =  // JavaScript objects keep the order in which they were written; JSON does not.
          R"js((declaration) => {
             const keys = (x) => x !== null && typeof x === "object" && !Array.isArray(x) ? Object.keys(x) : [];
             const parameters = declaration && declaration.parameters, names = keys(parameters), choices = [];
@@ -82,7 +82,7 @@ std::vector<HostFunction> generalFunctions() {
          .text = "Goes through a list in a for...of loop and shows how far it is.",
          .returns = "What for...of takes.",
          .call = host::general::progress,
-         .javascript =  // Written by hand, as a frozen generator's objects do not iterate in this engine.
+         .javascript =  // Written by hand, because a frozen generator's objects do not iterate in this engine.
          R"js((list, label) => {
             const total = list && list.length, done = { value: undefined, done: true };
             native(0, total, label);

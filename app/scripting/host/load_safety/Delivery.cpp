@@ -1,4 +1,4 @@
-// Arming on a load, giving a command on it, and reading what the oscilloscope saw.
+// Arms on a load, gives a command on it, and reads the oscilloscope's captures.
 #include <algorithm>
 #include <cmath>
 
@@ -10,11 +10,11 @@ namespace tacto::host::load_safety {
 
 namespace {
 
-constexpr double kIntervals = 1.2;  // how many intervals to wait: the next train has come by then, even a bit late
+constexpr double kIntervals = 1.2;  // intervals to wait: the next train has come by then, even if late
 
 struct Attempt {
     bool refused = false;
-    std::string reason;  ///< why it was refused
+    std::string reason;  ///< why the train was refused
 };
 
 /// Asks for one train of this command while armed; the drive is off again afterwards.
@@ -22,7 +22,7 @@ Result<Attempt> attempt(Bench& bench, const LoadCommand& command) {
     const auto before = bench.telemetry().trainsDelivered;
     if (auto driven = bench.drive(DriveSource::Manual, command.roughness, command.pressure); !driven)
         return failure(driven);
-    // Two intervals: the first train may be one interval away, its status a little more.
+    // Two intervals: the first train may take one interval to come, and its status a little longer.
     const Seconds longest = 2 * Seconds(bench.profile().encoding.intervalMax);
     Result<void> waited;
     double passed_s = 0;
@@ -49,7 +49,7 @@ Result<Json> held(ScriptSession& session, const bench::CaptureOptions& options) 
     return session.hold(std::move(*captures));
 }
 
-/// Several trains, so that there is an interval and a spread to measure, after one that brings the output to its level.
+/// Lets one train pass so that the output reaches its level, then reads several trains for interval and spread.
 Result<Json> readTrains(ScriptSession& session, const LoadCommand& command, int trains) {
     Bench& bench = session.bench();
     if (auto begun = begin(bench, command); !begun) return failure(begun);
@@ -62,7 +62,7 @@ Result<Json> readTrains(ScriptSession& session, const LoadCommand& command, int 
     auto taken = held(session, options);
     if (!taken) return taken;
     captures.trains = std::move(*taken);
-    // Two trains in one record, for an oscilloscope that does not state how good its time stamps are.
+    // For an oscilloscope that states no tolerance of its time stamps: two trains in one record.
     if (captures.trains.at(0).at("stamp_tolerance_s").is_null()) {
         auto together = options;
         together.trains = 2;
@@ -72,7 +72,7 @@ Result<Json> readTrains(ScriptSession& session, const LoadCommand& command, int 
         if (!rhythm) return rhythm;
         captures.rhythm = std::move(*rhythm);
     }
-    // A current that settles far below a charging spike is read in a range of its own.
+    // A current that settles far below a charging spike is captured again in its own range.
     if (std::isfinite(command.fineRange_ma)) {
         options.currentRange_ma = command.fineRange_ma;
         auto fine = held(session, options);
@@ -82,7 +82,7 @@ Result<Json> readTrains(ScriptSession& session, const LoadCommand& command, int 
     return measure::loadReading(session, captures);
 }
 
-/// A train that was refused although no limit forbids it: the bench counts it and is in no fault.
+/// True for a train that was refused although no limit forbids it: the bench counts it and is in no fault.
 bool isRefusal(Bench& bench, std::uint64_t refusedBefore, const Error& error) {
     return error.code != ErrorCode::Stopped && bench.telemetry().trainsRefused != refusedBefore &&
            bench.telemetry().state != InterlockState::Faulted;

@@ -1,4 +1,4 @@
-// The effect of a command on a load, before it is given.
+// Computes the effect of a command on a load before the command is given.
 #include "app/scripting/host/load_safety/LoadCommands.h"
 
 #include <algorithm>
@@ -15,14 +15,14 @@ namespace tacto::host::load_safety {
 
 namespace {
 
-constexpr double kHeadroom = 1.5;     // range over the expected peak: an output that is too large still shows
-constexpr double kTimeConstants = 8;  // length of the tail: 0.03 % is left at its end
+constexpr double kHeadroom = 1.5;     // range divided by expected peak, so that an output that is too large still shows
+constexpr double kTimeConstants = 8;  // length of the tail in time constants: 0.03 % is left at its end
 constexpr double kLongestTail_s = 0.02;
 
-/// V, or mA.
+/// Returns the amplitude in V or mA.
 double inItsUnit(const Amplitude& amplitude) { return siValue(amplitude) * (isCurrent(amplitude) ? 1e3 : 1); }
 
-/// The first row that forbids it, with the figure on the load as it is declared beside the worst case.
+/// Returns the first limit that forbids the train, with the figures for the declared load and for the worst case.
 std::string forbids(const GateSetup& setup, const PulseTrain& train, Seconds interval) {
     const auto nominal = exposureOf(train, interval, setup.load.nominal, setup.source, 0);
     const auto rows = exposureTable(setup, train, interval);
@@ -34,7 +34,7 @@ std::string forbids(const GateSetup& setup, const PulseTrain& train, Seconds int
                        exactText(row->limit, row->unit), row->set.view());
 }
 
-/// The limit that forbids arming on this load: every arming gives an impedance check first.
+/// Returns the limit that forbids arming on this load: every arming delivers an impedance check first.
 std::string forbidsCheck(const GateSetup& setup) {
     const PulseTrain check = checkTrainOf(setup);
     const auto why = forbids(setup, check, checkInterval(check));
@@ -43,7 +43,7 @@ std::string forbidsCheck(const GateSetup& setup) {
                        why);
 }
 
-/// Settings that show the whole train with its tail, and twice the peak that is expected.
+/// Returns settings that show the whole train with its tail, and up to twice the expected peak.
 bench::CaptureOptions captureFor(Bench& bench, const PulseTrain& train, const TrainExposure& most, const Load& load,
                                  bool opens) {
     const auto* scope = bench.devices().oscilloscope.get();
@@ -69,14 +69,14 @@ bench::CaptureOptions captureFor(Bench& bench, const PulseTrain& train, const Tr
             .trigger_v = 0.2 * volts / kHeadroom};
 }
 
-/// The command at the shortest interval, of an amplitude from 0 the weakest to 1 the strongest.
+/// Returns the command at the shortest interval; `strength` runs from 0 (weakest amplitude) to 1 (strongest).
 Result<LoadCommand> commandFor(ScriptSession& session, const std::string& name, double strength) {
     Bench& bench = session.bench();
     const auto load = parseLoad(name);
     if (!load) return failure(load);
     const auto& encoding = bench.profile().encoding;
     const auto& source = bench.devices().stimulator->traits();
-    // The interval at its shortest, the amplitude as asked, whichever of R and P makes which.
+    // R and P such that the interval is shortest and the amplitude is `strength`, for either assignment.
     const bool texture = encoding.assignment == Assignment::TextureToAmplitude;
     const double R = texture ? strength : 1, P = texture ? 1 : strength;
     const auto command = Encoder(encoding).encode(R, P);
@@ -102,7 +102,7 @@ Result<LoadCommand> commandFor(ScriptSession& session, const std::string& name, 
     out.forbidden = forbids(setup, train, command->interval);
     const double area = setup.electrodeArea ? setup.electrodeArea->value() : kNaN;
     const auto most = exposureOf(train, command->interval, *load, source, area);
-    // Once a skin equivalent's current has settled, it is far below its charging spike, and gets a range of its own.
+    // The settled current of a skin equivalent is far below its charging spike, so it is captured in its own range.
     constexpr double kOverTheEnd = 5e3;  // mA per A
     const bool spikes = load->kind == LoadKind::SkinEquivalent && source.drive == Drive::Voltage;
     if (spikes) out.fineRange_ma = kOverTheEnd * out.command_v / ohms.value();

@@ -1,5 +1,5 @@
-// LoadCommands.h - the parts of a check on loads: what a command would be and do on a load, giving it, and provoking
-// what must end the output by itself.
+// LoadCommands.h - the parts of a check on loads: computing a command's effect on a load, giving the command, and
+// provoking faults that must end the output by themselves.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -17,49 +17,49 @@ struct LoadCommand {
     std::string load;
     double roughness = 0, pressure = 0;
     double command_v = 0, interval_s = 0;
-    std::string checkForbidden{};     ///< the limit that forbids the impedance check, and so arming; empty: none
-    std::string notApplicable{};      ///< why the device cannot give it; empty: it can, and the rest is stated
-    std::string forbidden{};          ///< the limit that forbids it; empty: none does
-    double fineRange_ma = kNaN;       ///< range for current that settles far below a charging spike; NaN: there is none
-    bench::CaptureOptions capture{};  ///< captures must show the whole train
+    std::string checkForbidden{};     ///< the limit that forbids the impedance check and so arming; empty: none
+    std::string notApplicable{};      ///< why the device cannot give the command; if empty, the rest is stated
+    std::string forbidden{};          ///< the limit that forbids the command; empty: none
+    double fineRange_ma = kNaN;       ///< range for a current that settles far below a charging spike; NaN: none
+    bench::CaptureOptions capture{};  ///< such that captures show the whole train
 };
 
-/// The computed commands for a load: `count` commands at the shortest interval, from the weakest amplitude to the
-/// strongest in even steps. Errors: InvalidArgument for a load that cannot be read; as Encoder::encode().
+/// Returns `count` computed commands for a load at the shortest interval, from the weakest to the strongest amplitude
+/// in even steps. Errors: InvalidArgument for a load that cannot be read; as Encoder::encode().
 [[nodiscard]] Result<std::vector<LoadCommand>> commandsFor(ScriptSession& session, const std::string& load, int count);
-/// The strongest of these that the device can give and the limits allow, counted from the weakest at 0. Nothing where
-/// there is none.
+/// Returns the index of the strongest command that the device can give and the limits allow (0: the weakest), or
+/// nothing if there is no such command.
 [[nodiscard]] std::optional<std::size_t> strongestOf(const std::vector<LoadCommand>& commands);
 
-/// Arms as bench.arm() does. Nothing when armed, else what is wrong with this load, which ends its part of the check
-/// and not the run. Errors: a fault, a stop, no confirmation.
+/// Arms as bench.arm() does. Returns nothing if armed, else the problem with this load, which ends the check of this
+/// load but not the run. Errors: a fault, a stop, no confirmation.
 [[nodiscard]] Result<std::optional<Error>> tryToArm(ScriptSession& session, const std::string& load);
 
-/// An entry of a load's list "steps", "refusals" or, where the device cannot give the command, "undriven", as
-/// loadRecordFrom() reads them.
+/// An entry of a load's list "steps", "refusals" or, if the device cannot give the command, "undriven", in the form
+/// that loadRecordFrom() reads.
 struct Given {
     const char* list;
     Json entry;
 };
-/// Gives a command on the load that is armed. What the limits forbid is asked for once and must be refused; else
-/// `trains` trains are captured and read, the end of a phase in a current range of its own where a charging spike is
-/// far above it. The drive is off afterwards. Errors: a fault, a stop, fewer trains.
+/// Gives a command on the armed load. A command that the limits forbid is requested once and must be refused. Otherwise
+/// `trains` trains are captured and read; the end of a phase far below its charging spike is read in its own current
+/// range. The drive is off afterwards. Errors: a fault, a stop, fewer trains.
 [[nodiscard]] Result<Given> give(ScriptSession& session, const LoadCommand& command, int trains);
-/// Three trains in one record, on the load that is armed: { command_v, interval_s, rate_hz, captures }.
+/// Captures three trains in one record on the armed load: { command_v, interval_s, rate_hz, captures }.
 [[nodiscard]] Result<Json> captureBurst(ScriptSession& session, const LoadCommand& command);
 
-// Trips, as tripTrialFrom() reads them: not evaluated where the stimulator cannot read back. The fault that was
-// provoked is reset and does not end the run. Errors: a fault of another kind, a load that cannot be changed, a stop.
+// Trips, in the form that tripTrialFrom() reads; not evaluated if the stimulator cannot read back. The provoked fault
+// is reset and does not end the run. Errors: a fault of another kind, a load that cannot be changed, a stop.
 
-/// Tries to arm into what is `fitted`, declared as `declared`: it must be refused after its one small pulse.
+/// Tries to arm with `fitted` connected and `declared` declared: must be refused after one small pulse.
 [[nodiscard]] Result<Json> tripWhenArming(ScriptSession& session, const std::string& fitted,
                                           const std::string& declared);
-/// Delivers trains at the shortest interval, `strength` from 0 the weakest to 1 the strongest, and changes the load
-/// under way: output must end before the next train. Also "command_v", "interval_s" and "captures": the record of the
-/// train that found the circuit open.
+/// Delivers trains at the shortest interval (`strength`: 0 weakest to 1 strongest) and changes the load meanwhile: the
+/// output must end before the next train. Also returns "command_v", "interval_s" and "captures": the record of the
+/// train that met the open circuit.
 [[nodiscard]] Result<Json> tripWhileDelivering(ScriptSession& session, const std::string& becomes,
                                                const std::string& load, double strength);
-/// Delivers the weakest trains and withholds the heartbeat: output must end 100 ms later and stay off.
+/// Delivers the weakest trains and withholds the heartbeat: the output must end 100 ms later and stay off.
 [[nodiscard]] Result<Json> tripBySilence(ScriptSession& session, const std::string& load, double seconds);
 
 }  // namespace tacto::host::load_safety

@@ -1,4 +1,4 @@
-// The object "bench.loadSafety", the steps of the resistor-load safety check: what scripts can call, and what each
+// The object "bench.loadSafety", the steps of the resistor-load safety check: the functions for scripts and what each
 // does.
 #include <algorithm>
 
@@ -22,12 +22,12 @@ namespace {
 constexpr const char* kUsualLoad = "1 kohm";
 constexpr const char* kBurstLoad = "500 ohm";
 
-/// The state of a check, in the shapes of LoadSafetyJson.h.
+/// The state of a check, in the formats of LoadSafetyJson.h.
 struct LoadCheck {
     LoadSafetyTolerances tolerances;
     std::string knownLoad;
-    int trains = 0, commands = 0;  ///< figures read for a command; figures of a load
-    bool multimeter = false;       ///< readings of a multimeter are asked for
+    int trains = 0, commands = 0;  ///< trains read per command; commands per load
+    bool multimeter = false;       ///< asks for multimeter readings
     double silence_s = 0;
     Json loads = Json::array(), trips = Json::array();
     Json reference, absolute, openCircuit;
@@ -42,7 +42,7 @@ LoadSafetyTolerances tolerancesFrom(const Arguments& arguments) {
     return out;
 }
 
-/// The bench and what it may deliver; loads and trips come from the check.
+/// Returns the bench and its limits; the check adds loads and trips.
 LoadSafetyInput inputFor(Bench& bench, const LoadSafetyTolerances& tolerances) {
     LoadSafetyInput input;
     const auto& profile = bench.profile();
@@ -58,7 +58,7 @@ LoadSafetyInput inputFor(Bench& bench, const LoadSafetyTolerances& tolerances) {
     return input;
 }
 
-/// Everything measured so far against every limit set. Loads that were not reached are left out.
+/// Judges everything measured so far against every limit set, without loads that were not reached.
 Result<Json> judged(ScriptSession& session, const LoadCheck& check) {
     LoadSafetyInput input = inputFor(session.bench(), check.tolerances);
     for (const auto& item : check.loads) {
@@ -95,7 +95,7 @@ Result<Json> judged(ScriptSession& session, const LoadCheck& check) {
     return out;
 }
 
-/// Keeps the record, in case the run ends early.
+/// Keeps the record in case the run ends early.
 Result<Json> keep(ScriptSession& session, const LoadCheck& check) {
     auto found = judged(session, check);
     if (found) session.keepPartial(*found, Json::array());
@@ -106,7 +106,7 @@ Json newLoad(const std::string& name) {
     return {{"name", name}, {"steps", Json::array()}, {"refusals", Json::array()}, {"undriven", Json::array()}};
 }
 
-/// Enters a reading of a multimeter, where the technician has one at hand.
+/// Records a multimeter reading if the technician has a multimeter.
 Result<void> enterValue(ScriptSession& session, Json& load) {
     const auto name = load["name"].get<std::string>();
     std::string key;
@@ -147,7 +147,7 @@ Result<void> fit(ScriptSession& session, const std::string& load) {
     return bench::changeLoad(session, load, "fit-load", fmt::format("Fit the load {}", load));
 }
 
-/// Gives a command, puts what came of it into its list of the load, and what was read into a trial.
+/// Gives a command, adds the outcome to the load's list, and records the readings as a trial.
 Result<void> giveInto(ScriptSession& session, Json& load, const LoadCommand& command, int trains, bool isReference) {
     auto given = give(session, command, trains);
     if (!given) return failure(given);
@@ -162,8 +162,8 @@ Result<void> giveInto(ScriptSession& session, Json& load, const LoadCommand& com
     return {};
 }
 
-/// Asks to arm where the impedance check alone breaks a limit. It must be refused, and by a limit: arming that fails
-/// for another reason says nothing about the limits and is this load's problem.
+/// Asks to arm if the impedance check alone breaks a limit. A limit must refuse the arming: a failure for another
+/// reason says nothing about the limits and is a problem of this load.
 Result<void> askToArm(ScriptSession& session, Json& load, const std::string& forbids) {
     const auto problem = tryToArm(session, load["name"]);
     if (!problem) return failure(problem);
@@ -180,7 +180,7 @@ Result<void> askToArm(ScriptSession& session, Json& load, const std::string& for
     return {};
 }
 
-/// Judges the load by its first command: a wrong load gets no other. Empty when it is right, else why it is not.
+/// Judges the load by its first command; a wrong load gets no other. Returns the reason, or an empty text if right.
 Result<std::string> wrongValue(ScriptSession& session, const Json& load, const LoadSafetyTolerances& tolerances) {
     const auto record = loadRecordFrom(load);
     if (!record) return failure(record);
@@ -188,7 +188,7 @@ Result<std::string> wrongValue(ScriptSession& session, const Json& load, const L
     return row.verdict == RowVerdict::Pass ? std::string() : row.reason;
 }
 
-/// The load's value is verified first: a load with a wrong value gets no further commands.
+/// Verifies the load's value first: a load with a wrong value gets no further commands.
 Result<void> measureInto(ScriptSession& session, Json& load, const LoadCheck& check) {
     const auto name = load["name"].get<std::string>();
     const auto commands = commandsFor(session, name, check.commands);
@@ -265,7 +265,7 @@ Result<Json> knownLoad(ScriptSession& session, const Arguments& arguments) {
     return Json(std::ranges::all_of((*found)["rows"], passed) && (absolute.is_null() || absolute["passed"] == true));
 }
 
-/// The result of a load is at once a row of the session, and of the window.
+/// The result of each load goes at once into the session and to the window.
 Result<Json> load(ScriptSession& session, const Arguments& arguments) {
     const auto check = session.begun<LoadCheck>(arguments.object());
     if (!check) return failure(check);
@@ -293,7 +293,7 @@ Result<Json> load(ScriptSession& session, const Arguments& arguments) {
     return done(session.addTrial(name, trial));
 }
 
-/// Delivers the strongest trains into an open circuit, where their voltage is measured.
+/// Delivers the strongest trains into an open circuit and measures their voltage.
 Result<Json> trip(ScriptSession& session, const Arguments& arguments) {
     const auto check = session.begun<LoadCheck>(arguments.object());
     if (!check) return failure(check);
@@ -334,7 +334,7 @@ Result<Json> judge(ScriptSession& session, const Arguments& arguments) {
     return keep(session, **check);
 }
 
-/// The strongest trains that the limits allow; null where there are none.
+/// Captures the strongest trains that the limits allow; null if there are none.
 Result<Json> burstOf(ScriptSession& session, int count) {
     const auto commands = commandsFor(session, kBurstLoad, count);
     if (!commands) return failure(commands);
@@ -360,7 +360,7 @@ Result<Json> tracings(ScriptSession& session, const Arguments& arguments) {
     if (!check) return failure(check);
     const auto burst = burstOf(session, (*check)->commands);
     if (!burst) return burst;
-    if (session.writer() == nullptr) return Json();  // tens of thousands of samples, for no report
+    if (session.writer() == nullptr) return Json();  // tens of thousands of samples are not needed without a report
     for (const auto& item : report::loadTracings(session, (*check)->loads, *burst)) {
         if (auto written = session.reportItem(item); !written) return failure(written);
     }

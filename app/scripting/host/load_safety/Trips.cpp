@@ -1,5 +1,5 @@
-// Provokes on a bench load all that must end output by itself: an open or short circuit, contact that comes and goes, a
-// control loop that falls silent (hazards H2, H3).
+// Provokes on a bench load every fault that must end the output by itself: an open or short circuit, an intermittent
+// contact, a silent control loop (hazards H2, H3).
 #include <algorithm>
 #include <cmath>
 
@@ -28,12 +28,12 @@ bool canTell(Bench& bench) {
 constexpr std::string_view kNoReadBack =
     "this stimulator does not read back, so only the operator can notice that the load changed";
 
-/// Changes the load without ending the output first.
+/// Changes the load while the output stays on.
 Result<void> change(ScriptSession& session, const std::string& to, const std::string& request) {
     return bench::changeLoad(session, to, "change-load", request);
 }
 
-/// The bench is in a fault that was provoked: counted, and its cause taken away.
+/// Counts a fault of the bench that was provoked, and removes its cause.
 Result<void> acknowledge(ScriptSession& session, const std::string& load, const std::string& request) {
     session.noteExpectedFault();
     if (auto fitted = change(session, load, request); !fitted) return fitted;
@@ -46,8 +46,8 @@ std::string commandFor(std::string_view becomes, const std::string& load) {
     return fmt::format("Output is running into {}: make and break one lead's contact, then confirm", load);
 }
 
-/// Lets trains run until two have been delivered, so that a trip ends something. `strength`: 0 the weakest amplitude to
-/// 1 the strongest, at the shortest interval.
+/// Lets trains run until two have been delivered, so that a trip has something to end. `strength`: amplitude from 0
+/// (weakest) to 1 (strongest), at the shortest interval.
 Result<void> startTrains(ScriptSession& session, const std::string& load, double strength = 0) {
     Bench& bench = session.bench();
     const auto request = confirmedArming(session, load);
@@ -68,7 +68,7 @@ Result<void> startTrains(ScriptSession& session, const std::string& load, double
     return fail(ErrorCode::Timeout, "no two trains were delivered into {} within {:.1f} s", load, longest_s);
 }
 
-/// The time from the onset of the last train to the control loop's last step: by then the output had ended.
+/// Returns the time from the onset of the last train to the control loop's last step, when the output had ended.
 double sinceLastTrain(const Telemetry& seen) {
     double since = kNaN;
     for (const auto& train : seen.programmed) {
@@ -78,7 +78,7 @@ double sinceLastTrain(const Telemetry& seen) {
     return since;
 }
 
-/// Records of what goes into an open circuit: all trains from now on, in a range for what the source can reach there.
+/// Records all trains from now on, in a range for the voltage that the source can reach in an open circuit.
 Result<void> watchOpenCircuit(Bench& bench) {
     const auto& source = bench.devices().stimulator->traits();
     const auto& encoding = bench.profile().encoding;
@@ -90,7 +90,7 @@ Result<void> watchOpenCircuit(Bench& bench) {
     return bench.requestCaptures(static_cast<int>(ScopeSession::kMaxCaptures), settings);
 }
 
-/// The last of them: the train that found the circuit open. Nothing where it was not seen.
+/// Returns the last record: the train that met the open circuit. Nothing if it was not captured.
 Result<Json> openCircuitSeen(ScriptSession& session) {
     auto captures = session.bench().takeCaptures();
     session.bench().cancelCaptures();
@@ -119,7 +119,7 @@ Result<Json> tripWhenArming(ScriptSession& session, const std::string& becomes, 
     const double after_s = toSeconds(session.now() - begun);
     bench.disarm();
     if (armed) return trial(becomes, true, false, kNaN, "the output was armed into it");
-    // Refused for its load; any other failure is a failure of the run.
+    // Expected: refused because of its load. Any other failure is a failure of the run.
     const auto code = armed.error().code;
     if (code != ErrorCode::NotArmed && code != ErrorCode::LimitExceeded) return failure(armed);
     const bool quiet = bench.telemetry().trainsDelivered == delivered;
@@ -169,7 +169,7 @@ Result<Json> tripWhileDelivering(ScriptSession& session, const std::string& beco
     if (auto cleared = acknowledge(session, load, fmt::format("Fit {} again, then confirm", load)); !cleared) {
         return failure(cleared);
     }
-    // One train finds the change; with contact that comes and goes, some trains find it still good.
+    // One train detects the change; with an intermittent contact, some trains still find the contact good.
     const bool stopped = becomes == "intermittent" || seen.trainsDelivered <= delivered + 1;
     Json out = trial(name, true, stopped, after_s, seen.reason.view());
     out["command_v"] = numberOrNull(command_v);
@@ -189,7 +189,7 @@ Result<Json> tripBySilence(ScriptSession& session, const std::string& load, doub
     if (auto started = startTrains(session, load); !started) return failure(started);
     const auto delivered = bench.telemetry().trainsDelivered;
     if (auto silent = bench.withholdHeartbeat(Seconds(seconds)); !silent) return failure(silent);
-    // The loop is back and looks at what happened: it must find a fault, and must not continue.
+    // The loop runs again and checks what happened: it must report a fault and not continue.
     const auto waited = bench.wait(Seconds(seconds));
     const auto seen = bench.telemetry();
     if (waited) {
@@ -201,7 +201,7 @@ Result<Json> tripBySilence(ScriptSession& session, const std::string& load, doub
     }
     session.noteExpectedFault();
     if (auto reset = bench.resetFault(); !reset) return failure(reset);
-    const bool quiet = seen.trainsDelivered <= delivered + 1;  // one train may have been under way
+    const bool quiet = seen.trainsDelivered <= delivered + 1;  // one train may already have been under way
     const auto after = bench.silencedAfter();
     return trial("dead-man", true, quiet && after.has_value(), after ? after->count() : kNaN, seen.reason.view());
 }

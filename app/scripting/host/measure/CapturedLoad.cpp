@@ -1,4 +1,4 @@
-// The effect of trains on a load, from captures.
+// Reads the effect of trains on a load from captures.
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -11,8 +11,8 @@ namespace tacto::host::measure {
 
 namespace {
 
-/// The amplitude to which the last trains were programmed, one more than were captured, if all were programmed alike:
-/// an instrument whose time stamps are too coarse to tell trains apart has seen no other. NaN if not.
+/// Returns the programmed amplitude if the last trains, one more than were captured, were all programmed alike: even an
+/// instrument with coarse time stamps has then seen no other. Else NaN.
 double settledAt(const Telemetry& now, std::size_t captures) {
     auto programmed = now.programmed;
     std::ranges::sort(programmed, std::ranges::greater(), &ProgrammedTrain::onset);
@@ -36,7 +36,7 @@ Result<Json> loadReading(ScriptSession& session, const LoadCaptures& captures) {
     ExpectedTrain expected{train.pulses, train.rate.value()};
     if (const auto& stimulator = session.bench().devices().stimulator) expected.drive = stimulator->traits().drive;
     if (captures.byVoltage) expected.drive = Drive::Voltage;
-    // A calibrated stimulator is programmed to something else than what it is to deliver.
+    // A calibrated stimulator is not programmed to the value that it shall deliver.
     const auto& calibration = session.bench().calibration();
     const double settled = settledAt(session.bench().telemetry(), given->captures.size());
     for (const auto& capture : given->captures) {

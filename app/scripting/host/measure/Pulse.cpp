@@ -1,4 +1,4 @@
-// One reading for a calibration, from captures.
+// Makes one reading for a calibration from captures.
 #include <cmath>
 
 #include "app/scripting/host/measure/Readings.h"
@@ -10,7 +10,7 @@ namespace tacto::host::measure {
 
 namespace {
 
-/// The data sheet's statements on the channel that was read, in the reading's unit (`scale`: mA per A).
+/// Returns the data sheet's statements about the channel, in the reading's unit (`scale`: mA per A).
 Json instrumentOf(const Capture& capture, const CaptureChannel& channel, double scale) {
     const auto positive = [](double value) { return value > 0 ? Json(value) : Json(); };
     return {{"gain_tolerance", numberOrNull(channel.gainTolerance)},
@@ -26,7 +26,7 @@ Json instrumentOf(const Capture& capture, const CaptureChannel& channel, double 
             {"full_scale", positive(channel.high * scale)}};
 }
 
-/// The command to the stimulator when the capture was taken.
+/// Returns the command to the stimulator at the time of the capture.
 Json commandJson(const CapturedCommand& command) {
     return {{"amplitude", numberOrNull(command.amplitude)},
             {"interval_s", numberOrNull(command.interval_s)},
@@ -34,13 +34,13 @@ Json commandJson(const CapturedCommand& command) {
             {"gap_s", numberOrNull(command.gap_s)}};
 }
 
-/// The load as V/I with its U, from what both channels state; null where they do not.
+/// Adds the load as V/I with its U from what both channels state; null if they do not state it.
 void addLoad(Json& out, const Capture& capture, const ChannelMeasurement& voltage, const ChannelMeasurement& current) {
     const double volts = meanOfTrains(voltage, &TrainMeasurement::amplitude);
     const double amps = meanOfTrains(current, &TrainMeasurement::amplitude);
     const auto *v = channelOf(capture, "voltage"), *i = channelOf(capture, "current");
     if (v == nullptr || i == nullptr || !(volts > 0) || !(amps > 0)) return;
-    const bool shared = capture.gainShared;  // a shared gain divides out
+    const bool shared = capture.gainShared;  // a shared gain cancels in V/I
     const double relative = std::hypot((shared ? withoutGain(voltage, *v) : voltage.uncertainty.amplitude) / volts,
                                        (shared ? withoutGain(current, *i) : current.uncertainty.amplitude) / amps);
     out["load_ohm"] = volts / amps;

@@ -28,7 +28,7 @@ double meanOfTrains(const ChannelMeasurement& channel, double TrainMeasurement::
 }
 
 namespace {
-/// An uncertainty without a part of it. An unknown part leaves it unknown.
+/// Removes `part` from an uncertainty. If `part` is unknown, so is the result.
 double without(double part, double all) noexcept {
     const double rest = all * all - part * part;
     return std::sqrt(rest < 0 ? 0 : rest);

@@ -1,4 +1,4 @@
-// A train as delivered, for trials.
+// Measures a delivered train, for trials.
 #include <cmath>
 
 #include "app/scripting/host/measure/Readings.h"
@@ -9,7 +9,7 @@ namespace tacto::host::measure {
 
 namespace {
 
-/// NaN when one of them is unknown.
+/// Returns NaN if one of them is unknown.
 double worstTimeBase(const std::vector<Capture>& captures) {
     double worst = 0;
     for (const auto& capture : captures) {
@@ -20,7 +20,7 @@ double worstTimeBase(const std::vector<Capture>& captures) {
     return worst;
 }
 
-/// The relative uncertainty of the voltage's gain, which all trials share; NaN where one trial does not state it.
+/// Returns the relative uncertainty of the voltage gain, which all trials share; NaN if one trial does not state it.
 double gainUncertainty(const std::vector<Capture>& captures) {
     double worst = 0;
     for (const auto& capture : captures) {
@@ -32,7 +32,7 @@ double gainUncertainty(const std::vector<Capture>& captures) {
     return worst;
 }
 
-/// The time base is handed on by itself: it is the same in all trials.
+/// Leaves the time base out, which is the same in all trials and is handed on separately.
 double intervalWithoutTimeBase(const ChannelMeasurement& channel, double timeBase) {
     const double base = timeBase * channel.interval_s.mean, all = channel.uncertainty.interval_s;
     const double rest = all * all - base * base;

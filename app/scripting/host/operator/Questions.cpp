@@ -1,4 +1,4 @@
-// The person at the bench: what is asked, and the wiring as drawn.
+// Questions to the person at the bench, and the wiring diagram.
 #include "app/scripting/engine/Arguments.h"
 #include "app/scripting/engine/DeclaredText.h"
 #include "app/scripting/engine/ProtocolLibrary.h"

@@ -1,5 +1,5 @@
-// The object "pilot", a session of a study with a participant: its beginning and end, what protects the participant
-// around the trials, and the procedures; what each does stands in core/pilot.
+// The object "pilot", a study session with a participant: its beginning and end, the protection of the participant
+// around the trials, and the procedures. core/pilot says what each function does.
 #include <type_traits>
 
 #include "app/scripting/engine/Arguments.h"
@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// The answer of `call(pilot)`: JSON, or nothing. Errors: Unsupported outside a study's session; as `call`.
+/// Returns the answer of `call(pilot)`: JSON, or nothing. Errors: Unsupported outside a study session; as `call`.
 template <class Call>
 [[nodiscard]] Result<Json> inPilot(ScriptSession& session, const Call& call) {
     const auto pilot = session.pilot();

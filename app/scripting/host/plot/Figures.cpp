@@ -1,4 +1,4 @@
-// Figures of what was measured.
+// Figures of measured results.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -26,7 +26,7 @@ Json samplesOf(const CaptureChannel& channel) {
     return out;
 }
 
-/// `entry` with the capture: the row that keeps it, or its samples.
+/// Adds the capture to `entry`: the number of the row that keeps it, or its samples.
 Json withCapture(Json entry, const ScriptSession::Exemplar& exemplar) {
     if (exemplar.row) {
         entry["capture"] = *exemplar.row;
@@ -42,7 +42,7 @@ Json withCapture(Json entry, const ScriptSession::Exemplar& exemplar) {
     return entry;
 }
 
-/// The condition as captured: where its trains begin and how far each reaches, and the samples of the first.
+/// Adds the captured trains to a condition: onset and length of each, and the samples of the first.
 void addLane(Json& condition, const std::vector<Capture>& captures) {
     Json trains = Json::array();
     double first_s = kNaN;

@@ -1,4 +1,4 @@
-// PlotFigures.h - figures that reports take by themselves.
+// PlotFigures.h - figures that reports add by themselves.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -11,7 +11,7 @@ namespace tacto::host::plot {
 
 using Json = nlohmann::json;
 
-/// A calibration; `view`: "measured" against commanded, or "errors". `found`: from analysis.calibration().
+/// Returns a calibration figure. `view`: "measured" against commanded, or "errors". `found`: analysis.calibration().
 [[nodiscard]] Json calibrationFigure(const Json& found, const char* view);
 
 /// The first capture that was recorded under `condition`, named `label` in the figure.

@@ -1,4 +1,4 @@
-// Randomness from the seed of the run.
+// Random numbers and orders from the seed of the run.
 #include "app/scripting/engine/Arguments.h"
 #include "app/scripting/engine/ScriptSession.h"
 
@@ -10,7 +10,7 @@ using Json = nlohmann::json;
 
 constexpr double kMaxElements = 1e6;
 
-/// 0..n-1 in random order (Fisher and Yates).
+/// Appends 0..n-1 in random order (Fisher and Yates).
 void appendOrder(Random& random, std::size_t n, Json& out) {
     std::vector<std::size_t> order(n);
     for (std::size_t i = 0; i < n; ++i) order[i] = i;

@@ -1,4 +1,4 @@
-// Keeping a calibration for the stimulator that is connected.
+// Keeps a calibration for the connected stimulator.
 #include "app/scripting/host/record/KeptCalibration.h"
 
 #include <chrono>
@@ -25,7 +25,7 @@ Result<std::optional<CalibrationDate>> dueDate(const std::string& text) {
     return date;
 }
 
-/// U over the command, at its worst; NaN where a level has none.
+/// Returns the largest U divided by its command; NaN if a level has no U.
 double worstUncertainty_pct(const Json& levels) {
     double worst = 0;
     for (const auto& level : levels) {
@@ -36,7 +36,7 @@ double worstUncertainty_pct(const Json& levels) {
     return worst;
 }
 
-/// The largest distance of a level's mean from the line; NaN where a level has none.
+/// Returns the largest distance of a level's mean from the line; NaN if a level has none.
 double largestResidual(const Json& levels) {
     double largest = 0;
     for (const auto& level : levels) {
@@ -47,7 +47,7 @@ double largestResidual(const Json& levels) {
     return largest;
 }
 
-/// The run's own calibration of one quantity that `found` refers to: of what the script says, the number counts alone.
+/// Returns the run's own calibration of one quantity that `found` refers to. Only the number in `found` is used.
 Result<const OwnCalibration*> ownOf(ScriptSession& session, const Json& found, std::string_view quantity) {
     const Json one = found.value(std::string(quantity), Json());
     const auto* own = session.own().calibration(one.is_object() ? one.value("calibration", Json()) : one);
@@ -66,7 +66,7 @@ Result<const OwnCalibration*> ownOf(ScriptSession& session, const Json& found, s
     return own;
 }
 
-/// The line of one quantity, from what the program itself found.
+/// Returns the line of one quantity as the program itself found it.
 Result<StoredLine> lineFound(const Json& one, std::string_view quantity) {
     if (one.value("complete", Json()) != Json(true)) {
         return otherThanExpected(kFunction, quantity, one,
@@ -153,7 +153,7 @@ Result<Json> keepCalibration(ScriptSession& session, const Json& found, const Va
         made.readings += own->readings.size();
         evidence[own->quantity] = own->found;
     }
-    // The readings are in the session, on disk, before a calibration refers to them.
+    // A calibration may refer to the readings only once they are on disk in the session.
     if (auto kept = writer->measurement(session.now(), kCalibrationMeasurement, evidence); !kept) return failure(kept);
     if (auto flushed = writer->flush(); !flushed) return failure(flushed);
     made.session = writer->path().filename().string();
@@ -163,7 +163,7 @@ Result<Json> keepCalibration(ScriptSession& session, const Json& found, const Va
     const auto* before = store->latest(made.serial, made.unit);
     const Json supersedes = before == nullptr ? Json() : Json(dateText(before->made));
     if (auto added = store->add(made); !added) return failure(added);
-    session.own().note({{"kept at", made.sessionHead}});  // for the certificate to name
+    session.own().note({{"kept at", made.sessionHead}});  // for the certificate, which names it
     return Json{{"serial", made.serial},     {"valid_until", dateText(made.validUntil)}, {"supersedes", supersedes},
                 {"readings", made.readings}, {"session_head", made.sessionHead},         {"simulated", made.simulated}};
 }

@@ -1,4 +1,4 @@
-// KeptCalibration.h - keeping a calibration, for record.calibration() and the calibration of a stimulator.
+// KeptCalibration.h - keeps a calibration, for record.calibration() and for the calibration of a stimulator.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -11,11 +11,11 @@ namespace tacto::host::record {
 
 struct Validity {
     int days = 365;
-    std::string scopeDue{};  ///< the day on which the oscilloscope's own calibration is due; empty: not stated
+    std::string scopeDue{};  ///< date on which the oscilloscope's own calibration is due; empty: not stated
 };
 
-/// Keeps it as record.calibration() does. `found`: { amplitude, interval, width, gap }; only the numbers in their
-/// calibrations count.
+/// Keeps a calibration as record.calibration() does. `found`: { amplitude, interval, width, gap }; only the calibration
+/// number in each is used.
 [[nodiscard]] Result<nlohmann::json> keepCalibration(ScriptSession& session, const nlohmann::json& found,
                                                      const Validity& validity);
 

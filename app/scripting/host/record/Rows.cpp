@@ -1,4 +1,4 @@
-// Trials, measurements and events, and what is kept of a run that ends early.
+// Records trials, measurements and events, and keeps partial results of a run that ends early.
 #include "app/scripting/engine/Arguments.h"
 #include "app/scripting/engine/ScriptSession.h"
 
@@ -21,7 +21,7 @@ Result<Json> trials(ScriptSession& session, const Arguments&) { return Json(sess
 Result<Json> measurement(ScriptSession& session, const Arguments& arguments) {
     const auto name = arguments.text("name");
     const Json& values = arguments.object("values");
-    // These names hold what the program found, not what a script says (hazard H9).
+    // Measurements with these names hold what the program found; a script cannot write them (hazard H9).
     if (name == kExposureMeasurement || name == kCalibrationMeasurement)
         return arguments.wrong("name", name, "a name that the program does not use itself");
     return done(session.keepMeasurement(name, values));

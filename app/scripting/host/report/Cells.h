@@ -1,4 +1,4 @@
-// Cells.h - words and numbers of results, as sentences and captions have them.
+// Cells.h - words and numbers of results, as written in sentences and captions.
 //
 // Thread-safety: pure functions.
 #pragma once
@@ -18,8 +18,8 @@ namespace tacto::host::report {
 
 using Json = nlohmann::json;
 
-/// The value with so many significant digits, zeros at the end included; "–" for what is not known. Whole numbers of up
-/// to six digits are written out: 1010, not 1.01e+3.
+/// Returns the value with this many significant digits, with zeros at the end; "–" if it is not known. Whole numbers of
+/// up to six digits are written out: 1010, not 1.01e+3.
 [[nodiscard]] inline std::string digitsOf(double value, int digits) {
     if (!std::isfinite(value)) return "–";
     const auto scientific = fmt::format("{:.{}e}", value, digits - 1);
@@ -30,20 +30,20 @@ using Json = nlohmann::json;
     return fmt::format("{:.{}f}", value, digits - 1 - exponent);
 }
 
-/// An empty list where it is missing or null.
+/// Returns an empty list if it is missing or null.
 [[nodiscard]] inline const Json& listIn(const Json& row, const char* key) {
     static const Json kNone = Json::array();
     const auto at = row.find(key);
     return at != row.end() && at->is_array() ? *at : kNone;
 }
 
-/// "Amplitude", "Phase width" of "amplitude", "width".
+/// Returns "Amplitude" for "amplitude", "Phase width" for "width".
 [[nodiscard]] inline std::string titleOfQuantity(const std::string& quantity) {
     const auto* known = calibratedQuantity(quantity);
     return known != nullptr ? std::string(known->title) : quantity;
 }
 
-/// A load as people write it: "200 Ω + 10 kΩ ∥ 50 nF".
+/// Returns a load as people write it: "200 Ω + 10 kΩ ∥ 50 nF".
 [[nodiscard]] inline std::string writtenLoad(std::string load) {
     const auto replaceAll = [&load](std::string_view from, std::string_view to) {
         for (auto at = load.find(from); at != std::string::npos; at = load.find(from, at + to.size()))

@@ -26,7 +26,7 @@ Json certifiedRow(const Json& found, const Json& level, const Correction& correc
                     numberOr(found, "gain_coverage_factor");
     }
     const double tolerance = numberOr(level, "tolerance");
-    // The reading that was not measured may be the one that is off.
+    // A reading that was not measured may be the one outside the tolerance.
     const auto judged = guardBanded(error, expanded, tolerance);
     const auto verdict = numberOr(level, "not_measured") > 0 ? worseOf(judged, Verdict::Indeterminate) : judged;
     return {{"commanded", commanded},

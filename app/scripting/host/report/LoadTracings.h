@@ -1,4 +1,4 @@
-// LoadTracings.h - the figures of a load-safety check: what the strongest commands look like on loads.
+// LoadTracings.h - the figures of a load-safety check: traces of the strongest commands on loads.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -7,8 +7,8 @@
 
 namespace tacto::host::report {
 
-/// Report items: the single pulses into `loads`, as loadRecordFrom() reads them, on one time axis, and the burst
-/// of captureBurst() with its load and condition, on another. `burst` null: none was captured.
+/// Returns report items: the single pulses into `loads` (see loadRecordFrom()) on one time axis, and the burst of
+/// captureBurst() with its load and condition on another. `burst` is null if none was captured.
 [[nodiscard]] nlohmann::json loadTracings(ScriptSession& session, const nlohmann::json& loads,
                                           const nlohmann::json& burst);
 

@@ -1,4 +1,4 @@
-// The report of a run: figures, tables, sentences and numbers as they are written.
+// The report items of a run: figures, tables, sentences and numbers.
 #include <algorithm>
 
 #include "app/scripting/engine/ScriptSession.h"
@@ -20,7 +20,7 @@ Result<Json> writeItem(ScriptSession& session, const Json& item) {
     return done(session.writer()->reportItem(session.now(), item));
 }
 
-/// The correction that a stored calibration makes of one quantity.
+/// Returns the correction that a stored calibration makes for one quantity.
 Correction correctionOf(const Json& line) {
     CalibrationLine out;
     out.gain = numberOr(line, "gain");
@@ -30,7 +30,7 @@ Correction correctionOf(const Json& line) {
     return validateNumbers(out, "the certificate") ? Correction(out) : Correction();
 }
 
-/// The calibration that this run kept; nothing where it kept none.
+/// Returns the calibration that this run kept, or nothing.
 std::optional<StoredCalibration> keptByThisRun(ScriptSession& session) {
     const auto& stimulator = *session.bench().devices().stimulator;
     const auto& device = stimulator.identity();

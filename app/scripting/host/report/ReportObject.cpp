@@ -1,5 +1,4 @@
-// The object "report", what a protocol writes into its report: what scripts can call, and what each function takes and
-// returns.
+// The object "report", with which a protocol writes its report: the functions for scripts, their arguments and results.
 #include "app/scripting/host/report/ReportObject.h"
 
 namespace tacto {

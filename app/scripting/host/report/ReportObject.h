@@ -1,4 +1,4 @@
-// ReportObject.h - the functions of the object "report"; ReportObject.cpp says what each takes and returns.
+// ReportObject.h - the functions of the object "report"; ReportObject.cpp describes their arguments and results.
 #pragma once
 
 #include "app/scripting/engine/Arguments.h"

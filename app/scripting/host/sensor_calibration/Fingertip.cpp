@@ -1,4 +1,4 @@
-// Reading a fingertip: its rest, slides over surfaces and weights on it.
+// Reads a fingertip: at rest, sliding over surfaces, and under weights.
 #include <cmath>
 
 #include "app/scripting/host/sensor_calibration/FingertipCalibration.h"
@@ -9,11 +9,11 @@ namespace tacto::host::sensor_calibration {
 
 namespace {
 
-/// Takes the bench's samples as long as it lives.
+/// Receives the bench's samples during its lifetime.
 class Listening {
 public:
     explicit Listening(Bench& bench) : bench_(bench), tap_(std::make_unique<BenchTap>()) { bench_.listen(tap_.get()); }
-    /// The finger drives nothing afterwards that it was not asked to.
+    /// Makes sure that the finger then drives only what it was asked to drive.
     ~Listening() {
         bench_.listen(nullptr);
         static_cast<void>(bench_.drive(DriveSource::Off));
@@ -38,9 +38,9 @@ private:
     std::unique_ptr<BenchTap> tap_;
 };
 
-/// Lets `duration_s` pass and returns what the fingertip said meanwhile.
+/// Lets `duration_s` pass and returns the fingertip's samples from that time.
 Result<SensorSamples> listenFor(ScriptSession& session, double duration_s) {
-    constexpr double kStep_s = 0.1;  // a tap holds over half a second of a 20 kHz finger
+    constexpr double kStep_s = 0.1;  // a tap holds over half a second of samples from a 20 kHz finger
     Bench& bench = session.bench();
     SensorSamples samples;
     for (auto info : bench.devices().sensor->streams()) {
@@ -75,7 +75,7 @@ Result<SensorSamples> listenFor(ScriptSession& session, double duration_s) {
     return samples;
 }
 
-/// The force in use; nothing without a force sensor.
+/// Returns the force in use, or nothing without a force sensor.
 Result<std::optional<ForceInUse>> forceInUse(ScriptSession& session, const SensorSamples& samples) {
     auto chain = RoughnessChain::create(samples.streams, session.bench().profile().roughness, {}, samples.serial);
     if (!chain) return failure(chain);
@@ -118,7 +118,7 @@ Result<FingertipRest> readFingertipRest(ScriptSession& session, double duration_
     } else if (auto lifted = session.askTo("rest", "Lift the fingertip; nothing touches it"); !lifted) {
         return failure(lifted);
     }
-    if (auto waited = bench.wait(Seconds(1)); !waited) return failure(waited);  // the finger leaves what it was on
+    if (auto waited = bench.wait(Seconds(1)); !waited) return failure(waited);  // until the finger has left the surface
     const auto samples = listenFor(session, duration_s);
     if (!samples) return failure(samples);
     auto levels = readRest(*samples, bench.profile().roughness);
@@ -133,7 +133,7 @@ Result<SlideReading> readSliding(ScriptSession& session, const bench::Sliding& s
     Bench& bench = session.bench();
     bench.disarm();
     if (auto slid = bench::slide(session, sliding); !slid) return failure(slid);
-    if (auto waited = bench.wait(Seconds(1)); !waited) return failure(waited);  // the finger lands and speeds up
+    if (auto waited = bench.wait(Seconds(1)); !waited) return failure(waited);  // the finger lands and starts
     const auto samples = listenFor(session, duration_s);
     if (!samples) return failure(samples);
     auto reading = readSlide(*samples, bench.profile().roughness, rest);

@@ -1,4 +1,4 @@
-// Weights on a fingertip become the scales of its force and its taxels.
+// Computes the scales of a fingertip's force and taxels from weights on it.
 #include <algorithm>
 #include <cmath>
 
@@ -90,13 +90,13 @@ Result<Json> useScales(ScriptSession& session, const Json& found) {
     const bool all =
         std::all_of(taxels.begin(), taxels.end(), [](const Json& row) { return row["scale"].is_number(); });
     for (const auto& row : taxels) {
-        if (!all) break;  // one dead taxel has no pressure, and a mean over the others would be of others
+        if (!all) break;  // one dead taxel has no pressure, and a mean without it would be over other taxels
         scales.taxelUnit = streamUnitOf(row, StreamUnit::Pascal);
         scales.taxels.push_back({row["scale"], row["offset_pa"], numberOf(row["scale_expanded_uncertainty"])});
     }
     Profile profile = session.bench().profile();
     profile.roughness.sensor = scales;
-    // References that were read under other scales do not hold under these.
+    // References that were read with other scales are not valid with these.
     profile.roughness.calibrated = false;
     profile.roughness.uncertainty.reset();
     if (auto used = session.bench().setProfile(profile, RBefore::Measuring); !used) return failure(used);

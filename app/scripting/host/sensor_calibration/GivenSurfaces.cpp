@@ -1,4 +1,4 @@
-// The operator's statements on the specimens: surfaces by their Ra and Rz or by a profilometer's file, and weights.
+// The operator's statements about the specimens: surfaces by Ra and Rz or by a profilometer's file, and weights.
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -15,7 +15,7 @@ namespace {
 
 /// Errors: InvalidArgument for a path that the operator did not give, or that is not a file.
 Result<ProfilometerReading> readChosen(ScriptSession& session, const std::string& path) {
-    // The answer is the same whether such a file exists or not: a script cannot look around (hazard H10).
+    // The error is the same whether the file exists or not, so that a script cannot search the disk (hazard H10).
     if (!session.isOperatorsText(path)) {
         return fail(ErrorCode::InvalidArgument,
                     "bench.profilometer: the operator did not choose {}; a path that the operator gave as a parameter "
@@ -35,7 +35,7 @@ Result<GivenSurface> fromFile(ScriptSession& session, std::string name, const st
     return GivenSurface{std::move(name), found->ra_um, found->rz_um, path};
 }
 
-/// The parts of `text` between its semicolons.
+/// Returns the parts of `text` between semicolons.
 std::vector<std::string> partsOf(const std::string& text) {
     std::vector<std::string> parts;
     for (const auto part : split(text, ';')) {
@@ -50,7 +50,7 @@ Result<double> positive(const std::string& text, const std::string& what) {
     return fail(ErrorCode::InvalidArgument, "{} is {}; a number above 0 is expected{}", what, text, typedTrouble(text));
 }
 
-/// "NAME RA RZ" in µm, or "NAME FILE.csv".
+/// Reads "NAME RA RZ" in µm, or "NAME FILE.csv".
 Result<GivenSurface> surfaceFrom(ScriptSession& session, const std::string& text) {
     std::istringstream stream(text);
     std::vector<std::string> words;

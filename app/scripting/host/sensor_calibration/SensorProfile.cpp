@@ -1,4 +1,4 @@
-// Makes a profile of a sensor calibration.
+// Makes a profile from a sensor calibration.
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -11,7 +11,7 @@ namespace tacto::host::sensor_calibration {
 
 namespace {
 
-/// Letters, digits, '-' and '_': a serial may hold anything.
+/// Keeps letters, digits, '-' and '_', because a serial number may contain anything.
 std::string fileWord(std::string_view text) {
     std::string out;
     for (const char c : text) {
@@ -21,7 +21,7 @@ std::string fileWord(std::string_view text) {
     return out.empty() ? "unnamed" : out;
 }
 
-/// Writes a file that is not there yet: an older calibration is superseded, never overwritten.
+/// Writes a new file: an older calibration is superseded, never overwritten.
 Result<std::filesystem::path> writeNew(const std::filesystem::path& folder, const std::string& stem,
                                        const std::string& text) {
     std::error_code problem;
@@ -51,7 +51,7 @@ Result<Json> keepProfile(ScriptSession& session, const SensorCalibration& found,
     RoughnessSettings roughness = found.settings;
     if (area_cm2 > 0) roughness.contactArea = SquareCentimetres(area_cm2);
     const auto& identity = session.bench().devices().sensor->identity();
-    // Scales of another fingertip, from the profile that was in force before, are not this one's.
+    // Scales in the previous profile that belong to another fingertip are dropped.
     if (!roughness.sensor || roughness.sensor->fingertip != identity.serial) {
         roughness.sensor.emplace();
         roughness.sensor->fingertip = identity.serial;
@@ -60,8 +60,8 @@ Result<Json> keepProfile(ScriptSession& session, const SensorCalibration& found,
 
     Profile inForce = session.bench().profile();
     inForce.roughness = roughness;
-    // Keeps the operator's profile with other scales: encoding, area, loads and ceilings are not a script's to write
-    // (hazard H1).
+    // Keeps the operator's profile and changes only the scales: a script must not write encoding, area, loads and
+    // ceilings (hazard H1).
     Profile profile = session.chosenProfile();
     profile.roughness = roughness;
     profile.name = fmt::format("{} {}, calibrated on {}{}", identity.name, identity.serial, day,

@@ -1,5 +1,5 @@
-// The object "bench.sensorCalibration", the steps of a fingertip's calibration, and reading a fingertip: what scripts
-// can call, and what each does.
+// The object "bench.sensorCalibration", the steps of a fingertip's calibration and of reading a fingertip: the
+// functions for scripts and what each does.
 #include <algorithm>
 #include <cmath>
 
@@ -26,7 +26,7 @@ constexpr double kStandsOut = 5;               // standard deviations at rest
 std::string toldApart(const Json& results) {
     const Json& surfaces = results.at("surfaces");
     const Json& distance = results.at("d_prime").at("R");
-    // A single repeat leaves the spread unknown, and not 0.
+    // With a single repeat the spread is unknown, not 0.
     return fmt::format("{} and {} are told apart: d′ of R is {} (95 %: {} to {}), at least 1 is wanted",
                        surfaces.at(0).at("name").get<std::string>(), surfaces.at(1).at("name").get<std::string>(),
                        digitsOf(numberOr(distance, "value"), 3), digitsOf(numberOr(distance, "low"), 3),
@@ -101,7 +101,7 @@ namespace {
 struct SensorRun {
     std::vector<GivenSurface> given;
     std::vector<double> masses;
-    int repeats = 0;  ///< how often each weight is put on, and taken off
+    int repeats = 0;  ///< how often each weight is put on and taken off
     bench::Sliding sliding;
     double duration_s = 0, gravity_m_s2 = 0, area_cm2 = 0, reference_pct = 0;
     WeighingTolerances known;
@@ -109,9 +109,9 @@ struct SensorRun {
     FingertipRest rest;
     std::vector<Weighed> weighed;
     std::vector<SlidSurface> surfaces;
-    std::vector<Json> slides;  ///< the slides over each surface, in the order in which they are shown
+    std::vector<Json> slides;  ///< the slides over each surface, in display order
     Json results = Json::object();
-    std::string notKnown;  ///< why the known weight does not read as it should
+    std::string notKnown;  ///< why the known weight does not read correctly
 };
 
 Result<void> record(ScriptSession& session, std::string_view name, const Json& values, const Json& results) {
@@ -243,7 +243,7 @@ Result<Json> weigh(ScriptSession& session, const Arguments& arguments) {
     return done(added);
 }
 
-/// The scales are put into use before the surfaces are read, so that these are read as they will be.
+/// The scales are used before the surfaces are read, so that surfaces are read as they will be later.
 Result<Json> scale(ScriptSession& session, const Arguments& arguments) {
     const auto begun = session.begun<SensorRun>(arguments.object());
     if (!begun) return failure(begun);
@@ -293,7 +293,7 @@ Result<Json> slide(ScriptSession& session, const Arguments& arguments) {
     return done(lift(session));
 }
 
-/// The findings become a profile, unless the references cannot be told apart.
+/// Makes a profile from the findings, unless the references cannot be told apart.
 Result<void> keepFound(ScriptSession& session, const SensorCalibration& found, SensorRun& run) {
     run.results["profile"] = nullptr;
     if (!found.accepted)
@@ -321,8 +321,8 @@ Result<void> sayRanking(ScriptSession& session, const SensorCalibration& found) 
         "On the simulated fingertip the ranking holds by construction: the relief of its surfaces follows their Ra.");
 }
 
-/// The verdict covers the references, and force and taxels where weights were asked for. A fingertip that does not
-/// follow the weights has a fault.
+/// The verdict covers the references, and force and taxels if weights were used. A fingertip that does not follow the
+/// weights is faulty.
 void addVerdict(Json& results, bool weighed) {
     Json verdict = results.at("verdict");
     Json reasons = results.at("accepted") == true ? Json::array({toldApart(results)}) : results.at("reasons");

@@ -1,4 +1,4 @@
-// Whether a stored calibration still holds: its line against levels that were read again.
+// Checks whether a stored calibration still holds: compares its line with levels that were read again.
 #include <cmath>
 #include <utility>
 
@@ -19,7 +19,7 @@ struct LevelMean {
     std::string direction;
 };
 
-/// The mean of the level that is furthest from what the line says: of all its readings, or going up, or going down.
+/// Returns the mean furthest from the line: of all readings of the level, of those going up, or of those going down.
 LevelMean furthest(const Json& level, double expected) {
     LevelMean out{numberOr(level, "mean"), numberOr(level, "expanded_uncertainty"), {}};
     for (const auto& [key, direction] : {std::pair("mean_up", "up"), std::pair("mean_down", "down")}) {
@@ -46,7 +46,7 @@ std::string notHeld(const Json& row) {
 
 }  // namespace
 
-/// Guard-banded, as at its making: within the tolerance in the worse direction, this run's uncertainty included.
+/// Guard-banded, as when the calibration was made: within the tolerance in the worse direction, including this run's U.
 Json checkAgainst(const Json& line, const Json& found, double tolerance_pct) {
     const auto quantity = textOr(found, "quantity");
     const auto* one = calibratedQuantity(quantity);
@@ -61,12 +61,12 @@ Json checkAgainst(const Json& line, const Json& found, double tolerance_pct) {
         const auto [mean, u, direction] = furthest(level, expected);
         const double off = mean - expected;
         const double allowed = tolerance_pct / 100 * commanded;
-        // A current source is programmed to A / |Z|: that it comes back to the same levels is not sure. The line knows
-        // its own range.
+        // A current source is programmed to A / |Z|, so it may not return to the same levels. Levels outside the line's
+        // range are not judged.
         const bool known =
             commanded >= 0.98 * numberOr(line, "lowest") && commanded <= 1.02 * numberOr(line, "highest");
         const auto within = known ? guardBanded(off, u, allowed) : Verdict::Indeterminate;
-        // The reading that was not measured may be the one that is off.
+        // A reading that was not measured may be the one outside the tolerance.
         const double missing = numberOr(level, "not_measured");
         const Verdict judged = missing == 0 ? within : worseOf(within, Verdict::Indeterminate);
         verdict = worseOf(verdict, judged);

@@ -1,4 +1,4 @@
-// The levels of a stimulator's calibration: how each is set, and what the oscilloscope saw of it.
+// The levels of a stimulator's calibration: sets each level and reads it with the oscilloscope.
 #include <algorithm>
 #include <string_view>
 
@@ -12,7 +12,7 @@ namespace tacto::host::stimulator_calibration {
 
 namespace {
 
-/// A member of the settings: "width_max_us" for `end` "max".
+/// Returns the name of a setting: "width_max_us" for `end` "max".
 std::string keyOf(const CalibratedQuantity& of, std::string_view end) {
     return fmt::format("{}_{}_{}", of.id, end, of.setting);
 }
@@ -27,7 +27,7 @@ Result<LevelSettings> checked(LevelSettings settings, const Arguments& arguments
     return settings;
 }
 
-/// Straight curves over the calibrated range, so that R sets the amplitude and P the interval level by level.
+/// Straight curves over the calibrated range: R sets the amplitude and P the interval, level by level.
 Json encodingOver(const LevelSettings& settings) {
     return {{"assignment", "texture_to_amplitude"},
             {"amplitude_curve", "linear"},
@@ -54,14 +54,14 @@ Result<void> driveAt(ScriptSession& session, double roughness, double pressure) 
     return session.bench().drive(DriveSource::Manual, roughness, pressure);
 }
 
-/// Arms with this encoding, and drives at the shortest interval, which belongs to P = 1.
+/// Arms with this encoding and drives at the shortest interval (P = 1).
 Result<void> armWith(ScriptSession& session, const Json& encoding, double load_ohm, double roughness) {
     if (auto changed = bench::changeEncoding(session.bench(), encoding); !changed) return changed;
     if (auto armed = armOn(session, load_ohm); !armed) return armed;
     return driveAt(session, roughness, 1);
 }
 
-/// All levels have one range, so that its errors are the same for all.
+/// Reads all levels in one range, so that its errors are the same for all.
 Result<Json> readTrains(ScriptSession& session, const LevelSettings& settings, int trains) {
     const double highest_v = settings.amplitude_v.high;
     auto captures =
@@ -74,7 +74,7 @@ Result<Json> readTrains(ScriptSession& session, const LevelSettings& settings, i
     return measure::pulseReading(session, session.hold(std::move(*captures)));
 }
 
-/// Amplitude and interval are driven; width and gap are part of the profile and want a disarmed output.
+/// Amplitude and interval are driven; width and gap are part of the profile and need a disarmed output.
 Result<void> setLevel(ScriptSession& session, const LevelSettings& settings, std::string_view quantity, double share) {
     if (quantity == "amplitude") return driveAt(session, share, 1);
     if (quantity == "interval") return driveAt(session, 0, 1 - share);
@@ -85,10 +85,10 @@ Result<void> setLevel(ScriptSession& session, const LevelSettings& settings, std
     return armWith(session, encoding, settings.load_ohm, 0);
 }
 
-/// Two records, or both trains in one where the oscilloscope does not state how good the time stamps of records are.
+/// Takes two records, or one with both trains if the oscilloscope states no tolerance of its time stamps.
 Result<Json> readInterval(ScriptSession& session, const LevelSettings& settings, double share) {
     if (!session.scopeSeen().stampsStated()) {
-        // A record of both begins with whatever train comes first: by then it has the new interval.
+        // A record of both begins with the next train; after this wait that train has the new interval.
         if (auto waited = session.bench().wait(Seconds(2 * settings.interval_s.at(share))); !waited)
             return failure(waited);
     }
@@ -159,7 +159,7 @@ Result<void> warmUp(ScriptSession& session, double load_ohm, double seconds) {
 
 Result<void> beginLevels(ScriptSession& session, const LevelSettings& settings, const CalibratedQuantity& quantity) {
     if (auto changed = bench::changeEncoding(session.bench(), encodingOver(settings)); !changed) return changed;
-    if (quantity.id != "amplitude" && quantity.id != "interval") return {};  // each level of these arms the output
+    if (quantity.id != "amplitude" && quantity.id != "interval") return {};  // other levels each arm the output
     return armOn(session, settings.load_ohm);
 }
 

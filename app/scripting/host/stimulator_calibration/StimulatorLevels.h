@@ -1,5 +1,5 @@
-// StimulatorLevels.h - the parts of a stimulator's calibration: its levels, how each is set and read, and whether a
-// stored calibration still holds.
+// StimulatorLevels.h - the parts of a stimulator's calibration: its levels, how each is set and read, and the check of
+// a stored calibration.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -13,7 +13,7 @@ namespace tacto::host::stimulator_calibration {
 
 using Json = nlohmann::json;
 
-/// The range over which a quantity is calibrated, in its setting's unit.
+/// The range over which a quantity is calibrated, in the unit of its setting.
 struct LevelRange {
     [[nodiscard]] double at(double share) const { return low + share * (high - low); }
 
@@ -26,40 +26,40 @@ struct LevelSettings {
     LevelRange amplitude_v = {}, interval_s = {}, width_us = {}, gap_us = {};
     [[nodiscard]] LevelRange& of(const CalibratedQuantity& quantity);
 };
-/// Members of "settings": load, rate_hz, settling_s, amplitude_min_v, amplitude_max_v, ...
+/// Returns the members of "settings": load, rate_hz, settling_s, amplitude_min_v, amplitude_max_v, ...
 [[nodiscard]] std::vector<HostParameter> levelSettings();
-/// Errors: InvalidArgument for a range whose lowest level is not below the largest.
+/// Errors: InvalidArgument for a range with a lowest level that is not below the largest.
 [[nodiscard]] Result<LevelSettings> levelSettingsFrom(const Arguments& arguments);
-/// Narrowed to what a stored calibration knows, as storedCalibration() has it. The amplitude of a current source is set
-/// in volts and known in mA, and stays as it is. Errors: as levelSettingsFrom().
+/// Narrows the ranges to those of storedCalibration(). The amplitude of a current source is set in volts but known in
+/// mA, so it is not narrowed. Errors: as levelSettingsFrom().
 [[nodiscard]] Result<LevelSettings> narrowed(LevelSettings settings, const Json& stored, const Arguments& arguments);
 
-// Errors of what follows: as bench.arm() and bench.capture().
+// Errors of the functions below: as bench.arm() and bench.capture().
 
-/// Arms, reads one train of the largest amplitude, and disarms. As measure.pulse() returns it.
+/// Arms, reads one train of the largest amplitude, and disarms. Returns a reading like measure.pulse().
 [[nodiscard]] Result<Json> readKnownLoad(ScriptSession& session, const LevelSettings& settings);
-/// Trains of the lowest amplitude at the shortest interval for so long; disarms. 0: not at all.
+/// Delivers trains of the lowest amplitude at the shortest interval for `seconds` (0: none), then disarms.
 [[nodiscard]] Result<void> warmUp(ScriptSession& session, double load_ohm, double seconds);
 /// Sets straight curves over the ranges, so that R sets the amplitude and P the interval level by level, and arms for
-/// levels of these two. Each level of width and gap arms again, as they are part of the profile.
+/// levels of these two. Each level of width and gap arms again, because they are part of the profile.
 [[nodiscard]] Result<void> beginLevels(ScriptSession& session, const LevelSettings& settings,
                                        const CalibratedQuantity& quantity);
-/// Sets a level, 0 the lowest to 1 the largest, waits until it has settled, and reads a train; for the interval two
-/// trains, in one record where the oscilloscope does not state how good the time stamps of its records are. All levels
-/// are read in one range of the oscilloscope: its errors are then the same for all.
+/// Sets a level (0 lowest to 1 largest), waits until it has settled, and reads a train; for the interval, two trains,
+/// in one record if the oscilloscope states no tolerance of its time stamps. All levels are read in one range of the
+/// oscilloscope, so that its errors are the same for all.
 [[nodiscard]] Result<Json> readLevel(ScriptSession& session, const LevelSettings& settings,
                                      const CalibratedQuantity& quantity, double share);
 
-/// Whether a stored line still holds where its range was read again: { rows, verdict, reasons }, rows { quantity,
-/// commanded, expected, measured, direction, off, expanded_uncertainty, allowed, not_measured, unit, verdict }; widths
-/// and gaps in us. `found` as analysis.calibration() returns it.
+/// Checks whether a stored line still holds where its range was read again: { rows, verdict, reasons }, rows {
+/// quantity, commanded, expected, measured, direction, off, expanded_uncertainty, allowed, not_measured, unit, verdict
+/// }; widths and gaps in us. `found`: from analysis.calibration().
 [[nodiscard]] Json checkAgainst(const Json& line, const Json& found, double tolerance_pct);
 
-/// The oscilloscope's time base by the computer's clock, which hands out the trains: one that reads the clock wrong
-/// reads every time wrong. Empty when it is right or was not read (null), else why not.
+/// Checks the oscilloscope's time base by the computer's clock, which times the trains: a wrong time base makes all
+/// times wrong. Returns an empty text if it is right or was not read (null), else the reason.
 [[nodiscard]] std::string timeBaseProblem(const Json& interval);
-/// { verdict, reasons } of what was found of each quantity: the worst quantity's, and indeterminate where `clock` says
-/// that the time base is not sure; and the same of checks of what is `stored`.
+/// Returns { verdict, reasons } of all quantities found: the worst verdict, or indeterminate if `clock` says that the
+/// time base is uncertain. checkVerdictOf() does the same for checks of what is `stored`.
 [[nodiscard]] Json verdictOf(const std::vector<Json>& found, const std::string& clock, bool store);
 [[nodiscard]] Json checkVerdictOf(const std::vector<Json>& checks, const std::string& stored);
 

@@ -1,5 +1,5 @@
-// The object "bench.stimulatorCalibration", the steps of a stimulator's calibration and of its check: what scripts can
-// call, and what each does.
+// The object "bench.stimulatorCalibration", the steps of a stimulator's calibration and of its check: the functions for
+// scripts and what each does.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -21,7 +21,7 @@ namespace {
 
 using report::listIn;
 
-constexpr double kClock_pct = 0.5;  // how far intervals may be from the computer's clock (choice)
+constexpr double kClock_pct = 0.5;  // allowed deviation of intervals from the computer's clock (choice)
 
 std::string worstOf(const std::vector<Json>& judged) {
     const auto any = [&judged](std::string_view verdict) {
@@ -30,7 +30,7 @@ std::string worstOf(const std::vector<Json>& judged) {
     return any("fail") ? "fail" : any("indeterminate") ? "indeterminate" : "pass";
 }
 
-/// How much of its tolerance the worst level uses; 0 where that is not known.
+/// Returns the share of its tolerance that the worst level uses; 0 if that is not known.
 double worstUse(const Json& found) {
     double worst = 0;
     for (const auto& level : listIn(found, "levels")) {
@@ -61,7 +61,7 @@ Json verdictOf(const std::vector<Json>& found, const std::string& clock, bool st
         if (verdict == "pass") verdict = "indeterminate";
         reasons.push_back(clock + (store ? "; nothing was stored" : ""));
     }
-    // The nearest to its tolerance comes first: it is the headline.
+    // The quantity nearest to its tolerance comes first: it is the headline.
     std::vector<const Json*> nearestFirst;
     for (const auto& one : found) nearestFirst.push_back(&one);
     std::ranges::stable_sort(nearestFirst, std::greater(), [](const Json* one) { return worstUse(*one); });
@@ -91,14 +91,14 @@ struct StimulatorRun {
     double warmUp_s = 0, tolerance_pct = 0, timing_pct = 0, load_pct = 0, reference_pct = 0;
     record::Validity validity;
     Json stored;
-    const CalibratedQuantity* quantity = nullptr;  ///< the quantity whose levels are read
-    Json rows = Json::array();                     ///< the readings of it so far
+    const CalibratedQuantity* quantity = nullptr;  ///< the quantity that is being read
+    Json rows = Json::array();                     ///< its readings so far
     Json results = Json::object();
-    std::vector<Json> found;  ///< the calibration of each quantity, or its check
-    std::string unknown;      ///< why a reference does not read as it should
+    std::vector<Json> found;  ///< for each quantity, its calibration or check
+    std::string unknown;      ///< why a reference does not read correctly
 };
 
-/// Refuses now what would be refused at the end, after an hour's work.
+/// Refuses at the beginning what would otherwise be refused at the end, after an hour's work.
 Result<Json> begin(ScriptSession& session, const Arguments& arguments) {
     StimulatorRun first;
     const auto settings = levelSettingsFrom(arguments);
@@ -160,7 +160,7 @@ Result<Json> knownLoad(ScriptSession& session, const Arguments& arguments) {
     return Json(true);
 }
 
-/// Fully up and fully down, again and again; which way comes first is drawn for each repeat.
+/// Steps fully up and fully down, again and again; for each repeat the first direction is random.
 Json sweepsOf(Random& random, int levels, int repeats) {
     Json steps = Json::array();
     for (int repeat = 1; repeat <= repeats; ++repeat) {
@@ -237,7 +237,7 @@ Result<Json> judge(ScriptSession& session, const Arguments& arguments) {
     asked.tolerance_pct = isAmplitude ? run.tolerance_pct : run.timing_pct;
     if (isAmplitude) {
         asked.errors.loadTolerance = run.load_pct / 100;
-        // A current source is programmed to A / |Z|, and |Z| is measured each time.
+        // A current source is programmed to A / |Z|, and |Z| is measured anew for each level.
         const bool drivesCurrent = session.bench().devices().stimulator->traits().drive == Drive::Current;
         if (drivesCurrent) asked.fit.sameLevel = 0.02;
     }

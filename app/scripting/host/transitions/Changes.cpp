@@ -1,5 +1,5 @@
-// A step of the finger, and the first train that carries it: read off the oscilloscope against the bench's clock,
-// beside what the scheduler's design says.
+// A step of the finger and the first train that carries it: read from the oscilloscope against the bench's clock, and
+// compared with the scheduler's design.
 #include "app/scripting/host/transitions/Changes.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 double rateFor(Bench& bench) { return std::min(1e6, bench.devices().oscilloscope->traits().maxRate.value()); }
 
-/// The trains after the step, amplitudes corrected by what the train before the step read against its command.
+/// Returns the trains after the step. Amplitudes are corrected by the ratio of reading to command before the step.
 std::vector<StepTrain> after(const std::vector<SeenTrain>& seen, double step_s, double gain) {
     std::vector<StepTrain> out;
     for (const auto& train : seen) {
@@ -26,7 +26,7 @@ std::vector<StepTrain> after(const std::vector<SeenTrain>& seen, double step_s, 
     return out;
 }
 
-/// Train `k` of a change that began at `begin_s`, and how far it steps from the one before.
+/// Returns train `k` of a change that began at `begin_s`, with its steps from the previous train.
 CapturedTrain trainOf(const std::vector<SeenTrain>& seen, std::size_t k, double begin_s) {
     const auto intervalTo = [&](std::size_t i) { return i == 0 ? kNaN : seen[i].onset_s - seen[i - 1].onset_s; };
     const double interval_s = intervalTo(k);
@@ -42,7 +42,7 @@ StepCourse courseOf(const StepResponse& response) {
     return {seconds(response.latency), response.trains ? *response.trains : kNaN, seconds(response.complete)};
 }
 
-/// The observed step, beside its design; the captures of the train that carries it and of the one before are kept.
+/// Returns the observed step and its design; keeps the captures of the train that carries it and of the previous train.
 CapturedChange changeOf(ScriptSession& session, std::vector<SeenTrain>& seen, double step_s, const StepEnds& ends,
                         const StepResponse& measured, std::span<const StepTrain> design) {
     const ResponseRange range = rangeOf(ends, design);
@@ -58,7 +58,7 @@ CapturedChange changeOf(ScriptSession& session, std::vector<SeenTrain>& seen, do
                           .to_v = ends.after.amplitude.value(),
                           .from_s = ends.before.interval.count(),
                           .to_s = ends.after.interval.count()};
-    std::vector<Capture> kept;  // the train that carries it, then the one before
+    std::vector<Capture> kept;  // the train that carries the step, then the previous train
     for (std::size_t k = 0; k < seen.size(); ++k) {
         const bool isBefore = seen[k].onset_s < step_s;
         if (isBefore) {
@@ -99,7 +99,7 @@ Result<CapturedChange> captureStep(ScriptSession& session, const Place& from, co
     if (auto asked = recording.begin(); !asked) return failure(asked);
     auto& seen = recording.seen();
     const Seconds timeout = 4 * profile.intervalMax + Seconds(1);
-    // Two are needed: the interval between them is compared with the first train after the step.
+    // Two trains: their interval is compared with the first train after the step.
     auto shown = recording.watch(timeout, [&] { return seen.size() >= 2; });
     if (!shown) return failure(shown);
     if (!*shown) {
@@ -121,7 +121,7 @@ Result<CapturedChange> captureStep(ScriptSession& session, const Place& from, co
     if (!design) return failure(design);
     const double gain = reference_v / before->amplitude.value();
     const auto ready = [&] { return respond(ends, after(seen, step_s, gain)).trains.has_value(); };
-    // A train that comes later than all of these has not carried the step.
+    // A train that comes even later than this did not carry the step.
     const Seconds longest = design->back().onset + 4 * profile.intervalMax + Seconds(1);
     const auto finished = recording.watch(longest, ready);
     if (!finished) return failure(finished);

@@ -1,4 +1,4 @@
-// Changes.h - steps of the finger and its movements through the R-P plane, as the oscilloscope sees them.
+// Changes.h - steps and movements of the finger in the R-P plane, as the oscilloscope sees them.
 #pragma once
 
 #include "app/scripting/engine/ScriptSession.h"
@@ -13,12 +13,12 @@ struct Place {
     double pressure = 0;
 };
 
-/// Lets trains run at `from`, steps to `to`, `phase` of an interval after a train, and watches the trains that follow,
-/// each in a record of its own. Errors: InvalidArgument for a step below a just-noticeable difference; Timeout where
-/// the oscilloscope sees no two trains before the step; a stop.
+/// Lets trains run at `from`, steps to `to` at `phase` of an interval after a train, and captures the following trains,
+/// each in its own record. Errors: InvalidArgument for a step below a just-noticeable difference; Timeout if the
+/// oscilloscope sees fewer than two trains before the step; a stop.
 [[nodiscard]] Result<CapturedChange> captureStep(ScriptSession& session, const Place& from, const Place& to,
                                                  double phase);
-/// Moves to `to` in so many seconds, and back, while the oscilloscope looks at every train.
+/// Moves to `to` in `seconds` and back, while the oscilloscope captures every train.
 [[nodiscard]] Result<CapturedChange> captureMovement(ScriptSession& session, const Place& from, const Place& to,
                                                      double seconds);
 

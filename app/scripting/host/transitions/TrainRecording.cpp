@@ -17,7 +17,7 @@ ScopeSettings trainSettings(Bench& bench, double rate_hz, const Command& a, cons
     return settings;
 }
 
-/// Asks for as many records as it may at once.
+/// Requests as many records as are allowed at once.
 Result<void> TrainRecording::begin() {
     left_ = ScopeSession::kMaxCaptures;
     return bench_.requestCaptures(static_cast<int>(left_), settings_);
@@ -29,7 +29,7 @@ Result<void> TrainRecording::take() {
     left_ -= std::min(left_, captures->size());
     const MeasureOptions options = measure::optionsFor(bench_.profile().encoding.train);
     for (auto& capture : *captures) {
-        const double sampling_s = 1 / (capture.rate_hz * std::sqrt(12.0));  // one edge lies anywhere within a sample
+        const double sampling_s = 1 / (capture.rate_hz * std::sqrt(12.0));  // an edge lies anywhere within a sample
         SeenTrain train{
             capture.trigger_s, std::hypot(measure::stampUncertainty_s(capture), sampling_s), kNaN, kNaN, {}};
         auto voltage = measureTrains(std::span(&capture, 1), "voltage", options);
@@ -44,7 +44,7 @@ Result<void> TrainRecording::take() {
         seen_.push_back(std::move(train));
     }
     if (left_ > 0) return {};
-    return begin();  // limits may stretch a change over more trains than may be asked for at once
+    return begin();  // limits may stretch a change over more trains than one request allows
 }
 
 Result<void> settleAt(Bench& bench, const Command& wanted, std::string_view function) {

@@ -1,4 +1,4 @@
-// The object "bench.transitions", the steps of the transitions protocol: what scripts can call, and what each does.
+// The object "bench.transitions", the steps of the transitions protocol: the functions for scripts and what each does.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -24,7 +24,7 @@ struct TransitionRun {
     double load_ohm = 0, load_pct = 0, latency_s = 0;
     ChangeLimits limits{kWantedPerTrain};
     double traverse_s = 0;
-    std::vector<std::string> stepNames, names;  ///< the steps whose latency counts; all changes
+    std::vector<std::string> stepNames, names;  ///< the steps whose latency is judged; all changes
     Json sweep;
     std::vector<CapturedChange> steps, jumps, movements;
     Json results = Json::object();
@@ -32,7 +32,7 @@ struct TransitionRun {
     LatencyJudgement latency;
 };
 
-/// Judges what has been watched so far, and keeps it in case the run ends early.
+/// Judges everything captured so far, and keeps the result in case the run ends early.
 void judge(ScriptSession& session, TransitionRun& run) {
     std::vector<CapturedChange> all;
     for (const auto* some : {&run.steps, &run.jumps, &run.movements}) all.insert(all.end(), some->begin(), some->end());
@@ -56,7 +56,7 @@ std::string limitsText(const Json& sweep) {
     return fmt::format("Limits on a step from train to train, either way: {}.", fmt::join(limits, ", "));
 }
 
-/// NaN where one of them was not measured.
+/// Returns NaN if one value was not measured.
 template <class Of>
 double largest(const std::vector<ChangeGroup>& groups, const Of& of) {
     double most = -kInfinity;
@@ -68,7 +68,7 @@ double largest(const std::vector<ChangeGroup>& groups, const Of& of) {
     return most;
 }
 
-/// Judged with what the captures leave open of a step; the largest of all changes.
+/// States what the captures leave uncertain about a step: the largest of all changes, which the verdict includes.
 std::string openText(const std::vector<ChangeGroup>& groups) {
     const double amplitude = largest(groups, [](const ChangeGroup& group) { return group.amplitude.uncertainty; });
     const double interval = largest(groups, [](const ChangeGroup& group) { return group.interval.uncertainty; });
@@ -79,7 +79,7 @@ std::string openText(const std::vector<ChangeGroup>& groups) {
         report::digitsOf(amplitude, 2), report::digitsOf(interval, 2));
 }
 
-/// States what is asked for and what is impossible, before the figures.
+/// States what is required and what is impossible, before the figures.
 std::string askedText(const ChangeLimits& limits) {
     return fmt::format(
         "Judged on captured trains: no train differs from the one before by more than 2 just-noticeable differences (w "
@@ -97,7 +97,7 @@ std::string askedText(const ChangeLimits& limits) {
 double least(const std::vector<double>& values) { return values.empty() ? kNaN : *std::ranges::min_element(values); }
 double most(const std::vector<double>& values) { return values.empty() ? kNaN : *std::ranges::max_element(values); }
 
-/// The words of a pass: what was found, and what the wanted time would need and cannot have.
+/// Returns the words of a pass: what was found, and why the wanted time cannot be reached.
 Json passedText(const ChangeJudgement& changes) {
     const double largest_jnd = largest(
         changes.groups, [](const ChangeGroup& group) { return std::max(group.amplitude.jnd, group.interval.jnd); });
@@ -165,7 +165,7 @@ Place placeFrom(const Arguments& arguments, const std::string& name) {
     return {arguments.number("change." + name + ".roughness"), arguments.number("change." + name + ".pressure")};
 }
 
-/// The run of a change that it was to have.
+/// Returns the state of the run if it has this change to make.
 Result<TransitionRun*> runOf(ScriptSession& session, const Arguments& arguments) {
     const auto run = session.begun<TransitionRun>(arguments.object());
     if (!run) return failure(run);
@@ -205,7 +205,7 @@ Result<Json> traverse(ScriptSession& session, const Arguments& arguments) {
     return Json();
 }
 
-/// Captures decide; a design that steps too far elsewhere in the plane leaves it open.
+/// The captures decide; a design that steps too far elsewhere in the plane makes the verdict indeterminate.
 Result<Json> conclude(ScriptSession& session, const Arguments& arguments) {
     const auto begun = session.begun<TransitionRun>(arguments.object());
     if (!begun) return failure(begun);

@@ -1,4 +1,4 @@
-// Figures of a prediction, marked as such.
+// Figures of a prediction, marked as predictions.
 #include "app/scripting/host/variation/PredictedFigures.h"
 
 #include <algorithm>
@@ -9,12 +9,12 @@ namespace {
 
 constexpr const char* kMarked = "Simulated: predicted, not measured.";
 
-/// Share of participants at or below each accuracy.
+/// Returns the share of participants at or below each accuracy.
 Json accuracyCurve(const Json& found) {
     Json x = Json::array(), y = Json::array();
     const Json& values = found["accuracies"];
     const double n = static_cast<double>(values.size());
-    // More points than a page can show would only make the report large; the last one is always there.
+    // More points than a page can show would only enlarge the report; the last point is always included.
     constexpr std::size_t kPoints = 400;
     const std::size_t step = 1 + values.size() / kPoints;
     const std::size_t first = values.empty() ? 0 : (values.size() - 1) % step;
@@ -53,7 +53,7 @@ Json widthCurve(const Json& found) {
             {"note", kMarked}};
 }
 
-/// Share of participants at or below each value.
+/// Returns the share of participants at or below each value.
 Json shareCurve(std::string label, std::vector<double> values) {
     std::ranges::sort(values);
     Json x = Json::array(), y = Json::array();
@@ -65,8 +65,8 @@ Json shareCurve(std::string label, std::vector<double> values) {
     return {{"label", std::move(label)}, {"x", std::move(x)}, {"y", std::move(y)}, {"steps", true}};
 }
 
-/// The thresholds, and the currents from the profile's smallest and largest amplitude: a current source's, A / |Z|,
-/// whether or not they would be withheld.
+/// Returns the thresholds, and the currents from the profile's smallest and largest amplitude (for a current source: A
+/// / |Z|), even if these would be withheld.
 Json thresholdCurves(const Json& found) {
     const Json& people = found.at("people");
     Json curves = Json::array();

@@ -1,4 +1,4 @@
-// PredictedFigures.h - a prediction's figures, marked as predicted.
+// PredictedFigures.h - the figures of a prediction, marked as predicted.
 //
 // Thread-safety: pure functions.
 #pragma once
@@ -11,9 +11,9 @@ namespace tacto::host::variation {
 
 using Json = nlohmann::json;
 
-/// `found` as analysis.variation() returns it. `view`: "confusion"; "accuracy", its distribution over participants;
-/// "width" of the interval against trials; "thresholds" of the participants, beside the currents that the lowest and
-/// the highest command give them.
+/// `found`: from analysis.variation(). `view`: "confusion"; "accuracy", its distribution over participants; "width" of
+/// the interval against trials; "thresholds" of the participants, with the currents that the lowest and the highest
+/// command give them.
 [[nodiscard]] Json predictedFigure(const Json& found, std::string_view view);
 
 }  // namespace tacto::host::variation

@@ -1,5 +1,5 @@
-// The object "bench.variation", the steps of a prediction on virtual participants: what scripts can call, and what each
-// does.
+// The object "bench.variation", the steps of a prediction on virtual participants: the functions for scripts and what
+// each does.
 #include <algorithm>
 #include <cmath>
 
@@ -14,14 +14,14 @@ namespace host::variation {
 
 namespace {
 
-/// The same participants with the amplitudes that the run chose, and with the other ones.
+/// The same participants with the amplitudes that the run chose, and with the alternative.
 struct Prediction {
     VariationOptions options = {};
     Json found = {}, other = {};
     Json readings = Json::array();
 };
 
-constexpr std::size_t kBenches = 4000;  // benches drawn to find their spread
+constexpr std::size_t kBenches = 4000;  // number of benches drawn to find their spread
 
 constexpr AmplitudeLevels otherThan(AmplitudeLevels levels) {
     return levels == AmplitudeLevels::Personal ? AmplitudeLevels::Profile : AmplitudeLevels::Personal;
@@ -41,7 +41,7 @@ const Json& with(const Prediction& run, AmplitudeLevels levels) {
 
 double number(const Json& found, const char* key) { return numberOr(found, key); }
 
-/// "94.8 (66.7 to 99.2)", in %: the median, 5 and 95 %. A single participant gets no range, and none gets no number.
+/// Returns "94.8 (66.7 to 99.2)" in %: the median, 5 % and 95 %. One participant gets no range, none gets no number.
 std::string percent(const Json& estimate) {
     const double middle = numberOr(estimate, estimate.contains("median") ? "median" : "value");
     const double low = numberOr(estimate, "low"), high = numberOr(estimate, "high");
@@ -56,7 +56,7 @@ std::string fixedRange(const Json& found) {
     return fmt::format("{} {} to {} V", papers ? "The design paper's" : "The profile's", low, high);
 }
 
-/// The number who are served stands before everything else that was found.
+/// States the number of participants served before all other findings.
 std::vector<std::string> headline(const VariationOptions& options, const Json& fixed, const Json& personal) {
     std::vector<std::string> why;
     if (number(fixed, "participants_refused") > 0) {
@@ -96,7 +96,7 @@ std::vector<std::string> headline(const VariationOptions& options, const Json& f
     return out;
 }
 
-/// Results that do not hold for everybody.
+/// Returns remarks on results that do not hold for everybody.
 std::vector<std::string> remarks(const VariationOptions& options, const Json& found) {
     std::vector<std::string> out{
         "Everything here is simulated: predicted from stated distributions, not measured on people. A condition counts "
@@ -121,7 +121,7 @@ std::vector<std::string> remarks(const VariationOptions& options, const Json& fo
     return out;
 }
 
-/// `found` with the members of `keys` only, and with what `row` has.
+/// Returns `row` with those members of `found` that `keys` lists.
 Json some(Json row, const Json& found, std::initializer_list<const char*> keys) {
     for (const char* key : keys) row[key] = found[key];
     return row;
@@ -133,7 +133,7 @@ Json rangeRow(const std::string& name, const Json& found) {
                  "clearly_separable", "accuracy"});
 }
 
-/// The aims of a pilot, and how many answers each takes.
+/// Returns the aims of a pilot, and how many answers each needs.
 Json aimsOf(const Json& needed) {
     const auto aim = [&needed](const std::string& text, const char* key) {
         const Json& pooled = needed["pooled"][key];
@@ -164,7 +164,7 @@ Result<Json> begin(ScriptSession& session, const Arguments& arguments) {
     return done(session.begin(arguments.object(), std::move(first)));
 }
 
-/// Nobody knows where comfort ends: what is served is told for the lowest, the run's and the highest answer.
+/// The limit of comfort is unknown, so this tells who is served for the lowest, the run's and the highest answer.
 Result<Json> readings(ScriptSession& session, const Arguments& arguments) {
     const auto begun = session.begun<Prediction>(arguments.object());
     if (!begun) return failure(begun);
@@ -198,7 +198,7 @@ Result<Json> readings(ScriptSession& session, const Arguments& arguments) {
     return Json();
 }
 
-/// Who is served stands before everything else that was found.
+/// Writes who is served before all other findings.
 Result<void> write(ScriptSession& session, const Prediction& run, const std::string& said) {
     std::vector<Json> items;
     const auto text = [&items](const std::string& words) { items.push_back({{"kind", "text"}, {"text", words}}); };
