@@ -1,5 +1,5 @@
-// A calibration: readings about the fitted line, or each level's error with its uncertainty inside the tolerance band,
-// and beside it the two sweep directions on a scale of their own.
+// Draws a calibration: readings around the fitted line, or each level's error with its uncertainty in the tolerance
+// band; next to it the two sweep directions on a separate scale.
 #include "app/report/FigureDrawing.h"
 #include "app/report/Fonts.h"
 #include "app/report/NumberText.h"
@@ -97,7 +97,7 @@ void addUncertainty(QCPAxisRect* axes, const CalibrationFigure& figure, QCPGraph
     bars->setData(u);
 }
 
-/// Draws each direction's mean on a scale of its own: beside a tolerance of 2 % no hysteresis would be seen.
+/// Draws each direction's mean on a separate scale: hysteresis would be invisible next to a tolerance of 2 %.
 void drawDirections(PlotSheet& sheet, QCPAxisRect* axes, QCPLegend* legend, const CalibrationFigure& figure) {
     Reach x, y;
     for (const auto& level : figure.levels) {

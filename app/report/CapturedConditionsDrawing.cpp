@@ -1,4 +1,4 @@
-// The paper's figure from captures: a lane per condition, lettered, with its trains as they came, and beside it the
+// The paper's figure from captures: one lettered lane per condition with its trains as captured, and next to it the
 // pulse of the first train.
 #include "app/report/FigureDrawing.h"
 #include "app/report/Fonts.h"
@@ -13,14 +13,14 @@ using CapturedLane = ConditionsFigure::Condition;
 constexpr int kCapturedLaneHeight = 78;
 constexpr int kCapturedAxisHeight = 34;
 
-/// Puts all lanes on the same scales, so that heights and distances compare.
+/// Puts all lanes on the same scales, so that heights and distances can be compared.
 struct LaneScales {
     double span_s = 0;
     double reach_v = 0;
     double pulseBegin_s = 0, pulseEnd_s = 0;
 };
 
-/// The samples from the first that stands out to the last, with a margin.
+/// Returns the samples from the first to the last that stands out, with a margin.
 std::pair<std::size_t, std::size_t> pulseSpan(const CapturedLane& lane) {
     double peak = 0;
     for (const double v : lane.pulse_v) peak = std::isfinite(v) ? std::max(peak, std::abs(v)) : peak;
@@ -112,7 +112,7 @@ private:
         auto* rest = new QCPGraph(time, axes->axis(QCPAxis::atLeft));
         rest->setPen(QPen(ink::kAxis, 0.8));
         rest->setData({time->range().lower, time->range().upper}, {0, 0}, true);
-        // A train is too short to be seen at this scale: a stem from its lowest to its highest sample.
+        // At this scale a train is too short to see, so it is drawn as a stem from its lowest to its highest sample.
         auto* stems = new QCPGraph(time, axes->axis(QCPAxis::atLeft));
         const auto style = conditionStyle(lane.name, row);
         stems->setPen(QPen(style.color, 1.6, Qt::SolidLine, Qt::FlatCap));

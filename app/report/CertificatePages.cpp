@@ -23,17 +23,17 @@ const ReportDevice* deviceOf(const ReportModel& model, Role role) {
     return found == model.devices.end() ? nullptr : &*found;
 }
 
-/// The entry under that key; else what the program knows; else a line to write on.
+/// Returns the entry under `key`; else the value that the program knows; else a line to write on.
 ReportFact detailFact(const ReportModel& model, std::string_view key, const QString& known = {}) {
     const auto detail = std::ranges::find(kCertificateDetails, key, &CertificateDetail::key);
     const QString given = shownText(model.certificate->details[fromUtf8(key)].toString(), kShownCell);
     QString text = given.isEmpty() ? known : given;
-    // Entries do not replace what the device says about itself.
+    // An entry does not replace what the device reports about itself.
     if (!given.isEmpty() && !known.isEmpty() && given != known) text += QString(" (the device reports %1)").arg(known);
     return {fromUtf8(detail->title), text, false, text.isEmpty()};
 }
 
-/// The deviations from the method, as far as the program knows them.
+/// Returns the deviations from the method, as far as the program knows them.
 QString deviations(const ReportModel& model) {
     QStringList all;
     const auto quantities = quantitiesOf(model);
@@ -49,14 +49,14 @@ QString deviations(const ReportModel& model) {
     return all.isEmpty() ? QString("none that the program knows of") : shownText(all.join(";\n"), kShownCell) + ".";
 }
 
-/// One instrument's share, as its certificate has it: "voltage gain U = 0.5 % (k = 2)".
+/// Returns one value of an instrument as its certificate states it: "voltage gain U = 0.5 % (k = 2)".
 QString certified(const QJsonObject& certificate, const char* key, const char* what, const char* unit) {
     const auto u = certificate[QLatin1String(key)];
     if (!u.isDouble()) return {};
     return QString("%1, U = %2 (k = 2)").arg(QLatin1String(what), settingText(u.toDouble(), unit));
 }
 
-/// The basis of a reading, as the certificate of an oscilloscope states it.
+/// A figure that an oscilloscope's certificate states for a reading.
 struct CertifiedFigure {
     const char* key;
     const char* what;
@@ -103,7 +103,7 @@ void addTraceability(const ReportModel& model, std::vector<ReportFact>& facts) {
         const auto& figures = amplitude ? (current ? kOfCurrent : kOfVoltage) : kOfTime;
         Traced traced;
         for (const auto& [key, what, unit] : figures) {
-            // The operator's statement takes the certificate's place.
+            // If the operator stated a value, it replaces that of the certificate.
             const auto share =
                 each[u"stated_by"].toString() == "the operator" ? QString() : certified(certificate, key, what, unit);
             if (!share.isEmpty())
@@ -118,7 +118,7 @@ void addTraceability(const ReportModel& model, std::vector<ReportFact>& facts) {
 
 QString dayOf(const QString& started) { return started.left(10) + " (UTC)"; }
 
-/// The specification that conformity is stated to.
+/// Returns the specification to which conformity is stated.
 QString specification(const ReportModel& model) {
     QStringList all;
     for (const auto& each : quantitiesOf(model)) {
@@ -129,7 +129,7 @@ QString specification(const ReportModel& model) {
     return capitalised(all.join("; ")) + ", at each level; the tolerances that this calibration was ordered with.";
 }
 
-/// A column of numbers that share a prefix, each at its own place.
+/// A column of numbers with one prefix; each number has its own number of decimals.
 class CertifiedColumns {
 public:
     CertifiedColumns(const QJsonArray& rows, const QString& unit) : rows_(rows) {
@@ -139,12 +139,12 @@ public:
             set = std::fmax(set, std::abs(numberIn(row, "commanded")));
             tolerance = std::fmax(tolerance, std::abs(numberIn(row, "tolerance")));
             error = std::fmax(error, std::abs(numberIn(row, "error")));
-            // Two digits of U, and none of them is a zero that says nothing.
+            // Room for two digits of U without useless zeros.
             if (u > 0) error = std::fmax(error, std::pow(10.0, decimalExponent(u, 2) + 1));
         }
         set_ = axisUnit(set, unit);
         error_ = axisUnit(error, unit);
-        // Beside the error it is compared with, unless that takes too many digits.
+        // In the unit of the error that it is compared with, unless that takes too many digits.
         constexpr double kFourDigits = 1e4;
         tolerance_ = tolerance * error_.factor < kFourDigits ? error_ : axisUnit(tolerance, unit);
     }
@@ -186,7 +186,7 @@ private:
     static double numberIn(const QJsonValue& row, const char* key) {
         return row[QLatin1String(key)].toDouble(kUnknown);
     }
-    /// The value to the place of the second digit of its U; with four digits where U is not known.
+    /// Returns the value, rounded to the second digit of its U; with four digits if U is not known.
     static QString atPlace(double value, double u, const AxisUnit& axis) {
         if (!std::isfinite(value)) return "not measured";
         if (!(u > 0)) return quantityText(value * axis.factor, {});

@@ -1,8 +1,8 @@
-// CertificatePages.h - the report of a stimulator's calibration as a certificate that a laboratory can sign: what
-// ISO/IEC 17025:2017 asks for in 7.8.2.1, 7.8.4.1 and 7.8.6.2.
+// CertificatePages.h - the report of a stimulator's calibration as a certificate that a laboratory can sign, as ISO/IEC
+// 17025:2017 requires in 7.8.2.1, 7.8.4.1 and 7.8.6.2.
 //
-// A certificate claims no more than was done: what was not measured says so, what was not entered is a ruled line, what
-// rests on no certificate is not traceable, and a simulated bench says SIMULATED in the title and on every page.
+// A certificate claims no more than was done. A value that was not measured says so; a missing entry is a ruled line; a
+// value without a certificate is not traceable; a simulated bench says SIMULATED in the title and on every page.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -13,7 +13,7 @@
 
 namespace tacto {
 
-/// Why the report of `model` is not a certificate; empty where it is one. Nothing where no certificate was asked for.
+/// Returns why the report of `model` is not a certificate: empty if it is one; nothing if none was requested.
 [[nodiscard]] std::optional<QString> whyNoCertificate(const ReportModel& model);
 [[nodiscard]] inline bool isCertificate(const ReportModel& model) {
     const auto why = whyNoCertificate(model);
@@ -21,11 +21,11 @@ namespace tacto {
 }
 
 [[nodiscard]] QString certificateTitle(const ReportModel& model);
-/// Laboratory, customer, item, place, days and conditions, before the statement of conformity.
+/// Adds laboratory, customer, item, place, dates and conditions, before the statement of conformity.
 void addCertificateItem(const ReportModel& model, Captions& captions, std::vector<ReportBlock>& blocks);
-/// The basis of the statement of conformity, what holds for the certificate, and who authorises it.
+/// Adds the basis of the statement of conformity, general remarks on the certificate, and who authorises it.
 void addCertificateConformity(const ReportModel& model, Captions& captions, std::vector<ReportBlock>& blocks);
-/// The method, what was done otherwise, and what the values are traceable through.
+/// Returns the method, deviations from it, and the references that make the values traceable.
 [[nodiscard]] std::vector<ReportFact> certificateMethod(const ReportModel& model);
 /// Adds the results as found and as left.
 void addCertificateResults(const ReportModel& model, Captions& captions, std::vector<ReportBlock>& blocks);

@@ -1,4 +1,4 @@
-// The paper's figure: what texture alone, pressure alone and the two together do to the pulse trains.
+// The paper's figure: the effect of texture alone, pressure alone and both together on the pulse trains.
 #include "app/report/FigureDrawing.h"
 #include "app/report/Fonts.h"
 #include "app/report/NumberText.h"
@@ -12,14 +12,14 @@ using Lane = const Condition*;
 
 struct Panel {
     QString title;
-    QString missing;  ///< said when there are no lanes
+    QString missing;  ///< the text if there are no lanes
     std::vector<Lane> lanes;
 };
 
 QString textureOf(const Condition& c) { return c.name.section('-', 0, 0); }
 QString pressureOf(const Condition& c) { return c.name.section('-', 1, 1); }
 
-/// The first two conditions that share one word of their names and differ in the other.
+/// Returns the first two conditions with one equal word in their names and one different word.
 std::vector<Lane> pairDiffering(const std::vector<Condition>& all, QString (*shared)(const Condition&),
                                 QString (*differing)(const Condition&)) {
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -38,7 +38,7 @@ bool known(const Condition& c) {
 }
 
 constexpr int kTitleHeight = 20;
-constexpr int kLaneHeight = 70;     // a lane's height, the strip with name and numbers included
+constexpr int kLaneHeight = 70;     // height of a lane, including the strip with name and numbers
 constexpr double kHeadroom = 1.18;  // leaves room for the markers
 constexpr int kStripHeight = 15;
 constexpr int kAxisHeight = 34;
@@ -71,7 +71,7 @@ public:
             sheet_->explain(axes, panel.missing);
         }
         for (std::size_t i = 0; i < panel.lanes.size(); ++i) {
-            // Takes as much room as a title, so that lanes left and right stand level.
+            // Takes as much room as a title, so that the lanes on the left and right line up.
             if (i == 2) sheet_->addTitle(row++, 0, {}, false, grid);
             auto* axes = addLaneAxes(grid, row++, timeAxis && i + 1 == panel.lanes.size());
             drawLane(axes, *panel.lanes[i]);
@@ -112,23 +112,23 @@ private:
             return;
         }
         const auto widthOf = [](const QString& text) { return QFontMetricsF(textFont(10)).horizontalAdvance(text); };
-        constexpr double kRoom = 300;  // a lane's room in half a sheet
+        constexpr double kRoom = 300;  // room of a lane in half a sheet
         QString numbers = spreadText(condition.amplitude_v.mean, condition.amplitude_v.sd, "V") + ";  " +
                           spreadText(condition.interval_s.mean, condition.interval_s.sd, "s");
-        if (widthOf(condition.name + "   " + numbers) > kRoom)  // leaves out the spread
+        if (widthOf(condition.name + "   " + numbers) > kRoom)  // then without the spread
             numbers =
                 quantityText(condition.amplitude_v.mean, "V") + ";  " + quantityText(condition.interval_s.mean, "s");
         sheet_->addNote(axes, numbers, {1, -0.02}, Qt::AlignRight | Qt::AlignBottom);
         auto* trains = new QCPGraph(axes->axis(QCPAxis::atBottom), axes->axis(QCPAxis::atLeft));
         trains->setLineStyle(QCPGraph::lsImpulse);
         QPen stems = style.pen(2);
-        // A short pulse is only a few units high: its dots stand closer than a curve's.
+        // A short pulse is only a few units high, so its dots are closer together than those of a curve.
         if (style.dash == Qt::DotLine) stems.setDashPattern({1, 1});
         trains->setPen(stems);
         trains->setScatterStyle(
             QCPScatterStyle(style.marker, QPen(style.color, 1.2),
                             style.marker == QCPScatterStyle::ssDisc ? QBrush(style.color) : QBrush(Qt::white), 5));
-        // A damaged mean could ask for millions of trains; more than 200 are a solid bar anyway.
+        // A damaged mean could require millions of trains; more than 200 look like a solid bar anyway.
         const int count = std::min(200, static_cast<int>(span_ / condition.interval_s.mean) + 1);
         for (int i = 0; i < count; ++i) {
             trains->addData(i * condition.interval_s.mean, std::abs(condition.amplitude_v.mean));

@@ -1,4 +1,4 @@
-// Curves over one pair of axes, each with the band it may lie in, and levels to hold them against.
+// Curves over one pair of axes, each with its band, and horizontal lines to compare them with.
 #include <array>
 
 #include "app/report/FigureDrawing.h"
@@ -49,7 +49,7 @@ std::unique_ptr<PlotSheet> drawCurves(const CurvesFigure& figure, bool simulated
         const auto& curve = figure.curves[i];
         const QColor color = colors[i % colors.size()];
         addBand(axes, curve, color);
-        // Where there are more curves than colours, they are told apart by their dashes.
+        // If there are more curves than colours, the additional curves are dashed.
         auto* graph =
             addGraph(axes, curve.x, curve.y, QPen(color, 1.4, i < colors.size() ? Qt::SolidLine : Qt::DashLine));
         if (curve.steps) graph->setLineStyle(QCPGraph::lsStepLeft);

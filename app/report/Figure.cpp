@@ -10,7 +10,7 @@
 namespace tacto {
 namespace {
 
-/// Reads the members of one object and remembers the first thing that is wrong with it.
+/// Reads the members of an object and remembers the first error.
 class Reader {
 public:
     Reader(QString where, QJsonObject object) : where_(std::move(where)), object_(std::move(object)) {}
@@ -99,7 +99,7 @@ public:
         return result;
     }
 
-    /// Calls `each(Reader&)` for every object of the list `key`, which must be there.
+    /// Calls `each(Reader&)` for every object of the list `key`; an error if the list is `required` and missing.
     template <class Each>
     void objects(const char* key, bool required, Each each) {
         if (!has(key)) {
@@ -385,7 +385,7 @@ Result<void> resolveCaptures(Figure& figure, const CaptureLookup& lookup) {
         const auto capture = lookup(*trace.capture);
         if (!capture) return failure(capture);
         trace.rate_hz = capture->rate_hz;
-        // Pulses are seen against their trigger; a record without one keeps its own start as 0.
+        // Pulses are shown relative to their trigger; a record without a trigger starts at 0.
         trace.start_s = std::isfinite(capture->trigger_s) ? capture->start_s - capture->trigger_s : 0;
         for (const auto& channel : capture->channels) {
             auto& target = channel.unit == "A" ? trace.current_a : trace.voltage_v;

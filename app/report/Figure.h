@@ -1,9 +1,9 @@
-// Figure.h - the figures a protocol can put into a report: the JSON that describes each, and its parsed form.
+// Figure.h - the figures that a protocol can put into a report: the JSON that describes each, and its parsed form.
 //
-// A script's `plot.*` builds this JSON, the session stores it, the report draws it. It holds what a script
-// naturally has (trials, found conditions, captures) and nothing about how it looks. Unknown keys are
-// ignored, so a result may be passed on whole. Numbers are SI by the key's suffix; null or a missing number
-// is "not known" and is drawn as a gap or said in words, never as 0.
+// A script's `plot.*` builds this JSON, the session stores it, and the report draws it. It holds what a script has
+// anyway (trials, found conditions, captures), but nothing about its appearance. Unknown keys are ignored, so a script
+// may pass an entire result. Numbers are in the SI unit of the key's suffix; a null or missing number means "not known"
+// and is drawn as a gap or stated in words, never as 0.
 //
 // A *statistic* is {"mean", "sd", "median", "min", "max", "n"} (only mean is required); an *estimate* is
 // {"value", "low", "high"} (95 %, low and high optional). Condition names: "smooth-low", "smooth-high",
@@ -107,8 +107,8 @@ struct ConditionsFigure {
         Statistic interval_s;
         double n = kUnknown;
         struct Train {
-            double onset_s = kUnknown;  ///< after the onset of the first train
-            double low_v = kUnknown;    ///< the extremes of its record
+            double onset_s = kUnknown;  ///< relative to the onset of the first train
+            double low_v = kUnknown;    ///< extremes of the train's record
             double high_v = kUnknown;
         };
         QString letter;
@@ -118,7 +118,7 @@ struct ConditionsFigure {
         std::vector<double> pulse_v;
     };
     std::vector<Condition> conditions;
-    /// At least one condition comes with its trains.
+    /// True if at least one condition contains its trains.
     [[nodiscard]] bool captured() const;
 };
 
@@ -134,7 +134,7 @@ struct PlaneFigure {
 struct WaveformsFigure {
     struct Trace {
         QString condition;  ///< may be empty
-        QString label;      ///< the words above it; the condition unless given
+        QString label;      ///< the text above the plot; by default the condition
         std::optional<qint64> capture;
         double rate_hz = kUnknown;
         double start_s = 0;
@@ -147,7 +147,7 @@ struct WaveformsFigure {
 struct ConfusionFigure {
     QStringList labels;
     QStringList columns;
-    QString answers = "found";                ///< the title of the columns
+    QString answers = "found";                ///< title of the columns
     std::vector<std::vector<double>> counts;  ///< labels.size() rows of columns.size()
     Estimate accuracy;
 };
@@ -155,7 +155,7 @@ struct ConfusionFigure {
 struct ExposureFigure {
     struct Row {
         QString name;
-        double value = kUnknown;  ///< a value that is not finite: not evaluated
+        double value = kUnknown;  ///< not finite: not evaluated
         double limit = kUnknown;
         QString unit;
         QString source;
@@ -163,8 +163,8 @@ struct ExposureFigure {
         bool warning = false;
         std::optional<bool> within = {};
 
-        [[nodiscard]] bool evaluated() const;  ///< whether there is a value
-        [[nodiscard]] bool over() const;       ///< evaluated and not within its limit
+        [[nodiscard]] bool evaluated() const;  ///< true if there is a value
+        [[nodiscard]] bool over() const;       ///< true if evaluated and not within the limit
     };
     std::vector<Row> rows;
 };
@@ -201,7 +201,7 @@ struct CalibrationFigure {
     };
     QString quantity;
     QString unit;
-    bool errors = false;  ///< errors against the command; else what was measured
+    bool errors = false;  ///< true: errors against the command; false: measured values
     double gain = kUnknown;
     double offset = kUnknown;
     std::vector<Level> levels;
@@ -249,17 +249,17 @@ struct Figure {
     QString note;
 };
 
-/// Checks `json` against the contract above.
-/// Errors: InvalidArgument naming the figure's type, the key and what was expected there. Empty lists and unknown
-/// numbers are not errors: the figure then says what is missing.
+/// Checks `json` against the format above.
+/// Errors: InvalidArgument naming the figure's type, the key and the expected value. Empty lists and unknown numbers
+/// are not errors: the figure then says what is missing.
 [[nodiscard]] Result<Figure> parseFigure(const QJsonObject& json);
 
 /// Finds a session's capture by its id.
 using CaptureLookup = std::function<Result<Capture>(qint64 id)>;
 
-/// Fills the samples of every waveform that names a capture by id; its first channel in V and its first in A. Waveforms
-/// with samples of their own, and other figures, stay as they are.
-/// Errors: what `lookup` answers.
+/// Fills in the samples of every waveform that names a capture by id, from its first channel in V and its first in A.
+/// Waveforms with their own samples, and other figures, do not change.
+/// Errors: those of `lookup`.
 [[nodiscard]] Result<void> resolveCaptures(Figure& figure, const CaptureLookup& lookup);
 
 }  // namespace tacto

@@ -199,7 +199,7 @@ QString withWholeTexts(const QString& svg) {
         R"re(([^>]*?font-size="([^"]*)" font-weight="([^"]*)"[^>]*)>([^<]*)</text>)re");
     QString out;
     qsizetype taken = 0;
-    double end = 0;  // where the text before ends
+    double end = 0;  // where the previous text ends
     QRegularExpressionMatch before;
     for (auto all = kText.globalMatch(svg); all.hasNext();) {
         const auto now = all.next();
@@ -218,7 +218,7 @@ QString withWholeTexts(const QString& svg) {
         before = now;
     }
     out += svg.mid(taken);
-    // Open Sans and Segoe UI have nearly these widths, Verdana has DejaVu's.
+    // Open Sans and Segoe UI are nearly as wide as Noto Sans; Verdana is as wide as DejaVu Sans.
     return out
         .replace("font-family=\"Noto Sans\"",
                  "font-family=\"'Noto Sans','Noto Sans Math','Open Sans','Segoe UI','DejaVu Sans',sans-serif\"")

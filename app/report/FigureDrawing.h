@@ -1,6 +1,6 @@
-// FigureDrawing.h - a figure's data as a sheet of plots, and that sheet as SVG.
+// FigureDrawing.h - draws a figure as a sheet of plots, and writes the sheet as SVG.
 //
-// Data that are missing or too few to draw are said in words in the figure's place; a figure is never blank.
+// If data are missing or too few, a sentence stands in the figure's place; a figure is never blank.
 //
 // Thread-safety: the GUI thread (plots are widgets).
 #pragma once
@@ -17,24 +17,24 @@
 
 namespace tacto {
 
-/// `simulated` puts the watermark on every plot.
+/// `simulated` adds the watermark to every plot.
 [[nodiscard]] std::unique_ptr<PlotSheet> drawFigure(const Figure& figure, bool simulated);
 
-/// All that one must know to read the figure (what a bar, an ellipse, a height is), and its key number, in sentences.
+/// Returns sentences that explain the figure (what a bar, an ellipse, a height means) and state its key number.
 [[nodiscard]] QString figureLegend(const Figure& figure);
 
-/// An <svg> element for use inside HTML: no XML prologue, scales with its container, `title` for screen readers.
+/// Returns an <svg> element for HTML: no XML prologue, scales with its container, `title` for screen readers.
 [[nodiscard]] QByteArray sheetSvg(PlotSheet& sheet, const QString& title);
 
-// One per type; each in the file of its name.
+// One function per type, in the file of that name.
 [[nodiscard]] std::unique_ptr<PlotSheet> drawConditions(const ConditionsFigure& figure, bool simulated);
-/// Conditions that come with trains: as captured, not from their means.
+/// For conditions with captured trains: draws these instead of means.
 [[nodiscard]] std::unique_ptr<PlotSheet> drawCapturedConditions(const ConditionsFigure& figure, bool simulated);
 [[nodiscard]] std::unique_ptr<PlotSheet> drawPlane(const PlaneFigure& figure, bool simulated);
-inline constexpr std::size_t kWaveformsShown = 8;  ///< the first; more would not fit on a page
+inline constexpr std::size_t kWaveformsShown = 8;  ///< the number of waveforms drawn; more would not fit on a page
 [[nodiscard]] std::unique_ptr<PlotSheet> drawWaveforms(const WaveformsFigure& figure, bool simulated);
 [[nodiscard]] std::unique_ptr<PlotSheet> drawConfusion(const ConfusionFigure& figure, bool simulated);
-/// Draws rows that have a limit or were not evaluated; its legend tells the others, and why.
+/// Draws rows that have a limit or were not evaluated; the legend names the other rows and says why.
 [[nodiscard]] std::unique_ptr<PlotSheet> drawExposure(const ExposureFigure& figure, bool simulated);
 [[nodiscard]] QString exposureLegend(const ExposureFigure& figure);
 [[nodiscard]] std::unique_ptr<PlotSheet> drawTimeline(const TimelineFigure& figure, bool simulated);
@@ -42,23 +42,23 @@ inline constexpr std::size_t kWaveformsShown = 8;  ///< the first; more would no
 [[nodiscard]] std::unique_ptr<PlotSheet> drawTransitions(const TransitionsFigure& figure, bool simulated);
 [[nodiscard]] std::unique_ptr<PlotSheet> drawCurves(const CurvesFigure& figure, bool simulated);
 
-/// Points of a long series that can be seen: `keep` stretches, of each its extremes in their order, and a gap where
-/// the stretch has one. All indices when there are fewer.
+/// Returns the indices of visible points of a long series: of each of `keep` stretches its extremes in their order, and
+/// a gap if the stretch has one. Returns all indices if there are fewer.
 [[nodiscard]] std::vector<std::size_t> visiblePoints(std::span<const double> values, std::size_t keep);
 
-/// A sheet that holds nothing but the sentence `why`.
+/// Returns a sheet with only the sentence `why`.
 [[nodiscard]] std::unique_ptr<PlotSheet> emptySheet(const QString& why, bool simulated);
 
-// Texts of a drawn SVG, each in one piece: Qt writes a text again wherever another face helps out, at a
-// place that holds for the reader's faces only if they are ours, and a number must not come apart from its minus.
+// Joins the texts of a drawn SVG. Qt splits a text where another font supplies a character, and places the next part
+// for our fonts. With a reader's other fonts, a number could be separated from its minus.
 
-/// `svg`, as QSvgGenerator writes it, with each text joined to the one before that ends where it begins; the faces are
-/// named with those that stand in for them elsewhere.
+/// `svg`: output of QSvgGenerator. Joins each text to a text that ends where it begins, and adds the names of fonts
+/// that can replace ours elsewhere.
 [[nodiscard]] QString withWholeTexts(const QString& svg);
 
-// Computes how far a drawing's axis must go.
+// Computes how far the axis of a drawing must extend.
 
-/// The smallest range that holds everything finite it was shown.
+/// The smallest range with all finite values that were included.
 struct Reach {
     double low = kUnknown, high = kUnknown;
     void include(double value) {
@@ -67,7 +67,7 @@ struct Reach {
         high = std::fmax(high, value);
     }
     [[nodiscard]] bool known() const { return std::isfinite(low); }
-    /// 1 where nothing is known.
+    /// Returns 1 if no value is known.
     [[nodiscard]] double magnitude() const { return known() ? std::max(std::abs(low), std::abs(high)) : 1; }
 };
 

@@ -12,7 +12,7 @@ constexpr auto kMono = "DejaVu Sans Mono";
 QFont fontOf(const QStringList& families, double size) {
     QFont font(families);
     font.setPixelSize(qMax(1, qRound(size)));
-    // Hinted advances are rounded to pixels of a screen that a page does not have.
+    // Hinted widths are rounded to the pixels of a screen, and a page has none.
     font.setHintingPreference(QFont::PreferNoHinting);
     font.setStyleStrategy(QFont::ForceOutline);
     return font;
@@ -35,7 +35,7 @@ Result<void> requireFonts(const FontCheck& installed) {
 }
 
 QFont textFont(double size, bool bold) {
-    // Debian's Noto Sans has no minus, ≤ or arrows; Noto Sans Math has them, of the same widths.
+    // Debian's Noto Sans lacks minus, ≤ and arrows; Noto Sans Math has them with the same widths.
     static const QStringList kFamilies{"Noto Sans", "Noto Sans Math", kFallback};
     QFont font = fontOf(kFamilies, size);
     font.setBold(bold);

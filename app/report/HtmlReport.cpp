@@ -62,7 +62,7 @@ footer { border-top: 1px solid var(--rule); margin-top: 40px; padding-top: 12px;
 QString pageStyle() {
     QString style = QString::fromUtf8(kStyle);
     const auto fail = verdictMark("fail");
-    // If two names begin alike, the longer one comes first.
+    // If two names begin alike, the longer one must come first.
     for (const auto& [role, colour] : {std::pair("@amberCell", ink::kAmberCell),
                                        {"@amberText", ink::kAmberText},
                                        {"@onFail", fail.ink},
@@ -210,7 +210,7 @@ QByteArray reportHtml(const ReportContent& content) {
         "<title>" +
         Writer::escaped(content.documentTitle) + "</title>\n<style>" + pageStyle() +
         "</style>\n</head>\n<body>\n<main>\n";
-    // It stands once on a screen, always in sight; on paper it is repeated on each page.
+    // On a screen the header appears once and stays in sight; on paper it is repeated on each page.
     html += QString("<p class=\"simulated%1\">").arg(content.alarming ? " damaged" : "") +
             Writer::escaped(content.header) + "</p>\n" + writer.take();
     html += "<footer>" + Writer::escaped(content.footer) + "</footer>\n</main>\n</body>\n</html>\n";

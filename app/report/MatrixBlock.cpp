@@ -15,7 +15,7 @@ namespace {
 using nlohmann::json;
 using State = MatrixBlock::State;
 
-/// The share of a limit, in %, from which it is worth a second look.
+/// Share of a limit, in %, from which it deserves attention.
 constexpr double kClose_pct = 80;
 
 QString wordsIn(const json& of, const char* key) { return visible(QString::fromStdString(textOr(of, key))); }
@@ -26,7 +26,7 @@ void judge(MatrixBlock::Cell& out, const json& cell, const QString& unit, bool h
     const double used = 100 - numberOr(cell, "margin_pct");
     const double value = numberOr(cell, "value"), expanded = numberOr(cell, "expanded_uncertainty");
     const bool known = std::isfinite(used);
-    const bool timed = known && !std::isfinite(expanded);  // how soon the output ended, at most
+    const bool timed = known && !std::isfinite(expanded);  // the value is an upper bound: how soon the output ended
     const auto mark = verdictShape(out.verdict);
     out.measured = timed ? "≤ " + quantityText(value, unit, 2) : uncertainText(value, expanded, unit);
     out.state = State::Plain;
@@ -40,7 +40,7 @@ void judge(MatrixBlock::Cell& out, const json& cell, const QString& unit, bool h
     } else if (out.verdict == "not applicable") {
         out.detail = out.measured + "\nnot judged";
         out.share = "–";
-    } else if (!known && !hasLimit) {  // a rule without a limit: it was kept or it was not
+    } else if (!known && !hasLimit) {  // a rule without a limit: kept or not kept
         const bool failed = out.verdict == "fail";
         out.main = mark;
         out.detail = out.measured = quantityText(value, unit);
@@ -55,7 +55,7 @@ void judge(MatrixBlock::Cell& out, const json& cell, const QString& unit, bool h
     }
 }
 
-/// A figure with its U below it.
+/// Puts a figure into a cell, with its U below it.
 void putFigure(MatrixBlock::Cell& out, const QString& text) {
     const auto at = text.indexOf(" ± ");
     out.main = at < 0 ? text : text.left(at);
@@ -83,8 +83,8 @@ MatrixBlock::Cell cellOf(const json& cell, const QString& rowUnit, bool hasLimit
     return out;
 }
 
-/// One prefix for each unit of a matrix, whose columns are columns and whose rows are compared; a unit that a whole row
-/// shares stands in its title. Two lines of a cell are one figure.
+/// Uses one prefix per unit in the whole matrix, because rows are compared too; a unit that a whole row shares moves to
+/// its title. Two lines of a cell are one figure.
 void shareUnits(std::vector<MatrixBlock::Row>& rows) {
     const auto isOne = [](const MatrixBlock::Cell& cell) { return cell.detail.startsWith("± "); };
     std::vector<QStringList> figures;
@@ -135,7 +135,7 @@ MatrixBlock::Row rowOf(const json& line) {
     return row;
 }
 
-/// The same limit from two documents; the table of sources has both.
+/// True for the same limit in two documents; the table of sources lists both.
 bool isSameLimit(const json& a, const json& b) {
     const auto values = [](const json& line) {
         json out = json::array();

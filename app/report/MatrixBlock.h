@@ -1,5 +1,5 @@
-// MatrixBlock.h - rows against columns: limits or quantities against loads. Described once; window, terminal, HTML and
-// PDF set it.
+// MatrixBlock.h - a table of rows against columns, such as limits against loads. Described once; window, terminal, HTML
+// and PDF each draw it.
 #pragma once
 
 #include <QStringList>
@@ -10,25 +10,25 @@
 
 namespace tacto {
 
-/// A number in each cell and a smaller one below it; what needs attention stands out, in print without colour too.
+/// Each cell has a number and a smaller one below it. Cells that need attention stand out, in grey print too.
 struct MatrixBlock {
-    enum class State { Plain, Close, Broken, Open, Empty };  ///< Open: not evaluated; Empty: nothing asked there
+    enum class State { Plain, Close, Broken, Open, Empty };  ///< Open: not evaluated; Empty: not asked for
     struct Cell {
         QString main, detail;
         State state = State::Empty;
         QString verdict{};      ///< the verdict on what is judged: "pass"
-        QString share{};        ///< how much of the limit is used, "23 %", or the words in its place
+        QString share{};        ///< used share of the limit, "23 %", or words instead
         QString measured{};     ///< the value with its U and unit
-        QString note{};         ///< what is to be known beside it, as a sentence
-        bool hasShare = false;  ///< `share` is one
-        bool isNear = false;    ///< 80 % or more of it
+        QString note{};         ///< a remark on the value, as a sentence
+        bool hasShare = false;  ///< true if `share` is a percentage
+        bool isNear = false;    ///< true if 80 % or more of the limit is used
     };
     struct Row {
         QString title, note;
         std::vector<Cell> cells;
-        QString name{};                                       ///< the title without the unit that its cells share
-        QString unit{}, limit{}, set{}, source{}, verdict{};  ///< a limit, as "≤ 10 mA", and whose it is
-        bool hasLimit = false;                                ///< else `limit` is a rule in words that was kept or not
+        QString name{};                                       ///< title without the unit that its cells share
+        QString unit{}, limit{}, set{}, source{}, verdict{};  ///< limit "≤ 10 mA" and its source
+        bool hasLimit = false;                                ///< else `limit` is a rule in words: kept or not
         int worst = -1;                                       ///< the cell with the smallest margin
     };
     QString caption{};
@@ -37,13 +37,13 @@ struct MatrixBlock {
     QString legend{};
 };
 
-/// `rows` as toJson(LimitMatrix) has its lines, or a script its matrix: {"title", "note", "unit", "limit", "compare",
-/// "set" or "sets", "source", "verdict", "worst_load", "cells"}, a cell null (nothing asked there) or {"load", "value",
-/// "unit", "expanded_uncertainty", "margin_pct", "verdict", "note", "text"}.
+/// Makes the matrix from `rows`, as written by toJson(LimitMatrix) or by a script: {"title", "note", "unit", "limit",
+/// "compare", "set" or "sets", "source", "verdict", "worst_load", "cells"}. A cell is null (not asked for) or {"load",
+/// "value", "unit", "expanded_uncertainty", "margin_pct", "verdict", "note", "text"}.
 [[nodiscard]] MatrixBlock matrixOf(const QStringList& columns, const nlohmann::json& rows);
-/// The block of what toJson(LimitMatrix) gives; one limit from two documents is one row. Empty for anything else.
+/// Makes the matrix from toJson(LimitMatrix); one limit in two documents is one row. Empty for other input.
 [[nodiscard]] MatrixBlock limitsOf(const nlohmann::json& matrix);
-/// A table of Across: each record is a column, by its first.
+/// Makes the matrix from a table of Across: each record is a column; its first member is the title.
 [[nodiscard]] MatrixBlock acrossOf(const ResultTable& table, const nlohmann::json& records);
 
 }  // namespace tacto

@@ -15,19 +15,19 @@ namespace tacto {
 namespace {
 
 const QString kMissing = QStringLiteral("–");
-const QString kSpace = QStringLiteral("\u202f");  // narrow and unbreakable
+const QString kSpace = QStringLiteral("\u202f");  // a narrow, non-breaking space
 const QString kMinus = QStringLiteral("−");
-constexpr double kMinInterval = 1e-6;  // share of the value
+constexpr double kMinInterval = 1e-6;  // smaller half-widths, relative to the value, are treated as none
 
 QString shownUnit(const QString& unit) { return QString::fromStdString(writtenUnit(unit.toStdString())); }
 
 struct Split {
-    double factor = 1;  // from the given unit to SI
+    double factor = 1;  // from the given unit to the SI unit
     QString base;
     [[nodiscard]] UnitPrefix prefixFor(int exponent) const { return tacto::prefixFor(base.toStdString(), exponent); }
 };
 
-/// Splits "mA" into A and 1e-3; "mA/cm²" likewise. Units that take no prefix have an empty `base`.
+/// Splits "mA" into A and 1e-3, and "mA/cm²" likewise. For units without prefixes `base` is empty.
 Split splitUnit(const QString& shown) {
     const auto parts = partsOfUnit(shown.toStdString());
     return {parts.factor, QString::fromStdString(parts.base)};
@@ -36,7 +36,7 @@ Split splitUnit(const QString& shown) {
 QString fixed(double value, int decimals) {
     QString text = QString::number(value, 'f', std::max(0, decimals));
     if (!text.startsWith('-')) return text;
-    // A value that rounds to zero is zero: there is no "−0.00".
+    // A value that rounds to zero is written as zero, never as "−0.00".
     const bool zero = std::all_of(text.begin() + 1, text.end(), [](QChar c) { return c == '0' || c == '.'; });
     return text.replace(0, 1, zero ? QString() : QString(kMinus));
 }
@@ -45,7 +45,7 @@ QString withUnit(const QString& number, const QString& unit) {
     return unit.isEmpty() ? number : number + kSpace + unit;
 }
 
-/// The number as it stands on a page: a true minus, and a narrow space before the unit.
+/// Returns the number as printed: with a true minus, and a narrow space before the unit.
 QString onPage(const std::string& text, bool hasUnit) {
     QString shown = QString::fromStdString(text);
     shown.replace('-', kMinus);
@@ -82,11 +82,11 @@ QString intervalText(const Estimate& estimate, const QString& unit) {
     const Split split = splitUnit(shown);
     const double most = std::max({std::abs(value), std::abs(low), std::abs(high)}) * split.factor;
     const bool writtenOut = !split.base.isEmpty() || (most >= 1e-4 && most < 1e7);
-    // An interval of mere rounding errors is none.
+    // An interval that is only rounding error does not decide the number of digits.
     if (!(half * split.factor > kMinInterval * most) || !writtenOut)
         return QString("%1 (%2 to %3)")
             .arg(quantityText(value, unit), quantityText(low, unit), quantityText(high, unit));
-    const int last = decimalExponent(half * split.factor, 2) - 1;  // place of the last digit, at or behind the point
+    const int last = decimalExponent(half * split.factor, 2) - 1;  // place of the last digit
     const auto prefix =
         split.base.isEmpty() ? UnitPrefix{} : split.prefixFor(std::max(decimalExponent(most, 4), last + 2));
     const double scale = split.factor * std::pow(10.0, -prefix.exponent);
@@ -195,7 +195,7 @@ std::optional<ColumnFormat> columnFormat(const std::vector<double>& values, cons
     if (split.base.isEmpty() && (most >= 1e7 || most < 1e-3)) return std::nullopt;
     const int exponent = decimalExponent(most, 4);
     const int prefix = split.base.isEmpty() ? 0 : split.prefixFor(exponent).exponent;
-    // The smallest keeps at least two digits; the largest has four.
+    // The smallest number keeps at least two digits; the largest has four.
     const int decimals = std::max(3 - (exponent - prefix), 1 - (decimalExponent(least, 2) - prefix));
     return ColumnFormat{prefix, std::clamp(decimals, 0, 6)};
 }
@@ -227,18 +227,18 @@ QString withSigns(QString text) {
 
 namespace {
 
-/// A cell of figures in one unit that takes a prefix, in pieces: what stands between its numbers, and these.
+/// A cell with figures in one unit with a prefix, split into numbers and the text between them.
 struct FigureCell {
     QString* text = nullptr;
     QString base;
     int exponent = 0;              // the prefix as a power of ten
-    std::vector<QString> between;  // what stands between the numbers: one more than numbers; the unit is left out
+    std::vector<QString> between;  // text between the numbers, one more than numbers, without the unit
     std::vector<QString> numbers;
     std::vector<bool> unitAfter;
 
     /// "0 V" is 0 in any prefix.
     [[nodiscard]] bool isZero() const { return numbers.size() == 1 && numbers.front() == "0"; }
-    /// The number's text times 10^`places`; `padded` where it had not the digits for it.
+    /// Returns the number times 10^`places`. Sets `padded` if zeros had to be added.
     static QString shifted(const QString& number, int places, bool& padded) {
         QString whole = number.section('.', 0, 0), part = number.section('.', 1);
         for (; places > 0; --places) {
@@ -364,7 +364,7 @@ void alignPoints(QStringList& cells) {
     const QString digit(QChar(0x2007)), point(QChar(0x2008));
     const auto between = [](const QString& cell) { return QString(cell).remove(kNumber).remove(kMinus); };
     std::optional<QString> like;
-    std::vector<qsizetype> most;  // places behind the point, of each number of a cell
+    std::vector<qsizetype> most;  // for each number of a cell, the most decimals in the column
     for (const auto& cell : cells) {
         std::size_t n = 0;
         for (auto each = kNumber.globalMatch(cell); each.hasNext(); ++n) {
@@ -374,7 +374,7 @@ void alignPoints(QStringList& cells) {
         }
         if (n == 0) continue;
         if (!like) like = between(cell);
-        if (between(cell) != *like || like->contains(',')) return;  // a comma follows its number
+        if (between(cell) != *like || like->contains(',')) return;  // a comma directly follows its number
     }
     for (auto& cell : cells) {
         QString filled;

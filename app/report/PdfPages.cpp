@@ -11,11 +11,11 @@ namespace {
 constexpr int kResolution = 1200;
 constexpr double kMargin = 68.85;  // (A4 width of 793.7 - 656) / 2
 constexpr double kTop = 64;
-// The line is as high as the type: a sign from another face moves neither its line nor the next.
+// The line height depends only on the type size: a character from another font moves no line.
 constexpr double kLineOfSize = 1.26;
 constexpr double kBaselineOfSize = 0.95;
 
-/// Lays `text` out in lines; calls `each` with a line's layout.
+/// Lays `text` out in lines; calls `each` with the layout of each line.
 double layOut(double width, const QString& text, const QFont& font, Qt::Alignment alignment, bool breakAnywhere,
               const std::function<void(QTextLayout&, double)>& each) {
     double height = 0;

@@ -1,4 +1,4 @@
-// PdfPages.h - A4 pages to set blocks on: breaks, running head and foot with page x of y, text and figures as vectors.
+// PdfPages.h - A4 pages for blocks: page breaks, running header and footer "page x of y", vector text and figures.
 //
 // Positions are in 1/96 inch.
 //
@@ -16,30 +16,30 @@ namespace tacto {
 
 class PdfPages {
 public:
-    static constexpr double kWidth = 656;   ///< the text's width
-    static constexpr double kHeight = 996;  ///< the text's height on one page
+    static constexpr double kWidth = 656;   ///< width of the text
+    static constexpr double kHeight = 996;  ///< height of the text on one page
 
-    /// Draws on `device`; null only counts pages. `total` is printed as "page x of total". `alarming`: the header is
-    /// a warning, set where every reader sees it.
+    /// Draws on `device`; null only counts pages. `total` is printed as "page x of total". `alarming`: the header is a
+    /// warning and is printed where every reader sees it.
     PdfPages(QIODevice* device, const QString& title, QString header, QString footer, int total, bool alarming = false);
-    /// The painter of the current page, its origin at the text's top left; null when only counting.
+    /// Returns the painter of the current page with its origin at the top left of the text; null when only counting.
     [[nodiscard]] QCPPainter* painter() noexcept { return painter_ ? painter_.get() : nullptr; }
 
     [[nodiscard]] double y() const noexcept { return y_; }
     void advance(double height) noexcept { y_ += height; }
     [[nodiscard]] double left() const noexcept { return kHeight - y_; }
     [[nodiscard]] bool atTop() const noexcept { return y_ <= 0; }
-    /// Starts a page unless `height` fits on this one; what is taller than a page starts at a top.
-    /// True when a page was begun.
+    /// Starts a page unless `height` fits on this one; a block taller than a page starts at a page's top. Returns true
+    /// if a page was started.
     bool require(double height);
     [[nodiscard]] int page() const noexcept { return page_; }
-    /// Ends the last page. False when the device refused.
+    /// Ends the last page. Returns false if the device reported an error.
     [[nodiscard]] bool finish();
 
-    /// Sets `text` in lines of `width` at (x, y of now) without moving on. The value is its height.
+    /// Draws `text` in lines of `width` at (x, current y) without moving on. Returns the height of the text.
     double text(double x, double width, const QString& text, const QFont& font, const QColor& color,
                 Qt::Alignment alignment = Qt::AlignLeft, bool breakAnywhere = false);
-    /// The height that text() would take.
+    /// Returns the height that text() would take.
     [[nodiscard]] static double textHeight(double width, const QString& text, const QFont& font,
                                            bool breakAnywhere = false);
 

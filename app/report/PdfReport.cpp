@@ -9,10 +9,10 @@ namespace {
 constexpr double kGap = 10;       // between blocks
 constexpr double kTextSize = 12;  // 9 pt
 constexpr double kFactColumn = 150;
-constexpr double kAboveLine = 7;          // room to write on a line
-constexpr double kSymbol = 34;            // room of a verdict's shape before its word
+constexpr double kAboveLine = 7;          // space to write on a line
+constexpr double kSymbol = 34;            // space for a verdict's shape before its word
 constexpr double kHalf = 316;             // two columns of facts with a gutter
-constexpr double kBriefFactColumn = 210;  // width in half a page: a setting's name is longer than its value
+constexpr double kBriefFactColumn = 210;  // width in half a page: settings have names longer than their values
 
 class Setter {
 public:
@@ -65,7 +65,7 @@ public:
                        kGap);
     }
 
-    /// Short facts in two columns, read down the first; the others, and hashes, over the whole width.
+    /// Prints short facts in two columns, the first column first; prints other facts and hashes over the whole width.
     void operator()(const FactsBlock& block) {
         std::vector<const ReportFact*> brief, wide;
         for (const auto& fact : block.facts) {
@@ -84,7 +84,7 @@ public:
             pages_.advance(height + 3);
         }
         if (!brief.empty() && !wide.empty()) pages_.advance(kGap / 2);
-        const double column = brief.empty() ? kFactColumn : kBriefFactColumn;  // values stand below each other
+        const double column = brief.empty() ? kFactColumn : kBriefFactColumn;  // values are aligned below each other
         for (const auto* fact : wide) {
             const double height = factHeight(*fact, PdfPages::kWidth, column);
             pages_.require(height);
@@ -121,7 +121,7 @@ public:
         pages_.advance(kGap + 6);
     }
 
-    /// A ruled line for each role, long enough to write on.
+    /// Draws a ruled line for each role, long enough to write on.
     void operator()(const SignaturesBlock& block) {
         constexpr double kLine = 28;
         constexpr double kRoleColumn = 90;
@@ -166,7 +166,7 @@ public:
         pages_.advance(kGap);
     }
 
-    /// The height needed on a page with a heading before blocks[i]: its first part, and the block of a paragraph.
+    /// Returns the height that a heading needs below it: the start of blocks[i], and the block after a quiet paragraph.
     static double needOf(const std::vector<ReportBlock>& blocks, std::size_t i) {
         if (i >= blocks.size()) return 0;
         const auto& block = blocks[i];
@@ -229,7 +229,7 @@ void setAll(const ReportContent& content, PdfPages& pages) {
 }  // namespace
 
 Result<void> writePdf(const ReportContent& content, QIODevice& device) {
-    // Set twice: the first time counts the pages.
+    // The pages are laid out twice: the first pass counts them.
     PdfPages counting(nullptr, {}, {}, {}, 0);
     setAll(content, counting);
     PdfPages pages(&device, content.documentTitle, content.header, content.footer, counting.page(), content.alarming);

@@ -14,7 +14,7 @@ constexpr double kPadX = 6;
 constexpr double kPadY = 2.5;
 constexpr double kWidestText = 420;  // longer cells wrap
 
-/// A header is smaller and quieter than its cells, as in the window.
+/// The font of a header is smaller and lighter than that of its cells, as in the window.
 QFont cellFont(bool header) { return textFont(header ? kHeaderSize : kSize); }
 
 double widthOf(const QString& text, bool header) {
@@ -25,7 +25,7 @@ double widthOf(const QString& text, bool header) {
     return widest;
 }
 
-/// The width a column asks for, and the least it can do with (its longest word).
+/// The ideal width of a column, and its minimum (its longest word).
 struct Want {
     double ideal = 0;
     double least = 0;
@@ -35,7 +35,7 @@ Want wantOf(const TableBlock& table, std::size_t column) {
     Want want;
     const auto include = [&](const QString& text, bool header) {
         want.ideal = std::max(want.ideal, std::min(kWidestText, widthOf(text, header)));
-        // Numbers keep their unit and their uncertainty on one line.
+        // Numbers stay on one line with their unit and uncertainty.
         if (table.columns[column].numeric && !header) {
             want.least = std::max(want.least, std::min(kWidestText, widthOf(text, header)));
             return;
@@ -55,7 +55,7 @@ struct Part {
     std::vector<double> widths;
 };
 
-/// Columns in as many parts as the page's width makes necessary; each says what its rows are about.
+/// Splits the columns into parts that fit the page's width; each part repeats the column that names the rows.
 std::vector<Part> partsOf(const TableBlock& table) {
     const std::size_t naming = table.naming < table.columns.size() ? table.naming : 0;
     std::vector<Want> wants;
@@ -82,7 +82,7 @@ std::vector<Part> partsOf(const TableBlock& table) {
         for (const auto column : part.columns) {
             part.widths.push_back(wants[column].least + share * (wants[column].ideal - wants[column].least));
         }
-        // One column alone may still be too wide; it is wrapped inside the page.
+        // A single column may still be too wide; it is wrapped to the page width.
         for (auto& width : part.widths) width = std::min(width, PdfPages::kWidth);
     }
     return parts;
@@ -157,9 +157,9 @@ private:
     double width_ = 0;
 };
 
-constexpr std::size_t kLong = 24;  // rows from which a narrow table is set in columns side by side
+constexpr std::size_t kLong = 24;  // from this number of rows on, a narrow table is set in columns side by side
 constexpr double kColumnGap = 26;
-constexpr std::size_t kMinRows = 3;  // rows that stay with the header, and with the last row
+constexpr std::size_t kMinRows = 3;  // rows that stay together with the header, and with the last row
 
 double setCaption(PdfPages& pages, const QString& caption, bool draw) {
     const QFont font = textFont(12, true);
@@ -171,7 +171,7 @@ double setCaption(PdfPages& pages, const QString& caption, bool draw) {
     return height;
 }
 
-/// The height that must fit below the table's top: a short table is kept whole, a long one begins with a few rows.
+/// Returns the height needed at the table's top: all of a short table, a few rows of a long one.
 double beginningOf(const TableSetter& setter, double caption, std::size_t rows) {
     const double whole = caption + setter.wholeHeight();
     if (whole < PdfPages::kHeight / 4) return whole;
@@ -197,7 +197,7 @@ void setDown(PdfPages& pages, TableSetter& setter, const QString& caption, std::
     }
 }
 
-/// Rows run down the first column of the page, then down the next.
+/// Fills the first column of the page with rows, then the next.
 void setSideBySide(PdfPages& pages, TableSetter& setter, const QString& caption, std::size_t rows,
                    std::size_t columns) {
     double row = 0;
@@ -276,7 +276,7 @@ public:
         for (const auto& row : matrix.rows) {
             for (const auto& each : row.cells) cell = std::max(cell, cellWidth(each));
         }
-        // The cells come first: a title may wrap, a number may not.
+        // Cells are sized first: a title may wrap, but a number may not.
         title_ = std::clamp(room - columns * cell, kNarrowestTitle, std::min(widest, kWidestTitle));
         cell_ = std::min((room - title_) / std::max(1.0, columns), 110.0);
     }
@@ -298,7 +298,7 @@ public:
         pages_.advance(pages_.text(0, PdfPages::kWidth, matrix_.legend, textFont(10), ink::kQuiet));
     }
 
-    /// Caption, header and three rows.
+    /// Returns the height of caption, header and three rows.
     [[nodiscard]] double beginning() const {
         double height =
             PdfPages::textHeight(PdfPages::kWidth, matrix_.caption, textFont(12, true)) + headerHeight() + 8;
@@ -320,7 +320,7 @@ private:
         return width + 2 * kPad + 1;
     }
 
-    /// Broken before ± where the cell is too narrow for it, and then before the unit: never within one.
+    /// Breaks the line before ± if the cell is too narrow, then before the unit; never within a number.
     [[nodiscard]] QString detailOf(const MatrixBlock::Cell& cell) const {
         const QFontMetricsF metrics(textFont(kDetailSize));
         const auto fits = [&](const QString& text) {
@@ -335,14 +335,14 @@ private:
         return detail;
     }
 
-    /// Smaller where the cell is too narrow for it: a number is not broken.
+    /// Returns a smaller font if the cell is too narrow, because a number must not be broken.
     [[nodiscard]] QFont mainFont(const MatrixBlock::Cell& cell) const {
         const QFont font = textFont(kMainSize, standsOut(cell.state));
         const bool fits = QFontMetricsF(font).horizontalAdvance(cell.main) <= cell_ - 2 * kPad;
         return fits ? font : textFont(kDetailSize, standsOut(cell.state));
     }
 
-    /// The legend stands below the last row, on the same page.
+    /// The legend is below the last row, on the same page.
     [[nodiscard]] double legendHeight() const {
         if (matrix_.legend.isEmpty()) return 0;
         return 4 + PdfPages::textHeight(PdfPages::kWidth, matrix_.legend, textFont(10));
@@ -446,7 +446,7 @@ double matrixBeginning(const MatrixBlock& matrix) {
 
 void setMatrix(PdfPages& pages, const MatrixBlock& matrix) {
     MatrixSetter setter(pages, matrix);
-    // Like any table, one that takes less than a quarter of a page is not split.
+    // Like any table, a matrix shorter than a quarter of a page is not split.
     const double whole = setter.whole();
     pages.require(whole < PdfPages::kHeight / 4 ? whole : setter.beginning());
     setter.set();

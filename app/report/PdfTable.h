@@ -1,4 +1,4 @@
-// PdfTable.h - sets a table on pages.
+// PdfTable.h - draws a table on pages.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -8,20 +8,20 @@
 
 namespace tacto {
 
-/// Caption above, rules instead of boxes, numbers to the right. Rows are never split; the header is repeated on every
-/// page. Columns that do not fit continue in a further part with the first column repeated.
+/// Prints the caption above the table, rules instead of boxes, numbers on the right. Rows are never split; the header
+/// is repeated on every page. Columns that do not fit continue in another part that repeats the first column.
 void setTable(PdfPages& pages, const TableBlock& table);
 
-/// The height below which the table begins on the next page: a heading above it needs as much.
+/// Returns the height without which the table begins on the next page; a heading above it needs the same.
 [[nodiscard]] double tableBeginning(const TableBlock& table);
 
-// Sets a matrix on pages.
+// Draws a matrix on pages.
 
-/// The caption stands above, the legend below. Rows are never split; the header is repeated on every page. Values close
-/// to the limit or beyond it are shaded and bold, unevaluated ones hatched: told apart without colour.
+/// Prints the caption above and the legend below. Rows are never split; the header is repeated on every page. Values
+/// close to or beyond the limit are shaded and bold, unevaluated values hatched, so that colour is not needed.
 void setMatrix(PdfPages& pages, const MatrixBlock& matrix);
 
-/// The height below which the matrix begins on the next page.
+/// Returns the height without which the matrix begins on the next page.
 [[nodiscard]] double matrixBeginning(const MatrixBlock& matrix);
 
 }  // namespace tacto

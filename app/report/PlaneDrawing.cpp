@@ -1,4 +1,4 @@
-// Trials in the amplitude-interval plane: where the conditions lie, and how far each one scatters.
+// Trials in the amplitude-interval plane: the positions of the conditions, and the scatter of each.
 #include "app/report/FigureDrawing.h"
 #include "app/report/Fonts.h"
 #include "app/report/NumberText.h"
@@ -45,10 +45,10 @@ std::vector<Cluster> clustersOf(const PlaneFigure& figure) {
     return clusters;
 }
 
-/// The ellipse that holds 95 % of a normal distribution with this covariance, around 0.
+/// Returns the ellipse around 0 that contains 95 % of a normal distribution with this covariance.
 void ellipse(const Cluster& cluster, double xFactor, double yFactor, QVector<double>& x, QVector<double>& y) {
     constexpr double kRadius = 2.447746830680816;  // square root of the 95 % point of chi-squared, 2 degrees of freedom
-    // Cholesky: x from one normal, y from that and another.
+    // Cholesky: x from one normal variable, y from that and a second.
     const double a = std::sqrt(cluster.varInterval);
     const double b = a > 0 ? cluster.covariance / a : 0;
     const double c = std::sqrt(std::max(0.0, cluster.varAmplitude - b * b));
@@ -73,7 +73,7 @@ void drawPoints(QCPAxisRect* axes, const QVector<double>& x, const QVector<doubl
     points->setData(x, y);
 }
 
-/// Draws one condition as deviations from its mean, in units that suit them.
+/// Draws one condition as deviations from its mean, in suitable units.
 void drawEnlarged(PlotSheet& sheet, QCPLayoutGrid* grid, int cell, const Cluster& cluster, int index) {
     auto* axes = sheet.addAxes(cell / 2, cell % 2, grid);
     auto* horizontal = axes->axis(QCPAxis::atBottom);
@@ -93,7 +93,7 @@ void drawEnlarged(PlotSheet& sheet, QCPLayoutGrid* grid, int cell, const Cluster
     ellipse(cluster, 1, 1, ex, ey);
     double xReach = std::max(reach(dx), reach(ex));
     double yReach = std::max(reach(dy), reach(ey));
-    // A quantity that does not vary at all still needs an axis.
+    // A quantity without any variation still needs an axis.
     if (!(xReach > 1e-12 * std::abs(cluster.meanInterval))) xReach = 1e-6;
     if (!(yReach > 1e-12 * std::abs(cluster.meanAmplitude))) yReach = 1e-6;
     const AxisUnit xUnit = axisUnit(xReach, "s");

@@ -102,7 +102,7 @@ void PlotSheet::explain(QCPAxisRect* axes, const QString& why) {
 
 QCPLegend* PlotSheet::addLegend(int row, int column, int entriesPerLine) {
     auto* legend = new QCPLegend;
-    // Stands in a grid of its own, beside something that takes the rest: a legend's greatest width binds its column.
+    // The legend gets its own grid and a spacer next to it: its maximum width would otherwise limit the whole column.
     auto* line = new QCPLayoutGrid;
     plot_->plotLayout()->addElement(row, column, line);
     line->addElement(0, 0, legend);
@@ -146,7 +146,7 @@ void PlotSheet::paint(QCPPainter& painter) {
 
 QString PlainTicker::getTickLabel(double tick, const QLocale&, QChar, int) {
     const int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(step_) - 1e-9)), 0, 9);
-    // A step of 2.5 needs one decimal more than its magnitude says.
+    // A step such as 2.5 needs one decimal more than its magnitude suggests.
     const bool half = std::abs(step_ * std::pow(10.0, decimals) - std::round(step_ * std::pow(10.0, decimals))) > 1e-6;
     if (std::abs(tick) < step_ * 1e-6) tick = 0;
     QString text = QString::number(tick, 'f', decimals + (half ? 1 : 0));

@@ -16,7 +16,7 @@ namespace tacto {
 
 namespace {
 
-constexpr qsizetype kMaxNamedAt = 8;  // how many unevaluated rows are named; the rest is counted
+constexpr qsizetype kMaxNamedAt = 8;  // number of unevaluated rows that are named; the others are counted
 
 QString sentence(QString key) {
     key.replace('_', ' ');
@@ -59,7 +59,7 @@ QString numberOrUnknown(const QJsonObject& object, const char* key, const QStrin
     return QString("%1 %2").arg(QLatin1String(name), shown);
 }
 
-/// Entries that only name a device say nothing of accuracy.
+/// False for entries that only name a device.
 bool saysAccuracy(const QJsonObject& entry) {
     return entry.contains("stated_by") || entry.contains("gain_pct") || entry.contains("timebase_ppm");
 }
@@ -98,8 +98,8 @@ void readInstruments(const QJsonObject& results, ReportModel& model) {
     }
 }
 
-/// Sessions of older versions tell only whether the check passed; a check that did not may have been open, as its
-/// numbers tell.
+/// Sessions of older versions only say whether the check passed. A check that did not pass may have been indeterminate;
+/// its numbers tell.
 QString referenceVerdict(const QJsonObject& check) {
     if (check.value("verdict").isString()) return check.value("verdict").toString();
     const auto passed = check.value("passed");
@@ -155,8 +155,8 @@ void readRestsOn(const QJsonObject& results, ReportBasis& basis) {
     if (!lines.isEmpty()) basis.restsOn.push_back({"Rests on", lines.join('\n')});
 }
 
-/// One sentence where a quantity lacks the same on several loads: "current density into 100 ohm, 500 ohm and in the
-/// worst case was not evaluated: …".
+/// Combines loads on which a quantity was not evaluated for the same reason into one sentence: "current density into
+/// 100 ohm, 500 ohm and in the worst case was not evaluated: …".
 QStringList notEvaluatedOn(const QJsonArray& rows) {
     struct Sentence {
         QString before, after;
@@ -211,7 +211,7 @@ void readNotEvaluated(const QJsonObject& results, ReportBasis& basis) {
         found = found.mid(0, kMaxNamedAt);
         found << QString("and %1 more, which stand among the results").arg(more);
     }
-    // The page says "Not evaluated" beside them: what it is and why are left.
+    // The page prints "Not evaluated" next to these sentences, so they need only the quantity and the reason.
     static const QRegularExpression saidBefore(" (?:was|were) not evaluated\\b");
     for (auto& each : found) each = withSigns(each.remove(saidBefore));
     basis.notEvaluated = found;
@@ -251,7 +251,7 @@ FactsBlock factsOf(const ReportModel& model) {
     FactsBlock block;
     block.oneColumn = true;
     const auto& basis = model.basis;
-    const bool certified = isCertificate(model);  // a certificate's first page has said some of it
+    const bool certified = isCertificate(model);  // a certificate's first page already says part of this
     block.facts = certified ? certificateMethod(model) : basis.rule;
     block.facts.insert(block.facts.end(), basis.restsOn.begin(), basis.restsOn.end());
     if (has(model, Role::Oscilloscope)) {
@@ -259,7 +259,7 @@ FactsBlock factsOf(const ReportModel& model) {
             {"Certificate", basis.certificate.isEmpty() ? QString("none of the oscilloscope") : basis.certificate});
     }
     QStringList open = basis.notEvaluated;
-    // A run that broke off, or that approved nothing, has no exposure: said here, and no section is left empty for it.
+    // A run that broke off or approved no train has no exposure: this is stated here, not in an empty section.
     if (has(model, Role::Stimulator) && model.exposure.empty())
         open << "exposure: this session holds no approved train";
     block.facts.push_back(

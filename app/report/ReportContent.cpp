@@ -19,8 +19,8 @@ QString originOf(const ReportDevice& device) {
     return !device.origin.isEmpty() ? device.origin : device.simulated ? origin::kSimulated : origin::kHardware;
 }
 
-/// Whether a device of one of these roles was simulated; true where there is none and the session is, as in a
-/// prediction.
+/// True if a device of one of these roles was simulated. If there is no such device, true if the session is simulated,
+/// as in a prediction.
 bool isSimulated(const ReportModel& model, std::initializer_list<Role> roles) {
     bool any = false, found = false;
     for (const auto& device : model.devices) {
@@ -31,8 +31,8 @@ bool isSimulated(const ReportModel& model, std::initializer_list<Role> roles) {
     return found ? any : model.simulated;
 }
 
-/// Each figure has its own mark: what an oscilloscope saw of a stimulator's output is measured, whatever felt the
-/// texture (hazard H9).
+/// Each figure is marked separately: an oscilloscope's capture of a stimulator is a measurement even if the fingertip
+/// sensor was simulated (hazard H9).
 bool isSimulated(const ReportModel& model, const Figure& figure) {
     if (std::holds_alternative<TimelineFigure>(figure.content)) return model.simulated;
     if (std::holds_alternative<ExposureFigure>(figure.content))
@@ -40,7 +40,7 @@ bool isSimulated(const ReportModel& model, const Figure& figure) {
     return isSimulated(model, {Role::Stimulator, Role::Oscilloscope, Role::Massager});
 }
 
-/// True when every device is simulated.
+/// True if every device is simulated.
 bool isAllSimulated(const ReportModel& model) {
     return model.simulated && std::all_of(model.devices.begin(), model.devices.end(),
                                           [](const ReportDevice& device) { return device.simulated; });
@@ -50,7 +50,7 @@ VerdictBlock verdictOf(const ReportModel& model) {
     VerdictBlock block;
     block.verdict = model.verdict;
     for (const auto& reason : model.reasons) block.reasons << capitalised(withSigns(reason));
-    // H9: nothing passes on evidence that was altered.
+    // H9: nothing passes on altered evidence.
     const bool unproven = !model.damage.isEmpty() && model.verdict == ReportVerdict::Pass;
     if (unproven) block.verdict = ReportVerdict::Indeterminate;
     block.mark = verdictMark(block.verdict);
@@ -113,18 +113,18 @@ TableBlock devicesTable(const ReportModel& model) {
     return table;
 }
 
-/// Tells two reports apart, even of one session that has grown since.
+/// Distinguishes two reports, even if they are of one session that has grown since.
 QString reportNumber(const ReportModel& model) {
     return model.session + (model.chainHead.isEmpty() ? QString() : "-" + model.chainHead.left(8));
 }
 
-/// The marks of what is simulated, replayed and real: on the first page.
+/// Marks on the first page what is simulated, replayed and real.
 void addMarks(const ReportModel& model, std::vector<ReportBlock>& blocks) {
     if (model.simulated && model.devices.empty()) {
         blocks.emplace_back(
             ParagraphBlock{"Simulated without a device: its numbers are predicted, none was measured."});
     } else if (!model.marks.isEmpty()) {
-        // The certificate says in full which correction was applied before a calibration.
+        // The certificate itself says which correction was applied before a calibration.
         QStringList marks = model.marks;
         if (isCertificate(model)) marks.removeIf([](const QString& mark) { return mark.contains("not calibrated"); });
         if (!marks.isEmpty()) blocks.emplace_back(ParagraphBlock{marks.join('\n')});
@@ -165,7 +165,7 @@ TableBlock tableOf(const ResultTable& source, const nlohmann::json& records, con
     for (const auto& column : source.columns) {
         auto text = columnText(column, records);
         const bool known = std::ranges::any_of(text.cells, [](const QString& cell) { return cell != u"–"; });
-        if (!known && !records.empty()) continue;  // a column that is empty in every row is left out
+        if (!known && !records.empty()) continue;  // omits a column that is empty in every row
         if (column.as == ResultColumn::As::Text) sharePrefix(text.cells);
         auto title = text.header.replace('\n', ' ');
         if (text.right) {
@@ -183,7 +183,7 @@ TableBlock tableOf(const ResultTable& source, const nlohmann::json& records, con
     return table;
 }
 
-/// The facts below each other; what the record does not have is left out.
+/// Lists the facts below each other, without those missing in the record.
 TableBlock factsOf(const ResultTable& source, const nlohmann::json& record, const QString& caption) {
     TableBlock table;
     table.caption = caption;
@@ -198,7 +198,7 @@ TableBlock factsOf(const ResultTable& source, const nlohmann::json& record, cons
 
 using Shape = ResultTable::Shape;
 
-/// The tables of the results' kind that are limits, or those that are not, but for what stands elsewhere in the report.
+/// Adds the limit tables of the results' kind, or its other tables, without those that appear elsewhere in the report.
 void addResults(const nlohmann::json& results, bool limitsAlone, Captions& captions, std::vector<ReportBlock>& blocks) {
     const QString partial = memberAt(results, "partial") == true ? " (partial: the run ended early)" : "";
     const auto add = [&](TableBlock block) {
@@ -228,7 +228,7 @@ void addResults(const nlohmann::json& results, bool limitsAlone, Captions& capti
 void addItems(const ReportModel& model, Captions& captions, std::vector<ReportBlock>& blocks) {
     if (model.items.empty()) return;
     blocks.emplace_back(captions.heading(isCertificate(model) ? "How they were found" : "Results"));
-    // How near the limits are is asked first.
+    // Readers ask first how close the limits are.
     for (const auto& item : model.items)
         if (const auto* found = std::get_if<ReportResults>(&item)) addResults(found->results, true, captions, blocks);
     for (const auto& item : model.items) {
@@ -252,7 +252,7 @@ void addItems(const ReportModel& model, Captions& captions, std::vector<ReportBl
     }
 }
 
-/// Computed values are no measurements, and are never titled as such (science.md section 12).
+/// Computed values are not measurements and never get such a title (science.md section 12).
 void addComputed(const ReportModel& model, Captions& captions, std::vector<ReportBlock>& blocks) {
     const bool anyJudged = std::any_of(model.exposure.begin(), model.exposure.end(),
                                        [](const auto& row) { return !row.evaluated() || row.limit > 0; });

@@ -1,7 +1,7 @@
-// ReportContent.h - the report as a sequence of blocks, worded once: PDF and HTML only set them.
+// ReportContent.h - the report as a sequence of blocks with all wording; PDF and HTML only lay them out.
 //
-// Order: title, verdict with its reasons, decision rule and what the verdict rests on, signatures; then the script's
-// figures and tables, what was computed from approved trains, events, what was used, how to reproduce.
+// Order: title, verdict with its reasons, decision rule and basis of the verdict, signatures; then the script's figures
+// and tables, values computed from approved trains, events, devices and settings, how to reproduce.
 //
 // Thread-safety: the GUI thread (drawn figures are widgets).
 #pragma once
@@ -38,30 +38,30 @@ struct ParagraphBlock {
 };
 struct FactsBlock {
     std::vector<ReportFact> facts;
-    bool oneColumn = false;  ///< kept in their order, one below the other
+    bool oneColumn = false;  ///< keeps the facts in order, one below the other
 };
 struct TableBlock {
     struct Column {
         QString title;
-        bool numeric = false;  ///< set to the right
+        bool numeric = false;  ///< right-aligned
     };
     QString caption;
     std::vector<Column> columns;
     std::vector<QStringList> rows;
-    std::size_t naming = 0;  ///< the column that says what a row is about: the first, or the one after the verdict
+    std::size_t naming = 0;  ///< index of the column that names the row: the first, or the one after the verdict
 };
 struct FigureBlock {
     QString caption;
     QString legend;
     std::unique_ptr<PlotSheet> sheet;
 };
-/// Lines to be filled in by hand: who did it, who checked it.
+/// Lines to fill in by hand: who did it, who checked it.
 struct SignaturesBlock {
-    QStringList roles;    ///< a line each
-    QStringList columns;  ///< the titles on it
-    QStringList given;    ///< like `roles`: what stands in the first column already; may be empty
-    QString second = {};  ///< what stands in the second column of the first role; may be empty
-    bool open = false;    ///< leaves room for missing entries, also on a page that is only read
+    QStringList roles;    ///< one line each
+    QStringList columns;  ///< titles on each line
+    QStringList given;    ///< for each role, the known text of the first column; may be empty
+    QString second = {};  ///< the known text of the second column of the first role; may be empty
+    bool open = false;    ///< leaves room for missing entries, even on a page that is only read on screen
 };
 struct CodeBlock {
     QStringList lines;
@@ -72,23 +72,23 @@ using ReportBlock = std::variant<TitleBlock, VerdictBlock, HeadingBlock, Paragra
 
 struct ReportContent {
     QString documentTitle;
-    QString header;  ///< running head: what this is
-    QString footer;  ///< session and chain head, short
+    QString header;  ///< running header: what this is
+    QString footer;  ///< session and shortened chain head
     bool simulated = false;
-    bool damaged = false;   ///< the session was altered: said on every page
-    bool alarming = false;  ///< the running head is a warning, set where every reader sees it
+    bool damaged = false;   ///< the session was altered: stated on every page
+    bool alarming = false;  ///< the running header is a warning, printed where every reader sees it
     std::vector<ReportBlock> blocks;
 };
 
-/// Long texts are cut as ShownText.h says.
+/// Long texts are shortened as ShownText.h describes.
 [[nodiscard]] ReportContent contentOf(const ReportModel& model);
 
-// Numbers the headings, figures and tables of a report, and marks the captions of what is simulated.
+// Numbers the headings, figures and tables of a report, and marks the captions of simulated figures and tables.
 
 class Captions {
 public:
     explicit Captions(bool simulated = false) : simulated_(simulated) {}
-    /// Whether the tables that follow show something simulated.
+    /// Sets whether the tables that follow show something simulated.
     void setSimulated(bool simulated) { simulated_ = simulated; }
     QString figure(const QString& text, bool simulated) { return numbered("Figure", ++figures_, text, simulated); }
     QString table(const QString& text) { return numbered("Table", ++tables_, text, simulated_); }

@@ -21,12 +21,12 @@ using nlohmann::json;
 using As = ResultColumn::As;
 using Shape = ResultTable::Shape;
 
-constexpr double kOnePrefix = 1e4;        // numbers further apart than this have a prefix each
-constexpr double kOnePrefixWithU = 1000;  // with an uncertainty, all of its decimals are shown
+constexpr double kOnePrefix = 1e4;        // numbers further apart than this factor each get their own prefix
+constexpr double kOnePrefixWithU = 1000;  // the same for numbers with an uncertainty, which show all its decimals
 constexpr int kDigits = 4, kSpreadDigits = 2;
 const QString kNone = QStringLiteral("–");
 
-/// A number of a record with what is known around it.
+/// A number of a record with its uncertainty and bounds.
 struct Known {
     double value = std::nan("");
     double around = std::nan("");  ///< U, or a standard deviation
@@ -79,7 +79,7 @@ Known knownOf(const ResultColumn& column, const json& record) {
     return known;
 }
 
-/// The text of one number in `unit`; with `spread` the second one is a standard deviation, and may be unknown.
+/// Returns one number in `unit`. If not `isU`, the second number is a standard deviation, which may be unknown.
 QString numberText(const Known& known, const QString& unit, bool isU, int digits = kDigits) {
     if (!std::isfinite(known.value)) return kNone;
     if (known.hasAround)
@@ -93,7 +93,7 @@ QString decimalText(double value, int decimals) {
     return QString::fromStdString(tacto::decimalText(value, decimals)).replace('-', QChar(0x2212));
 }
 
-/// The unit below the title, also where it is the title's own word: "Smallest pair (JND)".
+/// Puts the part in brackets on a second line, even if it is not a unit: "Smallest pair (JND)".
 QString onTwoLines(QString title) {
     if (const auto at = title.lastIndexOf(" ("); at > 0 && title.endsWith(')')) title[at] = '\n';
     return title;
@@ -107,7 +107,7 @@ void scale(Known& known, double factor) {
     for (auto* number : {&known.value, &known.around, &known.low, &known.high, &known.bound}) *number *= factor;
 }
 
-/// "0.26, at most 0.75": a bound that was asked for and is missing is unknown.
+/// Returns "0.26, at most 0.75"; a bound that is required but missing is stated as unknown.
 QString boundedText(const QString& value, const char* most, double bound, const QString& shown) {
     return QObject::tr("%1, %2 %3")
         .arg(value, QObject::tr(most), std::isfinite(bound) ? shown : QObject::tr("unknown"));
@@ -132,7 +132,7 @@ ColumnText sharesText(const ResultColumn& column, const json& records) {
     return out;
 }
 
-/// Distances, with their bound where one was asked for.
+/// Returns distances, with their bound if the column has one.
 ColumnText distancesText(const ResultColumn& column, const json& records) {
     ColumnText out{onTwoLines(titleOf(column)), {}, true};
     const auto hundredth = [](double value) { return decimalText(value, 2); };
@@ -246,7 +246,7 @@ bool isCell(const nlohmann::json& value) {
     return value.is_primitive() || (value.is_object() && (value.contains("mean") || value.contains("value")));
 }
 
-/// A column for a member that no schema knows.
+/// Returns a column for a member that no schema describes.
 ResultColumn guessed(const std::string& key, const nlohmann::json& value) {
     const auto name = columnName(QString::fromStdString(key));
     const bool counts = value.is_number() || value.is_object();
@@ -263,7 +263,7 @@ std::vector<ResultColumn> columnsIn(const nlohmann::json& records) {
             if (!has && isCell(value)) columns.push_back(guessed(key, value));
         }
     }
-    // A JSON object forgets the order: what names a record comes first.
+    // A JSON object does not keep its order, so members that name a record are put first.
     static const std::vector<std::string> first{"name", "condition", "load", "a", "b", "n"};
     std::stable_sort(columns.begin(), columns.end(), [](const ResultColumn& one, const ResultColumn& other) {
         const auto rank = [](const ResultColumn& c) { return std::find(first.begin(), first.end(), c.at); };

@@ -29,7 +29,7 @@ QString plainText(const QJsonValue& value) {
                                              : QJsonDocument(value.toObject()).toJson(QJsonDocument::Compact));
 }
 
-/// The word in a form that a shell takes as one word.
+/// Quotes the word so that a shell takes it as a single word.
 QString shellWord(const QString& word) {
     static const QString plain("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+:./,@%");
     const bool harmless =
@@ -42,7 +42,7 @@ QString shellWord(const QString& word) {
 void fillAbout(const SessionReader& reader, const std::filesystem::path& file, ReportModel& model) {
     const auto& about = reader.about();
     model.protocol = text(about.protocol);
-    model.resultKind = model.protocol;  // a session from before protocols declared what their results are
+    model.resultKind = model.protocol;  // sessions from before protocols declared the kind of their results
     model.session = text(file.stem().string());
     model.started = text(about.wallStart);
     model.simulated = about.simulated;
@@ -59,7 +59,7 @@ void fillAbout(const SessionReader& reader, const std::filesystem::path& file, R
     for (auto it = parameters.begin(); it != parameters.end(); ++it) {
         const QString value =
             it.value().isDouble() ? QString::number(it.value().toDouble(), 'g', 17) : plainText(it.value());
-        // 17 digits tell every double apart; most need far fewer.
+        // 17 digits distinguish all doubles; most numbers need far fewer.
         const QString brief = it.value().isDouble() ? QString::number(it.value().toDouble(), 'g', 10) : value;
         const bool same = !it.value().isDouble() || brief.toDouble() == it.value().toDouble();
         command += " --set " + shellWord(it.key() + "=" + (same ? brief : value));
@@ -91,7 +91,7 @@ bool judgeTheSame(const ExposureFigure::Row& a, const ExposureFigure::Row& b) {
     return a.name == b.name && a.source == b.source && !(a.limit < b.limit) && !(a.limit > b.limit);
 }
 
-/// The worse of two similar rows: an unevaluated one first, then the larger share of its limit.
+/// Keeps the worse of two similar rows: an unevaluated row, else the row with the larger share of its limit.
 void addExposure(ReportModel& model, const ExposureFigure::Row& row) {
     for (auto& known : model.exposure) {
         if (!judgeTheSame(known, row)) continue;
@@ -143,13 +143,13 @@ public:
         }
     }
 
-    /// Entries for a certificate: a run that makes none does not need them.
+    /// Adds entries for a certificate; only a run with a certificate needs them.
     void finish() {
         if (model_.certificate) model_.certificate->details = details_;
     }
 
 private:
-    /// A choice, or a 0, in the words that its protocol gives it: "1 MS/s" of "1M", "from the profile" of 0.
+    /// Returns a choice or a 0 in the protocol's words: "1 MS/s" for "1M", "from the profile" for 0.
     static QString settingOf(const QJsonObject& parameter) {
         if (parameter.contains("shown")) return parameter["shown"].toString();
         const auto value = parameter["value"];
@@ -176,7 +176,7 @@ private:
         auto figure = parseFigure(item["figure"].toObject());
         if (figure) {
             if (const auto* exposure = std::get_if<ExposureFigure>(&figure->content)) {
-                // The program's own record has a section of its own; twice would be one too many.
+                // The program's own record has its own section and must not appear twice.
                 if (recorded(*exposure)) return;
                 caption += " (computed from approved trains)";
             }
@@ -191,7 +191,7 @@ private:
         model_.items.emplace_back(missing(caption, figure.error()));
     }
 
-    /// Whether the program's own record says as much: the same limits, and values at least as high.
+    /// True if the program's own record includes this figure: the same limits, and values at least as high.
     [[nodiscard]] bool recorded(const ExposureFigure& figure) const {
         return std::all_of(figure.rows.begin(), figure.rows.end(), [&](const auto& row) {
             return std::any_of(model_.exposure.begin(), model_.exposure.end(), [&](const auto& own) {
@@ -200,7 +200,7 @@ private:
         });
     }
 
-    /// A figure that cannot be drawn is said, never left out.
+    /// A figure that cannot be drawn is replaced by a sentence, never left out.
     static ReportText missing(const QString& caption, const Error& error) {
         return {QString("The figure “%1” could not be drawn: %2").arg(caption, text(error.message))};
     }
@@ -228,18 +228,18 @@ bool isQuiet(const std::string& kind) {
     return std::find(quiet.begin(), quiet.end(), kind) != quiet.end();
 }
 
-/// A run with such an event and no verdict did not come to its end. The last but one was of earlier versions.
+/// A run with such an event and no verdict was not completed. The last but one is from older versions.
 bool endsARun(const std::string& kind) {
     return kind == "stop" || kind == "stopped" || kind == "fault" || kind == "script abandoned" ||
            kind == "script ended by an error";
 }
 
-/// The sentence of an event: its own text, else its fields.
+/// Returns the sentence of an event: its own text, else its fields.
 QString sentenceOf(const QJsonObject& body) {
     for (const char* key : {"text", "message", "reason"}) {
         if (!body[QLatin1String(key)].isString()) continue;
         const auto said = body[QLatin1String(key)].toString();
-        const auto gap = body["longest_gap_s"];  // the longest time between two keep-alives
+        const auto gap = body["longest_gap_s"];  // longest time between two keep-alives
         return gap.isDouble() ? said + ": " + quantityText(gap.toDouble(), "s", 3) : said;
     }
     QStringList parts;
@@ -249,7 +249,7 @@ QString sentenceOf(const QJsonObject& body) {
 
 void addEvent(ReportModel& model, const SessionRow& row) {
     ReportEvent event{toSeconds(row.at), text(row.name), sentenceOf(qtObject(row.body))};
-    if (!model.events.empty() && row.name != kOperatorMarkEvent) {  // every mark stands as a moment of its own
+    if (!model.events.empty() && row.name != kOperatorMarkEvent) {  // every mark stays a separate moment
         auto& last = model.events.back();
         if (last.kind == event.kind && last.text == event.text) {
             ++last.count;
@@ -259,7 +259,7 @@ void addEvent(ReportModel& model, const SessionRow& row) {
     model.events.push_back(std::move(event));
 }
 
-/// Labels from after the session's end are told apart from those entered before it began.
+/// Marks labels that were added after the session's end, to distinguish them from those entered before it.
 void takeLabels(const SessionLabels& labels, ReportBasis& basis) {
     const auto later = [](const std::string& now, QString& shown) {
         if (text(now) == shown) return;
@@ -289,7 +289,7 @@ Result<void> fillVerdict(const SessionReader& reader, ReportModel& model, const 
     }
     if (!reader.closed()) {
         model.certificate.reset();
-        // H9: an interrupted run proves nothing, whatever its last verdict was.
+        // H9: an interrupted run proves nothing, whatever its last verdict.
         if (model.verdict != ReportVerdict::Fail) model.verdict = ReportVerdict::Stopped;
         model.reasons.prepend("The session was not closed: the run was interrupted, or is still going on.");
     }

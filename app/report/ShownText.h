@@ -1,4 +1,4 @@
-// ShownText.h - how much of a text a report shows. A script may write any length, and laying out a hundred thousand
+// ShownText.h - shortens texts for a report. A script may write any length, and laying out a hundred thousand
 // characters takes seconds. The session keeps the whole text (hazard H10).
 #pragma once
 
@@ -9,19 +9,19 @@
 namespace tacto {
 
 inline constexpr qsizetype kShownText = 4000;
-inline constexpr qsizetype kShownCell = 1000;  ///< characters in a table's cell, which is not broken between pages
-inline constexpr qsizetype kShownHead = 80;    ///< shown at the head of every page
+inline constexpr qsizetype kShownCell = 1000;  ///< characters in a table cell, which is not broken across pages
+inline constexpr qsizetype kShownHead = 80;    ///< characters in the header of every page
 
-/// The text, or its first `most` characters and how many more the session holds.
+/// Returns the text, or its first `most` characters and how many more the session holds.
 [[nodiscard]] QString shownText(const QString& text, qsizetype most = kShownText);
 
-/// The text with a capital at its beginning: "Peak voltage".
+/// Returns the text with a capital first letter: "Peak voltage".
 [[nodiscard]] QString capitalised(QString text);
 
-/// An axis's title, in window and report: "Force (N)"; without a unit the title alone.
+/// Returns an axis title for window and report: "Force (N)", or without a unit just the title.
 [[nodiscard]] QString axisTitle(const QString& title, const QString& unit = {});
 
-/// The model with its texts as they are shown, but for the cells of scripts' tables: those are shortened when worded.
+/// Returns the model with shortened texts, except in cells of scripts' tables: those are shortened when formatted.
 [[nodiscard]] ReportModel shownModel(ReportModel model);
 
 }  // namespace tacto

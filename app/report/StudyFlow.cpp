@@ -17,7 +17,7 @@ namespace {
 
 QString shown(const std::string& value) { return value.empty() ? QString("–") : QString::fromStdString(value); }
 
-/// "3 severe"; a dash where it was not said.
+/// Returns "3 severe", or a dash without a score.
 QString scored(std::span<const char* const> words, std::optional<int> score) {
     return score ? QString::fromStdString(scoreText(words, *score)) : QString("–");
 }
@@ -36,7 +36,7 @@ bool hasTestTrials(const SessionRecord& session) {
 
 bool withMassager(const StudyRecord& study) { return study.settings.modality == Modality::Massager; }
 
-/// The highest current, or a massager's intensity, that was presented in any part of the session.
+/// Returns the highest current, or intensity of a massager, presented in any part of the session.
 double highestLevel(const SessionRecord& session, const char* key) {
     double most = kNaN;
     for (const auto& each : session.rows) {
@@ -47,14 +47,14 @@ double highestLevel(const SessionRecord& session, const char* key) {
     return most;
 }
 
-/// The participant of a row, and what the row rests on.
+/// Returns the participant's name for a row, with the basis of the row's data.
 QString rowName(const BidsStudy& shared, const ParticipantRecord& participant, ShownName name = ShownName::Label) {
     const auto enrolled = static_cast<std::size_t>(std::max(0, participant.about.enrolled));
     return shown(namedWith(participant.basis, name == ShownName::Code ? participant.about.code
                                                                       : bidsLabel(shared, enrolled).value_or("–")));
 }
 
-/// The words of the kept records where none says that a check did not hold.
+/// Returns the sentence for kept records in which every check passed.
 QString noRefusalText(const StudyRecord& study) {
     const bool anyCheck = std::ranges::any_of(study.participants, [](const auto& participant) {
         return std::ranges::any_of(participant.sessions,

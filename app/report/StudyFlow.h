@@ -1,5 +1,5 @@
-// StudyFlow.h - what an ethics committee asks of a study: approval and consents, how far each participant came, what
-// was done to the skin, what went wrong. Participants have the labels of the export, never codes.
+// StudyFlow.h - what an ethics committee asks about a study: approval and consents, the progress of each participant,
+// the condition of the skin, what went wrong. Participants have the labels of the export, never codes.
 #pragma once
 
 #include "app/report/ReportContent.h"
@@ -9,13 +9,13 @@ namespace tacto {
 
 [[nodiscard]] FactsBlock approvalFacts(const StudyRecord& study);
 [[nodiscard]] FactsBlock procedureFacts(const StudyRecord& study);
-/// Every enrolled participant is in it, withdrawn ones as a number alone.
+/// Contains every enrolled participant; the withdrawn only as a number.
 [[nodiscard]] TableBlock flowTable(const StudyRecord& study, SessionBasis basis, const QString& caption);
-/// Drift of the detection threshold over the blocks, and exposure, a row a session.
+/// Drift of the detection threshold over the blocks, and exposure; one row per session.
 enum class ShownName { Code, Label };
 [[nodiscard]] TableBlock courseTable(const StudyRecord& study, ShownName name, const QString& caption);
 [[nodiscard]] TableBlock careTable(const StudyRecord& study, const QString& caption);
-/// Side effects before, after and on a day after each session, and "not asked" where nobody asked.
+/// Side effects before, after and on a day after each session, and "not asked" if nobody asked.
 [[nodiscard]] TableBlock sideEffectsTable(const StudyRecord& study, ShownName name, const QString& caption);
 [[nodiscard]] TableBlock refusalsTable(const StudyRecord& study, const QString& caption);
 [[nodiscard]] TableBlock eventsTable(const StudyRecord& study, const QString& caption);

@@ -43,7 +43,7 @@ std::vector<SessionFigures> figuresOf(const std::vector<AnalysedSession>& sessio
     return figures;
 }
 
-/// "12.0"; "> 12.0" where the highest that was given was not called too strong.
+/// Returns "12.0", or "> 12.0" if the highest level presented was not called too strong.
 QString tooStrongText(const BidsSession& felt, int digits) {
     const auto level = figureText(felt.tooStrong, digits);
     return felt.saidTooStrong || !std::isfinite(felt.tooStrong) ? level : "> " + level;
@@ -91,7 +91,7 @@ TableBlock changesTable(const OverSessions& compared, bool massager) {
     return table;
 }
 
-/// Mean over the conditions that were rated with a number; NaN for none.
+/// Returns the mean over the conditions that were rated with a number; NaN if there are none.
 double meanRating(const BidsSession& session, std::string_view item) {
     std::vector<double> values;
     for (const auto& rating : session.ratings) {
@@ -170,7 +170,7 @@ struct Preference {
 };
 constexpr Preference kPreferences[] = {{row::kEasier, "Easier to tell"}, {row::kMoreLikeTouch, "More like touch"}};
 
-/// The last answer; empty where nobody asked.
+/// Returns the last answer; empty if nobody asked.
 std::string preferredBy(const ParticipantRecord& participant, const char* item) {
     std::string said;
     for (const auto& session : participant.sessions) {
@@ -181,7 +181,7 @@ std::string preferredBy(const ParticipantRecord& participant, const char* item) 
     return said;
 }
 
-/// The encodings in the order in which the person had them.
+/// Returns the encodings in the order in which the person used them.
 std::vector<EncodingResult> encodingsOf(const ParticipantRecord& participant) {
     std::vector<EncodingResult> had;
     for (const auto& session : participant.sessions) {
@@ -193,7 +193,7 @@ std::vector<EncodingResult> encodingsOf(const ParticipantRecord& participant) {
     return had;
 }
 
-/// Comparisons by the participants who were asked.
+/// Returns the comparisons of all participants who were asked.
 std::vector<EncodingComparison> comparisons(const StudyRecord& study, const char* item) {
     std::vector<EncodingComparison> all;
     for (const auto& participant : study.participants) {
@@ -267,11 +267,11 @@ QString preferencesNote(const StudyRecord& study) {
 
 namespace {
 
-/// Weber fractions of amplitude: half, once and twice the assumed one, since 0.10 has no source.
+/// Weber fractions of amplitude: half, once and twice the assumed fraction, because 0.10 has no source.
 constexpr double kWeberFractions[] = {kAmplitudeWeberFraction / 2, kAmplitudeWeberFraction,
                                       2 * kAmplitudeWeberFraction};
 
-/// The conditions as delivered in the test, in the order of the labels; nothing where one of them was not delivered.
+/// Returns the conditions as delivered in the test, in the order of the labels; nothing if one was not delivered.
 std::optional<std::vector<DeliveredCondition>> deliveredIn(const AnalysedSession& one, bool massager) {
     std::vector<DeliveredCondition> all;
     for (const auto& label : one.found.labels) {
@@ -296,7 +296,7 @@ Result<VirtualObserver> personWith(double detection, double weber, bool massager
     settings.unit = massager ? LevelUnit::Intensity : LevelUnit::Current;
     auto& who = settings.who;
     who.detection = Milliamps(detection * unit);
-    // Names do not depend on these.
+    // These thresholds do not affect the answers, which are names of conditions.
     who.attention = who.intolerance = who.discomfort = Milliamps(2 * detection * unit);
     who.amplitudeWeber = weber;
     return VirtualObserver::create(settings);

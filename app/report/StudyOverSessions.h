@@ -1,4 +1,4 @@
-// StudyOverSessions.h - one participant over their sessions: thresholds, range and answers, each against the first.
+// StudyOverSessions.h - one participant's sessions: thresholds, range and answers, compared with the first session.
 #pragma once
 
 #include <optional>
@@ -11,38 +11,38 @@
 
 namespace tacto {
 
-/// One session with its figures.
+/// A session with its results.
 struct AnalysedSession {
     const SessionRecord* session = nullptr;
     Identification found;
 };
 
-/// Mean over the conditions, 5 (totally natural) to 1 (totally unnatural); NaN without ratings.
+/// Returns the mean over the conditions, from 5 (totally natural) to 1 (totally unnatural); NaN without ratings.
 [[nodiscard]] double naturalnessOf(const BidsSession& session);
 
-/// Compares all sessions, also those without test trials. Nothing for fewer than two. `massager`: levels are strengths.
-/// Errors: as compareSessions().
+/// Compares all sessions, even those without test trials. Adds nothing for fewer than two. `massager`: levels are
+/// strengths. Errors: as compareSessions().
 [[nodiscard]] Result<void> addOverSessions(std::vector<ReportBlock>& blocks, Captions& captions,
                                            const std::string& name, const std::vector<AnalysedSession>& sessions,
                                            bool massager);
 
-// Which of several encodings people say they prefer. Shown with the order in which they had them, and never tested: if
-// five of five people agree, p is 0.06.
+// Which of several encodings people prefer. The report shows the order in which they had them, but no statistical test:
+// even if five of five people agree, p is only 0.06.
 
-/// "Easier to tell: swapped. More like touch: no difference."; empty where the person was not asked.
+/// Returns "Easier to tell: swapped. More like touch: no difference."; empty if the person was not asked.
 [[nodiscard]] QString preferenceText(const ParticipantRecord& participant);
 
-/// A row for each encoding, and one for no difference; without a caption. Empty where no participant was asked.
+/// Returns a row per encoding and one for no difference, without a caption; nothing if no participant was asked.
 [[nodiscard]] std::optional<TableBlock> preferencesTable(const StudyRecord& study);
-/// The orders in which those people had the encodings, whether they are balanced, and why nothing is tested.
+/// Returns the orders in which those people had the encodings, whether they are balanced, and why there is no test.
 [[nodiscard]] QString preferencesNote(const StudyRecord& study);
 
-// What a model of a person with the thresholds of a session would have answered, beside what the person answered
-// (pilot.md section 8). It is shown and never judged: a person's Weber fraction of interval is not known, and that of
-// amplitude only where they compared strengths.
+// Compares the person's answers with those of a model person with the same thresholds (pilot.md section 8). The
+// comparison is shown, never judged: a person's Weber fraction of interval is not known, and that of amplitude only if
+// they compared strengths.
 
-/// `weber`: their own, of amplitude; NaN where it was not measured. Nothing where the session has no detection
-/// threshold, or some condition was not presented in its test. Errors: as VirtualObserver::create().
+/// `weber`: the person's own for amplitude; NaN if not measured. Adds nothing if the session has no detection
+/// threshold, or if its test did not present every condition. Errors: as VirtualObserver::create().
 [[nodiscard]] Result<void> addPredicted(std::vector<ReportBlock>& blocks, Captions& captions, const QString& caption,
                                         const AnalysedSession& one, double weber, bool massager);
 

@@ -130,7 +130,7 @@ void addEncodings(std::vector<ReportBlock>& blocks, Captions& captions, const st
     std::set<std::string> met;
     for (const auto& one : sessions) {
         const auto& encoding = one.session->results.encoding;
-        if (!met.insert(encoding).second) continue;  // the first session with each
+        if (!met.insert(encoding).second) continue;  // the first session with each encoding
         std::set<std::size_t> training;
         for (const auto& row : one.session->results.trials) {
             if (row.trial.phase == TrialPhase::Training) training.insert(row.trial.block);
@@ -165,7 +165,7 @@ void addEncodings(std::vector<ReportBlock>& blocks, Captions& captions, const st
     }
 }
 
-/// A sentence for each session in which there was no room for the test.
+/// Returns a sentence for each session in which the usable range was too small for the test.
 QStringList unusableRanges(const ParticipantRecord& participant) {
     QStringList said;
     for (const auto& session : participant.sessions) {
@@ -177,7 +177,7 @@ QStringList unusableRanges(const ParticipantRecord& participant) {
     return said;
 }
 
-/// The fraction as they last measured it.
+/// Returns the Weber fraction that was measured last.
 double amplitudeWeberOf(const ParticipantRecord& participant) {
     double weber = kNaN;
     for (const auto& session : participant.sessions) {

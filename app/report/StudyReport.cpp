@@ -16,7 +16,7 @@ namespace tacto {
 
 namespace {
 
-/// The warning before all figures that do not rest on people and real devices; empty for those that do.
+/// Returns the warning before all results that are not from people with real devices; empty for those that are.
 QString warningOf(SessionBasis basis) {
     switch (basis) {
         case SessionBasis::Person:
@@ -31,7 +31,7 @@ QString warningOf(SessionBasis basis) {
            "people do.";
 }
 
-/// How many of each kind have had a session; where nobody has, how many are enrolled.
+/// Counts the participants of each kind who had a session; if nobody had one, those enrolled.
 std::map<SessionBasis, std::size_t> tookPart(const StudyRecord& study) {
     std::map<SessionBasis, std::size_t> counts;
     const auto had = [](const ParticipantRecord& each) { return !each.sessions.empty(); };
@@ -41,11 +41,11 @@ std::map<SessionBasis, std::size_t> tookPart(const StudyRecord& study) {
     return counts;
 }
 
-/// `parts` as of byBasis(): those that the report is of.
+/// `parts`: the kinds of participants in the report, from byBasis().
 ReportContent begun(const StudyRecord& study, std::vector<SessionBasis> parts, const QString& title,
                     const QString& subtitle) {
     ReportContent content;
-    // Enrolled people who had no session do not make it a report of people.
+    // Enrolled people without a session do not make this a report about people.
     const auto counts = parts.size() > 1 ? tookPart(study) : std::map<SessionBasis, std::size_t>{{parts.front(), 1}};
     const auto simulated = std::ranges::count_if(counts, [](const auto& each) { return isSimulatedBasis(each.first); });
     content.simulated = simulated == std::ssize(counts);
@@ -80,7 +80,7 @@ std::vector<SessionBasis> basesOf(const std::vector<std::pair<SessionBasis, Stud
     return all;
 }
 
-/// Heads what follows of one kind where there are several.
+/// Adds a heading for one kind of participants if there are several kinds.
 void beginPart(std::vector<ReportBlock>& blocks, Captions& captions, SessionBasis basis) {
     blocks.emplace_back(captions.heading(peopleHeading(basis)));
     if (const auto warning = warningOf(basis); !warning.isEmpty()) blocks.emplace_back(ParagraphBlock{warning});
@@ -119,7 +119,7 @@ void addApproval(std::vector<ReportBlock>& blocks, Captions& captions, const Stu
     blocks.emplace_back(procedureFacts(study));
 }
 
-/// Adds all that was found about the participants of one kind.
+/// Adds all results about the participants of one kind.
 Result<void> addResults(std::vector<ReportBlock>& blocks, Captions& captions, SessionBasis basis,
                         const StudyRecord& study) {
     std::vector<StudyPerson> persons;

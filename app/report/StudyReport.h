@@ -1,8 +1,8 @@
 // StudyReport.h - the three reports of a pilot study: for those who run it, for its ethics committee, and one page in
 // plain words for a participant.
 //
-// Reports are made when they are asked for, and never lie in the study folder. The committee's and the participant's
-// name no code; the study's does, and says so.
+// Reports are made on request and are never stored in the study folder. Those for the committee and the participant
+// contain no code; the study's own report does, and says so.
 //
 // Thread-safety: the GUI thread (drawn figures are widgets).
 #pragma once
@@ -19,7 +19,7 @@ namespace tacto {
 /// Errors: as identify().
 [[nodiscard]] Result<ReportContent> studyReport(const StudyRecord& study);
 
-/// Approval, consents, gates, stops, skin, adverse events and the flow of participants; no answers and no codes.
+/// Contains approval, consents, gates, stops, skin, adverse events and the flow of participants; no answers, no codes.
 [[nodiscard]] ReportContent committeeReport(const StudyRecord& study);
 
 /// Errors: NotFound for a code that is not in the study; as identify().

@@ -1,4 +1,4 @@
-// StudyText.h - texts and numbers of a study as its reports write them.
+// StudyText.h - formats texts and numbers of a study for its reports.
 #pragma once
 
 #include <QString>
@@ -10,11 +10,11 @@
 namespace tacto {
 
 [[nodiscard]] inline QString qtext(const std::string& value) { return QString::fromStdString(value); }
-/// "People", "Virtual participants".
+/// Returns "People", "Virtual participants".
 [[nodiscard]] QString peopleHeading(SessionBasis basis);
-/// "–" for an unknown value.
+/// Returns "–" for an unknown value.
 [[nodiscard]] QString figureText(double value, int decimals);
-/// "85 % (76 to 91)"; "–" for an unknown share.
+/// Returns "85 % (76 to 91)", or "–" for an unknown share.
 [[nodiscard]] QString shareText(const Estimate& share);
 
 }  // namespace tacto

@@ -24,7 +24,7 @@ QStringList keysOf(const ReportTable& table) {
             if (!keys.contains(key)) keys << key;
         }
     }
-    // QJsonObject forgets the order: what names a row comes first.
+    // QJsonObject does not keep its order, so keys that name a row are put first.
     static const QStringList first{"name", "condition", "load", "quantity", "subject", "a", "b", "n"};
     std::stable_sort(keys.begin(), keys.end(), [](const QString& left, const QString& right) {
         const auto rank = [](const QString& key) {
@@ -36,14 +36,14 @@ QStringList keysOf(const ReportTable& table) {
     return keys;
 }
 
-/// Columns of a script's table in their order, but the verdict before all others, as in the window's tables.
+/// Returns the columns of a script's table in their order, but with the verdict first, as in the window's tables.
 QStringList columnsOf(const ReportTable& table) {
     QStringList keys = keysOf(table);
     if (const auto at = keys.indexOf(kVerdict); at > 0) keys.move(at, 0);
     return keys;
 }
 
-/// Rows that each carry their own unit show it with the value, and the uncertainty there too.
+/// True if each row has its own unit: then the unit and the uncertainty are shown with the value.
 bool hasUnitOfItsOwn(const QStringList& keys) { return keys.contains("unit") && keys.contains("value"); }
 
 double numberOf(const QJsonObject& row, const char* key) { return row.value(QLatin1String(key)).toDouble(kUnknown); }
@@ -56,7 +56,7 @@ QString withOwnUnit(const QJsonObject& row, const QString& key) {
                                                 : quantityText(value, unit);
 }
 
-/// A number stays on its line with its unit.
+/// Keeps a number on one line with its unit.
 QString wordsOf(const QJsonValue& value, const QString& unit) {
     static const QRegularExpression kBeforeUnit("(?<=\\d) (?=(?:%|[nµmkM]?(?:V|A|s|Ω|C|J|W|N|Hz|Pa)\\b))",
                                                 QRegularExpression::UseUnicodePropertiesOption);
@@ -68,7 +68,7 @@ void fillColumn(TableBlock& table, const ReportTable& source, const QString& key
     const bool ownUnit = hasUnitOfItsOwn(keysOf(source)) && (key == "value" || key == "limit");
     std::vector<double> numbers;
     bool numeric = ownUnit;
-    bool figures = key != "load" && !source.rows.isEmpty();  // texts of numbers are numbers too
+    bool figures = key != "load" && !source.rows.isEmpty();  // texts that contain only numbers also count as numbers
     for (const auto& row : source.rows) {
         const auto value = row.toObject().value(key);
         if (value.isDouble()) numbers.push_back(value.toDouble());
@@ -86,11 +86,11 @@ void fillColumn(TableBlock& table, const ReportTable& source, const QString& key
                   : key == "load"              ? shownText(loadText(cellText(value, {})), kShownCell)
                                                : wordsOf(value, name.unit));
     }
-    // The subject of a row begins with a capital; a condition's or a material's name stays as it is given.
+    // The subject of a row begins with a capital; the name of a condition or material does not change.
     static const QStringList about{"requirement", "output", "trip"};
     if (about.contains(key)) std::ranges::transform(cells, cells.begin(), capitalised);
-    if (key != "load") sharePrefix(cells);  // a load's name stays as it is on the bench
-    // A column that is empty in every row is left out.
+    if (key != "load") sharePrefix(cells);  // the name of a load stays as on the bench
+    // Omits a column that is empty in every row.
     if (std::all_of(cells.begin(), cells.end(), [](const QString& cell) { return cell.isEmpty(); })) return;
     QString title = shownText(name.title, kShownCell);
     if (numeric || figures) {

@@ -1,5 +1,5 @@
-// TableContent.h - tables and matrices of a report, worded: numbers as text with their units, what needs attention
-// named.
+// TableContent.h - tables and matrices of a report as text: numbers with their units, and a name for everything that
+// needs attention.
 #pragma once
 
 #include "app/report/ReportContent.h"
@@ -7,15 +7,15 @@
 
 namespace tacto {
 
-/// A script's table. Where rows have a `value` and a `unit` of their own, value, expanded_uncertainty and unit are one
-/// column, "40.12 ± 0.46 V".
+/// Makes a table from a script's table. If rows have their own `value` and `unit`, then value, expanded_uncertainty and
+/// unit become one column, "40.12 ± 0.46 V".
 [[nodiscard]] TableBlock tableOf(const ReportTable& source, const QString& caption);
 [[nodiscard]] MatrixBlock matrixOf(const ReportMatrix& source, const QString& caption);
-/// Long texts are cut as ShownText.h says.
+/// Shortens long texts as ShownText.h describes.
 [[nodiscard]] MatrixBlock shortened(MatrixBlock matrix, const QString& caption);
-/// The three limits that are used the most, each on its load.
+/// Returns the three limits with the largest used share, each with its load.
 [[nodiscard]] TableBlock closestOf(const MatrixBlock& limits, const QString& caption);
-/// One prefix for each unit in each column of the tables that were not made by tableOf().
+/// Gives each column one prefix per unit, in the tables that tableOf() did not make.
 void sharePrefixes(std::vector<ReportBlock>& blocks);
 [[nodiscard]] TableBlock eventsTable(const ReportModel& model, const QString& caption);
 

@@ -1,4 +1,4 @@
-// Figures that are tables with a picture in each cell: the confusion matrix, and exposure against its limits.
+// Figures that are tables with a picture in each cell: the confusion matrix, and exposure against limits.
 #include <algorithm>
 #include <iterator>
 
@@ -33,7 +33,7 @@ QCPItemText* addText(PlotSheet& sheet, QCPAxisRect* axes, QPointF where, const Q
     return item;
 }
 
-/// A rectangle of slanted lines: hatching as geometry, because neither SVG nor a photocopy keeps a pattern brush.
+/// A rectangle of slanted lines. The hatching is geometry, because neither SVG nor a photocopy keeps a pattern brush.
 class HatchedRect : public QCPAbstractItem {
 public:
     HatchedRect(PlotSheet& sheet, QCPAxisRect* axes, QRectF where)
@@ -71,7 +71,7 @@ private:
     QRectF where_;
 };
 
-/// Tick labels from a list, one at each whole number from 0.
+/// Labels the ticks from a list, one at each whole number from 0.
 QSharedPointer<QCPAxisTicker> labelTicker(const QStringList& labels) {
     auto ticker = QSharedPointer<QCPAxisTickerText>::create();
     for (int i = 0; i < labels.size(); ++i) ticker->addTick(i, labels[i]);
@@ -82,11 +82,11 @@ QString shortened(const QString& text, const QFont& font, double width) {
     return QFontMetricsF(font).elidedText(text, Qt::ElideRight, width);
 }
 
-/// Rows that were not evaluated are drawn, too; those without a limit are in the legend.
+/// Rows that were not evaluated are drawn too; rows without a limit appear in the legend.
 bool isDrawn(const ExposureFigure::Row& row) { return !row.evaluated() || (std::isfinite(row.limit) && row.limit > 0); }
 
 QColor shade(double share) {
-    // White to a deep blue in one hue, so that grey print keeps the order.
+    // White to deep blue in a single hue, so that a grey print keeps the order.
     const auto mix = [&](int light, int dark) { return static_cast<int>(light + (dark - light) * share); };
     return QColor(mix(0xff, 0x0b), mix(0xff, 0x4f), mix(0xff, 0x87));
 }
@@ -136,7 +136,7 @@ std::unique_ptr<PlotSheet> drawConfusion(const ConfusionFigure& figure, bool sim
             text->setColor(share > 0.45 ? QColor(Qt::white) : count > 0 ? ink::kText : ink::kAxis);
         }
     }
-    // Cells are opaque: the mark lies over them, thinly, and leaves the counts readable.
+    // Cells are opaque, so the watermark lies over them, thin enough to leave the counts readable.
     if (simulated) {
         sheet->watermark(axes, 30);
         for (int i = 0; i < sheet->plot().itemCount(); ++i) {

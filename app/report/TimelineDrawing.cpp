@@ -1,4 +1,4 @@
-// A live run over time: roughness and pressure above, the encoded amplitude and the trains it became below.
+// A live run over time: roughness and pressure above, the encoded amplitude and the resulting trains below.
 #include "app/report/FigureDrawing.h"
 #include "app/report/Fonts.h"
 #include "app/report/NumberText.h"
@@ -44,7 +44,7 @@ QCPRange timeRange(const TimelineFigure& figure) {
     return padded(low, high, 0.01);
 }
 
-/// Delivered trains as bars from 0, refused ones as crosses on the axis.
+/// Draws delivered trains as bars from 0 and refused trains as crosses on the axis.
 double addTrains(QCPAxisRect* axes, QCPLegend* legend, const TimelineFigure& figure) {
     double highest = 0;
     std::vector<double> t, a;
@@ -101,7 +101,7 @@ void addFaults(PlotSheet& sheet, const std::vector<QCPAxisRect*>& plots, const T
             const auto range = axes->axis(QCPAxis::atLeft)->range();
             line->setData({fault.t_s, fault.t_s}, {range.lower, range.upper});
         }
-        if (plots.empty() || named >= 4) continue;  // the event table names them all
+        if (plots.empty() || named >= 4) continue;  // the event table names all faults
         const auto range = plots.front()->axis(QCPAxis::atBottom)->range();
         const bool late = fault.t_s > range.center();
         auto* name = sheet.addNote(plots.front(), " " + fault.text + " ",

@@ -1,4 +1,4 @@
-// The largest step from train to train over the R–P plane: a number in every cell, so that it reads without colour too.
+// The largest step from one train to the next over the R–P plane. Each cell has a number, so colour is not needed.
 #include "app/report/FigureDrawing.h"
 #include "app/report/Fonts.h"
 #include "app/report/ShownText.h"
@@ -6,7 +6,7 @@
 namespace tacto {
 namespace {
 
-/// Blue up to what is wanted, amber beyond; the deeper the larger, and full at four times that.
+/// Returns blue up to `wanted`, amber above; deeper for larger values, and deepest at four times `wanted`.
 QColor colourOf(double jnd, double wanted) {
     const auto blend = [](const QColor& to, double share) {
         const auto mix = [share](int from, int end) {
@@ -18,7 +18,7 @@ QColor colourOf(double jnd, double wanted) {
     return blend(ink::kAmber, std::min(1.0, 0.35 + 0.65 * (jnd - wanted) / (3 * wanted)));
 }
 
-/// The number in a form that fits a cell: "0.4", "12".
+/// Formats the number for a cell: "0.4", "12".
 QString jndText(double jnd) { return QString::number(jnd, 'f', jnd < 9.95 ? 1 : 0); }
 
 void addCell(QCPAxisRect* axes, double x, double y, double half, const QPen& pen, const QBrush& brush) {
@@ -48,7 +48,7 @@ void addNumber(QCPAxisRect* axes, double x, double y, const QString& number, dou
     text->setText(number);
 }
 
-/// The axis ends at 0 and 1, where the plane ends; the cells at its edges reach beyond.
+/// The axis shows only 0 and 1, the ends of the plane; the cells at its edges extend further.
 QSharedPointer<QCPAxisTicker> ends() {
     auto ticks = QSharedPointer<QCPAxisTickerText>::create();
     for (int fifth = 0; fifth <= 5; ++fifth) ticks->addTick(0.2 * fifth, QString::number(0.2 * fifth, 'f', 1));

@@ -1,4 +1,4 @@
-// VerdictMark.h - a verdict's shape and colours in a report: those that the window shows in its light theme.
+// VerdictMark.h - the shape and colours of a verdict in a report, the same as in the window's light theme.
 #pragma once
 
 #include <QColor>
@@ -9,13 +9,13 @@
 namespace tacto {
 
 struct VerdictMark {
-    QString shape;  ///< tells it apart without colour: "✔"
+    QString shape;  ///< distinguishes the verdict without colour: "✔"
     QColor fill;
-    QColor ink;     ///< on the fill
-    QColor colour;  ///< the word's colour on white
+    QColor ink;     ///< colour on the fill
+    QColor colour;  ///< colour of the word on white
 };
-/// `key` is a verdict as a result or a row writes it: "pass", "fail", "indeterminate", "stopped", "attention",
-/// "refused as expected", "not evaluated", "not applicable". Every other text has the mark of no verdict.
+/// `key` is a verdict in a result or a row: "pass", "fail", "indeterminate", "stopped", "attention", "refused as
+/// expected", "not evaluated", "not applicable". For any other text, returns the mark for no verdict.
 [[nodiscard]] VerdictMark verdictMark(const QString& key);
 [[nodiscard]] VerdictMark verdictMark(ReportVerdict verdict);
 

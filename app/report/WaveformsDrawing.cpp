@@ -1,4 +1,4 @@
-// Measured pulses as small multiples: voltage above current, all on the same scales, so that they can be compared.
+// Measured pulses as small multiples: voltage above current, all on the same scales for comparison.
 #include "app/report/FigureDrawing.h"
 #include "app/report/Fonts.h"
 #include "app/report/NumberText.h"
@@ -10,7 +10,7 @@ namespace {
 using Trace = WaveformsFigure::Trace;
 
 constexpr std::size_t kColumns = 4;
-constexpr std::size_t kWavePoints = 350;  // points whose extremes are drawn; a column is 150 units wide
+constexpr std::size_t kWavePoints = 350;  // number of stretches with drawn extremes; a column is 150 units wide
 
 bool measured(const Trace& trace) { return !trace.voltage_v.empty() || !trace.current_a.empty(); }
 
@@ -31,8 +31,8 @@ QCPRange extremesOf(const std::vector<double>& values, double factor, QCPRange r
     return range;
 }
 
-/// Samples worth showing: from the first to the last that stands out, with a margin; a pulse of 500 µs in a record
-/// of 10 ms would otherwise be a line.
+/// Returns the samples from the first to the last that stands out, with a margin: otherwise a pulse of 500 µs in a
+/// record of 10 ms would be a line.
 std::pair<std::size_t, std::size_t> activeSpan(const Trace& trace) {
     const auto& values = trace.voltage_v.empty() ? trace.current_a : trace.voltage_v;
     const double threshold = 0.1 * peakOf(values);
@@ -70,7 +70,7 @@ public:
             drawChannel(row + 1, column, *traces_[i], true, labelled);
             drawChannel(row + 2, column, *traces_[i], false, labelled);
         }
-        // The column that carries the axis labels is wider by their width.
+        // The column with the axis labels is wider by their width.
         if (columns_ > 1) sheet_->plot().plotLayout()->setColumnStretchFactor(0, 1.0 + 0.05 * double(columns_));
         return std::move(sheet_);
     }
@@ -114,7 +114,7 @@ private:
             axes->setMarginGroup(QCP::msLeft, marginGroup());
         }
         const auto [begin, end] = activeSpan(trace);
-        // Every column spans the same time, so that widths compare.
+        // Every column spans the same time, so that widths can be compared.
         const double start = trace.start_s + double(begin) / trace.rate_hz;
         const double slack = scales_.span_s - double(end - begin) / trace.rate_hz;
         time->setRange((start - slack / 2) * scales_.time.factor,

@@ -1,8 +1,8 @@
-// Widgets.h - what most files of the window use of Qt, and QCustomPlot, for precompiled headers; sources include what
-// they use, as if this were not.
+// Widgets.h - the parts of Qt and QCustomPlot that most files of the window use, for precompiled headers; sources still
+// include what they use.
 //
-// <QtWidgets> is all of Qt's core and drawing: 450 MB precompiled, which every file takes two seconds to load. So is
-// what qcustomplot.h includes to print; it needs the printer alone.
+// <QtWidgets> would include all of Qt's core and drawing: 450 MB precompiled, which each file takes two seconds to
+// load. So would the printing header in qcustomplot.h, which needs only the printer.
 //
 // Thread-safety: Qt's: widgets belong to the main thread.
 #pragma once
