@@ -16,7 +16,7 @@
 namespace tacto {
 
 namespace {
-const UsbProduct kScienceMode{0x0483, 0x5740};  // any STM32 serial port's: the device is asked who it is
+const UsbProduct kScienceMode{0x0483, 0x5740};  // shared by all STM32 serial ports: the device is asked
 const UsbProduct kPulsePal{kPulsePalVendor, kPulsePalProduct};
 }  // namespace
 

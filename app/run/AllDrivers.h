@@ -1,6 +1,6 @@
-// AllDrivers.h - every driver of the programs, in the one place that names them. All share one USB context.
+// AllDrivers.h - all drivers of the programs, listed in this one place. All drivers share one USB context.
 //
-// Thread-safety: the maker may be called from any thread; each registry has one caller.
+// Thread-safety: any thread may call the returned function; each registry has one caller.
 #pragma once
 
 #include <functional>
@@ -13,16 +13,16 @@ namespace tacto {
 
 class SensorBoardPorts;
 
-/// Registries of everything this version can open.
+/// Returns a function that makes registries of every device that this version can open.
 [[nodiscard]] std::function<Registry()> allDrivers();
 
-/// The sockets that may hold a ScienceMode stimulator, for looking at one without opening it as a device.
+/// Returns the ports that may have a ScienceMode stimulator, for checking one without opening it as a device.
 [[nodiscard]] std::shared_ptr<TransportPorts> scienceModePorts();
 
-/// Game pads and foot switches.
+/// Returns game pads and foot switches.
 [[nodiscard]] std::shared_ptr<const ButtonDevices> buttonDevices();
 
-/// Finds where sensor boards may be, for looking at one without a bench.
+/// Finds ports that may have a sensor board, for checking one without a bench.
 [[nodiscard]] std::shared_ptr<SensorBoardPorts> sensorBoardPorts();
 
 }  // namespace tacto

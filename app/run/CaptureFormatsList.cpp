@@ -7,7 +7,7 @@ namespace tacto {
 std::shared_ptr<const CaptureFormats> captureFormats() {
     static const std::shared_ptr<const CaptureFormats> all = [] {
         auto formats = std::make_shared<CaptureFormats>();
-        // Stands before our own: plain CSV, the last of them, accepts any text.
+        // Added before our own formats, because the last of them, plain CSV, accepts any text.
         formats->add(std::make_unique<SigrokFormat>());
         addOwnFormats(*formats);
         return formats;

@@ -1,4 +1,4 @@
-// CaptureFormatsList.h - every format of captures that the programs read and write, in the one place that names them.
+// CaptureFormatsList.h - all capture formats that the programs read and write, listed in this one place.
 //
 // Thread-safety: any thread.
 #pragma once

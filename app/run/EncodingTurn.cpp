@@ -18,7 +18,7 @@ namespace tacto {
 
 namespace {
 
-/// A session without a usable range is complete, and has no such trial.
+/// True if the session had test trials. A session without a usable range is complete but has none.
 bool wasTested(const Study& study, const StudySession& session) {
     const auto rows = pilotRows(study, session);
     if (!rows) return false;
@@ -26,8 +26,8 @@ bool wasTested(const Study& study, const StudySession& session) {
                                [](const IdentificationTrial& trial) { return trial.phase == TrialPhase::Test; });
 }
 
-/// How many participants of the same kind were enrolled earlier: with virtual ones among them, people are balanced over
-/// people.
+/// Returns how many participants of the same kind were enrolled earlier: people are balanced only among people, even if
+/// virtual participants are enrolled too.
 std::size_t placeAmongTheirs(const Study& study, const Participant& who) {
     const auto all = study.participants();
     return static_cast<std::size_t>(std::ranges::count_if(all, [&](const Participant& each) {
@@ -35,7 +35,7 @@ std::size_t placeAmongTheirs(const Study& study, const Participant& who) {
     }));
 }
 
-/// The answers in the plan of an earlier session; empty without one.
+/// Returns the answers in the plan of an earlier session; empty if there is none.
 std::vector<std::string> answersBefore(const Study& study, const Participant& who) {
     for (const auto& session : study.sessions()) {
         if (session.participant != who.id) continue;

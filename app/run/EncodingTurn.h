@@ -17,12 +17,12 @@ struct EncodingTurn {
     std::string earlier;  ///< another encoding that the participant had in a complete session with tests; empty: none
 };
 
-/// `continued`: the session that is resumed, with the encoding that it began with.
+/// `continued`: the session to resume; it keeps the encoding with which it began.
 [[nodiscard]] EncodingTurn encodingTurn(const Study& study, const Participant& who,
                                         const std::optional<StudySession>& continued);
 
-/// The four answers at their places: one way for a participant in all sessions, drawn from the study's secret, and each
-/// of the kAnswerWays once among as many people, or virtual participants, who are enrolled one after the other.
+/// Returns the places of the four answers, the same for a participant in all sessions, drawn from the study's secret.
+/// Among kAnswerWays people (or virtual participants) enrolled in succession, each arrangement occurs once.
 [[nodiscard]] std::vector<std::string> answersOf(const Study& study, const Participant& who);
 
 }  // namespace tacto

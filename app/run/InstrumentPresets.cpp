@@ -28,7 +28,7 @@ RecordFields<InstrumentPreset> presetFields() {
     fields.number("accuracy_pct", &P::accuracy_pct, kPercent).leftOutIfEmpty = true;
     fields.number("timebase_ppm", &P::timeBase_ppm, {.low = 0, .high = 1e5, .unit = "ppm"}).leftOutIfEmpty = true;
     fields.add("due", &P::due, dateKind()).leftOutIfEmpty = true;
-    fields.passOverUnknownKeys();  // a later version may know more
+    fields.passOverUnknownKeys();  // a later version may have more keys
     return fields;
 }
 
@@ -87,7 +87,7 @@ ComposedAddress composed(const ChosenInstruments& chosen, CalibrationDate today)
     const auto add = [&](std::string_view key, const std::string& value) {
         out.text += fmt::format("{}{}={}", std::exchange(first, false) ? '?' : '&', key, value);
     };
-    // A simulated oscilloscope and files have no shunt to be read through.
+    // A simulated oscilloscope and capture files are not read through a shunt.
     if (chosen.shunt && out.text.starts_with("sigrok:")) add("shunt", fmt::format("{:g}ohm", *chosen.shunt->ohms));
     const auto state = [&](const std::optional<InstrumentPreset>& one, std::string_view kind, std::string_view key,
                            std::optional<double> InstrumentPreset::*figure, std::string_view what,

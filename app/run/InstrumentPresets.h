@@ -1,9 +1,8 @@
-// InstrumentPresets.h - the laboratory's own instruments by name: oscilloscopes, shunts and probes, saved once with
-// what their data sheet or certificate states, and put together as the address of a device.
+// InstrumentPresets.h - the laboratory's own instruments by name: oscilloscopes, shunts and probes, saved once with the
+// figures of their data sheet or certificate, and combined into the address of a device.
 //
-// A figure that is not stated is unknown, and so is each figure of an instrument whose certificate expired: neither
-// gets into an address (hazard H9). A certificate of the oscilloscope comes before what an address says
-// (ScopeStatement.h).
+// A figure that is not stated is unknown, and so are all figures of an instrument with an expired certificate. Neither
+// appears in an address (hazard H9). An oscilloscope's certificate takes priority over an address (ScopeStatement.h).
 //
 //   {"instruments": [{"kind": "shunt", "name": "R100", "ohms": 100, "accuracy_pct": 0.1, "due": "2027-03-01"}]}
 //
@@ -30,32 +29,32 @@ inline constexpr Word<InstrumentKind> kInstrumentKinds[] = {
 
 struct InstrumentPreset {
     InstrumentKind kind = InstrumentKind::Oscilloscope;
-    std::string name;            ///< the laboratory's; one of its kind
+    std::string name;            ///< chosen by the laboratory; unique within its kind
     std::string serial;          ///< may be empty
-    std::string address;         ///< an oscilloscope's alone: "sigrok:rigol-ds:conn=...?voltage=CH1&current=CH2"
-    std::optional<double> ohms;  ///< a shunt's alone
-    std::optional<double> accuracy_pct;  ///< half-width: an oscilloscope's gain, a shunt's or probe's tolerance
-    std::optional<double> timeBase_ppm;  ///< half-width; an oscilloscope's alone
-    std::optional<CalibrationDate> due;  ///< last day of its certificate; nothing: the data sheet's figures
+    std::string address;         ///< only for oscilloscopes: "sigrok:rigol-ds:conn=...?voltage=CH1&current=CH2"
+    std::optional<double> ohms;  ///< only for shunts
+    std::optional<double> accuracy_pct;  ///< half-width: gain of an oscilloscope, tolerance of a shunt or probe
+    std::optional<double> timeBase_ppm;  ///< half-width; only for oscilloscopes
+    std::optional<CalibrationDate> due;  ///< last day of its certificate; nothing: figures from a data sheet
     [[nodiscard]] bool expired(CalibrationDate today) const { return due && *due < today; }
 };
 
 /// Errors: InvalidArgument naming the value and what is accepted.
 [[nodiscard]] Result<void> check(const InstrumentPreset& preset);
 
-/// The chosen instruments of a bench. Nothing for a kind without a choice.
+/// The chosen instruments of a bench; nothing for a kind that was not chosen.
 struct ChosenInstruments {
     std::optional<InstrumentPreset> oscilloscope, shunt, probe;
 };
 struct ComposedAddress {
-    std::string text;               ///< the oscilloscope's address, with what is stated; empty without one
-    std::vector<std::string> said;  ///< sentences on what is unused or unknown, and what that leaves unknown
+    std::string text;               ///< the oscilloscope's address with its figures; may be empty
+    std::vector<std::string> said;  ///< sentences about unused or unknown figures and the consequences
 };
 [[nodiscard]] ComposedAddress composed(const ChosenInstruments& chosen, CalibrationDate today);
 
 class InstrumentPresets {
 public:
-    /// Reads the file; one that is not there is empty. Errors: Io; ParseError naming the entry, the value and what is
+    /// Reads the file; a missing file means no presets. Errors: Io; ParseError naming the entry, the value and what is
     /// accepted.
     [[nodiscard]] static Result<InstrumentPresets> open(std::filesystem::path file);
     [[nodiscard]] const std::vector<InstrumentPreset>& all() const noexcept { return all_; }
@@ -72,7 +71,7 @@ private:
     std::vector<InstrumentPreset> all_;
 };
 
-/// Beside calibrationFile(): $XDG_DATA_HOME/tactoscope/instruments.json.
+/// Returns $XDG_DATA_HOME/tactoscope/instruments.json, next to calibrationFile().
 [[nodiscard]] std::filesystem::path instrumentFile();
 
 }  // namespace tacto

@@ -1,10 +1,10 @@
-// LoadSafetyRecord.h - what a run of the load-safety protocol leaves of the stimulator that it checked: a line when it
+// LoadSafetyRecord.h - the record that a run of the load-safety protocol keeps about the stimulator: one line when it
 // begins and one when it ends (core/calibration/LoadSafetyStore.h).
 //
-// Only the shipped protocol leaves such a record: the bytes that run must be those that the program was built with.
-// What it says comes from the open devices, the bench's profile and limits, and the program's own verdict (hazard H9).
+// Only the shipped protocol makes such a record, with exactly the bytes that the program was built with. The contents
+// come from the open devices, the bench's profile and limits, and the program's own verdict (hazard H9).
 //
-// Thread-safety: pure but for the store's file.
+// Thread-safety: pure, except for the store's file.
 #pragma once
 
 #include <optional>
@@ -18,20 +18,20 @@
 
 namespace tacto {
 
-/// Hash of the protocol that this program was built with.
+/// Returns the hash of the protocol that this program was built with.
 [[nodiscard]] std::string shippedLoadSafetySha256();
 
-/// How far the trains of a profile go, and into which loads.
+/// Returns the largest values of a profile's trains, and the loads they may drive.
 [[nodiscard]] TrainReach reachOf(const Profile& profile);
 
-/// The widest with which a pass counts for a session: what the protocol is shipped with.
+/// Returns the widest tolerances with which a pass permits a session: those of the shipped protocol.
 [[nodiscard]] CheckTolerances ownTolerances();
 
-/// A check that begins; nothing for another protocol, altered bytes, or a stimulator without a serial number.
+/// Returns a check that begins; nothing for another protocol, altered bytes, or a stimulator without a serial number.
 [[nodiscard]] std::optional<LoadSafetyCheck> loadSafetyCheckOf(const ProtocolSource& script, const SessionAbout& about,
                                                                const Profile& profile, const std::string& session);
 
-/// Errors: as LoadSafetyStore. Nothing depends on it for simulated devices: what cannot be kept is not an error.
+/// Errors: as LoadSafetyStore. For simulated devices a failure to keep the check is no error, as nothing depends on it.
 [[nodiscard]] Result<void> keepCheck(const LoadSafetyCheck& check);
 
 }  // namespace tacto

@@ -1,8 +1,8 @@
-// MachineGate.h - whether the open stimulator or massager may be used on a person today (pilot.md section 3): a
-// biphasic current source with a valid calibration, whose load-safety check passed at most 30 days ago, under limits no
-// wider than those of the study's approval; or a massager that tells its strengths apart.
+// MachineGate.h - decides whether the open stimulator or massager may be used on a person today (pilot.md section 3). A
+// stimulator must be a biphasic current source with a valid calibration, a load-safety check passed at most 30 days
+// ago, and limits no wider than those of the study's approval. A massager must distinguish its strengths.
 //
-// Thread-safety: pure but for reading the stores.
+// Thread-safety: pure, except for reading the stores.
 #pragma once
 
 #include "app/run/Shipped.h"
@@ -13,9 +13,9 @@
 
 namespace tacto {
 
-/// A simulated stimulator states its own calibration and needs no check. A massager is asked for the steps of its
-/// strength, and for being alone: it delivers no current, so calibration, load safety and limits are not asked for.
-/// `profile` is the session's, with the study's electrode and train. Errors: kGateRefused, one sentence.
+/// A simulated stimulator states its own calibration and needs no check. A massager must state its strength steps and
+/// be the only one; it delivers no current, so calibration, load safety and limits are not checked. `profile`: the
+/// session's, with the study's electrode and train. Errors: kGateRefused, one sentence.
 [[nodiscard]] Result<void> machineGate(const StudySettings& study, const Profile& profile, const ShippedLimits& limits,
                                        const DeviceSet& devices, CalibrationDate today);
 

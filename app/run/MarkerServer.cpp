@@ -20,7 +20,7 @@ namespace tacto {
 namespace {
 
 constexpr std::chrono::milliseconds kLastLines{200};
-constexpr int kTakenUnseen = 16384;  // bytes that the operating system takes although a recorder does not read
+constexpr int kTakenUnseen = 16384;  // bytes that the operating system accepts even if a recorder does not read
 
 std::string markerLine(std::uint64_t number, Instant at, std::string_view name) {
     constexpr std::int64_t kSecond = 1'000'000'000;
@@ -28,7 +28,7 @@ std::string markerLine(std::uint64_t number, Instant at, std::string_view name) 
     return fmt::format("{} {}.{:09} {}\n", number, ns / kSecond, ns % kSecond, name);
 }
 
-/// A recorder that is connected.
+/// A connected recorder.
 class Recorder {
 public:
     explicit Recorder(QTcpSocket* socket) : socket_(socket) {
@@ -43,7 +43,7 @@ public:
     Recorder(const Recorder&) = delete;
     Recorder& operator=(const Recorder&) = delete;
 
-    /// False where it is lost.
+    /// Returns false if the line is lost.
     bool offer(const std::string& line) {
         if (socket_->state() != QAbstractSocket::ConnectedState) return false;
         if (socket_->bytesToWrite() + std::int64_t(line.size()) > MarkerServer::kBacklog) return false;
@@ -54,12 +54,12 @@ public:
         forgetTaken();
         return true;
     }
-    /// Lines that the operating system has not taken.
+    /// Returns the number of lines that the operating system has not accepted.
     [[nodiscard]] std::uint64_t waiting() {
         forgetTaken();
         return ends_.size();
     }
-    /// `waiting()` then tells what was not taken.
+    /// Afterwards waiting() returns the number of lines that were not accepted.
     void hangUp(std::chrono::steady_clock::time_point until) {
         using std::chrono::duration_cast, std::chrono::milliseconds;
         socket_->disconnect();
@@ -68,7 +68,7 @@ public:
             if (left <= 0 || !socket_->waitForBytesWritten(int(left))) break;
         }
         forgetTaken();
-        static_cast<void>(socket_->readAll());  // unread, it would make the end a reset, which takes lines along
+        static_cast<void>(socket_->readAll());  // else closing discards lines that were sent
         if (socket_->bytesToWrite() == 0)
             socket_->disconnectFromHost();
         else
@@ -83,7 +83,7 @@ private:
     }
     QTcpSocket* const socket_;
     std::int64_t offered_ = 0;       // bytes
-    std::deque<std::int64_t> ends_;  // where each waiting line ends, counted as offered_ is
+    std::deque<std::int64_t> ends_;  // where each waiting line ends, in bytes since the start as in offered_
 };
 
 }  // namespace
@@ -150,18 +150,18 @@ struct MarkerServer::State {
     void hangUp();
 
     std::unique_ptr<QThread> thread;
-    // Used by that thread alone:
+    // Used only by that thread:
     std::vector<std::unique_ptr<Recorder>> recorders;
     std::shared_ptr<const Clock> clock;
     MarkerTally tally;
-    std::uint64_t last = 0;  ///< number of the marker that was taken last
+    std::uint64_t last = 0;  ///< number of the latest marker that was processed
 
     static constexpr std::size_t kMaxWaiting = 4096;
     std::mutex mutex;
-    // Guarded; held for moments:
+    // Guarded by mutex, held only for moments:
     std::vector<Waiting> waiting;
     std::uint64_t made = 0, dropped = 0;
-    QEventLoop* loop = nullptr;  ///< null: it serves no longer
+    QEventLoop* loop = nullptr;  ///< null: the server has ended
 };
 
 void MarkerServer::State::serve(const MarkerAddress& at, std::promise<Result<void>>& listening) {
@@ -201,7 +201,7 @@ void MarkerServer::State::accept(QTcpServer& from) {
         QObject::connect(socket, &QTcpSocket::readyRead, socket, [socket] { static_cast<void>(socket->readAll()); });
         QObject::connect(
             socket, &QTcpSocket::disconnected, socket, [this, socket] { left(socket); },
-            Qt::QueuedConnection);  // not while a line is being written to it
+            Qt::QueuedConnection);  // not while a line is being written to the recorder
         if (clock) greet(*recorders.back());
     }
 }
@@ -278,7 +278,7 @@ void MarkerServer::send(Instant at, std::string_view name) {
         return;
     }
     state.waiting.push_back({state.made, at, std::string(name)});
-    if (state.waiting.size() > 1) return;  // the thread has been told already
+    if (state.waiting.size() > 1) return;  // the thread has already been told
     QMetaObject::invokeMethod(
         state.loop, [&state] { state.take(); }, Qt::QueuedConnection);
 }

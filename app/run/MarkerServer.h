@@ -1,15 +1,15 @@
-// MarkerServer.h - the markers of a pilot session for EEG and EMG recorders: a line of text for each event, over TCP.
+// MarkerServer.h - sends the markers of a pilot session to EEG and EMG recorders: one line of text per event, over TCP.
 //
 // The program listens and recorders connect (resources/design/pilot.md, section 5). A line is "NUMBER TIME NAME\n" in
-// ASCII: the number of the marker from 1, without holes where none was lost; the time that the session's record states
-// for it, in seconds of the session's clock with nine decimals; the kind of its row. The first line that a recorder
-// gets is named "connected": the number of the last marker before, and the time at which the line was made. What a
-// recorder sends is not read.
+// ASCII. NUMBER counts markers from 1, without gaps unless one was lost; TIME is the time of the session's record, in
+// seconds of the session's clock with nine decimals; NAME is the kind of its row. The first line for a recorder is
+// named "connected" and has the number of the previous marker and the time at which it was made. Data from a recorder
+// is not read.
 //
-// Promise (hazard H2): nothing waits for a recorder. What one does not take (kBacklog bytes wait for it) is lost for
-// it, and counted. "Taken" is by the operating system: what it still holds when a recorder vanishes is not known.
+// Promise (hazard H2): nothing waits for a recorder. Up to kBacklog bytes wait for it; further lines are lost for it
+// and counted. "Taken" means by the operating system: what it holds when a recorder vanishes is not known.
 //
-// Thread-safety: send() from any thread; the others have one caller. Recorders are served by a thread of its own.
+// Thread-safety: send() from any thread; the others have one caller. A separate thread serves the recorders.
 #pragma once
 
 #include <cstdint>
@@ -25,45 +25,45 @@ namespace tacto {
 
 /// The address at which the program listens.
 struct MarkerAddress {
-    std::string host = "127.0.0.1";  ///< this computer's; others reach the usual one from this computer alone
+    std::string host = "127.0.0.1";  ///< only reachable from this computer
     std::uint16_t port = 0;
 
     static constexpr std::uint16_t kMinPort = 1024;
-    /// "5005", "192.168.1.20:5005", "[::1]:5005". Errors: InvalidArgument with what was given and what is accepted.
+    /// Reads "5005", "192.168.1.20:5005", "[::1]:5005". Errors: InvalidArgument naming the given and the accepted text.
     [[nodiscard]] static Result<MarkerAddress> parse(std::string_view text);
     [[nodiscard]] std::string text() const;  ///< "127.0.0.1:5005", "[::1]:5005"
     bool operator==(const MarkerAddress&) const = default;
 };
 
-/// How many markers were sent, and what became of them.
+/// The number of markers sent, and what happened to them.
 struct MarkerTally {
     std::uint64_t made = 0;
-    std::uint64_t unheard = 0;    ///< those of them that reached no recorder
-    std::uint64_t lost = 0;       ///< lines that a recorder did not take while it was connected
-    std::uint64_t recorders = 0;  ///< connections, one after the other too
+    std::uint64_t unheard = 0;    ///< markers that reached no recorder
+    std::uint64_t lost = 0;       ///< lines that a connected recorder did not take
+    std::uint64_t recorders = 0;  ///< number of connections, including successive ones
     bool operator==(const MarkerTally&) const = default;
 };
 [[nodiscard]] nlohmann::json toJson(const MarkerTally& tally);  ///< made, unheard, lost, recorders
-/// "516 markers were made; a recorder connected once, and none was lost.", or what was.
+/// Returns "516 markers were made; a recorder connected once, and none was lost.", or what was lost.
 [[nodiscard]] std::string markersSentence(const MarkerTally& tally);
 
 class MarkerServer {
 public:
-    static constexpr std::size_t kMaxRecorders = 8;  ///< a further recorder is hung up on
-    static constexpr std::int64_t kBacklog = 65536;  ///< bytes that wait for one recorder
+    static constexpr std::size_t kMaxRecorders = 8;  ///< further recorders are disconnected
+    static constexpr std::int64_t kBacklog = 65536;  ///< bytes that may wait for one recorder
 
-    /// Recorders can connect from now on. Errors: Io where the port is taken or the address is not this computer's.
+    /// Accepts recorders from now on. Errors: Io if the port is in use or the address is not this computer's.
     [[nodiscard]] static Result<std::unique_ptr<MarkerServer>> listen(const MarkerAddress& at);
-    /// Ends as end() does.
+    /// Calls end().
     ~MarkerServer();
     MarkerServer(const MarkerServer&) = delete;
     MarkerServer& operator=(const MarkerServer&) = delete;
 
-    /// Recorders get their first line now, and those that connect later theirs then.
+    /// Sends recorders their first line: now, or when they connect later.
     void begin(std::shared_ptr<const Clock> clock);
-    /// The marker of a row that is on disk. `name`: ASCII without spaces. Returns at once; nothing after end().
+    /// Sends the marker of a row that is on disk. `name`: ASCII without spaces. Returns at once; nothing after end().
     void send(Instant at, std::string_view name);
-    /// Gives the recorders at most 0.2 s for what they have not taken, hangs up and says what became of all markers.
+    /// Gives recorders at most 0.2 s to take waiting lines, disconnects them and returns the tally of all markers.
     MarkerTally end();
 
 private:

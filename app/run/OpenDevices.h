@@ -1,8 +1,8 @@
-// OpenDevices.h - opens the devices of a bench and adds what the data sheet of their oscilloscope states.
+// OpenDevices.h - opens the devices of a bench and adds the data sheet figures of their oscilloscope.
 //
-// The built-in profiles (resources/instruments) say how accurate an instrument is that names itself by maker and model.
-// Keys of the device's address override them, figure by figure. A simulated oscilloscope states its own figures, and a
-// folder of captures does not say which instrument wrote them: profiles apply to neither (hazard H9).
+// The built-in profiles (resources/instruments) state the accuracy of an instrument that identifies its maker and
+// model. Keys in the device's address override single figures. Profiles do not apply to a simulated oscilloscope, which
+// states its own figures, nor to a folder of captures, because the instrument that made them is not known (hazard H9).
 //
 // Thread-safety: as Registry.
 #pragma once
@@ -15,7 +15,7 @@ namespace tacto {
 [[nodiscard]] Result<DeviceSet> openDevices(Registry& registry, std::span<const DeviceUri> uris,
                                             const std::set<Role>& needed, const OpenContext& context);
 
-/// Adds the profile of `devices.oscilloscope` below what is stated already. openDevices() calls it.
+/// Adds the profile of `devices.oscilloscope` for figures that are not stated yet. openDevices() calls this.
 [[nodiscard]] Result<void> addInstrumentProfile(DeviceSet& devices);
 
 }  // namespace tacto

@@ -33,7 +33,7 @@ std::string originOf(const DeviceSet& devices, const DeviceIdentity& identity) {
     return identity.simulated ? origin::kSimulated : origin::kHardware;
 }
 
-/// Notes in the session what of the profile does not fit the devices, and warns of it.
+/// Notes in the session which parts of the profile do not fit the devices, and warns about them.
 Result<void> warnOfProfile(const Profile& profile, const DeviceSet& devices, OpenedBench& opened) {
     const auto warn = [&opened](const char* kind, const std::optional<std::string>& text) -> Result<void> {
         if (!text) return {};

@@ -1,5 +1,5 @@
-// OpenedBench.h - a bench with its devices, its clock and its session file, opened in the one way that there is: for a
-// protocol, and for looking and driving by hand.
+// OpenedBench.h - a bench with its devices, clock and session file. This is the only way to open a bench, for a
+// protocol and for manual use.
 //
 // Thread-safety: openBench() any thread; the rest as its parts.
 #pragma once
@@ -19,19 +19,19 @@
 
 namespace tacto {
 
-/// What a bench opens, for whom, and where it is recorded.
+/// What a bench opens, for whom, and where the session is recorded.
 struct BenchOrder {
     std::vector<DeviceUri> uris = {};
-    std::set<Role> needed = {};  ///< sim: fills the roles that no other device fills
+    std::set<Role> needed = {};  ///< sim: fills the roles that no other device has
     std::string declaredLoad = kDefaultLoad;
     std::uint64_t seed = 1;
-    bool realtime = false;  ///< the steady clock even where a virtual one could serve
+    bool realtime = false;  ///< uses the steady clock even if a virtual clock would do
     Profile profile = {};
     ShippedLimits limits = {};
-    std::string out = {};  ///< folder, as prepareRunFiles() takes it
+    std::string out = {};  ///< folder, as prepareRunFiles() accepts it
     RunNotes notes = {};
-    /// The stops that end this order, from the opening of the devices on; null: the bench's own. `asked`: when the
-    /// operator asked for it.
+    /// Stops that end this order, from the opening of the devices on; null: those of the bench. `asked`: the stop count
+    /// when the operator made the request.
     std::shared_ptr<StopCounter> stops = nullptr;
     StopMark asked = {};
     std::function<bool()> watched = {};  ///< BenchConfig::watched
@@ -39,10 +39,10 @@ struct BenchOrder {
     std::optional<PersonSetup> person = {};  ///< for OutputMode::Person
     bool virtualParticipant = false;         ///< as in BenchConfig
     bool rehearsal = false;
-    /// Makes the session file in place of makeRunSession(); empty: that does. It is given the open devices, and may
-    /// refuse them: then nothing was made.
+    /// Makes the session file instead of makeRunSession(), unless empty. Gets the open devices and may refuse them;
+    /// then it has made nothing.
     std::function<Result<RunSession>(const SessionAbout&, const Clock&, const DeviceSet&)> makeSession = {};
-    SessionAbout about = {};  ///< for a protocol its script and parameters; aboutSession() adds the rest
+    SessionAbout about = {};  ///< for a protocol: its script and parameters; aboutSession() adds the rest
 };
 
 struct OpenedBench {
@@ -51,20 +51,20 @@ struct OpenedBench {
     RunFiles files;
     SessionAbout about;
     std::unique_ptr<SessionWriter> session;
-    std::shared_ptr<const RowSeal> seal;  ///< seals the session's rows; null: they are not sealed
-    std::unique_ptr<Bench> bench;         // Ends before what it writes to
-    /// What the operator should know before anything is delivered, a sentence each; what a report needs of it is in the
-    /// session.
+    std::shared_ptr<const RowSeal> seal;  ///< seals the session's rows; null: rows are not sealed
+    std::unique_ptr<Bench> bench;         // destroyed before the objects that it writes to
+    /// What the operator should know before anything is delivered, one sentence each. The session records what a report
+    /// needs of these.
     std::vector<std::string> warnings;
 };
 
 /// Opens the devices, makes the session file and the bench. A stop ends the opening of devices; the bench's begin()
-/// finds one that comes later.
+/// detects a later stop.
 /// Errors: as checkNotes(), Registry::allVirtual(), openDevices(), makeRunSession() and Bench::create().
 [[nodiscard]] Result<std::shared_ptr<OpenedBench>> openBench(const BenchOrder& order, Registry& registry,
                                                              std::shared_ptr<BenchTap> tap = nullptr);
 
-/// The description of a session before its first row.
+/// Returns the description of a session before its first row.
 [[nodiscard]] SessionAbout aboutSession(const DeviceSet& devices, const BenchOrder& order);
 
 }  // namespace tacto

@@ -13,7 +13,7 @@ bool isSimulated(const DeviceUri& uri) { return uri.scheme == "sim"; }
 
 bool isMassager(const DeviceUri& uri) { return uri.scheme == "hid" || (isSimulated(uri) && uri.path == "massager"); }
 
-/// The modality in the settings; nothing where they leave it to the study.
+/// Returns the modality in the settings, or nothing if the study decides.
 std::optional<Modality> wantedModality(const RunOrder& order) {
     return valueFor(kModalities, textOr(order.settings.parameters, "modality"));
 }
@@ -31,7 +31,7 @@ Result<Study> existing(const PilotOrder& pilot) {
     return fail(ErrorCode::NotFound, "the study in {} is sealed; --passphrase-file is expected", pilot.study.string());
 }
 
-/// The participant of a rehearsal, even if only the enrolment is on disk because the program died before the consent.
+/// Returns the participant of a rehearsal, even if the program died after the enrolment and before the consent.
 Result<Participant> enrolledByItself(OpenedStudy& opened, const std::string& name, std::uint64_t seed) {
     auto& study = opened.study;
     auto found = study.find(name);

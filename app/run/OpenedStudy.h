@@ -1,7 +1,7 @@
-// OpenedStudy.h - the study that a pilot run belongs to, open to be changed, and the participant who comes.
+// OpenedStudy.h - opens the study of a pilot run for changes, and finds the participant.
 //
-// A rehearsal is made where there is no study and the participant is virtual; in a rehearsal a virtual participant is
-// enrolled, and consents, by itself. A study with people does neither.
+// If there is no study and the participant is virtual, a rehearsal is made. In a rehearsal, virtual participants are
+// enrolled and give consent automatically; in a study with people this never happens.
 //
 // Thread-safety: one caller at a time for a study.
 #pragma once
@@ -18,11 +18,11 @@ namespace tacto {
 struct OpenedStudy {
     Study study;
     Participant who;
-    std::vector<std::string> remarks;  ///< actions taken without being asked, a sentence each
+    std::vector<std::string> remarks;  ///< actions taken automatically, one sentence each
 };
 
-/// As `pilot` and the settings of `order` say. Errors: NotFound for a study, code or passphrase that cannot be used and
-/// a person without a window; kGateRefused for devices, modality and a number of blocks that the study does not have.
+/// Opens what `pilot` and the settings of `order` name. Errors: NotFound for a study, code or passphrase that cannot be
+/// used, and for a person without a window; kGateRefused for devices, modality or a number of blocks not in the study.
 [[nodiscard]] Result<OpenedStudy> openStudyFor(const RunOrder& order, const PilotOrder& pilot);
 
 }  // namespace tacto

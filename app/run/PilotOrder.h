@@ -1,4 +1,4 @@
-// PilotOrder.h - what a pilot run is asked for beside its protocol: the study and who is there.
+// PilotOrder.h - what a pilot run needs in addition to its protocol: the study and the participant.
 #pragma once
 
 #include <filesystem>
@@ -12,16 +12,16 @@
 
 namespace tacto {
 
-/// Where the session runs, and with whom.
+/// The study of the session, and its participant.
 struct PilotOrder {
     std::filesystem::path study;
     std::optional<Passphrase> passphrase;
-    /// The participant's and operator's windows; null: headless, and then a person is refused.
+    /// The participant's and operator's windows; null: without windows, a person is refused.
     PilotParticipant* people = nullptr;
-    bool codeConfirmed = false;  ///< a person read the code on their screen
-    /// Empty for a virtual participant, who answers no to each but those of `--set exclusions`.
+    bool codeConfirmed = false;  ///< a person has checked the code on the screen
+    /// Empty for a virtual participant, who answers no to all except those in `--set exclusions`.
     std::vector<ExclusionAnswer> exclusions;
-    std::optional<MarkerAddress> markers;  ///< nothing: none are sent
+    std::optional<MarkerAddress> markers;  ///< nothing: no markers are sent
 };
 
 }  // namespace tacto

@@ -20,8 +20,8 @@ constexpr const char *kMethod = "method", *kComparison = "comparison";
 
 std::string textOf(const RunOrder& order, const char* name) { return textOr(order.settings.parameters, name); }
 
-/// The task of the script: the chosen procedure, else the approved one of the study. A script does not do what it does
-/// not declare, and that is approved.
+/// Returns the script's task: the chosen procedure, else the study's approved procedure. A script does only what it
+/// declares, and the declaration is approved.
 AskedProcedure askedProcedure(RunOrder& order, const std::optional<StudyProcedure>& approved) {
     auto& parameters = order.settings.parameters;
     const auto isOpen = [&](const char* name) {
@@ -36,10 +36,10 @@ AskedProcedure askedProcedure(RunOrder& order, const std::optional<StudyProcedur
     return asked;
 }
 
-/// A number as it was declared; NaN where the script declares none of that name.
+/// Returns the value of a declared number; NaN if the script declares no such parameter.
 double numberOf(const RunOrder& order, const char* name) { return numberOr(order.settings.parameters, name); }
 
-/// `sim:` is a current source with the P24's grid, unless it says otherwise.
+/// Makes `sim:` a current source with the P24's grid, unless the address says otherwise.
 void fitSource(DeviceUri& uri) {
     if (uri.scheme != "sim" || (!uri.path.empty() && uri.path != "stimulator")) return;
     const auto has = [&uri](std::string_view key) {
@@ -62,7 +62,7 @@ PersonSetup stimulated(const Participant& who, const StudySettings& study, const
     return person;
 }
 
-/// Levels rise by one step, and no current is permitted.
+/// Levels rise one step at a time, and no current is permitted.
 PersonSetup vibrated(const Participant& who) {
     PersonSetup person;
     person.participant = who.code;
@@ -80,7 +80,7 @@ PilotRun::PilotRun(OpenedStudy opened, std::shared_ptr<MarkerServer> markers)
       markers_(std::move(markers)) {}
 
 PilotRun::~PilotRun() {
-    run_.reset();  // the script first: it calls the session
+    run_.reset();  // the script first, because it calls the session
 }
 
 void PilotRun::fitOrder(RunOrder& order, const PilotOrder& pilot) {
@@ -94,7 +94,7 @@ void PilotRun::fitOrder(RunOrder& order, const PilotOrder& pilot) {
     settings_.runSha256 = runHash(study, request_.procedure);
     const auto& continued = unfinished_.continued();
     settings_.session = continued ? continued->number : who_.sessions + 1;
-    if (const auto& seed = unfinished_.earlier().seed) order.seed = *seed;  // The session's replaces the command's
+    if (const auto& seed = unfinished_.earlier().seed) order.seed = *seed;  // the session's seed replaces the command's
     settings_.seed = order.seed;
     settings_.painCeiling = study.painCeiling.value_or(kPainCeiling);
     settings_.holds = openHolds(study_, who_);
@@ -176,13 +176,13 @@ Result<std::unique_ptr<PilotRun>> PilotRun::prepare(RunOrder order, PilotOrder p
     }
     const auto answers = virtualAnswers(order.settings.parameters);
     if (!answers) return failure(answers);
-    if (textOf(order, "participant").starts_with(kVirtualPrefix)) {  // checked before a rehearsal is made for it
+    if (textOf(order, "participant").starts_with(kVirtualPrefix)) {  // checked before a rehearsal is made
         if (auto held = exclusionGate(*answers); !held) return failure(held);
     }
     auto study = openStudyFor(order, pilot);
     if (!study) return failure(study);
     std::unique_ptr<PilotRun> made(new PilotRun(std::move(*study), std::move(markers)));
-    SessionRequest answered;  // kept, whatever refuses afterwards
+    SessionRequest answered;  // kept, even if something later refuses
     answered.code = made->who_.code;
     answered.exclusions = pilot.exclusions;
     if (auto noted = made->study_.noteExclusions(answered); !noted) return failure(noted);
@@ -231,13 +231,13 @@ Result<std::unique_ptr<PilotRun>> PilotRun::prepare(RunOrder order, PilotOrder p
     return made;
 }
 
-/// A session whose bench could not be opened cannot be resumed. A continued session stays as it was.
+/// Cancels a session if its bench could not be opened: it cannot be resumed. A continued session does not change.
 void PilotRun::cancelBooked() {
     if (!begun_ || unfinished_.continued()) return;
     static_cast<void>(study_.cancelSession(begun_->session.id));
 }
 
-/// Still approved, and within the time that a session may take, from its first part on.
+/// Checks that the study is still approved and that the session is within its time limit, from its first part on.
 Result<void> PilotRun::mayGoOn() const {
     if (auto approved = study_.stillApproved(); !approved) return approved;
     const double most_min = study_.settings().sessionMax_min;
@@ -250,8 +250,8 @@ Result<void> PilotRun::mayGoOn() const {
                 most_min);
 }
 
-/// Writes into the ledger, which a withdrawal leaves. The investigator says how severe it is and what it comes from:
-/// until then the worst is assumed.
+/// Writes an adverse event into the ledger, which remains after a withdrawal. Until the investigator states severity
+/// and cause, the worst is assumed.
 Result<void> PilotRun::noteSkin(const std::string& moment, int score) {
     AdverseEvent event;
     event.what = fmt::format(
@@ -264,7 +264,7 @@ Result<void> PilotRun::noteSkin(const std::string& moment, int score) {
     const auto noted = study_.adverseEvents();
     if (!noted) return failure(noted);
     const bool known = std::ranges::any_of(*noted, [&](const auto& each) {
-        return each.first == session && each.second.what == event.what;  // noted before it was interrupted and resumed
+        return each.first == session && each.second.what == event.what;  // noted before the interruption
     });
     return known ? Result<void>() : study_.adverseEvent(session, event);
 }
@@ -274,18 +274,18 @@ Result<void> PilotRun::start(RunRequest hooks) {
     return run_->start(std::move(hooks));
 }
 
-/// Called once no row with a marker is written any longer.
+/// Call this once no more rows with a marker are written.
 std::optional<MarkerTally> PilotRun::endMarkers() {
     if (!markers_) return std::nullopt;
     if (run_->script() != nullptr) static_cast<void>(run_->script()->wait());
     const auto tally = markers_->end();
-    const auto& opened = run_->opened();  // a row that cannot be written is found when the session is closed
+    const auto& opened = run_->opened();  // an error in writing this row is found when the session is closed
     static_cast<void>(opened.session->event(opened.clock->now(), "markers", toJson(tally)));
     return tally;
 }
 
 RunResult PilotRun::finish() {
-    session_->stage().participant().leave();  // so that their STOP never meets a bench that is gone
+    session_->stage().participant().leave();  // so that the participant's STOP never uses a bench that is gone
     const auto markers = endMarkers();
     auto result = run_->finish();
     result.markers = markers;

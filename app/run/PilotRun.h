@@ -1,7 +1,7 @@
-// PilotRun.h - a run of a pilot protocol: the study it belongs to, the session that is begun or continued, and the
-// protocol's run on a bench for that participant. Command line and window run sessions through this.
+// PilotRun.h - a run of a pilot protocol: its study, the session that is begun or continued, and the protocol's run on
+// a bench for the participant. Command line and window use this to run sessions.
 //
-// Every gate is asked before anything is made or presented (core/study/Gates.h, MachineGate.h, core/pilot/PilotCare.h).
+// Checks every gate before making or presenting anything (core/study/Gates.h, MachineGate.h, core/pilot/PilotCare.h).
 //
 // Thread-safety: as ProtocolRun.
 #pragma once
@@ -24,11 +24,11 @@ namespace tacto {
 
 class PilotRun {
 public:
-    /// The participant, `unfinished` and the rest are settings of `order`. Where `pilot.study` holds no study and the
+    /// The settings of `order` hold the participant, `unfinished` and the rest. If `pilot.study` has no study and the
     /// participant is virtual, a rehearsal is made there.
     /// Errors: NotFound for a study, code or passphrase that cannot be used, a person without a window, and an
-    /// unfinished session that the settings say nothing of; Stopped for a gate; as MarkerServer::listen(), before
-    /// anything else is looked at, and ProtocolRun::prepare().
+    /// unfinished session that the settings do not mention; Stopped for a gate; as MarkerServer::listen(), which is
+    /// checked first, and ProtocolRun::prepare().
     [[nodiscard]] static Result<std::unique_ptr<PilotRun>> prepare(RunOrder order, PilotOrder pilot, Registry& registry,
                                                                    std::shared_ptr<BenchTap> tap = nullptr);
     ~PilotRun();
@@ -37,14 +37,14 @@ public:
 
     /// As ProtocolRun::start().
     [[nodiscard]] Result<void> start(RunRequest hooks);
-    /// Ends like ProtocolRun::finish(), with the session's last row saying what became of the markers; then the ledger
-    /// says how the session ended.
+    /// Ends like ProtocolRun::finish(). The session's last row states what happened to the markers; then the ledger
+    /// records how the session ended.
     [[nodiscard]] RunResult finish();
 
     [[nodiscard]] ProtocolRun& run() noexcept { return *run_; }
     [[nodiscard]] PilotSession& session() noexcept { return *session_; }
     [[nodiscard]] const Study& study() const noexcept { return study_; }
-    /// Actions taken without being asked, a sentence each: a rehearsal made, a participant enrolled, a session ended.
+    /// Actions taken automatically, one sentence each: a rehearsal made, a participant enrolled, a session ended.
     [[nodiscard]] const std::vector<std::string>& remarks() const noexcept { return remarks_; }
 
 private:
@@ -65,10 +65,10 @@ private:
     PilotSettings settings_;
     std::vector<std::string> remarks_;
 
-    std::shared_ptr<MarkerServer> markers_;  // null: none are sent
+    std::shared_ptr<MarkerServer> markers_;  // null: no markers are sent
     std::unique_ptr<VirtualPilotParticipant> virtual_;
     std::unique_ptr<ProtocolRun> run_;
-    std::unique_ptr<PilotRecord> record_;  // Written to by the script: ends after it, see ~PilotRun
+    std::unique_ptr<PilotRecord> record_;  // the script writes to it, so it must end after the script; see ~PilotRun
     std::unique_ptr<PilotSession> session_;
 };
 

@@ -13,7 +13,7 @@ namespace tacto {
 
 namespace {
 
-/// Whether safety or a person ended the output, and not a mistake in a script.
+/// True if safety or a person ended the output, false for a mistake in a script.
 bool endedBySafety(const ScriptOutcome& outcome, const Bench& bench) {
     if (bench.faults() > outcome.expectedFaults) return true;
     if (!outcome.error) return outcome.verdict == ScriptVerdict::Stopped;
@@ -67,7 +67,7 @@ Result<std::unique_ptr<ProtocolRun>> ProtocolRun::prepare(RunOrder given, Regist
     return run;
 }
 
-/// A fault that an earlier run left the stimulator in is reset when the operator asks for it, and then looked at again.
+/// Resets a fault that an earlier run left in the stimulator, if the operator asks for it, and then checks again.
 Result<void> ProtocolRun::leaveFault() {
     const auto seen = bench().telemetry();
     if (seen.state != InterlockState::Faulted) return {};
@@ -107,7 +107,7 @@ Result<void> ProtocolRun::start(RunRequest hooks) {
     return {};
 }
 
-/// Kept before the first train: a check that is killed takes the place of an earlier pass as one that fails does.
+/// Recorded before the first train: like a failed check, a check that is killed must replace an earlier pass.
 Result<void> ProtocolRun::beginCheck() {
     auto check =
         loadSafetyCheckOf(order_.script, opened_->about, bench().profile(), opened_->files.session.filename().string());
@@ -153,12 +153,12 @@ RunResult ProtocolRun::finish() {
         static_cast<void>(session.event(opened_->clock->now(), "script not started", {{"why", notStarted_->message}}));
     }
     result.stoppedBySafety = endedBySafety(result.outcome, bench());
-    if (check_) check_->area = bench().profile().electrodeArea;  // as the run had it
+    if (check_) check_->area = bench().profile().electrodeArea;  // as used in the run
     opened_->bench.reset();
     if (auto closed = session.close(result.outcome.error ? "ended by an error" : "finished"); !closed)
         result.troubles.push_back(closed.error());
     opened_->session.reset();
-    // What is not on disk does not count as shown (hazard H8).
+    // Data that are not on disk do not count (hazard H8).
     const auto kept = verifySession(result.session);
     if (!kept)
         result.troubles.push_back(kept.error());
@@ -168,7 +168,7 @@ RunResult ProtocolRun::finish() {
                                         kept->problems.empty() ? "" : kept->problems.front())});
     endCheck(result);
     result.weighTroubles();
-    // Read from disk, as everything else (hazard H8).
+    // Read from disk, like everything else (hazard H8).
     const auto reader = SessionReader::open(result.session, opened_->seal);
     auto marks = reader ? sessionMarks(*reader) : failure(reader);
     result.marks = marks ? std::move(*marks) : originMarks(about, {});

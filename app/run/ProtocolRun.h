@@ -1,7 +1,7 @@
-// ProtocolRun.h - everything a run of a protocol needs around its script: devices, clock, bench, session file, report.
-// The command line and the window run protocols through this, and so the same way.
+// ProtocolRun.h - everything that a protocol's run needs in addition to its script: devices, clock, bench, session
+// file, report. Command line and window run protocols through this, and therefore in the same way.
 //
-// Thread-safety: one caller, but for bench().stop() and script().stop(), which any thread may call.
+// Thread-safety: one caller; but any thread may call bench().stop() and script().stop().
 #pragma once
 
 #include <memory>
@@ -14,57 +14,57 @@
 
 namespace tacto {
 
-/// The operator's order, checked.
+/// The operator's order, after checks.
 struct RunOrder : BenchOrder {
     ProtocolSource script;
     ProtocolDeclaration declaration;  ///< as the operator saw it; without a title: the script was not read before
     ProtocolSettings settings;
-    std::string ownLoad = {};      ///< replaces the load that the parameters declare: a virtual participant's skin
-    std::set<Role> ownNeeds = {};  ///< replaces what the script declares to need, in massager studies; empty: nothing
-    /// File of the order's details for the certificate of a stimulator calibration: CertificateDetails.h; empty: the
-    /// laboratory's own alone. Other kinds of results do not use it.
+    std::string ownLoad = {};      ///< replaces the load in the parameters: a virtual participant's skin
+    std::set<Role> ownNeeds = {};  ///< replaces the roles that the script needs, in massager studies; empty: no change
+    /// File with this order's details for the certificate of a stimulator calibration (CertificateDetails.h); empty:
+    /// only the laboratory's own details. Not used by other kinds of results.
     std::filesystem::path certificateDetails = {};
-    bool resetFault = false;  ///< a fault in which an earlier run left the stimulator is reset; else it ends this one
+    bool resetFault = false;  ///< resets a fault left in the stimulator by an earlier run; else the fault ends this run
 };
 
-/// The load that a protocol's parameters declare: what the simulated bench starts with.
+/// Returns the load in a protocol's parameters, with which the simulated bench starts.
 [[nodiscard]] std::string declaredLoad(const nlohmann::json& parameters);
 
-/// The description of a script in its session.
+/// Returns the description of a script for its session.
 [[nodiscard]] SessionAbout aboutScript(const RunOrder& order);
 
-/// The outcome of a run, also of a failed one.
+/// The outcome of a run, even of a failed one.
 struct RunResult {
     ScriptOutcome outcome;
-    bool stoppedBySafety = false;    ///< a fault, a refused train, an operator's stop
-    bool simulated = false;          ///< by a device, or as a prediction; `marks` say which
+    bool stoppedBySafety = false;    ///< by a fault, a refused train or an operator's stop
+    bool simulated = false;          ///< a device was simulated, or the results are a prediction; `marks` say which
     std::vector<std::string> marks;  ///< the marks from sessionMarks(): origin, calibration, the flags of R
     std::vector<SessionDevice> devices;
     std::filesystem::path session;
-    std::vector<Error> troubles;         ///< beside the outcome's error, which does not say them: closing the session
+    std::vector<Error> troubles;         ///< errors in addition to the outcome's own: closing the session
     std::optional<MarkerTally> markers;  ///< for a pilot session with markers
-    /// pass, fail, indeterminate, stopped; empty for a protocol that judges nothing or ended by an error.
+    /// Returns pass, fail, indeterminate or stopped; empty for a protocol without a judgement or a run with an error.
     [[nodiscard]] std::string verdict() const;
-    /// If nothing else failed, the first trouble becomes the error, and there is no verdict; troubles that the error
-    /// mentions are left out.
+    /// If nothing else failed, makes the first trouble the error and removes the verdict. Drops troubles that the error
+    /// already mentions.
     void weighTroubles();
 };
 
 class ProtocolRun {
 public:
-    /// Opens the bench: what the protocol needs, on the load that its parameters declare. A stop ends the opening of
-    /// devices; one that comes later is found by start(). Errors: as openBench() and certificateDetails(); NotArmed for
-    /// a fault in which the stimulator was left.
+    /// Opens the devices that the protocol needs, with the load in its parameters. A stop ends the opening of devices;
+    /// start() detects a later stop. Errors: as openBench() and certificateDetails(); NotArmed for a fault in which the
+    /// stimulator was left.
     [[nodiscard]] static Result<std::unique_ptr<ProtocolRun>> prepare(RunOrder order, Registry& registry,
                                                                       std::shared_ptr<BenchTap> tap = nullptr);
-    /// Ends a script that still runs; output off. A run that was not finished leaves its session without an end mark.
+    /// Ends a running script and switches the output off. An unfinished run leaves its session without an end mark.
     ~ProtocolRun();
     ProtocolRun(const ProtocolRun&) = delete;
     ProtocolRun& operator=(const ProtocolRun&) = delete;
 
-    /// Fills in script, declaration, parameters, seed, bench, session and capture folder of `hooks`, whose callbacks
-    /// and operator are the caller's, and starts the script. Expected failures, as a profile beyond the stimulator's
-    /// reach, are told through `onLog` first. Errors: as ScriptRun::start(); finish() reports them too.
+    /// Fills in script, declaration, parameters, seed, bench, session and capture folder of `hooks` and starts the
+    /// script; the caller sets the callbacks and the operator. `onLog` first reports expected failures, such as a
+    /// profile beyond the stimulator's reach. Errors: as ScriptRun::start(); finish() reports them too.
     [[nodiscard]] Result<void> start(RunRequest hooks);
     /// Blocks until the script has ended, then closes bench and session.
     [[nodiscard]] RunResult finish();
@@ -80,10 +80,10 @@ private:
     void endCheck(RunResult& result);
     explicit ProtocolRun(RunOrder order) : order_(std::move(order)) {}
     RunOrder order_;
-    std::shared_ptr<OpenedBench> opened_;  // the bench that is open, and the script's
+    std::shared_ptr<OpenedBench> opened_;  // the open bench, which the script uses too
     std::optional<Error> notStarted_;
     std::optional<LoadSafetyCheck> check_;  // the record of a load-safety run
-    std::unique_ptr<ScriptRun> script_;     // Last: ends first
+    std::unique_ptr<ScriptRun> script_;     // declared last, so that it ends first
 };
 
 }  // namespace tacto

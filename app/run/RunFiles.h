@@ -1,6 +1,6 @@
-// RunFiles.h - where a run puts its session, reports and captures. Nothing that exists is ever written over.
+// RunFiles.h - the files for a run's session, reports and captures. Existing files are never overwritten.
 //
-// Thread-safety: any thread; what is made is in files that no other run has.
+// Thread-safety: any thread; each run has its own files.
 #pragma once
 
 #include <filesystem>
@@ -15,25 +15,25 @@ namespace tacto {
 
 struct RunFiles {
     std::filesystem::path session;   ///< *.tacto
-    std::filesystem::path captures;  ///< folder for CSV files; empty: none are written
+    std::filesystem::path captures;  ///< folder for CSV files; empty: no CSV files
     [[nodiscard]] std::filesystem::path report(const char* ending) const;
 };
 
-/// `out` as given by --out, or empty: the user's sessions folder, and no capture files. A folder that already holds a
-/// session or captures gets a folder of its own for this run. Errors: Io when a folder cannot be made.
+/// `out`: the value of --out; empty: the user's sessions folder, without capture files. If a folder already has a
+/// session or captures, a new folder inside is made for this run. Errors: Io if a folder cannot be made.
 [[nodiscard]] Result<RunFiles> prepareRunFiles(const std::string& out, const std::string& protocol);
 
 struct RunSession {
     RunFiles files;
     std::unique_ptr<SessionWriter> writer;
-    std::shared_ptr<const RowSeal> seal = nullptr;  ///< null: its rows are not sealed
+    std::shared_ptr<const RowSeal> seal = nullptr;  ///< null: rows are not sealed
 };
-/// The files of a run and its session, begun: another program that begins one in the same second gets another name.
+/// Makes the files of a run and begins its session. Programs that do this in the same second get different names.
 /// Errors: as prepareRunFiles() and SessionWriter::create().
 [[nodiscard]] Result<RunSession> makeRunSession(const std::string& out, const std::string& protocol,
                                                 const SessionAbout& about, const Clock& clock);
 
-/// $XDG_DATA_HOME/tactoscope/sessions, or ~/.local/share/tactoscope/sessions.
+/// Returns $XDG_DATA_HOME/tactoscope/sessions, or ~/.local/share/tactoscope/sessions.
 [[nodiscard]] std::filesystem::path userSessionsFolder();
 
 }  // namespace tacto

@@ -1,5 +1,5 @@
-// RunNotes.h - what a report says about a run beside what was measured: who did it, of what, who checks it, and the
-// ambient conditions. As they were entered; nothing here is measured, and nothing is judged by it.
+// RunNotes.h - a report's notes in addition to measurements: who made them, on which sample, who checks them, and the
+// ambient conditions. They are printed as entered; nothing here is measured or used for a judgement.
 //
 // Thread-safety: pure functions; keepNotes() as SessionWriter.
 #pragma once
@@ -21,9 +21,9 @@ struct RunNotes {
 
 inline constexpr std::size_t kNoteLimit = 200;
 
-/// Errors: InvalidArgument for a text that is too long, is not UTF-8 or holds a control character.
+/// Errors: InvalidArgument for a text that is too long, is not UTF-8 or contains a control character.
 [[nodiscard]] Result<void> checkNotes(const RunNotes& notes);
-/// Writes them for the session's report; nothing where all are empty. Errors: as SessionWriter::reportItem().
+/// Writes the notes for the session's report, unless all are empty. Errors: as SessionWriter::reportItem().
 [[nodiscard]] Result<void> keepNotes(const RunNotes& notes, SessionWriter& session, Instant at);
 
 }  // namespace tacto

@@ -1,10 +1,10 @@
-// ScopeStatement.h - what else is stated of the oscilloscope that is open: by its calibration certificate.
+// ScopeStatement.h - what the calibration certificate of the open oscilloscope states.
 //
-// A certificate counts for its serial number alone and from its date until it is due. Captures of a folder (`capture:`)
-// have none: it is not known which instrument took them, and when. A serial number of a simulated oscilloscope
-// (SIM-...) counts for a simulated one only. An unused certificate says why (hazard H9).
+// A certificate is valid only for its serial number, from its date until it is due. Captures from a folder (`capture:`)
+// have none, because the instrument and time are not known. Certificates for simulated serial numbers (SIM-...) apply
+// only to simulated oscilloscopes. For an unused certificate the reason is stated (hazard H9).
 //
-// Thread-safety: pure but for reading the store; keepCertificate() as SessionWriter.
+// Thread-safety: pure, except for reading the store; keepCertificate() as SessionWriter.
 #pragma once
 
 #include <optional>
@@ -19,17 +19,17 @@ namespace tacto {
 struct KnownCertificate {
     InstrumentStatement statement;  ///< empty unless used
     bool used = false;
-    std::string text;                          ///< one sentence; empty where this oscilloscope can have no certificate
+    std::string text;                          ///< one sentence; empty if this oscilloscope cannot have a certificate
     std::optional<Certificate> certificate{};  ///< the certificate in use
 };
-/// How the certificate of that device stands today.
+/// Returns the certificate of the oscilloscope and whether it is valid today.
 [[nodiscard]] KnownCertificate knownCertificate(const DeviceIdentity& oscilloscope);
 
-/// Adds to what `devices` state of their oscilloscope; what comes last wins, figure by figure: the address, the
-/// certificate. Returns the certificate as knownCertificate().
+/// Adds the certificate's figures to those that `devices` states for the oscilloscope; they replace figures in the
+/// address. Returns the certificate like knownCertificate().
 KnownCertificate stateOscilloscope(DeviceSet& devices);
 
-/// Writes it for the session's report; nothing where no certificate can be of this oscilloscope. Errors: as
+/// Writes the certificate for the session's report, unless this oscilloscope cannot have one. Errors: as
 /// SessionWriter::event().
 [[nodiscard]] Result<void> keepCertificate(const KnownCertificate& known, SessionWriter& session, Instant at);
 

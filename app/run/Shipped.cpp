@@ -17,7 +17,7 @@ bool overlap(const LimitRow& a, const LimitRow& b) noexcept {
     return (a.upToHz == 0 || b.aboveHz < a.upToHz) && (b.upToHz == 0 || a.aboveHz < b.upToHz);
 }
 
-/// A looser row would break nothing, since the built-in rows stay in force, and yet would promise something untrue.
+/// A looser row would have no effect, because the built-in rows still apply, but it would promise something untrue.
 Result<void> tightens(const LimitSet& added, const std::vector<LimitSet>& shipped, const std::string& file) {
     for (const auto& row : added.rows) {
         if (row.action != LimitAction::Refuse) continue;

@@ -13,7 +13,7 @@ sigset_t stopSignals() {
     return set;
 }
 
-/// A viewer that is opened from here ends by them as usual.
+/// A program started from here, such as a viewer, must still end on these signals.
 void unblockInChild() {
     const auto set = stopSignals();
     pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
@@ -25,7 +25,7 @@ SignalStop::SignalStop() {
     static_cast<void>(once);
     const auto set = stopSignals();
     pthread_sigmask(SIG_BLOCK, &set, nullptr);
-    std::signal(SIGPIPE, SIG_IGN);  // a write reports a reader that went away
+    std::signal(SIGPIPE, SIG_IGN);  // a write then reports that the reader is gone
     thread_ = std::thread([this] { wait(); });
 }
 

@@ -1,7 +1,7 @@
-// SignalStop.h - Ctrl+C, Ctrl+\, termination and a terminal that closes as a stop of the run: a thread waits for the
-// signal, so that the handler's restrictions do not reach the bench.
+// SignalStop.h - turns Ctrl+C, Ctrl+\, termination and closing of the terminal into a stop of the run. A thread waits
+// for the signal, so that the restrictions of signal handlers do not apply to the bench.
 //
-// Thread-safety: make one before any other thread starts, so that they all inherit the blocked signals.
+// Thread-safety: make one before any other thread starts, so that all threads inherit the blocked signals.
 #pragma once
 
 #include <atomic>
@@ -28,7 +28,7 @@ private:
     std::function<void()> stop_;  // guarded by mutex_
     std::atomic<bool> signalled_{false};
     std::atomic<bool> quitting_{false};
-    std::thread thread_;  // Last: starts when all else is ready
+    std::thread thread_;  // declared last: starts when everything else is ready
 };
 
 }  // namespace tacto

@@ -14,7 +14,7 @@ constexpr std::string_view kPilotScripts = "pilot-";
 void fitProfile(Profile& profile, const StudySettings& study) {
     profile.electrodeArea = study.electrode.area;
     auto& train = profile.encoding.train;
-    // Monophasic trains are refused on a person, together with whatever else a study may name.
+    // Monophasic trains are refused on a person, and so is every other shape that a study may name.
     train.shape = study.train.shape == kBiphasic ? PulseShape::SymmetricBiphasic : PulseShape::Monophasic;
     train.phaseWidth = Micros(study.train.width_us);
     train.interPhaseGap = Micros(study.train.gap_us);
@@ -22,7 +22,7 @@ void fitProfile(Profile& profile, const StudySettings& study) {
     if (study.train.rate_hz > 0) train.rate = Hertz(study.train.rate_hz);
 }
 
-/// Conditions are hashed, since their names stand in no plain text of a study.
+/// Conditions are stored as hashes, because a study must not contain their names in plain text.
 StudyProcedure procedureOf(const Profile& profile, const StudySettings& study, const AskedProcedure& asked) {
     auto fitted = profile;
     fitProfile(fitted, study);

@@ -1,6 +1,6 @@
-// StudyProgram.h - what a study's approval says about this program and the profile that its sessions are run with.
+// StudyProgram.h - what a study's approval states about this program and the profile of its sessions.
 //
-// Thread-safety: pure but for the limit sets' files.
+// Thread-safety: pure, except for the files of the limit sets.
 #pragma once
 
 #include "core/bench/Profile.h"
@@ -8,14 +8,14 @@
 
 namespace tacto {
 
-/// `profile` with the electrode and the one kind of train of the study.
+/// Sets the study's electrode and its only kind of train in `profile`.
 void fitProfile(Profile& profile, const StudySettings& study);
 /// The task of a session's script.
 struct AskedProcedure {
     DetectionMethod method = DetectionMethod::Quest;
     bool comparison = false;
 };
-/// The stimuli of `profile` for people of this study, and the questions to them.
+/// Returns the stimuli of `profile` for people in this study, and the questions to them.
 [[nodiscard]] StudyProcedure procedureOf(const Profile& profile, const StudySettings& study,
                                          const AskedProcedure& asked);
 

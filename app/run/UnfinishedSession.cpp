@@ -17,8 +17,8 @@ Result<UnfinishedSession> UnfinishedSession::choose(const Study& study, const Pa
                     "session {} of {} ({}) is unfinished; --set unfinished=resume or unfinished=end is expected",
                     open->number, who.code, open->protocol);
     auto rows = pilotRows(study, *open);
-    if (choice.wanted == "end") {  // also for a session that can no longer be read
-        // Complete where the program was ended before the study knew.
+    if (choice.wanted == "end") {  // possible even if the session can no longer be read
+        // Complete if the program ended before the study recorded that.
         const bool complete = rows && rows->ended == PilotEnd::Complete;
         made.ends_ = Ends{std::move(*open), complete ? StudySessionState::Complete : StudySessionState::Stopped};
         return made;
@@ -41,7 +41,7 @@ Result<void> UnfinishedSession::mayResume(const Study& study) const {
     const auto now = SystemTime::real().wall();
     if (earlier_.mayGoOn(now)) {
         if (auto approved = study.stillApproved(); !approved) return approved;
-        if (!earlier_.answeredAt) return {};  // complete
+        if (!earlier_.answeredAt) return {};  // the session is complete
         return clockGate(*earlier_.answeredAt, now, "what was last presented or answered");
     }
     if (!earlier_.answeredAt)

@@ -1,5 +1,5 @@
-// UnfinishedSession.h - the session that a participant began and did not end: whether it is resumed, with the same
-// device and procedure, or ends before another begins.
+// UnfinishedSession.h - a session that a participant began but did not complete. It is resumed with the same device and
+// procedure, or ended before another session begins.
 //
 // Thread-safety: one caller at a time for a study.
 #pragma once
@@ -17,33 +17,33 @@ namespace tacto {
 
 class UnfinishedSession {
 public:
-    /// The settings of the run about it.
+    /// The run's settings about the unfinished session.
     struct Choice {
         std::string wanted;    ///< "end" or "resume"
         std::string protocol;  ///< the run's protocol
         bool inWindow = false;
     };
-    /// Stands for no unfinished session.
+    /// Represents no unfinished session.
     UnfinishedSession() = default;
-    /// Changes nothing. Errors: NotFound where neither end nor resume is wanted, and for another protocol; kGateRefused
-    /// for a session that was interrupted too long ago, and as Study::stillApproved(); as pilotRows().
+    /// Changes nothing. Errors: NotFound if neither end nor resume is wanted, or for another protocol; kGateRefused for
+    /// a session that was interrupted too long ago, and as Study::stillApproved(); as pilotRows().
     [[nodiscard]] static Result<UnfinishedSession> choose(const Study& study, const Participant& who,
                                                           const Choice& choice);
 
-    /// The session that is resumed; nothing where a new one begins.
+    /// The session to resume; nothing if a new session begins.
     [[nodiscard]] const std::optional<StudySession>& continued() const noexcept { return continued_; }
-    /// What was recorded of the resumed session; empty for a new one.
+    /// The records of the resumed session; empty for a new session.
     [[nodiscard]] const PilotRows& earlier() const noexcept { return earlier_; }
 
-    /// The discomfort limit and the range were found with the first part's device and hold for no other. Errors:
-    /// kGateRefused naming both.
+    /// Checks that the device is that of the first part: discomfort limit and range are valid only for it. Errors:
+    /// kGateRefused naming both devices.
     [[nodiscard]] Result<void> sameDevice(const DeviceSet& devices) const;
-    /// Levels hold for one kind of train, and answers of two procedures do not make one result. Errors: kGateRefused.
+    /// Levels hold for one kind of train only, and answers of two procedures cannot be combined. Errors: kGateRefused.
     [[nodiscard]] Result<void> sameProcedure(std::string_view runSha256) const;
 
-    /// Books the resumed part, or the new session, and before it the end of the one that ends: but only once every gate
-    /// lets another begin, because until then it can be continued. `remarks` tells what was ended. Errors: as
-    /// Study::mayBegin(), endSession(), continueSession() and beginSession().
+    /// Books the resumed part, or ends the unfinished session and books the new one. This happens only after every gate
+    /// has agreed, because until then the unfinished session can be continued. `remarks` names what was ended. Errors:
+    /// as Study::mayBegin(), endSession(), continueSession() and beginSession().
     [[nodiscard]] Result<BegunSession> begin(Study& study, const SessionRequest& request,
                                              std::vector<std::string>& remarks) const;
 
@@ -53,7 +53,7 @@ private:
         StudySessionState state;
     };
     [[nodiscard]] Result<void> mayResume(const Study& study) const;
-    /// An option, or what the window offers.
+    /// Returns the option or the window's button that ends the session.
     [[nodiscard]] std::string_view whatEnds() const;
 
     std::string code_;  // the participant's code

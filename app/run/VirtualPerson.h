@@ -1,5 +1,5 @@
-// VirtualPerson.h - the virtual participant that a pilot run's settings describe: seed, answers to the checklist, and
-// what they feel.
+// VirtualPerson.h - the virtual participant in a pilot run's settings: seed, answers to the checklist, and what they
+// feel.
 #pragma once
 
 #include <cstdint>
@@ -15,15 +15,15 @@
 
 namespace tacto {
 
-/// The seed in "virtual:SEED"; nothing in a code. Errors: NotFound for another seed than a whole number from 0.
+/// Returns the seed in "virtual:SEED", nothing for a code. Errors: NotFound for a seed that is no whole number from 0.
 [[nodiscard]] Result<std::optional<std::uint64_t>> virtualSeed(std::string_view participant);
 
-/// Answers No to each item of the checklist but the one that `parameters` name as "exclusions". Errors: InvalidArgument
-/// for an item that the checklist does not have.
+/// Answers No to each item of the checklist except that in "exclusions" of `parameters`. Errors: InvalidArgument for an
+/// item that the checklist does not have.
 [[nodiscard]] Result<std::vector<ExclusionAnswer>> virtualAnswers(const nlohmann::json& parameters);
 
-/// Participant `seed` of the population that `parameters` describe, under the electrode and pulse of `study`. Errors:
-/// as validate(PopulationModel) and VirtualObserver::create().
+/// Returns participant `seed` of the population in `parameters`, with the electrode and pulse of `study`. Errors: as
+/// validate(PopulationModel) and VirtualObserver::create().
 [[nodiscard]] Result<VirtualObserver> virtualObserver(const nlohmann::json& parameters, const StudySettings& study,
                                                       std::uint64_t seed, LevelUnit unit);
 
