@@ -28,7 +28,7 @@ void declareAnalyze(QCommandLineParser& parser) {
     parser.addOption({"json", "Prints one JSON value."});
 }
 
-/// A table of trials, judged as `judge` does.
+/// Judges a table of trials with `judge`.
 template <class Judge>
 int trials(const std::string& kind, const std::string& file, bool asJson, Judge&& judge) {
     const auto read = readSeparabilityTrials(file);
@@ -45,7 +45,7 @@ int trials(const std::string& kind, const std::string& file, bool asJson, Judge&
     return exitForVerdict(nameOf(found->verdict));
 }
 
-/// Neither a tolerance nor what the instrument may contribute was stated, so nothing is judged.
+/// Judges nothing, because neither a tolerance nor the instrument's errors are stated.
 int calibration(const std::string& file, bool asJson) {
     const auto readings = readCalibrationReadings(file);
     if (!readings) return couldNotRun(readings.error());
@@ -91,9 +91,9 @@ void printConfusion(const Identification& found) {
 
 using Basis = std::optional<SessionBasis>;
 
-/// What the answers rest on: as the table says, or the option, or what the BIDS export states beside its table.
-/// Nothing where none of them does. Errors: InvalidArgument for another word, for two that differ, and for a table of
-/// several kinds, since a figure is of one.
+/// Returns the basis of the answers, as stated by the table, the option, or the file that the BIDS export puts next to
+/// its table; nothing if none states a basis. Errors: InvalidArgument for an unknown word, for two that differ, and for
+/// a table of several kinds, because a result is about one kind.
 Result<Basis> basisOf(const std::string& file, std::string stated, std::span<const ParticipantTrials> all) {
     const std::filesystem::path sidecar = std::filesystem::path(file).replace_extension(".json");
     std::error_code error;
@@ -135,7 +135,7 @@ Result<Basis> basisOf(const std::string& file, std::string stated, std::span<con
     return basis;
 }
 
-/// The people whom such figures say something about.
+/// Returns the word for the people in such results.
 std::string_view whoOf(const Basis& basis) { return basis ? peopleOf(*basis) : "participants"; }
 
 std::string basisText(const Basis& basis) {
@@ -169,7 +169,7 @@ void printFigures(const Identification& found, const std::string& name, const Ba
 }
 
 /// Each person's trials name the labels that were offered as answers. Nothing is judged, and several people are not
-/// pooled (pilot.md section 7). Of several people, one whose trials cannot be analysed is named and left out.
+/// pooled (pilot.md section 7). If there are several, a person whose trials cannot be analysed is named and left out.
 int identification(const std::string& file, const std::string& stated, bool asJson) {
     const auto read = readIdentificationTrials(file);
     if (!read) return couldNotRun(read.error());

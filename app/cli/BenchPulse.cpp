@@ -18,7 +18,7 @@ GateSetup setupFor(const PulseOrder& order, const SourceTraits& source) {
     setup.limits = order.limits;
     setup.ceilings = order.ceilings;
     setup.electrodeArea = order.electrodeArea;
-    setup.check = order.pulse;  // the same shape, so that |Z| means the same; the amplitude fits the source
+    setup.check = order.pulse;  // the same shape as the pulse, so that |Z| is comparable; the amplitude fits the source
     return setup;
 }
 
@@ -52,7 +52,7 @@ Result<std::unique_ptr<BenchPulse>> BenchPulse::create(PulseOrder order, science
     return made;
 }
 
-/// The device is asked whether the cause is gone; what it cannot tell, the check pulse finds.
+/// Asks the device whether the cause is gone; the check pulse finds causes that the device cannot see.
 Result<void> BenchPulse::leaveFault() {
     if (interlock_.state() != InterlockState::Faulted) return {};
     if (!order_.resetFault) {
@@ -67,7 +67,7 @@ Result<void> BenchPulse::leaveFault() {
     if (status->delivering) return fail(ErrorCode::NotArmed, "not reset: the stimulator still delivers");
     for (int cause = 0; cause < kFaultCauseCount; ++cause) interlock_.causeGone(static_cast<FaultCause>(cause));
     if (auto reset = interlock_.reset(); !reset) return reset;
-    // A run whose device was lost leaves it disconnected.
+    // After a run that lost its device, the interlock is disconnected.
     return interlock_.state() == InterlockState::Disconnected ? interlock_.connect() : Result<void>{};
 }
 
@@ -75,7 +75,7 @@ BenchPulse::~BenchPulse() { stop(); }
 
 void BenchPulse::stop() noexcept {
     stopped_ = true;
-    interlock_.disarm("stopped");  // disarms before the approvals become void: see send()
+    interlock_.disarm("stopped");  // disarms before the approvals become void; see send()
     gate_.latchStop();
     session_.forceOff();
 }
@@ -88,7 +88,7 @@ TrainRequest BenchPulse::requestNow() const noexcept {
 }
 
 Result<void> BenchPulse::request() {
-    // A gate of its own: an approval that is never delivered would stand in the meter of the other.
+    // A separate gate: an approval that is never delivered would otherwise stay in the exposure of the real gate.
     SafetyGate preview(clock_);
     if (auto configured = preview.configure(setup_); !configured) return configured;
     if (const auto check = preview.approveCheck(clock_.now()); !check) return failure(check);
@@ -100,7 +100,7 @@ Result<void> BenchPulse::request() {
 }
 
 Result<PulseOutcome> BenchPulse::deliver() {
-    // On a unit with an unknown past nothing is approved before this moment.
+    // If the unit's past is unknown, nothing is approved before quietUntil().
     while (!stopped_ && record_ && clock_.now() < record_->quietUntil())
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
     if (stopped_) return fail(ErrorCode::Stopped, "stopped: nothing was delivered");
@@ -140,13 +140,13 @@ Result<void> BenchPulse::arm(const PulseFinding& check) {
 
 Result<PulseFinding> BenchPulse::send(Result<ApprovedTrain> approved, bool isCheck, Milliamps current) {
     if (!approved) return failure(approved);
-    // A stop disarms before it voids approvals: one made after the voiding finds the interlock disarmed here.
+    // stop() disarms before it voids approvals, so after an approval was voided the interlock is disarmed here.
     if (!(isCheck ? interlock_.mayCheck() : interlock_.mayDeliver())) {
         return fail(ErrorCode::Stopped, "stopped. Output is off.");
     }
     session_.post(std::move(*approved), clock_.now(), isCheck);
     const TrainReport reported = report();
-    // Every return runs the destructor, which switches off; the session has done so where the device failed.
+    // Every return runs the destructor, which switches off; if the device failed, the session has switched off already.
     if (stopped_) return fail(ErrorCode::Stopped, "stopped. Output is off.");
     if (reported.outcome == TrainOutcome::Voided) {
         return fail(ErrorCode::Timeout,
@@ -169,10 +169,10 @@ Result<PulseFinding> BenchPulse::send(Result<ApprovedTrain> approved, bool isChe
     return PulseFinding{current, reported.electrode, reading.impedance, reading.samples};
 }
 
-/// Serves the session until it has an answer: it bounds every wait of its own.
+/// Runs the session until it has an answer; the session limits every wait.
 TrainReport BenchPulse::report() {
     constexpr Instant kBeatEvery = std::chrono::milliseconds(5);
-    heartbeat_.revive(clock_.elapsed());  // nothing else beats between two pulses, so that approvals expire
+    heartbeat_.revive(clock_.elapsed());  // nothing beats between two pulses, so approvals expire
     for (;;) {
         const Instant now = clock_.now();
         if (!heartbeat_.beat(clock_.elapsed())) {

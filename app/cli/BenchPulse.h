@@ -1,9 +1,9 @@
-// BenchPulse.h - one pulse into a declared bench load, by the rules of every output: judged by the gate, permitted by
-// the interlock in two steps, after an impedance check pulse, and read back. A load that the check finds open, shorted
-// or other than declared gets no pulse (H3).
+// BenchPulse.h - one pulse into a declared bench load, under the rules for every output: judged by the gate, permitted
+// by the interlock in two steps, preceded by an impedance check pulse, and read back. If the check finds the load open,
+// shorted or not as declared, no pulse follows (H3).
 //
-// Thread-safety: stop() any thread; everything else one caller, which deliver() keeps for less than a second, or for
-// eight more where the unit must rest (UnitRecord.h).
+// Thread-safety: stop() any thread; everything else has one caller. deliver() blocks for less than a second, or for up
+// to eight more if the unit must rest (UnitRecord.h).
 #pragma once
 
 #include <atomic>
@@ -20,52 +20,52 @@ namespace tacto::cli {
 
 struct PulseOrder {
     PulseTrain pulse;  ///< one biphasic pulse, in mA
-    Load load;         ///< declared; ± 20 % is accepted
+    Load load;         ///< as declared; ± 20 % is accepted
     std::vector<LimitSet> limits;
-    Ceilings ceilings;                               ///< the profile's own ceilings
-    std::optional<SquareCentimetres> electrodeArea;  ///< without it density rows are not evaluated
+    Ceilings ceilings;                               ///< the ceilings of the profile
+    std::optional<SquareCentimetres> electrodeArea;  ///< without it, density limits are not evaluated
     bool resetFault =
-        false;  ///< whether the state that an earlier run left may stand, if its cause is gone; else it ends this run
+        false;  ///< true: a fault left by an earlier run is reset if its cause is gone; false: it ends this run
 };
 
-/// The findings of one pulse.
+/// The measurements of one pulse.
 struct PulseFinding {
     Milliamps current{0};
     ElectrodeState electrode = ElectrodeState::NotMeasured;
     std::optional<Ohms> impedance;                     ///< |Z| at the end of the leading phase
-    std::optional<sciencemode::SampledPulse> samples;  ///< magnitudes
+    std::optional<sciencemode::SampledPulse> samples;  ///< magnitudes, without sign
 };
 
 struct PulseOutcome {
     PulseFinding check;
-    std::optional<PulseFinding> pulse;  ///< nothing: it was not sent
-    std::string verdict;                ///< "pass", "fail", or "indeterminate" where |Z| was not measured
-    std::vector<std::string> reasons;   ///< sentences, unless it passed
+    std::optional<PulseFinding> pulse;  ///< nothing: the pulse was not sent
+    std::string verdict;                ///< "pass", "fail", or "indeterminate" if |Z| was not measured
+    std::vector<std::string> reasons;   ///< sentences; empty if it passed
     [[nodiscard]] const PulseFinding& last() const noexcept { return pulse ? *pulse : check; }
 };
 
 class BenchPulse {
 public:
-    /// `device` and `clock` outlive it. Errors: as SafetyGate::configure(); NotArmed for a unit that was left in a
-    /// fault which is not reset.
+    /// `device` and `clock` must outlive this. Errors: as SafetyGate::configure(); NotArmed for a unit left in a fault
+    /// that is not reset.
     [[nodiscard]] static Result<std::unique_ptr<BenchPulse>> create(PulseOrder order,
                                                                     sciencemode::ScienceModeStimulator& device,
                                                                     const Clock& clock);
-    ~BenchPulse();  ///< output off
+    ~BenchPulse();  ///< switches the output off
     BenchPulse(const BenchPulse&) = delete;
     BenchPulse& operator=(const BenchPulse&) = delete;
 
-    /// Step one of two: whether the gate would let check and pulse pass now. Delivers nothing. Errors: as
+    /// Step one of two: checks whether the gate would now allow check and pulse. Delivers nothing. Errors: as
     /// SafetyGate::approve().
     [[nodiscard]] Result<void> request();
-    /// Step two, within 30 s and after the operator's deliberate word. Errors: NotArmed when it comes late; Stopped;
+    /// Step two, within 30 s and after the operator's confirmation. Errors: NotArmed if too late; Stopped;
     /// LimitExceeded; Device or Timeout, with the output switched off.
     [[nodiscard]] Result<PulseOutcome> deliver();
-    /// Output off, and nothing more is delivered. Never fails.
+    /// Switches the output off; nothing is delivered afterwards. Never fails.
     void stop() noexcept;
     [[nodiscard]] bool stopped() const noexcept { return stopped_; }
 
-    /// |Z| of the declared load for such a pulse, and the ends of what is accepted.
+    /// |Z| of the declared load for this pulse, and the limits of the accepted range.
     struct Expected {
         Ohms low{0}, nominal{0}, high{0};
     };
@@ -85,7 +85,7 @@ private:
     const GateSetup setup_;
     sciencemode::ScienceModeStimulator& device_;
     const Clock& clock_;
-    std::unique_ptr<UnitRecord> record_;  // Outlives those that write into it; null: simulated
+    std::unique_ptr<UnitRecord> record_;  // first: its writers end before it; null: simulated
     SafetyGate gate_;
     Interlock interlock_;
     Heartbeat heartbeat_;

@@ -13,10 +13,10 @@ namespace tacto::cli {
 
 namespace {
 
-/// "CH1=mV": what stands before and behind the '='.
+/// Splits "CH1=mV" at the last '='.
 Result<std::pair<std::string, std::string>> pairOf(const QString& text, const char* option, const char* example) {
     const auto both = text.toStdString();
-    // The name of a channel may hold one, a unit or a number may not.
+    // A channel's name may contain '='; a unit or a number cannot.
     const auto equals = both.rfind('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == both.size()) {
         return fail(ErrorCode::InvalidArgument, "--{} is \"{}\"; CHANNEL={} is expected", option, both, example);
@@ -24,14 +24,14 @@ Result<std::pair<std::string, std::string>> pairOf(const QString& text, const ch
     return std::pair(std::string(trimmed(both.substr(0, equals))), std::string(trimmed(both.substr(equals + 1))));
 }
 
-/// Adds what an option says about a channel. Errors: InvalidArgument for a channel that it was given for before.
+/// Adds what an option says about a channel. Errors: InvalidArgument if the option was given twice for a channel.
 template <class Map, class Entry>
 Result<void> addOnce(Map& all, const Entry& entry, const char* option) {
     if (all.emplace(entry.first, entry.second).second) return {};
     return fail(ErrorCode::InvalidArgument, "{}", givenTwice("--{} of {}", option, entry.first));
 }
 
-/// "[#####.....] 52 %" on a terminal, from the second second on; gone when it is.
+/// Shows "[#####.....] 52 %" on a terminal, after the first second; its destructor removes it.
 class ReadingBar {
 public:
     ReadingBar() : shown_(isatty(STDERR_FILENO) != 0) {}

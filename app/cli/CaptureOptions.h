@@ -1,4 +1,4 @@
-// CaptureOptions.h - what the command line says about a capture file better than the file does, and reading it.
+// CaptureOptions.h - options that state more about a capture file than the file itself does, and reading the file.
 #pragma once
 
 #include <QCommandLineParser>
@@ -16,13 +16,13 @@ void declareCaptureOptions(QCommandLineParser& parser);
 /// Errors: InvalidArgument naming the option, its text and what was expected.
 [[nodiscard]] Result<ReadOptions> captureOptions(const QCommandLineParser& parser);
 
-/// Reads with every format that the programs know. On a terminal a bar on stderr shows what takes over a second.
-/// Errors: of CaptureFormats::read().
+/// Reads a file in any known format. On a terminal, a bar on stderr shows the progress after one second.
+/// Errors: those of CaptureFormats::read().
 [[nodiscard]] Result<CaptureReading> readCaptureFile(const std::string& path, const ReadOptions& options);
 
-// The profile that a command is run with.
+// The profile that a command uses.
 
-/// The profile of --profile, else the shipped one. Errors: as loadProfile().
+/// Returns the profile of --profile, else the shipped profile. Errors: as loadProfile().
 [[nodiscard]] Result<Profile> profileOption(const QCommandLineParser& parser);
 
 }  // namespace tacto::cli

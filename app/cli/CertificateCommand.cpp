@@ -1,4 +1,4 @@
-// certificate: the calibration certificates of the lab's oscilloscopes.
+// certificate: the calibration certificates of the laboratory's oscilloscopes.
 #include <nlohmann/json.hpp>
 
 #include "app/cli/Command.h"
@@ -103,7 +103,7 @@ int withdraw(CertificateStore& store, const QCommandLineParser& parser, const st
     return kDone;
 }
 
-/// Options that would not be read are refused: they would look as if they had been.
+/// Refuses options that are not used, because a user would think that they had an effect.
 int onlyOptions(const QCommandLineParser& parser, const QString& word, const QStringList& known) {
     for (const auto& option : parser.optionNames()) {
         if (!known.contains(option))

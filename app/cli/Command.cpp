@@ -97,8 +97,8 @@ int runCommand(const Command& command, const QStringList& words) {
         }
         return code;
     } catch (const std::exception& surprise) {
-        // From a library: this program's own code does not throw. Devices were switched off when their bench was
-        // unwound.
+        // Thrown by a library: this program's own code does not throw. Devices were switched off when their bench was
+        // destroyed.
         say(stderr, "tactoscope-cli: {}: unexpected error: {}\n", command.name, surprise.what());
         return kCouldNotRun;
     }
@@ -125,7 +125,7 @@ Result<double> numberOption(const QCommandLineParser& parser, const char* name) 
 
 void printJson(const nlohmann::json& value) {
     auto text = dumpJson(value, 2);
-    // What a terminal would act on is written with JSON's own escapes, so that the value stays the same.
+    // Characters that a terminal would act on are written as JSON escapes, which keeps the value the same.
     if (printable(text, Newlines::Keep) != text) text = dumpJson(value, 2, true);
     say("{}\n", lines(text));
     std::fflush(stdout);

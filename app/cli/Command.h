@@ -1,5 +1,5 @@
-// Command.h - what every command of tactoscope-cli is made of: options read once, one JSON value on stdout,
-// everything else on stderr, and the exit codes of the contract.
+// Command.h - the parts of every command of tactoscope-cli: options that are read once, one JSON value on stdout,
+// everything else on stderr, and fixed exit codes.
 #pragma once
 
 #include <QCommandLineParser>
@@ -14,57 +14,57 @@
 
 namespace tacto::cli {
 
-/// Exit codes: part of the contract.
+/// Exit codes: scripts may rely on them.
 enum Exit : int {
     kDone = 0,           ///< done and passed
-    kVerdictFailed = 1,  ///< a verdict failed
+    kVerdictFailed = 1,  ///< a verdict is fail
     kUsage = 2,          ///< the command line is wrong
-    kCouldNotRun = 3,    ///< a device or file is not usable
-    kStopped = 4,        ///< stopped by safety or by the operator
+    kCouldNotRun = 3,    ///< a device or file cannot be used
+    kStopped = 4,        ///< stopped by safety or by a person
     kIndeterminate = 5,  ///< neither pass nor fail
 };
 
-/// The exit code that an error asks for.
+/// Returns the exit code for an error.
 [[nodiscard]] int exitFor(const Error& error) noexcept;
 
 /// Prints the error's sentence on stderr and returns its exit code.
 [[nodiscard]] int failWith(const Error& error);
-/// Does what refused() does, where a file or device is at fault: exit code 3, even where the sentence is about a value.
+/// Like failWith(), but for an error in a file or device: always exit code 3, even if the sentence is about a value.
 [[nodiscard]] int couldNotRun(const Error& error);
-/// Refuses a wrong command line: exit code 2.
+/// Reports a wrong command line: exit code 2.
 [[nodiscard]] int usage(const std::string& sentence);
 
-/// One command: its words, its options, what it does.
+/// A command: its words, its options, and its function.
 struct Command {
     const char* name;
     const char* arguments;  ///< as shown in the usage line: "RECORDING [--profile F]"
     const char* summary;
-    /// Declares options, then gets the parsed command line.
+    /// Declares the options; run() then gets the parsed command line.
     void (*declare)(QCommandLineParser& parser);
-    int (*run)(const QCommandLineParser& parser);  ///< null: another program does it (ReportProgram.h)
+    int (*run)(const QCommandLineParser& parser);  ///< null: another program runs the command (ReportProgram.h)
 };
 
-/// Qt's own warnings are for developers: from here on its fatal errors alone are printed.
+/// Suppresses Qt's warnings, which are for developers; only Qt's fatal errors are printed from here on.
 void printFatalOnly();
-/// "PROGRAM NAME ARGUMENTS"; a line for each of {these | and these} arguments.
+/// Returns "PROGRAM NAME ARGUMENTS"; one line for each alternative in {these | and these}.
 [[nodiscard]] std::string howToCall(const Command& command, std::string_view program);
-/// Parses `words`, the program's name first, and runs the command. A QCoreApplication is there.
+/// Parses `words`, which begin with the program's name, and runs the command. Needs a QCoreApplication.
 [[nodiscard]] int runCommand(const Command& command, const QStringList& words);
 
-/// The one positional argument. Errors: InvalidArgument naming what is missing or too much.
+/// Returns the only positional argument. Errors: InvalidArgument naming a missing or surplus argument.
 [[nodiscard]] Result<std::string> onlyArgument(const QCommandLineParser& parser, const char* what);
-/// A number option. Errors: InvalidArgument naming option and text; missing without a default.
+/// Returns a number option. Errors: InvalidArgument naming option and text; missing without a default.
 [[nodiscard]] Result<double> numberOption(const QCommandLineParser& parser, const char* name);
 
 /// Prints one JSON value on stdout.
 void printJson(const nlohmann::json& value);
-/// Writes a whole file or none. Errors: Io.
+/// Writes a complete file or none. Errors: Io.
 [[nodiscard]] Result<void> writeFile(const std::string& path, const std::string& content);
 
-// Defined one per file, in app/cli/<Name>Command.cpp.
+// Each is defined in app/cli/<Name>Command.cpp.
 extern const Command kDevices, kProtocols, kRun, kRoughness, kEncode, kMeasure, kConvert, kAnalyze, kVerify, kHid,
     kScienceMode, kSensor, kCertificate, kStudy, kExport;
-// The words of the program tactoscope-report, which stand in the help of tactoscope-cli.
+// The usage text of the program tactoscope-report, for the help of tactoscope-cli.
 extern const Command kReport;
 inline constexpr const char* kReportArguments =
     "{SESSION|STUDY} --out report.pdf [--participant CODE | --for READER] [--noted] [--passphrase-file F]";

@@ -26,7 +26,7 @@ int runConvert(const QCommandLineParser& parser) {
     if (!options) return usage("convert: " + options.error().message);
     const auto formats = captureFormats();
     if (const auto writable = formats->writerOf(out); !writable) return usage("convert: " + writable.error().message);
-    // The file may be the same under another name: through a link, or with dots in the path.
+    // The output may be the input under another name: through a link, or with dots in the path.
     std::error_code none;
     if (std::filesystem::equivalent(*path, out, none)) {
         return usage(fmt::format("convert: --out is {}, the file that is read; another one is expected", out));

@@ -42,7 +42,7 @@ nlohmann::json toJson(const std::vector<DeviceIdentity>& found) {
     return all;
 }
 
-/// A device whose permission changed counts as another one: it goes and comes.
+/// A device with a changed permission is shown as removed and added.
 void watch(const Registry& registry, std::vector<DeviceIdentity> known, const SignalStop& interrupts) {
     const auto addMissing = [](TextTable& table, const auto& from, const auto& in, const char* mark) {
         for (const auto& device : from) {

@@ -1,4 +1,4 @@
-// hid show-bytes: what a massager would be sent, without one.
+// hid show-bytes: prints the bytes that a massager would receive; needs no massager.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -17,7 +17,7 @@ void declareHid(QCommandLineParser& parser) {
     parser.addOption({"json", "Prints one JSON value."});
 }
 
-/// A shipped template's name, or a file. Errors: NotFound naming those that are shipped; ParseError.
+/// Returns the template for a shipped name or a file. Errors: NotFound naming the shipped templates; ParseError.
 Result<hid::MassagerTemplate> templateOf(const std::string& name) {
     if (name.ends_with(".json")) return hid::loadMassagerTemplate(name);
     const auto resources = resourcesFolder();

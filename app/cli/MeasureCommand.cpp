@@ -70,7 +70,7 @@ Result<MeasureOptions> optionsFrom(const QCommandLineParser& parser) {
     return options;
 }
 
-/// The capture itself says it, else the folder it lies in; nothing: neither does, and the origin is not known.
+/// Returns whether the capture is simulated, as stated by the capture or its folder. Nothing: the origin is not known.
 std::optional<bool> simulatedAs(const std::filesystem::path& path, const Capture& capture) {
     return capture.simulated ? std::optional(true) : statedSimulated(path);
 }

@@ -20,7 +20,7 @@ std::size_t countOf(const ChannelMeasurement& m, Flag flag) {
 
 TextTable statisticsTable() { return TextTable({"", ">", ""}); }
 
-/// Writes nothing where nothing was measured.
+/// Adds nothing if nothing was measured.
 void addStatistic(TextTable& table, const char* name, const Statistics& s, std::string_view unit) {
     if (s.n == 0) return;
     table.add({name, scaledText(s.mean, unit, 4),
@@ -92,7 +92,7 @@ std::optional<LoadMeasurement> loadIn(const Capture& capture, const MeasureOptio
     const auto channels = loadChannels(capture);
     if (!channels) return std::nullopt;
     auto load = measureLoad(capture, channels->first, channels->second, options);
-    if (!load) return std::nullopt;  // the request is for just what loadChannels() found
+    if (!load) return std::nullopt;  // the channels are those that loadChannels() found
     return *std::move(load);
 }
 

@@ -15,7 +15,7 @@ void declareProtocols(QCommandLineParser& parser) {
     parser.addOption({"reference", "Prints what scripts may call, as Markdown."});
 }
 
-/// A member as text; empty where it is absent or null.
+/// Returns a member as text; empty if it is absent or null.
 std::string textOf(const nlohmann::json& object, const char* key) {
     const auto found = object.find(key);
     if (found == object.end() || found->is_null()) return {};

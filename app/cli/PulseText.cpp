@@ -35,7 +35,7 @@ constexpr Word<ElectrodeState> kElectrodeStates[] = {{"not measured", ElectrodeS
                                                      {"short", ElectrodeState::Short}};
 std::string_view nameOf(ElectrodeState state) noexcept { return wordFor(kElectrodeStates, state); }
 
-/// The digits that the device sent, in hundredths: 4.99, not the nearest float.
+/// Returns the values as the device sent them, in hundredths: 4.99, not the nearest float.
 std::vector<double> digitsOf(const SampledPulse& samples) {
     std::vector<double> values;
     for (const float value : samples.magnitudes) values.push_back(std::round(value / sciencemode::kSampleUnit) / 100);
@@ -56,7 +56,7 @@ json toJson(const PulseFinding& finding) {
             {"read_back", std::move(samples)}};
 }
 
-/// The width of the terminal, at most 80 columns.
+/// Returns the width of the terminal, at most 80 columns.
 int plotColumns() {
     winsize size{};
     if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kMaxColumns;

@@ -1,6 +1,6 @@
-// PulseText.h - the outcome of a pulse into a bench load: for people, for programs, and as a capture.
+// PulseText.h - the result of a pulse into a bench load: as text, as JSON and as a capture.
 //
-// Thread-safety: pure functions, but print(), which writes to stdout.
+// Thread-safety: pure functions, except print(), which writes to stdout.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -11,16 +11,16 @@
 
 namespace tacto::cli {
 
-/// "5 mA, 200 us a phase, 100 us between"
+/// Returns "5 mA, 200 us a phase, 100 us between".
 [[nodiscard]] std::string describe(const PulseTrain& train);
 
-/// One channel, "voltage_magnitude" or "current_magnitude", from the onset on; without a trigger.
+/// Returns one channel, "voltage_magnitude" or "current_magnitude", that begins at the onset; without a trigger.
 [[nodiscard]] Capture captureOf(const sciencemode::SampledPulse& samples, bool simulated);
 
-/// `file` is where the samples were saved; empty: nowhere.
+/// `file`: where the samples were saved; empty: not saved.
 [[nodiscard]] nlohmann::json toJson(const BenchPulse& order, const PulseOutcome& outcome, const DeviceIdentity& device,
                                     const std::string& file);
-/// The samples drawn, then what they say and the verdict.
+/// Prints a plot of the samples, then the measured values and the verdict.
 void print(const BenchPulse& order, const PulseOutcome& outcome, const DeviceIdentity& device, const std::string& file);
 
 }  // namespace tacto::cli

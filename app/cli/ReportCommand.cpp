@@ -26,13 +26,13 @@ Result<ReportContent> contentFor(const QCommandLineParser& parser, const StudyRe
     return studyReport(record);
 }
 
-/// What the ledger calls a report that says who; nothing for the committee's, which names no participant.
+/// Returns the ledger's name for a report that names participants; null for the committee's report, which names none.
 const char* namedReport(const QCommandLineParser& parser) {
     if (parser.isSet("participant")) return "participant report";
     return parser.value("for") == "committee" ? nullptr : "study report";
 }
 
-/// Results are sealed: a reader's passphrase is asked for as a writer's is.
+/// Results are sealed, so a reader must give the passphrase like a writer.
 Result<Study> openSealed(const QCommandLineParser& parser, const std::string& folder, bool notes) {
     if (notes) return openStudy(parser, folder, Study::Access::Change);
     auto study = openStudy(parser, folder, Study::Access::Read);
@@ -97,7 +97,7 @@ int runReport(const QCommandLineParser& parser) {
     const auto made = writeSessionReport(QString::fromStdString(*session), parser.value("out"));
     if (!made) {
         auto error = made.error();
-        // The database's own words name no file.
+        // Error messages of the database do not name the file.
         if (error.message.find(*session) == std::string::npos &&
             error.message.find(parser.value("out").toStdString()) == std::string::npos) {
             error.message = fmt::format("{}: {}", *session, error.message);

@@ -1,4 +1,4 @@
-// tactoscope-report SESSION --out FILE: `tactoscope-cli report`, in a program of its own (ReportProgram.h).
+// tactoscope-report SESSION --out FILE: runs `tactoscope-cli report` as a separate program (ReportProgram.h).
 #include <QApplication>
 
 #include "app/cli/Command.h"
@@ -6,7 +6,7 @@
 
 int main(int argc, char** argv) {
     tacto::holdStandardStreams();
-    // Drawing needs fonts and a QApplication but no display, and no word about a missing session of a desktop.
+    // Drawing needs fonts and a QApplication, but no display and no warning about a missing desktop session.
     if (qEnvironmentVariableIsEmpty("QT_QPA_PLATFORM")) qputenv("QT_QPA_PLATFORM", "offscreen");
     tacto::cli::printFatalOnly();
     const QApplication application(argc, argv);

@@ -20,7 +20,7 @@ Error missing(const std::string& why) {
     return {ErrorCode::NotFound, fmt::format("{} does not start ({}); install Tactoscope again", programPath(), why)};
 }
 
-/// What the program says, without its name at the beginning of a line.
+/// Returns the program's message without its name at the beginning of a line.
 std::string sentenceIn(const QByteArray& said) {
     constexpr std::string_view kName = "tactoscope-cli: ";
     auto text = said.trimmed().toStdString();
@@ -44,7 +44,7 @@ Result<void> makeReport(const std::filesystem::path& session, const std::filesys
     program.setStandardInputFile(QProcess::nullDevice());
     program.setStandardOutputFile(QProcess::nullDevice());
     program.setChildProcessModifier([] {
-        ::setpgid(0, 0);  // Ctrl+C is for this program, which says what is left undone
+        ::setpgid(0, 0);  // Ctrl+C goes only to the calling program, which then says what was not done
         ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     });
     program.start();

@@ -1,5 +1,5 @@
-// ReportProgram.h - reports are drawn by a program of their own, tactoscope-report: it loads the libraries of windows
-// and fonts, and the commands that draw nothing start in half the time without them.
+// ReportProgram.h - a separate program, tactoscope-report, draws the reports: it loads the libraries for windows and
+// fonts, and without them all other commands start in half the time.
 #pragma once
 
 #include <filesystem>
@@ -8,11 +8,11 @@
 
 namespace tacto::cli {
 
-/// `tactoscope-cli report ...` becomes tactoscope-report. Returns only where that cannot be started: the exit code.
+/// Replaces this program by tactoscope-report. Returns only if that cannot be started, with the exit code.
 [[nodiscard]] int becomeReportProgram(char** argv);
 
-/// Has the report of a session written to `out`, and says on stderr if the session was altered. Ends with this program.
-/// Errors: its sentence, as Io; NotFound where tactoscope-report cannot be started.
+/// Makes the report of a session as `out`, and says on stderr if the session was altered. Stops if this program ends.
+/// Errors: the report program's sentence, as Io; NotFound if tactoscope-report cannot be started.
 [[nodiscard]] Result<void> makeReport(const std::filesystem::path& session, const std::filesystem::path& out);
 
 }  // namespace tacto::cli

@@ -33,7 +33,7 @@ void addRow(TextTable& table, const char* name, const Statistics& s) {
     table.add(std::move(cells));
 }
 
-/// Whether `out` is one of the files that the recording is made of.
+/// True if `out` is one of the recording's own files.
 bool isOf(const Recording& recording, const std::filesystem::path& out) {
     std::error_code absent;
     if (std::filesystem::equivalent(recording.path, out, absent)) return true;
@@ -42,14 +42,14 @@ bool isOf(const Recording& recording, const std::filesystem::path& out) {
     });
 }
 
-/// U of R of the recording taken as one slide; NaN: not known.
+/// Returns U of R for the whole recording as one slide; NaN: not known.
 double expandedR(const RoughnessSettings& settings, const RoughnessSummary& summary) {
     const bool calibrated =
         std::ranges::find(summary.flags, nameOf(RoughnessFlag::UncalibratedR)) == summary.flags.end();
     return calibrated && settings.uncertainty ? settings.uncertainty->expanded(summary.slideR) : std::nan("");
 }
 
-/// A recording.json that fits the table, alone on stdout; beside it what is left to fill in.
+/// Prints only a recording.json for the table on stdout; says on stderr what must still be filled in.
 int describeTable(const std::filesystem::path& table) {
     const auto draft = draftRecording(table);
     if (!draft) return couldNotRun(draft.error());

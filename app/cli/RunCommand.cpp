@@ -60,7 +60,7 @@ void declareRun(QCommandLineParser& parser) {
     parser.addOption({"json", "Prints one JSON value."});
 }
 
-/// The endings of the reports that are wanted. Errors: InvalidArgument for another kind.
+/// Returns the file endings of the requested reports. Errors: InvalidArgument for an unknown kind.
 Result<std::vector<const char*>> reportsFrom(const QCommandLineParser& parser) {
     if (!parser.isSet("report")) return std::vector<const char*>{".html", ".pdf"};
     const auto kind = parser.value("report").toStdString();
@@ -81,7 +81,7 @@ Result<std::map<std::string, std::string>> settingsFrom(const QCommandLineParser
         const auto key = text.substr(0, equals);
         const auto [at, isNew] = settings.emplace(key, text.substr(equals + 1));
         if (isNew) continue;
-        // A run that arms several loads is confirmed several times: see OperatorQuestion::confirms.
+        // A run that arms several loads needs several confirmations: see OperatorQuestion::confirms.
         if (key != kConfirmArming) return fail(ErrorCode::InvalidArgument, "{}", givenTwice("--set {}", key));
         at->second += '\n' + text.substr(equals + 1);
     }
@@ -97,7 +97,7 @@ Result<std::uint64_t> seedFrom(const QCommandLineParser& parser) {
                 parser.value("seed").toStdString());
 }
 
-/// The value is an exit code when something is wrong.
+/// In case of an error, returns the exit code.
 tl::expected<RunOrder, int> orderFrom(const QCommandLineParser& parser, const SignalStop& interrupts) {
     const auto name = onlyArgument(parser, "PROTOCOL");
     if (!name) return tl::unexpected(usage("run: " + name.error().message));
@@ -149,14 +149,14 @@ tl::expected<RunOrder, int> orderFrom(const QCommandLineParser& parser, const Si
                 usage(fmt::format("run: --certificate-details is given for {}; a stimulator calibration is expected",
                                   order.script.name)));
         }
-        // This is checked before devices are opened.
+        // Checked before devices are opened.
         if (const auto read = certificateDetails(order.certificateDetails, utcToday()); !read)
             return tl::unexpected(couldNotRun(read.error()));
     }
     return order;
 }
 
-/// One line on a terminal, rewritten; nothing elsewhere.
+/// Prints one line on a terminal and rewrites it; prints nothing elsewhere.
 class ProgressLine {
 public:
     void show(const ScriptProgress& progress) {
@@ -185,7 +185,7 @@ private:
     bool drawn_ = false;
 };
 
-/// A run of a protocol, with or without a study around it.
+/// A run of a protocol, inside or outside a study.
 struct Running {
     std::unique_ptr<ProtocolRun> alone;
     std::unique_ptr<PilotRun> session;
@@ -227,7 +227,7 @@ Result<Running> prepareRun(RunOrder order, const QCommandLineParser& parser, Reg
     return running;
 }
 
-constexpr std::size_t kMaxLogLine = 1000;  // bytes: with what printing adds it fits what a pipe takes at once
+constexpr std::size_t kMaxLogLine = 1000;  // bytes; the printed line fits into a pipe at once
 
 RunResult runScript(const Running& running, const std::map<std::string, std::string>& answers, SignalStop& interrupts) {
     auto& run = running.run();
@@ -248,7 +248,7 @@ RunResult runScript(const Running& running, const std::map<std::string, std::str
     interrupts.onStop({});
     line.clear();
     auto result = running.finish();
-    // A session answers its operator's questions itself.
+    // A study session answers the operator's questions by itself.
     if (result.outcome.error || running.session) return result;
     for (const auto& name : desk.unasked()) say(stderr, "--set {}: the protocol did not ask for it.\n", name);
     return result;
@@ -259,7 +259,7 @@ int exitFor(const RunResult& result) {
     return result.outcome.error ? static_cast<int>(kCouldNotRun) : exitForVerdict(result.verdict());
 }
 
-/// A script may return anything under any name; its verdict stands all the same.
+/// A script may return anything under any name; the verdict is valid in every case.
 void printAnyResults(const json& results) {
     if (!results.is_object()) return;
     const auto kind = results.contains("kind") && results["kind"].is_string() ? results["kind"].get<std::string>() : "";
@@ -283,7 +283,7 @@ void printSummary(const ScriptOutcome& outcome, const json& value) {
     if (value["report"].is_string()) say("  report   {}\n", value["report"].get<std::string>());
 }
 
-/// Ends at once: a report may take long, and can be made later.
+/// Ends the program at once: a report may take long and can be made later.
 [[noreturn]] void endBeforeReports(const std::string& session) {
     if (takesMore(STDERR_FILENO))
         say(stderr,
@@ -293,7 +293,7 @@ void printSummary(const ScriptOutcome& outcome, const json& value) {
     std::_Exit(kStopped);
 }
 
-/// Writes them beside the session; returns the last one's path, or null when there is none.
+/// Writes the reports next to the session; returns the path of the last report, or null if there is none.
 json writeReports(const RunFiles& files, const std::vector<const char*>& endings) {
     json report = nullptr;
     for (const auto* ending : endings) {
@@ -308,7 +308,7 @@ json writeReports(const RunFiles& files, const std::vector<const char*>& endings
 
 int runRun(const QCommandLineParser& parser) {
     const auto stops = std::make_shared<StopCounter>();
-    const auto asked = stops->mark();  // the command itself is the order: every signal comes after it
+    const auto asked = stops->mark();  // the command itself requests the run, so every signal comes later
     SignalStop interrupts;
     interrupts.onStop([stops] { stops->raise(); });
     if (interrupts.signalled()) stops->raise();
@@ -334,7 +334,7 @@ int runRun(const QCommandLineParser& parser) {
     if (outcome.error) say(stderr, "tactoscope-cli: {}\n", lines(outcome.error->message));
     for (const auto& trouble : result.troubles) say(stderr, "tactoscope-cli: {}\n", lines(trouble.message));
 
-    // The output is off and the session is closed: a signal from here on ends the program.
+    // The output is off and the session closed: from here on a signal ends the program.
     interrupts.onStop([session = result.session.string()] { endBeforeReports(session); });
     const int exitCode = exitFor(result);
     const auto verdict = result.verdict();

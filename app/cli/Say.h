@@ -1,10 +1,9 @@
-// Say.h - how the program prints: text that comes from files, scripts and devices is made harmless to a terminal first
-// (hazard H10).
+// Say.h - prints text. Text from files, scripts and devices is first made harmless for a terminal (hazard H10).
 //
-// The format is the program's own and printed as it is; of every text among the arguments, control characters are
-// spelled out (core/base/Printable.h), a newline too. lines() keeps newlines, for texts that have several lines.
+// The format is part of the program and printed unchanged. In text arguments, control characters, also newlines, are
+// replaced by printable text (core/base/Printable.h). lines() keeps newlines, for texts with several lines.
 //
-// Thread-safety: any thread, as the C library's streams.
+// Thread-safety: any thread, like the C library's streams.
 #pragma once
 
 #include <cstdio>
@@ -17,7 +16,7 @@
 
 namespace tacto::cli {
 
-/// A text of several lines. A sentence of an error may be one: a template to fill in.
+/// A text with several lines, such as an error message with a template to fill in.
 struct Lines {
     std::string text;  // printable
 };

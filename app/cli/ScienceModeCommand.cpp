@@ -1,4 +1,4 @@
-// sciencemode: what a technician asks of a ScienceMode stimulator before trusting it with anything.
+// sciencemode: checks of a ScienceMode stimulator that a technician makes before using it.
 #include <array>
 #include <nlohmann/json.hpp>
 
@@ -53,7 +53,7 @@ int identifyIt(const QCommandLineParser& parser) {
 }
 
 struct Words {
-    const char* name;  ///< in JSON
+    const char* name;  ///< key in JSON
     const char* sentence;
 };
 Words wordsFor(Stimulation status) noexcept {
@@ -70,7 +70,7 @@ Words wordsFor(Stimulation status) noexcept {
     return {"unknown", "unknown"};
 }
 
-/// Volts of a fixed level, or nothing.
+/// Returns the volts of a fixed level, or nothing.
 std::optional<int> voltsOf(std::uint8_t level) noexcept {
     const auto first = static_cast<std::uint8_t>(HighVoltage::V30);
     const auto last = static_cast<std::uint8_t>(HighVoltage::V150);

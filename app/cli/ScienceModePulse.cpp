@@ -23,7 +23,7 @@ using sciencemode::ScienceModeStimulator;
 constexpr const char* kWord = "bench load";
 constexpr Seconds kAnswerWithin = Interlock::kConfirmWithin;
 
-/// A number that is more than, or at least, 0.
+/// Returns a number option that is above 0, or at least 0 if `zeroToo`.
 Result<double> amountOption(const QCommandLineParser& parser, const char* name, bool zeroToo) {
     const auto number = numberOption(parser, name);
     if (!number) return number;
@@ -43,7 +43,7 @@ Result<PulseTrain> pulseFrom(const QCommandLineParser& parser) {
     train.amplitude = Milliamps(*current);
     train.phaseWidth = Micros(*width);
     train.interPhaseGap = Micros(*gap);
-    // One pulse has no rate; this one has room for it.
+    // A single pulse has no rate, so this rate only leaves enough time for the pulse.
     train.rate = Hertz(std::min(train.rate.value(), 0.5 / train.pulseDuration().count()));
     return train;
 }
@@ -57,7 +57,7 @@ Result<Load> loadFrom(const QCommandLineParser& parser) {
     return load;
 }
 
-/// The value is an exit code when something is wrong.
+/// In case of an error, returns the exit code.
 tl::expected<PulseOrder, int> pulseOrderFrom(const QCommandLineParser& parser) {
     const auto wrong = [](const Error& error) { return tl::unexpected(usage("sciencemode pulse: " + error.message)); };
     auto train = pulseFrom(parser);
@@ -93,7 +93,7 @@ Result<DeviceSet> openDevice(const DeviceUri& uri, const Clock& clock) {
     return registry.open({&uri, 1}, {Role::Stimulator}, OpenContext{clock});
 }
 
-/// The exit code when the operator does not want it, or is not there.
+/// Returns the exit code if the operator refuses or cannot be asked.
 std::optional<int> confirm(const PulseOrder& order, const Stimulator& device, const SignalStop& interrupts) {
     const auto& who = device.identity();
     const auto prompt = fmt::format(
@@ -173,7 +173,7 @@ int pulse(const QCommandLineParser& parser) {
             "sciencemode pulse: --device asks for measure=current, which reads no impedance back; the pulse "
             "needs measure=voltage");
     }
-    // Every reason that the gate gives is a refusal.
+    // Every error from the gate is a refusal.
     const auto refused = [](const Error& error) {
         say(stderr, "tactoscope-cli: {}\n", lines(error.message));
         return static_cast<int>(kStopped);

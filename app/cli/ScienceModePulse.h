@@ -1,4 +1,4 @@
-// ScienceModePulse.h - `sciencemode pulse`: one pulse into a bench load, with its read-back drawn and saved.
+// ScienceModePulse.h - `sciencemode pulse`: one pulse into a bench load; its read-back is plotted and saved.
 #pragma once
 
 #include <QCommandLineParser>
@@ -14,10 +14,10 @@ inline constexpr std::array<const char*, 7> kPulseOptions{"current",        "wid
 
 void declarePulse(QCommandLineParser& parser);
 
-/// From --device, or sciencemode:. Errors: InvalidArgument for what is not a URI or names another kind of device.
+/// Returns the address in --device, or sciencemode:. Errors: InvalidArgument for no URI or another kind of device.
 [[nodiscard]] Result<DeviceUri> scienceModeUri(const QCommandLineParser& parser);
 
-/// The whole command; the value is its exit code.
+/// Runs the whole command and returns its exit code.
 [[nodiscard]] int pulse(const QCommandLineParser& parser);
 
 }  // namespace tacto::cli

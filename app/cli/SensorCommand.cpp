@@ -1,4 +1,4 @@
-// sensor: what a technician asks of a sensor board: who it is, what it is set to, how its line is.
+// sensor: shows a technician a sensor board's identity, its settings and the quality of its connection.
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -24,8 +24,8 @@ namespace tacto::cli {
 namespace {
 
 struct Listened {
-    double seconds = 0;                ///< how long it listened
-    std::vector<HealthReport> health;  ///< by SensorBoard::streams()
+    double seconds = 0;                ///< how long the command listened
+    std::vector<HealthReport> health;  ///< in the order of SensorBoard::streams()
     SensorBoardReport report;
 };
 
@@ -34,7 +34,7 @@ using SteadyTime = std::chrono::steady_clock::time_point;
 constexpr std::chrono::milliseconds kReadEvery(2);
 constexpr double kShowEvery_s = 0.25;
 
-/// Says on a terminal how much longer it will take.
+/// Shows on a terminal the remaining time.
 class Countdown {
 public:
     explicit Countdown(double whole_s) : whole_s_(whole_s), terminal_(isatty(STDERR_FILENO) != 0) {}

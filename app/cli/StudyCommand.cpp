@@ -1,4 +1,4 @@
-// study: studies with people or virtual participants - made, enrolled in, consented to, shown, left, withdrawn from.
+// study: creates and shows studies with people or virtual participants; records enrolment, consent and withdrawal.
 #include <nlohmann/json.hpp>
 
 #include "app/cli/Command.h"
@@ -111,7 +111,7 @@ int enrol(Study& study, const QCommandLineParser& parser, const QStringList& wor
     return kDone;
 }
 
-/// What is printed after a change of one participant.
+/// Prints the result of a change to one participant.
 int changed(const Result<void>& done, const Study& study, const std::string& code, const QCommandLineParser& parser) {
     if (!done) return failWith(done.error());
     if (!parser.isSet("json")) return kDone;
@@ -153,7 +153,7 @@ int withdraw(Study& study, const QCommandLineParser& parser, const QStringList& 
     return changed(done, study, code, parser);
 }
 
-/// The first of two steps says what is lost and with which word it is confirmed.
+/// Step one of two: says what is lost, and which word confirms.
 int goBack(Study& study, const QCommandLineParser& parser, const QStringList&) {
     const auto loss = study.lossOfGoingBack();
     if (!loss) return failWith(loss.error());
@@ -170,7 +170,7 @@ int goBack(Study& study, const QCommandLineParser& parser, const QStringList&) {
     return kDone;
 }
 
-/// Errors: NotFound for a number that there is no session of.
+/// Errors: NotFound for a number without a session.
 Result<StudySession> sessionOf(const Study& study, const Participant& participant, const QCommandLineParser& parser) {
     std::optional<StudySession> found;
     const auto number = given(parser, "session");
@@ -183,7 +183,7 @@ Result<StudySession> sessionOf(const Study& study, const Participant& participan
                 number.empty() ? "" : " " + number);
 }
 
-/// Prints the plan of a session, its answers, and what began and was not answered.
+/// Prints the plan of a session, its answers, and trials that began but were not answered.
 int trials(Study& study, const QCommandLineParser& parser, const QStringList& words) {
     const auto participant = study.find(words.at(2).toStdString());
     if (!participant) return couldNotRun(participant.error());
@@ -214,8 +214,8 @@ int trials(Study& study, const QCommandLineParser& parser, const QStringList& wo
 
 struct StudyWord {
     const char* name;
-    int least, most;    ///< words, its own included
-    const char* names;  ///< the words that may follow the command's own
+    int least, most;    ///< number of words, including the command's own
+    const char* names;  ///< the words that may follow the command's word
     QStringList options;
     bool changes;
     int (*run)(Study& study, const QCommandLineParser& parser, const QStringList& words);

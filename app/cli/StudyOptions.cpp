@@ -25,7 +25,7 @@ Result<void> takeSets(const QCommandLineParser& parser, StudySettings& settings)
     return {};
 }
 
-/// The settings with what --set changes, and with what this program and --profile are.
+/// Returns the settings as changed by --set, with what this program and --profile state.
 Result<StudySettings> asSetHere(const QCommandLineParser& parser, StudySettings settings) {
     if (!settings.procedure) settings.procedure.emplace();
     if (!settings.painCeiling) settings.painCeiling = kPainCeiling;
@@ -306,7 +306,7 @@ void sayStudy(const Study& study) {
     }
     if (const auto events = study.adverseEventCount(); events > 0) say("  adverse events: {}\n", events);
     say("  ledger head {}\n", study.ledgerHead());
-    // A ledger that is an older one, or has rows that are not this study's, is read all the same: it says so.
+    // A ledger that is outdated, or has rows of another study, can still be read; this says so.
     if (const auto may = study.stillApproved(); !may && !study.isRehearsal())
         say(stderr, "No session can begin today: {}.\n", may.error().message);
     if (!study.hasKey()) say(stderr, "Codes, consents and who took part are sealed; --passphrase-file shows them.\n");

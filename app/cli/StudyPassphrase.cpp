@@ -10,7 +10,7 @@ namespace tacto::cli {
 
 namespace {
 
-/// A line from the terminal without showing it.
+/// Reads a line from the terminal without showing it.
 Result<Passphrase> typedPassphrase() {
     ::termios before{};
     if (::isatty(STDIN_FILENO) == 0 || ::tcgetattr(STDIN_FILENO, &before) != 0) {
@@ -23,7 +23,7 @@ Result<Passphrase> typedPassphrase() {
     ::tcsetattr(STDIN_FILENO, TCSAFLUSH, &silent);
     Secret line(4096);
     auto* at = reinterpret_cast<char*>(line.bytes().data());
-    const auto size = ::read(STDIN_FILENO, at, line.size());  // a line, as terminals give it
+    const auto size = ::read(STDIN_FILENO, at, line.size());  // a terminal delivers one line
     ::tcsetattr(STDIN_FILENO, TCSAFLUSH, &before);
     say(stderr, "\n");
     auto text = std::string_view(at, size > 0 ? static_cast<std::size_t>(size) : 0);

@@ -1,5 +1,5 @@
-// StudyPassphrase.h - how a command gets the passphrase of a study: --passphrase-file, or typed where there is a
-// terminal. There is no option that takes it as a word: the command line is shown to everyone on the computer.
+// StudyPassphrase.h - gets the passphrase of a study: from --passphrase-file, or typed at a terminal. No option takes
+// the passphrase itself, because everyone on the computer can see the command line.
 #pragma once
 
 #include <filesystem>
@@ -14,11 +14,11 @@ namespace tacto::cli {
 /// Declares --passphrase-file.
 void declarePassphrase(QCommandLineParser& parser);
 
-/// Errors: NotFound where there is neither, or the file lies inside the study.
+/// Errors: NotFound if there is neither file nor terminal, or if the file is inside the study.
 [[nodiscard]] Result<Passphrase> passphraseFor(const QCommandLineParser& parser, const std::filesystem::path& study);
 
-/// The study in `folder`. A rehearsal needs no passphrase; with Access::Read it is opened without one, too, where none
-/// was given. Errors: as Study::open() and passphraseFor().
+/// Opens the study in `folder`. A rehearsal needs no passphrase, nor does Access::Read if none was given. Errors: as
+/// Study::open() and passphraseFor().
 [[nodiscard]] Result<Study> openStudy(const QCommandLineParser& parser, const std::filesystem::path& folder,
                                       Study::Access access);
 

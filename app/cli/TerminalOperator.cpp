@@ -18,7 +18,7 @@ namespace tacto::cli {
 
 namespace {
 
-/// Long enough for work by hand, such as fitting a load.
+/// Long enough for manual work, such as fitting a load.
 constexpr Seconds kQuestionTimeout{3600};
 
 }  // namespace
@@ -68,8 +68,8 @@ constexpr milliseconds kAnswerPoll{50};
 constexpr milliseconds kUnderWay{500};
 constexpr std::size_t kMaxLine = 256;
 
-/// Only what is typed after the question is an answer. What was typed before may still be under way through the kernel,
-/// for 100 ms on a busy machine, and a flush does not reach it there. False after a signal.
+/// Discards what was typed before the question, because only later text is an answer. On a busy machine the kernel may
+/// deliver earlier text for 100 ms, and a flush does not reach it there. Returns false after a signal.
 bool forgetWhatWasTyped(const SignalStop& interrupts) {
     for (const auto end = steady_clock::now() + kUnderWay; steady_clock::now() < end;) {
         if (interrupts.signalled()) return false;

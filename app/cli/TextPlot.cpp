@@ -13,7 +13,7 @@ namespace tacto::cli {
 
 namespace {
 
-/// The first "round" number from `value` on: one of `leads` times a power of ten.
+/// Returns the smallest round number from `value` upwards: one of `leads` times a power of ten.
 double roundUp(double value, std::initializer_list<double> leads) noexcept {
     if (!(value > 0) || !std::isfinite(value)) return 1;
     const double power = std::pow(10.0, std::floor(std::log10(value)));
@@ -42,7 +42,7 @@ public:
         const auto picture = curve();
         const int middle = (rows_ - 1) / 2;
         for (int row = rows_ - 1; row >= 0; --row) {
-            const bool even = rows_ % 2 == 1;  // only then does one row lie in the middle
+            const bool even = rows_ % 2 == 1;  // only then is there a middle row
             const std::string label = row == 0                ? labels_[0]
                                       : row == rows_ - 1      ? labels_[2]
                                       : even && row == middle ? labels_[1]
@@ -59,7 +59,7 @@ private:
     int rowOf(float value) const noexcept { return static_cast<int>(std::lround(double{value} / top_ * (rows_ - 1))); }
     int columnOf(double x) const noexcept { return std::clamp(static_cast<int>(x / length() * width_), 0, width_ - 1); }
 
-    /// Each column shows all values that fall into it, and the step from the one before.
+    /// Each column shows all its values and the step from the previous value.
     std::vector<std::string> curve() const {
         std::vector<std::string> rows(static_cast<std::size_t>(rows_),
                                       std::string(static_cast<std::size_t>(width_), ' '));
@@ -93,9 +93,9 @@ private:
         line[0] = '+';
         const double every = roundUp(length() / 6, {1, 2, 5});
         const bool hasLength = length() > 0 && std::isfinite(length());
-        std::size_t free = 0;  // the first column of `labels` that is free
+        std::size_t free = 0;  // the first free column in `labels`
         for (int i = 0; hasLength && i * every <= length() * (1 + 1e-9); ++i) {
-            // Behind the corner, as the curve is.
+            // One column to the right of the corner, like the curve.
             const auto at = static_cast<std::size_t>(i == 0 ? 0 : columnOf(i * every) + 1);
             line[at] = '+';
             const auto label = fmt::format("{:g}", i * every);
@@ -110,7 +110,7 @@ private:
         return all + trimmedEnd(labels) + "\n" + clipped(std::string(left, ' ') + plot_.xTitle) + "\n";
     }
 
-    /// "^ text", or "text ^" where that does not fit.
+    /// Draws "^ text", or "text ^" if the first does not fit.
     std::string pointer(std::size_t left) const {
         const auto at = left + 1 + static_cast<std::size_t>(columnOf(plot_.mark));
         const auto& text = plot_.markText;
@@ -140,7 +140,7 @@ private:
 }  // namespace
 
 std::string draw(const TextPlot& plot, int columns, int rows) {
-    // This happens before they are laid out: a text that is spelled out later would be longer than its place.
+    // Done before the texts are placed: replacing control characters later would make a text longer than its place.
     TextPlot harmless = plot;
     for (auto* text : {&harmless.title, &harmless.xTitle, &harmless.markText}) *text = printable(*text);
     return Canvas(harmless, columns, rows).text();

@@ -8,7 +8,7 @@ namespace tacto::cli {
 
 namespace {
 
-/// Characters, not bytes.
+/// Counts characters, not bytes.
 std::size_t lengthOf(const std::string& text) {
     return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
 }

@@ -1,4 +1,4 @@
-// TextTable.h - a table for the terminal: each column as wide as what stands in it.
+// TextTable.h - a table for the terminal; each column is as wide as its contents.
 //
 // Thread-safety: none; one owner.
 #pragma once
@@ -10,20 +10,20 @@ namespace tacto::cli {
 
 class TextTable {
 public:
-    /// A heading that begins with '>' stands to the right with its column, as numbers do; the mark is not printed.
-    /// Headings that are all empty are not printed.
+    /// A heading that begins with '>' (not printed) aligns its column to the right, as for numbers. If all headings are
+    /// empty, none are printed.
     explicit TextTable(std::vector<std::string> headings);
-    /// There must be as many cells as headings.
+    /// `cells` must have as many entries as there are headings.
     void add(std::vector<std::string> cells);
-    /// A line between two rows, as wide as it is.
+    /// Adds a line between two rows; it does not change the column widths.
     void addLine(const std::string& line);
-    /// Prints the headings, too, after an empty line.
+    /// Prints the table after an empty line, with the headings.
     void print() const;
 
 private:
     bool hasHeadings_ = false;
     std::vector<bool> toTheRight_;
-    std::vector<std::vector<std::string>> rows_;  ///< printable; the headings first, a line as a row of one cell
+    std::vector<std::vector<std::string>> rows_;  ///< printable; the headings come first; a line is a row with one cell
 };
 
 }  // namespace tacto::cli

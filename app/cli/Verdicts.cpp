@@ -17,7 +17,7 @@ namespace {
 
 using nlohmann::json;
 
-/// The text in one line, with the spaces of a keyboard.
+/// Returns the text on one line, with ordinary spaces.
 std::string plain(QString text) {
     return text.replace('\n', ' ').replace(QChar(0x202f), ' ').replace(QChar(0x00a0), ' ').toStdString();
 }
@@ -57,7 +57,7 @@ void printRows(const ResultTable& table, const json& records) {
     if (!table.note.empty()) say("  {}\n", table.note);
 }
 
-/// Counts, row by column.
+/// Prints counts with their row and column.
 void printCounts(const ResultTable& table, const json& results) {
     const auto text = countsText(table, results);
     if (text.counts.empty()) return;
@@ -73,7 +73,7 @@ void printCounts(const ResultTable& table, const json& results) {
     lines.print();
 }
 
-/// How much of each limit is used on each load.
+/// Prints the used share of each limit on each load.
 void printLimits(const ResultTable& table, const MatrixBlock& limits) {
     if (limits.rows.empty()) return;
     std::vector<std::string> headings{"Limit", "At most"};

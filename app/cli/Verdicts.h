@@ -1,6 +1,6 @@
 // Verdicts.h - verdicts as exit codes and as text.
 //
-// Thread-safety: pure functions; the printing ones as Say.h.
+// Thread-safety: pure functions; those that print are as safe as Say.h.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -10,14 +10,14 @@
 
 namespace tacto::cli {
 
-/// pass 0, fail 1, indeterminate 5, stopped 4; nothing (a protocol that judges nothing) 0.
+/// Returns pass 0, fail 1, indeterminate 5, stopped 4; 0 without a verdict (a protocol that makes no judgement).
 [[nodiscard]] int exitForVerdict(std::string_view verdict) noexcept;
 
-/// The verdict in a word, then why.
+/// Prints the verdict in a word, then the reasons.
 void printVerdict(std::string_view verdict, const std::vector<std::string>& reasons);
-/// The tables of a kind of results, but for those that are too long for a screen.
+/// Prints the tables of a kind of results, except those that are too long for a screen.
 void printTables(std::string_view kind, const nlohmann::json& results);
-/// The results of a laboratory's own kind, a line each.
+/// Prints results of a laboratory's own kind, one per line.
 void printResults(const nlohmann::json& results);
 
 }  // namespace tacto::cli

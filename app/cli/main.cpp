@@ -1,4 +1,4 @@
-// tactoscope-cli - all of Tactoscope without a window. `tactoscope-cli help` is the contract.
+// tactoscope-cli - all functions of Tactoscope without a window; `tactoscope-cli help` describes them.
 #include <QCoreApplication>
 #include <cstdio>
 #include <cstdlib>
@@ -18,9 +18,9 @@ namespace {
 constexpr const char* kNotice =
     "Tactoscope is a research bench, not a medical device. Simulated devices are marked as simulated.";
 
-/// In the order of the help.
+/// Returns the commands in the order of the help.
 const std::vector<Command>& commands() {
-    // Another program makes reports (ReportProgram.h).
+    // A separate program makes reports (ReportProgram.h).
     static const Command report{"report", kReportArguments, kReportSummary, nullptr, nullptr};
     static const std::vector<Command> all{kRun,     kProtocols,   kDevices, kRoughness, kEncode, kMeasure,
                                           kConvert, kAnalyze,     report,   kVerify,    kHid,    kScienceMode,
