@@ -1,5 +1,5 @@
-// EncodingTurn.h - the encoding of a study that a participant's session has. Each participant has them in an order of
-// their own among their kind (williamsOrder()), one a session; an encoding whose session was not completed comes again.
+// EncodingTurn.h - chooses the study's encoding for a session. Participants of one kind have the encodings in balanced
+// orders (williamsOrder()), one per session; an encoding is repeated if its session was incomplete.
 //
 // Thread-safety: as Study.
 #pragma once

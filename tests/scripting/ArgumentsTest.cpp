@@ -1,4 +1,4 @@
-// What the dispatcher refuses before a host function is called, for every parameter of every function.
+// Tests what the dispatcher refuses before it calls a host function, for every parameter of every function.
 #include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-/// A value that the parameter accepts.
+/// Returns a value that the parameter accepts.
 Json sampleOf(const HostParameter& parameter) {
     switch (parameter.type) {
         case ValueType::Number:
@@ -41,7 +41,7 @@ const std::vector<HostParameter>& passedTo(const HostFunction& function) {
     return function.passes.empty() ? function.parameters : function.passes;
 }
 
-/// The place of a parameter in `list`; the last element of that is the argument to which it belongs.
+/// Returns the place of a parameter in `list`. The last element of `list` is the argument that contains the parameter.
 Json& placeOf(Json& list, const std::string& name) {
     Json* at = &list.back();
     for (auto from = name.find('.'); from < name.size();) {
@@ -52,7 +52,7 @@ Json& placeOf(Json& list, const std::string& name) {
     return *at;
 }
 
-/// Arguments that fit, with `value` for the parameter `name`.
+/// Returns valid arguments, with `value` for the parameter `name`.
 Json argumentsWith(const HostFunction& function, std::string_view name = {}, const Json& value = {}) {
     Json list = Json::array();
     std::string last;
@@ -78,7 +78,7 @@ std::string spoken(const HostParameter& parameter) {
 
 TEST(Arguments, WhatTheTablesDescribeIsAccepted) {
     for (const auto& function : hostFunctions()) {
-        if (function.fullName() == "protocol") continue;  // read before
+        if (function.fullName() == "protocol") continue;  // protocol() is read before the run
         EXPECT_EQ(refusalOf(function, argumentsWith(function)), "") << function.fullName();
     }
 }

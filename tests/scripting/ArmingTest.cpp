@@ -1,5 +1,5 @@
-// What arming real hardware takes: the operator's confirmation of exactly what would be armed, and nothing else. The
-// stimulator says that it is real; behind it is the twin.
+// Arming real hardware needs the operator's confirmation of exactly what would be armed, and nothing else. Here the
+// stimulator says that it is real, but is simulated.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ protected:
         request.operatorDesk = &preset;
         return runProtocol(std::move(request)).value();
     }
-    /// Not even an impedance check was delivered.
+    /// True if not even an impedance check was delivered.
     [[nodiscard]] bool nothingWasDelivered() {
         return dynamic_cast<RealLookingStimulator&>(*rig_.bench().devices().stimulator).delivered() == 0;
     }
@@ -99,7 +99,7 @@ TEST_F(Arming, IsConfirmedAgainAfterTheLoadWasFitted) {
 }
 
 TEST_F(Arming, ThatFailsLeavesTheOutputDisarmedWhateverWasArmedBefore) {
-    // So do the readings that disarm first, whether they read or are refused.
+    // Readings that disarm first do the same, whether they succeed or are refused.
     for (const char* second :
          {"bench.arm({ load: \"ten\" });", "bench.arm(7);", "bench.measureRest({ duration_s: -1 });",
           "bench.sensorCalibration.slide(7);", "bench.loadSafety.trip(7);", "bench.measureWeight(-1);"}) {
@@ -125,7 +125,7 @@ TEST_F(Arming, ThatWasNotConfirmedEndsTheRunWhateverTheScriptMakesOfIt) {
 }
 
 TEST_F(Arming, AnErrorSaysWhetherALimitForbadeIt) {
-    RecordProperty("hazard", "H9");  // otherwise a missing confirmation would count as a limit that holds
+    RecordProperty("hazard", "H9");  // otherwise a missing confirmation would look like a limit that works
     RunBench simulated{true, "sim:stimulator?mode=voltage"};
     const auto outcome =
         simulated.run(withRun("try { bench.arm({ load: \"ten\" }); } catch (error) { log(String(error.limit)); }\n"
@@ -188,7 +188,7 @@ TEST_F(Arming, OfACalibrationIsAskedForAsAnyOther) {
         " gap_max_us: 300, tolerance_pct: 2, timing_tolerance_pct: 1, load_tolerance_pct: 1, reference_tolerance_pct: "
         "5,"
         " reference_v: 0, reference_u_pct: 0 }, steps = bench.stimulatorCalibration;";
-    // No level is set before the known load was read, which is confirmed.
+    // No level may be set before the known load was read, which needs confirmation.
     for (const char* call : {"bench.readKnownLoad(1000, 5);", "steps.begin(s); steps.knownLoad(s);"}) {
         const auto outcome = run(settings + call, {});
         ASSERT_TRUE(outcome.error) << call;

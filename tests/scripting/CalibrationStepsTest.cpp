@@ -1,4 +1,4 @@
-// What a calibration begins and ends with, and its levels.
+// The beginning and the end of a calibration, and its levels.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <map>
@@ -36,7 +36,7 @@ TEST(KnownWeight, ReadsAsWhatItIsOrStandsOutFromRestWhereItsUnitIsNotKnown) {
     is(read(1.2, StreamUnit::Newton, known), "fail", "1.2000 ± 0.0045 N was read under 0.9800 N; 10 % are allowed");
     is(read(0.06, StreamUnit::Count, known), "pass", "");
     is(read(0.04, StreamUnit::Count, known), "fail", "failed");
-    // 9.857 % of 10 %: U of 0.4 % leaves it open, and without U nothing passes.
+    // 9.857 % of the allowed 10 %: with U of 0.4 % the verdict is open, and without U nothing passes.
     is(read(1.0766, StreamUnit::Newton, known), "indeterminate", "is indeterminate: 1.0766 ±");
     is(read(1, StreamUnit::Newton, weightAlone), "not evaluated", "was not stated");
     is(read(kNaN, StreamUnit::Newton, known), "not evaluated", "nothing was read under");
@@ -55,7 +55,7 @@ TEST(TimeBase, IsJudgedWithItsUncertainty) {
     EXPECT_EQ(timeBaseProblem(nullptr), "");
 }
 
-/// Level `share` of each quantity, 0 to 1, on a healthy twin.
+/// Level `share` of each quantity, 0 to 1, on a simulated stimulator without faults.
 constexpr const char* kLevels =
     "const settings = { mode: 'full', quantities: 'all', levels: 2, repeats: 2, store: false, valid_days: 1,"
     "scope_due: '', load: 1000, rate_hz: 2e6, settling_s: 0, warm_up_s: 0, amplitude_min_v: 10, amplitude_max_v: 40,"
@@ -154,7 +154,7 @@ TEST(GivenReadings, ThatAreNoneAreRefused) {
     }
 }
 
-/// A level of 20 V, checked against a line through the origin within 2 %.
+/// Checks a level of 20 V against a line through the origin, within 2 %.
 Json checked(const Json& level) {
     Json all = {{"commanded", 20}, {"mean", 20.01}, {"expanded_uncertainty", 0.05}};
     all.update(level);

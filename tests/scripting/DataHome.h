@@ -1,4 +1,4 @@
-// DataHome.h - a test with a folder of its own for what the program keeps of devices.
+// DataHome.h - gives each test its own folder for the data that the program keeps about devices.
 //
 // Thread-safety: the test's own thread.
 #pragma once

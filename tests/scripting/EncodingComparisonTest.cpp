@@ -1,4 +1,4 @@
-// The encoding comparison on the twin, against distances worked out by hand from science.md section 4.
+// The encoding comparison on the simulated bench, against distances calculated by hand from science.md section 4.
 #include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ ScriptOutcome compare(const Settings& settings) {
     return outcome;
 }
 
-/// The way from `from` to `to` along a curve, computed by hand.
+/// Returns the value at `x` on a curve between `from` and `to`, calculated independently.
 double along(const std::string& curve, double x, double from, double to) {
     if (curve == "logarithmic") return from * std::pow(to / from, x);
     return from + (to - from) * (curve == "power" ? std::pow(x, 1 / 1.5) : x);
@@ -32,7 +32,7 @@ double along(const std::string& curve, double x, double from, double to) {
 
 double jnd(double a, double b, double w) { return std::abs(std::log(a / b)) / std::log(1 + w); }
 
-/// Smallest distance of neighbouring levels 0.25, 0.5, 0.75 of one output.
+/// Returns the smallest distance between the neighbouring levels 0.25, 0.5 and 0.75 of one output.
 double smallestStep(const std::string& curve, double from, double to, double w) {
     const auto at = [&](double x) { return along(curve, x, from, to); };
     return std::min(jnd(at(0.25), at(0.5), w), jnd(at(0.5), at(0.75), w));
@@ -63,7 +63,7 @@ TEST(EncodingComparison, FindsTheDistancesThatTheFormulasGive) {
         EXPECT_NEAR(only(encodings, "swapped", curve)["smallest_amplitude_jnd"].get<double>(),
                     jnd(along(curve, 0.1, 10, 40), along(curve, 0.9, 10, 40), 0.10), 0.05)
             << curve;
-        // Conditions at 0.1 and 0.9: the worst pair differs in the interval alone.
+        // With conditions at 0.1 and 0.9, the worst pair differs only in the interval.
         const double pair = jnd(along(curve, 0.1, 2, 0.5), along(curve, 0.9, 2, 0.5), 0.16);
         EXPECT_NEAR(only(encodings, "swapped", curve)["smallest_pair_jnd"].get<double>(), pair, 0.05) << curve;
     }
@@ -149,7 +149,7 @@ TEST_P(ComparisonFault, EndsWithOutputsOffAndKeepsWhatThereWas) {
     ASSERT_TRUE(outcome.error);
     EXPECT_TRUE(rig.outputOff());
     EXPECT_NE(outcome.verdict, ScriptVerdict::Pass);
-    if (at_s < 100) return;  // no encoding was complete yet
+    if (at_s < 100) return;  // no encoding was complete by then
     ASSERT_TRUE(outcome.results.is_object()) << outcome.error->message;
     EXPECT_TRUE(outcome.results["partial"].get<bool>());
     EXPECT_TRUE(outcome.results["verdict"].is_null());

@@ -1,4 +1,4 @@
-// Scripts that want a calibration kept which the program did not measure: nothing of it reaches the store.
+// Scripts that try to keep a calibration that the program did not measure: nothing of it reaches the store.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ using Json = nlohmann::json;
 
 const std::set<Role> kCalibrated{Role::Stimulator, Role::Oscilloscope};
 
-/// Levels and repeats enough for a complete calibration that passes.
+/// Enough levels and repeats for a complete calibration that passes.
 constexpr const char* kInventedReadings = R"(
 function invented(from, to) {
   const rows = [];
@@ -34,14 +34,14 @@ const RANGES = { amplitude: [10, 40], interval: [0.5, 2], width: [1e-4, 4e-4], g
 
 class ForgedCalibration : public DataHome {
 protected:
-    /// What the run ended with.
+    /// Returns the error that ended the run.
     [[nodiscard]] std::string run(const std::string& body, const std::string& device = "sim:") {
         RunBench rig(true, device, 1, true, kCalibrated);
         const auto outcome = runProtocol(rig.request(withRun(body) + kInventedReadings)).value();
         EXPECT_TRUE(rig.outputOff());
         return outcome.error ? outcome.error->message : "";
     }
-    /// The shipped protocol, with `from` replaced by `to` in its text.
+    /// Runs the shipped protocol with `from` replaced by `to` in its text.
     [[nodiscard]] ScriptOutcome altered(const std::string& from, const std::string& to,
                                         std::map<std::string, std::string> settings,
                                         const std::string& device = "sim:", bool looksReal = false,
@@ -140,7 +140,7 @@ TEST_F(ForgedCalibration, WhatAScriptSaysBesideAReadingDoesNotCount) {
 
 TEST_F(ForgedCalibration, TheCommandIsThatOfTheCaptureWhateverCameAfter) {
     RecordProperty("hazard", "H1");
-    // Measured after the output was told less: the reading still belongs to the train that it shows.
+    // Measured after the command was lowered: the reading must still belong to the train that it shows.
     const auto outcome = [&] {
         RunBench rig(true, "sim:", 1, true, kCalibrated);
         return rig.run(withRun(R"(
@@ -161,8 +161,8 @@ TEST_F(ForgedCalibration, TheCommandIsThatOfTheCaptureWhateverCameAfter) {
 
 TEST_F(ForgedCalibration, AReadingOfUnlikeTrainsHasNoKnownCommand) {
     RecordProperty("hazard", "H1");
-    // The encoder is on its way down: the mean over the record would pass for a stimulator that gives too little, and a
-    // calibration from it would make every later train too strong.
+    // The encoder is still moving down. A mean over the record would look like a stimulator that delivers too little,
+    // and a calibration from it would make every later train too strong.
     for (const char* limit : {"amplitude_slew_v_per_s: 20", "interval_ratio_per_train: 1.15"}) {
         RunBench rig(true, "sim:", 1, true, kCalibrated);
         const auto outcome = rig.run(withRun(std::string("bench.setEncoding({ ") + limit + R"( });
@@ -184,7 +184,7 @@ TEST_F(ForgedCalibration, AReadingOfUnlikeTrainsHasNoKnownCommand) {
     }
 }
 
-/// A check pulse goes before the first train: their mean would pass for a stimulator that gives too little.
+/// A check pulse precedes the first train: a mean of both would look like a stimulator that delivers too little.
 TEST_F(ForgedCalibration, ARecordOfACheckPulseAndATrainIsJudgedByNoOtherCommandThanItShows) {
     RecordProperty("hazard", "H1");
     for (const char* accuracy : {"stated", "unknown"}) {
@@ -220,7 +220,7 @@ TEST_F(ForgedCalibration, AnAccuracyThatOnlyTheScriptStatesDoesNotCount) {
     ASSERT_FALSE(vouched.reasons.empty());
     EXPECT_THAT(vouched.reasons.front(), HasSubstr("was not evaluated"));
     EXPECT_TRUE(kept().empty());
-    // The operator's word does.
+    // A statement by the operator is accepted.
     const auto stated = altered(from, vouching, {{"scope_gain_pct", "1"}, {"timebase_ppm", "50"}}, silent);
     ASSERT_FALSE(stated.error) << stated.error->message;
     ASSERT_EQ(kept().size(), 1U);

@@ -1,5 +1,5 @@
-// The guide's page on scripts: every example runs, and every function that a laboratory's own script would want is
-// there.
+// Tests the guide's page on scripts: every example runs, and every function that a laboratory's script may need is
+// described.
 #include <fstream>
 #include <gtest/gtest.h>
 #include <map>
@@ -14,7 +14,7 @@ namespace {
 
 const auto kPage = sourceDir() / "resources" / "help" / "guide" / "scripts.md";
 
-/// What is indented by four blanks, by the heading above it.
+/// Returns the text that is indented by four blanks, by the heading above it.
 std::map<std::string, std::string> examples() {
     std::map<std::string, std::string> found;
     std::ifstream page(kPage);

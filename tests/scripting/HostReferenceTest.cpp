@@ -32,7 +32,7 @@ TEST(HostReference, DescribesEveryFunctionAndParameter) {
     }
 }
 
-/// "load_ohm" of a description: what can only be a key of what is returned.
+/// Returns the words of a description that can only be keys of the result, such as "load_ohm".
 std::set<std::string> keysIn(std::string_view description) {
     static const std::regex key(R"(\b[a-z][a-z0-9]*(?:_[a-z0-9]+)+\b)");
     const std::string text(description);

@@ -1,5 +1,5 @@
-// A script's process may crash, hang, flood or lie: the run ends with one sentence and the output off, and bench, gate
-// and session continue (hazard H10).
+// A script's process may crash, hang, flood or lie. The run then ends with one sentence and the output off, while
+// bench, gate and session continue (hazard H10).
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -28,11 +28,11 @@ using testing::HasSubstr;
 const std::string kDelivering =
     "bench.arm({ load: 1000 }); bench.drive('manual', { roughness: 1, pressure: 1 }); bench.wait(0.6); log('armed');\n";
 
-/// What is left of a run.
+/// The results of a run.
 struct Left {
     ScriptOutcome outcome;
     bool off = false;
-    bool recorded = false;  ///< the session is closed, and it verifies
+    bool recorded = false;  ///< the session is closed and valid
 };
 
 Left runToItsEnd(RunBench& rig, RunRequest request, milliseconds most = std::chrono::seconds(20)) {
@@ -83,7 +83,7 @@ TEST(HostileScript, TheOutputIsOffWithinTenMillisecondsOfItsEnd) {
     std::vector<double> took_ms;
     for (int i = 0; i < 5; ++i) {
         RunBench rig(false);
-        const bool waits = i % 2 == 1;  // it waits in a call of its own when its process goes
+        const bool waits = i % 2 == 1;  // the script waits in a host call when its process ends
         auto request = rig.request(withRun(kDelivering + (waits ? "bench.wait(3600);" : "for (;;) bench.live();")));
         std::promise<void> armed;
         request.onLog = [&, first = true](const std::string&) mutable {
@@ -104,7 +104,7 @@ TEST(HostileScript, TheOutputIsOffWithinTenMillisecondsOfItsEnd) {
     }
     std::ranges::sort(took_ms);
 #ifdef TACTOSCOPE_SANITIZED
-    constexpr double kMax_ms = 40;  // its process is ten times as large, and the system has to take it down first
+    constexpr double kMax_ms = 40;  // the process is ten times as large, and the system must first end it
 #else
     constexpr double kMax_ms = 10;
 #endif
@@ -112,7 +112,7 @@ TEST(HostileScript, TheOutputIsOffWithinTenMillisecondsOfItsEnd) {
 }
 
 TEST(HostileScript, ACallThatWouldComputeForLongIsRefused) {
-    RecordProperty("hazard", "H2");  // a stop would wait for it
+    RecordProperty("hazard", "H2");  // a stop would wait for the script
     for (const char* call :
          {"analysis.transitions({ lines: 101, traverse_s: 600 });",
           "const t = []; for (let i = 0; i < 3e4; ++i) t.push({ condition: 'c' + i % 6000, amplitude: 1, interval_s: 1 "
@@ -194,7 +194,7 @@ TEST(HostileScript, ItsProcessHoldsNothingOfTheProgram) {
 TEST(HostileScript, AReaderThatWasEndedMeanwhileIsStartedAgain) {
     RecordProperty("hazard", "H10");
     ProtocolSource shipped = probe(withRun(""));
-    shipped.shipped = true;  // one process reads all that is shipped
+    shipped.shipped = true;  // one process reads all shipped scripts
     ASSERT_TRUE(readDeclaration(shipped));
     std::ifstream children(fmt::format("/proc/self/task/{}/children", ::getpid()));
     if (!children) GTEST_SKIP() << "this system does not list a program's children";
@@ -224,7 +224,7 @@ TEST(HostileScript, WhatAnotherProgramSaysInItsPlaceIsReadAsALie) {
     ::unsetenv("TACTO_LIE");
 }
 
-/// Statements that are hard on an engine or on the program, put together at random.
+/// Random combinations of statements that are hard on an engine or on the program.
 class Attacker {
 public:
     explicit Attacker(std::uint64_t seed) : random_(seed) {}

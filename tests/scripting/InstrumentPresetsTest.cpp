@@ -1,4 +1,4 @@
-// The laboratory's instruments by name: what is kept, what is refused, and what gets into an address.
+// The laboratory's instruments by name: what is kept, what is refused, and what becomes part of an address.
 #include <fstream>
 #include <gmock/gmock.h>
 

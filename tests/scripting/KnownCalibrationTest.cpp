@@ -1,4 +1,4 @@
-// What the store knows of the stimulator that is open, as a bench gets it.
+// The stored data about the open stimulator, as a bench gets them.
 #include <chrono>
 #include <cstdlib>
 #include <gmock/gmock.h>
@@ -31,7 +31,7 @@ protected:
         devices_ = registry.open(uris, {Role::Stimulator}, OpenContext{*clock_, 1, "1 kohm"}).value();
     }
 
-    /// Keeps a calibration of the open stimulator, made and valid until so many days from now.
+    /// Keeps a calibration of the open stimulator that was made `made` days and is valid until `until` days from now.
     void keep(double gain, int made, int until, const std::string& output = "SIM-1", const char* unit = "V") {
         const auto today = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
         StoredCalibration c;
@@ -107,7 +107,7 @@ TEST_F(Known, OneThatIsOutOfOrderReachesTheGateWhichArmsNothing) {
     const auto armed = (*bench)->arm({"1 kohm", true, true});
     ASSERT_FALSE(armed);
     EXPECT_THAT(armed.error().message, HasSubstr("out of order"));
-    // Left aside, it may be calibrated again, and is judged by what it delivers.
+    // Without the calibration, the stimulator may be calibrated again and is judged by what it delivers.
     ASSERT_TRUE((*bench)->useCalibration(false));
     const auto again = (*bench)->arm({"1 kohm", true, true});
     EXPECT_TRUE(again) << again.error().message;
@@ -135,7 +135,7 @@ TEST_F(Known, ADamagedStoreIsNoCalibration) {
     EXPECT_THAT(known.text, HasSubstr("not calibrated: "));
 }
 
-/// What is certified of an oscilloscope, as its captures get it.
+/// Certified figures of an oscilloscope, as its captures get them.
 class KnownCertificates : public Known {
 protected:
     static void enter(const std::string& serial) {
@@ -184,7 +184,7 @@ TEST_F(KnownCertificates, WinOverTheAddressFigureByFigure) {
     EXPECT_TRUE(stateOscilloscope(devices).used);
     const auto& stated = devices.scopeStatement;
     EXPECT_NEAR(stated.voltage.gain.value, 0.02 / 0.95, 1e-9);
-    EXPECT_FALSE(stated.voltage.linearity.known());  // a certified gain covers all of it
+    EXPECT_FALSE(stated.voltage.linearity.known());  // a certified gain already includes linearity
     EXPECT_DOUBLE_EQ(stated.current.probe.value, 0.004);
     EXPECT_EQ(stated.current.probe.by, "the device's address");
     EXPECT_FALSE(stated.timeBase.known());

@@ -46,11 +46,11 @@ TEST_F(Library, TheNameOfAShippedScriptIsNotTakenByAnother) {
                   ": separability is the name of a protocol that comes with the program; another file name is "
                   "expected");
     EXPECT_EQ(library_.find(ours).error().message, refused[0].why) << "by its path as well";
-    // A script cannot replace one that the program's folder happens to lack.
+    // A script cannot replace a shipped script that is missing in the program's folder.
     folder_.write("user/transitions.js", "// ours");
     EXPECT_EQ(library_.find("transitions").error().code, ErrorCode::InvalidArgument);
     EXPECT_EQ(library_.refused().size(), 2U);
-    // Other bytes in the program's folder, which the environment chooses, cannot either.
+    // Nor can altered files in the program's folder, which the environment chooses.
     const auto changed = folder_.write("shipped/live.js", "// changed").string();
     for (const auto& by : {std::string("live"), changed}) {
         EXPECT_EQ(

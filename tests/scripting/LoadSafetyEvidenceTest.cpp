@@ -1,6 +1,6 @@
-// The evidence of issue 6: over a grid of twins that deliver too much the check misses none; over 200 clean runs, the
-// instrument's own errors drawn for each from what its data sheet allows, it raises at most 5 % false alarms.
-// For a voltage source, and for a current source.
+// The evidence of issue 6: the check detects every simulated stimulator in a grid that delivers too much. Over 200
+// clean runs, each with random instrument errors within the data sheet, it raises at most 5 % false alarms. For a
+// voltage source and a current source.
 #include <gtest/gtest.h>
 #include <span>
 
@@ -16,7 +16,7 @@ using test::LoadSafetyRig;
 const auto kSeeds = test::trials<std::uint64_t>({.local = 1, .ci = 3, .campaign = 30});
 const auto kRuns = test::trials<std::uint64_t>({.local = 40, .ci = 200, .campaign = 2000});
 
-/// An oscilloscope with errors anywhere within its stated tolerances (0.5 % of gain, 0.1 % of the range in offset).
+/// Returns an oscilloscope with random errors within its tolerances (0.5 % of gain, 0.1 % of the range in offset).
 std::string scopeFor(std::uint64_t seed) {
     Random random(seed, "instrument errors");
     const auto within = [&](double half) { return half * (2 * random.uniform() - 1); };
@@ -31,7 +31,7 @@ struct Violation {
     const char* unit;
 };
 
-/// Runs the check on each; `mode` goes into the stimulator's URI.
+/// Runs the check on each stimulator of `grid`; `mode` goes into its URI.
 void expectNoneMissed(std::string_view mode, std::span<const Violation> grid) {
     testing::Test::RecordProperty("hazard", "H9");
     std::size_t missed = 0, failed = 0, tried = 0;
@@ -48,7 +48,7 @@ void expectNoneMissed(std::string_view mode, std::span<const Violation> grid) {
                 ++missed;
                 ADD_FAILURE() << violation.parameter << " " << violation.value << " seed " << seed << " passed";
             }
-            // A run that the program's own trip ended has an error and no verdict.
+            // A run that the program's own fault detection ended has an error and no verdict.
             const bool caught = outcome.verdict == ScriptVerdict::Fail || outcome.error.has_value();
             if (caught) ++failed;
             if (!caught) undecided += fmt::format("{} {} seed {}; ", violation.parameter, violation.value, seed);
@@ -82,7 +82,7 @@ void expectFewFalseAlarms(std::string_view mode, std::uint64_t runs) {
 
 TEST(LoadSafetyEvidence, MissesNoTwinThatDeliversTooMuch) {
     // Limits: 2 % above the command, 1 % of net charge; U is 0.6 % of the amplitude and 0.15 % of the charge.
-    // From 20 % above the command the program itself trips, which is not a pass either.
+    // From 20 % above the command, the program itself reports a fault, which is not a pass either.
     const Violation grid[] = {
         {"gain", 1.033, ""},      {"gain", 1.04, ""},      {"gain", 1.06, ""},        {"gain", 1.1, ""},
         {"gain", 1.15, ""},       {"gain", 1.19, ""},      {"gain", 1.25, ""},        {"gain", 1.5, ""},

@@ -1,4 +1,4 @@
-// What runs of the load-safety protocol leave of the stimulator that they checked.
+// The records that runs of the load-safety protocol keep about the stimulator.
 #include <cstdlib>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -57,8 +57,8 @@ protected:
         return LoadSafetyStore::open(loadSafetyFile()).value().all();
     }
 
-    std::string logged_;                   // what runs that were not stopped have logged
-    std::vector<LoadSafetyCheck> during_;  // what was kept while the run that is stopped went on
+    std::string logged_;                   // log lines of runs that were not stopped
+    std::vector<LoadSafetyCheck> during_;  // the records during the run that is stopped
 };
 
 TEST_F(LoadSafetyRecord, APassIsKeptWithItsSessionsChainHeadAndAsSimulated) {
@@ -125,7 +125,7 @@ TEST_F(LoadSafetyRecord, AScriptThatIsNotTheShippedOneLeavesNone) {
 function run() { return verdict({ kind: "load-safety", verdict: "pass", reasons: [] }); })";
     altered.declaration = {};
     altered.settings = {};
-    altered.script.shipped = true;  // What its caller says is not believed
+    altered.script.shipped = true;  // the caller's claim must not be believed
     EXPECT_EQ(run(altered).verdict(), "pass");
     EXPECT_TRUE(kept().empty());
     SessionAbout about;
@@ -153,7 +153,7 @@ TEST_F(LoadSafetyRecord, OnlyHardwareThroughoutIsReal) {
 
 TEST_F(LoadSafetyRecord, WhatCannotBeKeptOfARealStimulatorIsSaid) {
     RecordProperty("hazard", "H9");
-    std::filesystem::create_directories(loadSafetyFile());  // no file can be written there
+    std::filesystem::create_directories(loadSafetyFile());  // so that no file can be written there
     SessionAbout about;
     about.devices = {{"sciencemode:/dev/ttyUSB0", "stimulator", "P24", "0815", "", false, origin::kHardware}};
     auto check = loadSafetyCheckOf(order({}).script, about, Profile(), "a.tacto");

@@ -1,4 +1,4 @@
-// LoadSafetyRig.h - the shipped load-safety protocol on a simulated bench with devices described by URIs.
+// LoadSafetyRig.h - runs the shipped load-safety protocol on a simulated bench with the devices of given URIs.
 //
 // Thread-safety: the test's own thread.
 #pragma once
@@ -69,7 +69,7 @@ public:
         const auto state = bench_->telemetry().state;
         return state == InterlockState::Disarmed || state == InterlockState::Faulted;
     }
-    /// Closes bench and session and gives the session's report items.
+    /// Closes bench and session; returns the session's report items.
     [[nodiscard]] std::vector<nlohmann::json> reportItems() {
         bench_.reset();
         if (!writer_->close()) return {};
@@ -87,7 +87,7 @@ private:
     std::uint64_t seed_;
 };
 
-/// The line of a load in a run's results.
+/// Returns the entry of a load in a run's results.
 [[nodiscard]] inline nlohmann::json loadOf(const nlohmann::json& results, std::string_view name) {
     for (const auto& load : results.at("loads")) {
         if (load.at("name") == name) return load;

@@ -1,4 +1,4 @@
-// The shipped load-safety protocol against the twin: what it finds, and what becomes of it when something breaks.
+// The shipped load-safety protocol on the simulated bench: its results, and what happens if something breaks.
 #include <atomic>
 #include <cmath>
 #include <future>
@@ -83,7 +83,7 @@ TEST(LoadSafetyRun, OpenShortLooseContactAndSilenceTrip) {
     EXPECT_GT(silence_s, 0.1) << "measured, and more than the silence that is waited for";
     EXPECT_LT(silence_s, 0.15);
     EXPECT_EQ(trips, 6U);
-    // The time as a share of the time to the next train.
+    // The time relative to the time to the next train.
     std::size_t timed = 0;
     for (const auto& line : outcome.results["matrix"]["lines"]) {
         if (line["item"] != "trip") continue;
@@ -125,7 +125,7 @@ TEST(LoadSafetyRun, PassesOnACleanCurrentSourceAndFindsEveryLoadsValue) {
     ASSERT_FALSE(outcome.error) << outcome.error->message;
     EXPECT_EQ(outcome.verdict, ScriptVerdict::Pass) << outcome.results["reasons"].dump(1);
     EXPECT_TRUE(rig.outputOff());
-    for (const double ohm : {100.0, 500.0, 1e3, 2e3, 10e3}) {  // 100 ohm with 10 V: 100 mA, of 130 it can
+    for (const double ohm : {100.0, 500.0, 1e3, 2e3, 10e3}) {  // 10 V on 100 ohm is 100 mA; it can give 130
         const auto load =
             loadOf(outcome.results, ohm < 1e3 ? fmt::format("{:g} ohm", ohm) : fmt::format("{:g} kohm", ohm / 1e3));
         EXPECT_EQ(load["verdict"], "pass") << ohm;
@@ -134,7 +134,7 @@ TEST(LoadSafetyRun, PassesOnACleanCurrentSourceAndFindsEveryLoadsValue) {
     const auto skin = loadOf(outcome.results, "200 ohm + 10 kohm || 50 nF");
     EXPECT_EQ(skin["verdict"], "pass");
     EXPECT_LE(skin["imbalance"].get<double>(), 0.005);
-    // What it cannot give is named, and no refusal by the limits.
+    // Commands that the source cannot give are listed as such, not as refused by the limits.
     std::set<std::string> undriven;
     for (const auto& row : outcome.results["rows"]) {
         if (row["load"] != "100 ohm") continue;
@@ -144,7 +144,7 @@ TEST(LoadSafetyRun, PassesOnACleanCurrentSourceAndFindsEveryLoadsValue) {
         undriven.insert(row["title"]);
     }
     EXPECT_EQ(undriven, (std::set<std::string>{"20 V every 0.5 s", "30 V every 0.5 s", "40 V every 0.5 s"}));
-    // Its check of 0.5 mA would put 50 V on 100 kohm: arming was asked for and refused.
+    // The check pulse of 0.5 mA would put 50 V on 100 kohm: arming was requested and refused.
     EXPECT_EQ(loadOf(outcome.results, "100 kohm")["verdict"], "refused as expected");
     EXPECT_EQ(loadOf(outcome.results, "100 kohm")["commands_refused"], 1);
 }
@@ -178,7 +178,7 @@ TEST(LoadSafetyRun, ACurrentSourceNamesWhatItCannotDrive) {
     EXPECT_TRUE(named) << outcome.results["reasons"].dump(1);
 }
 
-// A device lost at any moment: outputs off, what was measured is kept and marked, and nothing passes.
+// A device is lost at any moment: outputs are off, measurements are kept and marked, and nothing passes.
 class DeviceLoss : public testing::TestWithParam<std::string> {};
 
 TEST_P(DeviceLoss, AtEveryStepKeepsPartialRowsAndLeavesOutputsOff) {
@@ -188,7 +188,7 @@ TEST_P(DeviceLoss, AtEveryStepKeepsPartialRowsAndLeavesOutputsOff) {
     const double whole_s = clean.now_s();
     ASSERT_GT(whole_s, 20);
 #ifdef TACTOSCOPE_SANITIZED
-    constexpr int kMoments = 8;  // ten times slower each
+    constexpr int kMoments = 8;  // ten times slower in such a build
 #else
     constexpr int kMoments = 24;
 #endif

@@ -1,5 +1,5 @@
-// script_liar, with its seed in TACTO_LIE: stands where tactoscope-script would, arms the bench as a script may, and
-// then says what no script can: a test's enemy, not a part of the program.
+// script_liar, with its seed in TACTO_LIE: replaces tactoscope-script in tests. It arms the bench as a script may, and
+// then sends what no script can. Not part of the program.
 #include <csignal>
 #include <cstdint>
 #include <cstdlib>
@@ -58,7 +58,7 @@ private:
             case 7:
                 ::_exit(static_cast<int>(random_() % 256));
             case 8:
-                return raw(std::string("\x10\0\0\0", 4) + "\xa1");  // part of a frame, then the end
+                return raw(std::string("\x10\0\0\0", 4) + "\xa1");  // part of a frame, then the connection ends
             case 9:
                 return say({{"refused", index("bench.arm")}, {"why", any(3)}}), say({{"ended", 5}});
             case 10:
@@ -69,28 +69,28 @@ private:
                     std::string("\xa2\x65"
                                 "ended\xf6\x65"
                                 "ended\xf6",
-                                15));  // a key twice
+                                15));  // a repeated key
             case 12:
                 return flood();
             case 13:
-                return frame(std::string(150'000, '\x7f'));  // open-ended texts in each other
+                return frame(std::string(150'000, '\x7f'));  // nested texts without an end
             case 14:
                 ::close(kSocket);
                 return linger();
-            case 15:  // a byte now and then
+            case 15:  // one byte now and then
                 raw(std::string("\x40\0\0\0", 4));
                 for (int i = 0; i < 60; ++i) {
                     raw("x");
                     ::usleep(50'000);
                 }
                 return;
-            case 16:  // the reader reads no answer
+            case 16:  // reads no answer
                 for (int i = 0; i < 20'000; ++i)
                     say({{"call", index("bench.time")}, {"with", json::array()}, {"line", 2}});
                 return linger();
             case 17:
                 return say({{"ended", {{"memory", true}, {"reason", "stopped by operator (signal)"}}}});
-            case 18:  // what it leaves behind holds the socket
+            case 18:  // a process that stays behind keeps the socket open
                 if (::fork() == 0) linger();
                 return;
             default:
@@ -101,7 +101,7 @@ private:
         ::sleep(3);
         ::_exit(0);
     }
-    /// Calls with what fits no function; then it goes.
+    /// Makes calls that fit no function, then exits.
     void flood() {
         for (int i = 0; i < 300; ++i) {
             const auto name = names_[random_() % names_.size()];
@@ -199,6 +199,6 @@ private:
 }  // namespace
 
 int main() {
-    const char* seed = std::getenv("TACTO_LIE");  // a script's process is given no arguments
+    const char* seed = std::getenv("TACTO_LIE");  // a script's process gets no arguments
     Liar(seed != nullptr ? std::strtoull(seed, nullptr, 10) : 0).live();
 }

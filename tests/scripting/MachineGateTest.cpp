@@ -1,4 +1,4 @@
-// Which stimulator may be used on a person today.
+// Tests which stimulator may be used on a person today.
 #include <cstdlib>
 #include <fstream>
 #include <functional>
@@ -25,7 +25,7 @@ using testing::HasSubstr;
 
 constexpr const char* kSource = "mode=current&step=0.5mA";
 
-/// A simulated massager that says it is real.
+/// A simulated massager that reports that it is real.
 class RealLookingMassager final : public Massager {
 public:
     explicit RealLookingMassager(std::unique_ptr<Massager> inner)
@@ -42,13 +42,13 @@ private:
     DeviceIdentity identity_;
 };
 
-/// The serial number of the stimulators here; the tests of other processes have theirs.
+/// The serial number of the stimulators in this process; tests in other processes have their own.
 const std::string& serial() {
     static const OwnSerial own("LAB");
     return own.text();
 }
 
-/// Opens simulated stimulators and massagers that say they are real.
+/// Opens simulated stimulators and massagers that report that they are real.
 class LabDriver final : public Driver {
 public:
     [[nodiscard]] std::string_view scheme() const noexcept override { return "lab"; }
@@ -79,7 +79,7 @@ Registry labRegistry() {
     return Registry(std::move(drivers));
 }
 
-/// A person who is there and does nothing.
+/// A person who is present and does nothing.
 class SilentPerson final : public PilotParticipant {
 public:
     void show(const PilotScreen&) override {}
@@ -107,7 +107,7 @@ protected:
         profile_.electrodeArea = study_.electrode.area;
     }
 
-    /// A session of the study in the folder "study".
+    /// Prepares a session of the study in the folder "study".
     [[nodiscard]] auto prepared(const ProtocolSource& script, const std::map<std::string, std::string>& given,
                                 const std::string& uri) {
         RunOrder order;
@@ -129,7 +129,7 @@ protected:
         const std::vector<DeviceUri> uris{DeviceUri::parse(uri).value()};
         return registry.open(uris, {Role::Stimulator}, OpenContext{clock_, 1, "1 kohm"}).value();
     }
-    /// What the gate says; empty where it holds.
+    /// Returns the gate's error, or an empty text if the gate agrees.
     [[nodiscard]] std::string said(const std::string& uri = std::string("lab:stimulator?") + kSource) {
         const auto devices = open(uri);
         const auto holds = machineGate(study_, profile_, limits_, devices, today_);
@@ -164,7 +164,7 @@ protected:
         check.simulated = simulated;
         check.area = study_.electrode.area;
         check.reach = reachOf(profile_);
-        check.reach.highest_ohm = 50'000;  // more than the study's, whose profile a test changes
+        check.reach.highest_ohm = 50'000;  // more than that of the study; a test changes the profile
         check.tolerances = {.load_pct = 5, .amplitude_pct = tolerated_pct_};
         check.limits = study_.limits;
         check.scriptSha256 = shippedLoadSafetySha256();
@@ -306,7 +306,7 @@ TEST_F(MachineGate, APersonsSessionBeginsBehindItAndNothingIsMadeBeforeIt) {
     accepted->reset();
     EXPECT_EQ(sessions(), 1U);
 
-    // It delivered no train, so another session may begin at once, and this one is ended for it.
+    // The session delivered no train, so the next session may begin at once and end it.
     const auto next = prepare({{"unfinished", "end"}});
     ASSERT_TRUE(next) << next.error().message;
     const auto left = Study::open(at, nullptr, Study::Access::Read).value().sessions();
@@ -376,7 +376,7 @@ TEST_F(MachineGate, AProfileThatWasChangedAfterTheApprovalBeginsNoSession) {
     EXPECT_THAT(refusal(profile, {{"method", "quest"}}), HasSubstr("quest, and approval EC-2026-17 is for staircase"));
     changed = profile;
     changed.name = "another name";
-    changed.encoding.train.phaseWidth = Micros(300);  // the study's is taken
+    changed.encoding.train.phaseWidth = Micros(300);  // the study's phase width is used instead
     const auto accepted = prepare(changed);
     ASSERT_TRUE(accepted) << accepted.error().message;
     const auto& begun = (*accepted)->study();

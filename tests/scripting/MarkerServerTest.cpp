@@ -1,4 +1,4 @@
-// Markers over TCP: each recorder gets each line in order, and none of them delays anything.
+// Markers over TCP: each recorder gets each line in order, and no recorder delays anything.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -35,7 +35,7 @@ protected:
         ASSERT_NE(server_, nullptr);
         server_->begin(clock_);
     }
-    /// Connected, and known to the server.
+    /// Returns a recorder that is connected and known to the server.
     [[nodiscard]] std::unique_ptr<MarkerRecorder> recorder(
         MarkerRecorder::Reads reads = MarkerRecorder::Reads::Everything) const {
         auto made = std::make_unique<MarkerRecorder>(at_.port, reads);

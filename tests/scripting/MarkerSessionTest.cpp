@@ -1,4 +1,4 @@
-// The markers of a whole rehearsal against its record: each row in order with its time, whatever the recorders do.
+// Compares the markers of a whole rehearsal with its record: rows in order with their times, for any recorders.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ protected:
         drivers.push_back(makeSimulatedDriver());
         return Registry(std::move(drivers));
     }
-    /// The rows of the study's only session.
+    /// Returns the rows of the study's only session.
     [[nodiscard]] static std::vector<SessionRow> rowsOf(const std::filesystem::path& folder) {
         const auto study = Study::open(folder, nullptr, Study::Access::Read).value();
         const auto part = study.sessions().front().parts.front().file;
@@ -76,7 +76,7 @@ TEST_F(MarkerSession, LinesAreTheRowsOfTheRecordInOrderAndSayNoMore) {
 
     const auto rows = rowsOf(folder);
     std::vector<std::string> expected{"0 0.000000000 connected"};
-    std::map<std::string, std::vector<std::string>> ofTrials;  // what became of each trial, by condition
+    std::map<std::string, std::vector<std::string>> ofTrials;  // outcomes of the trials, by condition
     std::vector<std::string> sinceBegin;
     for (const auto& row : rows) {
         if (!hasMarker(row.name)) continue;

@@ -1,5 +1,5 @@
-// Every sampling rate that a shipped protocol offers leads to its verdict, with an oscilloscope that has flaws and with
-// an ideal one.
+// Every sampling rate that a shipped protocol offers leads to its verdict, with a flawed and with an ideal
+// oscilloscope.
 #include <gtest/gtest.h>
 
 #include "tests/scripting/RunBench.h"
@@ -29,7 +29,7 @@ std::vector<Offer> offeredRates() {
     return offers;
 }
 
-/// The least that still comes to a verdict.
+/// Returns the shortest settings that still lead to a verdict.
 std::map<std::string, std::string> shortened(const Offer& offer) {
     std::map<std::string, std::string> settings{{"rate", offer.rate}};
     if (offer.protocol == "separability") settings.insert({"repeats", "2"});

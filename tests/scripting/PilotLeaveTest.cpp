@@ -1,4 +1,4 @@
-// The end of a run of a pilot session: a STOP that is pressed then.
+// A STOP that is pressed while the run of a pilot session ends.
 #include <gtest/gtest.h>
 #include <mutex>
 #include <thread>
@@ -13,7 +13,7 @@
 namespace tacto::test {
 namespace {
 
-/// A person who answers nothing and presses STOP at any time, as ParticipantDesk hands it on.
+/// A person who gives no answers and presses STOP at any time, as ParticipantDesk reports it.
 class PressingPerson final : public PilotParticipant {
 public:
     void show(const PilotScreen& /*screen*/) override {
@@ -33,7 +33,7 @@ public:
     }
     [[nodiscard]] bool holding() const noexcept override { return true; }
     [[nodiscard]] bool answersInRealTime() const noexcept override { return false; }
-    /// Whether the session heard the press.
+    /// Presses STOP. Returns true if the session received it.
     bool press() {
         const std::scoped_lock lock(mutex_);
         if (!listens_ || !stop) return false;

@@ -1,4 +1,4 @@
-// What comes before a procedure: the wiring, and a known load that must read as what it is.
+// The preparations for a procedure: the wiring, and a known load that must read correctly.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ constexpr const char* kRead =
     "bench.arm({ load: 1000 }); bench.drive('manual', { roughness: 1, pressure: 1 });"
     "const reading = measure.pulse(bench.capture({ trains: 1 })); bench.disarm();";
 
-/// The report items of one kind, from a run with a closed session.
+/// Returns the report items of one kind from a run with a closed session.
 std::vector<nlohmann::json> reported(const RunBench& rig, std::string_view kind) {
     std::vector<nlohmann::json> out;
     const auto reader = SessionReader::open(rig.folder().path() / "run.tacto").value();
@@ -36,7 +36,7 @@ TEST(KnownReference, OfTheLoadThatIsConnectedPassesAndIsRecorded) {
     EXPECT_NEAR(outcome.results["deviation_pct"].get<double>(),
                 outcome.results["measured_ohm"].get<double>() / 10 - 100, 1e-9);
     EXPECT_EQ(outcome.results["allowed_pct"].get<double>(), 1) << "the instruments' part is in U, which narrows it";
-    // Shunt (0.1 %), linearity and steps; the gain that both channels share (0.5 %) divides out.
+    // Shunt (0.1 %), linearity and steps; the gain error that both channels share (0.5 %) cancels.
     EXPECT_GT(outcome.results["expanded_uncertainty_pct"].get<double>(), 0.1);
     EXPECT_LT(outcome.results["expanded_uncertainty_pct"].get<double>(), 0.4);
     EXPECT_TRUE(outcome.results["reason"].is_null());
@@ -128,7 +128,7 @@ TEST(Wiring, OfASimulatedBenchIsReportedWithoutAQuestion) {
     EXPECT_THAT(texts[0]["text"].get<std::string>(), testing::HasSubstr("simulated bench"));
 }
 
-/// A run on a bench that looks real, and the names of what its technician was asked.
+/// A run on a bench that looks real, with the names of the questions to its technician.
 struct LabRun {
     ScriptOutcome outcome;
     std::vector<std::string> asked;

@@ -63,7 +63,7 @@ ScriptOutcome RunBench::stoppedAt(int trial, const std::string& protocol,
                                   const std::map<std::string, std::string>& settings) {
     auto request = shipped(protocol, settings);
     int trials = 0;
-    // Called on the script's own thread, at a moment that is the same in every run: the next call of the bench says so.
+    // Called on the script's own thread, at the same moment in every run: the bench's next call reports the stop.
     request.onTrial = [&](const nlohmann::json&) {
         if (++trials == trial) bench_->stop("the test");
     };

@@ -1,5 +1,5 @@
-// RunBench.h - a simulated bench to run scripts on, with or without a session file; or one that looks like a
-// laboratory's own.
+// RunBench.h - a simulated bench to run scripts on, with or without a session file; it can also look like a real
+// laboratory bench.
 //
 // Thread-safety: the test's own thread; the bench has its own rules.
 #pragma once
@@ -18,7 +18,7 @@
 
 namespace tacto::test {
 
-/// A script as text, named so that its errors can be recognised: "/lab/probe.js".
+/// Returns a script with a path that can be recognised in its errors: "/lab/probe.js".
 [[nodiscard]] inline ProtocolSource probe(std::string body) {
     ProtocolSource source;
     source.name = "probe";
@@ -36,7 +36,7 @@ public:
 
     [[nodiscard]] RunRequest request(std::string script) { return request(probe(std::move(script))); }
     [[nodiscard]] RunRequest request(ProtocolSource source);
-    /// A shipped protocol, with what --set would give.
+    /// Returns a request for a shipped protocol with settings like those of --set.
     [[nodiscard]] RunRequest shipped(const std::string& protocol, const std::map<std::string, std::string>& settings);
     [[nodiscard]] ScriptOutcome run(std::string script) { return runProtocol(request(std::move(script))).value(); }
 
@@ -47,7 +47,7 @@ public:
     [[nodiscard]] Bench& bench() { return *bench_; }
     [[nodiscard]] SessionWriter& writer() { return *writer_; }
     [[nodiscard]] bool outputOff() const;
-    /// The technician, where the bench looks real.
+    /// The technician, if the bench looks real.
     [[nodiscard]] Technician& technician() { return *technician_; }
     [[nodiscard]] const ScratchDir& folder() const { return folder_; }
     void closeBench() { bench_.reset(); }
@@ -61,7 +61,7 @@ private:
     std::uint64_t seed_ = 1;
 };
 
-/// The least that a script needs, with `body` as run's body from line 2 on.
+/// Returns the shortest valid script, with `body` inside run() from line 2 on.
 [[nodiscard]] inline std::string withRun(const std::string& body) {
     return "protocol({ title: \"Probe\" }); function run(p) {\n" + body + "\n}\n";
 }

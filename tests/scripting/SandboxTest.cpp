@@ -1,4 +1,4 @@
-// Hazard H10: a script reaches the world through the host objects alone, and cannot take those away.
+// Hazard H10: a script acts only through the host objects, and cannot remove or replace them.
 #include <gtest/gtest.h>
 
 #include "app/scripting/engine/ScriptProcess.h"
@@ -7,7 +7,7 @@
 namespace tacto {
 namespace {
 
-/// Answers every host call with the name of what was called.
+/// Answers every host call with the name of the called function.
 class EchoPort final : public HostPort {
 public:
     Result<nlohmann::json> call(const HostFunction& function, const nlohmann::json& arguments, int line) override {
@@ -23,7 +23,7 @@ public:
     bool refuse = false;
 };
 
-/// What ended the script, or "" when run() returned.
+/// Returns the error that ended the script, or "" if run() returned.
 std::string outcomeOf(const std::string& script, EchoPort* port = nullptr) {
     EchoPort own;
     const auto process = ScriptProcess::start(std::size_t{1} << 30).value();
@@ -85,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(
         Attempt{"Promise", "Promise.resolve(1)"}, Attempt{"AtomicsWait", "Atomics.wait()"},
         Attempt{"FunctionConstructor", "new Function('return require')()"},
         Attempt{"IndirectEval", "(0, eval)('importModule')"},
-        // overwriting what belongs to the program
+        // overwriting objects of the program
         Attempt{"AssignBench", "bench = {}"}, Attempt{"AssignVerdict", "verdict = () => 'pass'"},
         Attempt{"AssignMember", "bench.wait = () => 0"}, Attempt{"AddMember", "bench.extra = 1"},
         Attempt{"DeleteMember", "delete bench.wait"}, Attempt{"AssignSteps", "bench.loadSafety = {}"},

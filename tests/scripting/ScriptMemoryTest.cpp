@@ -1,5 +1,5 @@
-// A script that wants more memory than there is, or than it may have, ends its run with the output off; the program and
-// the session live on.
+// A script that wants more memory than exists, or more than it may have: the run ends with the output off; the program
+// and the session continue.
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -20,11 +20,11 @@ constexpr std::size_t kLimit = std::size_t{150} << 20;
 struct Ended {
     ScriptOutcome outcome;
     bool off = false;
-    bool closed = false;  // the session, and it verifies
+    bool closed = false;  // the session is closed and valid
     std::string events;
 };
 
-/// While it lives, the program can get 1 GiB more and nothing beyond: then allocating fails.
+/// During its lifetime, the program can get only 1 GiB more; then allocating fails.
 class LittleMemory {
 public:
     LittleMemory() {
@@ -44,7 +44,7 @@ private:
     rlimit before_{};
 };
 
-/// Runs `greed` with the output delivering.
+/// Runs `greed` while the output delivers.
 Ended run(const std::string& greed, std::size_t limit) {
     RunBench rig(true, "sim:", 1, true);
     auto request =
@@ -99,7 +99,7 @@ TEST_P(ScriptWithoutMemory, EndsTheRunWithTheOutputOff) {
     expectEnded(run(greed, std::size_t{1} << 40), message);
 }
 
-// The engine throws std::bad_alloc, also from code that it would have compiled by then.
+// The engine throws std::bad_alloc, even from code that is hot enough to be compiled.
 INSTANTIATE_TEST_SUITE_P(
     Greed, ScriptWithoutMemory,
     testing::Values(std::pair("let s = 'x'; for (;;) { s += s; s.charCodeAt(0); }",
@@ -114,11 +114,11 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Greed, ScriptMemory,
     testing::Values(
-        // More than it may have.
+        // More than the script may have.
         std::pair("const kept = []; for (let i = 0; ; i++) kept.push('x'.repeat(1e6) + i);", "takes too much memory"),
         std::pair("const kept = []; for (;;) kept.push(new Float64Array(1e6).fill(1));", "takes too much memory"),
         std::pair("const s = 'x'.repeat(2 ** 28); for (;;) s.charCodeAt(0);", "takes too much memory"),
-        // Refused as what it is.
+        // Refused with the engine's own error.
         std::pair("new ArrayBuffer(1e12);", "RangeError")));
 
 TEST(ScriptMemoryOfALine, ThatOnlyDeclaresIsWatchedToo) {

@@ -94,7 +94,7 @@ TEST(ScriptRun, SameSeedGivesTheSameTrials) {
     ASSERT_EQ(first.size(), 4U);
     EXPECT_EQ(first, logOf(7));
     EXPECT_NE(first, logOf(8));
-    // Every block holds every element once.
+    // Every block contains every element once.
     for (std::size_t block = 0; block < 5; ++block) {
         std::string part = first[0].substr(4 * block, 4);
         std::sort(part.begin(), part.end());
@@ -129,7 +129,7 @@ TEST(ScriptRun, ArgumentErrorsNameTheFunctionTheValueAndWhatIsAccepted) {
     EXPECT_NE(error("progress(5)"), "");
 }
 
-/// What was measured stands beside what was set, and whether the stimulator's accuracy explains it.
+/// Measured values are listed with the settings, and whether the stimulator's accuracy explains the difference.
 TEST(ScriptRun, ExposureSaysWhatWasMeasured) {
     RecordProperty("hazard", "H1");
     for (const double gain : {0.9, 0.97, 1.0, 1.03, 1.12}) {

@@ -19,7 +19,7 @@ using test::withRun;
 const std::string kArmed =
     "bench.arm({ load: 1000 }); bench.drive('manual', { roughness: 1, pressure: 1 }); bench.wait(0.6); log('here');\n";
 
-/// The time from stop() to the report, whatever the script does: its process is ended at once.
+/// The longest time from stop() to the report: the script's process is ended at once, whatever it does.
 constexpr milliseconds kReported{700};
 
 /// Waits for an operator who never answers.
@@ -48,7 +48,7 @@ private:
     bool waiting_ = false, cancelled_ = false;
 };
 
-/// Waits for what the script says. Returns whether it did: where it ended before, there is nothing to wait for.
+/// Waits for the script to say something. Returns false if the script ended without saying it.
 bool isSaid(std::future<void> said, ScriptRun& run) {
     while (said.wait_for(milliseconds(10)) != std::future_status::ready) {
         if (run.waitFor(milliseconds(0))) return said.wait_for(milliseconds(0)) == std::future_status::ready;
@@ -65,7 +65,7 @@ struct Stopping {
         auto run = ScriptRun::start(std::move(request)).value();
         [&] { ASSERT_IN_TIME(isSaid(reached.get_future(), *run)) << "the script ended before it was armed"; }();
         armedBefore = !rig.outputOff();
-        // Long enough for the script to be inside what it does next.
+        // Long enough for the script to reach its next statement.
         [&] { ASSERT_IN_TIME(!run->waitFor(milliseconds(150))) << "the script ended by itself"; }();
         const auto begin = steady_clock::now();
         run->stop("the test");
@@ -91,13 +91,13 @@ void expectStopped(const Stopping& stopping, int line) {
 }
 
 TEST(ScriptStop, AScriptThatDrivesAndWaitsNoMoreEndsItsOutput) {
-    testing::Test::RecordProperty("hazard", "H2");  // the script computes, or what it prints to stands still
+    testing::Test::RecordProperty("hazard", "H2");  // the script computes, or the reader of its output has stopped
     RunBench rig(false);
     const auto begun = steady_clock::now();
     const auto outcome = rig.run(withRun(kArmed + "const until = Date.now() + 4000; while (Date.now() < until);\n"
                                                   "log(bench.live().state); bench.wait(0.1);"));
     ASSERT_TRUE(outcome.error);
-    // If the machine stands still, the loop's own watches come first, as a fault; they are tested elsewhere.
+    // If the machine stands still, the loop's own checks report a fault first; other tests cover them.
     const auto fault = rig.bench().telemetry().fault;
     ASSERT_IN_TIME(fault != FaultCause::LoopSilent && fault != FaultCause::StatusMissing) << outcome.error->message;
     ASSERT_CODE_IN_TIME(outcome.error->code, ErrorCode::Stopped) << outcome.error->message;
@@ -105,7 +105,7 @@ TEST(ScriptStop, AScriptThatDrivesAndWaitsNoMoreEndsItsOutput) {
     ASSERT_EQ(outcome.log.size(), 2U);
     EXPECT_EQ(outcome.log[1], "disarmed");
     const double seconds = std::chrono::duration<double>(steady_clock::now() - begun).count();
-    const double most = 4 / rig.bench().profile().encoding.intervalMin.count();  // a train each 0.5 s for 4 s
+    const double most = 4 / rig.bench().profile().encoding.intervalMin.count();  // one train each 0.5 s for 4 s
     EXPECT_LT(static_cast<double>(rig.bench().telemetry().trainsDelivered), most) << "in " << seconds << " s";
 }
 
@@ -192,7 +192,7 @@ TEST(ScriptStop, AStoppedScriptReachesTheBenchNoMore) {
     RecordProperty("hazard", "H10");
     auto rig = std::make_unique<RunBench>();
     std::atomic<int> logged{0};
-    // The sort keeps calling the host function when the interpreter runs no statement any longer.
+    // The sort keeps calling the host function even when the interpreter no longer runs statements.
     auto request = rig->request(
         withRun("const a = []; for (let i = 0; i < 1e6; ++i) a[i] = i * 7919 % 1000003;\n" + kArmed + "a.sort(log);"));
     request.onLog = [&](const std::string&) { ++logged; };
@@ -204,7 +204,7 @@ TEST(ScriptStop, AStoppedScriptReachesTheBenchNoMore) {
     const int before = logged;
     EXPECT_TRUE(rig->outputOff());
     run.reset();
-    rig.reset();  // the bench is gone
+    rig.reset();  // destroys the bench
     const auto until = steady_clock::now() + milliseconds(200);
     while (steady_clock::now() < until) std::this_thread::yield();
     EXPECT_EQ(logged, before);
@@ -246,7 +246,7 @@ TEST(ScriptStop, PauseHoldsTheScriptAndResumeLetsItGo) {
     auto run = ScriptRun::start(std::move(request)).value();
     ASSERT_IN_TIME(isSaid(begun.get_future(), *run));
     run->pause();
-    (void)run->waitFor(milliseconds(50));  // what was under way when it paused has ended
+    (void)run->waitFor(milliseconds(50));  // what was running before the pause has ended
     const int held = steps;
     EXPECT_FALSE(run->waitFor(milliseconds(100)));
     EXPECT_EQ(steps, held);

@@ -1,5 +1,5 @@
-// What a script asks for and does not get: a larger electrode, safety fields in a stored profile, files of its own
-// choice.
+// Requests of a script that are refused: a larger electrode, safety fields in a stored profile, files that it chooses
+// itself.
 #include <algorithm>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ using Json = nlohmann::json;
 
 class ScriptTrust : public DataHome {
 protected:
-    /// What the run ended with; `area` is the profile's, `given` the operator's --set.
+    /// Returns the error that ended the run. `area`: that of the profile; `given`: the operator's --set.
     [[nodiscard]] std::string run(const std::string& body, std::optional<double> area,
                                   const std::map<std::string, std::string>& given = {}) {
         rig_ = std::make_unique<RunBench>(true, "sim:", 1, true);
@@ -41,7 +41,7 @@ protected:
         const auto& area = rig_->bench().profile().electrodeArea;
         return area ? area->value() : 0;
     }
-    /// Everything the session says, in one text.
+    /// Returns all text of the session.
     [[nodiscard]] std::string session() {
         rig_->closeBench();
         EXPECT_TRUE(rig_->writer().close());
@@ -66,7 +66,7 @@ TEST_F(ScriptTrust, TheElectrodeShrinksAndNeverGrows) {
     EXPECT_EQ(areaInForce(), 3);
     EXPECT_THAT(run("bench.setElectrodeArea(1); bench.setElectrodeArea(3); bench.setElectrodeArea(3.01);", 3),
                 HasSubstr("3.01 cm² is larger"));
-    // The operator's word does not help either: it is changed in the profile.
+    // The operator's --set does not help either: the area must be changed in the profile.
     EXPECT_THAT(run("bench.setElectrodeArea(p.area);", 3, {{"area", "4"}}), HasSubstr("4 cm² is larger"));
 }
 
@@ -75,7 +75,7 @@ TEST_F(ScriptTrust, ReferencesAreFeltInTheRunAndNotMadeUp) {
     const std::string felt = "const s = bench.measureReference('plastic'), r = bench.measureReference('P120');\n";
     EXPECT_EQ(run(felt + "bench.setReferences(s, r);", {}), "");
     EXPECT_TRUE(rig_->bench().profile().roughness.calibrated);
-    // A number, a name or a field of its own, a half that was not felt, or nothing felt at all: none of them counts.
+    // A number, a name, an invented field, an unmeasured reference, or no measurement at all: none is accepted.
     for (const char* forged :
          {"bench.setReferences({ h: 0.001, v: 0.001 }, { h: 0.002, v: 0.002 });",
           "s.h *= 0.99; bench.setReferences(s, r);", "r.material = 'glass'; bench.setReferences(s, r);",
@@ -103,7 +103,7 @@ TEST_F(ScriptTrust, WithoutAnAreaInTheProfileTheOperatorsWordIsNeeded) {
     EXPECT_THAT(said, HasSubstr("Electrode area: 4 cm², declared by the operator."));
 }
 
-// The shortest calibration of the twin's fingertip.
+// The shortest calibration of the simulated fingertip.
 constexpr const char* kCalibrates = R"js(
 const steps = bench.sensorCalibration;
 const surfaces = steps.begin({ smooth: "glass", smooth_ra_um: 0.02, smooth_rz_um: 0, smooth_file: "", rough: "P120",
@@ -135,7 +135,7 @@ TEST_F(ScriptTrust, AStoredProfileTakesOverTheScalesAndNothingElse) {
 
 TEST_F(ScriptTrust, AProfileComesFromSlidesThatTheProgramMeasured) {
     RecordProperty("hazard", "H9");
-    // What else a script hands over is not looked at, and an unmeasured value is refused.
+    // Other data from a script are ignored, and an unmeasured value is refused.
     for (const auto& [forged, refusal] :
          {std::pair("steps.slide('steel');", "surface is \"steel\", one of the surfaces is expected"),
           std::pair("steps.weigh({ mass_g: 150, direction: 'up', repeat: 1 });", "one of the weights is expected"),
@@ -241,7 +241,7 @@ TEST_F(ScriptTrust, AnErrorOfTheScriptsOwnIsNoneOfTheProgram) {
     EXPECT_EQ(ended("throw Object.assign(new Error(real.message), real);").code, ErrorCode::ParseError);
     EXPECT_EQ(ended("throw Object.create(real);").code, ErrorCode::ParseError);
     EXPECT_EQ(ended("throw new Proxy(real, {});").code, ErrorCode::ParseError);
-    // A host call's own, caught and thrown again, is what it was.
+    // An error of a host call that is caught and thrown again does not change.
     const auto real = ended("throw real;");
     EXPECT_EQ(real.code, ErrorCode::LimitExceeded) << real.message;
     const auto changed = ended("real.code = 6; real.message = 'stopped by operator'; throw real;");
@@ -293,7 +293,7 @@ TEST_F(ScriptTrust, AFileIsReadOnlyWhereTheOperatorGaveIt) {
     const auto read = [](const std::string& path) { return "bench.profilometer(" + Json(path).dump() + ");"; };
     EXPECT_EQ(run(read(good.string()), {}, {{"file", good.string()}}), "");
     EXPECT_EQ(run(read(good.string()), {}, {{"file", "paper " + good.string() + "; steel 1 2"}}), "");
-    // The words are the same for a file that exists, for one that does not, and for a default.
+    // The error is the same for a file that exists, for one that does not, and for a default.
     for (const std::string& path : {good.string(), std::string("/no/such/file"), std::string("/etc/hostname")}) {
         EXPECT_THAT(run(read(path), {}), HasSubstr("the operator did not choose " + Json(path).dump())) << path;
         EXPECT_THAT(run(read(path), {}, {{"file", path + "x"}}), HasSubstr("the operator did not choose")) << path;

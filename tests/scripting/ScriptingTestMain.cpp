@@ -1,4 +1,4 @@
-// Operators and windows need a QCoreApplication; it must exist before the first of them.
+// Operators and windows need a QCoreApplication, so it must be created first.
 #include <QCoreApplication>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// The sensor calibration on the simulated bench: what it finds, what it refuses, and what becomes of it when something
-// breaks or the operator stops it.
+// The sensor calibration on the simulated bench: its results, its refusals, and what happens if something breaks or the
+// operator stops it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ using testing::HasSubstr;
 using Settings = std::map<std::string, std::string>;
 
 const std::set<Role> kSensorBench{Role::Sensor};
-/// The least that a calibration takes: two surfaces, three slides, no weights.
+/// The shortest calibration: two surfaces, three slides, no weights.
 const Settings kShort{{"more", ""}, {"slides", "3"}, {"duration_s", "2"}, {"weights_g", ""}};
 
 Settings with(Settings settings, const Settings& changes) {
@@ -49,7 +49,7 @@ TEST(SensorCalibrationRun, FindsScalesRankingForceAndTaxelsOfTheTwin) {
     }
     EXPECT_GE(results["spearman"]["value"].get<double>(), 0.9);
     EXPECT_EQ(results["spearman"]["n"], 6);
-    // The twin's sensors are true: 1 N reads 1 N, and 1 Pa 1 Pa on the average taxel.
+    // The simulated sensors are accurate: 1 N reads 1 N, and 1 Pa reads 1 Pa on the average taxel.
     EXPECT_NEAR(results["force"]["scale"].get<double>(), 1, 0.01);
     EXPECT_NEAR(results["force"]["offset"].get<double>(), 0, 0.02);
     ASSERT_EQ(results["taxels"].size(), 8U);
@@ -77,14 +77,14 @@ TEST(SensorCalibrationRun, ItsProfileMakesRCalibratedFromThenOn) {
     EXPECT_EQ(rig.bench().profile().roughness, profile.roughness) << "in force for the rest of the run";
 }
 
-/// A twin with a force sensor that says 0.8 N for 1 N, and taxels that say 2.5 counts for 1 Pa.
+/// A simulated fingertip with a force sensor that reads 0.8 N for 1 N, and taxels that read 2.5 counts for 1 Pa.
 constexpr const char* kWrongTwin = "sim:finger?forcegain=0.8&taxelgain=2.5&taxelunit=count";
 const Settings kWeighed{{"weights_g", "50; 200; 500"},
                         {"weight_repeats", "2"},
                         {"reference_tolerance_pct", "30"},
                         {"contact_area_tolerance_pct", "5"}};
 
-/// What the bench makes of 2 N on its square centimetre.
+/// Returns the bench's pressure for 2 N on the fingertip's square centimetre.
 double pressureUnder2N(RunBench& rig) {
     EXPECT_TRUE(rig.bench().devices().surface->present("glass", MillimetresPerSecond(0), Newtons(2)));
     EXPECT_TRUE(rig.bench().wait(Seconds(1)));
@@ -96,7 +96,7 @@ double pressureUnder2N(RunBench& rig) {
     return statisticsOf(seen).mean;
 }
 
-/// What taxels alone say of 2.04 N, under a profile: a fingertip without a force sensor.
+/// Returns what the taxels alone read for 2.04 N, with a profile for a fingertip without a force sensor.
 RoughnessSummary taxelsUnder208g(RunBench& rig, const RoughnessSettings& settings) {
     const auto outcome = rig.run(test::withRun("return verdict({ verdict: 'pass', at: bench.measureWeight(208) });"));
     EXPECT_FALSE(outcome.error);
@@ -128,7 +128,7 @@ TEST(SensorCalibrationRun, ATwinWithWrongScalesGivesTheRightPressureAfterwardsAn
     EXPECT_NEAR(pressed.pressure_pa.mean, 0.208 * 9.80665 / 1e-4, 200);
     EXPECT_THAT(pressed.flags, testing::Not(testing::Contains("uncalibrated units")));
 
-    // Tried in another run with the profile, and on another board.
+    // The profile is tried in another run, and on another board.
     RunBench same(true, kWrongTwin, 1, false, kSensorBench), another(true, kWrongTwin, 2, false, kSensorBench);
     for (auto* bench : {&same, &another}) ASSERT_TRUE(bench->bench().setProfile(profile));
     EXPECT_NEAR(pressureUnder2N(same), 20'000, 200);
@@ -141,7 +141,7 @@ TEST(SensorCalibrationRun, TheScalesCarryTheTolerancesOfWeightsGravityAndArea) {
     const auto outcome = calibrateSensor("sim:", with(kShort, kWeighed));
     ASSERT_FALSE(outcome.error) << outcome.error->message;
     const auto& force = outcome.results["force"];
-    // 0.1 % and 0.27 %, rectangular, and what the readings scatter.
+    // 0.1 % and 0.27 %, rectangular, plus the scatter of the readings.
     EXPECT_NEAR(force["scale_expanded_uncertainty"].get<double>(), 1.96 * 0.288e-2 / std::sqrt(3.0), 1.5e-3);
     EXPECT_NEAR(outcome.results["taxels"][0]["scale_expanded_uncertainty"].get<double>(), 1.96 * 0.05 / std::sqrt(3.0),
                 0.01);
@@ -158,7 +158,7 @@ TEST(SensorCalibrationRun, TheScalesCarryTheTolerancesOfWeightsGravityAndArea) {
 }
 
 TEST(SensorCalibrationRun, WhoStartsTouchedIsToldSo) {
-    // A finger that never lifts: on a rig without a presenter nothing else would notice.
+    // A finger that is never lifted: without a presenter, nothing else would notice that.
     RunBench rig(true, "sim:", 1, false, kSensorBench);
     rig.bench().devices().surface.reset();
     auto request = rig.request(test::withRun("bench.measureRest({ duration_s: 2 });"));
@@ -169,7 +169,7 @@ TEST(SensorCalibrationRun, WhoStartsTouchedIsToldSo) {
     EXPECT_THAT(outcome.error->message, HasSubstr("it was in contact"));
 }
 
-using SensorProfileKept = test::DataHome;  // a store of its own for each test
+using SensorProfileKept = test::DataHome;  // a separate store for each test
 
 TEST_F(SensorProfileKept, IsAFileThatALaterOneDoesNotOverwrite) {
     const auto settings = with(kShort, {{"store", "true"}});
@@ -187,7 +187,7 @@ TEST_F(SensorProfileKept, IsAFileThatALaterOneDoesNotOverwrite) {
 
 TEST_F(SensorProfileKept, IsNotWrittenForSurfacesThatCannotBeToldApart) {
     RecordProperty("hazard", "H7");
-    // Two smooth surfaces, and taxels with noise far above what either does to them.
+    // Two smooth surfaces, and taxels with much more noise than either surface causes.
     const auto outcome = calibrateSensor("sim:finger?taxelnoise=1000", with(kShort, {{"store", "true"},
                                                                                      {"smooth", "glass"},
                                                                                      {"smooth_ra_um", "0.01"},
@@ -285,7 +285,7 @@ TEST(SensorCalibrationRun, ListensOnTheSteadyClockToo) {
     const auto& rest = outcome.results["rest"];
     EXPECT_EQ(rest["taxel_baseline"].size(), 8U);
     EXPECT_GT(rest["mean_square"].get<double>(), 0);
-    EXPECT_IN_TIME(rest["force"]["n"].get<int>() >= 50);  // 200 Hz; a busy machine hands over some of them late
+    EXPECT_IN_TIME(rest["force"]["n"].get<int>() >= 50);  // 200 Hz; on a busy machine some samples come late
     EXPECT_NEAR(outcome.results["at"]["force"].get<double>(), 1.96, 0.1);
     EXPECT_TRUE(rig.outputOff());
 }
@@ -325,7 +325,7 @@ TEST_P(SensorCalibrationCancel, EndsWithOutputsOffAndKeepsWhatThereWas) {
                                        with(kShort, {{"weights_g", "50; 200"}, {"weight_repeats", "1"}}));
     ASSERT_TRUE(outcome.results.is_object());
     EXPECT_TRUE(outcome.results["partial"].get<bool>());
-    // A reading counts as kept once record.partial() saw it; the one at which it was stopped does too.
+    // A reading is kept once record.partial() has it, including the reading at which the run was stopped.
     const auto kept = outcome.results.value("weights", nlohmann::json::array()).size() +
                       outcome.results.value("slides", nlohmann::json::array()).size();
     EXPECT_GE(kept, static_cast<std::size_t>(GetParam() - 1));

@@ -1,5 +1,5 @@
-// The instrument profiles that the program was built with (hazards H1 and H9): each figure has a source, no instrument
-// is of two series, and no folder of the user's adds or changes one.
+// The built-in instrument profiles (hazards H1 and H9): each figure has a source, no instrument belongs to two series,
+// and no folder of the user adds or changes a profile.
 #include <cstdlib>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace tacto::test {
 namespace {
 
-// The names in libsigrok 0.5 and its master branch of 2026 (src/hardware/*/api.c and protocol.c).
+// Names from libsigrok 0.5 and its master branch of 2026 (src/hardware/*/api.c and protocol.c).
 const std::vector<std::string> kDrivenByLibsigrok{
     "Rigol VS5022",          "Rigol VS5202D",         "Rigol DS1052E",      "Rigol DS1152E-EDU",
     "Rigol DS1102D",         "Rigol DS2072",          "Rigol DS2102",       "Rigol DS2202",
@@ -43,7 +43,7 @@ TEST(ShippedInstruments, EachReadsAndHasASourceForEachFigure) {
             EXPECT_TRUE(figure->address.starts_with("http")) << profile.id << ": " << figure->address;
         }
         EXPECT_GT(known, 0) << profile.id << " states nothing and would promise something";
-        // A stated 0 would make an instrument perfect.
+        // A stated 0 would mean a perfect instrument.
         EXPECT_FALSE(profile.gain.value == 0 || profile.timeBase.value == 0) << profile.id;
         const auto statement = profile.statement();
         EXPECT_FALSE(statement.voltage.probe.known() || statement.current.probe.known()) << profile.id;

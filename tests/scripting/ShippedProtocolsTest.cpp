@@ -1,4 +1,4 @@
-// Every shipped script runs on the simulated bench, as a lab would start it.
+// Every shipped script runs on the simulated bench, started as in a laboratory.
 #include <filesystem>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ TEST(ShippedProtocols, AreThoseOfTheFolder) {
     EXPECT_THAT(shippedNames(), testing::UnorderedElementsAreArray(files));
 }
 
-/// Sessions of a study need one: tests/cli/PilotTest.cpp runs them.
+/// Scripts for study sessions need a study: tests/cli/PilotTest.cpp runs them.
 std::vector<std::string> namesWithoutStudy() {
     auto names = shippedNames();
     std::erase_if(names, [](const std::string& name) { return name.starts_with("pilot-"); });
@@ -44,7 +44,7 @@ std::vector<std::string> namesWithoutStudy() {
 }
 
 TEST(ShippedProtocols, TakeNoSettingThatNothingReads) {
-    for (const auto& name : shippedNames()) {  // an area under a misspelt name would be a check without it
+    for (const auto& name : shippedNames()) {  // with a misspelt name, the area would not be checked
         const auto declaration = readDeclaration(shipped().find(name).value()).value();
         EXPECT_FALSE(applySettings(declaration, {{"electrode_area", "5"}})) << name;
     }
@@ -61,7 +61,7 @@ TEST(ShippedProtocols, OfAStudyAreRefusedWithoutOne) {
     }
 }
 
-/// A script imports nothing: what both ask for stands in each, and says the same.
+/// Scripts cannot import anything, so questions that two scripts share are written in both, with the same words.
 TEST(ShippedProtocols, OfAStudyAskForTheSameInTheSameWords) {
     const auto parametersOf = [](const char* name) {
         return readDeclaration(shipped().find(name).value()).value().parameters;
@@ -73,20 +73,20 @@ TEST(ShippedProtocols, OfAStudyAskForTheSameInTheSameWords) {
         if (other == others.end()) continue;
         ++shared;
         auto same = one;
-        if (one.name == "blocks") same.label = other->label;  // the test has some, the thresholds none
+        if (one.name == "blocks") same.label = other->label;  // the test has blocks, the thresholds script has none
         EXPECT_TRUE(same == *other) << one.name;
     }
     EXPECT_EQ(shared, others.size());
 }
 
-/// Whether there is such a member, null or not.
+/// True if the member exists, null or not.
 bool has(const nlohmann::json& record, const std::string& path) {
     const auto dot = path.rfind('.');
     const auto& within = dot == path.npos ? record : memberAt(record, path.substr(0, dot));
     return within.is_object() && within.contains(dot == path.npos ? path : path.substr(dot + 1));
 }
 
-/// Columns that are empty in every record of an existing table: a key that no analysis writes.
+/// Returns columns that are empty in every record of a table: keys that no analysis writes.
 std::set<std::string> emptyColumns(const nlohmann::json& results) {
     static const std::set<std::string> kWhereAsked{"reason",   "note",       "reason",      "spearman.note",
                                                    "spearman", "spearman.n", "profile.name"};
@@ -134,7 +134,7 @@ TEST_P(EveryShippedProtocol, RunsOnTheSimulatedBench) {
 INSTANTIATE_TEST_SUITE_P(Shipped, EveryShippedProtocol, ::testing::ValuesIn(namesWithoutStudy()),
                          [](const auto& tested) {
                              std::string name = tested.param;
-                             std::replace(name.begin(), name.end(), '-', '_');  // no test's name may hold one
+                             std::replace(name.begin(), name.end(), '-', '_');  // a test's name must not contain '-'
                              return name;
                          });
 

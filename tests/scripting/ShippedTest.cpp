@@ -1,4 +1,4 @@
-// Limits, default profile and protocols are those that the program was built with, whatever TACTOSCOPE_RESOURCES says.
+// Limits, default profile and protocols are those built into the program, whatever TACTOSCOPE_RESOURCES says.
 #include <cstdlib>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ protected:
         const auto limits = shippedLimits();
         return limits ? "accepted" : limits.error().message;
     }
-    /// Adds one row for peak current into the load range.
+    /// Adds a limit set with one row, for the peak current into the load range.
     void addSet(const std::string& id, double max_mA) {
         folder_.write(
             "limits/" + id + ".json",
@@ -82,7 +82,7 @@ TEST_F(Shipped, AnotherFileCannotTakeTheirPlace) {
 TEST_F(Shipped, AFileOfLimitsIsNotReadBeyondWhatASetHas) {
     RecordProperty("hazard", "H10");
     const auto huge = folder_.write("limits/huge.json", "{}");
-    std::filesystem::resize_file(huge, std::uintmax_t{1} << 40);  // the file holds no more than before
+    std::filesystem::resize_file(huge, std::uintmax_t{1} << 40);  // the file gets longer without more content
     EXPECT_THAT(refusal(), HasSubstr("huge.json is too large; at most 1000000 bytes"));
 }
 
@@ -106,7 +106,7 @@ TEST_F(Shipped, TheDefaultProfileIsBuiltIn) {
     std::filesystem::create_directories(folder_.path() / "encodings");
     folder_.write("encodings/default.json",
                   with(resource("encodings/default.json"), "\"amplitude_max_v\": 40", "\"amplitude_max_v\": 100"));
-    Profile expected;  // it has no limits on a step, unlike the shipped one
+    Profile expected;  // without limits on a step, unlike the shipped profile
     expected.encoding.amplitudeRatioPerTrain = 1.2;
     expected.encoding.intervalRatioPerTrain = 1.34;
     EXPECT_EQ(toJson(shippedProfile().value()), toJson(expected));

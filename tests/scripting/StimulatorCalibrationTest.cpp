@@ -1,4 +1,4 @@
-// The stimulator calibration as a lab starts it, on twins of known error, with faults at its steps.
+// The stimulator calibration as a laboratory starts it, on simulated devices with known errors and with faults.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -34,7 +34,7 @@ TEST(StimulatorCalibration, FindsGainAndOffsetOfATwin) {
     EXPECT_EQ(amplitude["unit"], "V");
     EXPECT_EQ(amplitude["n"], 110);
     EXPECT_EQ(amplitude["levels"].size(), 11U);
-    // 1 % and 0.1 V of 10 V are 2 %, the tolerance: the side is undecided.
+    // 1 % plus 0.1 V of 10 V is 2 %, exactly the tolerance, so the verdict is open.
     EXPECT_EQ(outcome.verdict, ScriptVerdict::Indeterminate);
     EXPECT_EQ(amplitude["verdict_iec"], "pass");
     EXPECT_TRUE(outcome.results["reference"]["passed"].get<bool>());
@@ -142,7 +142,7 @@ TEST(StimulatorCalibration, TheSessionHoldsEveryReadingAndTheReportItsFigures) {
     EXPECT_EQ(budgets, 2) << "of the largest and of the smallest command";
 }
 
-using CalibrationKept = test::DataHome;  // a store of its own for each test
+using CalibrationKept = test::DataHome;  // a separate store for each test
 
 TEST_F(CalibrationKept, IsCheckedByAShortRunAndNoticesThatTheStimulatorChanged) {
     RecordProperty("hazard", "H9");
@@ -162,7 +162,7 @@ TEST_F(CalibrationKept, IsCheckedByAShortRunAndNoticesThatTheStimulatorChanged) 
     ASSERT_FALSE(changed.error) << changed.error->message;
     EXPECT_EQ(changed.verdict, ScriptVerdict::Fail);
     EXPECT_EQ(changed.reasons.size(), 3U);
-    // A phase that has grown by 1.5 us of 100 to 400: 1 % is allowed, which 100 us no longer keep.
+    // A phase that is 1.5 us longer, at 100 to 400 us: 1 % is allowed, so 100 us fails.
     const auto longer = calibrate("sim:stimulator?gain=1.03&widtherror=1.5us", {{"mode", "check"}});
     ASSERT_FALSE(longer.error) << longer.error->message;
     EXPECT_EQ(longer.verdict, ScriptVerdict::Fail);
@@ -193,7 +193,7 @@ TEST_F(CalibrationKept, RefusesAnIncompleteOneAndAnOverdueOscilloscope) {
     EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
 }
 
-/// The certificate's item of a run; null where the report is none.
+/// Returns the certificate item of a run's report; null if the report is not a certificate.
 nlohmann::json certificateOf(const std::string& device, const Settings& settings) {
     RunBench rig(true, device, 1, true, kNeeded);
     const auto outcome = runProtocol(rig.shipped(kName, settings)).value();
@@ -208,7 +208,7 @@ nlohmann::json certificateOf(const std::string& device, const Settings& settings
     return item;
 }
 
-/// What the twin delivers is known: gain · command. So is what it then delivers by another line.
+/// The delivered value of the simulated stimulator is known: gain · command. So is its value with another correction.
 TEST_F(CalibrationKept, ItsCertificateSaysWhatWasFoundAndWhatIsLeft) {
     RecordProperty("hazard", "H9");
     const auto errors = [](const nlohmann::json& item, const char* key, double share) {
@@ -258,7 +258,7 @@ TEST_F(CalibrationKept, ACertificateIsOfTheRunsOwnReadingsAlone) {
                 HasSubstr("bench.calibration, unchanged"));
 }
 
-/// Devices fail at every step in turn: while the reference is checked, while it warms up, and in amplitude, interval,
+/// Devices fail at every step in turn: during the reference check, the warm-up, and the levels of amplitude, interval,
 /// width and gap (the virtual clock makes the times the same in every run).
 class CalibrationFault : public ::testing::TestWithParam<std::tuple<const char*, double>> {};
 
@@ -270,7 +270,7 @@ TEST_P(CalibrationFault, EndsWithOutputsOffAndKeepsWhatThereWas) {
     ASSERT_TRUE(outcome.error);
     EXPECT_TRUE(rig.outputOff());
     EXPECT_NE(outcome.verdict, ScriptVerdict::Pass);
-    if (at_s < 15) return;  // nothing was read yet
+    if (at_s < 15) return;  // nothing was read by then
     ASSERT_TRUE(outcome.results.is_object()) << outcome.error->message;
     EXPECT_TRUE(outcome.results["partial"].get<bool>());
     EXPECT_GE(outcome.results["amplitude"]["readings"].size(), 4U);

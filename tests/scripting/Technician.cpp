@@ -6,7 +6,7 @@ namespace tacto::test {
 
 namespace {
 
-/// What the sentence that the operator reads asks for; empty where it does not say.
+/// Returns the load that the operator's sentence asks for; empty if it names none.
 std::string whatToFit(const std::string& text) {
     std::smatch found;
     if (std::regex_search(text, found, std::regex("into (.*): make and break"))) {

@@ -1,7 +1,7 @@
-// Technician.h - a laboratory's own bench as far as a protocol can tell: a stimulator that says it is real, and a
-// technician who fits the loads and does what is asked, on the twin behind it.
+// Technician.h - makes a simulated bench look like a real one to a protocol: a stimulator that says it is real, and a
+// technician who fits the loads and does what is asked.
 //
-// Thread-safety: as an Operator: the script's thread asks.
+// Thread-safety: as an Operator: called on the script's thread.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@
 
 namespace tacto::test {
 
-/// Fits and changes the loads as it is asked, and confirms the rest; `asked` keeps every question.
+/// Fits and changes the loads as requested, and confirms everything else; `asked` keeps every question.
 class Technician final : public Operator {
 public:
     explicit Technician(std::shared_ptr<LoadFitter> hand) : hand_(std::move(hand)) {}
@@ -27,7 +27,7 @@ private:
     std::shared_ptr<LoadFitter> hand_;
 };
 
-/// Makes a simulated bench's devices look like a laboratory's.
+/// Makes the devices of a simulated bench look real.
 [[nodiscard]] inline std::unique_ptr<Technician> lookReal(DeviceSet& devices) {
     auto technician = std::make_unique<Technician>(std::move(devices.load));
     devices.surface.reset();

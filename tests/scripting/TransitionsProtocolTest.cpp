@@ -1,4 +1,4 @@
-// The transitions protocol on twins: its latency is the scheduler's, and it fails where it must.
+// The transitions protocol on simulated devices: its latency is that of the scheduler, and it fails where it must.
 #include <cmath>
 #include <functional>
 #include <gmock/gmock.h>
@@ -25,7 +25,7 @@ ScriptOutcome sweep(const std::string& device, const Settings& settings, std::ui
     return outcome;
 }
 
-/// The shipped profile, which has limits on a step; RunBench's own has none.
+/// Uses the shipped profile, which limits steps; the profile of RunBench does not.
 ScriptOutcome shipped(const Settings& settings, const std::string& device = "sim:") {
     const Settings limits{{"slew", "given"}};  // the protocol's own figures are the shipped profile's
     Settings all = settings;
@@ -50,7 +50,7 @@ TEST(TransitionsProtocol, FailsStepsThatAreTooLargeOnTheTrainsAsCaptured) {
                 std::log(4) / std::log(1.1), 0.1);
     EXPECT_GT(groupOf(outcome, "texture moves at P 0")["amplitude_jnd"].get<double>(), 2) << "at an even pace";
     EXPECT_THAT(outcome.reasons.front(), HasSubstr("just-noticeable differences; at most 2 are wanted"));
-    // A change taken in one train is complete with it.
+    // A change that takes one train is complete with that train.
     for (const auto& group : outcome.results["changes"]["groups"]) {
         EXPECT_EQ(group["late"], 0) << group.dump(1);
         EXPECT_EQ(group["out_of_reach"], 0) << group.dump(1);
@@ -68,7 +68,7 @@ TEST(TransitionsProtocol, TheShippedProfilePassesItsOwnTestAndSaysWhatIsOutOfRea
     EXPECT_EQ(outcome.verdict, ScriptVerdict::Pass) << outcome.results["reasons"].dump(1);
     std::size_t outOfReach = 0;
     for (const auto& group : outcome.results["changes"]["groups"]) {
-        // The captured value, with what the captures leave open.
+        // The captured value plus the uncertainty of the captures.
         EXPECT_LE(group["amplitude_jnd"].get<double>() + group["amplitude_u_jnd"].get<double>(), 2) << group.dump(1);
         EXPECT_LE(group["interval_jnd"].get<double>() + group["interval_u_jnd"].get<double>(), 2) << group.dump(1);
         if (!group["completes"].get<bool>()) continue;
@@ -85,7 +85,7 @@ TEST(TransitionsProtocol, TheShippedProfilePassesItsOwnTestAndSaysWhatIsOutOfRea
     }
     ASSERT_FALSE(outcome.results["notes"].empty());
     EXPECT_THAT(outcome.results["notes"][0].get<std::string>(), HasSubstr("out of reach"));
-    // 10 to 40 V are 14.5 differences: 8 trains where the old remedy took 24.
+    // 10 to 40 V are 14.5 differences: 8 trains; the old solution needed 24.
     EXPECT_EQ(groupOf(outcome, "texture up")["trains"]["max"], 8);
 }
 
@@ -116,7 +116,7 @@ TEST(TransitionsProtocol, MeasuresTheSchedulersLatencyInEveryDirection) {
     for (const auto& step : steps) {
         const auto name = step["name"].get<std::string>();
         const double since = step["since_onset_s"].get<double>();
-        // Computed by hand, not by the code under test: T is 2 s to 0.5 s, 1.25 s while texture changes.
+        // Calculated by hand, independently of the tested code: T is 2 s to 0.5 s, and 1.25 s while texture changes.
         const double due = name == "pressure up" ? 0.5 : name == "pressure down" ? 2 : 1.25;
         const double design = std::max(0.0, due - since);
         ASSERT_TRUE(step["latency_s"].is_number()) << step.dump(1);
@@ -139,8 +139,8 @@ TEST(TransitionsProtocol, FollowsAStepOverMoreTrainsThanAnOscilloscopeIsAskedFor
     ASSERT_FALSE(outcome.error) << outcome.error->message;
     const auto& texture = outcome.results["latency"]["groups"][2];
     EXPECT_EQ(texture["name"], "texture up");
-    EXPECT_GT(texture["trains"]["max"].get<double>(), 90);  // 30 V at 0.25 V/s and 1.25 s a train are 96
-    // A train adds a twelfth of a difference: a reading may find the step complete a train sooner or later.
+    EXPECT_GT(texture["trains"]["max"].get<double>(), 90);  // 30 V at 0.25 V/s with 1.25 s per train takes 96
+    // Each train adds a twelfth of a difference, so a reading may find the step complete one train sooner or later.
     EXPECT_NEAR(texture["trains"]["max"].get<double>(), texture["designed_trains"]["max"].get<double>(), 1);
     EXPECT_EQ(outcome.results["latency"]["verdict"], "pass") << outcome.results["reasons"].dump();
     EXPECT_EQ(outcome.verdict, ScriptVerdict::Fail) << "8 trains would do";
@@ -148,7 +148,7 @@ TEST(TransitionsProtocol, FollowsAStepOverMoreTrainsThanAnOscilloscopeIsAskedFor
 
 TEST(TransitionsProtocol, FailsAStimulatorThatIsLate) {
     RecordProperty("hazard", "H9");
-    // 30 ms from command to onset: every train has them, so that a press felt at once is where they show.
+    // Every train starts 30 ms after its command; this shows only if a change of pressure should be felt at once.
     const auto outcome = sweep("sim:stimulator?latency=30ms", {{"repeats", "6"}, {"jumps", "false"}});
     ASSERT_FALSE(outcome.error) << outcome.error->message;
     const auto& found = outcome.results["latency"];

@@ -1,5 +1,5 @@
-// A session that was begun and not ended: what becomes of it before the next, and the participant that settings
-// describe.
+// A session that was begun and not completed: what happens to it before the next session; and the virtual participant
+// in the settings.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <map>
@@ -54,7 +54,7 @@ protected:
 
 TEST_F(UnfinishedSessionTest, AnswersLieInOneWayForAParticipantAndInEachWayEquallyOftenInTheStudy) {
     RecordProperty("hazard", "H12");
-    // People and virtual participants are enrolled as it comes: each kind has each way equally often.
+    // People and virtual participants are enrolled in random order: each kind gets each arrangement equally often.
     Random random(20, "enrolments");
     std::map<bool, std::map<std::vector<std::string>, int>> waysOf;
     std::map<bool, int> enrolled{{false, 0}, {true, 1}};
@@ -66,7 +66,7 @@ TEST_F(UnfinishedSessionTest, AnswersLieInOneWayForAParticipantAndInEachWayEqual
         const auto answers = answersOf(*study_, who);
         EXPECT_EQ(answers, answersOf(*study_, who));
         ASSERT_EQ(answers.size(), 4U);
-        // What differs in one feature lies side by side or above each other, never across.
+        // Conditions that differ in one feature are side by side or above each other, never diagonal.
         const auto differ = [](const std::string& a, const std::string& b) {
             return int(a.starts_with("rough") != b.starts_with("rough")) +
                    int(a.ends_with("high") != b.ends_with("high"));
@@ -78,7 +78,7 @@ TEST_F(UnfinishedSessionTest, AnswersLieInOneWayForAParticipantAndInEachWayEqual
         auto& ways = waysOf[who.isVirtual()];
         ++ways[answers];
         const int n = ++enrolled[who.isVirtual()];
-        if (random.below(5) == 0) {  // the place stays theirs
+        if (random.below(5) == 0) {  // the arrangement is still counted for this participant
             EXPECT_TRUE(study_->withdraw(who.code));
         }
         if (n % 8 != 0) continue;
@@ -156,7 +156,7 @@ TEST_F(EncodingTurnTest, TheSecondPersonHasTheEncodingsInAnotherOrder) {
     for (std::uint64_t i = 0; i < 12; ++i) {
         Participant model;
         model.virtualSeed = 100 + i;
-        // People between virtual participants have them in turns all the same.
+        // The orders stay balanced among people even if virtual participants are enrolled between them.
         EXPECT_EQ(encodingTurn(*study_, study_->enrol({}).value(), std::nullopt).encoding,
                   i % 2 == 0 ? "standard" : "swapped");
         EXPECT_EQ(encodingTurn(*study_, study_->enrol(model).value(), std::nullopt).encoding,

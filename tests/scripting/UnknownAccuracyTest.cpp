@@ -1,5 +1,5 @@
-// An oscilloscope that states nothing: no procedure passes on it, and each says why. And an absolute reference: what a
-// known load cannot show (science.md section 12, hazard H9).
+// An oscilloscope that states no accuracy: no procedure passes with it, and each says why. Also an absolute reference,
+// which shows what a known load cannot (science.md section 12, hazard H9).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ ScriptOutcome ran(const std::string& protocol, const std::string& device, std::m
     return outcome;
 }
 
-/// What a script logs last, or its error.
+/// Returns the script's last log line, or its error.
 std::string logged(const std::string& device, const std::string& body) {
     RunBench rig(true, device, 1, false, kElectric);
     auto request = rig.request(withRun(body));
@@ -63,7 +63,7 @@ TEST(UnknownAccuracy, TheKeysOfTheAddressStateIt) {
     EXPECT_THAT(outcome.results["rests_on"].dump(), HasSubstr("No absolute reference was read"));
 }
 
-/// All that a data sheet gives, except how good the time stamps of records are: true for most instruments on a line.
+/// A typical data sheet: all figures except the tolerance of the time stamps. True for most connected instruments.
 constexpr const char* kUnstamped =
     "sim:oscilloscope?accuracy=unknown&gain_pct=0.5&probe_pct=0&shunt_pct=0.1&timebase_ppm=50";
 
@@ -121,7 +121,7 @@ TEST(TimeReference, FindsATimeBaseThatIsWrongByMoreThanItStates) {
 
 TEST(AbsoluteReference, FindsAGainThatAKnownLoadCannotShow) {
     RecordProperty("hazard", "H9");
-    // The example that once passed: 1.05 delivered, read as 1.01, and V/I right all the same.
+    // An example that once passed: 1.05 is delivered and read as 1.01, but V/I is correct.
     const std::string lying = "sim:oscilloscope?gain=0.96&currentgain=0.96";
     const std::map<std::string, std::string> read{
         {"area", "3"}, {"steps", "2"}, {"reference_v", "40"}, {"reference_u_pct", "0.02"}};

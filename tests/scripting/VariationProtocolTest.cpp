@@ -1,4 +1,4 @@
-// The protocol that predicts a pilot: without a device, the same on every run with a seed, stopped in the middle.
+// The protocol that predicts a pilot: without a device, with the same result for the same seed, and stopped half-way.
 #include <atomic>
 #include <chrono>
 #include <gtest/gtest.h>
@@ -50,7 +50,7 @@ TEST(VariationProtocol, PredictsWithoutADevice) {
     }
     EXPECT_EQ(answers, found["served"].get<std::size_t>() * 4 * 5);
     EXPECT_GT(found["served"].get<int>(), 0);
-    // What is served comes first, in the results and in the session.
+    // The number of participants served comes first, in the results and in the session.
     ASSERT_GE(found["reasons"].size(), 2U);
     EXPECT_TRUE(found["headline"].get<std::string>().starts_with("The design paper's 10 to 40 V serves "));
     EXPECT_EQ(found["reasons"][0], outcome.reasons.at(0));
@@ -78,7 +78,7 @@ TEST(VariationProtocol, PredictsWithoutADevice) {
     }
     EXPECT_EQ(figures, 4U);
     for (const auto& table : resultTraits("variation").tables) {
-        if (table.shape != ResultTable::Shape::Rows || table.title == "Premises") continue;  // stated, not predicted
+        if (table.shape != ResultTable::Shape::Rows || table.title == "Premises") continue;  // assumptions
         EXPECT_TRUE(table.title.ends_with("predicted, not measured")) << table.title;
     }
     const auto verdicts = reader.verdicts().value();
@@ -106,7 +106,7 @@ TEST(VariationProtocol, ThePapersFixedAmplitudesAreComparedWithPersonalOnes) {
     ASSERT_FALSE(outcome.error) << outcome.error->message;
     EXPECT_EQ(outcome.results["levels"], "profile");
     EXPECT_EQ(outcome.results["other_levels"]["levels"], "personal");
-    // 10 to 40 V span a factor of 4, and so does the range between the thresholds: few people bear all of it.
+    // 10 to 40 V is a factor of 4, as is the range between the thresholds, so few people can bear all of it.
     EXPECT_GT(outcome.results["refused"].get<int>() + outcome.results["not_felt"].get<int>(), 0);
     EXPECT_LT(outcome.results["complete"], outcome.results["other_levels"]["complete"]);
     EXPECT_LE(outcome.results["served"], 2);
