@@ -1,4 +1,4 @@
-// analyze calibration: commanded against measured from a CSV, against the formulas of science.md section 9.
+// analyze calibration: commanded and measured values from a CSV, compared with the formulas of science.md section 9.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -8,7 +8,7 @@
 namespace tacto::test {
 namespace {
 
-/// measured = 1.02 · commanded + 0.3, ± `spread` by turns, ± `turn` by direction.
+/// measured = 1.02 · commanded + 0.3, alternating ± `spread`, and ± `turn` by direction.
 std::string csv(double spread, double turn) {
     std::string text = "commanded,measured,direction\n";
     for (const char* direction : {"up", "down"}) {

@@ -1,4 +1,4 @@
-// analyze identification: answers from a CSV, against the figures of tests/reference/identification.py.
+// analyze identification: answers from a CSV, compared with the results of tests/reference/identification.py.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -48,7 +48,7 @@ TEST(AnalyzeIdentification, PeopleAreNotPooled) {
     EXPECT_NE(said.out.find("at least 45 %"), std::string::npos) << said.out;
 }
 
-// pilot.md section 7: the corrected information of answers that are all right is all there is.
+// pilot.md section 7: if all answers are right, the corrected information is the maximum.
 TEST(AnalyzeIdentification, AllRightOf90IsTwoBitsAndTheTextSaysWhatTheJsonSays) {
     RecordProperty("hazard", "H9");
     std::string text = "stimulus,response\n";
@@ -71,7 +71,7 @@ TEST(AnalyzeIdentification, APersonWithOneTrialIsNamedAndLeftOut) {
         for (int i = 0; i < 20; ++i) text += std::string(who) + (i % 2 == 0 ? ",x,x\n" : ",y,y\n");
     }
     text += "B,x,x\n";
-    for (int i = 0; i < 2; ++i) text += "D,none,x\nD,y,y\n";  // no condition can have that name
+    for (int i = 0; i < 2; ++i) text += "D,none,x\nD,y,y\n";  // no condition can have the name "none"
     const Desk desk;
     const auto file = desk.write("answers.csv", text);
     const auto ran = desk.run({"analyze", "identification", file, "--json"});

@@ -1,4 +1,4 @@
-// analyze separability: trials from a CSV, against the formulas of science.md section 10.
+// analyze separability: trials from a CSV, compared with the formulas of science.md section 10.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -15,7 +15,7 @@ struct Trial {
 };
 using Trials = std::array<std::vector<Trial>, 4>;  // trials in the order of kConditions
 
-/// Spread by `spread` of each value, without a random number.
+/// Returns trials with a relative spread of `spread`, without random numbers.
 Trials trials(int each, double spread, const std::array<double, 4>& volts = {10, 10, 40, 40}) {
     constexpr std::array<double, 4> kSeconds{2, 0.5, 2, 0.5};
     Trials made;
@@ -43,7 +43,7 @@ Ran analyze(const std::string& text) {
     return desk.run({"analyze", "separability", desk.write("trials.csv", text), "--json"});
 }
 
-/// Distance of two conditions' means by the covariance pooled over all four, written out by hand.
+/// Returns the distance of two conditions' means with the covariance pooled over all four, calculated step by step.
 double mahalanobis(const Trials& trials, std::size_t a, std::size_t b) {
     std::array<Trial, 4> mean{};
     double sumAmplitude = 0, sumInterval = 0, n = 0;

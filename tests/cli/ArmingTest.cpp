@@ -1,4 +1,4 @@
-// run on hardware: the built program against a stimulator behind a pseudo-terminal that does not say it is emulated.
+// run on hardware: the built program with a stimulator behind a pseudo-terminal that does not say it is emulated.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -29,7 +29,7 @@ protected:
     [[nodiscard]] std::size_t putOut() const {
         return pty_->inspect([](auto& device, Instant now) { return device.pulses(now).size(); });
     }
-    /// The value that --set must be given, from the sentence that refuses.
+    /// Returns the value that --set needs, as stated in the refusal.
     static std::string wanted(const std::string& said) {
         constexpr std::string_view kBefore = "confirm-arming=\"";
         const auto at = said.rfind(kBefore);
@@ -85,7 +85,7 @@ TEST_F(RunOnHardware, ATerminalIsAskedForATypedWord) {
     EXPECT_EQ(putOut(), 1U);
 }
 
-/// Its identity is an emulator's, but its address could be any device's.
+/// The device says it is an emulator, but its address could belong to any device.
 TEST_F(RunOnHardware, WhatADeviceSaysOfItselfSparesNoConfirmationAndNoRecord) {
     RecordProperty("hazard", "H4");
     auto settings = unit();

@@ -1,4 +1,4 @@
-// A kept calibration and the runs that it then serves: applied, checked, said in the report, superseded.
+// A kept calibration and the later runs that use it: applied, checked, stated in the report, superseded.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -13,8 +13,8 @@ using testing::HasSubstr;
 
 class CalibratedRun : public ::testing::Test {
 protected:
-    /// The JSON of a run on a stimulator that delivers less than programmed, longer phases and shorter gaps, timed by a
-    /// computer whose clock is slow: 0.3 % by the oscilloscope.
+    /// Returns the JSON of a run. Its stimulator delivers less than programmed, longer phases and shorter gaps; the
+    /// computer's clock is slow by 0.3 % compared with the oscilloscope.
     [[nodiscard]] Json run(Words words) {
         const Words device{"--device",         "sim:stimulator?gain=0.97&widtherror=5.2us&gaperror=-7.5us",
                            "--device",         "sim:oscilloscope?timebase=1.003",
@@ -27,7 +27,7 @@ protected:
         EXPECT_TRUE(Json::accept(ran.out)) << ran.err;
         return Json::accept(ran.out) ? Json::parse(ran.out) : Json::object();
     }
-    /// The oscilloscope's reading of rough-high: 40 V and 0.5 s, 200 us and 100 us.
+    /// Returns the oscilloscope's reading of rough-high: 40 V and 0.5 s, 200 us and 100 us.
     [[nodiscard]] Json delivered() {
         std::ofstream(desk.path() / "probe.js") << R"(
 protocol({ title: "Probe", purpose: "What comes out", needs: ["stimulator", "oscilloscope"] });
@@ -41,7 +41,7 @@ function run() {
         return run({desk.at("probe.js")})["results"]["reading"];
     }
     [[nodiscard]] Json calibrate() { return run({"stimulator-calibration", "--set", "store=yes"}); }
-    /// The calibration as the report of a session says it.
+    /// Returns the calibration as stated in the report of a session.
     [[nodiscard]] std::string calibrationIn(const Json& session) {
         const auto ran = desk.run({"report", session.get<std::string>(), "--out", desk.at("r.html")});
         EXPECT_EQ(ran.code, 0) << ran.err;
@@ -68,11 +68,11 @@ TEST_F(CalibratedRun, ACalibrationThatIsKeptIsAppliedFromThenOn) {
     const Json after = delivered();
     EXPECT_NEAR(after["amplitude"].get<double>(), 40, 0.15);
     EXPECT_NEAR(after["interval_s"].get<double>(), 0.5, 2e-5);
-    // This is as near as the device's step of 1 us allows, on the lower side.
+    // As close as the device's step of 1 us allows, on the lower side.
     EXPECT_NEAR(after["width_s"].get<double>(), 200e-6, 0.4e-6);
     EXPECT_NEAR(after["gap_s"].get<double>(), 100e-6, 0.4e-6);
 
-    // A newer one sees the stimulator as it is, not what the older one makes of it.
+    // A newer calibration measures the stimulator without the older calibration's correction.
     const Json newer = calibrate();
     EXPECT_NEAR(newer["results"]["amplitude"]["gain"].get<double>(), 0.97, 0.004);
     EXPECT_TRUE(newer["results"]["stored"]["supersedes"].is_string());

@@ -1,4 +1,4 @@
-// measure and convert on files of other instruments, and what the user knows better than they do.
+// measure and convert with files of other instruments, and with options that correct such files.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// 0 and 5 V in turn, 50 samples each at 100 kS/s, as a Rigol writes it.
+/// Returns a Rigol file: 0 and 5 V alternating, 50 samples each at 100 kS/s.
 std::string rigol() {
     std::string text = "X,CH1,CH2,Start,Increment,\r\nSequence,Volt,Volt,-1.0e-03,1.0e-05,\r\n";
     for (int i = 0; i < 1000; ++i)
@@ -54,7 +54,7 @@ TEST(CaptureFormatsCommands, MeasureTakesTheUsersWordOverTheFiles) {
     EXPECT_EQ(desk.run({"measure", titled, "--skip-rows", "2", "--time-column", "when"}).code, 0);
 }
 
-// A refusal is taken at its word, as it stands on the screen.
+// The options are taken from the printed refusal, exactly as written there.
 TEST(CaptureFormatsCommands, TheOptionsThatARefusalNamesReadTheFile) {
     const Desk desk;
     std::string rows;
@@ -93,7 +93,7 @@ TEST(CaptureFormatsCommands, ClippingIsWhatTheStatedRangeSays) {
     EXPECT_EQ(clippedOf(within), 0);
     EXPECT_EQ(desk.run({"measure", path, "--range", "CH1=5:-5"}).code, 3);
 
-    // Really clipped: 7 V through an input that ends at 5.08 V, in steps of 40 mV with noise of one.
+    // Clipped: 7 V at an input that ends at 5.08 V, in steps of 40 mV with noise of one step.
     std::string text = "X,CH1,Start,Increment,\nSequence,Volt,0,1.0e-05,\n";
     std::uint32_t state = 1;
     for (int i = 0; i < 2000; ++i) {
@@ -135,8 +135,8 @@ TEST(CaptureFormatsCommands, WrongOptionsAreAMatterOfUsage) {
 }
 
 TEST(CaptureFormatsCommands, ConvertKeepsEveryValue) {
-    // libsigrok 0.5.2 loses memory for each .sr; the leak checker tells that from ours (tests/lsan.supp) by whole
-    // stacks.
+    // libsigrok 0.5.2 leaks memory for each .sr file; the leak checker needs whole stacks to distinguish that from
+    // leaks of ours (tests/lsan.supp).
     const char* options = std::getenv("ASAN_OPTIONS");
     setenv("ASAN_OPTIONS", ((options != nullptr ? options + std::string(":") : "") + "fast_unwind_on_malloc=0").c_str(),
            1);

@@ -34,7 +34,7 @@ protected:
         EXPECT_EQ(ran.code, 0) << ran.err;
         return Json::parse(ran.out, nullptr, false);
     }
-    /// Load safety on an oscilloscope that states nothing by itself.
+    /// Runs load-safety with an oscilloscope that states no accuracy itself.
     [[nodiscard]] Ran loadSafety(std::string_view out = "sessions") const {
         return desk.run({"run", "load-safety", "--device", "sim:oscilloscope?accuracy=unknown", "--device",
                          "sim:", "--seed", "7", "--set", "area=1", "--json", "--out", desk.at(out)});

@@ -1,5 +1,5 @@
-// The programs at the edges of the system: names of files, folders that are not there, a disk without room, a user
-// without a home, a window without a display.
+// The programs at the limits of the system: file names, missing folders, a full disk, a user without a home, a window
+// without a display.
 #include <algorithm>
 #include <array>
 #include <gmock/gmock.h>
@@ -21,13 +21,13 @@ using ::testing::StartsWith;
 
 std::string pulses() {
     std::string text = "time_s,voltage_v\n";
-    // Noise is added, which no format makes small.
+    // Contains noise, which no format can compress well.
     for (int i = 0; i < 1000; ++i)
         text += fmt::format("{:.5f},{:.4f}\n", i * 1e-5, i / 50 % 2 * 5 + i * 7919 % 1000 * 1e-4);
     return text;
 }
 
-/// The word in quotes, as a shell needs it.
+/// Quotes the word for a shell.
 std::string quoted(const std::string& word) { return "'" + word + "'"; }
 
 TEST(Edges, ACaptureIsWrittenUnderEveryNameThatTheFileSystemAllows) {
@@ -72,7 +72,7 @@ TEST(Edges, WhatCannotBeWrittenIsNamedAsItWasAskedForWithTheSystemsReason) {
             EXPECT_EQ(ran.code, 3);
             EXPECT_EQ(ran.err, "tactoscope-cli: " + name + " could not be written: " + reason + "\n");
         }
-        // A disk without room, and what was there before.
+        // A full disk must not damage an existing file.
         desk.write("old" + ending, "the earlier file");
         const auto [said, code] = outputOf(fmt::format("cd {} && ulimit -f 1 && {} convert in.csv --out old{}",
                                                        quoted(desk.path().string()), TACTO_CLI, ending));
@@ -128,7 +128,7 @@ TEST(Edges, AUserWithoutAnAccountIsToldAboutHome) {
     EXPECT_THAT(said, StartsWith("tactoscope-cli: HOME is \"\", and the system knows no home folder of user 54321"));
 }
 
-/// The window's program in this environment, with nothing of the tester's own.
+/// Runs the window program in this environment, without the tester's own settings.
 std::pair<std::string, int> windowWith(const std::string& environment, const Desk& desk) {
     return outputOf(fmt::format("cd {0} && timeout 60 env -i PATH=/usr/bin:/bin HOME={0} XDG_RUNTIME_DIR={0} {1} {2}",
                                 quoted(desk.path().string()), environment, TACTO_WINDOW));
@@ -155,10 +155,10 @@ TEST(Edges, AWindowWithoutADisplayEndsWithASentence) {
     }
 }
 
-#ifndef TACTOSCOPE_ADDRESS_SANITIZED  // its own library would have to be preloaded first
+#ifndef TACTOSCOPE_ADDRESS_SANITIZED  // the sanitizer's library would have to be preloaded first
 TEST(Edges, ADisplayThatDoesNotAnswerIsNotWaitedForForEver) {
     const Desk desk;
-    // The other end stands still, as it may with ssh -X.
+    // The other end does not answer, as may happen with ssh -X.
     sockaddr_in address{};
     address.sin_family = AF_INET;
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);

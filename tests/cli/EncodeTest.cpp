@@ -1,4 +1,4 @@
-// encode: the numbers of science.md section 4, and the gate's answer.
+// encode: the numbers of science.md section 4, and the decision of the gate.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -35,8 +35,8 @@ TEST(Encode, TheSameInto100OhmIsRefusedWithTheLimitNamed) {
     EXPECT_EQ(ran.code, 4);
     expectTrain(ran, 40, 400, 0.5);
     EXPECT_EQ(jsonOf(ran)["approved"], false);
-    // 40 V over 400 us twice a second: 11.3 mA RMS into 100 ohm, 14.1 mA into its low end, 80 ohm, and 16.0 mA where
-    // amplitude and width come out 5 % larger and the interval 5 % shorter (11 trains in 5 s).
+    // 40 V over 400 us twice a second: 11.3 mA RMS into 100 ohm, 14.1 mA into its lower end, 80 ohm. With amplitude and
+    // width 5 % larger and the interval 5 % shorter (11 trains in 5 s): 16.0 mA.
     EXPECT_THAT(jsonOf(ran)["refusal"].get<std::string>(),
                 testing::AllOf(testing::HasSubstr("15.96"), testing::HasSubstr("10 mA"), testing::HasSubstr("RMS")));
 }

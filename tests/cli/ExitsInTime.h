@@ -1,9 +1,9 @@
-// ExitsInTime.h - assertions about the exit code of a program that runs by the machine's clock.
+// ExitsInTime.h - assertions about the exit code of a program that uses the real clock.
 //
-// A machine that stands still turns an expected exit code into another outcome of the run: the stop came too late (0),
-// the verdict is another (1), a device did not answer (3), the output was switched off (4), or the program took longer
-// than the test allows and was killed (-9). Only these are a missed deadline as InTime.h has it; a command line that is
-// refused (2) and a program that another signal ended are not.
+// On a machine that stands still, an expected exit code turns into another outcome: the stop came too late (0), the
+// verdict differs (1), a device did not answer (3), the output was switched off (4), or the program was killed after
+// the test's time limit (-9). Only these are missed deadlines as defined in InTime.h; a refused command line (2) or the
+// end by another signal is not.
 //
 // Thread-safety: as gtest's assertions.
 #pragma once

@@ -1,4 +1,4 @@
-// The guide and the README keep what they promise: each command in them does what stands beside it.
+// The guide and the README keep their promises: each command in them does what the text next to it says.
 #include <algorithm>
 #include <fstream>
 #include <gmock/gmock.h>
@@ -17,10 +17,10 @@ const auto kGuide = sourceDir() / "resources" / "help" / "guide";
 
 struct Promise {
     std::string command;
-    int code = 0;  ///< exit code: what the comment behind the command names, else 0
+    int code = 0;  ///< expected exit code: stated in the comment after the command, else 0
 };
 
-/// The lines of a page's fenced blocks.
+/// Returns the commands in a page's fenced blocks.
 std::vector<Promise> promisesOf(std::istream& page) {
     std::vector<Promise> promises;
     bool fenced = false;
@@ -43,12 +43,12 @@ std::string forTheShell(const std::string& word) {
     return out + "'";
 }
 
-/// A reader's terminal: an empty folder with the tree's resources in it, and the program under its name.
+/// A reader's terminal: an empty folder with the resources of the source tree, and the program under its name.
 class Terminal {
 public:
     Terminal() { fs::create_directory_symlink(sourceDir() / "resources", desk_.path() / "resources"); }
 
-    /// The output and exit code of a line, as the shell runs it.
+    /// Runs a line in the shell; returns its output and exit code.
     [[nodiscard]] std::pair<std::string, int> run(const std::string& line) const {
         const auto program = fs::path(TACTO_CLI).parent_path().string();
         const auto script = "PATH=" + forTheShell(program) + ":$PATH; cd " + forTheShell(desk_.path().string()) +
@@ -86,7 +86,7 @@ INSTANTIATE_TEST_SUITE_P(Pages, Guide, testing::ValuesIn(pagesOfTheGuide()), [](
     return name;
 });
 
-/// ./dev cli is the program; ./dev run and ./dev test are what builds and tests it.
+/// ./dev cli is the program; ./dev run and ./dev test are the commands that build and test it.
 TEST(Readme, EachCommandDoesWhatItSays) {
     std::ifstream page(sourceDir() / "README.md");
     const Terminal terminal;

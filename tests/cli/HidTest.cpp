@@ -1,4 +1,4 @@
-// hid show-bytes: what would be sent, byte by byte.
+// hid show-bytes: the bytes that would be sent.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

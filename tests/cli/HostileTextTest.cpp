@@ -1,4 +1,4 @@
-// A quotation from a file or a script never moves the cursor of the terminal that shows it.
+// Text from a file or a script never moves the cursor of the terminal that shows it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -10,7 +10,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Clears the screen, sets a title, turns the direction; C1 as UTF-8.
+/// Clears the screen, sets a title, reverses the reading direction; with a C1 control character as UTF-8.
 constexpr const char* kHostile = "\x1b[2J\x1b]0;owned\x07\u009b31m\u202e";
 constexpr const char* kSpelled = "\\x1b[2J\\x1b]0;owned\\x07\\x9b31m\\u202e";
 

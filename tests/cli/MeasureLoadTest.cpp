@@ -1,4 +1,4 @@
-// measure: uncertainty, quality and the load of a voltage and a current, as a user sees them.
+// measure: uncertainty, quality and the load from voltage and current, as a user sees them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -11,8 +11,8 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Biphasic current of 5 mA, 200 us a phase, 50 ms apart, through 2 kohm, at 250 kS/s; the current as given or as the
-/// voltage across 100 ohm.
+/// Returns a biphasic current of 5 mA, 200 us per phase, 50 ms apart, through 2 kohm, at 250 kS/s; the current is given
+/// directly or as the voltage across 100 ohm.
 std::string pulses(const std::string& header, double perAmpere) {
     Random random(4, "load file");
     std::string text = header + "\n";
@@ -25,7 +25,7 @@ std::string pulses(const std::string& header, double perAmpere) {
     return text;
 }
 
-/// Adds what a data sheet would state of the instrument.
+/// Adds options with the figures that a data sheet would state.
 Words stated(Words words) {
     for (const char* key :
          {"gain_pct=0.1", "probe_pct=0", "shunt_pct=0.1", "timebase_ppm=50", "lsb_v=0.001", "lsb_a=1e-6"}) {

@@ -1,4 +1,4 @@
-// measure: files with answers known by construction.
+// measure: files for which the right answer is known.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -9,7 +9,7 @@
 namespace tacto::test {
 namespace {
 
-/// 1 V and 5 V in turn, 5 ms each, at 100 kS/s.
+/// Returns a file with 1 V and 5 V alternating, 5 ms each, at 100 kS/s.
 std::string squareWave() {
     std::string text = "time_s,voltage_v,current_a\n";
     for (int i = 0; i < 20000; ++i) {
@@ -19,7 +19,7 @@ std::string squareWave() {
     return text;
 }
 
-/// Two symmetric biphasic pulses of 20 V, 200 us a phase with a gap of 100 us, 100 ms apart, at 250 kS/s.
+/// Returns two symmetric biphasic pulses of 20 V, 200 us per phase, gap 100 us, 100 ms apart, at 250 kS/s.
 std::string biphasic() {
     std::string text = "time_s,voltage_v\n";
     for (int i = 0; i < 50000; ++i) {

@@ -19,7 +19,7 @@ Words shortSession() { return {"--set", "participant=virtual:7", "--set", "block
 
 namespace {
 
-/// A session refuses a STOP that takes more than 10 ms, as it should: on a machine that stood still that tells nothing.
+/// A session rightly refuses a STOP that takes over 10 ms; on a machine that stood still this shows nothing.
 Ran stopsInTime(Ran ran) {
     const bool inTime = ran.err.find("to switch off; at most 10 ms are accepted") == std::string::npos;
     [&] { ASSERT_IN_TIME(inTime) << ran.err; }();

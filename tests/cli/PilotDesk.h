@@ -1,4 +1,4 @@
-// PilotDesk.h - sessions of rehearsals by the built program: undisturbed, killed and resumed.
+// PilotDesk.h - runs rehearsal sessions with the built program: undisturbed, killed and resumed.
 //
 // Thread-safety: the test's own thread.
 #pragma once
@@ -11,18 +11,18 @@
 
 namespace tacto::test {
 
-/// One block of the test.
+/// Returns settings for a session with one block of the test.
 [[nodiscard]] Words shortSession();
 
-/// The disturbance of a session's program.
+/// A disturbance of the program that runs a session.
 struct Disturbance {
-    long killAtSync = 0;            ///< it is killed when it makes something durable for the n-th time; 0: never
-    unsigned long largestFile = 0;  ///< bytes: the disk is full once a file has them; 0: it never is
-    std::chrono::seconds clock{0};  ///< how far ahead the clock on the wall is
-    long clockFromSync = 0;         ///< the n-th time from which this holds; 0: from its beginning
+    long killAtSync = 0;            ///< kills the program at its n-th write that must reach the disk; 0: never
+    unsigned long largestFile = 0;  ///< in bytes: the disk is full once a file is this large; 0: never
+    std::chrono::seconds clock{0};  ///< how far ahead the wall clock is
+    long clockFromSync = 0;         ///< `clock` applies from the n-th such write on; 0: from the beginning
 };
 
-/// A row as someone with the keys can write it.
+/// A row as anyone with the keys can write it.
 struct WrittenRow {
     const char* kind;
     nlohmann::json body;
@@ -31,15 +31,15 @@ struct WrittenRow {
 class PilotDesk {
 public:
     explicit PilotDesk(Words devices = {"sim:"}) : devices_(std::move(devices)) {}
-    /// `run PROTOCOL --device sim: --out STUDY --json` with more words.
+    /// Runs `run PROTOCOL --device sim: --out STUDY --json` with more words.
     [[nodiscard]] Ran run(const std::string& protocol, const Words& more, const std::string& study = "study") const;
-    /// Runs it disturbed. The code is -9 where it was killed.
+    /// Runs the protocol with a disturbance. The exit code is -9 if the program was killed.
     [[nodiscard]] Ran runDisturbed(const Disturbance& by, const std::string& protocol, const Words& more,
                                    const std::string& study = "study") const;
-    /// The code of one that is killed at its `sync`-th durable row.
+    /// Returns the exit code of a run that is killed at its `sync`-th durable row.
     [[nodiscard]] int runKilled(long sync, const std::string& protocol, const Words& more,
                                 const std::string& study = "study") const;
-    /// A rehearsal in which virtual:7 has an unfinished session of these rows, begun then.
+    /// Makes a rehearsal in which virtual:7 has an unfinished session with these rows, begun at `begun`.
     void writeUnfinished(const std::string& study, const std::string& protocol, const std::vector<WrittenRow>& rows,
                          std::chrono::sys_seconds begun) const;
     [[nodiscard]] const Desk& desk() const noexcept { return desk_; }
@@ -52,7 +52,7 @@ private:
 
 [[nodiscard]] Words operator+(Words words, const Words& more);
 
-/// Plan and answers of a session's results, without what only says how often it was begun.
+/// Returns plan and answers of a session's results, without what depends only on the number of restarts.
 [[nodiscard]] std::string planAndAnswers(const nlohmann::json& value);
 
 }  // namespace tacto::test

@@ -1,5 +1,5 @@
-// What happens to a session besides being killed: the disk is full, the clock is moved, a part of its record is gone or
-// another's. It is refused, or continues as if nothing had happened.
+// Disturbances of a session other than being killed: the disk is full, the clock is moved, a part of the record is
+// missing or belongs to another session. The session is refused, or continues as if nothing had happened.
 #include <filesystem>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ constexpr long kAmongItsRows = 200;
 
 class DisturbedSession : public testing::Test {
 protected:
-    /// Refused with this exit code and in these words, and no byte of the study is another.
+    /// Expects a refusal with this exit code and text, and an unchanged study.
     void expectUnchanged(const Disturbance& by, int code, const char* says, const std::string& study) {
         SCOPED_TRACE(says);
         const auto before = desk.desk().files(study);
@@ -33,7 +33,7 @@ protected:
         EXPECT_EQ(std::ranges::count(ran.err, '\n'), 1) << ran.err;
         expectSame(before, desk.desk().files(study));
     }
-    /// All files but the index that SQLite keeps beside a log.
+    /// All files except the index that SQLite keeps next to a log.
     using Files = std::map<std::string, std::string>;
     static void expectSame(const Files& before, const Files& after) {
         for (const auto& [name, bytes] : before) {
@@ -43,7 +43,7 @@ protected:
         }
         EXPECT_EQ(after.size(), before.size()) << "and there are others";
     }
-    /// A killed program left logs: the next one that opens the study takes them in, whatever it does then.
+    /// A killed program leaves logs; the next program that opens the study includes them, whatever else it does.
     void takeIn(const std::string& study) const {
         const auto asked = desk.run(kSession, shortSession(), study);
         EXPECT_EQ(asked.code, 3) << asked.err;
@@ -72,7 +72,7 @@ TEST_F(DisturbedSession, OnADiskThatIsFullAtAnyTimeItEndsAndGoesOnOnceThereIsRoo
         SCOPED_TRACE(bytes);
         const auto study = "full at " + std::to_string(bytes);
         const auto full = desk.runDisturbed({.largestFile = bytes}, kSession, shortSession(), study);
-        if (full.code == 0) break;  // it needs no more than this
+        if (full.code == 0) break;  // the session needs no larger file
         EXPECT_EQ(full.code, 3) << full.err;
         EXPECT_THAT(full.err, HasSubstr("tactoscope-cli: "));
         EXPECT_TRUE(full.out.empty() || !jsonOf(full)["results"].contains("confusion")) << "no result";
@@ -110,7 +110,7 @@ TEST_F(DisturbedSession, WithAClockThatWasMovedBetweenItsPartsItIsRefusedOrGoesO
 
 TEST_F(DisturbedSession, WithAClockBehindItsLastAnswerItIsRefused) {
     RecordProperty("hazard", "H8");
-    // It continued for half an hour, of which the ledger has no row.
+    // The session continued for half an hour for which the ledger has no row.
     const auto then = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now()) + 30min;
     ASSERT_NO_FATAL_FAILURE(
         desk.writeUnfinished("study", kSession, {{"trial-begin", {{"name", "ascending 1"}}}}, then));
@@ -136,7 +136,7 @@ TEST_F(DisturbedSession, WithAClockThatIsMovedWhileItRunsNoFurtherBlockBegins) {
          {std::tuple<const char*, std::chrono::seconds, const char*>{"later", 61min, "so no further block begins"},
           {"earlier", -10min, "set the clock"}}) {
         SCOPED_TRACE(study);
-        // Moved in the thresholds: the first block asks as well.
+        // The clock is moved during the thresholds: the first block must check it too.
         const auto before = desk.runDisturbed({.clock = clock, .clockFromSync = 60}, kSession, twoBlocks,
                                               std::string(study) + " at once");
         EXPECT_EQ(before.code, 4) << before.err;

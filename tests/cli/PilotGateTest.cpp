@@ -1,5 +1,5 @@
-// The gates of a study before a session of it, as a user meets them: each is one sentence and an exit code, no option
-// gets round it, and the study's folder is the same afterwards, byte for byte.
+// The gates of a study before a session, as a user meets them: each gives one sentence and an exit code, no option
+// bypasses it, and the study's folder stays the same, byte for byte.
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ protected:
         return jsonOf(study(Words{"enrol", at()} + more))["code"].get<std::string>();
     }
     void consents() const { study({"consent", at(), code, "--version", "2", "--date", "2026-11-20", "--by", "KL"}); }
-    /// `whose` and `more` are words of `run`.
+    /// `whose` and `more` are arguments of `run`.
     void expectRefused(const std::string& whose, int exit, const char* says, const Words& more = {},
                        std::chrono::seconds clock = 0s) const {
         SCOPED_TRACE(says);
@@ -44,7 +44,7 @@ protected:
         EXPECT_EQ(ran.out, "");
         EXPECT_TRUE(desk.desk().files("study") == before) << "bytes of the study were changed";
     }
-    /// Replaces bytes in a file of the study, expects the refusal, and puts them back.
+    /// Replaces bytes in a file of the study, expects the refusal, and restores the bytes.
     void expectRefusedWith(const char* file, const std::string& was, const std::string& is, int exit,
                            const char* says) const {
         const auto path = desk.desk().at(file);
@@ -130,7 +130,7 @@ TEST_F(PilotGates, OfTheProcedureRefuseAProfileThatIsAnotherInAnythingThatIsFelt
         expectRefused(code, 4, each.says, {"--profile", changed(each.pointer, each.value)});
     }
     expectRefused(code, 4, "the method of detection is staircase", {"--set", "method=staircase"});
-    // Bytes of the same profile in another place, and parts that nobody feels, make no other procedure.
+    // The same profile at another path, or with changes that nobody feels, is not another procedure.
     const auto ran = desk.run("pilot-thresholds", {"--set", "participant=" + code, "--passphrase-file", passphrase,
                                                    "--profile", changed("/name", "by another path")});
     EXPECT_TRUE(ran.code == 0 || ran.code == 5) << ran.err;
@@ -142,7 +142,7 @@ TEST_F(PilotGates, OfTheProcedureRefuseASessionThatWouldGoOnAfterAnAmendmentOfWh
     const Words words{"--set", "participant=" + code, "--passphrase-file", passphrase};
     ASSERT_EQ(desk.runKilled(120, "pilot-thresholds", words), -9);
     study({"amend", at(), "--reference", "EC-17 A1", "--set", "train.width_us=400"});
-    const auto before = jsonOf(study({"show", at()}));  // rows, not bytes: reading takes up the journal
+    const auto before = jsonOf(study({"show", at()}));  // rows instead of bytes, because reading merges the journal
     const auto refused = desk.run("pilot-thresholds", words + Words{"--set", "unfinished=resume"});
     EXPECT_EQ(refused.code, 4) << refused.err;
     EXPECT_THAT(refused.err, HasSubstr("it goes on with the former, or ends with --set unfinished=end"));
@@ -157,7 +157,7 @@ TEST(PilotRehearsal, IsNotGoneOnWithUnderAnotherProfile) {
     const PilotDesk desk;
     ASSERT_EQ(desk.runKilled(120, "pilot-thresholds", {"--set", "participant=virtual:7"}), -9);
     auto other = nlohmann::json::parse(contentOf(sourceDir() / "resources/encodings/default.json"));
-    other["encoding"]["interval_max_s"] = 3;  // no level of a threshold is presented with it
+    other["encoding"]["interval_max_s"] = 3;  // no level of a threshold uses this interval
     const auto shown = [&] { return desk.desk().run({"study", "show", desk.desk().at("study"), "--json"}).out; };
     const auto before = shown();
     const auto ran = desk.run("pilot-thresholds", {"--set", "participant=virtual:7", "--set", "unfinished=resume",

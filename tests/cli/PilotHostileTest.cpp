@@ -1,6 +1,6 @@
-// Rows of a session that lie, although their seals and their chain are right: made by someone who has the keys, as
-// everyone has for a rehearsal. A session continues from what it can believe, or is refused in one sentence; it
-// presents nothing that its rows do not lead to.
+// Rows of a session with false contents but valid seals and chain, made by someone who has the keys, as everyone has
+// for a rehearsal. A session continues from rows that are plausible, or is refused in one sentence; it presents nothing
+// that its rows do not lead to.
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -28,14 +28,14 @@ json planned(json number, json condition = "rough-high", json phase = "test", js
 
 class HostileRows : public testing::Test {
 protected:
-    /// Continues an unfinished session that has these rows.
+    /// Continues an unfinished session with these rows.
     Ran goneOnWith(const std::vector<WrittenRow>& rows, const char* protocol) {
         const auto name = "study " + std::to_string(++made_);
         desk.writeUnfinished(name, protocol, rows,
                              std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now()));
         return desk.run(protocol, shortSession() + Words{"--set", "unfinished=resume"}, name);
     }
-    /// Each of these is refused with that code, in one sentence.
+    /// Expects that each of these is refused with `code` and one sentence.
     void expectRefused(std::initializer_list<std::pair<const char*, std::vector<WrittenRow>>> all, const char* protocol,
                        int code) {
         for (const auto& [what, rows] : all) {

@@ -1,4 +1,4 @@
-// A session that is killed at any of its rows continues as if nothing had happened: plan and answers byte for byte.
+// A session that is killed at any of its rows continues as if nothing had happened: plan and answers are identical.
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -12,15 +12,15 @@ namespace {
 
 const Words kGoOn{"--set", "unfinished=resume"};
 
-/// A session that is killed at one of its moments, at the next, ... in a run of its own each time.
+/// A session that is killed at each of its moments in turn, each time in a separate run.
 struct KilledSession {
     const char* name;
     const char* protocol;
     Words devices;
     Words words;
-    long shards;              ///< tests beside each other, each with its share of the moments
-    TrialCounts<long> every;  ///< so far apart are the moments; 1: each
-    bool twice;               ///< it is killed once more while it goes on
+    long shards;              ///< number of parallel tests that share the moments
+    TrialCounts<long> every;  ///< distance between the moments; 1: every moment
+    bool twice;               ///< kills the program again after it was resumed
 };
 
 const KilledSession kKilledSessions[] = {
@@ -39,7 +39,7 @@ const KilledSession kKilledSessions[] = {
      1,
      {.local = 80, .ci = 4, .campaign = 1},
      false},
-    // The long break with a look at the skin; masking noise; killed, and killed once more.
+    // The long break with a skin inspection; masking noise; killed twice.
     {"FourBlocksWithAMassagerTwice",
      "pilot-identification",
      {"sim:massager"},
@@ -47,7 +47,7 @@ const KilledSession kKilledSessions[] = {
      1,
      {.local = 120, .ci = 12, .campaign = 1},
      true},
-    // Rests of five minutes in the drift check, and a block that is marked.
+    // Rests of five minutes in the drift check, and a marked block.
     {"Adapted",
      "pilot-identification",
      {"sim:"},
@@ -71,7 +71,7 @@ std::vector<KillShard> killShards() {
 
 class PilotKill : public testing::TestWithParam<KillShard> {};
 
-/// The outcome of a session, without what only tells how often it was begun. |Z| is measured again when it continues.
+/// Returns the outcome of a session without what depends on restarts: |Z| is measured again after each.
 std::string cameTo(const nlohmann::json& value) {
     const auto& results = value["results"];
     auto range = results["range"];
@@ -82,7 +82,7 @@ std::string cameTo(const nlohmann::json& value) {
            range.dump();
 }
 
-/// Plan and answers of the study's only session, where that is complete on disk.
+/// Returns plan and answers of the study's only session if it is complete on disk.
 std::optional<std::string> completeIn(const PilotDesk& desk, const std::string& study) {
     const auto opened = Study::open(desk.desk().at(study), nullptr, Study::Access::Read);
     if (!opened) return std::nullopt;
@@ -105,21 +105,21 @@ TEST_P(PilotKill, AtEveryDurableRowGoesOnAsIfUndisturbed) {
     auto answers = jsonOf(undisturbed)["results"].value("trials", nlohmann::json::array());
     for (auto& trial : answers) trial.erase("attempt");
     const auto fromTheSeed = session->words + kGoOn;
-    const auto resumed = fromTheSeed + Words{"--seed", "99"};  // The stored plan holds
+    const auto resumed = fromTheSeed + Words{"--seed", "99"};  // the stored plan is used
     long killed = 0;
     const long every = trials(session->every);
     for (long sync = 1 + shard + every / 2;; sync += session->shards * every) {
         const auto study = "killed " + std::to_string(sync);
         const int code = desk.runKilled(sync, session->protocol, session->words, study);
-        if (code == 0) break;  // it has fewer of them
+        if (code == 0) break;  // the session has fewer moments
         ASSERT_EQ(code, -9) << "sync " << sync;
         ++killed;
-        if (const auto kept = completeIn(desk, study)) {  // all but the program's own end was done
+        if (const auto kept = completeIn(desk, study)) {  // only the program's own end was missing
             EXPECT_EQ(*kept, answers.dump()) << "sync " << sync;
             std::filesystem::remove_all(desk.desk().at(study));
             continue;
         }
-        // Before the plan is durable no plan could hold: it is drawn from the seed.
+        // A plan that is not durable yet cannot be used; the plan is then drawn from the seed.
         const auto& words = desk.desk().named(study + "/sessions", ".tacto").empty() ? fromTheSeed : resumed;
         if (session->twice) {
             const int again = desk.runKilled(20 + sync / 3, session->protocol, words, study);

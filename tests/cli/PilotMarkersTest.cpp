@@ -1,4 +1,4 @@
-// Markers from the command line: what is refused before anything is begun, and what a recorder gets of the program.
+// Markers from the command line: what is refused before anything begins, and what a recorder receives.
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 

@@ -1,5 +1,5 @@
-// A rehearsal with a massager, from plan to confusion matrix: strengths, no currents; killed and resumed; what its
-// motor did, where a board is on it.
+// A rehearsal with a massager, from plan to confusion matrix: strengths instead of currents; killed and resumed; the
+// motion of its motor, if a sensor board is attached.
 #include <algorithm>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ using testing::Not;
 
 const Words kMassager{"sim:massager"};
 
-/// Adds every key of a value, at any depth.
+/// Adds every key in a value, at any depth.
 void addKeys(const json& value, std::set<std::string>& keys) {
     for (const auto& [key, member] : value.items()) {
         if (value.is_object()) keys.insert(key);

@@ -1,5 +1,5 @@
-// The files of a study, of the user's home and of the temporary folder while a session runs, after its program was
-// killed, and after it has ended: no code, name, birth year or note, and no condition or answer.
+// Files in the study, the user's home and the temporary folder during a session, after its program was killed, and
+// after its end contain no code, name, birth year or note, and no condition or answer.
 #include <cstdlib>
 #include <filesystem>
 #include <gmock/gmock.h>
@@ -33,7 +33,7 @@ protected:
         EXPECT_EQ(ran.code, 0) << ran.err;
         return ran;
     }
-    /// Every file that the program could have written, with what it holds.
+    /// Returns every file that the program could have written, with its contents.
     [[nodiscard]] std::map<std::string, std::string> written() const {
         auto all = desk.desk().files("study");
         all.merge(desk.desk().files("temporary"));

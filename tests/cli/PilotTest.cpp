@@ -106,7 +106,7 @@ TEST(Pilot, ComparesStrengthsWithinTheRangeWhereItIsAskedTo) {
     }
 }
 
-/// Every key of these that `object` lacks.
+/// Returns those keys that are missing in `object`.
 std::string missingIn(const json& object, std::initializer_list<const char*> keys) {
     std::string missing;
     for (const char* key : keys)
@@ -291,7 +291,7 @@ TEST(Pilot, ASessionThatIsCompleteEndsAsCompleteThoughTheStudyDidNotKnow) {
     const auto isKilled = [&](long sync, const std::string& study) {
         return desk.runKilled(sync, "pilot-thresholds", words, study) == -9;
     };
-    long killed = 100, whole = 4000;  // the last row lies between
+    long killed = 100, whole = 4000;  // the number of the last row is between these
     while (whole - killed > 1) {
         const long middle = (killed + whole) / 2;
         (isKilled(middle, "at " + std::to_string(middle)) ? killed : whole) = middle;
@@ -306,7 +306,7 @@ TEST(Pilot, ASessionThatIsCompleteEndsAsCompleteThoughTheStudyDidNotKnow) {
     for (long sync = killed; !found && sync > killed - 10; --sync) {
         const auto study = "complete " + std::to_string(sync);
         ASSERT_TRUE(isKilled(sync, study));
-        if (desk.run("pilot-thresholds", words, study).code != 3) continue;  // the ledger knew
+        if (desk.run("pilot-thresholds", words, study).code != 3) continue;  // the ledger already recorded the end
         const auto other = desk.run("pilot-thresholds", words + Words{"--set", "unfinished=end"}, study);
         ASSERT_EQ(other.code, 0) << other.err;
         found = other.err.find("was ended as complete") != std::string::npos;

@@ -1,5 +1,5 @@
-// The tables of every shipped protocol's report, as a reader's eye takes them: one prefix of a unit in a column, and
-// ± before an uncertainty or a tolerance alone. And the certificate of a calibration, from its command line.
+// The tables in every shipped protocol's report, as a reader sees them: one prefix per unit in a column, and ± only
+// before an uncertainty or a tolerance. Also the certificate of a calibration, from the command line.
 #include <algorithm>
 #include <fstream>
 #include <gmock/gmock.h>
@@ -34,7 +34,7 @@ std::string withoutTags(std::string html) {
 
 struct Table {
     std::string caption;
-    std::vector<std::vector<std::string>> rows;  ///< the header first
+    std::vector<std::vector<std::string>> rows;  ///< the header comes first
 };
 
 std::vector<Table> tablesOf(const std::string& html) {
@@ -57,7 +57,7 @@ std::vector<Table> tablesOf(const std::string& html) {
     return tables;
 }
 
-/// The units that take a prefix, by what is left without it, in the figures of one cell; a cell of words has none.
+/// Adds the prefixes of units in the figures of one cell, by unit without prefix; a cell with words has none.
 void addUnits(const std::string& cell, std::map<std::string, std::set<std::string>>& met) {
     static const std::regex kUnit("[0-9] ([pnµmkMG]?)(V|A|s|Ω|C|J|W|Hz|Pa|N|F)((?:/cm²)?)(?![A-Za-zµΩ])");
     static const std::regex kWords("[A-Za-z]{3,}|∥|\\+");
@@ -75,7 +75,7 @@ void expectOnePrefix(const std::string& html, const std::string& protocol) {
         for (std::size_t column = 0; column < table.rows.front().size(); ++column) {
             const auto& header = table.rows.front()[column];
             EXPECT_FALSE(header.find("±") != header.npos && header.find("s.d.") != header.npos) << header;
-            if (header == "Load" || header == "Accuracy") continue;  // names; sentences
+            if (header == "Load" || header == "Accuracy") continue;  // these columns contain names or sentences
             std::map<std::string, std::set<std::string>> met;
             for (std::size_t row = 1; row < table.rows.size(); ++row) {
                 if (column < table.rows[row].size()) addUnits(table.rows[row][column], met);
@@ -88,7 +88,7 @@ void expectOnePrefix(const std::string& html, const std::string& protocol) {
     }
 }
 
-/// Fewer trials than usual, by the protocol's name.
+/// Settings with fewer trials than usual, by protocol.
 const std::map<std::string, Words> kSettings{{"separability", {"repeats=2"}},
                                              {"transitions", {"repeats=1"}},
                                              {"variation", {"participants=20", "trials=5"}},
@@ -99,7 +99,7 @@ const std::map<std::string, Words> kSettings{{"separability", {"repeats=2"}},
                                              {"sensor-calibration", {"more=", "slides=3"}},
                                              {"stimulator-calibration", {"levels=4", "repeats=2"}}};
 
-/// The shipped protocols that need no participant.
+/// Returns the shipped protocols that need no participant.
 std::vector<std::string> shippedProtocols() {
     std::vector<std::string> names;
     for (const auto& file : std::filesystem::directory_iterator(sourceDir() / "resources" / "protocols")) {
@@ -163,7 +163,7 @@ TEST_F(CertificateOfARun, TakesItsWordsFromWhatIsKeptAndFromTheOrder) {
     const auto order = file("order.json", R"({"customer": "Institut <T>", "address": "Street 2", "make": "Hasomed"})");
     const auto ran =
         calibrate({"--certificate-details", order, "--ambient", "22.5 °C, 45 % RH", "--operator", "A. W."});
-    EXPECT_EQ(ran.code, 5) << ran.err;  // three levels are fewer than wanted
+    EXPECT_EQ(ran.code, 5) << ran.err;  // three levels are fewer than required
     const auto html = contentOf(desk.named("out", ".html").at(0));
     for (const char* wanted : {"<h1>Calibration certificate – SIMULATED</h1>", "<dt>Laboratory</dt><dd>Lab Nord</dd>",
                                "<dt>Address</dt><dd>Street 2</dd>", "<dt>Customer</dt><dd>Institut &lt;T&gt;</dd>",
@@ -172,7 +172,7 @@ TEST_F(CertificateOfARun, TakesItsWordsFromWhatIsKeptAndFromTheOrder) {
                                "The results relate only to the items calibrated.", "Interval was not calibrated",
                                "as left is as found", "not traceable: SIMULATED", "End of calibration certificate"})
         EXPECT_THAT(html, HasSubstr(wanted));
-    // A session says it again: its report can be made later.
+    // The session has the same data, so its report can be made again later.
     const auto again = desk.run({"report", desk.named("out", ".tacto").at(0), "--out", desk.at("again.html")});
     EXPECT_EQ(again.code, 0) << again.err;
     EXPECT_THAT(contentOf(desk.at("again.html")), HasSubstr("Institut &lt;T&gt;"));

@@ -1,4 +1,4 @@
-// roughness: real recordings, one with a known answer, and refused ones.
+// roughness: real recordings, a recording with a known answer, and refused recordings.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -32,7 +32,7 @@ std::vector<Row> rowsOf(const std::string& csv) {
     return rows;
 }
 
-/// The JSON's statistics cover the frames in contact in frames.csv.
+/// Expects that the JSON's statistics are those of the frames in contact in frames.csv.
 void expectSummaryOf(const std::string& csv, const Json& summary) {
     auto rows = rowsOf(csv);
     ASSERT_FALSE(rows.empty());
@@ -88,7 +88,7 @@ TEST(Roughness, PrintsADescriptionToFillIn) {
     EXPECT_EQ(ran.code, 0);
     EXPECT_EQ(ran.err, "");
     desk.write("mine/recording.json", ran.out);
-    // Unchanged, it lacks only the files that it names.
+    // Without changes, only the files that it names are missing.
     expectRefused(desk.run({"roughness", desk.at("mine")}), 3, {"acceleration.csv"});
     expectRefused(desk.run({"roughness", desk.path().string()}), 3, {"no recording.json", "roughness --template"});
 }
@@ -165,7 +165,7 @@ TEST(Roughness, OfATableAloneADescriptionIsPrintedThatOpensOnceItIsSaved) {
         const auto summary = roughness(path).summary;
         EXPECT_NEAR(summary["pressure_pa"]["mean"].get<double>(), 10'005, 1e-6);
     }
-    // The program asks for what a table does not say.
+    // The program asks for what the table does not state.
     const auto bare = desk.write("bare.csv", "0.5\n0.25\n0.125\n");
     const auto asked = desk.run({"roughness", bare});
     EXPECT_EQ(asked.code, 0);
@@ -177,7 +177,7 @@ TEST(Roughness, OfATableAloneADescriptionIsPrintedThatOpensOnceItIsSaved) {
                   {"words.txt", "no row of numbers"});
 }
 
-/// A second of rest, then contact at 1 N, in a recording of one force stream.
+/// A second of rest, then contact at 1 N, in a recording with a single force stream.
 class ForceRecording : public testing::Test {
 protected:
     static std::string samples() {

@@ -1,4 +1,4 @@
-// RunCli.h - runs the built tactoscope-cli as a user does, without a display, and says what came out of it.
+// RunCli.h - runs the built tactoscope-cli as a user does, without a display, and returns its output.
 //
 // Thread-safety: the test's own thread.
 #pragma once
@@ -19,25 +19,25 @@ namespace tacto::test {
 using Words = std::vector<std::string>;
 
 struct Ran {
-    int code = 0;       ///< exit code; a signal's number, negative, when that ended the program
+    int code = 0;       ///< exit code; if a signal ended the program, minus its number
     std::string out;    ///< stdout
     std::string err;    ///< stderr
-    long most_KiB = 0;  ///< the memory that it held at most
+    long most_KiB = 0;  ///< highest memory use
 };
 
-/// A user's folder with a home of its own: nothing outside it is written.
+/// A user's folder with its own home: nothing outside it is written.
 class Desk {
 public:
-    /// Starts the program here, to be signalled and waited for.
+    /// A program that was started here, which can be signalled and waited for.
     class Started {
     public:
         ~Started();
         Started(const Started&) = delete;
         Started& operator=(const Started&) = delete;
-        /// False when the program ended first, or after 20 s.
+        /// Returns false if the program ended first, or after 20 s.
         [[nodiscard]] bool waitUntil(const std::function<bool()>& isSo) const;
         void signal(int number) const;
-        /// Waits for its end; after `limit` it is killed, and its code is -9.
+        /// Waits for the program to end. After `limit` the program is killed and its exit code is -9.
         [[nodiscard]] Ran wait(std::chrono::seconds limit = std::chrono::seconds(120));
 
     private:
@@ -46,7 +46,7 @@ public:
         [[nodiscard]] bool endedWithin(std::chrono::milliseconds time) const;
         std::filesystem::path out_, err_;
         pid_t pid_ = -1;
-        int ended_ = -1;  // a descriptor that polls as readable once the program has ended
+        int ended_ = -1;  // a descriptor that becomes readable when the program has ended
     };
 
     [[nodiscard]] Ran run(const Words& words) const { return start(words).wait(); }
@@ -57,19 +57,19 @@ public:
     [[nodiscard]] pid_t spawn(const Words& words, posix_spawn_file_actions_t& actions, short flags = 0) const;
 
     [[nodiscard]] const std::filesystem::path& path() const { return folder_.path(); }
-    /// The environment of the program: no display, none of the tester's own settings, a home of the desk's, and these
-    /// libraries preloaded, divided by ':'.
+    /// Returns the program's environment: no display, none of the tester's own settings, the desk's home, and preloaded
+    /// libraries, separated by ':'.
     [[nodiscard]] Words environment(const std::string& preloaded = {}) const;
-    /// From here on, making a key from a passphrase costs what it costs the program, not the least possible.
+    /// From here on, deriving a key from a passphrase costs as much as in the program; before, as little as possible.
     void payForPassphrases() { passphrasesAreCheap_ = false; }
-    /// A path below the folder, as text.
+    /// Returns a path inside the folder as text.
     [[nodiscard]] std::string at(std::string_view name) const { return (path() / name).string(); }
     std::string write(std::string_view name, std::string_view content) const;
     /// Puts a script where the program looks for the user's protocols; returns its path.
     std::string protocol(std::string_view name, std::string_view script) const;
-    /// Every file below a folder of the desk, with what it holds.
+    /// Returns every file inside a folder of the desk, with its contents.
     [[nodiscard]] std::map<std::string, std::string> files(std::string_view below = ".") const;
-    /// The files below a folder whose names end like this, sorted.
+    /// Returns the files inside a folder with names that end like this, sorted.
     [[nodiscard]] Words named(std::string_view below, std::string_view ending) const;
 
 private:

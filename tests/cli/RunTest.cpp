@@ -22,7 +22,7 @@ Words separability(const std::string& out, const std::string& repeats, const std
 
 double firstTime(const std::string& capture) {
     const auto text = contentOf(capture);
-    return std::stod(text.substr(text.find("}\n") + 2));  // behind the header's comment line
+    return std::stod(text.substr(text.find("}\n") + 2));  // after the header's comment line
 }
 
 TEST(RunSeparability, TheFourConditionsAreToldApartAndEverythingIsWrittenDown) {
@@ -50,7 +50,7 @@ TEST(RunSeparability, TheFourConditionsAreToldApartAndEverythingIsWrittenDown) {
         EXPECT_NEAR(condition["interval_s"]["mean"].get<double>(), kSeconds[i], 0.01 * kSeconds[i]);
     }
 
-    // The captures say the same as the trials: two of a train each, one interval apart.
+    // The captures agree with the trials: two per train, one interval apart.
     const auto captures = desk.named("out/captures", ".csv");
     ASSERT_EQ(captures.size(), 200U);
     EXPECT_TRUE(contentOf(captures[0]).starts_with("time_s,voltage_v,current_a\n"));
@@ -66,7 +66,7 @@ TEST(RunSeparability, TheFourConditionsAreToldApartAndEverythingIsWrittenDown) {
                     0.01 * made["amplitude_v"].get<double>());
     }
 
-    // The analysis of the trials as a table agrees.
+    // Analysing the trials as a table gives the same result.
     std::string table = "condition,amplitude,interval\n";
     for (const auto& trial : results["trials"])
         table += trial["condition"].get<std::string>() + "," + trial["amplitude_v"].dump() + "," +
@@ -191,7 +191,7 @@ TEST(Run, EachKindPrintsItsOwnFiguresAndWritesTheReportThatIsAskedFor) {
     EXPECT_THAT(refused.err, HasSubstr("--report is \"docx\"; none, html or pdf is expected"));
 }
 
-/// An HTML report's words, without its pictures.
+/// Returns the words of an HTML report, without its pictures.
 std::string wordsOf(std::string html) {
     for (const auto& [from, to] : {std::pair("<svg", "</svg>"), std::pair("src=\"data:", "\"/>")}) {
         for (auto begin = html.find(from); begin != std::string::npos; begin = html.find(from, begin))

@@ -1,4 +1,4 @@
-// sciencemode identify, status and pulse: the built program against an emulated stimulator behind a pseudo-terminal.
+// sciencemode identify, status and pulse: the built program with an emulated stimulator behind a pseudo-terminal.
 #include <algorithm>
 #include <csignal>
 #include <gmock/gmock.h>
@@ -52,7 +52,7 @@ protected:
         words.insert(words.end(), more.begin(), more.end());
         return run(words);
     }
-    /// The current of every pulse that the device put out, in mA.
+    /// Returns the current in mA of every pulse that the device delivered.
     [[nodiscard]] std::vector<double> putOut() const {
         return pty_->inspect([](auto& device, Instant now) {
             std::vector<double> currents;
@@ -64,8 +64,8 @@ protected:
         return pty_->inspect([&](auto& device, Instant) { return device.requests(command); });
     }
 
-    bool emulated_ = true;  ///< as the address says
-    bool answers_ = true;   ///< the emulated device, as far as the machine lets it
+    bool emulated_ = true;  ///< as stated in the address
+    bool answers_ = true;   ///< whether the emulated device answers, as far as the machine allows
     const SteadyClock clock_;
     const Desk desk_;
     std::unique_ptr<sciencemode::EmulatedPty> pty_ = *sciencemode::EmulatedPty::open(on("1 kohm"), clock_);
@@ -257,7 +257,7 @@ TEST_F(ScienceModeCommand, ASignalDuringTheCheckCutsItAndNothingFollows) {
     RecordProperty("hazard", "H2");
     for (const int signal : {SIGINT, SIGTERM}) {
         fit("1 kohm");
-        // 65 ms a pulse, so that there is something to cut.
+        // 65 ms per pulse, so that there is time to stop it.
         auto run = desk_.start({"sciencemode", "pulse", "--current", "5", "--width", "4095", "--gap", "57000", "--load",
                                 "1000", "--yes-bench-load", "--json", "--device", uri()});
         ASSERT_IN_TIME(run.waitUntil([&] {
@@ -277,7 +277,7 @@ TEST_F(ScienceModeCommand, ASignalDuringTheCheckCutsItAndNothingFollows) {
 
 TEST_F(ScienceModeCommand, AFaultStaysWithTheUnit) {
     RecordProperty("hazard", "H3");
-    const OwnSerial serial("EMU");  // its own word on itself spares it nothing
+    const OwnSerial serial("EMU");  // the device's own claim does not spare it a check
     emulated_ = false;
     auto settings = on("1 kohm");
     settings.id = serial.text();
@@ -297,7 +297,7 @@ TEST_F(ScienceModeCommand, AFaultStaysWithTheUnit) {
     expectRefused(pulse("5", "1000"), 4, {"left by an earlier run", "stood still", "--reset-fault"});
     EXPECT_EQ(putOut().size(), before);
 
-    // The state is left where it is met, and stays left.
+    // The reset ends the fault for good: the next pulse needs no reset.
     for (const Words& how : {Words{"--reset-fault"}, Words{}}) {
         const auto ran = pulse("5", "1000", how);
         ASSERT_EXIT_IN_TIME(ran.code, 0) << ran.err;

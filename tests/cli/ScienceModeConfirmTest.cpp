@@ -1,4 +1,4 @@
-// sciencemode pulse at a terminal: the second of two steps is a typed one, and until then nothing is delivered.
+// sciencemode pulse at a terminal: the second of two steps is a typed word; before it nothing is delivered.
 #include <chrono>
 #include <csignal>
 #include <gmock/gmock.h>
@@ -74,7 +74,7 @@ TEST_F(ScienceModeConfirm, WhatWasTypedBeforeTheQuestionIsNoAnswer) {
     EXPECT_EQ(putOut(), 0U);
 }
 
-/// A busy machine's kernel takes 100 ms to hand over what was typed.
+/// On a busy machine the kernel delivers typed text up to 100 ms late.
 TEST_F(ScienceModeConfirm, WhatIsTypedJustBeforeTheQuestionIsNoAnswerThoughItArrivesLate) {
     TerminalCli cli(desk_, words());
     const auto identified = [this] {

@@ -1,4 +1,4 @@
-// sensor status: the built program against an emulated board behind a pseudo-terminal.
+// sensor status: the built program with an emulated board behind a pseudo-terminal.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

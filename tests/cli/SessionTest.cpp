@@ -1,4 +1,4 @@
-// report and verify, on sessions that this program recorded.
+// report and verify, for sessions that this program recorded.
 #include <cstdlib>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ protected:
         ASSERT_EQ(ran.code, 5) << ran.err;
         session = jsonOf(ran)["session"];
     }
-    /// The session with one byte changed at `place`.
+    /// Returns the session with one byte changed at `place`.
     std::string flipped(std::size_t place) const {
         auto content = contentOf(session);
         content.at(place) = static_cast<char>(content.at(place) ^ 0x04);
@@ -157,7 +157,7 @@ TEST_F(Session, AReportForWhichTheDiskHasNoRoomIsNoSuccessAndKeepsTheEarlierOne)
     for (const auto* name : {"r.pdf", "r.html"}) {
         const auto path = desk.at(name);
         ASSERT_EQ(desk.run({"report", session, "--out", path}).code, 0);
-        const auto blocks = std::filesystem::file_size(path) / 512 - 1;  // all blocks but the end
+        const auto blocks = std::filesystem::file_size(path) / 512 - 1;  // all blocks except the last
         desk.write(name, "the earlier report");
         const auto said = desk.at("said");
         const auto limited = "ulimit -f " + std::to_string(blocks) + "; exec " TACTO_CLI " report '" + session +

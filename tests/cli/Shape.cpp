@@ -36,7 +36,7 @@ void expectStatistic(const Json& value, const std::string& what) {
         return;
     }
     EXPECT_EQ(value["n"].get<int>() > 1, value["sd"].is_number()) << what << value.dump();
-    // Rounding may put the mean of equal numbers beside them.
+    // Because of rounding, the mean of equal numbers may lie just outside their range.
     const double slack = 1e-12 * (1 + std::abs(value["max"].get<double>()));
     EXPECT_LE(value["min"].get<double>(), value["mean"].get<double>() + slack) << what;
     EXPECT_LE(value["mean"].get<double>(), value["max"].get<double>() + slack) << what;

@@ -1,4 +1,4 @@
-// Stops by the operator, crashes, and scripts that err or do not end.
+// Stops by the operator, crashes, and scripts that fail or do not end.
 #include <csignal>
 #include <cstdlib>
 #include <gmock/gmock.h>
@@ -31,7 +31,7 @@ void expectStopped(const Desk& desk, const Ran& ran) {
 
 class Stop : public testing::Test {
 protected:
-    /// A run that would take half a minute, with its session already begun.
+    /// Starts a run that would take half a minute; its session has already begun.
     Desk::Started live() const {
         return desk.start({"run", "live", "--device", "sim:", "--realtime", "--out", desk.at("out"), "--json"});
     }
@@ -101,7 +101,7 @@ TEST_F(Stop, ARunWhoseSessionIsGoneHasNoVerdictAndDoesNotSucceed) {
     RecordProperty("hazard", "H8");
     auto run = desk.start(
         {"run", "live", "--device", "sim:", "--realtime", "--set", "duration=2", "--out", desk.at("out"), "--json"});
-    // Opened, not only made.
+    // Open, not only created.
     ASSERT_IN_TIME(run.waitUntil([&] { return sessionBegun() && !desk.named("out", ".tacto-wal").empty(); }));
     std::filesystem::remove(desk.named("out", ".tacto").at(0));
     const auto ran = run.wait(std::chrono::seconds(60));
@@ -124,7 +124,7 @@ TEST_F(Stop, AKilledRunLeavesASessionThatIsIntactAndSaysThatItWasRecovered) {
     auto run = live();
     ASSERT_IN_TIME(run.waitUntil([&] { return sessionBegun(); }));
     const auto begun = Clock::now();
-    ASSERT_IN_TIME(run.waitUntil([&] { return secondsSince(begun) > 4; }));  // a slow disk takes a second to commit one
+    ASSERT_IN_TIME(run.waitUntil([&] { return secondsSince(begun) > 4; }));  // a slow disk takes a second per commit
     run.signal(SIGKILL);
     EXPECT_EQ(run.wait().code, -SIGKILL);
     const auto session = desk.named("out", ".tacto").at(0);
@@ -135,7 +135,7 @@ TEST_F(Stop, AKilledRunLeavesASessionThatIsIntactAndSaysThatItWasRecovered) {
     EXPECT_THAT(desk.run({"verify", session}).out, HasSubstr("recovered"));
 }
 
-/// A script of the user's, which is run.
+/// Runs a script of the user.
 class UserScript : public Stop {
 protected:
     std::string script(const std::string& body, const std::string& needs = "[\"stimulator\"]") const {
@@ -151,7 +151,7 @@ TEST_F(UserScript, AnEndlessLoopIsStoppedWithinAFewSeconds) {
     auto run = desk.start(words());
     ASSERT_IN_TIME(run.waitUntil([&] { return sessionBegun(); }));
     const auto begun = Clock::now();
-    ASSERT_IN_TIME(run.waitUntil([&] { return secondsSince(begun) > 1; }));  // the script has begun too
+    ASSERT_IN_TIME(run.waitUntil([&] { return secondsSince(begun) > 1; }));  // by now the script has begun too
     run.signal(SIGINT);
     const auto signalled = Clock::now();
     const auto ran = run.wait(std::chrono::seconds(20));

@@ -1,4 +1,4 @@
-// study and verify STUDY: the contract of pilot.md section 10, as a user types it.
+// study and verify STUDY: the promises of pilot.md section 10, as a user types the commands.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -38,9 +38,9 @@ TEST_F(StudyCli, AGuessAtAPassphraseTakesTheMemoryThatIsPromised) {
     ASSERT_EQ(cheap.code, 0) << cheap.err;
     desk.payForPassphrases();
     const auto dear = study({"show", at()});
-    EXPECT_EQ(dear.code, 3) << dear.err;  // sealed at another cost, so with another key
+    EXPECT_EQ(dear.code, 3) << dear.err;  // sealed at another cost, and so with another key
     EXPECT_GE(dear.most_KiB, kPromised_KiB);
-    EXPECT_LT(cheap.most_KiB, kPromised_KiB);  // the other tests' way, or that figure would say nothing
+    EXPECT_LT(cheap.most_KiB, kPromised_KiB);  // without a real passphrase, less memory is needed
 }
 
 TEST_F(StudyCli, GoingBackIsTwoStepsAndStandsInEachReport) {
@@ -184,7 +184,7 @@ TEST_F(StudyCli, AnAmendmentRenewsTheApprovalAndIsListed) {
     EXPECT_EQ(shown["approval"],
               Json({{"reference", "EC-17 A1"}, {"from", "2026-01-01"}, {"expires", "2099-12-31"}, {"valid", true}}));
     EXPECT_THAT(desk.run({"study", "show", at()}).out, HasSubstr("changed approval.expires, blocks"));
-    // The license is the study's, and needs no amendment, as it is no part of the protocol.
+    // The license belongs to the study but not to the protocol, so it needs no amendment.
     ASSERT_EQ(
         desk.run({"export", at(), "--format", "bids", "--out", desk.at("bids"), "--passphrase-file", passphrase}).code,
         0);

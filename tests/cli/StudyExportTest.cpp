@@ -1,4 +1,4 @@
-// export STUDY and report STUDY: what leaves a study, and what never does.
+// export STUDY and report STUDY: which data leave a study, and which never do.
 #include <filesystem>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -51,7 +51,7 @@ TEST_F(StudyExport, ABidsFolderHoldsTheSessionsAnswersAndNoCode) {
     EXPECT_GE(files, 10U);
     EXPECT_EQ(answers, run_.at("n").get<std::size_t>() + run_.at("catch").at("n").get<std::size_t>());
     EXPECT_THAT(readTextFile(fs::path(at("bids")) / "dataset_description.json").value_or(""), HasSubstr("simulated"));
-    // The export's own table is one that analyze takes.
+    // analyze accepts the table of the export.
     const auto again = desk_.run({"export", study(), "--format", "bids", "--out", at("again")});
     ASSERT_EQ(again.code, 0) << again.err;
     for (const auto& entry : fs::recursive_directory_iterator(at("again"))) {

@@ -24,7 +24,7 @@ TerminalCli::TerminalCli(const Desk& desk, const Words& words, unsigned short co
     ioctl(master_, TIOCSWINSZ, &size);
     const std::string slave = ptsname(master_);
 
-    // The first terminal that a session's leader opens is its own: Ctrl+C reaches it.
+    // The first terminal that a session leader opens becomes its own, so that Ctrl+C reaches it.
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, 0, slave.c_str(), O_RDWR, 0);
@@ -41,13 +41,13 @@ TerminalCli::~TerminalCli() {
     close(master_);
 }
 
-/// False when there is nothing more to come.
+/// Returns false if nothing more will come.
 bool TerminalCli::readSome(int within_ms) {
     pollfd watched{master_, POLLIN, 0};
     if (poll(&watched, 1, within_ms) <= 0) return true;
     std::array<char, 4096> chunk{};
     const auto got = read(master_, chunk.data(), chunk.size());
-    if (got <= 0) return false;  // EIO: the last process that had the terminal open is gone
+    if (got <= 0) return false;  // EIO: the last process with the terminal open has ended
     for (const char c : std::string_view(chunk.data(), static_cast<std::size_t>(got))) {
         if (c != '\r') screen_ += c;
     }

@@ -1,5 +1,5 @@
-// TerminalCli.h - runs the built tactoscope-cli at a terminal, as a person does: what is typed is its input, Ctrl+C is
-// a signal, and what it prints is what stands on the screen.
+// TerminalCli.h - runs the built tactoscope-cli at a terminal, as a person does: typed text is its input, Ctrl+C is a
+// signal, and its output is the screen.
 //
 // Thread-safety: the test's own thread.
 #pragma once
@@ -20,13 +20,13 @@ public:
     TerminalCli(const TerminalCli&) = delete;
     TerminalCli& operator=(const TerminalCli&) = delete;
 
-    /// Reads the screen until `text` stands on it. False when the program ended first, or after 20 s.
+    /// Reads the screen until it shows `text`. Returns false if the program ended first, or after 20 s.
     [[nodiscard]] bool waitFor(std::string_view text);
     void type(std::string_view keys);
-    /// Reads the screen to its end and returns the exit code; a signal's number, negative, when that ended it; -9 when
-    /// it had to be killed after 20 s.
+    /// Reads the screen to its end. Returns the exit code; minus the signal's number if a signal ended the program; -9
+    /// if it had to be killed after 20 s.
     [[nodiscard]] int wait();
-    /// All that was printed, without the terminal's carriage returns.
+    /// Returns everything that was printed, without the terminal's carriage returns.
     [[nodiscard]] const std::string& screen() const { return screen_; }
 
 private:

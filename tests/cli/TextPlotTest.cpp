@@ -55,7 +55,7 @@ TEST(TextPlot, HasAxesWithUnitsAndRoundNumbers) {
 TEST(TextPlot, TheCurveStandsWhereItsValuesAre) {
     const auto values = pulse(5);
     const auto lines = linesOf(draw(plotOf(values)));
-    // 75 columns for 512 us: the leading phase is the first 200, the second begins at 300.
+    // 75 columns for 512 us: the leading phase takes the first 200 us, the second begins at 300 us.
     const auto columnOf = [](double us) { return 5 + static_cast<std::size_t>(us / 512 * 75); };
     const auto& top = lines[1];
     const auto& bottom = lines[13];
@@ -67,7 +67,7 @@ TEST(TextPlot, TheCurveStandsWhereItsValuesAre) {
         EXPECT_EQ(top.at(columnOf(us)), ' ') << us;
         EXPECT_EQ(bottom.at(columnOf(us)), '*') << us;
     }
-    // The edges are lines, not jumps.
+    // The edges are drawn as lines, without gaps.
     const auto edge = bottom.find('*');
     for (std::size_t row = 1; row <= 13; ++row) EXPECT_EQ(lines[row].at(edge), '*') << row;
     EXPECT_NEAR(static_cast<double>(edge), static_cast<double>(columnOf(200)), 1);

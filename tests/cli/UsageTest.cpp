@@ -1,4 +1,4 @@
-// Exit code 2: what was asked for is wrong, and nothing was begun. (Files and devices at fault: 3.)
+// Exit code 2: the command line is wrong, and nothing was begun. (For faulty files and devices: 3.)
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
