@@ -154,7 +154,7 @@ private:
     const std::vector<CapturedLane>& lanes_;
     const LaneScales scales_;
     std::unique_ptr<PlotSheet> sheet_;
-    QCPMarginGroup* left_;  // the plot's, as the other
+    QCPMarginGroup* left_;  // owned by the plot
     QCPMarginGroup* right_;
 };
 

@@ -137,7 +137,7 @@ private:
 
     const ConditionsFigure& figure_;
     std::unique_ptr<PlotSheet> sheet_;
-    QCPMarginGroup* margins_;  // the plot's
+    QCPMarginGroup* margins_;  // owned by the plot
     double span_ = 1;
     double top_ = 1;
 };

@@ -16,7 +16,7 @@ struct MatrixBlock {
     struct Cell {
         QString main, detail;
         State state = State::Empty;
-        QString verdict{};      ///< the verdict on what is judged: "pass"
+        QString verdict{};      ///< the verdict for the cell: "pass"
         QString share{};        ///< used share of the limit, "23 %", or words instead
         QString measured{};     ///< the value with its U and unit
         QString note{};         ///< a remark on the value, as a sentence

@@ -20,7 +20,7 @@ namespace tacto {
 enum class ReportVerdict { None, Pass, Fail, Indeterminate, Stopped };
 
 struct ReportDevice {
-    QString role;  ///< its word
+    QString role;  ///< as a word: "stimulator"
     QString name;
     QString uri;
     QString serial;

@@ -21,7 +21,7 @@ namespace tacto {
 /// Returns the hash of the protocol that this program was built with.
 [[nodiscard]] std::string shippedLoadSafetySha256();
 
-/// Returns the largest values of a profile's trains, and the loads they may drive.
+/// Returns the extremes of a profile's trains, and the range of loads that they may drive.
 [[nodiscard]] TrainReach reachOf(const Profile& profile);
 
 /// Returns the widest tolerances with which a pass permits a session: those of the shipped protocol.

@@ -231,7 +231,7 @@ Result<std::unique_ptr<PilotRun>> PilotRun::prepare(RunOrder order, PilotOrder p
     return made;
 }
 
-/// Cancels a session if its bench could not be opened: it cannot be resumed. A continued session does not change.
+/// Cancels a new session if its bench could not be opened, because it could not be resumed. Keeps a continued one.
 void PilotRun::cancelBooked() {
     if (!begun_ || unfinished_.continued()) return;
     static_cast<void>(study_.cancelSession(begun_->session.id));

@@ -136,7 +136,7 @@ std::pair<std::string, int> windowWith(const std::string& environment, const Des
 
 TEST(Edges, AWindowWithoutADisplayEndsWithASentence) {
     const Desk desk;
-    const auto none = fmt::format(":{}", 20'000 + ::getpid() % 30'000);  // a number that no server takes
+    const auto none = fmt::format(":{}", 20'000 + ::getpid() % 30'000);  // no server has this display number
     const auto display = "DISPLAY=" + none;
     for (const std::string& named :
          {display, std::string("WAYLAND_DISPLAY=wayland-0"), display + " WAYLAND_DISPLAY=wayland-0",

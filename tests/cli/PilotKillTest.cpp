@@ -24,7 +24,7 @@ struct KilledSession {
 };
 
 const KilledSession kKilledSessions[] = {
-    // Thresholds by QUEST+, familiarisation, training, a break and a drift check between two blocks, ratings.
+    // Contains thresholds by QUEST+, familiarisation, training, a break and drift check between two blocks, ratings.
     {"TwoBlocks",
      "pilot-identification",
      {"sim:"},

@@ -93,7 +93,7 @@ TEST(PilotMassager, KilledItGoesOnAsIfUndisturbed) {
     ASSERT_EQ(undisturbed.code, 0) << undisturbed.err;
     const auto expected = planAndAnswers(jsonOf(undisturbed));
     const auto resume = shortSession() + Words{"--set", "unfinished=resume"};
-    for (const long sync : {40L, 130L, 220L}) {  // in the ascending limits, in detection, and among the trials
+    for (const long sync : {40L, 130L, 220L}) {  // during ascending limits, detection and trials
         const auto study = "killed " + std::to_string(sync);
         ASSERT_EQ(desk.runKilled(sync, "pilot-identification", shortSession(), study), -9) << sync;
         const auto ran = desk.run("pilot-identification", resume, study);

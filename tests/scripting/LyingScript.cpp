@@ -46,7 +46,7 @@ private:
             case 1:
                 return frame(noise(1 + random_() % 5000));
             case 2:
-                return frame(std::string(2'000'000, '\x81'));  // lists in lists
+                return frame(std::string(2'000'000, '\x81'));  // nested lists
             case 3:
                 return say({{"call", -1 - static_cast<std::int64_t>(random_() % 1000)}, {"with", json::array()}});
             case 4:

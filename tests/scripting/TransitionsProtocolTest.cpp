@@ -27,7 +27,7 @@ ScriptOutcome sweep(const std::string& device, const Settings& settings, std::ui
 
 /// Uses the shipped profile, which limits steps; the profile of RunBench does not.
 ScriptOutcome shipped(const Settings& settings, const std::string& device = "sim:") {
-    const Settings limits{{"slew", "given"}};  // the protocol's own figures are the shipped profile's
+    const Settings limits{{"slew", "given"}};  // the protocol's own limits are those of the shipped profile
     Settings all = settings;
     all.insert(limits.begin(), limits.end());
     return sweep(device, all);

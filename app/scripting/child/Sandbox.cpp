@@ -233,7 +233,7 @@ Thrown Sandbox::Engine::errorFrom(const QJSValue& thrown, const QStringList& tra
     // "function:line:column:file", innermost first. The author can act on the innermost line of the script itself.
     static const QRegularExpression frame(QStringLiteral(R"(^(.*?):(-?\d+):(-?\d+):(.*)$)"));
     const QString url = urlOf(file);
-    // Where the stack ran out, Qt 6.8 gives the innermost frame any number. A script cut short ends behind the text.
+    // After a stack overflow, Qt 6.8 may report any line. Errors of a script that was cut short lie behind its text.
     const auto lineIn = [lines = std::ranges::count(text, '\n') + 3](const QString& number) {
         const int line = number.toInt();
         return line >= 1 && line <= lines ? line : 0;

@@ -65,7 +65,7 @@ private:
 [[nodiscard]] tl::unexpected<Error> otherThanExpected(std::string_view function, std::string_view name,
                                                       const nlohmann::json& value, std::string_view accepted);
 
-/// The answer of a host function that returns nothing.
+/// Returns the answer of a host function that has no result.
 template <class T>
 [[nodiscard]] Result<nlohmann::json> done(const Result<T>& result) {
     if (!result) return failure(result);

@@ -80,7 +80,7 @@ void findQuestions(const ProtocolSource& source, ProtocolDeclaration& declaratio
 /// One process reads all shipped scripts, one after another: they do no harm.
 struct Kept {
     std::mutex mutex;
-    std::unique_ptr<ScriptProcess> process;  // guarded
+    std::unique_ptr<ScriptProcess> process;  // guarded by mutex
 };
 
 Result<nlohmann::json> declareIn(ScriptProcess& process, const ProtocolSource& source, std::chrono::milliseconds limit,

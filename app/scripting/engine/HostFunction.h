@@ -49,7 +49,7 @@ struct HostFunction {
     [[nodiscard]] std::string fullName() const;
 };
 
-/// All functions, grouped by object.
+/// Returns all functions, grouped by object.
 [[nodiscard]] const std::vector<HostFunction>& hostFunctions();
 
 /// Returns the option with this path ("analysis.variation.detection_ma"), or null if there is none.

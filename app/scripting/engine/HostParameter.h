@@ -39,7 +39,7 @@ struct HostParameter {
     std::vector<std::string_view> words = {};  ///< the accepted texts; empty: any text
     std::size_t mostCharacters = 0;            ///< the longest text; 0: any length
     bool mayBeLeftOut = false;
-    bool mayBeEmpty = false;          ///< a text
+    bool mayBeEmpty = false;          ///< for texts: an empty text is accepted
     bool mayBeNull = false;           ///< null and NaN are accepted and mean "not known"
     nlohmann::json usual = {};        ///< the value if the argument is left out
     std::string_view usualText = {};  ///< the default in words, if the function computes it

@@ -33,7 +33,7 @@ private:
     const int statm_;  // opened at the start, because files cannot be opened later
     std::mutex mutex_;
     std::condition_variable ending_;
-    bool ended_ = false;  // guarded
+    bool ended_ = false;  // guarded by mutex_
     std::thread thread_;
 };
 

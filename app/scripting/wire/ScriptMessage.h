@@ -18,7 +18,7 @@
 
 namespace tacto {
 
-/// The socket's number in tactoscope-script.
+/// The file descriptor of the socket in tactoscope-script.
 inline constexpr int kScriptSocket = 3;
 /// The exit code of tactoscope-script when it has used up its memory limit.
 inline constexpr int kTooMuchMemory = 77;

@@ -87,7 +87,7 @@ Result<Json> time(ScriptSession& session, const Arguments&) { return Json(toSeco
 
 Result<Json> devices(ScriptSession& session, const Arguments&) { return devicesOf(session); }
 
-/// The loads of the bench set.
+/// Returns the loads of the bench set.
 Result<Json> loads(ScriptSession&, const Arguments&) {
     Json out = Json::array();
     for (const auto& named : benchLoads()) {

@@ -19,7 +19,7 @@ struct Tracing {
     std::string condition;
     std::string label;
 };
-/// Voltage and current of recorded captures against time.
+/// Returns a figure of recorded captures: voltage and current against time.
 [[nodiscard]] Json tracingsFigure(ScriptSession& session, const std::vector<Tracing>& tracings);
 
 }  // namespace tacto::host::plot

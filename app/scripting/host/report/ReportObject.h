@@ -8,6 +8,6 @@ namespace tacto::host::report {
 
 using Json = nlohmann::json;
 
-HostCall figure, table, matrix, quantity, rounded, text, calibration, certificate;  // Report.cpp
+HostCall figure, table, matrix, quantity, rounded, text, calibration, certificate;  // ReportItems.cpp
 
 }  // namespace tacto::host::report
