@@ -42,7 +42,7 @@ bool isOf(const Recording& recording, const std::filesystem::path& out) {
     });
 }
 
-/// Returns U of R for the whole recording as one slide; NaN: not known.
+/// Returns the expanded uncertainty of roughness R for the whole recording as one slide; NaN: not known.
 double expandedR(const RoughnessSettings& settings, const RoughnessSummary& summary) {
     const bool calibrated =
         std::ranges::find(summary.flags, nameOf(RoughnessFlag::UncalibratedR)) == summary.flags.end();

@@ -103,7 +103,7 @@ void addTraceability(const ReportModel& model, std::vector<ReportFact>& facts) {
         const auto& figures = amplitude ? (current ? kOfCurrent : kOfVoltage) : kOfTime;
         Traced traced;
         for (const auto& [key, what, unit] : figures) {
-            // If the operator stated a value, it replaces that of the certificate.
+            // A value that the operator stated replaces the value in the certificate.
             const auto share =
                 each[u"stated_by"].toString() == "the operator" ? QString() : certified(certificate, key, what, unit);
             if (!share.isEmpty())
@@ -139,7 +139,7 @@ public:
             set = std::fmax(set, std::abs(numberIn(row, "commanded")));
             tolerance = std::fmax(tolerance, std::abs(numberIn(row, "tolerance")));
             error = std::fmax(error, std::abs(numberIn(row, "error")));
-            // Room for two digits of U without useless zeros.
+            // Room for two digits of the expanded uncertainty, without useless zeros.
             if (u > 0) error = std::fmax(error, std::pow(10.0, decimalExponent(u, 2) + 1));
         }
         set_ = axisUnit(set, unit);
@@ -186,7 +186,7 @@ private:
     static double numberIn(const QJsonValue& row, const char* key) {
         return row[QLatin1String(key)].toDouble(kUnknown);
     }
-    /// Returns the value, rounded to the second digit of its U; with four digits if U is not known.
+    /// Rounds to the second digit of the expanded uncertainty; to four digits if that is not known.
     static QString atPlace(double value, double u, const AxisUnit& axis) {
         if (!std::isfinite(value)) return "not measured";
         if (!(u > 0)) return quantityText(value * axis.factor, {});

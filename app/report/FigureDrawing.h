@@ -1,6 +1,6 @@
 // FigureDrawing.h - draws a figure as a sheet of plots, and writes the sheet as SVG.
 //
-// If data are missing or too few, a sentence stands in the figure's place; a figure is never blank.
+// If data are missing or too few, a sentence replaces the figure; a figure is never blank.
 //
 // Thread-safety: the GUI thread (plots are widgets).
 #pragma once
@@ -52,7 +52,7 @@ inline constexpr std::size_t kWaveformsShown = 8;  ///< the number of waveforms 
 // Joins the texts of a drawn SVG. Qt splits a text where another font supplies a character, and places the next part
 // for our fonts. With a reader's other fonts, a number could be separated from its minus.
 
-/// `svg`: output of QSvgGenerator. Joins each text to a text that ends where it begins, and adds the names of fonts
+/// `svg`: output of QSvgGenerator. Joins each text to the text that ends at its beginning, and adds the names of fonts
 /// that can replace ours elsewhere.
 [[nodiscard]] QString withWholeTexts(const QString& svg);
 

@@ -1,4 +1,4 @@
-// Fonts.h - the fonts of a report, which are those of the window: Noto Sans, and for missing characters Noto Sans Math,
+// Fonts.h - the fonts of a report, the same as in the window: Noto Sans, and for missing characters Noto Sans Math,
 // then DejaVu Sans. Checks that DejaVu Sans is installed: without a font Qt writes pages without text and gives no
 // error. Debian has the first two in fonts-noto-core.
 //

@@ -55,7 +55,7 @@ void judge(MatrixBlock::Cell& out, const json& cell, const QString& unit, bool h
     }
 }
 
-/// Puts a figure into a cell, with its U below it.
+/// Puts a figure into a cell, with its expanded uncertainty below.
 void putFigure(MatrixBlock::Cell& out, const QString& text) {
     const auto at = text.indexOf(" ± ");
     out.main = at < 0 ? text : text.left(at);

@@ -18,7 +18,7 @@ struct MatrixBlock {
         State state = State::Empty;
         QString verdict{};      ///< the verdict for the cell: "pass"
         QString share{};        ///< used share of the limit, "23 %", or words instead
-        QString measured{};     ///< the value with its U and unit
+        QString measured{};     ///< the value with its expanded uncertainty and unit
         QString note{};         ///< a remark on the value, as a sentence
         bool hasShare = false;  ///< true if `share` is a percentage
         bool isNear = false;    ///< true if 80 % or more of the limit is used

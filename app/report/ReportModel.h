@@ -98,7 +98,7 @@ struct ReportBasis {
 /// The data that make the report of a stimulator's calibration a certificate (CertificatePages.h).
 struct ReportCertificate {
     QJsonObject details;       ///< as entered: CertificateDetails.h; missing entries are blank lines
-    QJsonObject results;       ///< written by report.certificate(): quantities, before, kept
+    QJsonObject results;       ///< from report.certificate(): quantities, calibrations before and after
     QJsonObject oscilloscope;  ///< the certificate used for the oscilloscope's accuracy; empty: none
 };
 
@@ -121,7 +121,7 @@ struct ReportModel {
     ReportVerdict verdict = ReportVerdict::None;
     QStringList reasons;     ///< reasons for the verdict, one sentence each
     bool simulated = false;  ///< any device of the session was simulated
-    QStringList marks;       ///< the marks from sessionMarks(): origin, calibration, the flags of R, its known limit
+    QStringList marks;       ///< from sessionMarks(): origin, calibration, flags and known limit of roughness R
     QString chainHead;       ///< hexadecimal; empty only if there is none yet
     QStringList damage;      ///< what verification finds wrong with the session; empty if intact
     ReportBasis basis;

@@ -29,7 +29,7 @@ const QString kNone = QStringLiteral("–");
 /// A number of a record with its uncertainty and bounds.
 struct Known {
     double value = std::nan("");
-    double around = std::nan("");  ///< U, or a standard deviation
+    double around = std::nan("");  ///< expanded uncertainty, or a standard deviation
     double low = std::nan("");
     double high = std::nan("");
     bool hasAround = false;

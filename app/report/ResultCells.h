@@ -46,7 +46,7 @@ struct CountsText {
 inline constexpr const char* kUntilNextTrain = "before the next train";
 /// Returns "≤ 40 V" for {"limit", "unit", "compare"}; empty without a limit.
 [[nodiscard]] QString limitText(const nlohmann::json& line);
-/// Returns the share of a limit that value and U together use, "23 %"; "–" if not known.
+/// Returns the used share of a limit, including the expanded uncertainty: "23 %"; "–" if not known.
 [[nodiscard]] QString limitShareText(double used_pct);
 /// Returns "200 Ω + 10 kΩ ∥ 50 nF" for the name of a load.
 [[nodiscard]] QString loadText(QString name);

@@ -37,9 +37,9 @@ struct AnalysedSession {
 /// Returns the orders in which those people had the encodings, whether they are balanced, and why there is no test.
 [[nodiscard]] QString preferencesNote(const StudyRecord& study);
 
-// Compares the person's answers with those of a model person with the same thresholds (pilot.md section 8). The
-// comparison is shown, never judged: a person's Weber fraction of interval is not known, and that of amplitude only if
-// they compared strengths.
+// Compares the person's answers with the answers of a model person who has the same thresholds (pilot.md section 8).
+// The comparison is shown, never judged: a person's Weber fraction of interval is not known, and the Weber fraction of
+// amplitude only if they compared strengths.
 
 /// `weber`: the person's own for amplitude; NaN if not measured. Adds nothing if the session has no detection
 /// threshold, or if its test did not present every condition. Errors: as VirtualObserver::create().

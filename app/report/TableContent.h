@@ -1,5 +1,5 @@
-// TableContent.h - tables and matrices of a report as text: numbers with their units, and a name for everything that
-// needs attention.
+// TableContent.h - tables and matrices of a report as text: numbers with their units; cells that need attention are
+// named.
 #pragma once
 
 #include "app/report/ReportContent.h"

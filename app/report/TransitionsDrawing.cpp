@@ -1,4 +1,4 @@
-// The largest step from one train to the next over the R–P plane. Each cell has a number, so colour is not needed.
+// The largest step between trains over the plane of roughness R and pressure P. Each cell has a number.
 #include "app/report/FigureDrawing.h"
 #include "app/report/Fonts.h"
 #include "app/report/ShownText.h"

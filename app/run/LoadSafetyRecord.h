@@ -24,7 +24,7 @@ namespace tacto {
 /// Returns the extremes of a profile's trains, and the range of loads that they may drive.
 [[nodiscard]] TrainReach reachOf(const Profile& profile);
 
-/// Returns the widest tolerances with which a pass permits a session: those of the shipped protocol.
+/// Returns the shipped protocol's tolerances: a pass with wider tolerances permits no session.
 [[nodiscard]] CheckTolerances ownTolerances();
 
 /// Returns a check that begins; nothing for another protocol, altered bytes, or a stimulator without a serial number.

@@ -12,7 +12,7 @@ namespace tacto {
 
 namespace {
 
-/// Limit sets added to those of the approval can only tighten the limits.
+/// Checks the limit sets of the approval; sets that this program adds can only tighten the limits.
 Result<void> limitsGate(const StudySettings& study, const ShippedLimits& limits) {
     if (study.limits.empty()) {
         return fail(kGateRefused,

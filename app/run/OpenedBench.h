@@ -30,8 +30,8 @@ struct BenchOrder {
     ShippedLimits limits = {};
     std::string out = {};  ///< folder, as prepareRunFiles() accepts it
     RunNotes notes = {};
-    /// Stops that end this order, from the opening of the devices on; null: those of the bench. `asked`: the stop count
-    /// when the operator made the request.
+    /// Counts stops; each ends this order from the opening of the devices on. Null: the bench's own counter. `asked`:
+    /// the count when the operator made the request.
     std::shared_ptr<StopCounter> stops = nullptr;
     StopMark asked = {};
     std::function<bool()> watched = {};  ///< BenchConfig::watched

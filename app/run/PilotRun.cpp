@@ -182,7 +182,7 @@ Result<std::unique_ptr<PilotRun>> PilotRun::prepare(RunOrder order, PilotOrder p
     auto study = openStudyFor(order, pilot);
     if (!study) return failure(study);
     std::unique_ptr<PilotRun> made(new PilotRun(std::move(*study), std::move(markers)));
-    SessionRequest answered;  // kept, even if something later refuses
+    SessionRequest answered;  // saved before a later step can refuse
     answered.code = made->who_.code;
     answered.exclusions = pilot.exclusions;
     if (auto noted = made->study_.noteExclusions(answered); !noted) return failure(noted);

@@ -33,12 +33,12 @@ struct RunOrder : BenchOrder {
 /// Returns the description of a script for its session.
 [[nodiscard]] SessionAbout aboutScript(const RunOrder& order);
 
-/// The outcome of a run, even of a failed one.
+/// The outcome of a run, even if the run failed.
 struct RunResult {
     ScriptOutcome outcome;
     bool stoppedBySafety = false;    ///< by a fault, a refused train or an operator's stop
     bool simulated = false;          ///< a device was simulated, or the results are a prediction; `marks` say which
-    std::vector<std::string> marks;  ///< the marks from sessionMarks(): origin, calibration, the flags of R
+    std::vector<std::string> marks;  ///< from sessionMarks(): origin, calibration, flags of roughness R
     std::vector<SessionDevice> devices;
     std::filesystem::path session;
     std::vector<Error> troubles;         ///< errors in addition to the outcome's own: closing the session

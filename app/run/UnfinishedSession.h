@@ -35,8 +35,8 @@ public:
     /// The records of the resumed session; empty for a new session.
     [[nodiscard]] const PilotRows& earlier() const noexcept { return earlier_; }
 
-    /// Checks that the device is that of the first part: discomfort limit and range are valid only for it. Errors:
-    /// kGateRefused naming both devices.
+    /// Checks that the session continues with the device of its first part: discomfort limit and range are valid only
+    /// for that device. Errors: kGateRefused naming both devices.
     [[nodiscard]] Result<void> sameDevice(const DeviceSet& devices) const;
     /// Levels hold for one kind of train only, and answers of two procedures cannot be combined. Errors: kGateRefused.
     [[nodiscard]] Result<void> sameProcedure(std::string_view runSha256) const;

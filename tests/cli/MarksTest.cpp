@@ -1,4 +1,4 @@
-// The marks next to every result that depends on R: in --json, on the terminal and in the report.
+// The marks next to every result that depends on roughness R: in --json, on the terminal and in the report.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -81,7 +81,7 @@ void expectFewFalseAlarms(std::string_view mode, std::uint64_t runs) {
 }
 
 TEST(LoadSafetyEvidence, MissesNoTwinThatDeliversTooMuch) {
-    // Limits: 2 % above the command, 1 % of net charge; U is 0.6 % of the amplitude and 0.15 % of the charge.
+    // Limits: 2 % above the command, 1 % of net charge. Uncertainty: 0.6 % of the amplitude and 0.15 % of the charge.
     // From 20 % above the command, the program itself reports a fault, which is not a pass either.
     const Violation grid[] = {
         {"gain", 1.033, ""},      {"gain", 1.04, ""},      {"gain", 1.06, ""},        {"gain", 1.1, ""},

@@ -116,7 +116,7 @@ TEST(TransitionsProtocol, MeasuresTheSchedulersLatencyInEveryDirection) {
     for (const auto& step : steps) {
         const auto name = step["name"].get<std::string>();
         const double since = step["since_onset_s"].get<double>();
-        // Calculated by hand, independently of the tested code: T is 2 s to 0.5 s, and 1.25 s while texture changes.
+        // Calculated by hand: the interval is 2 s to 0.5 s, and 1.25 s while texture changes.
         const double due = name == "pressure up" ? 0.5 : name == "pressure down" ? 2 : 1.25;
         const double design = std::max(0.0, due - since);
         ASSERT_TRUE(step["latency_s"].is_number()) << step.dump(1);

@@ -4,7 +4,7 @@
 
 namespace tacto {
 
-/// The tables; each stands in the file of its functions.
+/// The tables of functions. Each table is in the same file as its functions.
 using HostTable = std::vector<HostFunction>();
 HostTable generalFunctions, randomFunctions, outputFunctions, captureFunctions, surfaceFunctions, stateFunctions,
     settingFunctions, knownLoadFunctions, absoluteReferenceFunctions, fingertipFunctions, loadSafetyFunctions,

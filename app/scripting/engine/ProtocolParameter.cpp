@@ -27,7 +27,7 @@ constexpr Word<ParameterType> kTypes[] = {{"number", ParameterType::Number},   {
                                           {"file", ParameterType::File}};
 constexpr std::string_view kReferenceStep = "reference";
 
-/// A double holds every whole number up to this one exactly, but not every larger one.
+/// A double holds every whole number up to this number exactly, but not every larger number.
 constexpr double kMaxWholeNumber = 9007199254740992;  // 2^53
 
 /// Returns the parameter's range, limited to -`widest` to `widest`.

@@ -1,7 +1,7 @@
 // ScopeSeen.h - the accuracy that the oscilloscope stated in all captures given to the script: the basis of the run's
 // figures. The program writes it into the results; a script cannot state it instead (hazard H9).
 //
-// Thread-safety: none; ScriptSession holds it and has none either.
+// Thread-safety: none, like ScriptSession, which owns this.
 #pragma once
 
 #include <cmath>

@@ -80,8 +80,8 @@ public:
 
     /// True if every device is simulated.
     [[nodiscard]] bool isSimulated() const;
-    /// Returns the T that a procedure of several steps keeps from its first step on. Errors: InvalidArgument naming
-    /// `procedure` if it has not begun, or has begun again.
+    /// Returns the state (of type T) that a procedure of several steps keeps from its first step on. Errors:
+    /// InvalidArgument naming `procedure` if it has not begun, or has begun again.
     template <class T>
     [[nodiscard]] Result<T*> begun(std::string_view procedure);
     template <class T>
@@ -118,8 +118,8 @@ public:
     void noteExpectedFault() noexcept { ++expectedFaults_; }
     [[nodiscard]] std::uint64_t expectedFaults() const noexcept { return expectedFaults_; }
 
-    /// Returns the kind by which results are printed and read: that of the analysis returned by the script, else the
-    /// kind that the script declares. The contents of the results do not matter.
+    /// Returns the kind by which results are printed and read: the kind of the analysis that the script returns, else
+    /// the kind that the script declares. The contents of the results do not matter.
     [[nodiscard]] std::string kindOf(const nlohmann::json& results) const;
 
     /// Keeps results in case the run ends early, and tables {caption, rows, columns} for the report.

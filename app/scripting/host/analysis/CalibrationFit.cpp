@@ -22,7 +22,7 @@ std::optional<std::vector<std::int64_t>> ownNumbers(const Json& rows) {
     return numbers;
 }
 
-/// Levels of a kept calibration are distinguished at least this finely, relative to the largest.
+/// Levels of a stored calibration are distinguished at least this finely, relative to the largest level.
 constexpr double kWidestLevel = 0.05;
 
 /// A calibration made of the run's own readings: commands, readings and the instrument's statements come from the

@@ -87,7 +87,7 @@ Reading differenceOf(const Level& high, const Level& zero, double source_pct) {
     return readingOf(value, std::move(rows), {});
 }
 
-/// Judges the reading by the usual rule: |reading - reference| + U ≤ tolerance.
+/// Judges the reading: |reading - reference| + expanded uncertainty must be ≤ tolerance.
 Result<Json> read(ScriptSession& session, double volts, double source_pct, double tolerance_pct) {
     Bench& bench = session.bench();
     bench.disarm();

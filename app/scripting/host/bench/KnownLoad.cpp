@@ -38,7 +38,7 @@ std::string whyNot(std::string_view verdict, const Json& check, double load, dou
 
 }  // namespace
 
-/// Judges the reading by the usual rule: |reading - reference| + U ≤ tolerance (science.md section 12).
+/// Judges the reading: |reading - reference| + expanded uncertainty must be ≤ tolerance (science.md section 12).
 Result<Json> judgeReference(ScriptSession& session, const Json& reading, const KnownLoad& known) {
     const auto [load, tolerance_pct, load_pct] = known;
     const double measured = numberOr(reading, "load_ohm");

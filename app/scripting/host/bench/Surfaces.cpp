@@ -25,7 +25,7 @@ Sliding slidingOver(std::string material, const Arguments& arguments, double usu
             arguments.number("options.force_n", usualForce_n)};
 }
 
-/// Waits until R and P have stayed within `tolerance` for half a second. Returns false if that takes over `limit_s`.
+/// Waits until roughness R and pressure P are stable within `tolerance` for 0.5 s. Returns false after `limit_s`.
 Result<bool> settle(Bench& bench, double tolerance, double limit_s) {
     constexpr double kStep_s = 0.1;
     constexpr std::size_t kSteady = 5;

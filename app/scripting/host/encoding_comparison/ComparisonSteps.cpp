@@ -100,7 +100,7 @@ double smallestApart(const Json& pairs, const char* key) {
     return smallest(values);
 }
 
-/// Neighbours differ by one level in R or in P. Each pair counts on the axis that separates it best.
+/// Neighbours differ by one level in roughness R or pressure P. Each pair counts on the axis that separates it best.
 Json neighboursOf(const Json& pairs) {
     const auto between = [&pairs](const std::string& a, const std::string& b) {
         const auto pair = std::ranges::find_if(pairs, [&](const Json& row) {

@@ -76,7 +76,7 @@ Result<LoadCommand> commandFor(ScriptSession& session, const std::string& name, 
     if (!load) return failure(load);
     const auto& encoding = bench.profile().encoding;
     const auto& source = bench.devices().stimulator->traits();
-    // R and P such that the interval is shortest and the amplitude is `strength`, for either assignment.
+    // Roughness R and pressure P that give the shortest interval and the amplitude `strength`, for either assignment.
     const bool texture = encoding.assignment == Assignment::TextureToAmplitude;
     const double R = texture ? strength : 1, P = texture ? 1 : strength;
     const auto command = Encoder(encoding).encode(R, P);

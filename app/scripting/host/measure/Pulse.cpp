@@ -34,7 +34,7 @@ Json commandJson(const CapturedCommand& command) {
             {"gap_s", numberOrNull(command.gap_s)}};
 }
 
-/// Adds the load as V/I with its U from what both channels state; null if they do not state it.
+/// Adds the load V/I with its expanded uncertainty from what both channels state; null if they do not state it.
 void addLoad(Json& out, const Capture& capture, const ChannelMeasurement& voltage, const ChannelMeasurement& current) {
     const double volts = meanOfTrains(voltage, &TrainMeasurement::amplitude);
     const double amps = meanOfTrains(current, &TrainMeasurement::amplitude);

@@ -25,7 +25,7 @@ Result<std::optional<CalibrationDate>> dueDate(const std::string& text) {
     return date;
 }
 
-/// Returns the largest U divided by its command; NaN if a level has no U.
+/// Returns the largest expanded uncertainty relative to its command, in %; NaN if a level has none.
 double worstUncertainty_pct(const Json& levels) {
     double worst = 0;
     for (const auto& level : levels) {

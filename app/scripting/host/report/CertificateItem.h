@@ -1,5 +1,5 @@
 // CertificateItem.h - the results on a stimulator's calibration certificate: as found and as left, each error with its
-// U, k and tolerance (ISO/IEC 17025:2017, 7.8.4.1).
+// expanded uncertainty U, coverage factor k and tolerance (ISO/IEC 17025:2017, 7.8.4.1).
 //
 // Levels are commanded without a correction, and the delivered values are measured. The values with a stored correction
 // are computed from the same readings: a level c that is programmed to p instead delivers m(c) + g · (p - c), with the

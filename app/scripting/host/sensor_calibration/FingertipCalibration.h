@@ -28,7 +28,7 @@ struct FingertipRest {
 
 // Readings. Each function disarms first. Errors: no answer, too few samples, a stopped run.
 
-/// Lifts the finger (or asks for it, question rest) and reads it without contact. Another error: it was touched.
+/// Lifts the finger (or asks for it, question rest) and reads it without contact. Also fails if the finger is touched.
 [[nodiscard]] Result<FingertipRest> readFingertipRest(ScriptSession& session, double duration_s);
 /// Puts a weight on the resting finger (question weight-MASSg).
 [[nodiscard]] Result<WeightReading> readWeight(ScriptSession& session, double mass_g, double gravity_m_s2,
@@ -65,15 +65,15 @@ struct WeighingTolerances {
     double weights = 0, gravity = kNaN, area = kNaN;
 };
 /// { mass_g, reference_n, measured, expanded_uncertainty, unit, deviation_pct, expanded_uncertainty_pct, allowed_pct,
-/// verdict, passed }. If nothing was read or U is not known, the verdict is "not evaluated" and passed is false;
-/// without a reading, passed is null.
+/// verdict, passed }. If nothing was read or the uncertainty is not known, the verdict is "not evaluated" and passed is
+/// false; without a reading, passed is null.
 struct KnownWeight {
     Json check;
     std::string reason;  ///< empty if it passed, or without a reading
 };
-/// Judges a known weight before other readings are trusted: it must read within the tolerance, including U, which comes
-/// from the weight, local gravity and both readings. For a reading in counts the right value is unknown; then it must
-/// differ from rest by five standard deviations. `reading`: empty without a weight or force sensor.
+/// Judges a known weight before other readings are trusted: the reading and its expanded uncertainty (from weight,
+/// local gravity and both readings) must lie within the tolerance. A reading in counts must instead differ from the
+/// reading at rest by five standard deviations. `reading`: empty without a weight or force sensor.
 [[nodiscard]] KnownWeight judgeWeight(const std::optional<WeightReading>& reading, const FingertipRest& rest,
                                       const WeighingTolerances& known, double tolerance_pct);
 
@@ -81,12 +81,12 @@ struct KnownWeight {
 /// taxel, unit, scale, offset_pa, … }; a scale that is not known is null, with a reason. `area_cm2` 0: not known.
 [[nodiscard]] Json fingertipScales(const std::vector<Weighed>& weighed, double area_cm2,
                                    const WeighingTolerances& known);
-/// Converts force and taxels to N and Pa with these scales for the rest of the run; R is uncalibrated until references
-/// are read with them. Returns { force, taxels }: whether each is scaled now.
+/// Converts force and taxels to N and Pa with these scales for the rest of the run. Roughness R is uncalibrated until
+/// references are read with the new scales. Returns { force, taxels }: whether each is scaled now.
 [[nodiscard]] Result<Json> useScales(ScriptSession& session, const Json& scales);
 
-/// Makes the profile that the operator chose with the scales of R, force and taxels, the fingertip's serial number, the
-/// surfaces and the rest that were found, and uses them for the rest of the run. `area_cm2` 0: the profile's. If
+/// Adds to the operator's profile the scales of roughness, force and taxels, the fingertip's serial number, the
+/// surfaces and the readings at rest, and uses the result until the run ends. `area_cm2` 0: the profile's area. If
 /// `store`, writes a new file in the folder profiles next to the calibrations. Returns { name, file, profile }. Errors:
 /// as Bench::setProfile(); Io.
 [[nodiscard]] Result<Json> keepProfile(ScriptSession& session, const SensorCalibration& found, double area_cm2,

@@ -21,7 +21,7 @@ namespace {
 using report::digitsOf;
 
 constexpr std::size_t kMaxWeighings = 10'000;  // in one direction
-constexpr double kStandsOut = 5;               // standard deviations at rest
+constexpr double kStandsOut = 5;               // in standard deviations of the readings at rest
 
 std::string toldApart(const Json& results) {
     const Json& surfaces = results.at("surfaces");

@@ -46,7 +46,7 @@ std::string notHeld(const Json& row) {
 
 }  // namespace
 
-/// Guard-banded, as when the calibration was made: within the tolerance in the worse direction, including this run's U.
+/// Judges as when the calibration was made: error plus expanded uncertainty within the tolerance, in either direction.
 Json checkAgainst(const Json& line, const Json& found, double tolerance_pct) {
     const auto quantity = textOr(found, "quantity");
     const auto* one = calibratedQuantity(quantity);

@@ -27,7 +27,7 @@ Result<LevelSettings> checked(LevelSettings settings, const Arguments& arguments
     return settings;
 }
 
-/// Straight curves over the calibrated range: R sets the amplitude and P the interval, level by level.
+/// Straight curves over the calibrated range: roughness R sets the amplitude and pressure P the interval.
 Json encodingOver(const LevelSettings& settings) {
     return {{"assignment", "texture_to_amplitude"},
             {"amplitude_curve", "linear"},
@@ -54,7 +54,7 @@ Result<void> driveAt(ScriptSession& session, double roughness, double pressure) 
     return session.bench().drive(DriveSource::Manual, roughness, pressure);
 }
 
-/// Arms with this encoding and drives at the shortest interval (P = 1).
+/// Arms with this encoding and drives at the shortest interval (pressure P = 1).
 Result<void> armWith(ScriptSession& session, const Json& encoding, double load_ohm, double roughness) {
     if (auto changed = bench::changeEncoding(session.bench(), encoding); !changed) return changed;
     if (auto armed = armOn(session, load_ohm); !armed) return armed;

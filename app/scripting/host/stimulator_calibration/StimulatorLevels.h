@@ -30,8 +30,8 @@ struct LevelSettings {
 [[nodiscard]] std::vector<HostParameter> levelSettings();
 /// Errors: InvalidArgument for a range with a lowest level that is not below the largest.
 [[nodiscard]] Result<LevelSettings> levelSettingsFrom(const Arguments& arguments);
-/// Narrows the ranges to those of storedCalibration(). The amplitude of a current source is set in volts but known in
-/// mA, so it is not narrowed. Errors: as levelSettingsFrom().
+/// Narrows the ranges to the ranges of a stored calibration (storedCalibration()). The amplitude of a current source is
+/// set in volts but known in mA, so it is not narrowed. Errors: as levelSettingsFrom().
 [[nodiscard]] Result<LevelSettings> narrowed(LevelSettings settings, const Json& stored, const Arguments& arguments);
 
 // Errors of the functions below: as bench.arm() and bench.capture().
@@ -40,8 +40,8 @@ struct LevelSettings {
 [[nodiscard]] Result<Json> readKnownLoad(ScriptSession& session, const LevelSettings& settings);
 /// Delivers trains of the lowest amplitude at the shortest interval for `seconds` (0: none), then disarms.
 [[nodiscard]] Result<void> warmUp(ScriptSession& session, double load_ohm, double seconds);
-/// Sets straight curves over the ranges, so that R sets the amplitude and P the interval level by level, and arms for
-/// levels of these two. Each level of width and gap arms again, because they are part of the profile.
+/// Sets straight curves, so that roughness R sets the amplitude and pressure P the interval, and arms for levels of
+/// these two. Each level of width and gap arms again, because they are part of the profile.
 [[nodiscard]] Result<void> beginLevels(ScriptSession& session, const LevelSettings& settings,
                                        const CalibratedQuantity& quantity);
 /// Sets a level (0 lowest to 1 largest), waits until it has settled, and reads a train; for the interval, two trains,

@@ -1,4 +1,4 @@
-// Changes.h - steps and movements of the finger in the R-P plane, as the oscilloscope sees them.
+// Changes.h - steps and movements of the finger in roughness R and pressure P, as the oscilloscope sees them.
 #pragma once
 
 #include "app/scripting/engine/ScriptSession.h"

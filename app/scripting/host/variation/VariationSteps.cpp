@@ -96,7 +96,7 @@ std::vector<std::string> headline(const VariationOptions& options, const Json& f
     return out;
 }
 
-/// Returns remarks on results that do not hold for everybody.
+/// Returns remarks on the limits of the results: they do not hold for everybody.
 std::vector<std::string> remarks(const VariationOptions& options, const Json& found) {
     std::vector<std::string> out{
         "Everything here is simulated: predicted from stated distributions, not measured on people. A condition counts "
