@@ -25,7 +25,7 @@ struct PulseOrder {
     Ceilings ceilings;                               ///< the ceilings of the profile
     std::optional<SquareCentimetres> electrodeArea;  ///< without it, density limits are not evaluated
     bool resetFault =
-        false;  ///< true: a fault left by an earlier run is reset if its cause is gone; false: it ends this run
+        false;  ///< true: resets a fault left by an earlier run if its cause is gone; false: such a fault ends this run
 };
 
 /// The measurements of one pulse.
@@ -85,7 +85,7 @@ private:
     const GateSetup setup_;
     sciencemode::ScienceModeStimulator& device_;
     const Clock& clock_;
-    std::unique_ptr<UnitRecord> record_;  // first: its writers end before it; null: simulated
+    std::unique_ptr<UnitRecord> record_;  // before its writers, to outlive them; null: simulated
     SafetyGate gate_;
     Interlock interlock_;
     Heartbeat heartbeat_;

@@ -31,7 +31,7 @@ Result<void> addOnce(Map& all, const Entry& entry, const char* option) {
     return fail(ErrorCode::InvalidArgument, "{}", givenTwice("--{} of {}", option, entry.first));
 }
 
-/// Shows "[#####.....] 52 %" on a terminal, after the first second; its destructor removes it.
+/// Shows "[#####.....] 52 %" on a terminal if reading takes over a second; the destructor clears the line.
 class ReadingBar {
 public:
     ReadingBar() : shown_(isatty(STDERR_FILENO) != 0) {}

@@ -144,7 +144,7 @@ public:
         }
         set_ = axisUnit(set, unit);
         error_ = axisUnit(error, unit);
-        // In the unit of the error that it is compared with, unless that takes too many digits.
+        // The tolerance has the unit of the error, for comparison, unless that takes too many digits.
         constexpr double kFourDigits = 1e4;
         tolerance_ = tolerance * error_.factor < kFourDigits ? error_ : axisUnit(tolerance, unit);
     }

@@ -13,7 +13,7 @@
 
 namespace tacto {
 
-/// Returns why the report of `model` is not a certificate: empty if it is one; nothing if none was requested.
+/// Returns why the report is not a certificate; an empty text if it is; nothing if no certificate was requested.
 [[nodiscard]] std::optional<QString> whyNoCertificate(const ReportModel& model);
 [[nodiscard]] inline bool isCertificate(const ReportModel& model) {
     const auto why = whyNoCertificate(model);

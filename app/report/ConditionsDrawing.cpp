@@ -122,7 +122,7 @@ private:
         auto* trains = new QCPGraph(axes->axis(QCPAxis::atBottom), axes->axis(QCPAxis::atLeft));
         trains->setLineStyle(QCPGraph::lsImpulse);
         QPen stems = style.pen(2);
-        // A short pulse is only a few units high, so its dots are closer together than those of a curve.
+        // A short pulse is only a few units high, so it gets a denser dot pattern than a curve.
         if (style.dash == Qt::DotLine) stems.setDashPattern({1, 1});
         trains->setPen(stems);
         trains->setScatterStyle(

@@ -10,7 +10,7 @@
 
 namespace tacto {
 
-/// Each cell has a number and a smaller one below it. Cells that need attention stand out, in grey print too.
+/// Each cell has a number and a smaller number below. Cells that need attention stand out, even in grey print.
 struct MatrixBlock {
     enum class State { Plain, Close, Broken, Open, Empty };  ///< Open: not evaluated; Empty: not asked for
     struct Cell {

@@ -14,7 +14,7 @@ constexpr double kPadX = 6;
 constexpr double kPadY = 2.5;
 constexpr double kWidestText = 420;  // longer cells wrap
 
-/// The font of a header is smaller and lighter than that of its cells, as in the window.
+/// A header has a smaller and lighter font than its cells, as in the window.
 QFont cellFont(bool header) { return textFont(header ? kHeaderSize : kSize); }
 
 double widthOf(const QString& text, bool header) {

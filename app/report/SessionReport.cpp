@@ -234,7 +234,7 @@ bool endsARun(const std::string& kind) {
            kind == "script ended by an error";
 }
 
-/// Returns the sentence of an event: its own text, else its fields.
+/// Returns the sentence of an event: the event's own text, or one made of its fields.
 QString sentenceOf(const QJsonObject& body) {
     for (const char* key : {"text", "message", "reason"}) {
         if (!body[QLatin1String(key)].isString()) continue;
@@ -259,7 +259,7 @@ void addEvent(ReportModel& model, const SessionRow& row) {
     model.events.push_back(std::move(event));
 }
 
-/// Marks labels that were added after the session's end, to distinguish them from those entered before it.
+/// Marks labels that were added after the session's end, to distinguish them from labels entered before it.
 void takeLabels(const SessionLabels& labels, ReportBasis& basis) {
     const auto later = [](const std::string& now, QString& shown) {
         if (text(now) == shown) return;

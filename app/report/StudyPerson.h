@@ -23,7 +23,7 @@ public:
 
     /// Returns the sessions with test trials, in order.
     [[nodiscard]] std::vector<AnalysedSession> tested() const;
-    /// Returns the results of the first of these; without one, whether the last session had a usable range.
+    /// Returns the results of the first tested session; without one, whether the last session had a usable range.
     [[nodiscard]] PersonResult result() const;
 
     void addHeadlines(std::vector<ReportBlock>& blocks) const;

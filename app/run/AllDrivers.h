@@ -16,13 +16,13 @@ class SensorBoardPorts;
 /// Returns a function that makes registries of every device that this version can open.
 [[nodiscard]] std::function<Registry()> allDrivers();
 
-/// Returns the ports that may have a ScienceMode stimulator, for checking one without opening it as a device.
+/// Returns ports that may have a ScienceMode stimulator, for checking a port without opening a device.
 [[nodiscard]] std::shared_ptr<TransportPorts> scienceModePorts();
 
 /// Returns game pads and foot switches.
 [[nodiscard]] std::shared_ptr<const ButtonDevices> buttonDevices();
 
-/// Finds ports that may have a sensor board, for checking one without a bench.
+/// Finds ports that may have a sensor board, for checking a board without a bench.
 [[nodiscard]] std::shared_ptr<SensorBoardPorts> sensorBoardPorts();
 
 }  // namespace tacto

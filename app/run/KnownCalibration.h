@@ -1,7 +1,7 @@
 // KnownCalibration.h - the stored calibration of the connected stimulator, for a bench that is about to be made.
 //
 // A calibration that is missing, expired, damaged or from a simulated bench counts as *not calibrated*; the text says
-// why. The gate still judges by the last known calibration, and arms no stimulator that it shows faulty (H1, H9).
+// why. The gate still judges by the last known calibration, and arms no stimulator that is faulty by it (H1, H9).
 //
 // Thread-safety: pure but for reading the store.
 #pragma once

@@ -231,7 +231,7 @@ Result<std::unique_ptr<PilotRun>> PilotRun::prepare(RunOrder order, PilotOrder p
     return made;
 }
 
-/// Cancels a new session if its bench could not be opened, because it could not be resumed. Keeps a continued one.
+/// Cancels a new session whose bench could not be opened, because it could not be resumed. Keeps a resumed session.
 void PilotRun::cancelBooked() {
     if (!begun_ || unfinished_.continued()) return;
     static_cast<void>(study_.cancelSession(begun_->session.id));

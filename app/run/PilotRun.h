@@ -68,7 +68,7 @@ private:
     std::shared_ptr<MarkerServer> markers_;  // null: no markers are sent
     std::unique_ptr<VirtualPilotParticipant> virtual_;
     std::unique_ptr<ProtocolRun> run_;
-    std::unique_ptr<PilotRecord> record_;  // the script writes to it, so it must end after the script; see ~PilotRun
+    std::unique_ptr<PilotRecord> record_;  // the script writes to it, so the script ends first: see ~PilotRun
     std::unique_ptr<PilotSession> session_;
 };
 

@@ -136,7 +136,7 @@ TEST_F(DisturbedSession, WithAClockThatIsMovedWhileItRunsNoFurtherBlockBegins) {
          {std::tuple<const char*, std::chrono::seconds, const char*>{"later", 61min, "so no further block begins"},
           {"earlier", -10min, "set the clock"}}) {
         SCOPED_TRACE(study);
-        // The clock is moved during the thresholds: the first block must check it too.
+        // The clock is moved during the thresholds: the first block must notice that too.
         const auto before = desk.runDisturbed({.clock = clock, .clockFromSync = 60}, kSession, twoBlocks,
                                               std::string(study) + " at once");
         EXPECT_EQ(before.code, 4) << before.err;

@@ -36,7 +36,7 @@ TEST(KnownWeight, ReadsAsWhatItIsOrStandsOutFromRestWhereItsUnitIsNotKnown) {
     is(read(1.2, StreamUnit::Newton, known), "fail", "1.2000 ± 0.0045 N was read under 0.9800 N; 10 % are allowed");
     is(read(0.06, StreamUnit::Count, known), "pass", "");
     is(read(0.04, StreamUnit::Count, known), "fail", "failed");
-    // 9.857 % of the allowed 10 %: with U of 0.4 % the verdict is open, and without U nothing passes.
+    // 9.857 % of the allowed 10 %: an uncertainty of 0.4 % leaves the verdict open; without uncertainty nothing passes.
     is(read(1.0766, StreamUnit::Newton, known), "indeterminate", "is indeterminate: 1.0766 ±");
     is(read(1, StreamUnit::Newton, weightAlone), "not evaluated", "was not stated");
     is(read(kNaN, StreamUnit::Newton, known), "not evaluated", "nothing was read under");

@@ -24,7 +24,7 @@ public:
     Q_INVOKABLE QJSValue call(int index, const QJSValue& arguments);
 
     /// Returns the number of a failure if `thrown` is the very object that a failed call threw. A script can throw that
-    /// object again, but cannot make one like it (hazard H9). Remembers the last kFailures.
+    /// object again, but cannot make another object like it (hazard H9). Remembers the last kFailures.
     [[nodiscard]] std::optional<std::int64_t> failureOf(const QJSValue& thrown) const;
 
 private:

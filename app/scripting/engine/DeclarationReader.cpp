@@ -77,7 +77,7 @@ void findQuestions(const ProtocolSource& source, ProtocolDeclaration& declaratio
     }
 }
 
-/// One process reads all shipped scripts, one after another: they do no harm.
+/// A process that reads all shipped scripts, one after another: these scripts do no harm.
 struct Kept {
     std::mutex mutex;
     std::unique_ptr<ScriptProcess> process;  // guarded by mutex

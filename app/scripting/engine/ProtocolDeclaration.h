@@ -29,7 +29,7 @@ struct ProtocolSource {
     std::filesystem::path path;  ///< empty if the text is not from a file
     std::string text;
     std::string sha256;    ///< hash of the text's bytes; the library fills it in
-    bool shipped = false;  ///< comes with the program, with exactly the bytes that it was built with
+    bool shipped = false;  ///< comes with the program, with the same bytes as when the program was built
 };
 
 /// Returns the file name that begins a script's errors: its path, or "separability.js".

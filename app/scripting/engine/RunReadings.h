@@ -1,5 +1,5 @@
 // RunReadings.h - the readings and calibrations that the program itself made during one run. A script refers to them by
-// number; the program ignores anything else it says about them (hazard H1: a script asks, it never vouches).
+// number; whatever else a script says about them is ignored (hazard H1: a script asks, it never vouches).
 //
 // Thread-safety: none, like ScriptSession, which owns this.
 #pragma once

@@ -10,7 +10,7 @@ namespace tacto {
 
 namespace {
 
-/// NaN wins: a value that one capture does not state is not known for all captures.
+/// NaN wins: if one capture does not state a value, no value is known for all captures.
 void widen(double& largest, double value) {
     if (std::isnan(value) || value > largest) largest = value;
 }

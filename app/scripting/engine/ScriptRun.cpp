@@ -130,7 +130,7 @@ void ScriptRun::State::stop(const char* by) noexcept {
 
 /// Call with `control` held. Switches the output off first.
 void ScriptRun::State::endOutput(const char* by) noexcept {
-    if (request.pilot != nullptr) request.pilot->endRun();  // sets a flag: no test takes this stop for its own
+    if (request.pilot != nullptr) request.pilot->endRun();  // sets a flag, so that no test reacts to this stop
     request.bench->stop(by);
     if (!endedAt) endedAt = std::chrono::steady_clock::now();
 }

@@ -72,8 +72,8 @@ public:
     [[nodiscard]] RunReadings& own() noexcept { return own_; }
     /// Returns the number that the operator set for parameter `name`, or nothing if it has the script's default.
     [[nodiscard]] std::optional<double> operatorsNumber(const std::string& name) const;
-    /// True if the operator gave this text as a parameter, as an answer, or as one word of either (words are separated
-    /// by blanks or semicolons).
+    /// True if the operator gave this text as a parameter, as an answer, or as one word of a longer parameter or answer
+    /// (words are separated by blanks or semicolons).
     [[nodiscard]] bool isOperatorsText(const std::string& text) const;
     /// Returns the profile as the operator chose it, without changes made by the script.
     [[nodiscard]] const Profile& chosenProfile() const noexcept { return chosen_; }
@@ -114,7 +114,7 @@ public:
     /// Writes worstExposure() into the session once, at the end, for the report.
     void recordExposure();
 
-    /// Counts a fault that the script provoked, found as expected, and reset: it does not void the run.
+    /// Counts a fault that the script provoked, found as expected, and reset: such a fault does not void the run.
     void noteExpectedFault() noexcept { ++expectedFaults_; }
     [[nodiscard]] std::uint64_t expectedFaults() const noexcept { return expectedFaults_; }
 

@@ -18,7 +18,7 @@ struct CalibrationAsked {
     std::string quantity = "amplitude";
     double tolerance_pct = 2;  ///< relative to the command at each level
     CalibrationOptions fit;
-    /// The readings carry the instrument's own statements; these errors may enlarge them.
+    /// The readings state the instrument's errors; the errors here may enlarge them.
     InstrumentErrors errors;
 };
 /// Returns the calibration of one quantity as analysis.calibration() does and takes the same `readings`. Errors:

@@ -109,7 +109,7 @@ Result<Json> measureReference(ScriptSession& session, const Arguments& arguments
 Result<Json> setReferences(ScriptSession& session, const Arguments& arguments) {
     const Json& smooth = arguments.object("smooth");
     const Json& rough = arguments.object("rough");
-    // The scale of R sets the amplitude of trains, so it must be measured on this rig, not made up (hazard H7).
+    // The scale of roughness R sets the amplitude of trains, so it must be measured on this rig (hazard H7).
     for (const auto& [name, said] : {std::pair("smooth", &smooth), std::pair("rough", &rough)}) {
         if (!session.own().noted(*said))
             return arguments.wrong(name, *said, "what bench.measureReference() returned in this run, unchanged,");

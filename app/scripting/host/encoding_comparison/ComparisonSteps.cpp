@@ -351,7 +351,7 @@ Result<Json> conclude(ScriptSession& session, const Arguments& arguments) {
         if (each["smallest_pair_jnd"].is_null() || each["neighbours"]["min_jnd"].is_null())
             reasons.push_back(each["name"].get<std::string>() + ": a condition or a level was not measured");
     }
-    // A comparison cannot pass: it has a verdict only if it could not be made.
+    // A comparison has no pass: it gets a verdict only if the comparison could not be made.
     const bool missing = !reasons.empty();
     if (!missing) reasons = {symmetryOf(asymmetry), conclusionOf(done)};
     return Json{{"reference", reference},

@@ -31,8 +31,8 @@ struct LoadCommand {
 /// nothing if there is no such command.
 [[nodiscard]] std::optional<std::size_t> strongestOf(const std::vector<LoadCommand>& commands);
 
-/// Arms as bench.arm() does. Returns nothing if armed, else the problem with this load, which ends the check of this
-/// load but not the run. Errors: a fault, a stop, no confirmation.
+/// Arms as bench.arm() does. Returns nothing if armed, else the problem with this load: it ends the check of this load
+/// but not the run. Errors: a fault, a stop, no confirmation.
 [[nodiscard]] Result<std::optional<Error>> tryToArm(ScriptSession& session, const std::string& load);
 
 /// An entry of a load's list "steps", "refusals" or, if the device cannot give the command, "undriven", in the form

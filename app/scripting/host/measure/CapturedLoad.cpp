@@ -36,7 +36,7 @@ Result<Json> loadReading(ScriptSession& session, const LoadCaptures& captures) {
     ExpectedTrain expected{train.pulses, train.rate.value()};
     if (const auto& stimulator = session.bench().devices().stimulator) expected.drive = stimulator->traits().drive;
     if (captures.byVoltage) expected.drive = Drive::Voltage;
-    // A calibrated stimulator is not programmed to the value that it shall deliver.
+    // A calibrated stimulator is programmed to another value than it should deliver.
     const auto& calibration = session.bench().calibration();
     const double settled = settledAt(session.bench().telemetry(), given->captures.size());
     for (const auto& capture : given->captures) {

@@ -9,7 +9,7 @@ namespace tacto::host::measure {
 
 namespace {
 
-/// Returns NaN if one of them is unknown.
+/// Returns the largest uncertainty of the time base; NaN if one capture does not state it.
 double worstTimeBase(const std::vector<Capture>& captures) {
     double worst = 0;
     for (const auto& capture : captures) {

@@ -90,7 +90,7 @@ Result<Json> useScales(ScriptSession& session, const Json& found) {
     const bool all =
         std::all_of(taxels.begin(), taxels.end(), [](const Json& row) { return row["scale"].is_number(); });
     for (const auto& row : taxels) {
-        if (!all) break;  // one dead taxel has no pressure, and a mean without it would be over other taxels
+        if (!all) break;  // a dead taxel has no pressure: the mean would be over other taxels
         scales.taxelUnit = streamUnitOf(row, StreamUnit::Pascal);
         scales.taxels.push_back({row["scale"], row["offset_pa"], numberOf(row["scale_expanded_uncertainty"])});
     }

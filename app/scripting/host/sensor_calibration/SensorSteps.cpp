@@ -243,7 +243,7 @@ Result<Json> weigh(ScriptSession& session, const Arguments& arguments) {
     return done(added);
 }
 
-/// The scales are used before the surfaces are read, so that surfaces are read as they will be later.
+/// Applies the scales before the surfaces are read, so that the surfaces are read as in later use.
 Result<Json> scale(ScriptSession& session, const Arguments& arguments) {
     const auto begun = session.begun<SensorRun>(arguments.object());
     if (!begun) return failure(begun);

@@ -88,7 +88,7 @@ Result<void> setLevel(ScriptSession& session, const LevelSettings& settings, std
 /// Takes two records, or one with both trains if the oscilloscope states no tolerance of its time stamps.
 Result<Json> readInterval(ScriptSession& session, const LevelSettings& settings, double share) {
     if (!session.scopeSeen().stampsStated()) {
-        // A record of both begins with the next train; after this wait that train has the new interval.
+        // A record of both trains begins with the next train; after this wait, that train has the new interval.
         if (auto waited = session.bench().wait(Seconds(2 * settings.interval_s.at(share))); !waited)
             return failure(waited);
     }

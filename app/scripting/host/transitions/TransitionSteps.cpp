@@ -24,7 +24,7 @@ struct TransitionRun {
     double load_ohm = 0, load_pct = 0, latency_s = 0;
     ChangeLimits limits{kWantedPerTrain};
     double traverse_s = 0;
-    std::vector<std::string> stepNames, names;  ///< the steps whose latency is judged; all changes
+    std::vector<std::string> stepNames, names;  ///< steps with a judged latency; all changes
     Json sweep;
     std::vector<CapturedChange> steps, jumps, movements;
     Json results = Json::object();
