@@ -13,9 +13,9 @@
 //    "conditions": [{"name": "smooth-low",
 //                    "amplitude_v": statistic,  measured
 //                    "interval_s": statistic,   measured, onset to onset of trains
-//                    "n": 25,                   optional, else amplitude_v.n
-//                    "letter": "A",             these three optional: the condition as captured, one train after the
-//                    "trains": [{"onset_s": 0, "low_v": -10.1, "high_v": 10.1}],   other, and the first of its pulses
+//                    "n": 25,                   optional; default: amplitude_v.n
+//                    "letter": "A",             "letter", "trains" and "pulse" are optional: the captured trains one
+//                    "trains": [{"onset_s": 0, "low_v": -10.1, "high_v": 10.1}],   after the other, and the first pulse
 //                    "pulse": {"rate_hz": 1e6, "start_s": -1e-4, "voltage_v": [..]}}]}
 //
 //   {"type": "plane",                           feature scatter with centroids and 95 % ellipses
@@ -27,9 +27,9 @@
 //                  "rate_hz": 1e6, "start_s": -1e-4,   time of the first sample, usually against the trigger
 //                  "voltage_v": [..], "current_a": [..]}]}   one may be missing, else equally long
 //
-//   {"type": "confusion",                       counts; rows are the true condition, columns the found one
+//   {"type": "confusion",                       counts; a row per true condition, a column per answer
 //    "labels": ["smooth-low", ..],              of the rows
-//    "columns": [..],                           optional, else = labels ("none", "not sure" come here)
+//    "columns": [..],                           default: labels; may add answers such as "none" and "not sure"
 //    "confusion": [[25, 0, 0, 0], ..],          "matrix" is taken too
 //    "accuracy": estimate or number}            optional
 //
@@ -37,8 +37,8 @@
 //    "rows": [{"name": "RMS current, 5 s",      "quantity" is taken too
 //              "value": 2.1, "limit": 10,       same unit; value null = not evaluated (drawn hatched)
 //              "unit": "mA", "source": "paper", optional
-//              "within": true,                  optional: the judge's word; at the limit may be over it ("<")
-//              "warning": false,                optional: the limit calls for attention, breaking it is not a fault
+//              "within": true,                  optional: the verdict; a value equal to the limit may fail ("<")
+//              "warning": false,                optional: exceeding the limit is a warning, not a fault
 //              "reason": "no electrode area"}]} optional, shown when not evaluated
 //
 //   {"type": "timeline",                        a live run over time
@@ -48,7 +48,7 @@
 //    "faults": [{"t_s": 3.2, "text": "electrode open"}]}                optional
 //
 //   {"type": "calibration",                     from analysis.calibration()
-//    "view": "measured",                        or "errors": what is drawn against the command
+//    "view": "measured",                        or "errors"; drawn against the command
 //    "quantity": "amplitude", "unit": "V",      of everything below
 //    "gain": 1.01, "offset": 0.2,               of the fitted line
 //    "levels": [{"commanded": 10, "mean_up": .., "mean_down": .., "error": .., "expanded_uncertainty": ..,
@@ -56,7 +56,7 @@
 //    "readings": [{"commanded": 10, "measured": 10.3, "direction": "up", "outlier": false}]}
 //
 //   {"type": "transitions",                     from analysis.transitions(), by plot.transitions()
-//    "wanted_jnd": 2,                           the largest step per train that is wanted
+//    "wanted_jnd": 2,                           the largest step per train that is accepted
 //    "amplitude": [[0.5, null], ..],            just-noticeable differences, rows of P by columns of R, both from 0 to
 //    "interval": [[..], ..],                    1 inclusive; square, the same size; null = no train went there
 //    "largest_amplitude": {"roughness": 0.4, "pressure": 0, "jnd": 8.3},   optional: where the worst step is

@@ -1,17 +1,17 @@
 // SessionReport.h - makes the model of a report from a session file alone: the session must hold all that it needs.
 //
 // Report items (SessionWriter::reportItem) are used in the order written:
-//   {"kind": "about", "title": "Signal separability", "purpose": "Can an oscilloscope ...",      once; later ones win
-//    "parameters": [{"label": "Repeats per condition", "value": 25, "unit": ""}]}                 what the run used
+//   {"kind": "about", "title": "Signal separability", "purpose": "Can an oscilloscope ...",      once; the last is used
+//    "parameters": [{"label": "Repeats per condition", "value": 25, "unit": ""}]}                 parameters of the run
 //   {"kind": "figure", "caption": "Four conditions", "figure": {"type": "conditions", ...}}       Figure.h
 //   {"kind": "table", "caption": "Pairs", "rows": [{"a": "smooth-low", "mahalanobis": 50.1}],
 //    "columns": ["a", "b", "mahalanobis"]}                                                        columns optional
 //   {"kind": "matrix", "caption": "Limits", "columns": ["100 ohm"], "rows": [...]}               ReportMatrix
 //   {"kind": "text", "text": "..."}
-//   {"kind": "notes", "operator": "...", "sample": "...", "reviewer": "...", "ambient": "..."}   as it was entered
-//   {"kind": "certificate", "quantities": [...]}    of report.certificate(): the report is a calibration certificate
+//   {"kind": "notes", "operator": "...", "sample": "...", "reviewer": "...", "ambient": "..."}   as entered
+//   {"kind": "certificate", "quantities": [...]}    from report.certificate(): the report is a calibration certificate
 //   {"kind": "certificate details", "laboratory": "..."}                        as entered: CertificateDetails.h
-//   {"kind": "basis", "results": {...}}        what the verdict rests on, of a run without one: ReportBasis.h
+//   {"kind": "basis", "results": {...}}        basis of the results of a run without a verdict: ReportBasis.h
 // Exposure: measurements named kExposureMeasurement, which only the program writes, with {"rows": [...]} like a figure
 // of type exposure. They get their own section, titled as computed from approved trains. Of rows with the same name,
 // source and limit the worst is shown; not evaluated is worse than any number (H9). A script's exposure figure is left

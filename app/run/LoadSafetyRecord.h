@@ -31,7 +31,7 @@ namespace tacto {
 [[nodiscard]] std::optional<LoadSafetyCheck> loadSafetyCheckOf(const ProtocolSource& script, const SessionAbout& about,
                                                                const Profile& profile, const std::string& session);
 
-/// Errors: as LoadSafetyStore. For simulated devices a failure to keep the check is no error, as nothing depends on it.
+/// Errors: as LoadSafetyStore. If the device is simulated, a check that cannot be kept is no error: nothing needs it.
 [[nodiscard]] Result<void> keepCheck(const LoadSafetyCheck& check);
 
 }  // namespace tacto

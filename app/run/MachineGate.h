@@ -14,7 +14,7 @@
 namespace tacto {
 
 /// A simulated stimulator states its own calibration and needs no check. A massager must state its strength steps, and
-/// no second massager may be connected; it delivers no current, so calibration, load safety and limits are not checked.
+/// no stimulator may be connected. It delivers no current, so calibration, load safety and limits are not checked.
 /// `profile`: the session's, with the study's electrode and train. Errors: kGateRefused, one sentence.
 [[nodiscard]] Result<void> machineGate(const StudySettings& study, const Profile& profile, const ShippedLimits& limits,
                                        const DeviceSet& devices, CalibrationDate today);

@@ -25,7 +25,7 @@ namespace tacto {
 
 /// The address at which the program listens.
 struct MarkerAddress {
-    std::string host = "127.0.0.1";  ///< only reachable from this computer
+    std::string host = "127.0.0.1";  ///< this default address is only reachable from this computer
     std::uint16_t port = 0;
 
     static constexpr std::uint16_t kMinPort = 1024;

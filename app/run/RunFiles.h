@@ -19,8 +19,8 @@ struct RunFiles {
     [[nodiscard]] std::filesystem::path report(const char* ending) const;
 };
 
-/// `out`: the value of --out; empty: the user's sessions folder, without capture files. If a folder already has a
-/// session or captures, a new folder inside is made for this run. Errors: Io if a folder cannot be made.
+/// `out`: the value of --out; empty: the user's sessions folder, without capture files. If the folder already has a
+/// session or captures, this run gets a new folder inside. Errors: Io if a folder cannot be made.
 [[nodiscard]] Result<RunFiles> prepareRunFiles(const std::string& out, const std::string& protocol);
 
 struct RunSession {
