@@ -15,11 +15,11 @@ namespace tacto {
 namespace {
 
 constexpr Seconds kBetweenChecks{30};
-constexpr double kChecksAgree = 0.2;  // two checks, 30 s apart
-constexpr double kBlocksAgree = 0.3;  // asked before a block, and on a resume
-constexpr int kSkinEnds = 2;          // erythema or oedema from which a session ends
+constexpr double kChecksAgree = 0.2;  // two checks, 30 s apart, agree within 20 %
+constexpr double kBlocksAgree = 0.3;  // |Z| before a block or on a resume must be within 30 % of the first
+constexpr int kSkinEnds = 2;          // score of erythema or oedema that ends the session
 constexpr std::chrono::milliseconds kStopIn{10};
-constexpr int kStopTries = 3;  // how often it is tried while the other person's STOP is pressed
+constexpr int kStopTries = 3;  // how often a test is repeated if the other person's STOP is pressed
 
 constexpr Word<int> kSkinKeys[] = {{"0", 0}, {"1", 1}, {"2", 2}, {"3", 3}, {"4", 4}};
 
@@ -28,7 +28,7 @@ double inMs(std::chrono::nanoseconds time) { return std::chrono::duration<double
 constexpr std::string_view kQualities[] = {"touch",    "pressure", "tapping",   "vibration", "tingling",
                                            "pricking", "burning",  "twitching", "phantom"};
 
-/// Each word is shown as a title: "Totally natural" for "totally-natural".
+/// Returns a target for each key; its text is the key as a title: "Totally natural" for "totally-natural".
 std::vector<PromptTarget> targetsOf(std::span<const std::string_view> keys) {
     std::vector<PromptTarget> out;
     for (const auto key : keys) {
@@ -45,7 +45,7 @@ PilotPrompt severalPrompt(std::string name, std::string text, std::vector<Prompt
     return prompt;
 }
 
-/// "1 none to 5 definite".
+/// Returns text such as "1 none to 5 definite".
 std::string endsOf(std::span<const char* const> words) {
     return scoreText(words, 1) + " to " + scoreText(words, static_cast<int>(words.size()));
 }
@@ -78,21 +78,21 @@ std::string machineLacks(const DeviceSet& devices, const Profile& profile, Level
 
 PilotCare::PilotCare(PilotStage& stage) : stage_(stage) {
     stage_.onSeatedAgain([this]() -> Result<void> {
-        // Where nothing was measured before, the checklist has still to do it.
+        // If nothing was measured before, the checklist will do this.
         if (stage_.settings().unit == LevelUnit::Intensity || firstImpedance() == nullptr) return {};
         return asAtFirst(fmt::format("seated again, {}", stage_.record().count(row::kImpedance)));
     });
     stage_.afterCare = [this]() -> Result<void> {
         const auto looked = skin("after");
-        const auto asked = sideEffects("after");  // asked whatever the skin is like
+        const auto asked = sideEffects("after");  // always asked, whatever the skin is like
         return looked ? asked : looked;
     };
 }
 
 std::string PilotCare::part() const { return fmt::format("part {}", stage_.record().count(row::kResumed) + 1); }
 
-/// The first impedance that was measured in any part of the session; null without one. Electrodes whose two checks
-/// disagreed have none.
+/// Returns the first impedance measured in any part of the session, or null. A pair of checks that disagreed is no
+/// measurement.
 const nlohmann::json* PilotCare::firstImpedance() const {
     const auto& record = stage_.record();
     const auto parts = record.count(row::kResumed) + 1;
@@ -131,7 +131,7 @@ Result<void> PilotCare::machine() {
     return gate(part() + " machine", missing.empty(), missing + ". Nothing was presented");
 }
 
-/// Pressed once, and seen off in time. The other one's STOP proves nothing of this one: it is asked again.
+/// Tests one STOP: it must switch the output off in time. If the other person's STOP was pressed instead, asks again.
 Result<void> PilotCare::stopTest(PromptTo by) {
     const auto name = fmt::format("{} {}", part(), nameOf(by));
     const auto other = by == PromptTo::Participant ? PromptTo::Operator : PromptTo::Participant;
@@ -141,15 +141,15 @@ Result<void> PilotCare::stopTest(PromptTo by) {
         if (auto ready = stage_.arm(); !ready) return ready;
         auto prompt = goOnPrompt(fmt::format("Press STOP now: the {}'s is being tested.", nameOf(by)), by);
         prompt.name = "stop-test";
-        PilotScreen screen;  // from here on a stop is the participant's
+        PilotScreen screen;  // the test itself begins: a stop from here on is the test's
         screen.phase = "checklist";
         screen.text = prompt.text;
         stage_.participant().show(screen);
         const auto answered = stage_.participant().ask(prompt);
         pressed = stage_.takeStop();
-        const auto mark = stage_.bench().stops().mark();  // a stop from here on is not a test
+        const auto mark = stage_.bench().stops().mark();  // a stop after this mark does not belong to the test
         armed = stage_.isArmed();
-        if (!answered && !pressed) {  // an abort, a lost screen, the program: no test
+        if (!answered && !pressed) {  // an abort, a lost screen or the end of the program: not a test
             if (auto goesOn = stage_.goOnAfter("stop-test", answered.error()); !goesOn) return goesOn;
             continue;
         }
@@ -168,7 +168,7 @@ Result<void> PilotCare::stopTest(PromptTo by) {
             if (auto goesOn = stage_.goOnAfter("stop-test", begun.error()); !goesOn) return goesOn;
         }
         screen.text.clear();
-        stage_.participant().show(screen);  // the stop of the test is over
+        stage_.participant().show(screen);  // the screen forgets the stop of the test
         if (!pressed) break;
     }
     return gate(name + " stop", theirs && pressed->took <= kStopIn,
@@ -187,7 +187,7 @@ Result<void> PilotCare::electrodes() {
     lot.kind = PromptKind::Text;
     const auto noted = stage_.ask(row::kGate, "electrode lot", lot);
     if (!noted) return failure(noted);
-    // Compared with the first measurement; without one, the electrodes may have been fitted since.
+    // The new value is compared with the first; without a first value, the electrodes may have been fitted since.
     const auto* begun = resumed ? firstImpedance() : nullptr;
     const double before = begun != nullptr ? numberOr(*begun, "impedance_ohm") : kNaN;
     if (begun != nullptr) {
@@ -205,7 +205,7 @@ Result<void> PilotCare::electrodes() {
                     *second, before));
 }
 
-/// If two checks disagree, the electrodes are seated again, and both checks are repeated.
+/// Runs both checks; if they disagree, has the electrodes seated again and repeats both checks.
 Result<double> PilotCare::checkedTwice() {
     const auto name = part() + " impedance";
     for (int tries = 1;; ++tries) {
@@ -226,7 +226,7 @@ Result<double> PilotCare::checkedTwice() {
     }
 }
 
-/// A motor is heard, and where it sits decides how strong it is.
+/// Asks for masking noise, since a motor is audible, and for an untouched massager, since its place sets its strength.
 Result<void> PilotCare::massager() {
     if (stage_.record().isResumed()) {
         auto untouched = mustHold("massager-untouched", "massager-untouched", "Was the massager left where it was?",
@@ -237,7 +237,7 @@ Result<void> PilotCare::massager() {
                     "the participant hears the motor without masking noise on earphones, so there is no session");
 }
 
-/// Asked of the operator, once in each part; a no ends the session.
+/// Asks the operator once in each part; a "no" ends the session.
 Result<void> PilotCare::mustHold(const std::string& name, const char* asked, const char* question,
                                  const char* sentence) {
     auto prompt = yesNoPrompt(asked, question, PromptTo::Operator);
@@ -254,7 +254,7 @@ Result<void> PilotCare::beforeBlock(int block) {
     return judged != nullptr && flagOr(*judged, "holds") ? Result<void>() : asAtFirst(name);
 }
 
-/// Electrodes that measure otherwise are seated again; the levels are reached again by a ramp then.
+/// If |Z| differs from the first value, has the electrodes seated again; a ramp then reaches the levels again.
 Result<void> PilotCare::asAtFirst(const std::string& name) {
     const auto* begun = firstImpedance();
     const double before = begun != nullptr ? numberOr(*begun, "impedance_ohm") : kNaN;
@@ -271,7 +271,7 @@ Result<void> PilotCare::asAtFirst(const std::string& name) {
 }
 
 Result<void> PilotCare::skin(const std::string& moment) {
-    stage_.rest();  // what is on the skin may be taken off
+    stage_.rest();  // the electrodes or the massager may be taken off now
     int worst = 0;
     for (const auto& [what, words] :
          {std::pair{"erythema", "Redness of the skin, 0 to 4"}, std::pair{"oedema", "Swelling of the skin, 0 to 4"}}) {
@@ -339,7 +339,7 @@ Result<void> PilotCare::ratings(const std::vector<PresentedCondition>& condition
     return compareEncodings();
 }
 
-/// The targets say when the person had them; what they are called is the record's.
+/// The targets say when the participant had each encoding; the record keeps the encodings' names.
 Result<void> PilotCare::compareEncodings() {
     const auto& settings = stage_.settings();
     if (settings.earlierEncoding.empty()) return {};

@@ -1,5 +1,5 @@
-// PilotCare.h - what protects the participant around the trials: the gates that only the running bench can ask, skin,
-// electrodes, ratings, side effects (pilot.md sections 3 and 4).
+// PilotCare.h - what protects the participant around the trials: checks that only the running bench can make, and
+// checks of skin, electrodes, ratings and side effects (pilot.md sections 3 and 4).
 #pragma once
 
 #include <functional>
@@ -10,35 +10,34 @@
 
 namespace tacto {
 
-/// What a stimulator, or a massager, and a study's trains lack before they may be used on a participant: one sentence
-/// without its full stop; empty where nothing is missing.
+/// Returns what a stimulator or massager, or a study's trains, lack before they may be used on a participant: one
+/// sentence without its full stop, or an empty text if nothing is missing.
 [[nodiscard]] std::string machineLacks(const DeviceSet& devices, const Profile& profile, LevelUnit unit);
 
 class PilotCare {
 public:
-    /// `stage` outlives it, and measures |Z| again once electrodes may have changed: within 30 % of the session's
-    /// first, as before a block. A session that is stopped for good asks for skin and side effects all the same.
+    /// `stage` must outlive this object. Electrodes that were touched must measure within 30 % of the session's first
+    /// |Z|. A session that is stopped for good still asks for skin and side effects.
     explicit PilotCare(PilotStage& stage);
     PilotCare(const PilotCare&) = delete;
     PilotCare& operator=(const PilotCare&) = delete;
 
-    /// Runs in every part: machine, both STOPs, and the electrodes, or with a massager the masking noise. The first
-    /// part also asks for the skin before and the electrodes' lot; a later one whether electrodes or massager were left
-    /// untouched. Errors: Stopped with the gate's sentence, when the session has ended.
+    /// Checks, in every part, the machine, both STOPs, and the electrodes (or a massager's masking noise). The first
+    /// part also asks for the skin before and the electrodes' lot; later parts, whether electrodes or massager were
+    /// left untouched. Errors: Stopped with the gate's sentence, when the session has ended.
     [[nodiscard]] Result<void> checklist();
-    /// |Z| before a block, within 30 % of the session's first; a massager has none. Errors: as checklist().
+    /// Checks that |Z| is within 30 % of the session's first value, except with a massager. Errors: as checklist().
     [[nodiscard]] Result<void> beforeBlock(int block);
-    /// Told of a score that ends a session and is an adverse event: of the study, not of the session alone. Its error
-    /// is skin()'s.
+    /// Called with a score that ends the session and is an adverse event of the whole study. skin() returns its error.
     std::function<Result<void>(const std::string& moment, int score)> skinReacted;
-    /// `moment`: "before", "break 3", "after". Errors: Stopped where it ends the session.
+    /// `moment`: "before", "break 3", "after". Errors: Stopped if the score ends the session.
     [[nodiscard]] Result<void> skin(const std::string& moment);
-    /// Each condition is felt once more without its name, and rated. After a second encoding, also which of the two was
-    /// easier, and which is more like touch.
+    /// Presents each condition once more without its name and asks for a rating. After a second encoding, also asks
+    /// which of the two encodings was easier, and which is more like touch.
     [[nodiscard]] Result<void> ratings(const std::vector<PresentedCondition>& conditions);
-    /// `moment`: "before", "after".
+    /// `moment`: "before" or "after".
     [[nodiscard]] Result<void> sideEffects(const std::string& moment);
-    /// The row of a gate; ends the session where it does not hold.
+    /// Writes the row of a gate, and ends the session if `holds` is false.
     [[nodiscard]] Result<void> gate(const std::string& name, bool holds, const std::string& sentence);
 
 private:
@@ -49,9 +48,9 @@ private:
     [[nodiscard]] Result<void> massager();
     [[nodiscard]] Result<void> mustHold(const std::string& name, const char* asked, const char* question,
                                         const char* sentence);
-    /// |Z| of the second of two checks that agree; the session ends if they still disagree after the third seating.
+    /// |Z| of the second of two checks that agree; ends the session if they still disagree after the third seating.
     [[nodiscard]] Result<double> checkedTwice();
-    /// |Z|, into the record as `name`; the session ends where it is not what it was at first after the third seating.
+    /// Records |Z| as `name`; ends the session if |Z| still differs from the first value after the third seating.
     [[nodiscard]] Result<void> asAtFirst(const std::string& name);
     [[nodiscard]] std::string part() const;
     [[nodiscard]] const nlohmann::json* firstImpedance() const;

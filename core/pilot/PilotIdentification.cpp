@@ -14,10 +14,10 @@ namespace tacto {
 
 namespace {
 
-constexpr Seconds kTargetsTimeout{10};  // counted from the appearance of the targets
+constexpr Seconds kTargetsTimeout{10};  // from the appearance of the targets
 constexpr Seconds kFeedback{1.5};
-constexpr Seconds kDriftRest{300};  // recovery took about 15 min (Kaczmarek 2000): three of them
-constexpr int kMaxOnDemand = 5;     // for each condition
+constexpr Seconds kDriftRest{300};  // a third of the recovery time of about 15 min (Kaczmarek 2000)
+constexpr int kMaxOnDemand = 5;     // repetitions of each condition on demand
 constexpr std::uint64_t kMaxBlocks = 50;
 
 nlohmann::json toJson(const std::vector<PlannedTrial>& planned, const std::vector<Condition>& conditions) {
@@ -42,7 +42,7 @@ std::vector<std::string> PilotIdentification::places() const {
     auto names = labels();
     auto placed = stage_.settings().answers.empty() ? answersIn(0) : stage_.settings().answers;
     const bool same = std::ranges::is_permutation(placed, names);
-    return same ? placed : names;  // a profile may name its conditions otherwise
+    return same ? placed : names;  // a profile may use other names for its conditions
 }
 
 Result<void> PilotIdentification::plan(bool withTrials) {
@@ -120,7 +120,7 @@ StageTrial PilotIdentification::stageTrial(const PlannedTrial& planned) const {
                    {"phase", nameOf(planned.phase)},
                    {"block", planned.block},
                    {"condition", nameOfCondition(planned)}};
-    // A catch trial takes as long, and asks as much of the bench, as the others.
+    // An empty trial takes as long as the others, and uses the bench in the same way.
     const auto interval = planned.condition ? presented_[*planned.condition].interval : stage_.settings().longest;
     trial.level = planned.condition ? presented_[*planned.condition].level : 0;
     trial.presentation = testPresentation(stage_.levelOf(trial.level), interval, stage_.settings().window);
@@ -130,7 +130,7 @@ StageTrial PilotIdentification::stageTrial(const PlannedTrial& planned) const {
     trial.screen.phase = nameOf(planned.phase);
     trial.screen.block = static_cast<int>(planned.block);
     if (planned.phase == TrialPhase::Test) trial.screen.blocks = stage_.settings().blocks;
-    for (const auto& each : plan_) {  // finds its place in its phase
+    for (const auto& each : plan_) {  // finds the trial's place in its phase
         if (textOr(each, "phase") != nameOf(planned.phase)) continue;
         ++trial.screen.trials;
         if (countOr(each, "number") <= planned.number) ++trial.screen.trial;
@@ -176,7 +176,7 @@ Result<void> PilotIdentification::familiarise() {
         const auto felt = present(planned, trial);
         if (!felt) return failure(felt);
     }
-    // They stand at the places and keys of the answers, so that none is taken away.
+    // The targets have the places and keys of the answers to come, so that all four places are there from the start.
     std::vector<PromptTarget> offered = conditionPrompt(places()).targets;
     offered.resize(labels().size());
     offered.push_back({"go-on", "Go on"});
@@ -213,7 +213,7 @@ Result<void> PilotIdentification::train() {
     for (const auto& planned : of(TrialPhase::Training)) {
         if (rule->done()) break;
         auto trial = stageTrial(planned);
-        trial.prompt.within.reset();  // there is no hurry while learning
+        trial.prompt.within.reset();  // no time limit while learning
         const auto answer = present(planned, trial);
         if (!answer) return failure(answer);
         const bool right = answer->response == nameOfCondition(planned);
@@ -223,7 +223,7 @@ Result<void> PilotIdentification::train() {
     return {};
 }
 
-/// The name, and a wrong one is felt again with it.
+/// Shows the condition's name; after a wrong answer presents the condition again with its name.
 Result<void> PilotIdentification::feedback(const PlannedTrial& planned, const StageTrial& trial, bool right,
                                            bool replayed) {
     StageTrial again = trial;
@@ -270,7 +270,7 @@ Result<bool> PilotIdentification::driftCheck(int block) {
     settings.last = lastDetection_;
     settings.min = thresholds_.found()->min;
     settings.block = static_cast<std::size_t>(block);
-    // Nothing lies above I_max, which was accepted for half an hour: a resumed session is ramped no higher.
+    // The participant accepted I_max for half an hour; the ramp of a resumed session goes no higher.
     const auto& all = *thresholds_.grid();
     const LevelCeiling highest[] = {{thresholds_.found()->max, all.limitedBy()}};
     const auto grid = LevelGrid::create(all.unit(), all.step(), highest);
@@ -307,7 +307,7 @@ Result<bool> PilotIdentification::driftCheck(int block) {
     return found.adapted ? goesOnAdapted(block) : Result<bool>(true);
 }
 
-/// The weakest level is felt too little by now, and rests did not help: the participant decides whether to continue.
+/// The weakest level is hardly felt any more, and rests did not help: the participant decides whether to continue.
 Result<bool> PilotIdentification::goesOnAdapted(int block) {
     const auto said = stage_.ask(row::kPhase, fmt::format("ending before block {}", block),
                                  choicePrompt("ending", "You may feel the weakest less by now. Go on, or end here?",

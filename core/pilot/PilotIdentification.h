@@ -1,5 +1,5 @@
 // PilotIdentification.h - the rest of a session: familiarisation, training, test blocks with drift checks and breaks,
-// and what it comes to (pilot.md section 4).
+// and their results (pilot.md section 4).
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -14,39 +14,39 @@ namespace tacto {
 
 class PilotIdentification {
 public:
-    /// All arguments outlive it.
+    /// All arguments must outlive this object.
     PilotIdentification(PilotStage& stage, PilotThresholds& thresholds) : stage_(stage), thresholds_(thresholds) {}
 
-    /// The order of the whole session and its seed, from the row where one is stored. Comes before anything is
-    /// presented; takes the seed and the numbers of trials of the stored plan into the stage's settings.
-    /// `withTrials`: false for thresholds alone. Errors: as PilotStage; of planTrials(); ParseError for a stored plan
-    /// that is not the one drawn from its seed.
+    /// Plans the order of the whole session and its seed, or reads the plan from its row if one is stored. Call this
+    /// before anything is presented; it copies the seed and the numbers of trials of a stored plan to the stage's
+    /// settings. `withTrials`: false for thresholds alone. Errors: as PilotStage; as planTrials(); ParseError if a
+    /// stored plan differs from the plan drawn from its seed.
     [[nodiscard]] Result<void> plan(bool withTrials);
 
-    // Comes after the range, which is usable. Errors: as PilotStage; InvalidArgument out of order.
+    // To be called once the range is known and usable. Errors: as PilotStage; InvalidArgument out of order.
 
     [[nodiscard]] Result<void> familiarise();
     [[nodiscard]] Result<void> train();
-    /// Block 1, 2, ...
+    /// `block` counts from 1.
     [[nodiscard]] Result<void> testBlock(int block);
-    /// Asks before a later block whether the lowest level is still felt. Marks the block where it is not and asks the
-    /// participant: false where they end here.
+    /// Asks before a later block whether the lowest level is still felt. If it is not, marks the block and asks the
+    /// participant whether to continue; returns false if they end the session here.
     [[nodiscard]] Result<bool> driftCheck(int block);
-    /// The break after block `block`: output off, at least `time`, until both people press on.
+    /// The break after block `block`: the output is off for at least `time`, until both people press to continue.
     [[nodiscard]] Result<void> takeBreak(int block, Seconds time);
 
     [[nodiscard]] const std::vector<PresentedCondition>& presented() const noexcept { return presented_; }
     [[nodiscard]] std::vector<std::string> labels() const;
-    /// The conditions at their places in every question about them.
+    /// The conditions, in the order in which every question shows them.
     [[nodiscard]] std::vector<std::string> places() const;
     [[nodiscard]] nlohmann::json planJson() const { return plan_; }
     /// Answered trials of the plan, in order, including those of earlier parts.
     [[nodiscard]] const std::vector<IdentificationTrial>& trials() const noexcept { return trials_; }
-    /// How long trains had been given before each of them.
+    /// For each of trials(): how long trains had been given before the trial.
     [[nodiscard]] const std::vector<Seconds>& stimulatedBefore() const noexcept { return stimulated_; }
-    /// What a massager's motor did in each of them that was not empty; NaN where it was not measured.
+    /// For each of trials() that was not empty: what a massager's motor did; NaN if it was not measured.
     [[nodiscard]] const std::vector<VibrationTrial>& vibrations() const noexcept { return vibrations_; }
-    /// [{block, detection_ma (of a massager detection_intensity) {value, low, high}, probability, rests, adapted}]
+    /// [{block, detection_ma (detection_intensity with a massager) {value, low, high}, probability, rests, adapted}]
     [[nodiscard]] const nlohmann::json& driftJson() const noexcept { return drift_; }
 
 private:

@@ -12,10 +12,10 @@ namespace tacto {
 
 namespace {
 
-constexpr Seconds kHindrancePoll{0.1};  // between two looks at what stands in the way
+constexpr Seconds kHindrancePoll{0.1};  // time between two looks for hindrances
 constexpr Seconds kReasonTimeout{300};
 
-/// The check pulse found no load that the bench is armed on.
+/// The check pulse did not find the load for which the bench is armed.
 bool isUnseated(const Error& why) { return why.code == ErrorCode::NotArmed || why.code == ErrorCode::LimitExceeded; }
 
 }  // namespace
@@ -37,7 +37,7 @@ Result<PilotAnswer> PilotOutput::insist(const PilotPrompt& prompt) {
         auto said = stage_.participant().ask(prompt);
         if (said) return said;
         const bool over = stage_.ended() != PilotEnd::Unfinished;
-        if (over && (takeStop() || stops_.takePaused())) {  // off for good: what is asked after it stays asked
+        if (over && (takeStop() || stops_.takePaused())) {  // after the end, questions are still asked
             stage_.participant().show({});
             continue;
         }
@@ -55,7 +55,7 @@ Result<ArmRequest> PilotOutput::confirmed(const char* question) {
     if (!bench.outputIsReal()) return request;
     const auto load = parseLoad(request.load);
     request.confirmed = load ? bench.armingText(*load) : std::string();
-    stage_.participant().show({});  // what is held may be let go: it is the operator's turn
+    stage_.participant().show({});  // the participant may let go: the operator answers now
     const auto asked =
         insist(yesNoPrompt("arm", fmt::format("{} {}?", question, request.confirmed), PromptTo::Operator));
     if (!asked) return failure(asked);
@@ -116,7 +116,7 @@ Result<double> PilotOutput::measureImpedance(const std::string& name) {
     }
 }
 
-/// A stop or a fault in between is not a seating.
+/// Counts failed seatings. A stop or a fault in between does not count as a seating.
 Result<void> PilotOutput::afterArmingFailed(const std::string& during, const Error& why, int& seatings) {
     if (!isUnseated(why)) return recover(during, why);
     if (++seatings >= kSeatings) return tl::unexpected<Error>(why);
@@ -133,7 +133,7 @@ Result<void> PilotOutput::seatAgain(const std::string& during, const std::string
 
 Result<void> PilotOutput::askToSee(const std::string& why) {
     stage_.participant().show({});
-    // What the bench says of a stop or a fault ends with what it leaves of the output.
+    // The bench's sentence about a stop or a fault ends with the state of the output.
     auto output = std::string(outputAfter(stage_.bench().telemetry().fault));
     output.pop_back();
     const auto said = why.ends_with('.') ? fmt::format("{}{}", capital(why.front()), why.substr(1))
@@ -166,8 +166,8 @@ Result<void> PilotOutput::clearTheWay(const StageTrial& trial) {
     return {};
 }
 
-/// Nothing is on while a question waits, and nothing stays armed. A row that cannot be written is the error of the
-/// answer's row.
+/// Switches the output off while a question waits and the window lacks the keyboard. If the row cannot be written, the
+/// write of the answer's row reports the error.
 void PilotOutput::whileAsked() {
     const auto hindrance = stage_.participant().hindrance();
     if (!armed_ || !hindrance || hindrance->isBreak) {
@@ -180,7 +180,7 @@ void PilotOutput::whileAsked() {
     static_cast<void>(stage_.record().write(row::kFocusLost, "question", {{"why", hindrance->why}}));
 }
 
-/// The output is off. The operator ends the break, then the participant continues.
+/// Switches the output off. The operator ends the break, then the participant continues.
 Result<void> PilotOutput::takeBreak(const std::string& during, PilotScreen screen) {
     auto& record = stage_.record();
     auto& people = stage_.participant();
@@ -228,7 +228,7 @@ Result<void> PilotOutput::afterThePause(const StageTrial& trial) {
     rest();
     if (auto kept = stage_.record().write(row::kPause, trial.name, {{"why", "paused by the operator"}}); !kept)
         return kept;
-    stage_.participant().show({});  // what is held may be let go
+    stage_.participant().show({});  // the participant may let go
     PilotScreen screen;
     screen.state = ScreenState::Break;
     screen.text = "Paused. Nothing is on.";
@@ -237,12 +237,12 @@ Result<void> PilotOutput::afterThePause(const StageTrial& trial) {
     return askToGoOn("The pause is over. Nothing is on. Go on when you want to.");
 }
 
-// it comes after a stop, a fault or a lost screen
+// recover(): after a stop, a fault or a lost screen
 
 Result<void> PilotOutput::recover(const std::string& during, const Error& why) {
     rest();
     if (stage_.ended() != PilotEnd::Unfinished) return tl::unexpected<Error>(why);
-    if (runEnds_) {  // the run ends for good, even if another person pressed as well
+    if (runEnds_) {  // the run ends for good, even if a person has also pressed STOP
         const auto noted = interrupted(during, why);
         return noted ? tl::unexpected<Error>(why) : noted;
     }
@@ -266,7 +266,7 @@ Result<void> PilotOutput::interrupted(const std::string& during, const Error& wh
     }
     const bool gone = stops_.takeScreenGone() || !stage_.participant().hasScreen();
     if (!gone) return noteStop(during, why);
-    if (const char* by = stops_.by(); by != nullptr && isParticipants(by)) {  // theirs counts all the same
+    if (const char* by = stops_.by(); by != nullptr && isParticipants(by)) {  // the participant's own stop still counts
         if (auto noted = noteStop(during, why); !noted) return noted;
     }
     return seatTheirScreen(during);
@@ -287,7 +287,7 @@ Result<void> PilotOutput::seatTheirScreen(const std::string& during) {
         "go on.",
         PromptTo::Operator);
     prompt.name = kScreenPrompt;
-    PilotAnswer none;  // there is no time left
+    PilotAnswer none;  // an empty answer: there is no time limit
     none.given = false;
     for (;;) {
         const auto mark = bench.stops().mark();
@@ -301,7 +301,7 @@ Result<void> PilotOutput::seatTheirScreen(const std::string& during) {
                         kScreenTimeout.count() / 60);
         const auto begun = asked ? beginAnew(mark) : Result<void>(failure(asked));
         if (begun && people.hasScreen()) return {};
-        if (begun || stops_.takeScreenGone() || stops_.takePaused()) continue;  // it is not there yet, or gone again
+        if (begun || stops_.takeScreenGone() || stops_.takePaused()) continue;  // the screen is still gone, or again
         if (stops_.aborted()) return noteAbort(during);
         if (auto noted = noteStop(kScreenPrompt, begun.error()); !noted) return noted;
         people.show({});
@@ -350,22 +350,22 @@ Result<void> PilotOutput::noteParticipantStop(const std::string& during, const c
     return stage_.end(PilotEnd::Stopped, kThirdStop);
 }
 
-/// Seated again, wanted again, measured again, reached again (ready()).
+/// After a fault: seats again, asks whether to continue, and measures again; ready() then reaches the levels again.
 Result<void> PilotOutput::afterTheFault(const std::string& during, const Error& why) {
     auto& record = stage_.record();
     if (auto kept = record.write(row::kFault, during, {{"why", why.message}}); !kept) return kept;
     if (record.count(row::kFault) >= kMaxFaults)
         return stage_.end(PilotEnd::Stopped, fmt::format("{}: {}", kSecondFault, why.message));
-    if (const char* by = stops_.takeBy(); by != nullptr && isParticipants(by)) {  // the participant pressed, too
+    if (const char* by = stops_.takeBy(); by != nullptr && isParticipants(by)) {  // the participant also pressed STOP
         if (auto noted = noteParticipantStop(during, by); !noted) return noted;
     }
-    auto cause = withoutNumbers(why.message);  // numbers may tell of the train; the row has them
+    auto cause = withoutNumbers(why.message);  // numbers may reveal the train to the participant; the row keeps them
     for (int tries = 1;; ++tries) {
         if (auto seen = askToSee(cause); !seen) return seen;
         const auto reset = stage_.bench().resetFault();
         if (reset) break;
         if (tries >= kSeatings) return reset;
-        cause = reset.error().message;  // the cause is still there
+        cause = reset.error().message;  // the cause of the fault is still present
     }
     electrodesTouched();
     ramp_.becomeDue();
@@ -384,8 +384,8 @@ Result<void> PilotOutput::askToGoOn(const std::string& text) {
     auto& bench = stage_.bench();
     for (;;) {
         stage_.participant().show(screen);
-        const auto mark = bench.stops().mark();  // a stop from here on comes after their "go on"
-        if (stopped()) {                         // a stop came while the last one was handled
+        const auto mark = bench.stops().mark();  // a stop after this mark comes after the participant's "go on"
+        if (stopped()) {                         // another stop came while the last one was handled
             const Error why{ErrorCode::Stopped, "stopped before the participant was asked"};
             if (auto goesOn = interrupted("go on", why); !goesOn) return goesOn;
             continue;
@@ -393,7 +393,7 @@ Result<void> PilotOutput::askToGoOn(const std::string& text) {
         const auto asked = stage_.participant().ask(goOnPrompt(text, PromptTo::Participant));
         const auto begun = asked ? beginAnew(mark) : Result<void>(failure(asked));
         if (begun) break;
-        // Nothing is on, and they press STOP once more: it counts, and they are asked again.
+        // The output is off and the participant presses STOP again: the stop counts, and they are asked again.
         if (auto goesOn = interrupted("go on", begun.error()); !goesOn) return goesOn;
     }
     stage_.noteAnswered();
@@ -406,7 +406,7 @@ Result<void> LevelRamp::judged(double level, bool tooStrong, const std::string& 
     if (tooStrong) {
         tooStrong_ = std::min(tooStrong_, level);
         auto reported = bench.reportDiscomfort(stage_.levelOf(level));
-        stage_.rest();  // armed again under the lower limit before anything else is presented
+        stage_.rest();  // the output is armed again, with the lower limit, before the next presentation
         return reported;
     }
     accepted_.try_emplace(level, trial);
@@ -417,7 +417,7 @@ Result<void> LevelRamp::reach() {
     if (!due_) return {};
     due_ = false;
     const auto accepted = accepted_;
-    // Each ramp is presented: it never takes the answers of an earlier one.
+    // Each ramp has its own number, so that it never takes the answers of an earlier ramp.
     std::size_t number = 0;
     const auto named = [&number](double level) { return fmt::format("ramp {} {}", number, level); };
     while (!accepted.empty() && stage_.record().begun(named(accepted.begin()->first)) > 0) ++number;
@@ -426,7 +426,7 @@ Result<void> LevelRamp::reach() {
         if (auto reached = presentAgain(named(level), level, first); !reached) return reached;
     }
     if (accepted.empty()) return {};
-    PilotScreen letGo;  // levels stop rising
+    PilotScreen letGo;  // the levels stop rising, so the participant may let go
     letGo.phase = "ascending";
     letGo.text = "You can let go now.";
     stage_.participant().show(letGo);
@@ -444,8 +444,8 @@ Result<void> LevelRamp::presentAgain(const std::string& name, double level, cons
     again.screen.state = ScreenState::Feel;
     again.screen.phase = "ascending";
     again.held = true;
-    again.counts = false;   // so that a resumed session continues like an undisturbed one
-    again.drawnAs = first;  // A virtual participant says of a level what they said of it before
+    again.counts = false;   // a resumed session then continues like an undisturbed session
+    again.drawnAs = first;  // a virtual participant answers as before about the same level
     const auto answer = stage_.trial(again);
     if (!answer) return failure(answer);
     if (answer->response == row::kTooStrong) {

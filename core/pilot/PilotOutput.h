@@ -1,14 +1,14 @@
-// PilotOutput.h - the output of a pilot session: armed before something is presented, off again after a stop, a fault
-// or a pause, and when the participant's screen has gone.
+// PilotOutput.h - the output of a pilot session: armed before a presentation, and switched off after a stop, a fault or
+// a pause, or when the participant's screen is gone.
 //
-// What PilotStage is made of. What is in the way of a presentation is waited for here: in the operator's break and
-// while the bench is paused the output is off; without the keys it is off after kFocusTimeout, also while a question
-// waits.
+// A part of PilotStage. This class also waits for whatever hinders a presentation: during the operator's break and
+// while the bench is paused the output is off; if the participant's window loses the keyboard, the output is switched
+// off after kFocusTimeout, even while a question waits.
 //
 // Errors of all calls: as PilotStage.
 //
 // Thread-safety: one caller, the session's thread; stop() and endRun() from any thread. takeStop() and stopped() wait
-// for a press that is under way.
+// while another thread is still handling a press.
 #pragma once
 
 #include <atomic>
@@ -29,22 +29,22 @@ namespace tacto {
 class PilotStage;
 struct StageTrial;
 
-/// The levels that a participant accepted, and the ramp over which they are reached again, step by step, after
-/// electrodes may have been touched.
+/// The levels that a participant accepted, and the ramp that reaches them again, step by step, after electrodes may
+/// have been touched.
 class LevelRamp {
 public:
-    /// `stage` outlives it. `due`: the levels were accepted in an earlier part.
+    /// `stage` must outlive this object. `due`: the levels were accepted in an earlier part.
     LevelRamp(PilotStage& stage, bool due) : stage_(stage), due_(due) {}
 
-    /// As PilotStage::judged().
+    /// Does what PilotStage::judged() does.
     [[nodiscard]] Result<void> judged(double level, bool tooStrong, const std::string& trial, bool replayed);
-    /// As PilotStage::settle().
+    /// Does what PilotStage::settle() does.
     void settle(double level) noexcept { settled_ = level; }
 
-    /// Levels are reached again before anything is presented.
+    /// From now on the levels must be reached again before anything is presented.
     void becomeDue() noexcept { due_ = true; }
-    /// Presents each accepted level that was not too strong, from the weakest up, while the participant holds; where
-    /// that is not due, does nothing. One that is too strong now ends the session.
+    /// If the ramp is due, presents each accepted level that was not too strong, from the weakest up, while the
+    /// participant holds. A level that is too strong now ends the session.
     [[nodiscard]] Result<void> reach();
 
 private:
@@ -52,27 +52,27 @@ private:
 
     PilotStage& stage_;
     bool due_;
-    std::map<double, std::string> accepted_;                      // Level and the trial in which it was accepted first
-    double tooStrong_ = std::numeric_limits<double>::infinity();  // Lowest so far
+    std::map<double, std::string> accepted_;                      // level, and the trial in which it was accepted first
+    double tooStrong_ = std::numeric_limits<double>::infinity();  // the lowest level so far that was too strong
     std::optional<double> settled_;
 };
 
 class PilotOutput {
 public:
-    static constexpr int kSeatings = 3;            ///< in a row, of electrodes that do not pass their check
-    static constexpr Seconds kFocusTimeout{10};    ///< it stays armed for so long while another window has the keys
-    static constexpr Seconds kScreenTimeout{600};  ///< a participant's screen may be gone so long
+    static constexpr int kSeatings = 3;            ///< how often in a row electrodes may fail their check
+    static constexpr Seconds kFocusTimeout{10};    ///< stays armed so long without keyboard focus
+    static constexpr Seconds kScreenTimeout{600};  ///< how long a participant's screen may be gone
 
-    /// `stage` outlives it. `rampDue`: the levels were accepted in an earlier part.
+    /// `stage` must outlive this object. `rampDue`: the levels were accepted in an earlier part.
     PilotOutput(PilotStage& stage, bool rampDue) : stage_(stage), ramp_(stage, rampDue) {}
     PilotOutput(const PilotOutput&) = delete;
     PilotOutput& operator=(const PilotOutput&) = delete;
 
-    /// A stop of the output by one of the people, or because the participant's screen is gone. Does not block.
+    /// Stops the output for a person, or because the participant's screen is gone. Does not block.
     void stop(const char* by) noexcept;
-    /// See PilotStage.
+    /// Does what PilotStage::takeStop() does.
     [[nodiscard]] std::optional<PressedStops::Press> takeStop() noexcept { return stops_.takePress(); }
-    /// Whether a stop has come since the last one was handled, or the run's stop.
+    /// True if the run was stopped, or a stop has come since the last one was handled.
     [[nodiscard]] bool stopped() const noexcept { return stops_.any() || runEnds_; }
 
     // Does what PilotStage::endRun() does.
@@ -86,44 +86,44 @@ public:
     [[nodiscard]] LevelRamp& ramp() noexcept { return ramp_; }
     [[nodiscard]] double impedance() const noexcept { return impedance_; }
     void setImpedance(double ohm) noexcept { impedance_ = ohm; }
-    /// The last result of measureImpedance(): the same whatever is presented.
+    /// Returns the last result of measureImpedance(); presentations do not change it.
     [[nodiscard]] double checkedImpedance() const noexcept { return checked_; }
 
-    /// Waits until nothing is in the way of `trial`; a break of the operator's is taken meanwhile.
+    /// Waits until nothing hinders `trial`; if the operator wants a break, runs the break.
     [[nodiscard]] Result<void> clearTheWay(const StageTrial& trial);
-    /// The bench is paused: looks for kHindrancePoll, in which it says so.
+    /// Whether the bench is paused. If so, says that on the screens and waits for kHindrancePoll.
     [[nodiscard]] bool isPaused();
-    /// The bench was paused while `trial` was presented: waits until the pause is over and the participant continues.
+    /// For a bench that paused during `trial`: waits until the pause is over and the participant continues.
     [[nodiscard]] Result<void> afterThePause(const StageTrial& trial);
-    /// A question waits, and kWaitingLook has passed.
+    /// Called every kWaitingLook while a question waits.
     void whileAsked();
-    /// Recovers after a stop, a fault or a lost screen: nothing when the session continues.
+    /// Recovers after a stop, a fault or a lost screen. Returns no error if the session continues.
     [[nodiscard]] Result<void> recover(const std::string& during, const Error& why);
-    /// Asks again after each stop, once the participant wants to continue.
+    /// Asks, and asks again after each stop once the participant wants to continue.
     [[nodiscard]] Result<PilotAnswer> insist(const PilotPrompt& prompt);
-    /// Electrodes, or a massager, do not pass their check, which is not a fault: writes a row `gate` and has the
-    /// operator seat them again. Levels are then reached again by a ramp.
+    /// For electrodes or a massager that fail their check, which is not a fault: writes a row `gate` and has the
+    /// operator seat them again. A ramp then reaches the levels again.
     [[nodiscard]] Result<void> seatAgain(const std::string& during, const std::string& why);
 
-    /// Electrodes may be others than they were: measured before anything is armed again.
+    /// Notes that electrodes may have changed: they are measured before anything is armed again.
     void electrodesTouched() noexcept { unmeasured_ = true; }
-    /// Measures electrodes that may be others than they were. Its errors end the trial.
+    /// Measures electrodes that may have changed. Its errors end the trial.
     std::function<Result<void>()> measureAnew;
 
 private:
-    /// `question` names what would be armed; the operator's yes to it is part of the request.
+    /// Asks the operator `question`, which names what would be armed; the request contains their yes.
     [[nodiscard]] Result<ArmRequest> confirmed(const char* question);
     [[nodiscard]] Result<void> afterArmingFailed(const std::string& during, const Error& why, int& seatings);
     [[nodiscard]] Result<void> notOver() const;
     [[nodiscard]] Result<void> takeBreak(const std::string& during, PilotScreen screen);
-    /// Shows `screen` while `lasts`, with the output off; a stop meanwhile is handled as one in a break.
+    /// Shows `screen` while `lasts` returns true, with the output off; handles a stop like a stop in a break.
     [[nodiscard]] Result<void> idleWhile(const std::string& during, const PilotScreen& screen,
                                          const std::function<bool()>& lasts);
     [[nodiscard]] Result<void> afterTheFault(const std::string& during, const Error& why);
-    /// A lost screen or a stop, until the participant may be asked whether they want to continue.
+    /// Handles a lost screen or a stop until the participant may be asked whether they want to continue.
     [[nodiscard]] Result<void> interrupted(const std::string& during, const Error& why);
     [[nodiscard]] Result<void> seatTheirScreen(const std::string& during);
-    /// Writes who stopped; nothing when it may continue once the participant wants to.
+    /// Records who stopped. Returns no error if the session may continue once the participant wants to.
     [[nodiscard]] Result<void> noteStop(const std::string& during, const Error& why);
     [[nodiscard]] Result<void> noteParticipantStop(const std::string& during, const char* by);
     [[nodiscard]] Result<void> noteAbort(const std::string& during);
@@ -137,8 +137,8 @@ private:
     std::atomic<bool> runEnds_{false};
     bool armed_ = false;
     bool reasonAsked_ = false;
-    bool unmeasured_ = false;  // electrodes may have been touched, and not been measured since
-    Seconds keysGone_{0};      // how long the keys have been elsewhere while a question waits
+    bool unmeasured_ = false;  // electrodes may have been touched and were not measured since
+    Seconds keysGone_{0};      // time for which another window has had the keyboard while a question waits
     double impedance_ = kNaN;
     double checked_ = kNaN;
 };

@@ -1,12 +1,11 @@
-// PilotParticipant.h - the interface through which a pilot session reaches its two people: a window with a person
-// before it, or a virtual participant. The session does not know which.
+// PilotParticipant.h - the interface through which a pilot session reaches its two people: either a window with a
+// person in front of it, or a virtual participant. The session does not know which.
 //
-// The session calls show() and ask() from its own thread (a script's). An implementation with a window hands them to
-// the window's thread and waits there; a virtual one answers at once from what was delivered.
+// The session calls show() and ask() from its own thread (a script's). An implementation with a window passes them to
+// the window's thread and waits there; a virtual participant answers at once from what was delivered.
 //
-// Thread-safety: show(), ask(), delivered() and takeEarly() have one caller, the session's thread, and so has
-// letGoWasBounce(); cancel(), holding(), hindrance() and hasScreen() may be called from any thread; `stop` is called
-// from any thread.
+// Thread-safety: show(), ask(), delivered(), takeEarly() and letGoWasBounce() have one caller, the session's thread;
+// cancel(), holding(), hindrance() and hasScreen() may be called from any thread; `stop` is called from any thread.
 #pragma once
 
 #include <functional>
@@ -19,77 +18,77 @@
 
 namespace tacto {
 
-/// One presentation as it was approved and delivered: what a virtual participant feels. A window ignores it. After a
-/// resume the session repeats those of earlier parts, so that what was learned is known.
+/// One presentation as approved and delivered. A virtual participant feels it; a window ignores it. After a resume the
+/// session repeats the presentations of earlier parts, so that what was learned is known.
 struct FeltPresentation {
     double level = 0;     ///< mA, or a massager's intensity (0 to 1); 0: an empty presentation
     Seconds interval{0};  ///< onset to onset
     double weaker = 0;    ///< in a comparison, the other of its two levels; else 0
-    int inInterval = 0;   ///< 1 or 2: where the train of a detection trial, or the stronger of two, came; else 0
-    std::string named;    ///< familiarisation: the condition's key, as the screen said; else empty
-    /// How long trains were given in this session before this presentation: adaptation follows from it.
+    int inInterval = 0;   ///< interval (1 or 2) of a detection trial's train or of the stronger train; else 0
+    std::string named;    ///< familiarisation: the key of the condition named on the screen; else empty
+    /// How long trains were given in this session before this presentation; adaptation depends on this time.
     Seconds stimulated{0};
-    /// The key for drawing the person's answer: "seed 1 session 2 test 17", the same however often it was resumed.
+    /// The key for drawing the person's answer, such as "seed 1 session 2 test 17". A resume does not change the key.
     std::string drawnFor;
 };
 
 /// An obstacle to a presentation that is not a fault.
 struct Hindrance {
-    bool isBreak = false;  ///< the operator wants one; else what `why` says, half a sentence
+    bool isBreak = false;  ///< the operator wants a break; if false, see `why`
     std::string why;
 };
 
-// Stops without a press of STOP: the first begins with this, the others are these. After kOperatorPauses the session
-// continues once the wanted break is over.
+// Stops without a press of STOP. A stop for a lost screen begins with the text kScreenGone; the others are exactly
+// these texts. After kOperatorPauses the session continues once the break is over.
 inline constexpr const char* kScreenGone = "the participant's screen";
 inline constexpr const char* kOperatorPauses = "operator (break now)";
 inline constexpr const char* kOperatorAborts = "operator (abort)";
 inline constexpr const char* kParticipantLetGo = "participant let go";
 
-/// How often `waiting` is called while a person is asked.
+/// How often `waiting` is called while ask() waits for a person.
 inline constexpr Seconds kWaitingLook{0.1};
 
 class PilotParticipant {
 public:
     virtual ~PilotParticipant() = default;
 
-    /// Changes both screens; does not wait for a person. Keys pressed from here to the next ask() are early.
+    /// Changes both screens without waiting for a person. Key presses between this call and the next ask() are early.
     virtual void show(const PilotScreen& screen) = 0;
     /// Shows the targets, not before `prompt.targetsAt`, and waits for the answer.
-    /// Errors: Stopped when a person stopped or cancel() was called while it waited; NotFound where there is no one to
-    /// answer, naming the prompt; Device when the screen is gone.
-    /// A prompt named "stop-test" (one of GoOn) is answered by pressing STOP, and so returns Stopped.
+    /// Errors: Stopped when a person stopped or cancel() was called during the wait; NotFound, naming the prompt, if
+    /// there is no one to answer; Device when the screen is gone.
+    /// A prompt named "stop-test" (of kind GoOn) is answered by pressing STOP, and so returns Stopped.
     [[nodiscard]] virtual Result<PilotAnswer> ask(const PilotPrompt& prompt) = 0;
-    /// Tells what was just presented, before the question about it.
+    /// Tells the participant what was just presented, before the question about it.
     virtual void delivered(const FeltPresentation& felt) = 0;
-    /// Presses since the last show() that came before targets; empties the list.
+    /// Returns and forgets the presses since the last show() that came before the targets.
     [[nodiscard]] virtual std::vector<EarlyPress> takeEarly() = 0;
-    /// Makes a waiting ask() return Stopped, and every later one: the session is over.
+    /// Ends the session: makes a waiting ask() and every later ask() return Stopped.
     virtual void cancel() noexcept = 0;
-    /// The session is over and its bench goes next: once this returns, `stop` is not called any more.
+    /// The session is over and its bench is destroyed next: after this call, `stop` is never called again.
     virtual void leave() noexcept {}
 
-    /// Whether the participant still holds the key, pedal or target, while levels rise. From Hold's answer until the
-    /// session shows Rest, letting go also calls `stop(kParticipantLetGo)`.
+    /// Whether the participant still holds the key, pedal or target while levels rise. From the answer to a Hold prompt
+    /// until the session shows Rest, letting go also calls `stop(kParticipantLetGo)`.
     [[nodiscard]] virtual bool holding() const noexcept = 0;
-    /// After a stop by kParticipantLetGo, whether it was the contact and not the participant, since the held thing went
-    /// down again sooner than a finger can. Waits until that is known, 20 ms at most. The output is off either way.
+    /// After a stop by kParticipantLetGo: true if the contact bounced, that is, closed again sooner than a finger can
+    /// press. Waits until that is known, 20 ms at most. The output is off either way.
     [[nodiscard]] virtual bool letGoWasBounce() { return false; }
-    /// Why no presentation may start now: the operator's break, or a participant's window without the keys. Without a
-    /// window nothing stands in the way.
+    /// Returns what hinders a presentation now: the operator's break, or a participant's window without the keyboard.
+    /// Without a window there is no hindrance.
     [[nodiscard]] virtual std::optional<Hindrance> hindrance() const { return {}; }
-    /// The participant sees what is shown. Before it is false `stop` was called with kScreenGone.
+    /// Whether the participant can see their screen. `stop` is called with kScreenGone before this becomes false.
     [[nodiscard]] virtual bool hasScreen() const noexcept { return true; }
-    /// Whether ask() takes time by the clock on the wall. A virtual participant takes none: the session lets the
-    /// answer's `after` pass on the bench's clock.
+    /// Whether ask() takes real time. A virtual participant answers at once: the session then lets the answer's `after`
+    /// pass on the bench's clock.
     [[nodiscard]] virtual bool answersInRealTime() const noexcept = 0;
 
-    /// Output off at once; by: "participant", kParticipantLetGo, "operator", kOperatorAborts, kOperatorPauses, and
-    /// kScreenGone where the participant's window was closed or its screen went. Set by the session before the first
-    /// show(); any thread may call it, at any time until the session ends. Does not block.
+    /// Switches the output off at once. `by` is "participant", kParticipantLetGo, "operator", kOperatorAborts,
+    /// kOperatorPauses, or kScreenGone if the participant's window was closed or its screen was lost. The session sets
+    /// it before the first show(); any thread may call it until the session ends. Does not block.
     std::function<void(const char* by)> stop;
-    /// Called by ask(), on the session's thread and every kWaitingLook, while it waits for a person; may be null. Set
-    /// by the session.
+    /// Set by the session; may be null. ask() calls this on the session's thread every kWaitingLook while it waits for
+    /// a person.
     std::function<void()> waiting;
 };
 

@@ -83,8 +83,8 @@ std::size_t PilotRecord::begun(const std::string& name) const {
 
 PilotTrials pilotTrials(const std::vector<SessionRow>& rows) {
     PilotTrials out;
-    std::map<std::size_t, std::size_t> attempts;        // begun trials without an answer, counted
-    std::map<std::size_t, IdentificationTrial> silent;  // the last time without an answer
+    std::map<std::size_t, std::size_t> attempts;        // trial number: attempts without an answer so far
+    std::map<std::size_t, IdentificationTrial> silent;  // trial number: its last attempt without an answer
     for (const auto& each : rows) {
         if (each.name == row::kPlan) {
             out.plan = valueOr(each.body, "trials");
@@ -178,12 +178,12 @@ RecordFields<DriftRow> driftFields(LevelUnit unit) {
     return all;
 }
 
-/// The unit of a row that has this level.
+/// Returns the unit of a row that contains `level`.
 LevelUnit unitIn(const json& body, std::string_view level) {
     return body.contains(levelKey(level, LevelUnit::Intensity)) ? LevelUnit::Intensity : LevelUnit::Current;
 }
 
-/// Into a new record; what cannot be read is passed over.
+/// Reads a row into a new record; members that cannot be read keep their defaults.
 template <class Row>
 Row rowFrom(const RecordFields<Row>& fields, const json& body, Row row = {}) {
     static_cast<void>(fields.read(body, row, {.lenient = true}));

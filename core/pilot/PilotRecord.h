@@ -1,11 +1,11 @@
-// PilotRecord.h - what a pilot session has on disk, and what follows from it: state is the replay of rows.
+// PilotRecord.h - what a pilot session has on disk, and the state that follows from the rows when they are replayed.
 //
-// A session may have several parts, each a session file: a crashed one is never written again. The record is given the
-// events of all earlier parts, in order, and appends to the present one. Whatever has a row is taken from it and is
-// neither asked nor presented again; the first step without a row happens now.
+// A session may have several parts, each in its own session file; nothing is appended to the file of a part that
+// crashed. The record is given the events of all earlier parts, in order, and appends to the present part. A step that
+// has a row is read from its row and is neither asked nor presented again; the first step without a row happens now.
 //
 // Promise (hazard H8): `trial-begin` is on disk before a presentation's first train is asked for, and `answer` before
-// the next trial begins. A row that cannot be written is an error before the train.
+// the next trial begins. If a row cannot be written, the error comes before the train.
 #pragma once
 
 #include <cstddef>
@@ -36,7 +36,7 @@ class SessionWriter;
 namespace row {
 inline constexpr const char* kPlan = "plan";
 inline constexpr const char* kTrialBegin = "trial-begin";
-inline constexpr const char* kPresentation = "presentation";  // it has begun; a recorder is told so
+inline constexpr const char* kPresentation = "presentation";  // a presentation has begun; a recorder gets a marker
 inline constexpr const char* kAnswer = "answer";
 inline constexpr const char* kNoAnswer = "no-answer";
 inline constexpr const char* kAnswerEarly = "answer-early";
@@ -60,16 +60,16 @@ inline constexpr const char* kContinue = "continue";
 inline constexpr const char* kResumed = "resumed";
 inline constexpr const char* kRating = "rating";
 inline constexpr const char* kSideEffect = "side-effect";
-inline constexpr const char* kHold = "hold";  // the operator answered by name what held the session
+inline constexpr const char* kHold = "hold";  // the operator answered by name an event that held the session
 inline constexpr const char* kAdverseEvent = "adverse-event";
 inline constexpr const char* kSessionEnd = "session-end";
-inline constexpr const char* kEnd = "end";    // name of its row
-inline constexpr const char* kEnds = "ends";  // in the body of a gate that did not hold: `said` then ends the session
-inline constexpr const char* kRamp = "ramp";  // in the body of a trial: its level had been accepted before
+inline constexpr const char* kEnd = "end";    // the name in the row kSessionEnd
+inline constexpr const char* kEnds = "ends";  // in a gate that did not hold: whether this ends the session
+inline constexpr const char* kRamp = "ramp";  // in the body of a trial: its level was already accepted before
 inline constexpr const char* kTooStrong = "too-strong";  // a response
 
-// Ratings that compare the session's encoding with an earlier one are named by the first of these and one of the next
-// two. What is said is an encoding, or the last.
+// Ratings that compare the session's encoding with an earlier encoding are named by kEncodings and one of the next two
+// words. The answer is an encoding or kNoDifference.
 inline constexpr const char* kEncodings = "encodings";
 inline constexpr const char* kEasier = "easier";
 inline constexpr const char* kMoreLikeTouch = "more-like-touch";
@@ -78,43 +78,43 @@ inline constexpr const char* kNoDifference = "no-difference";
 
 /// The message to an EEG or EMG recorder about a row that is on disk (resources/design/pilot.md, section 5).
 struct PilotMarker {
-    Instant at{0};          ///< as the row says
-    std::string_view name;  ///< the row's kind; nothing of what it says
+    Instant at{0};          ///< the time in the row
+    std::string_view name;  ///< the row's kind; the content of the row is not sent
 };
-/// Whether a row of that kind has a marker: it says where the session is, and neither how the participant answers, nor
-/// what is found of them.
+/// Whether rows of that kind get a marker. Rows that show only the progress of the session do; rows with the
+/// participant's answers or findings do not.
 [[nodiscard]] bool hasMarker(std::string_view kind) noexcept;
 
 class PilotRecord {
 public:
     using Json = nlohmann::json;
 
-    /// `writer` and `clock` outlive the record; `earlier` are the events of the session's earlier parts.
+    /// `writer` and `clock` must outlive the record; `earlier` are the events of the session's earlier parts.
     PilotRecord(SessionWriter& writer, const Clock& clock, const std::vector<SessionRow>& earlier);
 
-    /// The last row of `kind` named `name` (its member "name"), in any part; null without one. Valid until the next
-    /// write().
+    /// Returns the last row of `kind` in any part whose member "name" is `name`; null if there is none. The pointer is
+    /// valid until the next write().
     [[nodiscard]] const Json* find(std::string_view kind, const std::string& name) const;
-    /// Appends a row. `body` is an object; its member "name" becomes `name`. Errors: Io.
+    /// Appends a row. `body` must be an object; its member "name" is set to `name`. Errors: Io.
     [[nodiscard]] Result<void> write(std::string_view kind, const std::string& name, Json body = Json::object());
-    /// Writes what happened at `at`, a moment ago.
+    /// Appends a row about something that happened a moment ago, at `at`.
     [[nodiscard]] Result<void> writeAt(Instant at, std::string_view kind, const std::string& name,
                                        Json body = Json::object());
-    /// What the row says; without a row, what `make` returns, written first. Errors: as `make` and write().
+    /// Returns the stored row; if there is none, writes and returns what `make` returns. Errors: as `make` and write().
     [[nodiscard]] Result<Json> once(std::string_view kind, const std::string& name,
                                     const std::function<Result<Json>()>& make);
-    /// The last row of each kind and name, of any part.
+    /// Visits the last row of each kind and name, in any part.
     void each(const std::function<void(std::string_view kind, const Json& body)>& visit) const;
-    /// Rows of `kind`, of all parts.
+    /// Number of rows of `kind` in all parts.
     [[nodiscard]] std::size_t count(std::string_view kind) const;
-    /// Times the trial named `name` was begun.
+    /// How often the trial named `name` was begun.
     [[nodiscard]] std::size_t begun(const std::string& name) const;
-    /// Whether there were rows before this part, which are replayed.
+    /// Whether earlier parts have rows, which are replayed.
     [[nodiscard]] bool isResumed() const noexcept { return resumed_; }
-    /// Whether anything has happened in this part besides resuming: rows are not replayed any longer.
+    /// Number of rows that this part has written. If it is not 0, rows are no longer replayed.
     [[nodiscard]] std::size_t written() const noexcept { return written_; }
 
-    /// Called after each row is on disk with the number of rows written by this part; tests end the program there.
+    /// Called after each row is on disk with the number of rows written by this part. Tests end the program there.
     std::function<void(std::size_t)> onWritten;
     /// Called after a row with a marker is on disk; may be empty, and must not block.
     std::function<void(const PilotMarker&)> onMarker;
@@ -138,10 +138,10 @@ struct OpenTrial {
     bool operator==(const OpenTrial&) const = default;
 };
 
-/// The numbered trials, which are those of the plan, as the rows of all parts of a session tell them.
+/// The numbered trials, which are the trials of the plan, as recorded in the rows of all parts of a session.
 struct PilotTrials {
-    nlohmann::json plan;                      ///< [{number, phase, block, condition}]; null where none is stored
-    std::vector<IdentificationTrial> trials;  ///< answered, or twice without an answer; in the order answered
+    nlohmann::json plan;                      ///< [{number, phase, block, condition}]; null if no plan is stored
+    std::vector<IdentificationTrial> trials;  ///< answered, or twice without an answer; in the order of the answers
     std::vector<OpenTrial> open;
 };
 [[nodiscard]] PilotTrials pilotTrials(const std::vector<SessionRow>& rows);
@@ -152,51 +152,51 @@ struct PilotTrials {
 enum class PilotEnd {
     Unfinished,  ///< interrupted; may be resumed
     Complete,
-    Stopped,  ///< ended before its end, for good
+    Stopped,  ///< ended early, for good
 };
 [[nodiscard]] std::string_view nameOf(PilotEnd end) noexcept;  // "unfinished", "complete", "stopped"
-/// Nothing for any other word.
+/// Returns nothing for any other word.
 [[nodiscard]] std::optional<PilotEnd> pilotEndFrom(std::string_view word) noexcept;
 
 inline constexpr std::size_t kMaxParticipantStops = 3;  ///< the third ends the session (pilot.md section 5)
-inline constexpr std::size_t kMaxFaults = 2;            ///< the second ends it
+inline constexpr std::size_t kMaxFaults = 2;            ///< the second ends the session
 
 inline constexpr const char* kThirdStop = "the participant stopped for the third time, which ends the session";
 inline constexpr const char* kSecondFault = "a second fault ends the session";
-/// `level`: "1.5 mA".
+/// `level`: for example "1.5 mA".
 [[nodiscard]] std::string tooStrongNow(std::string_view level);
 
-/// The reason why a session has ended for good: the third stop, the second fault, a gate that did not hold, a level of
-/// the ramp that is too strong now. A sentence; empty while nothing has ended it. A session that was killed before it
-/// ended is not tried again.
+/// Returns the sentence that says why a session has ended for good: the third stop, the second fault, a gate that did
+/// not hold, or a ramp level that is too strong now. Returns an empty text if the session may continue. A session that
+/// ended but was killed before it recorded its end is not tried again.
 [[nodiscard]] std::string endedBy(const PilotRecord& record);
 
-// Rows of a pilot session that say what was planned and found, each described once: as they are written, read again
-// after a crash, and shared. Absent numbers are NaN here and null in the row.
+// Rows of a pilot session that hold its plan and its findings. Each is described once, for writing, for reading after a
+// crash, and for sharing. Absent numbers are NaN here and null in the row.
 //
-// Levels are in mA or, of a massager, intensities; their keys say which ("min_ma", "min_intensity").
+// Levels are in mA, or intensities with a massager; the keys name the unit ("min_ma", "min_intensity").
 
-/// Row "plan", beside the trials in their order.
+/// Row "plan", without its trials.
 struct PlanRow {
     std::uint64_t seed = 0;
     std::string encoding;
     std::uint64_t blocks = 0;
     std::string runSha256;
-    std::string answers;  ///< conditions by their place and key, with commas between; empty: kAnswerPlaces
+    std::string answers;  ///< the conditions in the order of the answer places, with commas; empty: kAnswerPlaces
 };
 [[nodiscard]] nlohmann::json toJson(const PlanRow& row);
-/// Unreadable members stay as they are in a new one; so for the others.
+/// Members that cannot be read keep their defaults, here and in the two functions below.
 [[nodiscard]] PlanRow planRowFrom(const nlohmann::json& body);
 
 /// Row "range".
 struct RangeRow {
     LevelUnit unit = LevelUnit::Current;
     bool usable = false;
-    std::string reason = {};  ///< one sentence that says why it is not usable
+    std::string reason = {};  ///< one sentence that says why the range is not usable
     double min = kNaN, max = kNaN;
-    double jnd = kNaN;  ///< from one to the other
+    double jnd = kNaN;  ///< number of just noticeable differences from min to max
     LevelLimit limitedBy = LevelLimit::TooStrong;
-    // If they are currents:
+    // Only for a range of currents:
     Volts minVoltage{kNaN}, maxVoltage{kNaN};  ///< at `impedance`
     Ohms impedance{kNaN};
 };
@@ -208,14 +208,14 @@ struct DriftRow {
     LevelUnit unit = LevelUnit::Current;
     std::uint64_t block = 0;
     Estimate detection = {};
-    double probability = kNaN;  ///< how likely the weakest condition is felt too little
+    double probability = kNaN;  ///< probability that the weakest condition is felt too little
     std::uint64_t rests = 0;
     bool adapted = false;
 };
 [[nodiscard]] nlohmann::json toJson(const DriftRow& row);
 [[nodiscard]] DriftRow driftRowFrom(const nlohmann::json& body);
 
-/// The estimate as StatisticsJson.h writes it; null without a value.
+/// Converts as StatisticsJson.h does; returns null for an estimate without a value.
 [[nodiscard]] nlohmann::json estimateOrNull(const Estimate& estimate);
 [[nodiscard]] Estimate estimateFrom(const nlohmann::json& value);
 

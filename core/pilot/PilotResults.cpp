@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-/// A level, whose key and unit are those of the session's: a current in mA, or a massager's strength.
+/// A column with a level. The session decides key and unit: a current in mA, or a massager's intensity.
 ResultColumn level(const char* title, std::string_view what, LevelUnit unit) {
     return {title, levelKey(what, unit), As::Number, unit == LevelUnit::Current ? "mA" : ""};
 }
@@ -75,7 +75,7 @@ ResultRecord<StrengthComparisonResult> describeComparison(LevelUnit unit) {
     return all;
 }
 
-/// PilotRecord.h has the row of the range.
+/// The columns of a range row (PilotRecord.h).
 Columns rangeColumns(LevelUnit unit) {
     Columns all{as(As::YesNo, "The range is usable", "usable"), text("Why not", "reason"),
                 level("Range, from", "min", unit), level("to", "max", unit)};
@@ -109,7 +109,7 @@ ResultRecord<ThresholdsFound> describeThresholds(LevelUnit unit) {
     return all;
 }
 
-/// The columns of both units; a session has those of one.
+/// Returns the columns of both units; a session fills only the columns of its own unit.
 template <class ColumnsOf>
 Columns ofBothUnits(ColumnsOf columnsOf) {
     Columns both = columnsOf(LevelUnit::Current);
@@ -121,7 +121,7 @@ Columns ofBothUnits(ColumnsOf columnsOf) {
     return both;
 }
 
-/// Of whom a session is, and the thresholds and range that were found.
+/// Returns tables of the session's participant, thresholds and range.
 Tables ofSession(const char* thresholds) {
     return {
         facts("Session", "",

@@ -1,5 +1,5 @@
-// PilotResults.h - what the results of sessions with a participant hold, and how they are shown. Their reports are the
-// study's.
+// PilotResults.h - the contents and the display of the results of sessions with a participant. The study makes the
+// reports of these results.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -19,20 +19,20 @@ namespace tacto {
 struct DetectionFound {
     DetectionMethod method = DetectionMethod::Quest;
     Estimate estimate = {};
-    bool atEdge = false;  ///< of what was considered: it may lie anywhere beyond
+    bool atEdge = false;  ///< the estimate lies at the edge of the range considered, or anywhere beyond
     std::vector<AnsweredTwoIntervalTrial> trials = {};
     IntervalShares shares = {};
 };
 
-/// What the steps before the identification came to.
+/// Results of the steps before the identification.
 struct ThresholdsFound {
     AscendingResult limits = {};
     std::optional<DetectionFound> detection = {};
-    nlohmann::json range = {};  ///< as its row says it; null before it was measured
+    nlohmann::json range = {};  ///< the range as its row states it; null before it was measured
     std::optional<StrengthComparisonResult> compared = {};
 };
 
-/// Levels are those of `unit`, and their keys say so.
+/// Levels are in `unit`, and their keys name the unit.
 [[nodiscard]] nlohmann::json thresholdsJson(const ThresholdsFound& found, LevelUnit unit);
 
 [[nodiscard]] ResultTraits pilotThresholdsKind();

@@ -18,7 +18,7 @@ std::vector<DeliveredCondition> delivered(const std::vector<PresentedCondition>&
     return out;
 }
 
-/// A virtual participant never says "not sure": its column is 0.
+/// Adds a column "not sure" with probability 0, since a virtual participant never says that.
 std::vector<double> withNotSure(std::vector<double> probabilities) {
     probabilities.push_back(0);
     return probabilities;
@@ -47,7 +47,7 @@ Result<void> PilotSession::begin(bool withTrials) {
                                  {{"part", resumedPart_}, {"chain_head", resumedHead_}});
         if (!kept) return kept;
     }
-    // Over, and killed before the study knew. What is complete is replayed to its results; nothing is asked.
+    // The session ended, but the study was not told. A complete session is replayed to its results without questions.
     const auto* ended = record.find(row::kSessionEnd, row::kEnd);
     const bool complete = ended != nullptr && textOr(*ended, "state") == nameOf(PilotEnd::Complete);
     if (ended != nullptr && !complete) {
@@ -143,7 +143,7 @@ Result<nlohmann::json> PilotSession::identificationResults() const {
     return results;
 }
 
-/// Predicted from what was delivered and how long stimulation had lasted before each trial.
+/// Predicts results from the delivered levels and from the stimulated time before each trial.
 Result<void> PilotSession::addPredicted(nlohmann::json& results) const {
     const auto conditions = delivered(identification_.presented());
     if (conditions.empty()) return {};

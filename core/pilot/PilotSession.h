@@ -1,8 +1,8 @@
-// PilotSession.h - one session of a pilot study from its checklist to its results: what the script object `pilot`
-// calls.
+// PilotSession.h - one session of a pilot study from its checklist to its results. The script object `pilot` calls this
+// class.
 //
-// Built on the bench, the two people and the record; SessionRequest, gates of the study and files belong to the caller.
-// The same protocol called again on the rows of an earlier part continues where that ended.
+// Uses the bench, the two people and the record; the caller owns the SessionRequest, the study's gates and the files.
+// When the same protocol is called again on the rows of an earlier part, the session continues where that part ended.
 //
 // Thread-safety: one caller, the script's thread; endRun() and cancel() from any thread.
 #pragma once
@@ -21,20 +21,20 @@ namespace tacto {
 
 class PilotSession {
 public:
-    /// All arguments outlive the session. `truth`: a virtual participant's, for predictions; null for a person.
-    /// `parts`: files of the session, with this one.
+    /// All arguments must outlive the session. `truth`: a virtual participant's observer, for predictions; null for a
+    /// person. `parts`: number of files of the session, including the present file.
     PilotSession(Bench& bench, PilotParticipant& participant, PilotRecord& record, PilotSettings settings,
                  const VirtualObserver* truth, int parts);
 
-    /// Plan and checklist; in a later part the row `resumed` comes first. `resumedFrom` names the part before and its
-    /// chain head. `withTrials`: the plan has trials. Errors: as PilotStage.
+    /// Plans the session and runs the checklist; in a later part, first writes the row `resumed`. `withTrials`: the
+    /// plan contains trials. Errors: as PilotStage.
     [[nodiscard]] Result<void> begin(bool withTrials);
-    /// This part continues the session of `part`; begin() then states it in the first row.
+    /// Makes this part continue the session of `part`, whose hash chain ends in `chainHead`; begin() writes both.
     void resumesFrom(std::string part, std::string chainHead);
 
-    /// Asks before each block whether the study is still approved and its time not over. Empty: nothing is asked.
+    /// Checks before each block that the study is still approved and has time left. If empty, nothing is checked.
     std::function<Result<void>()> mayGoOn;
-    /// Approval, time and electrodes. Errors: Stopped with the gate's sentence, when the session has ended.
+    /// Checks approval, time and electrodes. Errors: Stopped with the gate's sentence, when the session has ended.
     [[nodiscard]] Result<void> beforeBlock(int block);
 
     [[nodiscard]] PilotStage& stage() noexcept { return stage_; }
@@ -49,7 +49,7 @@ public:
     [[nodiscard]] nlohmann::json thresholdResults() const;
     /// Results of `run pilot-identification`. Errors: as identify() and fitOf().
     [[nodiscard]] Result<nlohmann::json> identificationResults() const;
-    /// The sentence with which every result begins.
+    /// Returns the sentence with which every result begins.
     [[nodiscard]] Result<std::string> headlineText() const;
 
 private:

@@ -28,7 +28,7 @@ namespace {
 
 constexpr const char* kPain = "pain";
 
-/// All events that held a session while it ran, whether they were answered or not.
+/// Returns all events that held a session while it ran, answered or not.
 std::vector<PilotHold> heldIn(const std::vector<SessionRow>& rows, int ceiling) {
     std::vector<PilotHold> all;
     for (const auto& each : rows) {
@@ -40,7 +40,7 @@ std::vector<PilotHold> heldIn(const std::vector<SessionRow>& rows, int ceiling) 
     return all;
 }
 
-/// A part was booked, and its file is not there.
+/// Whether the file of a booked part is missing.
 bool isMissing(const Study& study, const StudySession& session) {
     return std::ranges::any_of(session.parts, [&](const StudyPart& each) {
         std::error_code error;
@@ -80,7 +80,7 @@ std::vector<PilotHold> openHolds(const Study& study, const Participant& who) {
         std::set<std::string> here;
         for (const auto& each : *rows)
             if (each.name == row::kHold) here.insert(textOr(each.body, "name"));
-        // The program answers for a virtual participant's operator: that holds nothing off a person.
+        // The program answers as a virtual participant's operator: that releases no hold for a person.
         if (session.basis != SessionBasis::Virtual || who.isVirtual()) answered.insert(here.begin(), here.end());
         if (!theirs) continue;
         auto held = heldIn(*rows, ceiling);

@@ -12,11 +12,11 @@ namespace tacto {
 
 namespace {
 
-constexpr std::size_t kMaxLate = 5;              // presentations in a row that the bench could not begin in time
-constexpr Seconds kMinPause{2};                  // time from an answer to the first train of the next
-constexpr Seconds kDot{0.5};                     // the dot is shown so long before it
-constexpr const char* kStopAnswer = "stop";      // the answer to a presentation that they stopped
-constexpr const char* kVibration = "vibration";  // member of an answer: what the motor did
+constexpr std::size_t kMaxLate = 5;              // presentations in a row that may begin too late
+constexpr Seconds kMinPause{2};                  // from an answer to the first train of the next trial
+constexpr Seconds kDot{0.5};                     // how long the dot is shown before a presentation
+constexpr const char* kStopAnswer = "stop";      // the answer to a presentation that the participant stopped
+constexpr const char* kVibration = "vibration";  // a member of an answer: what the motor did
 
 nlohmann::json trainsJson(const Presented& presented) {
     nlohmann::json all = nlohmann::json::array();
@@ -33,7 +33,7 @@ nlohmann::json trainsJson(const Presented& presented) {
     return all;
 }
 
-/// Name of the row that says that no answer came.
+/// Returns the name of the row that records a missing answer.
 std::string silentName(const StageTrial& trial) { return trial.askedAgain ? trial.name + " again" : trial.name; }
 
 }  // namespace
@@ -83,14 +83,14 @@ Result<void> PilotStage::end(PilotEnd how, const std::string& why) {
     rest();
     if (end_ != PilotEnd::Unfinished) return fail(ErrorCode::Stopped, "{}", why);  // a session ends once
     end_ = how;
-    // Written before anything is asked: if it is killed meanwhile, the session is over all the same.
+    // The end is written before any question: if the program is killed meanwhile, the session is still over.
     const auto ended = record_.once(row::kSessionEnd, row::kEnd, [&]() -> Result<Json> {
         return Json{{"state", nameOf(how)}, {"why", why}};
     });
     if (!ended) return failure(ended);
     if (how == PilotEnd::Complete) return {};
     if (afterCare && record_.count(row::kTrialBegin) > 0) {
-        participant_.show({});  // the stop that ended it stops no question after it
+        participant_.show({});  // the stop that ended the session does not stop the questions after it
         if (const auto cared = afterCare(); !cared) {
             auto kept = record_.write(row::kNote, "after care", {{"not_asked", cared.error().message}});
             if (!kept) return kept;
@@ -112,7 +112,7 @@ Result<StageAnswer> PilotStage::trial(const StageTrial& trial) {
         if (participant_.hindrance()) continue;
         if (trial.held && !participant_.holding()) {
             if (auto held = hold(); !held) return failure(held);
-            continue;  // a stop may have come before they held: armed again
+            continue;  // a stop may have come before they held: arm again
         }
         const auto number = record_.begun(trial.name) + 1;
         auto answer = attempt(trial, number, late);
@@ -201,7 +201,7 @@ Result<std::optional<StageAnswer>> PilotStage::attempt(const StageTrial& trial, 
     screen.state = trial.screen.state;
     if (screen.state != ScreenState::Rest) participant_.show(screen);
     auto presented = present(presentation, trial);
-    if (!presented) {  // paused before it began, or something is wrong
+    if (!presented) {  // either paused before it began, or failed
         if (presented.error().code != ErrorCode::NotArmed || !output_.isPaused()) return failure(presented);
         if (auto goesOn = output_.afterThePause(trial); !goesOn) return failure(goesOn);
         return std::optional<StageAnswer>();
@@ -255,7 +255,7 @@ Result<std::optional<StageAnswer>> PilotStage::attempt(const StageTrial& trial, 
     return std::optional(answer);
 }
 
-/// Marks follow the time since the beginning alone: they are the same whichever interval holds the train.
+/// Changes the screen at fixed times after the beginning, the same times whichever interval holds the train.
 Result<Presented> PilotStage::present(const Presentation& presentation, const StageTrial& trial) {
     vibration_.begin();
     auto presented = bench_.present(presentation, passing(trial));
@@ -263,8 +263,8 @@ Result<Presented> PilotStage::present(const Presentation& presentation, const St
     return presented;
 }
 
-/// A recorder is told of each presentation in the same way, also of an empty one: when it began. A row of it that
-/// cannot be written is the error of the answer's row.
+/// Sends the recorder a marker when a presentation begins, in the same way for an empty presentation. If the marker's
+/// row cannot be written, the write of the answer's row reports the error.
 std::function<void(Seconds, Instant)> PilotStage::passing(const StageTrial& trial) {
     const bool marks = trial.screen.state == ScreenState::Interval;
     bool tells = record_.onMarker != nullptr;
@@ -292,7 +292,7 @@ Result<PilotStage::Json> PilotStage::ask(const char* kind, const std::string& na
     return record_.once(kind, name, [&]() -> Result<Json> {
         const auto said = output_.insist(prompt);
         if (!said) return failure(said);
-        // After its end, a bench that has faulted or was stopped lets no time pass.
+        // After the session's end, the bench may have faulted or be stopped, and then lets no time pass.
         if (!participant_.answersInRealTime() && end_ == PilotEnd::Unfinished) {
             if (auto passed = pass(said->after); !passed) return failure(passed);
         }

@@ -11,9 +11,9 @@ namespace tacto {
 
 namespace {
 
-constexpr Seconds kFeltBeforeAsked{4};  // I_max, before "half an hour of this?"
+constexpr Seconds kFeltBeforeAsked{4};  // how long I_max is felt before the question "half an hour of this?"
 
-/// Length of one train of the profile's kind, or of a massager's burst.
+/// Returns the length of one train of the profile, or of a massager's burst.
 Seconds trainLength(const Bench& bench, LevelUnit unit) {
     if (unit == LevelUnit::Intensity) return VibrationBurst{}.duration;
     const auto& train = bench.profile().encoding.train;
@@ -39,7 +39,7 @@ Result<LevelGrid> PilotThresholds::ascendingGrid() {
         if (auto armed = stage_.ready(); !armed) return failure(armed);
         nlohmann::json body{{"step", stage_.step()}, {"cap", stage_.settings().cap}};
         if (stage_.settings().unit == LevelUnit::Intensity) {
-            body["device"] = 1;  // the whole of its strength
+            body["device"] = 1;  // a massager's full strength
             return body;
         }
         const auto limit = stage_.bench().levelLimit(stage_.settings().shortest);
@@ -71,7 +71,7 @@ Result<void> PilotThresholds::ascendingLimits() {
     }
     ascending_ = limits->result();
     if (liveSeries_ > 0) {
-        PilotScreen rest;  // levels stop rising: the held target may be let go
+        PilotScreen rest;  // levels stop rising: the participant may let go
         rest.phase = "ascending";
         rest.text = "You can let go now.";
         stage_.participant().show(rest);
@@ -96,7 +96,7 @@ Result<void> PilotThresholds::present(AscendingLimits& limits, const AscendingPr
     if (live && liveSeries_ != next.series) {
         if (auto armed = stage_.ready(); !armed) return armed;
         if (auto held = stage_.hold(); !held) return held;
-        // An interrupted series continues at the level that the ramp has reached again.
+        // After an interruption the series continues at the level that the ramp has reached again.
         const bool begins = liveSeries_ > 0 || limits.result().series.back().highest == 0;
         if (begins) {
             if (auto begun = stage_.bench().beginAscending(); !begun) return begun;
@@ -117,7 +117,7 @@ Result<void> PilotThresholds::present(AscendingLimits& limits, const AscendingPr
     const auto word = strengthWordFrom(answer->response);
     if (!word) return failure(word);
     const bool tooStrong = *word == StrengthWord::TooStrong;
-    // "Too strong" for an empty presentation counts for the last level of the series.
+    // "Too strong" about an empty presentation is taken to mean the last level of the series.
     const double level = next.empty() && tooStrong ? limits.result().series.back().highest : next.level;
     if (auto told = stage_.judged(level, tooStrong, trial.name, answer->replayed); !told) return told;
     if (tooStrong && !answer->replayed) {
@@ -231,7 +231,7 @@ Result<void> PilotThresholds::range() {
         range_ = range->result();
     }
     if (range_->usable) stage_.settle(range_->max);
-    // The volts belong to the impedance at that moment: they come from the row, also after a resume.
+    // The voltages belong to the impedance at that moment: they are read from the row, also after a resume.
     auto stored =
         stage_.record().once(row::kRange, "range", [this]() -> Result<nlohmann::json> { return describe(*range_); });
     if (!stored) return failure(stored);

@@ -1,6 +1,6 @@
-// PilotThresholds.h - the first three steps of a session: ascending limits, detection, the personal range (pilot.md
-// section 4); and, where the study has it, the comparison of strengths (section 8). Each is done once; called again
-// after a resume it returns what the rows say.
+// PilotThresholds.h - the first three steps of a session: ascending limits, detection and the personal range (pilot.md
+// section 4), and the comparison of strengths if the study has it (section 8). Each step is done once; after a resume
+// it returns the results in its rows.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -20,30 +20,30 @@ namespace tacto {
 
 class PilotThresholds {
 public:
-    /// `stage` outlives it.
+    /// `stage` must outlive this object.
     explicit PilotThresholds(PilotStage& stage) : stage_(stage) {}
 
-    // To be called in this order. Errors: as PilotStage; InvalidArgument out of order.
+    // Call these in this order. Errors: as PilotStage; InvalidArgument out of order.
 
     [[nodiscard]] Result<void> ascendingLimits();
-    /// Without a felt level there is nothing to measure: done at once, without an estimate.
+    /// If no level was felt, there is nothing to measure: finishes at once, without an estimate.
     [[nodiscard]] Result<void> detection(DetectionMethod method);
     [[nodiscard]] Result<void> range();
-    /// The Weber fraction of strength within the range, by 40 trials. Without a usable range there is nothing to
-    /// compare.
+    /// Measures the Weber fraction of strength within the range, by 40 trials. Without a usable range there is nothing
+    /// to measure.
     [[nodiscard]] Result<void> comparison();
 
-    /// The part of the results; detection, range and comparison are null until they are measured.
+    /// The thresholds part of the results; detection, range and comparison are null until they are measured.
     [[nodiscard]] nlohmann::json toJson() const;
-    /// The range as its row says it; null before it was measured.
+    /// The range as its row states it; null before it was measured.
     [[nodiscard]] const nlohmann::json& rangeJson() const noexcept { return rangeRow_; }
     [[nodiscard]] const AscendingResult& limits() const noexcept { return ascending_; }
     [[nodiscard]] const std::optional<PersonalRangeResult>& found() const noexcept { return range_; }
     /// Posterior mean of the detection threshold; NaN without one.
     [[nodiscard]] double estimate() const noexcept { return estimate_.value; }
-    /// The levels that detection and drift trials may have; after detection().
+    /// The levels that detection and drift trials may use; set by detection().
     [[nodiscard]] const std::optional<LevelGrid>& grid() const noexcept { return detectionGrid_; }
-    /// One two-interval trial: whether the right interval was said.
+    /// Runs one two-interval trial; the result says whether the answer was right.
     [[nodiscard]] Result<TrialInterval> twoIntervals(const std::string& name, const TwoIntervalTrial& asked,
                                                      const std::string& phase);
 
@@ -54,7 +54,7 @@ private:
     template <class Procedure, class Settings>
     [[nodiscard]] Result<void> measureBy(Settings settings);
     [[nodiscard]] nlohmann::json describe(const PersonalRangeResult& found) const;
-    /// The common part of trials with two intervals; `held` is the interval with the train, or the stronger one.
+    /// The common part of trials with two intervals; `held`: the interval with the train, or with the stronger one.
     [[nodiscard]] Result<TrialInterval> askInterval(StageTrial trial, TrialInterval held, std::size_t number);
 
     PilotStage& stage_;
@@ -63,7 +63,7 @@ private:
     std::optional<LevelGrid> detectionGrid_;
     DetectionMethod method_ = DetectionMethod::Quest;
     Estimate estimate_{kNaN, kNaN, kNaN};
-    bool estimateAtEdge_ = false;  // the estimate lies at the edge of what was considered, or anywhere beyond
+    bool estimateAtEdge_ = false;  // the estimate lies at the edge of the range considered, or anywhere beyond
     IntervalShares shares_;
     std::vector<AnsweredTwoIntervalTrial> trials_;
     bool measured_ = false;

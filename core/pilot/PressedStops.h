@@ -1,8 +1,8 @@
-// PressedStops.h - the stops of a pilot session that were not handled yet: who pressed, or what went, and how long it
-// took until the output was told.
+// PressedStops.h - the stops of a pilot session that were not handled yet: who pressed, or what was lost, and how long
+// it took until the output was switched off.
 //
-// A press is atomic: a caller that takes one while the output is being switched off waits until it is off. So each
-// counts once, with its time.
+// A press is atomic: a caller that takes a press while the output is being switched off waits until it is off. Each
+// press is thus taken once, with its time.
 //
 // Thread-safety: all calls from any thread.
 #pragma once
@@ -25,8 +25,8 @@ public:
         std::chrono::nanoseconds took{0};
     };
 
-    /// `by` as in PilotParticipant::stop; the pointer is kept, the text not copied. `switchOff` must not call this
-    /// object.
+    /// `by` as in PilotParticipant::stop; only the pointer is kept, the text is not copied. `switchOff` must not call
+    /// this object.
     template <class SwitchOff>
     void press(const char* by, SwitchOff switchOff) noexcept {
         const auto pressed = std::chrono::steady_clock::now();
@@ -42,10 +42,10 @@ public:
         return settled(by_.load() != nullptr || screenGone_ || aborted_ || paused_);
     }
 
-    /// Someone pressed STOP, or let go; null: neither.
+    /// Returns who pressed STOP or let go; null if nobody did.
     [[nodiscard]] const char* by() const noexcept { return settled(by_.load()); }
     [[nodiscard]] const char* takeBy() noexcept { return settled(by_.exchange(nullptr)); }
-    /// Takes the press, and how long it took until the output was off.
+    /// Takes the press, with the time that it took until the output was off.
     [[nodiscard]] std::optional<Press> takePress() noexcept {
         const char* by = takeBy();
         if (by == nullptr) return std::nullopt;
@@ -55,11 +55,11 @@ public:
     [[nodiscard]] bool takeScreenGone() noexcept { return settled(screenGone_.exchange(false)); }
     [[nodiscard]] bool paused() const noexcept { return settled(paused_.load()); }
     [[nodiscard]] bool takePaused() noexcept { return settled(paused_.exchange(false)); }
-    /// The session is interrupted for good: it stays so.
+    /// Whether the session was interrupted for good; this never becomes false again.
     [[nodiscard]] bool aborted() const noexcept { return settled(aborted_.load()); }
 
 private:
-    /// Whether a person pressed it.
+    /// Returns true if a person pressed STOP or let go.
     bool keep(const char* by) noexcept {
         const std::string_view text(by);
         std::atomic<bool>* const other = text.starts_with(kScreenGone) ? &screenGone_
@@ -69,7 +69,7 @@ private:
         other != nullptr ? other->store(true) : by_.store(by);
         return other == nullptr;
     }
-    /// `read`, once the output is off: a press counts as under way before it can be read.
+    /// Returns `read` once the output is off: a press is counted in `underWay_` before it can be read.
     template <class T>
     T settled(T read) const noexcept {
         for (int pressing = underWay_.load(); pressing != 0; pressing = underWay_.load()) underWay_.wait(pressing);

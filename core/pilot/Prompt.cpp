@@ -30,7 +30,7 @@ PilotPrompt prompt(PromptKind kind, std::string name, std::string text, std::vec
     return made;
 }
 
-/// The words as a button says them.
+/// Returns the words with a capital first letter, as buttons show them.
 std::string capitalised(std::string words) {
     if (!words.empty()) words.front() = capital(words.front());
     return words;

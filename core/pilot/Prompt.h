@@ -1,7 +1,7 @@
-// Prompt.h - what a person in a pilot session is asked, what they answer, and what their screen shows meanwhile.
+// Prompt.h - the questions to a person in a pilot session, their answers, and what their screen shows meanwhile.
 //
-// Units: times are Seconds, moments are Instants of the session's clock, scales are whole numbers. Keys of targets are
-// the words that the record keeps (resources/design/pilot.md, sections 4, 6 and 10); texts are what people read.
+// Units: times are Seconds, moments are Instants of the session's clock, scales are whole numbers. The keys of targets
+// are the words in the record (resources/design/pilot.md, sections 4, 6 and 10); the texts are shown to people.
 //
 // Thread-safety: values and pure functions.
 #pragma once
@@ -18,7 +18,7 @@
 
 namespace tacto {
 
-/// Which of the two people is asked. Both: each has to answer, and the participant's answer counts.
+/// Which of the two people is asked. With Both, each must answer, and the participant's answer is taken.
 enum class PromptTo { Participant, Operator, Both };
 [[nodiscard]] std::string_view nameOf(PromptTo to) noexcept;  // "participant", "operator", "both"
 
@@ -28,11 +28,11 @@ enum class PromptKind {
     Interval,   ///< "first", "second"
     Condition,  ///< the four conditions in a 2 × 2 field (rough, smooth; firm, light), then "none" and "not-sure"
     YesNo,      ///< "yes", "no"
-    GoOn,       ///< "go-on": nothing happens until it is pressed
+    GoOn,       ///< "go-on": waits until a person presses
     Choice,     ///< one of `targets`: naturalness, which encoding was easier, a skin score
     Several,    ///< any number of `targets`, or none: qualities
     Scale,      ///< a whole number from `least` to `most`: intensity, pain, severity
-    Text,       ///< a line of text: the electrodes' lot, a note. Never a name
+    Text,       ///< a line of text, such as the electrodes' lot or a note; never a name
 };
 [[nodiscard]] std::string_view nameOf(PromptKind kind) noexcept;  // "hold", "strength", "interval", ...
 
@@ -45,44 +45,44 @@ struct PromptTarget {
 struct PilotPrompt {
     PromptTo to = PromptTo::Participant;
     PromptKind kind = PromptKind::GoOn;
-    std::string name;  ///< the question's name in the record: "identification", "skin", "intensity"
+    std::string name;  ///< the question's name in the record, for example "identification", "skin", "intensity"
     std::string text;  ///< the question
-    /// The targets in the order in which they are shown, always at the same place. Empty for Text, Scale and Hold.
+    /// The targets in the order in which they are shown; places never change. Empty for Text, Scale and Hold.
     std::vector<PromptTarget> targets;
-    /// Targets appear now or later, never before; the response time starts with them. A press before counts as early.
+    /// The earliest time at which targets appear; response times start when they do. An earlier press is an EarlyPress.
     Instant targetsAt{0};
-    /// The time after which a missing answer counts as empty; nothing: waits.
+    /// After this time a missing answer is recorded as empty; if not set, the prompt waits.
     std::optional<Seconds> within;
     int least = 0, most = 10;  ///< Scale
-    std::string leastText;     ///< Scale: what its ends mean
+    std::string leastText;     ///< Scale: the meaning of its lower end
     std::string mostText;
-    std::string noEnds;  ///< YesNo: why a no ends the session, which its row says; empty: it does not
+    std::string noEnds;  ///< YesNo: the reason in the row if a "no" ends the session; empty: a "no" does not end it
 };
 
 struct PilotAnswer {
-    std::vector<std::string> keys;  ///< one; any number for Several; the text for Text. Empty for Scale: see `value`
+    std::vector<std::string> keys;  ///< one key; several or none for Several; the text for Text; none for Scale
     std::optional<int> value = {};  ///< Scale
-    /// The time from the appearance of the targets to the press.
+    /// Time from the appearance of the targets to the press.
     Seconds after{0};
-    /// False: `within` passed without an answer.
+    /// False if `within` passed without an answer.
     bool given = true;
 
-    /// The only key; empty without one.
+    /// Returns the first key; an empty text without a key.
     [[nodiscard]] std::string_view key() const noexcept { return keys.empty() ? std::string_view() : keys.front(); }
 };
 
-/// A press that came before the targets: recorded, and no answer.
+/// A press before the targets appeared: it is recorded, but is not an answer.
 struct EarlyPress {
-    std::string key;  ///< the answer that it would have been; empty where the key has no target
+    std::string key;  ///< the answer that the press would have been; empty if the pressed key has no target
     Instant at{0};
 };
 
-/// What is going on, for the two screens. Only `operatorText` and `named` may depend on a condition.
+/// What the two screens show. Only `operatorText` and `named` may depend on a condition.
 enum class ScreenState {
     Rest,      ///< nothing happens
     Dot,       ///< a presentation is about to start
-    Feel,      ///< trains may come; the same pixels as Dot for every condition
-    Interval,  ///< a detection trial of two intervals; `interval` says which passes
+    Feel,      ///< trains may come; shows the same pixels as Dot for every condition
+    Interval,  ///< a detection trial of two intervals; `interval` says which of them passes
     Named,     ///< familiarisation and feedback: the name in `named` is shown
     Break,     ///< rest between blocks until `until`
     Ended,
@@ -93,35 +93,35 @@ struct PilotScreen {
                         ///< "drift", "break", "ratings", "ended"
     int block = 0;      ///< from 1; 0: none
     int blocks = 0;     ///< blocks in the test
-    int trial = 0;      ///< the trial within the phase, for the operator; 0: none
+    int trial = 0;      ///< number of the trial within the phase, for the operator; 0: none
     int trials = 0;
-    double impedance_ohm = kNaN;   ///< |Z| as measured by itself before the block, not by a train; NaN: not measured
-    int interval = 0;              ///< 1 or 2 with Interval; 0: neither, before them or between
-    std::string named;             ///< Named: the name of what is or was felt
-    std::optional<bool> right;     ///< training: whether the answer was right
-    std::optional<Instant> until;  ///< Break: its earliest end
+    double impedance_ohm = kNaN;   ///< |Z| from a measurement before the block, not from a train; NaN: not measured
+    int interval = 0;              ///< state Interval: 1 or 2; 0: before, between or after the two intervals
+    std::string named;             ///< state Named: the name of what is or was felt
+    std::optional<bool> right;     ///< training: true if the answer was right
+    std::optional<Instant> until;  ///< state Break: the earliest end of the break
     std::string text;              ///< what the participant reads; the same for every condition
-    std::string operatorText;      ///< what the operator reads; hidden while they are blind
-    bool operatorMayKnow = false;  ///< `operatorText` has nothing that depends on a condition
+    std::string operatorText;      ///< what the operator reads; hidden while the operator is blind
+    bool operatorMayKnow = false;  ///< `operatorText` contains nothing that depends on a condition
 };
 
-// Names of questions to the operator: the participant's window is to be shown again; why they aborted.
+// Names of two questions to the operator: show the participant's window again; why did you abort?
 inline constexpr const char* kScreenPrompt = "screen-gone";
 inline constexpr const char* kReasonPrompt = "abort-reason";
 
-/// The four answers in their field of two rows and two columns, in the first of kAnswerWays ways; the places have keys
-/// and buttons 1 to 4. The others turn it and swap its rows and columns: answers in one line stay in one line.
+/// The four answers in a field of two rows and two columns, in the first of kAnswerWays arrangements; the places have
+/// keys and buttons 1 to 4. The other arrangements turn or mirror the field: answers in one line stay in one line.
 inline constexpr std::array<std::string_view, 4> kAnswerPlaces{"smooth-high", "rough-high", "smooth-low", "rough-low"};
 inline constexpr std::size_t kAnswerWays = 8;
-/// `way` below kAnswerWays.
+/// `way` must be below kAnswerWays.
 [[nodiscard]] std::vector<std::string> answersIn(std::size_t way);
 
-// Prompts that are the same wherever they are put. Texts are the ones shown.
+// Prompts with fixed texts, which people read as they stand here.
 [[nodiscard]] PilotPrompt holdPrompt();
 [[nodiscard]] PilotPrompt strengthPrompt();
 [[nodiscard]] PilotPrompt intervalPrompt();
 [[nodiscard]] PilotPrompt comparisonPrompt();
-/// `names`: keys of the conditions, each at its place.
+/// `names`: keys of the conditions, in the order of the places.
 [[nodiscard]] PilotPrompt conditionPrompt(const std::vector<std::string>& names);
 [[nodiscard]] PilotPrompt yesNoPrompt(std::string name, std::string text, PromptTo to = PromptTo::Participant);
 [[nodiscard]] PilotPrompt goOnPrompt(std::string text, PromptTo to = PromptTo::Both);

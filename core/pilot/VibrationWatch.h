@@ -1,8 +1,8 @@
-// VibrationWatch.h - what a massager really did while something was presented, where the bench's sensor has an
-// accelerometer that is fastened to its motor.
+// VibrationWatch.h - measures what a massager does during a presentation, if the bench's sensor has an accelerometer
+// that is fastened to the massager's motor.
 //
-// The program does not know where a sensor is fastened. A board that lies beside the motor measures bursts in which
-// nothing moves, and this is said; without a sensor nothing is measured.
+// The program does not know where a sensor is fastened. A board that lies next to the motor measures bursts without
+// motion, and the result says this. Without a sensor nothing is measured.
 #pragma once
 
 #include <memory>
@@ -17,21 +17,21 @@ namespace tacto {
 
 class VibrationWatch {
 public:
-    /// `bench` outlives every call, and may end before this does.
+    /// `bench` must outlive every call, but may end before this object does.
     explicit VibrationWatch(Bench& bench);
     VibrationWatch(const VibrationWatch&) = delete;
     VibrationWatch& operator=(const VibrationWatch&) = delete;
 
-    /// Whether there is an accelerometer to look at, and a massager.
+    /// Whether the bench has an accelerometer and a massager.
     [[nodiscard]] bool canLook() const noexcept { return stream_.has_value(); }
-    /// Forgets what was seen; from now on samples are kept, until end(), which always follows. Neither does anything
-    /// where it cannot look.
+    /// begin() forgets old samples and keeps new ones until end(), which must always follow. Both do nothing if
+    /// canLook() is false.
     void begin();
     void end();
-    /// Takes what has come: at least once in two seconds, or samples are missing.
+    /// Takes the samples that have arrived. Call this at least every two seconds, or samples are lost.
     void look();
-    /// The bursts that were seen. Nothing where it cannot look, for an empty presentation, and where the quiet before
-    /// it was not seen.
+    /// Returns the measured bursts. Returns nothing if canLook() is false, for an empty presentation, or if no quiet
+    /// time before the presentation was measured.
     [[nodiscard]] std::optional<BurstFigures> measured(const Presented& presented) const;
 
 private:

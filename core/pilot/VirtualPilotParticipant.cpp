@@ -40,7 +40,7 @@ Result<PilotAnswer> VirtualPilotParticipant::ask(const PilotPrompt& prompt) {
         if (stop) stop(prompt.to == PromptTo::Operator ? "operator" : "participant");
         return fail(ErrorCode::Stopped, "stopped by the {}, as asked", nameOf(prompt.to));
     }
-    // Rounded to a millisecond, as a clock on a table would read.
+    // Rounded to whole milliseconds, like the reading of a clock.
     Random times(observer_.settings().seed, "response time " + felt_.drawnFor + " " + prompt.name);
     const Seconds after(std::round(1000 * 0.7 * std::exp(0.35 * times.normal())) / 1000);
     if (prompt.kind == PromptKind::Scale) {
@@ -80,8 +80,8 @@ std::string VirtualPilotParticipant::answerTo(const PilotPrompt& prompt) const {
         case PromptKind::Choice:
             if (prompt.name == "naturalness")
                 return std::string(nameOf(observer_.rate(key, felt_.level, felt_.stimulated).naturalness));
-            if (prompt.name.starts_with(row::kEncodings)) return row::kNoDifference;  // Names are nothing to it
-            // Wherever it stands: what was felt is not wanted again.
+            if (prompt.name.starts_with(row::kEncodings)) return row::kNoDifference;  // cannot compare encodings
+            // Prefers "go on" at any place in the list: nothing is felt a second time.
             if (std::ranges::find(prompt.targets, "go-on", &PromptTarget::key) != prompt.targets.end()) return "go-on";
             return prompt.targets.empty() ? "" : prompt.targets.front().key;
         case PromptKind::Hold:
@@ -97,7 +97,7 @@ std::string VirtualPilotParticipant::answerTo(const PilotPrompt& prompt) const {
     return {};
 }
 
-/// Among the conditions that were learned; one that never was is not an answer.
+/// Identifies the felt condition among the learned conditions; a condition never learned is no answer.
 std::string VirtualPilotParticipant::identified() const {
     std::vector<DeliveredCondition> known;
     std::vector<std::string> names;

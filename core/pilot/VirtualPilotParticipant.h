@@ -1,8 +1,8 @@
-// VirtualPilotParticipant.h - a virtual participant, and the operator beside them, who answers everything
-// harmlessly: both people of a rehearsal, through the same interface as a window's.
+// VirtualPilotParticipant.h - both people of a rehearsal: a virtual participant, and an operator who answers everything
+// harmlessly, through the same interface as a window's people.
 //
-// Feelings follow from what was delivered (VirtualObserver.h); conditions are known by the names under which they were
-// felt in familiarisation. Response times are drawn and have no source: they say nothing about people.
+// Feelings follow from what was delivered (VirtualObserver.h); the participant knows the conditions by the names under
+// which familiarisation presented them. Response times are drawn without a source: they say nothing about people.
 //
 // Thread-safety: as PilotParticipant.
 #pragma once
@@ -19,7 +19,7 @@ namespace tacto {
 
 class VirtualPilotParticipant final : public PilotParticipant {
 public:
-    /// `conditions`: names of the four, in the order of the study.
+    /// `conditions`: names of the four conditions, in the order of the study.
     VirtualPilotParticipant(VirtualObserver observer, std::vector<std::string> conditions);
 
     void show(const PilotScreen& screen) override;
@@ -40,7 +40,7 @@ private:
     const VirtualObserver observer_;
     const std::vector<std::string> conditions_;
     std::map<std::string, DeliveredCondition> learned_;
-    FeltPresentation felt_;  // The last
+    FeltPresentation felt_;  // the last presentation
 };
 
 }  // namespace tacto

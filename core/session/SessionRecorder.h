@@ -1,4 +1,4 @@
-// SessionRecorder.h - lets a control loop record without ever waiting for a disk.
+// SessionRecorder.h - records for a control loop, which never has to wait for a disk.
 //
 // On the steady clock each call copies fixed-size records into a ring, without blocking or allocating, and the
 // recorder's own thread writes them to the session. On a virtual clock the same calls write at once, on the caller's
