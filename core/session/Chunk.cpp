@@ -17,7 +17,7 @@ static_assert(std::endian::native == std::endian::little, "session files are lit
 
 namespace {
 
-/// A number in the line, without an object of its own.
+/// Describes a number in the line that stands among the members of the head, not in an object of its own.
 ValueKind<ChunkHead> lineKind(double StampLine::*number) {
     ValueKind<ChunkHead> kind;
     kind.info.accepted = "a number";
@@ -96,7 +96,7 @@ Result<void> unpackChunk(const ChunkHead& head, std::size_t columns, std::span<c
 
 namespace {
 
-/// Bytes of like significance side by side: codes of a converter repeat in their high bytes, so deflate finds them.
+/// Puts bytes of equal significance side by side: the high bytes of a converter's codes repeat, so deflate finds them.
 constexpr std::size_t kWidth = sizeof(float);
 
 std::vector<std::byte> planes(const Capture& capture) {
@@ -125,7 +125,7 @@ void fromPlanes(std::span<const std::byte> bytes, Capture& capture, std::size_t 
     }
 }
 
-/// A deflated capture cannot unpack to more than this times its size (deflate's own bound is 1032).
+/// A deflated capture cannot unpack to more than this many times its size (deflate's own limit is 1032).
 constexpr std::size_t kLargestRatio = 1100;
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Chunk.h - consecutive samples of a stream as they lie in the file: little-endian doubles, and either a straight
-// line of time stamps or each of them.
+// Chunk.h - consecutive samples of a stream as the file stores them: little-endian doubles, with either a straight line
+// of time stamps or every single stamp.
 //
 // Thread-safety: pure functions.
 #pragma once
@@ -19,7 +19,7 @@
 
 namespace tacto {
 
-/// Stamps this close to a line are stored as the line: the time base counts nanoseconds.
+/// Stamps this close to a straight line are stored as the line: the time base has a resolution of one nanosecond.
 inline constexpr double kStampTolerance_s = 1e-9;
 
 /// t = t0_s + i * step_s
@@ -28,41 +28,41 @@ struct StampLine {
     double step_s;
 };
 
-/// The line that every stamp lies on to within kStampTolerance_s, or nothing. One finite stamp is a line.
+/// Returns the line that runs within kStampTolerance_s of every stamp, or nothing. A single finite stamp makes a line.
 [[nodiscard]] std::optional<StampLine> lineThrough(std::span<const double> t_s) noexcept;
 
-/// The head of a chunk in its log row.
+/// The description of a chunk in its row of the log.
 struct ChunkHead {
     int stream = 0;
-    std::int64_t index = 0;         ///< 0, 1, ... within the stream
-    std::uint64_t firstSample = 0;  ///< position of its first sample in the stream
+    std::int64_t index = 0;         ///< number of the chunk within the stream, from 0
+    std::uint64_t firstSample = 0;  ///< position of the chunk's first sample in the stream
     std::uint64_t samples = 0;
-    std::optional<StampLine> line;  ///< nothing: the stamps are stored one by one
-    std::uint32_t crc = 0;          ///< over stamps (if stored) and values
+    std::optional<StampLine> line;  ///< if not set, the stamps are stored one by one
+    std::uint32_t crc = 0;          ///< checksum of the stamps (if stored) and the values
 };
 
 [[nodiscard]] std::string toJsonText(const ChunkHead& head);
 /// Errors: ParseError.
 [[nodiscard]] Result<ChunkHead> parseChunkHead(std::string_view json);
 
-/// Errors: ParseError when the sizes do not fit the head.
+/// Reads the samples of a chunk. Errors: ParseError if the sizes do not fit the head.
 [[nodiscard]] Result<void> unpackChunk(const ChunkHead& head, std::size_t columns, std::span<const std::byte> stamps,
                                        std::span<const std::byte> data, SampleBlock& into);
 
-// An oscilloscope record as it lies in the file: a description in JSON, and the channels' float32
-// samples one channel after the other, deflated where that helps.
+// An oscilloscope record as the file stores it: a description in JSON, and the float32 samples of one channel after the
+// other, deflated if that saves space.
 
 struct PackedCapture {
     std::vector<std::byte> data;
     bool deflated = false;
 };
 
-/// Deflates at the fastest level and keeps it when it saves at least a tenth.
+/// Deflates at the fastest level; keeps the deflated samples if they are at least a tenth smaller.
 [[nodiscard]] PackedCapture packSamples(const Capture& capture);
-/// The capture without its samples, as the log row's JSON ("trial" and checksums apart). NaN becomes null.
+/// Returns the capture without its samples as JSON for its log row, without "trial" and checksums. NaN becomes null.
 [[nodiscard]] nlohmann::json describePacked(const Capture& capture, const PackedCapture& packed);
 
-/// Errors: ParseError when the description is not one or the samples do not fit it.
+/// Errors: ParseError if the description is not valid or the samples do not fit it.
 [[nodiscard]] Result<Capture> unpackCapture(const nlohmann::json& description, std::span<const std::byte> data);
 
 }  // namespace tacto

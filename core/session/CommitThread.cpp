@@ -38,7 +38,7 @@ void CommitThread::run() {
     std::unique_lock lock(mutex_);
     for (;;) {
         changed_.wait(lock, [this] { return ending_ || job_ != nullptr; });
-        if (job_ == nullptr) return;  // a last job is finished before the end
+        if (job_ == nullptr) return;  // a waiting job is finished before the thread ends
         const Job job = job_;
         lock.unlock();
         auto result = job();

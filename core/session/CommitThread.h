@@ -1,8 +1,8 @@
-// CommitThread.h - lets a commit write to disk while the next chunk is hashed on another core.
+// CommitThread.h - a thread that commits to disk while the caller hashes the next chunk on another core.
 //
-// Hashing and the disk one after the other would cost a third of the recording rate (tests/perf/SessionPerf.cpp).
+// Hashing and committing in turn would cost a third of the recording rate (tests/perf/SessionPerf.cpp).
 //
-// Thread-safety: one caller. Between start() and the end of the job the caller does not touch what the job touches.
+// Thread-safety: one caller. From start() until the job ends, the caller must not touch what the job uses.
 #pragma once
 
 #include <condition_variable>
@@ -23,11 +23,11 @@ public:
     CommitThread(const CommitThread&) = delete;
     CommitThread& operator=(const CommitThread&) = delete;
 
-    /// Runs `job` on the other thread. The one before must have been waited for.
+    /// Runs `job` on the other thread. Call wait() for the previous job first.
     void start(Job job);
-    /// True while a job runs. Never waits for it.
+    /// Whether a job is running. Never waits.
     [[nodiscard]] bool busy() const;
-    /// The result of the last job, once; success when there is none to report.
+    /// Waits, and returns the result of the last job, once; success if there is no result to report.
     [[nodiscard]] Result<void> wait();
 
 private:
@@ -35,10 +35,10 @@ private:
 
     mutable std::mutex mutex_;
     std::condition_variable changed_;
-    Job job_;  // Guarded by mutex_, as all below; not empty while it waits or runs
+    Job job_;  // guarded by mutex_, like the members below; not empty while the job waits or runs
     Result<void> result_;
     bool ending_ = false;
-    std::thread thread_;  // Last: starts when all else is there
+    std::thread thread_;  // the last member: starts once all others exist
 };
 
 }  // namespace tacto

@@ -25,9 +25,9 @@ tl::unexpected<Error> failFrom(sqlite3* database, int code) {
     }
 }
 
-/// SQLite says only that it is unable to open a file, whatever keeps it from doing so.
+/// SQLite reports only that it cannot open a file; this looks for the reason.
 Error whyNotOpened(sqlite3* database, int code, const std::string& target) {
-    constexpr int kSuffix = 8;  // length of the suffix of the journal's name, as SQLite counts it
+    constexpr int kSuffix = 8;  // length of the suffix of the journal's name, by SQLite's count
     const auto bytes = std::filesystem::absolute(target).native().size();
     const auto most = static_cast<std::size_t>(sqlite3_vfs_find(nullptr)->mxPathname - kSuffix);
     auto error = failFrom(database, code).value();
@@ -46,7 +46,7 @@ Error whyNotOpened(sqlite3* database, int code, const std::string& target) {
 void Statement::Finalize::operator()(sqlite3_stmt* statement) const noexcept { sqlite3_finalize(statement); }
 void Database::Close::operator()(sqlite3* database) const noexcept { sqlite3_close(database); }
 
-// A null pointer would bind NULL; an empty text or blob is a value.
+// A null pointer would bind NULL; an empty text or blob must be bound as a value.
 void Statement::bind(int position, std::int64_t value) noexcept {
     sqlite3_bind_int64(statement_.get(), position, value);
 }
@@ -105,7 +105,7 @@ bool Statement::isNull(int column) const noexcept {
 Result<Database> Database::open(const std::string& target, int flags) {
     sqlite3* opened = nullptr;
     const int code = sqlite3_open_v2(target.c_str(), &opened, flags, nullptr);
-    Database database(opened);  // SQLite gives an object to close even when it fails
+    Database database(opened);  // SQLite returns an object to close even if opening fails
     if (code != SQLITE_OK) return tl::unexpected(whyNotOpened(opened, code, target));
     sqlite3_extended_result_codes(opened, 1);
     return database;
@@ -146,14 +146,14 @@ struct DatabaseFile::State {
         : name(sqlite3_create_filename(std::filesystem::absolute(path).c_str(), "", "", 0, nullptr)) {}
     ~State() {
         if (file() != nullptr && file()->pMethods != nullptr) static_cast<void>(file()->pMethods->xClose(file()));
-        sqlite3_free_filename(name);  // SQLite's layer keeps it until then
+        sqlite3_free_filename(name);  // SQLite's file layer needs the name until here
     }
     State(const State&) = delete;
     State& operator=(const State&) = delete;
     [[nodiscard]] sqlite3_file* file() noexcept { return reinterpret_cast<sqlite3_file*>(room.data()); }
 
     sqlite3_filename name;
-    std::vector<std::max_align_t> room;  // room for one of the layer's files, whose size it says
+    std::vector<std::max_align_t> room;  // memory for one file of the layer, which states its size
 };
 
 Result<DatabaseFile> DatabaseFile::open(const std::filesystem::path& path) {
@@ -203,7 +203,7 @@ namespace {
 
 constexpr std::size_t kHeader = 32;
 constexpr std::size_t kFrameHeader = 24;
-constexpr std::uint32_t kMagic = 0x377f0682;  // the last bit says that checksums read big-endian words
+constexpr std::uint32_t kMagic = 0x377f0682;  // its last bit is set if checksums read big-endian words
 
 std::uint32_t word(std::span<const char> bytes, std::size_t at, bool big) {
     std::uint32_t value = 0;
@@ -249,10 +249,10 @@ Result<WalFindings> scanWal(const std::filesystem::path& wal) {
     findings.headerDamaged = !readable && file.peek() != std::char_traits<char>::eof();
 
     std::vector<char> frame(kFrameHeader + pageSize);
-    bool commitWaits = false;  // a commit behind the bad frame counts once a further transaction follows it
+    bool commitWaits = false;  // a commit behind the bad frame is lost only if a further transaction follows
     while (file.read(frame.data(), static_cast<std::streamsize>(frame.size()))) {
         const bool current = std::equal(frame.begin() + 8, frame.begin() + 16, header.begin() + 16);
-        if (!current) {  // left over from before the journal was last restarted, or altered
+        if (!current) {  // left from before the journal last restarted, or altered
             readable = false;
             continue;
         }

@@ -1,4 +1,4 @@
-// Database.h - SQLite with owners and Results instead of pointers and codes. Used inside core/session only.
+// Database.h - SQLite with owning objects and Results in place of pointers and codes. Used only inside core/session.
 //
 // Thread-safety: none; one caller at a time.
 #pragma once
@@ -18,7 +18,7 @@ struct sqlite3_stmt;
 
 namespace tacto {
 
-/// A prepared statement. Outlived by its Database. Bound texts and blobs must live until step() returned.
+/// A prepared statement; its Database must outlive it. Bound texts and blobs must stay valid until step() returns.
 class Statement {
 public:
     void bind(int position, std::int64_t value) noexcept;
@@ -26,9 +26,9 @@ public:
     void bind(int position, std::span<const std::byte> blob) noexcept;
     void bindNull(int position) noexcept;
 
-    /// True when there is a row, false when done. Errors: Io; ParseError when the file is damaged.
+    /// Returns true if there is a row, false after the last. Errors: Io; ParseError if the file is damaged.
     [[nodiscard]] Result<bool> step();
-    /// Runs a statement without rows and makes it ready for the next run.
+    /// Runs a statement that returns no rows, and resets it for the next run.
     [[nodiscard]] Result<void> run();
     void reset() noexcept;
 
@@ -52,12 +52,12 @@ public:
     /// `target` is a path or, with `flags` containing SQLITE_OPEN_URI, a file: URI.
     /// Errors: Io, or ParseError when the content is not SQLite.
     [[nodiscard]] static Result<Database> open(const std::string& target, int flags);
-    /// One or more statements without parameters.
+    /// Runs one or more statements without parameters.
     [[nodiscard]] Result<void> execute(const std::string& sql);
     [[nodiscard]] Result<Statement> prepare(std::string_view sql) const;
-    /// True when the file no longer has the name by which it was opened: it was moved or removed.
+    /// Whether the file was moved or removed since it was opened, so that its name no longer leads to it.
     [[nodiscard]] bool hasMoved() const noexcept;
-    /// The first column of the first row of `sql`, as an integer; 0 without rows.
+    /// Returns the first column of the first row of `sql` as an integer; 0 if there are no rows.
     [[nodiscard]] Result<std::int64_t> number(std::string_view sql) const;
 
 private:
@@ -70,17 +70,17 @@ private:
 
 // The bytes of an SQLite file, read through SQLite's own file layer.
 //
-// Another handle of this process on such a file would, when it is closed, drop every lock that this process holds on
-// it, a running writer's among them (fcntl(2)); SQLite's layer keeps its handles open for as long as one of them is
-// locked (sqlite.org/howtocorrupt.html section 2.2).
+// If this process opened such a file in another way, closing that handle would drop all locks of the process on the
+// file, also a running writer's locks (fcntl(2)). SQLite's layer keeps its handles open as long as any of them holds a
+// lock (sqlite.org/howtocorrupt.html section 2.2).
 
 class DatabaseFile {
 public:
-    /// Opens it for reading; nothing is locked. Errors: Io.
+    /// Opens the file for reading; locks nothing. Errors: Io.
     [[nodiscard]] static Result<DatabaseFile> open(const std::filesystem::path& path);
     /// The size in bytes. Errors: Io.
     [[nodiscard]] Result<std::int64_t> size() const;
-    /// Fills `bytes` from `at`. Errors: Io, also where the file ends before.
+    /// Fills `bytes` with the bytes of the file from position `at`. Errors: Io, also if the file ends too early.
     [[nodiscard]] Result<void> read(std::int64_t at, std::span<std::byte> bytes) const;
 
 private:
@@ -89,18 +89,18 @@ private:
     std::shared_ptr<State> state_;
 };
 
-/// Writes the content of the SQLite file `from` to `to`, which is new. Errors: Io.
+/// Copies the SQLite file `from` to the new file `to`. Errors: Io.
 [[nodiscard]] Result<void> copyDatabaseFile(const std::filesystem::path& from, const std::filesystem::path& to);
 
 // Looks for damage in the journal (*-wal) that a killed session left behind.
 //
-// SQLite reads a journal up to the first frame whose checksum is wrong and silently ignores the rest, since a crash
-// leaves exactly that: an unfinished last transaction. But every acknowledged commit was synced before the next one
-// began, so frames of a further transaction beyond the bad one cannot come from a crash. They are lost evidence.
+// SQLite reads a journal up to the first frame with a wrong checksum and silently ignores the rest: a crash leaves such
+// a journal, with an unfinished last transaction. But every acknowledged commit was synced before the next one began,
+// so a crash cannot leave frames of a further transaction behind the bad frame: they are lost evidence.
 
 struct WalFindings {
     std::uint64_t readableFrames = 0;
-    bool headerDamaged = false;     ///< there are frames, but the header that tells how to read them is not valid
+    bool headerDamaged = false;     ///< frames exist, but the header that describes them is not valid
     std::uint64_t lostCommits = 0;  ///< commits behind the first bad frame, without the unfinished last transaction
 };
 

@@ -16,7 +16,7 @@ const unsigned char* bytesOf(std::string_view text) noexcept {
     return reinterpret_cast<const unsigned char*>(text.data());
 }
 
-/// Picks libsodium's fastest implementations once; the hash functions work without it, only slower.
+/// Lets libsodium choose its fastest implementations once; without this call the hash functions work, only slower.
 void startSodium() noexcept {
     static const int started = sodium_init();
     static_cast<void>(started);
@@ -47,7 +47,7 @@ Digest bulkDigest(std::span<const std::span<const std::byte>> parts) {
 std::uint32_t crc32(std::span<const std::span<const std::byte>> parts) {
     uLong crc = ::crc32(0, nullptr, 0);
     for (const auto part : parts) {
-        if (part.empty()) continue;  // zlib takes a null pointer for "start from the beginning"
+        if (part.empty()) continue;  // for zlib a null pointer means "start from the beginning"
         crc = ::crc32_z(crc, reinterpret_cast<const Bytef*>(part.data()), part.size());
     }
     return static_cast<std::uint32_t>(crc);

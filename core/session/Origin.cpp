@@ -110,13 +110,13 @@ nlohmann::json devicesJson(const std::vector<SessionDevice>& all) {
 
 namespace {
 
-/// The notes of the session's benches.
+/// What the benches of the session recorded about its marks.
 struct Recorded {
     std::vector<std::string> flags;
     bool complete = false;
     bool uncalibratedStimulator = false;
-    std::string measuredBeyond;          ///< the first; empty: none was seen
-    std::vector<double> uncertaintyOfR;  ///< U at R 0, 0.5 and 1; empty: not known
+    std::string measuredBeyond;          ///< the first such text; empty: none
+    std::vector<double> uncertaintyOfR;  ///< U (expanded uncertainty, 95 %) at R = 0, 0.5 and 1; empty: not known
 };
 
 void addOnce(std::vector<std::string>& all, const std::string& one) {
@@ -131,7 +131,7 @@ std::vector<double> uncertaintyIn(const SessionRow& row) {
     return out.size() == 3 ? out : std::vector<double>{};
 }
 
-/// R of a rig that is calibrated carries an uncertainty, or says that it has none; of another it would mean nothing.
+/// The uncertainty of R has a meaning only for a calibrated rig.
 std::string uncertaintyText(const Recorded& recorded) {
     const auto& u = recorded.uncertaintyOfR;
     if (u.empty()) return "The uncertainty of R is not known.";

@@ -1,5 +1,5 @@
-// Origin.h - where the figures of a session come from: marks for each device, in sentences, so that nothing simulated
-// or of unknown origin is taken for measured, and nothing that was delivered for simulated (hazard H9).
+// Origin.h - the origin of a session's figures: sentences that mark each device, so that nobody takes simulated figures
+// or figures of unknown origin for measurements, or a real output for a simulation (hazard H9).
 //
 // Thread-safety: pure functions.
 #pragma once
@@ -25,7 +25,7 @@ inline constexpr const char* kReplayedSimulated = "replayed, simulated";
 inline constexpr const char* kReplayedUnknown = "replayed, origin not stated";
 }  // namespace origin
 
-/// The origin in the session; for one from before it was said, by its mark and its address.
+/// The device's stated origin; an older session states none, and the device's simulation mark and address then decide.
 [[nodiscard]] std::string originOf(const SessionDevice& device);
 
 /// The output during a session.
@@ -33,29 +33,29 @@ struct Delivered {
     std::uint64_t trains = 0;  ///< trains or vibrations, without impedance checks
     std::uint64_t checks = 0;
     double most = 0;   ///< largest amplitude, in `unit`
-    std::string unit;  ///< "V", "mA"; empty for a massager and for a session that does not say
+    std::string unit;  ///< "V" or "mA"; empty for a massager, or if the session does not say
 };
-/// Counted from the session's commands. Errors: as SessionReader::commands(); Unsupported for one that is locked.
+/// Counts the commands of a session. Errors: as SessionReader::commands(); Unsupported for a locked session.
 [[nodiscard]] Result<Delivered> deliveredIn(const SessionReader& session);
 
-/// One sentence each. A session with simulated devices only, or one that has none and predicts, is "SIMULATED: ..."; a
-/// session of several kinds names each device under its own; one of hardware alone needs none.
+/// Returns one sentence for each mark. A session with simulated devices only, or without devices but with predictions,
+/// is marked "SIMULATED: ..."; in a mixed session each device has its own mark; real devices alone need no mark.
 [[nodiscard]] std::vector<std::string> originMarks(const SessionAbout& about, const Delivered& delivered);
 
-/// The JSON of `run --json`, by the key "devices".
+/// Returns the value of the key "devices" in the JSON of `run --json`.
 [[nodiscard]] nlohmann::json devicesJson(const std::vector<SessionDevice>& all);
 
-// Marks for every result of a session: where it comes from, whether the stimulator and R are calibrated, the flags of
-// the recording, the known limit of R (science.md section 12).
+// The marks for all results of a session: where they come from, whether the stimulator and R are calibrated, the flags
+// of the recording, and the known limit of R (science.md section 12).
 //
-// The bench writes them when it closes. A session without them, of an older program or interrupted, says that they are
-// not known: it never reads as one that has none (hazard H9).
+// The bench writes the marks when it closes. A session without them (interrupted, or from an older program) says that
+// its marks are not known: it is never shown as a session that has no marks (hazard H9).
 
-/// The mark of a run whose readings make a calibration.
+/// The mark of a run whose readings become a calibration.
 inline constexpr const char* kNotCalibratedBefore = "Before this run the stimulator was not calibrated.";
 
-/// Sentences, and the flags as science.md names them ("uncalibrated R"). Errors: as SessionReader::events() and
-/// commands().
+/// Returns the marks as sentences, and the flags by their names in science.md ("uncalibrated R"). Errors: as
+/// SessionReader::events() and commands().
 [[nodiscard]] Result<std::vector<std::string>> sessionMarks(const SessionReader& session);
 
 }  // namespace tacto

@@ -1,8 +1,8 @@
 // Schema.h - the tables of a session file.
 //
-// Everything is a row of `entries`, in the order it was written, linked by hashes (Digest.h). Sample chunks and
-// captures keep their bulk in tables of their own under the entry's seq. The views (events, trials, ...) are for people
-// with another SQLite program. Triggers refuse changes and deletions: no session is altered by accident.
+// Every record is a row of `entries`, in the order of writing, linked by hashes (Digest.h). Sample chunks and captures
+// have their data in tables of their own, under their entry's seq. The views (events, trials, ...) help people with
+// other SQLite programs. Triggers refuse changes and deletions, so that nobody alters a session by accident.
 //
 // Thread-safety: pure functions; createSchema() as Database.
 #pragma once
@@ -16,8 +16,8 @@ namespace tacto {
 
 inline constexpr std::uint32_t kApplicationId = 0x54414354;  ///< "TACT"
 inline constexpr int kSchemaVersion = 1;
-/// The same tables with annotations behind the end mark: a program that does not know them says that it is too old,
-/// instead of calling the session damaged.
+/// The same tables, with annotations behind the end mark. A program that does not know annotations then reports that it
+/// is too old, and does not call the session damaged.
 inline constexpr int kAnnotatedVersion = 2;
 /// The same tables with sealed rows (SealedRow.h).
 inline constexpr int kSealedVersion = 3;
@@ -37,10 +37,10 @@ inline constexpr const char* kReport = "report";
 inline constexpr const char* kVerdict = "verdict";
 inline constexpr const char* kLog = "log";
 inline constexpr const char* kEnd = "end";
-inline constexpr const char* kAnnotation = "annotation";  ///< the only rows after the end: SessionLabels.h
+inline constexpr const char* kAnnotation = "annotation";  ///< the only kind of row after the end mark (SessionLabels.h)
 }  // namespace kind
 
-/// Makes the tables, views and triggers of kSchemaVersion and sets both ids.
+/// Creates the tables, views and triggers of kSchemaVersion, and sets application id and version.
 [[nodiscard]] Result<void> createSchema(Database& database);
 
 }  // namespace tacto

@@ -14,7 +14,7 @@ namespace {
 
 using Keys = std::span<const std::string_view>;
 
-/// The visible members in rows of a kind; events with a name have rules of their own.
+/// The members that rows of a kind show; events with certain names have rules of their own.
 struct ShownOfKind {
     std::string_view kind;
     bool name;
@@ -34,7 +34,7 @@ constexpr ShownOfKind kShownOfKinds[] = {{kind::kAbout, true, kAboutKeys},
 
 struct ShownOfEvent {
     std::string_view name;
-    Keys keys;  ///< texts among them are shown without their numbers
+    Keys keys;  ///< values that are texts are shown without their numbers
     bool whole = false;
 };
 constexpr std::string_view kTextKeys[] = {"text"};
@@ -50,7 +50,7 @@ constexpr ShownOfEvent kShownOfEvents[] = {
     {kCertificateEvent, {}, true},
     {kMarksEvent, {}, true},
     {kMarkEvent, {}, true},
-    // Their names say how far the session has come; the bodies are sealed.
+    // These names show the progress of the session; the bodies are sealed.
     {kOperatorMarkEvent, {}},
     {"device report", {}},
     {"keep-alive", {}},

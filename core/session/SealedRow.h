@@ -1,12 +1,12 @@
-// SealedRow.h - what a row of a sealed session shows to readers without its key, and how the rest lies in it.
+// SealedRow.h - what a row of a sealed session shows to readers without the key, and how the row stores the rest.
 //
-// Shown: number, kind and order of rows, their time to the whole second (finer would tell response times), the name of
-// events that say how far the session went, devices, calibration, limit sets, interlock states, faults, stops, and
-// refusals with their numbers left out. All other names and all else in the bodies is sealed: what no rule names is.
+// Shown are: number, kind and order of rows; their time in whole seconds (a finer time would reveal response times);
+// names of events that tell the progress of a session; devices, calibration, limit sets, interlock states, faults,
+// stops; and refusals without their numbers. All other names and contents are sealed, also those that no rule mentions.
 // The stored body is
 //   {"sealed": "...", what is shown}
-// and what opens is {"t_ns": exact time, "name": "...", "body": {...}}. Rows "stream" and "end" have nothing to hide.
-// A chunk's stamps and values are sealed together, its head in the row; a capture's samples as well.
+// and the opened seal is {"t_ns": exact time, "name": "...", "body": {...}}. Rows "stream" and "end" are not sealed. A
+// chunk's stamps and values are sealed together, and its row holds its head; a capture's samples are sealed too.
 //
 // Thread-safety: pure functions.
 #pragma once
@@ -22,7 +22,7 @@
 
 namespace tacto {
 
-/// A row as it is stored, or as it was before.
+/// A row as stored, or as it was before sealing.
 struct OutsideRow {
     Instant at{0};
     std::string name;
@@ -32,30 +32,30 @@ struct InsideRow {
     Instant at{0};
     std::string name;
     nlohmann::json body;
-    bool sealed = false;  ///< still: there is no key, name and body are what is shown
+    bool sealed = false;  ///< still sealed, because there is no key: name and body hold only what is shown
 };
 
-/// `body` is JSON.
+/// `body` must be JSON.
 [[nodiscard]] OutsideRow sealedRow(const RowSeal& seal, std::int64_t seq, std::string_view kind, Instant at,
                                    std::string_view name, std::string_view body);
 
-/// `seal` may be null: the row says {"sealed": true} with what is shown, and its name is "sealed" where that is.
-/// Errors: ParseError for a row that the key does not open.
+/// `seal` may be null: a sealed row then has the body {"sealed": true} with what is shown, and the name "sealed" if its
+/// name is sealed. Errors: ParseError for a row that the key does not open.
 [[nodiscard]] Result<InsideRow> openedRow(const RowSeal* seal, std::int64_t seq, std::string_view kind, Instant at,
                                           std::string_view name, nlohmann::json body);
 
-/// The bytes of the chunk or capture of row `seq`.
+/// Seals or opens the bytes of the chunk or capture in row `seq`.
 [[nodiscard]] std::vector<std::byte> sealedBulk(const RowSeal& seal, std::int64_t seq, std::string_view kind,
                                                 std::span<const std::span<const std::byte>> parts);
 [[nodiscard]] Result<std::vector<std::byte>> openedBulk(const RowSeal& seal, std::int64_t seq, std::string_view kind,
                                                         std::span<const std::byte> sealed);
-/// Stamps and values of an opened chunk.
+/// Unpacks the stamps and values of an opened chunk.
 [[nodiscard]] Result<void> unpackOpenedChunk(const ChunkHead& head, std::size_t columns,
                                              std::span<const std::byte> opened, SampleBlock& into);
 
 /// Whether rows of this kind are sealed in a sealed session.
 [[nodiscard]] bool isSealedKind(std::string_view kind) noexcept;
-/// Cut to the whole second.
+/// Rounds down to the whole second.
 [[nodiscard]] Instant wholeSecond(Instant at) noexcept;
 
 }  // namespace tacto

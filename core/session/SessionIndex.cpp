@@ -22,11 +22,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kIndexVersion = 1;
-/// A file that was changed so shortly before it was read may change again within the same tick of its file system's
-/// clock: it is not kept.
+/// A file that changed less than this before it was read may change again within the same tick of its file system's
+/// clock: its summary is not kept.
 constexpr std::int64_t kTick_ns = 50'000'000;
 
-/// Size and time of change of a session and of its journal.
+/// Size and time of change of a session and its journal.
 struct Stamp {
     std::uintmax_t bytes = 0;
     std::string text;
@@ -56,7 +56,7 @@ bool hasSettled(const Stamp& stamp) {
     return std::chrono::nanoseconds(now).count() - stamp.newest_ns > kTick_ns;
 }
 
-/// Checksum of a row, so that one altered by accident is noticed.
+/// Returns the checksum of a row of the index, to notice accidental changes.
 std::string checkOf(std::string_view path, std::string_view stamp, std::string_view body) {
     return sha256Hex(fmt::format("{}\n{}\n{}", path, stamp, body));
 }
@@ -64,7 +64,7 @@ std::string checkOf(std::string_view path, std::string_view stamp, std::string_v
 Result<Database> openTable(const fs::path& file) {
     auto database = Database::open(file.string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
     if (!database) return failure(database);
-    // Nothing is lost with this setting.
+    // This is safe: the index is only a cache.
     if (auto set = database->execute("PRAGMA synchronous=OFF; PRAGMA journal_mode=MEMORY; PRAGMA busy_timeout=500;");
         !set)
         return failure(set);
@@ -79,7 +79,7 @@ Result<Database> openTable(const fs::path& file) {
     return database;
 }
 
-/// The index, rebuilt where it is damaged. Nothing where there can be none.
+/// Opens the index; rebuilds a damaged one. Returns nothing if there can be no index.
 std::optional<Database> openIndex(const fs::path& file) {
     std::error_code ignored;
     fs::create_directories(file.parent_path(), ignored);
@@ -97,7 +97,7 @@ struct KnownSummary {
 };
 using Known = std::unordered_map<std::string, KnownSummary>;
 
-/// Errors: ParseError for an index that is damaged further in.
+/// Errors: ParseError if a later part of the index is damaged.
 Result<Known> knownIn(const Database& database) {
     auto rows = database.prepare("SELECT path, stamp, body, checked FROM summaries");
     if (!rows) return failure(rows);
@@ -128,7 +128,7 @@ void keep(Database& database, const std::string& path, const Stamp& stamp, const
     insert->bind(2, std::string_view(stamp.text));
     insert->bind(3, std::string_view(body));
     insert->bind(4, std::string_view(checked));
-    static_cast<void>(insert->run());  // the row is read again next time
+    static_cast<void>(insert->run());  // after an error the session is read again next time
 }
 
 ListedSession fromFile(const fs::path& path, const Stamp& stamp) {
@@ -252,7 +252,7 @@ Result<SessionSummary> summaryFrom(std::string_view text) {
 }
 
 bool openElsewhere(const std::filesystem::path& session) {
-    // SQLite holds such a lock on a database with a journal of this kind for as long as it is open.
+    // SQLite holds such a lock as long as a database with a journal of this kind is open.
     return lockHolder(session, "POSIX", LockedBy::Another).has_value();
 }
 

@@ -27,7 +27,7 @@ constexpr LabelField kLabelFields[] = {{"operator", &SessionLabels::operatorName
                                        {"sample", &SessionLabels::sample, kLabelLimit},
                                        {"note", &SessionLabels::note, kSessionNoteLimit}};
 
-/// The differences, as the body of a row; empty where nothing differs.
+/// Returns the differences as the body of a row; empty if there are none.
 nlohmann::json changesFrom(const SessionLabels& before, const SessionLabels& now) {
     auto body = nlohmann::json::object();
     for (const auto& field : kLabelFields)
@@ -36,17 +36,17 @@ nlohmann::json changesFrom(const SessionLabels& before, const SessionLabels& now
     return body;
 }
 
-/// Holds a file against other programs that would change it. Nothing of the file is touched.
+/// Locks a file against other programs that would change it. Does not touch its content.
 class FileLock {
 public:
     explicit FileLock(const std::filesystem::path& path) : handle_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
     ~FileLock() {
-        if (handle_ >= 0) ::close(handle_);  // closing releases the lock, too
+        if (handle_ >= 0) ::close(handle_);  // closing also releases the lock
     }
     FileLock(const FileLock&) = delete;
     FileLock& operator=(const FileLock&) = delete;
 
-    /// False while another program holds it, or when `path` is another file by now.
+    /// Returns false if another program holds the lock, or if `path` now leads to another file.
     [[nodiscard]] bool take(const std::filesystem::path& path) const {
         struct stat held {};
         struct stat named {};
@@ -58,7 +58,7 @@ private:
     int handle_;
 };
 
-/// A copy beside the session that is removed unless it has taken the session's place.
+/// A copy next to the session, removed unless it has replaced the session.
 class Copy {
 public:
     explicit Copy(const std::filesystem::path& of) : path_(draftBeside(of)) {}
@@ -118,7 +118,7 @@ void applyLabels(const nlohmann::json& body, SessionLabels& labels) {
 Result<void> takesLabels(const std::filesystem::path& session, const SessionReader& reader) {
     const auto name = session.filename().string();
     const std::filesystem::path journal = session.string() + "-wal";
-    std::error_code error;  // a journal of a name that is too long does not exist
+    std::error_code error;  // set for a name that is too long; then no journal exists
     if (!reader.closed() || std::filesystem::exists(journal, error)) {
         return fail(ErrorCode::Unsupported,
                     "session {} has no end mark: it is being recorded, or was interrupted. It is kept as it is, "
@@ -152,7 +152,7 @@ Result<SessionLabels> saveLabels(const std::filesystem::path& session, const Ses
     if (auto checked = checkLabels(changed); !checked) return failure(checked);
     const auto name = session.filename().string();
     const FileLock lock(session);
-    const bool held = lock.take(session);  // held before reading: what another program kept so far is read, and stays
+    const bool held = lock.take(session);  // locked before reading: changes by other programs are read and kept
     const auto reader = SessionReader::open(session);
     if (!reader) return failure(reader);
     const auto before = reader->labels();

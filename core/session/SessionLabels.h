@@ -1,14 +1,14 @@
-// SessionLabels.h - what people say about a session, entered or changed after it ended: operator, sample, tags, a note.
+// SessionLabels.h - people's words about a session, entered or changed after it ended: operator, sample, tags, a note.
 //
-// A change is a row of its own behind the end mark, on the same hash chain, and the recording before it stays as it is:
-// its head, which the report prints, is the hash of the end mark. The row is added to a copy, which takes the file's
-// place when it is whole: whatever happens in between, the file is what it was before or has the change.
+// Each change is a row of its own behind the end mark, on the same hash chain. The recording and its head (the hash of
+// the end mark, which the report prints) do not change. The row is added to a copy of the file; the complete copy then
+// replaces the file, so that the file always has either the whole change or none of it.
 //
 //   {"wall": "2026-11-20T14:03:05Z", "operator": "...", "sample": "...", "note": "...", "tags": ["...", ...]}
 //
-// It holds only what the person changed: a field that another program changed meanwhile stays as that program left it.
+// The row holds only the fields that the person changed; a change by another program to another field is kept.
 //
-// Thread-safety: any thread, several programs: the second to change a session is refused while the first is at it.
+// Thread-safety: any thread and several programs: while one program changes a session, others are refused.
 #pragma once
 
 #include <filesystem>
@@ -20,30 +20,30 @@ namespace tacto {
 
 class SessionReader;
 
-inline constexpr std::size_t kLabelLimit = 200;  ///< characters of operator and sample
+inline constexpr std::size_t kLabelLimit = 200;  ///< characters of operator and of sample
 inline constexpr std::size_t kSessionNoteLimit = 1000;
 inline constexpr std::size_t kTagLimit = 40;
 inline constexpr std::size_t kMaxTags = 20;
 
-/// Errors: InvalidArgument naming what is too long, is not UTF-8 or holds a control character; a tag that is empty,
-/// holds a comma or stands twice; too many of them.
+/// Errors: InvalidArgument naming a text that is too long, is not UTF-8 or holds a control character; a tag that is
+/// empty, holds a comma or appears twice; too many tags.
 [[nodiscard]] Result<void> checkLabels(const SessionLabels& labels);
 
-/// Whether `session`, which `reader` reads, takes changes. Errors: Unsupported for a session without an end mark (it is
-/// being recorded, or was interrupted); Io for a read-only one.
+/// Checks that `session`, which `reader` reads, can be changed. Errors: Unsupported if it has no end mark (it is being
+/// recorded, or was interrupted); Io if it is read-only.
 [[nodiscard]] Result<void> takesLabels(const std::filesystem::path& session, const SessionReader& reader);
 
-/// Takes over into `onto` each field in which `edited` differs from `shown`. The list of tags is one field.
+/// Copies to `onto` each field in which `edited` differs from `shown`. The list of tags is one field.
 void takeEdit(const SessionLabels& shown, const SessionLabels& edited, SessionLabels& onto);
 
-/// Keeps in the session the fields that a person edited, who was shown `shown`; writes nothing where it has them
-/// already. Returns the labels that the session has then. Blocks while the file is copied. Errors: as checkLabels(),
-/// SessionReader and takesLabels(); Io when it is locked by another program or cannot be written. After an error the
-/// session is as it was.
+/// Saves in the session the fields that a person edited after seeing `shown`; writes nothing if the session has them
+/// already. Returns the labels of the session after the change. Blocks while the file is copied. Errors: as
+/// checkLabels(), SessionReader and takesLabels(); Io if another program has locked the session or it cannot be
+/// written. After an error the session is unchanged.
 [[nodiscard]] Result<SessionLabels> saveLabels(const std::filesystem::path& session, const SessionLabels& shown,
                                                const SessionLabels& edited);
 
-/// Takes over what the body of a row says: of an annotation, or of the report's notes.
+/// Copies the labels in the body of a row, which is an annotation or the report's notes, to `labels`.
 void applyLabels(const nlohmann::json& body, SessionLabels& labels);
 
 }  // namespace tacto

@@ -33,7 +33,7 @@ std::string hexOf(std::span<const std::byte> bytes) {
 struct SessionReader::State {
     State(SessionSource opened, std::shared_ptr<const RowSeal> key) : source(std::move(opened)), seal(std::move(key)) {}
     SessionSource source;
-    std::shared_ptr<const RowSeal> seal;  // null where there is none or it is not needed
+    std::shared_ptr<const RowSeal> seal;  // null if there is none or none is needed
     std::filesystem::path path;
     SessionAbout about;
     std::string head;
@@ -373,8 +373,8 @@ Result<std::string> SessionReader::reproducibleText() const {
         const auto row =
             state_->row(rows->integer(0), rows->text(1), Instant(rows->integer(2)), rows->text(3), rows->text(4));
         if (!row) return failure(row);
-        // A chunk's and a capture's row carries the CRC-32 of what was sealed; the digest is of the seal, which
-        // differs.
+        // The row of a chunk or capture contains the CRC-32 of the data before sealing; the digest covers the sealed
+        // data, which differ in each run.
         text +=
             fmt::format("{} {} {} {} {}\n", row->seq, rows->text(1), row->at.count(), row->name, dumpJson(row->body));
     }

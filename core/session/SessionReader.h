@@ -1,10 +1,10 @@
-// SessionReader.h - gives back what a session file holds. Never changes the file.
+// SessionReader.h - reads a session file. Never changes the file.
 //
-// A reader without the key of a sealed session (SealedRow.h) returns its rows, marked as sealed, with what they show;
-// what stays hidden entirely (samples, captures) is refused as Unsupported.
+// Without its key, the rows of a sealed session (SealedRow.h) are marked as sealed and hold only what they show;
+// reading data that is fully hidden (samples, captures) fails as Unsupported.
 //
-// A session that was cut off by a crash (a *-wal file beside it) is read with what was committed before the cut.
-// Reading does not judge: that is verifySession(), SessionVerify.h.
+// If a crash cut a session off (a *-wal file lies next to it), everything committed before the crash is read. The
+// reader does not judge the file; verifySession() does (SessionVerify.h).
 //
 // Thread-safety: one caller at a time.
 #pragma once
@@ -26,59 +26,59 @@ namespace tacto {
 
 class SessionReader {
 public:
-    /// Errors: NotFound; Unsupported for a file that is not a session or was made by a newer program; ParseError for
-    /// one that is damaged beyond opening, or that `seal` does not open; Io.
+    /// Errors: NotFound; Unsupported for a file that is not a session or comes from a newer program; ParseError for a
+    /// session that is too damaged to open, or that `seal` does not open; Io.
     [[nodiscard]] static Result<SessionReader> open(const std::filesystem::path& path,
                                                     std::shared_ptr<const RowSeal> seal = nullptr);
     SessionReader(SessionReader&&) noexcept;
     SessionReader& operator=(SessionReader&&) noexcept;
     ~SessionReader();
 
-    /// Whether its rows are sealed (SealedRow.h).
+    /// Whether the session's rows are sealed (SealedRow.h).
     [[nodiscard]] bool sealed() const noexcept;
-    /// True when its rows are sealed and no key was given: about() lacks parameters, seed and profile then.
+    /// Whether rows are sealed and no key was given; about() then lacks parameters, seed and profile.
     [[nodiscard]] bool locked() const noexcept;
     [[nodiscard]] const SessionAbout& about() const noexcept;
-    /// True when the session was closed in order; false after a crash, or while it is still being written.
+    /// True if the session was closed in order; false after a crash, or while the session is still being written.
     [[nodiscard]] bool closed() const noexcept;
-    /// The hash of the recording's last row, 64 hexadecimal digits. Annotations, which come after its end, leave it as
-    /// it is.
+    /// The hash of the recording's last row, 64 hexadecimal digits. Annotations, which follow the recording's end, do
+    /// not change this hash.
     [[nodiscard]] const std::string& chainHead() const noexcept;
-    /// The hash of row `seq`, as chainHead(). Errors: NotFound; Io.
+    /// The hash of row `seq`, in the form of chainHead(). Errors: NotFound; Io.
     [[nodiscard]] Result<std::string> hashOf(std::int64_t seq) const;
-    /// Follows the chain over all rows. What samples hold is for verifySession(). Errors: ParseError naming the row
+    /// Checks the hash chain of all rows, but not the samples (verifySession() does). Errors: ParseError naming the row
     /// that is missing or was altered; Io.
     [[nodiscard]] Result<void> checkChain() const;
-    /// When the recording's last row was written, which tells how long the session is.
+    /// When the recording's last row was written; this gives the session's duration.
     [[nodiscard]] Instant lastAt() const noexcept;
-    /// The labels as entered before it began, with later changes; the note reads "sealed" where they are. Errors: as
-    /// the lists.
+    /// The labels as entered before the session began, with later changes. A sealed note reads "sealed". Errors: as the
+    /// lists below.
     [[nodiscard]] Result<SessionLabels> labels() const;
 
-    // Each list is in the order written. Errors: ParseError naming the row; Io.
+    // Each list is in the order of writing. Errors: ParseError naming the row; Io.
     [[nodiscard]] Result<std::vector<SessionRow>> events() const;
     [[nodiscard]] Result<std::vector<SessionRow>> commands() const;
-    /// Calls it row by row: hours of trains take more memory than there should be.
+    /// Calls `visit` for each command in turn: a list of hours of trains would take too much memory.
     [[nodiscard]] Result<void> forEachCommand(const std::function<void(const SessionRow&)>& visit) const;
     [[nodiscard]] Result<std::vector<SessionRow>> measurements() const;
     [[nodiscard]] Result<std::vector<SessionRow>> log() const;
-    /// `body` of each row is the item as it was given.
+    /// The `body` of each row is the item that reportItem() was given.
     [[nodiscard]] Result<std::vector<SessionRow>> reportItems() const;
     [[nodiscard]] Result<std::vector<SessionTrial>> trials() const;
     [[nodiscard]] Result<std::vector<SessionVerdict>> verdicts() const;
 
     [[nodiscard]] Result<std::vector<SessionCaptureInfo>> captures() const;
-    /// Errors: NotFound; ParseError when the samples do not unpack.
+    /// Errors: NotFound; ParseError if the samples cannot be unpacked.
     [[nodiscard]] Result<Capture> capture(std::int64_t seq) const;
 
     [[nodiscard]] Result<std::vector<SessionStreamInfo>> streams() const;
-    /// All samples of a stream at once. Errors: NotFound; ParseError.
+    /// Returns all samples of a stream. Errors: NotFound; ParseError.
     [[nodiscard]] Result<SampleBlock> samples(int stream) const;
-    /// Chunk by chunk, for sessions larger than memory. `visit` returns false to end early.
+    /// Reads chunk by chunk, for sessions larger than memory. `visit` returns false to stop.
     [[nodiscard]] Result<void> forEachChunk(int stream, const std::function<bool(const SampleBlock&)>& visit) const;
 
-    /// Everything that the same seed must reproduce, a line per row, samples included as hexadecimal digests: wall
-    /// time, paths, versions, annotations and the chain itself left out. Two runs are the same when these texts are.
+    /// Returns all that the same seed must reproduce, one line per row, with samples as hexadecimal digests; without
+    /// wall time, paths, versions, annotations and the chain. Equal texts mean equal runs.
     [[nodiscard]] Result<std::string> reproducibleText() const;
 
 private:

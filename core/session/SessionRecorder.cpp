@@ -20,7 +20,7 @@ namespace tacto {
 
 namespace {
 
-/// How long the recorder sleeps when the ring is empty: the ring fills for at most 10 ms.
+/// How long the recorder sleeps if the ring is empty, so how long the ring fills at most before it is read.
 constexpr auto kPoll = std::chrono::milliseconds(10);
 constexpr auto kDrainTimeout = std::chrono::seconds(5);
 
@@ -33,7 +33,7 @@ struct Note {
     std::uint8_t textSize;
 };
 
-/// Stamps first, then the values, so that a record holds as many samples as fit.
+/// Stamps first, then values, so that a record holds as many samples as possible.
 struct Samples {
     std::array<double, SessionRecorder::kMaxColumns + 1> numbers;
     std::int32_t stream;
@@ -51,7 +51,7 @@ struct Record {
     };
 };
 
-/// The longest start of `text` that fits and does not end inside a UTF-8 character.
+/// Returns the longest start of `text` that fits and does not end inside a UTF-8 character.
 std::size_t fitting(std::string_view text) noexcept {
     if (text.size() <= SessionRecorder::kMaxText) return text.size();
     std::size_t size = SessionRecorder::kMaxText;
@@ -92,7 +92,7 @@ struct SessionRecorder::State {
 
     SessionWriter& writer;
     const bool inlineWrites;
-    std::unique_ptr<SpscRing<Record>> ring;  // there only with a thread of its own
+    std::unique_ptr<SpscRing<Record>> ring;  // only if the recorder has its own thread
     std::atomic<bool> broken{false};
     static constexpr std::chrono::nanoseconds::rep kIdle = -1;
     std::atomic<std::chrono::nanoseconds::rep> writingSince{kIdle};
@@ -100,19 +100,19 @@ struct SessionRecorder::State {
     [[nodiscard]] std::chrono::nanoseconds::rep sinceStart() const noexcept {
         return std::chrono::nanoseconds(std::chrono::steady_clock::now() - start).count();
     }
-    SampleBlock scratch;         // Writing side only, as the next two
-    std::uint64_t reported = 0;  // The part of ring->dropped() that the session has recorded
+    SampleBlock scratch;         // for the writing side only, like the next two
+    std::uint64_t reported = 0;  // how much of ring->dropped() the session has recorded
     Instant latest{0};
     std::atomic<bool> marksWait{false};
 
     mutable std::mutex mutex;
     std::condition_variable changed;
-    std::optional<Error> error;  // Guarded by mutex, as all below
+    std::optional<Error> error;  // guarded by mutex, like the members below
     std::vector<std::pair<Instant, std::string>> marks;
     std::uint64_t drainsWanted = 0;
     std::uint64_t drainsDone = 0;
     bool ending = false;
-    std::thread thread;  // not guarded: only constructor and destructor touch it
+    std::thread thread;  // not guarded: only the constructor and the destructor touch it
 
     void keep(const Error& cause) {
         const std::lock_guard lock(mutex);
@@ -153,7 +153,7 @@ struct SessionRecorder::State {
         }
     }
 
-    /// Writing side only; the mutex is not held while the disk is at work.
+    /// For the writing side only. The mutex is not held during the disk write.
     void writeMarks() {
         if (!marksWait.exchange(false, std::memory_order_acq_rel)) return;
         std::vector<std::pair<Instant, std::string>> waiting;
@@ -212,7 +212,7 @@ SessionRecorder::~SessionRecorder() {
 }
 
 void SessionRecorder::samples(int stream, std::size_t columns, const SampleBlock& block) noexcept {
-    if (state_->inlineWrites) {  // there is no need to cut it up
+    if (state_->inlineWrites) {  // no need to cut the block into records
         if (block.samples() > 0) state_->check(state_->writer.append(stream, block));
         return;
     }
@@ -235,7 +235,7 @@ void SessionRecorder::samples(int stream, std::size_t columns, const SampleBlock
         record.samples.count = static_cast<std::uint16_t>(count);
         record.samples.columns = static_cast<std::uint16_t>(columns);
         const double at = block.t_s[from];
-        record.at_ns = std::abs(at) < 1e9 ? toInstant(at).count() : 0;  // a garbage stamp has no instant
+        record.at_ns = std::abs(at) < 1e9 ? toInstant(at).count() : 0;  // an invalid stamp gets time 0
         std::memcpy(record.samples.numbers.data(), &block.t_s[from], count * sizeof(double));
         std::memcpy(record.samples.numbers.data() + count, &block.values[from * columns],
                     count * columns * sizeof(double));

@@ -27,7 +27,7 @@ std::string uriOf(const std::filesystem::path& path, const char* query) {
     return uri + "?" + query;
 }
 
-/// Whether the first page says "SQLite, made by Tactoscope", in a file that SQLite itself will not open.
+/// Whether the first page of a file that SQLite cannot open has the marks of SQLite and of Tactoscope.
 bool looksLikeSession(const std::filesystem::path& path) {
     std::array<char, 72> head{};
     const auto file = DatabaseFile::open(path);
@@ -37,8 +37,8 @@ bool looksLikeSession(const std::filesystem::path& path) {
     return std::string_view(head.data(), 15) == "SQLite format 3" && id == kApplicationId;
 }
 
-/// The traces of another program's writer when it moves rows from the journal into the file: the file, and the first
-/// bytes of a journal that begins again.
+/// What changes when another program's writer moves rows from the journal to the file: the file's time and size, and
+/// the first bytes of a journal that starts again.
 struct Written {
     std::filesystem::file_time_type at{};
     std::uintmax_t size = 0;
@@ -51,12 +51,12 @@ Written writtenNow(const std::filesystem::path& path) {
     Written now;
     now.at = std::filesystem::last_write_time(path, ignored);
     now.size = std::filesystem::file_size(path, ignored);
-    std::ifstream journal(beside(path, "-wal"), std::ios::binary);  // a journal is never locked
+    std::ifstream journal(beside(path, "-wal"), std::ios::binary);  // journals are never locked
     journal.read(now.journal.data(), now.journal.size());
     return now;
 }
 
-/// The file and its journal, of one moment.
+/// Copies the file and its journal as they were at one moment.
 Result<void> copyBoth(const std::filesystem::path& path, const std::filesystem::path& copy) {
     constexpr int kTries = 5;
     for (int i = 0; i < kTries; ++i) {
@@ -88,7 +88,7 @@ Result<SessionSource> SessionSource::openInPlace(const std::filesystem::path& pa
     auto database = Database::open(uriOf(path, mode), SQLITE_OPEN_READONLY | SQLITE_OPEN_URI);
     if (!database) return failure(database);
     if (auto set = database->execute("PRAGMA busy_timeout=2000"); !set) return failure(set);
-    // The first read: this is where a damaged file or a journal without access shows.
+    // The first read: it fails if the file is damaged or its journal cannot be opened.
     if (auto rows = database->number("SELECT count(*) FROM sqlite_schema"); !rows) return failure(rows);
     return SessionSource(std::move(*database));
 }

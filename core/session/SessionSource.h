@@ -4,8 +4,8 @@
 //   *-wal and *-shm           a running or killed writer: read only, with the journal's content
 //   *-wal alone, or no access a private copy of both, recovered and removed afterwards
 //
-// The file itself is opened with nothing but SQLite (Database.h), since a writer of this process may hold it. A
-// copy is of one moment: it is made again where another program wrote meanwhile.
+// Only SQLite opens the file itself (Database.h), since a writer of this process may hold it. A copy shows one moment:
+// if another program writes while it is made, it is made again.
 //
 // Thread-safety: one owner; several sources may be open on one file.
 #pragma once
@@ -20,18 +20,18 @@ namespace tacto {
 
 class SessionSource {
 public:
-    /// Errors: NotFound; Unsupported when it is not a session or was made by a newer program; ParseError when it is one
-    /// and is damaged; Io.
+    /// Errors: NotFound; Unsupported if the file is not a session or comes from a newer program; ParseError if it is a
+    /// damaged session; Io.
     [[nodiscard]] static Result<SessionSource> open(const std::filesystem::path& path);
 
     [[nodiscard]] const Database& database() const noexcept { return database_; }
-    /// True when rows lay in a journal: the writer was killed, or still runs.
+    /// True if rows were in a journal: the writer was killed, or is still running.
     [[nodiscard]] bool hadJournal() const noexcept { return hadJournal_; }
-    /// True when its rows are sealed (SealedRow.h).
+    /// Whether the session's rows are sealed (SealedRow.h).
     [[nodiscard]] bool sealed() const noexcept { return sealed_; }
 
 private:
-    /// A folder that goes with its last owner.
+    /// A folder that is removed with its last owner.
     struct PrivateFolder {
         explicit PrivateFolder(std::filesystem::path made);
         ~PrivateFolder();
@@ -43,7 +43,7 @@ private:
     [[nodiscard]] static Result<SessionSource> openCopy(const std::filesystem::path& path);
     [[nodiscard]] static Result<SessionSource> openInPlace(const std::filesystem::path& path, const char* mode);
 
-    std::shared_ptr<PrivateFolder> copy_;  // stands before database_, so that it is removed after that is closed
+    std::shared_ptr<PrivateFolder> copy_;  // declared before database_, so that it is removed after the database closes
     Database database_;
     bool hadJournal_ = false;
     bool sealed_ = false;

@@ -21,11 +21,11 @@ constexpr const char* kInsertCapture = "INSERT INTO captures(seq, data) VALUES(?
 
 std::span<const std::byte> bytesOf(const Digest& digest) noexcept { return std::as_bytes(std::span(digest)); }
 
-/// Gives `from` the name `to` unless that name is taken; content first, then the name, survive power loss.
+/// Gives `from` the name `to` if that name is free. The content becomes safe from power loss first, then the name.
 Result<void> publish(const std::filesystem::path& from, const std::filesystem::path& to) {
     if (auto kept = syncFile(from); !kept) return kept;
-    // link() refuses an existing name, which rename() would silently replace. File systems without hard links (FAT)
-    // answer EPERM or EOPNOTSUPP; there renameat2 does the same.
+    // link() refuses an existing name; rename() would silently replace the file. File systems without hard links (FAT)
+    // answer EPERM or EOPNOTSUPP; renameat2 then does the same.
     const bool linked = ::link(from.c_str(), to.c_str()) == 0;
     if (!linked) {
         const bool noLinks = errno == EPERM || errno == EOPNOTSUPP;
@@ -61,19 +61,20 @@ Result<SessionStore> SessionStore::create(const std::filesystem::path& path, Ins
     };
     for (const char* suffix : {"", "-wal"}) {
         const auto taken = withSuffix(path, suffix);
-        std::error_code error;  // set by a name that is too long, for one
+        std::error_code error;  // set, for example, by a name that is too long
         if (std::filesystem::exists(taken, error)) {
             return invalid("{} exists; a session is never overwritten", taken.string());
         }
         if (error) return because(Result<void>(fail(ErrorCode::Io, "{}", error.message())));
     }
-    // Made whole under another name first, so that a crash leaves either no session or a valid one.
+    // Made under another name first, so that a crash leaves either no session or a valid session.
     const auto draft = draftBeside(path);
     removeDraft(draft);
     auto made = [&]() -> Result<SessionStore> {
         auto database = Database::open(draft.string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
         if (!database) return failure(database);
         if (auto fast = database->execute("PRAGMA synchronous=OFF"); !fast) return failure(fast);  // synced as a whole
+                                                                                                   // later
         if (auto schema = createSchema(*database); !schema) return failure(schema);
         if (seal != nullptr) {
             auto set = database->execute(fmt::format("PRAGMA user_version={}", kSealedVersion));
@@ -84,7 +85,7 @@ Result<SessionStore> SessionStore::create(const std::filesystem::path& path, Ins
         store->seal_ = seal;
         if (auto row = store->add(kind::kAbout, at, "", about); !row) return failure(row);
         if (auto written = store->commit(); !written) return failure(written);
-        // Without this the rows would be in the draft's journal, which is not published.
+        // Otherwise the rows would stay in the draft's journal, which is not published.
         if (auto whole = store->database_->execute("PRAGMA wal_checkpoint(TRUNCATE)"); !whole) return failure(whole);
         if (auto closed = store->close(); !closed) return failure(closed);
         if (auto published = publish(draft, path); !published) return failure(published);
@@ -157,7 +158,7 @@ void SessionStore::recycle(std::vector<QueuedChunk>& chunks) {
 
 Result<void> SessionStore::open(Durability durability) {
     if (inTransaction_ && (durability == current_ || current_ == Durability::PowerLoss)) return {};
-    // A stronger demand ends the transaction; the next commit's sync covers the journal as a whole, this one included.
+    // Stronger durability ends the transaction; the next commit syncs the whole journal, with this transaction in it.
     if (inTransaction_) {
         if (auto done = database_->execute("COMMIT"); !done) return done;
         inTransaction_ = false;
@@ -201,7 +202,7 @@ Result<SessionStore::Row> SessionStore::put(std::string_view kind, Instant at, s
     }
     auto row = chain(kind, at, name, body, digest);
     if (auto written = write(row); !written) return failure(written);
-    row.name = row.body = {};  // they leave with `outside`
+    row.name = row.body = {};  // both point into `outside`, which ends here
     return row;
 }
 
@@ -236,7 +237,7 @@ Result<void> SessionStore::write(const QueuedChunk& chunk) {
         5, seal_ != nullptr ? std::span<const std::byte>(chunk.sealed) : std::as_bytes(std::span(chunk.block.values)));
     if (auto ran = insert.run(); !ran) return ran;
     auto row = chunk.row;
-    row.body = chunk.body;  // the string may have moved since it was sealed
+    row.body = chunk.body;  // the string may have moved since the row was sealed
     return write(row);
 }
 
@@ -340,7 +341,7 @@ Result<void> SessionStore::commitInBackground() {
 Result<void> SessionStore::close() {
     if (!database_) return {};
     auto done = commit();
-    // A checkpoint that fails (disk full) loses nothing: the rows stay in the journal, where readers find them.
+    // A failed checkpoint (disk full) loses nothing: the rows stay in the journal, and readers find them there.
     if (done) static_cast<void>(database_->execute("PRAGMA wal_checkpoint(TRUNCATE)"));
     statements_.reset();
     database_.reset();
@@ -352,7 +353,7 @@ void SessionStore::abandon() noexcept {
     static_cast<void>(settle());
     queued_.clear();
     statements_.reset();
-    database_.reset();  // closing rolls an open transaction back
+    database_.reset();  // closing the database rolls back an open transaction
 }
 
 }  // namespace tacto

@@ -1,5 +1,5 @@
-// SessionStore.h - the rows of a session being written: numbers them, hashes them, keeps transactions. What
-// SessionWriter is made of; it knows nothing of trials or captures.
+// SessionStore.h - writes the rows of a session: numbers and hashes them, and manages transactions. A part of
+// SessionWriter; it knows nothing of trials or captures.
 //
 // Thread-safety: none; SessionWriter holds its mutex around every call.
 #pragma once
@@ -27,40 +27,40 @@ public:
     /// Whether a commit must survive power loss, or only the end of the process.
     enum class Durability { PowerLoss, ProcessEnd };
 
-    /// Makes the file with `about` (JSON) as row 1. See SessionWriter::create().
+    /// Creates the file with `about` (JSON) as row 1. See SessionWriter::create().
     [[nodiscard]] static Result<SessionStore> create(const std::filesystem::path& path, Instant at,
                                                      std::string_view about,
                                                      std::shared_ptr<const RowSeal> seal = nullptr);
 
-    /// Opens a session that no writer holds, to add annotations after its last row. Errors: ParseError for one that is
-    /// damaged; Io.
+    /// Opens a session that no writer holds, to add annotations after its last row. Errors: ParseError for a damaged
+    /// session; Io.
     [[nodiscard]] static Result<SessionStore> annotate(const std::filesystem::path& path);
-    /// Opens a file that no writer holds, to add rows after its last one (Ledger.h). Errors: as annotate().
+    /// Opens a file that no writer holds, to add rows after its last row (Ledger.h). Errors: as annotate().
     [[nodiscard]] static Result<SessionStore> continued(const std::filesystem::path& path);
 
-    /// The durability that commit() promises for rows that were not added by addNow(). PowerLoss unless set.
+    /// Sets the durability of commit() for rows that addNow() did not add. The default is PowerLoss.
     void setBackground(Durability durability) noexcept { background_ = durability; }
 
-    /// Adds a row to the open transaction. The value is its seq.
+    /// Adds a row to the open transaction. Returns the row's seq.
     [[nodiscard]] Result<std::int64_t> add(std::string_view kind, Instant at, std::string_view name,
                                            std::string_view body);
-    /// Adds a row and commits it, with all before it, so that it survives power loss.
+    /// Adds a row and commits it with all rows before it, so that they survive power loss.
     [[nodiscard]] Result<std::int64_t> addNow(std::string_view kind, Instant at, std::string_view name,
                                               std::string_view body);
-    /// Hashes samples and queues them with their row; the next commit of either kind writes them. `block` is taken and
-    /// an empty one with room given back. `head` is complete but for line and crc.
+    /// Hashes samples and queues them with their row; the next commit of either kind writes them. `block` is moved from
+    /// and replaced by an empty block with reserved room. `head` must be complete except for line and crc.
     void queueChunk(Instant at, ChunkHead head, SampleBlock& block);
     [[nodiscard]] Result<std::int64_t> addCapture(Instant at, std::string_view body, const Digest& digest,
                                                   std::span<const std::byte> data);
     [[nodiscard]] Result<void> commit();
-    /// Writes the queued chunks and commits on another thread, while the caller hashes the next ones; what it meets is
-    /// reported by the next call here.
+    /// Writes the queued chunks and commits them on another thread, while the caller hashes the next chunks. The next
+    /// call here reports the errors of that thread.
     [[nodiscard]] Result<void> commitInBackground();
-    /// The result of a commit started before, if it has ended. Never waits.
+    /// Returns the result of an earlier background commit, if it has ended. Never waits.
     [[nodiscard]] Result<void> collect();
-    /// Commits, and moves everything from the journal into the file.
+    /// Commits, then moves all rows from the journal to the file.
     [[nodiscard]] Result<void> close();
-    /// Closes after an error: uncommitted rows are dropped. A later row without the failed one would be a hole.
+    /// Closes after an error and drops uncommitted rows: a later row without the failed row would leave a gap.
     void abandon() noexcept;
 
     [[nodiscard]] const Digest& head() const noexcept { return head_; }
@@ -72,7 +72,7 @@ private:
         Statement chunk;
         Statement capture;
     };
-    /// A row that has its place in the chain.
+    /// A row with its place in the chain.
     struct Row {
         std::int64_t seq = 0;
         Instant at{0};
@@ -86,8 +86,8 @@ private:
     struct QueuedChunk {
         ChunkHead head;
         SampleBlock block;
-        std::vector<std::byte> sealed;  // the block as it is sealed, where rows are sealed
-        std::string body;               // the text that row.body refers to
+        std::vector<std::byte> sealed;  // the sealed block, if rows are sealed
+        std::string body;               // the text that row.body points to
         Row row;
     };
 
@@ -97,32 +97,32 @@ private:
     /// Gives a row its number and hash.
     [[nodiscard]] Row chain(std::string_view kind, Instant at, std::string_view name, std::string_view body,
                             const std::optional<Digest>& digest);
-    /// Seals the row, where rows are sealed, and writes it.
+    /// Seals the row, if rows are sealed, and writes it.
     [[nodiscard]] Result<Row> put(std::string_view kind, Instant at, std::string_view name, std::string_view body,
                                   const std::optional<Digest>& digest = std::nullopt);
     [[nodiscard]] Result<void> write(const Row& row);
     [[nodiscard]] Result<void> write(const QueuedChunk& chunk);
     [[nodiscard]] Result<void> writeAll(const std::vector<QueuedChunk>& chunks);
-    /// Makes sure that a transaction of at least this durability is open and holds all that was queued.
+    /// Makes sure that a transaction of at least this durability is open and contains all queued chunks.
     [[nodiscard]] Result<void> begin(Durability durability);
-    /// Opens without a look at the queue.
+    /// Opens a transaction without writing the queue.
     [[nodiscard]] Result<void> open(Durability durability);
-    /// Waits for a commit started before, and returns how it went.
+    /// Waits for an earlier background commit and returns its result.
     [[nodiscard]] Result<void> settle();
     void recycle(std::vector<QueuedChunk>& chunks);
 
-    std::optional<Database> database_;      // nothing once it is closed
-    std::optional<Statements> statements_;  // stands after database_, so that it is destroyed before it
-    std::shared_ptr<const RowSeal> seal_;   // Null: rows are stored as they are
+    std::optional<Database> database_;      // empty once closed
+    std::optional<Statements> statements_;  // declared after database_, to be destroyed before it
+    std::shared_ptr<const RowSeal> seal_;   // null: rows are not sealed
     Digest head_{};
     std::int64_t seq_ = 0;
-    std::vector<QueuedChunk> queued_;   // in the chain, but not yet written
-    std::vector<QueuedChunk> written_;  // Being written by committing_
-    std::vector<SampleBlock> spare_;    // Empty, with room: keeps a steady state from allocating
+    std::vector<QueuedChunk> queued_;   // in the chain, not yet written
+    std::vector<QueuedChunk> written_;  // being written by committing_
+    std::vector<SampleBlock> spare_;    // empty blocks with room, so that steady recording does not allocate
     bool inTransaction_ = false;
     Durability background_ = Durability::PowerLoss;
-    Durability current_ = Durability::PowerLoss;  // SQLite's setting; it cannot change inside a transaction
-    std::unique_ptr<CommitThread> committing_;    // Made by the first background commit; destroyed first
+    Durability current_ = Durability::PowerLoss;  // SQLite's setting, which cannot change inside a transaction
+    std::unique_ptr<CommitThread> committing_;    // made by the first background commit; destroyed first
 };
 
 }  // namespace tacto

@@ -12,7 +12,7 @@ using nlohmann::json;
 
 constexpr AcceptedText kAnyText{.mayBeEmpty = true};
 constexpr std::size_t kAnyNumber = std::numeric_limits<std::size_t>::max();
-const RecordPlace kRow{.lenient = true};  // missing fields stay empty
+const RecordPlace kRow{.lenient = true};  // missing members stay empty
 
 ValueKind<Instant> instantKind() {
     return codedKind<Instant>(
@@ -91,7 +91,7 @@ json reproducible(const SessionAbout& about) {
     out.erase("protocol_from");  // a path
     for (auto& set : out["limit_sets"]) set.erase("from");
     for (auto& device : out["devices"]) {
-        device.erase("uri");  // a recording's is a path
+        device.erase("uri");  // a path if the device is a recording
         device.erase("firmware");
     }
     return out;
@@ -101,7 +101,7 @@ json toJson(const SessionStream& stream) { return streamFields().write(stream); 
 
 SessionStream streamFrom(const json& row) {
     SessionStream stream;
-    stream.rate_hz = std::numeric_limits<double>::quiet_NaN();  // a damaged row: not known, where 0 means none
+    stream.rate_hz = std::numeric_limits<double>::quiet_NaN();  // not known, for a damaged row; 0 would mean no rate
     static_cast<void>(streamFields().read(row, stream, kRow));
     return stream;
 }

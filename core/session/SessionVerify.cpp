@@ -17,10 +17,10 @@ namespace tacto {
 
 namespace {
 
-/// Enough to see what happened; a broken first row would otherwise give a sentence for every row after it.
+/// Enough to see what happened; one broken row could otherwise cause a problem in every row after it.
 constexpr std::size_t kMaxProblems = 40;
 
-/// No recording gets so far; beyond it, counting on would overflow.
+/// No recording has so many rows; counting beyond this could overflow.
 constexpr std::int64_t kLastSeq = std::int64_t{1} << 60;
 
 std::optional<Digest> digestFrom(std::span<const std::byte> bytes) {
@@ -38,7 +38,7 @@ struct StreamSeen {
     std::uint64_t nextSample = 0;
 };
 
-/// One pass over the rows, in the order they were written.
+/// Checks the rows in one pass, in the order of writing.
 class Inspection {
 public:
     Inspection(const Database& database, bool sealed, VerifyReport& report)
@@ -72,7 +72,7 @@ private:
         }
     }
 
-    /// An altered trigger or view is not a row, and still not what was recorded.
+    /// An altered trigger or view is no row, but makes the file different from what was recorded.
     [[nodiscard]] Result<void> checkSchema() {
         static constexpr const char* kObjects =
             "SELECT group_concat(type || ' ' || name || ' ' || tbl_name || ' ' || coalesce(sql, ''), char(10)) FROM "
@@ -129,7 +129,7 @@ private:
             const Digest hash = chainHash(previous, entry);
             if (stored != hash)
                 problem("row {} ({} {}) was altered: its hash is wrong", entry.seq, entry.kind, entry.name);
-            // Continue from what is stored, so that one altered row is one problem.
+            // Goes on from the stored hash, so that one altered row is reported as one problem.
             previous = stored.value_or(hash);
             const auto body = parseJson(entry.body, fmt::format("row {} ({})", entry.seq, entry.kind), kRowLimits);
             if (!body) problem("{}", body.error().message);
@@ -145,7 +145,7 @@ private:
             ++report_.rows;
             if (annotates) {
                 ++annotations_;
-                continue;  // the recording ended before
+                continue;  // not part of the recording, which ended before
             }
             head_ = previous;
             lastKind = entry.kind;
@@ -232,7 +232,7 @@ private:
         return {};
     }
 
-    /// Moves `row` to the samples of an entry. False, and a problem, where they are missing.
+    /// Moves `row` to the samples of an entry. If they are missing, adds a problem and returns false.
     [[nodiscard]] Result<bool> bulkOf(const Entry& entry, std::string_view name, Statement& row) {
         row.reset();
         row.bind(1, entry.seq);
@@ -241,7 +241,7 @@ private:
         return there;
     }
 
-    /// The number of samples that it holds is sealed, too.
+    /// The number of samples is sealed too.
     [[nodiscard]] Result<void> checkSealedChunk(const Entry& entry, const nlohmann::json& body, Statement& row) {
         const auto number = countOr(body, "stream");
         const auto index = static_cast<std::int64_t>(countOr(body, "index"));
@@ -280,7 +280,7 @@ private:
         return {};
     }
 
-    /// Bulk that no row speaks of: put there afterwards.
+    /// Finds samples without a row: somebody added them later.
     [[nodiscard]] Result<void> checkOrphans() {
         for (const char* table : {"chunk", "capture"}) {
             const auto count = database_.number(fmt::format(
@@ -295,7 +295,7 @@ private:
     const bool sealed_;
     VerifyReport& report_;
     std::vector<StreamSeen> streams_;
-    Digest head_{};  // head of the recording, without annotations
+    Digest head_{};  // hash of the recording's last row, without annotations
     int annotations_ = 0;
     std::uint64_t sealedRows_ = 0;
     SampleBlock scratch_;

@@ -1,9 +1,9 @@
-// SessionVerify.h - is this session file what was recorded? (hazard H8, `tactoscope-cli verify`)
+// SessionVerify.h - checks that a session file is what was recorded (hazard H8, `tactoscope-cli verify`).
 //
-// Looks at every page, row, checksum and hash. An altered row breaks the chain; a file whose chain was recomputed
-// is consistent in itself and is found by its head, which differs from the one printed in the report.
+// Checks every page, row, checksum and hash. An altered row breaks the hash chain. If someone recomputed the whole
+// chain, the file is consistent in itself, but its head differs from the head printed in the report.
 //
-// Thread-safety: pure function of the file, which it never changes.
+// Thread-safety: a pure function of the file, which stays unchanged.
 #pragma once
 
 #include <cstdint>
@@ -22,10 +22,10 @@ enum class SessionStatus { Intact, Damaged, NotASession };
 struct VerifyReport {
     SessionStatus status = SessionStatus::NotASession;
     bool closed = false;                ///< the session was ended in order
-    bool recovered = false;             ///< rows were taken from a journal that a crash left behind
+    bool recovered = false;             ///< some rows come from a journal that a crash left behind
     std::vector<std::string> notes;     ///< sentences: not closed, recovered from the journal, annotated
-    std::vector<std::string> problems;  ///< sentences; empty when intact
-    std::string head;  ///< hash of the recording's last row, 64 hexadecimal digits; empty when not a session
+    std::vector<std::string> problems;  ///< sentences; empty if the session is intact
+    std::string head;  ///< hash of the recording's last row, 64 hexadecimal digits; empty if not a session
     std::uint64_t rows = 0;
     std::uint64_t events = 0;
     std::uint64_t trials = 0;
@@ -35,7 +35,7 @@ struct VerifyReport {
     std::uint64_t samples = 0;
 };
 
-/// Errors: NotFound; Io when the file cannot be read. Anything readable gets a report.
+/// Every readable file gets a report. Errors: NotFound; Io if the file cannot be read.
 [[nodiscard]] Result<VerifyReport> verifySession(const std::filesystem::path& path);
 
 }  // namespace tacto

@@ -13,10 +13,10 @@ namespace tacto {
 
 namespace {
 
-/// Samples are promised once a second; the rest of the second is for the disk.
+/// Samples are promised on disk within a second; this leaves the rest of the second for the disk.
 constexpr Instant kCommitEvery = std::chrono::milliseconds(800);
 
-/// A chunk ends early at this many values (512 kB), so that a fast stream does not hold a second in memory.
+/// A chunk ends once it has this many values (512 kB), so that a fast stream does not fill memory for a second.
 constexpr std::size_t kChunkValues = 65'536;
 
 struct StreamBuffer {
@@ -38,7 +38,7 @@ struct SessionWriter::State {
     const std::filesystem::path path;
     const Clock& clock;
     mutable std::mutex mutex;
-    SessionStore store;  // Guarded by mutex, as all below
+    SessionStore store;  // guarded by mutex, like the members below
     std::vector<StreamBuffer> streams;
     int trials = 0;
     Instant lastCommit;
@@ -51,7 +51,7 @@ struct SessionWriter::State {
         return {};
     }
 
-    /// Passes a result of the store on; an error ends the recording for good.
+    /// Returns the store's result; an error ends the recording for good.
     template <class T>
     [[nodiscard]] Result<T> kept(Result<T> result) {
         if (!result) {
@@ -98,7 +98,7 @@ struct SessionWriter::State {
         return kept(store.commit());
     }
 
-    /// The end mark, once everything before it is written.
+    /// Writes all pending rows, then the end mark.
     [[nodiscard]] Result<void> end(std::string_view reason) {
         if (failed) return tl::unexpected<Error>(*failed);
         if (auto done = commit(); !done) return done;
@@ -206,7 +206,7 @@ Result<std::int64_t> SessionWriter::capture(Instant at, const Capture& capture, 
                            capture.channels.front().name, capture.samples());
         }
     }
-    // Compressed and hashed before the lock: it takes milliseconds and needs nothing of the session.
+    // Compressed and hashed before the lock, since this takes milliseconds and uses nothing of the session.
     const auto packed = packSamples(capture);
     const std::span<const std::byte> parts[] = {packed.data};
     const auto digest = bulkDigest(parts);

@@ -1,8 +1,8 @@
-// Gates.h - what must hold before a session of a study begins (pilot.md section 3), as far as the study itself can
-// tell: record, approval, participant, consent, exclusion. Study::beginSession() asks all of them; no call leaves one
-// out. The machine, the skin and the electrode are asked where they are known.
+// Gates.h - what must hold before a session of a study begins (pilot.md section 3) and that the study itself can check:
+// record, approval, participant, consent, exclusion. Study::beginSession() checks all gates; no call skips one.
+// Machine, skin and electrodes are checked elsewhere (core/pilot/PilotCare.h).
 //
-// A gate that does not hold is one sentence with the value and what would be accepted, under kGateRefused (exit 4).
+// A gate that does not hold returns one sentence, with the value and what would be accepted, as kGateRefused (exit 4).
 // NotFound means that the study, code or passphrase cannot be used (exit 3).
 //
 // Thread-safety: pure functions.
@@ -24,65 +24,66 @@ namespace tacto {
 
 inline constexpr ErrorCode kGateRefused = ErrorCode::Stopped;
 
-/// "2026-11-23 12:00 UTC".
+/// Returns text such as "2026-11-23 12:00 UTC".
 [[nodiscard]] std::string utcText(std::chrono::sys_seconds at);
 
-/// One question of the exclusion checklist. `key` is what `--set exclusions=KEY` and rows say.
+/// One question of the exclusion checklist. `key` is its name in `--set exclusions=KEY` and in rows.
 struct ExclusionItem {
     std::string_view key;
     std::string_view question;
 };
 [[nodiscard]] std::span<const ExclusionItem> exclusionItems() noexcept;
 
-/// A resumption with a ledger older than one that this computer knows (StudyBook::goBack()).
+/// The record that a study continued with a ledger older than the newest known (StudyBook::goBack()).
 struct StudyGoingBack {
     std::chrono::sys_seconds at{};
-    std::chrono::sys_seconds newestAt{};  ///< when the newest known row was written; 1970 where that is not known
-    std::int64_t lost = 0;                ///< rows; 0: how many is not known
-    std::vector<std::string> rows;        ///< the names of the rows, as far as they are known
-    std::vector<std::string> files;       ///< files of sessions that it does not know: given up
-    std::vector<std::string> unsealed;  ///< names of rows that were taken over and that the study's key had not written
+    std::chrono::sys_seconds newestAt{};  ///< when the newest known row was written; 1970 if not known
+    std::int64_t lost = 0;                ///< number of lost rows; 0: not known
+    std::vector<std::string> rows;        ///< names of the lost rows, as far as known
+    std::vector<std::string> files;       ///< session files that were given up, because this ledger does not know them
+    std::vector<std::string> unsealed;  ///< names of rows that were taken over though not written with the study's key
 };
 
-/// The sentence about it for reports and readers of an export.
+/// Returns the sentence about it in reports and exports.
 [[nodiscard]] std::string goingBackText(const StudyGoingBack& back);
 
-/// An answer that the participant gave today.
+/// A participant's answer of today to one item.
 struct ExclusionAnswer {
     std::string key;
     bool yes = false;
 };
-/// Answers that exclude nothing: every item with no.
+/// Returns the answer "no" to every item.
 [[nodiscard]] std::vector<ExclusionAnswer> nothingExcludes();
 
-/// Every item must be answered, and with no. The sentence never says which answer was yes: that is sealed.
+/// Every item must be answered "no". The error does not say which answer was "yes": answers are sealed.
 [[nodiscard]] Result<void> exclusionGate(std::span<const ExclusionAnswer> answers);
 
-/// The reference is there, `today` lies within the approval, and the settings and scripts are those approved.
+/// Checks that there is a reference, that `today` is within the approval, and that settings and scripts are as
+/// approved.
 [[nodiscard]] Result<void> approvalGate(const StudySettings& settings, CalibrationDate today);
-/// `script` is one of those approved.
+/// Checks that `script` is approved.
 [[nodiscard]] Result<void> scriptGate(const StudySettings& settings, const ScriptHash& script);
-/// A session's `procedure` must be the approved one. A rehearsal does not ask, nor does a study whose approval names no
+/// Checks that a session's `procedure` is as approved. Rehearsals pass, and so do studies whose approval names no
 /// procedure.
 [[nodiscard]] Result<void> procedureGate(const StudySettings& settings, const StudyProcedure& procedure);
-/// Whether they are active, and had fewer sessions than the approval allows.
+/// Checks that the participant is active and has had fewer sessions than the approval allows.
 [[nodiscard]] Result<void> participantGate(const StudySettings& settings, const Participant& participant);
-/// The last session lies far enough back; a rehearsal does not ask.
+/// Checks that the last session was long enough ago; rehearsals pass.
 [[nodiscard]] Result<void> gapGate(const StudySettings& settings, std::optional<std::chrono::sys_seconds> lastSession,
                                    std::chrono::sys_seconds now);
-/// A consent to the version in force, dated no later than today and no earlier than `since`, the first day on which the
-/// form's version was approved, with the initials of who took it.
+/// Checks for a consent to the current version of the form, with the initials of who took it, and dated from `since`
+/// (the first day of that version's approval) to today.
 [[nodiscard]] Result<void> consentGate(const StudySettings& settings, const Participant& participant,
                                        CalibrationDate since, CalibrationDate today);
-/// A ledger that went back may have lost a session from a moment ago: as long as two sessions lie apart none begins,
-/// nor on the same day. A rehearsal does not ask.
+/// After goBack() a recent session may be lost with the newer ledger: no session may begin on the same day, nor before
+/// the approved gap between two sessions has passed. Rehearsals pass.
 [[nodiscard]] Result<void> wentBackGate(const StudySettings& settings, std::span<const StudyGoingBack> all,
                                         std::chrono::sys_seconds now);
-/// The clock is not more than 5 min behind the last noted moment, which `of` names.
+/// Checks that the clock is at most 5 min behind the last recorded moment, which `of` names.
 [[nodiscard]] Result<void> clockGate(std::chrono::sys_seconds last, std::chrono::sys_seconds now,
                                      std::string_view of = "the ledger's last row");
-/// A virtual participant, and a rehearsal with electrodes, on simulated devices only; a person on a simulated one in a
-/// rehearsal only.
+/// A virtual participant, and a rehearsal with electrodes, need simulated devices; a person may use them only in a
+/// rehearsal.
 [[nodiscard]] Result<void> simulationGate(const StudySettings& settings, const Participant& participant,
                                           bool devicesSimulated);
 

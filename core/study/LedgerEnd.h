@@ -1,9 +1,9 @@
-// LedgerEnd.h - how far a study's ledger goes, as far as this computer knows: noted beside its keys, in the key file
-// and in each session. A ledger that was cut short, an older copy of it, or one whose chain was recomputed is whole in
-// itself and is found by this (hazards H8, H11).
+// LedgerEnd.h - the end of a study's ledger, as noted by this computer next to the study's keys, in the key file and in
+// each session. This reveals a ledger that was cut short or recomputed, or that is an older copy: such a ledger is
+// consistent in itself (hazards H8, H11).
 //
-// A note that lags behind (another computer's, or a key file put back from a copy) refuses nothing: the newest of all
-// counts. Someone who can write each of them can make them agree.
+// A note may be out of date (another computer's, or a key file restored from a copy) and then refuses nothing: the
+// newest note counts. Someone who can write all of the notes can make them agree.
 //
 // Thread-safety: one caller at a time, who holds the study's lock.
 #pragma once
@@ -21,23 +21,23 @@ namespace tacto {
 
 class SessionReader;
 
-/// A session's event that states where the ledger ended when the part was begun: {row, head}.
+/// The event of a session that records where the ledger ended when the part was begun: {row, head}.
 inline constexpr const char* kLedgerEvent = "ledger";
 
 struct LedgerEnd {
-    std::int64_t row = 0;           ///< number of the last one; 0: not known
-    std::string head;               ///< the newest row's hash, 64 hexadecimal digits
-    std::chrono::sys_seconds at{};  ///< when it was written; 1970 where that is not known
-    std::vector<std::string> rows;  ///< the name of each event up to it, in order; empty where they are not known
+    std::int64_t row = 0;           ///< number of the last row; 0: not known
+    std::string head;               ///< the last row's hash, 64 hexadecimal digits
+    std::chrono::sys_seconds at{};  ///< when the last row was written; 1970 if not known
+    std::vector<std::string> rows;  ///< names of all events up to the last row, in order; empty if not known
 };
 
-/// Takes the place of what `file` said; the file is its owner's alone. Where it cannot be written, what it said stays.
+/// Replaces the note in `file`, which only its owner may access. If it cannot be written, the old note stays.
 void noteLedgerEnd(const std::filesystem::path& file, const LedgerEnd& end);
-/// Nothing where no such file exists. Errors: kGateRefused for a file that does not say it.
+/// Returns nothing if there is no such file. Errors: kGateRefused for a file that does not hold a note.
 [[nodiscard]] Result<std::optional<LedgerEnd>> notedLedgerEnd(const std::filesystem::path& file);
-/// Where the ledger ended when a session's file began; nothing where the file does not say it.
+/// Returns where the ledger ended when a session's file began; nothing if the file does not say.
 [[nodiscard]] std::optional<LedgerEnd> ledgerEndOf(const std::filesystem::path& session);
-/// Whether the ledger has that row.
+/// Whether the ledger contains the row in `end`.
 [[nodiscard]] bool reaches(const SessionReader& ledger, const LedgerEnd& end);
 
 }  // namespace tacto

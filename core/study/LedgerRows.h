@@ -1,5 +1,5 @@
-// LedgerRows.h - what the ledger of a study says: its rows, written by their names in one place, and the state that
-// their replay gives. What a row says of a person is sealed under that person's key.
+// LedgerRows.h - the rows of a study's ledger and the state that results from replaying them. The names of rows are
+// defined only here. What a row says about a person is sealed under that person's key.
 //
 //   study, amendment      {settings, sha256, reference}      enrolled  {participant, sealed}
 //   consent               {participant, sealed}              left, withdrawn  {participant, sessions}; withdrawn:
@@ -12,8 +12,8 @@
 //                         not known; `unsealed` names rows that were taken over without a "mac"
 //   adverse-event, exported   {session, sealed under the study's key}
 //
-// Each row has a "mac" over itself and the hash of the row before it, under a subkey of the study's: it vouches for all
-// rows up to it. Older rows have none, and neither have rows that were appended without the key.
+// Each row has a "mac" over itself and the hash of the row before, made with a subkey of the study's key: it vouches
+// for all rows up to it. Older rows, and rows appended without the key, have none.
 //
 // Thread-safety: values.
 #pragma once
@@ -49,24 +49,26 @@ inline constexpr const char* kWentBack = "went-back";
 }  // namespace ledger
 
 struct LedgerState {
-    std::string settingsSha256;              ///< hash of study.json, as last written
+    std::string settingsSha256;              ///< hash of study.json as last written
     nlohmann::json settings;                 ///< study.json as JSON
-    std::vector<std::string> references;     ///< the approval's reference, and that of each amendment
-    int firstPlaces = 0;                     ///< participants that the first approval allowed
+    std::vector<std::string> references;     ///< the references of the approval and of each amendment
+    int firstPlaces = 0;                     ///< number of participants in the first approval
     std::vector<StudyAmendment> amendments;  ///< in order
     std::size_t adverseEventRows = 0;        ///< counted also without the key
     std::vector<Participant> participants;
-    std::map<std::string, std::string> promised;  ///< participant to the data_on_request that they consented to last
-    std::map<std::string, std::chrono::sys_seconds> excluded;         ///< participant to their last yes
+    std::map<std::string, std::string> promised;  ///< for each participant: data_on_request at their last consent
+    std::map<std::string, std::chrono::sys_seconds> excluded;         ///< for each participant: when they last answered
+                                                                      ///< "yes"
     std::vector<StudySession> sessions;                               ///< without `answered`
-    std::map<std::string, std::string> heads;                         ///< chain head of each file that has ended
-    std::vector<std::pair<std::string, AdverseEvent>> adverseEvents;  ///< known with the key only
-    std::map<std::string, NextDay> nextDays;           ///< session to what was said last; with the key only
-    std::vector<StudyExport> exports;                  ///< known with the key only
-    std::map<std::string, CalibrationDate> formSince;  ///< version of the consent form to the first day that it counts
+    std::map<std::string, std::string> heads;                         ///< for each ended file: its chain head
+    std::vector<std::pair<std::string, AdverseEvent>> adverseEvents;  ///< only with the key
+    std::map<std::string, NextDay> nextDays;           ///< for each session: its last record; only with the key
+    std::vector<StudyExport> exports;                  ///< only with the key
+    std::map<std::string, CalibrationDate> formSince;  ///< for each version of the consent form: the first day when it
+                                                       ///< is valid
     std::vector<StudyGoingBack> wentBack;              ///< in order
-    std::vector<std::string> rows;                     ///< the name of each, from row 2 on
-    std::int64_t vouched = 0;                          ///< the last row with a "mac"; 0: none, or without the key
+    std::vector<std::string> rows;                     ///< the name of each row, from row 2
+    std::int64_t vouched = 0;                          ///< number of the last row with a "mac"; 0: none, or no key
     std::chrono::sys_seconds last{};                   ///< when the newest row was written
     std::string head;
 
@@ -75,29 +77,29 @@ struct LedgerState {
     [[nodiscard]] const StudySession* sessionOfFile(std::string_view file) const noexcept;
 };
 
-/// A sealed part of a ledger's row.
+/// Seals or opens the sealed part of a row.
 [[nodiscard]] std::string sealedInLedger(const std::string& study, const Secret& key, std::int64_t seq,
                                          std::string_view name, const nlohmann::json& content);
 [[nodiscard]] Result<nlohmann::json> openedInLedger(const std::string& study, const Secret& key, std::int64_t seq,
                                                     std::string_view name, const nlohmann::json& body);
 
-/// The "mac" of a row with this body, behind a row of that hash.
+/// Returns the "mac" of a row with this body; `before` is the hash of the row before it.
 [[nodiscard]] std::string macInLedger(const std::string& study, const Secret& key, std::int64_t seq,
                                       std::chrono::sys_seconds at, std::string_view name, const nlohmann::json& body,
                                       std::string_view before);
 
-/// The sealed part of a participant's row in the ledger.
+/// Returns the sealed part of a participant's row.
 [[nodiscard]] nlohmann::json toJson(const Participant& participant);
 [[nodiscard]] nlohmann::json toJson(const Consent& consent);
 [[nodiscard]] nlohmann::json toJson(const AdverseEvent& event);
 
-/// Refuses values with which a row could not be read back. Errors: InvalidArgument naming the field, its value and what
+/// Refuses values that could not be read back from a row. Errors: InvalidArgument naming the field, its value and what
 /// is accepted.
 [[nodiscard]] Result<void> checkForLedger(const Participant& participant);
 [[nodiscard]] Result<void> checkForLedger(const Consent& consent);
 [[nodiscard]] Result<void> checkForLedger(const AdverseEvent& event);
 
-/// `keys` may be null. Errors: ParseError naming a row that does not fit the ones before it or does not open.
+/// `keys` may be null. Errors: ParseError naming a row that contradicts earlier rows or cannot be opened.
 [[nodiscard]] Result<LedgerState> replay(const SessionReader& ledger, const std::string& study, const StudyKeys* keys);
 
 }  // namespace tacto

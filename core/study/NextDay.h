@@ -1,5 +1,5 @@
-// NextDay.h - what a participant says and their skin shows on a day after a session (pilot.md section 4): side effects
-// from a closed list, redness and swelling. And that list, which is asked for before and after a session too.
+// NextDay.h - what a participant reports on a day after a session, and what their skin shows (pilot.md section 4): side
+// effects from a closed list, redness and swelling. The same list is used before and after a session.
 //
 // Thread-safety: values; pure functions.
 #pragma once
@@ -14,20 +14,20 @@
 
 namespace tacto {
 
-// The meaning of the scores of adverse events, side effects and skin: the words that windows, reports, exports and the
-// command line show. The ledger keeps the numbers.
+// The words for the scores of adverse events, side effects and skin, as windows, reports, exports and the command line
+// show them. The ledger keeps the numbers.
 //
-// Sources: severities of events are the grades 1 to 4 of CTCAE 5.0 (ISO 14155 has mild, moderate and severe);
-// severities of side effects, and all relations, follow Brunoni 2011; skin follows OECD 404 (pilot.md section 12).
+// Sources: severities of events are grades 1 to 4 of CTCAE 5.0 (ISO 14155 has mild, moderate and severe); severities of
+// side effects, and all relations, are from Brunoni 2011; skin scores from OECD 404 (pilot.md section 12).
 
 inline constexpr const char* kEventSeverities[] = {"mild", "moderate", "severe", "life-threatening"};  ///< from 1
 inline constexpr const char* kSideEffectSeverities[] = {"absent", "mild", "moderate", "severe"};       ///< from 1
-/// Relations to the stimulation, from 1.
+/// How an event relates to the stimulation, from 1.
 inline constexpr const char* kRelations[] = {"none", "remote", "possible", "probable", "definite"};
 /// Redness and swelling, from 0.
 inline constexpr const char* kSkinScores[] = {"none", "very slight", "well defined", "moderate", "severe"};
 
-/// "3 severe"; the number alone where it has no word.
+/// Returns text such as "3 severe", or the number alone if it has no word.
 [[nodiscard]] std::string scoreText(std::span<const char* const> words, int score, int from = 1);
 /// "1 mild, 2 moderate, 3 severe, 4 life-threatening".
 [[nodiscard]] std::string scaleText(std::span<const char* const> words, int from = 1);
