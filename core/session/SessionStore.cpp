@@ -73,8 +73,7 @@ Result<SessionStore> SessionStore::create(const std::filesystem::path& path, Ins
     auto made = [&]() -> Result<SessionStore> {
         auto database = Database::open(draft.string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
         if (!database) return failure(database);
-        if (auto fast = database->execute("PRAGMA synchronous=OFF"); !fast) return failure(fast);  // synced as a whole
-                                                                                                   // later
+        if (auto fast = database->execute("PRAGMA synchronous=OFF"); !fast) return failure(fast);  // synced at the end
         if (auto schema = createSchema(*database); !schema) return failure(schema);
         if (seal != nullptr) {
             auto set = database->execute(fmt::format("PRAGMA user_version={}", kSealedVersion));

@@ -21,7 +21,7 @@ constexpr ExclusionItem kExclusionItems[] = {
 
 constexpr auto kClockTolerance = std::chrono::minutes(5);
 
-/// A participant's name in a sentence: the code where it is known.
+/// A participant's name in a sentence: the code, if it is known.
 std::string shownName(const Participant& participant) {
     return participant.code.empty() ? fmt::format("participant {}", participant.id) : participant.code;
 }
@@ -177,7 +177,7 @@ Result<void> consentGate(const StudySettings& settings, const Participant& parti
 Result<void> wentBackGate(const StudySettings& settings, std::span<const StudyGoingBack> all,
                           std::chrono::sys_seconds now) {
     if (settings.kind == StudyKind::Rehearsal || all.empty()) return {};
-    // A clock that was set back when it went back hides no session; one that ran ahead before bars none for years.
+    // The later of two times: of going back, and of the newest known row, unless that lies in the future.
     const auto at = all.back().newestAt <= now ? std::max(all.back().at, all.back().newestAt) : all.back().at;
     const double hours = std::chrono::duration<double, std::ratio<3600>>(now - at).count();
     using std::chrono::days;

@@ -58,8 +58,7 @@ struct ExclusionAnswer {
 /// Every item must be answered "no". The error does not say which answer was "yes": answers are sealed.
 [[nodiscard]] Result<void> exclusionGate(std::span<const ExclusionAnswer> answers);
 
-/// Checks that there is a reference, that `today` is within the approval, and that settings and scripts are as
-/// approved.
+/// Checks that the approval has a reference and includes `today`, and that settings and scripts are as approved.
 [[nodiscard]] Result<void> approvalGate(const StudySettings& settings, CalibrationDate today);
 /// Checks that `script` is approved.
 [[nodiscard]] Result<void> scriptGate(const StudySettings& settings, const ScriptHash& script);

@@ -54,7 +54,7 @@ Result<std::optional<LedgerEnd>> notedLedgerEnd(const fs::path& file) {
 std::optional<LedgerEnd> ledgerEndOf(const fs::path& session) {
     const auto reader = SessionReader::open(session);
     const auto events = reader ? reader->events() : Result<std::vector<SessionRow>>(failure(reader));
-    if (!events) return std::nullopt;  // an unreadable file is found elsewhere
+    if (!events) return std::nullopt;  // other checks report an unreadable file
     for (const auto& row : *events)
         if (row.name == kLedgerEvent) return endIn(row.body);
     return std::nullopt;
@@ -67,7 +67,7 @@ bool reaches(const SessionReader& ledger, const LedgerEnd& end) {
 
 namespace {
 
-/// " (1 left, 3 session-begun)"; empty of none.
+/// Returns text such as " (1 left, 3 session-begun)"; empty if there are no names.
 std::string kindsText(const std::vector<std::string>& names) {
     std::map<std::string, int> kinds;
     for (const auto& name : names) ++kinds[name];
@@ -78,7 +78,7 @@ std::string kindsText(const std::vector<std::string>& names) {
 
 std::string countText(std::int64_t rows) { return fmt::format("{} row{}", rows, rows == 1 ? "" : "s"); }
 
-/// "4 rows (1 left, 3 session-begun)"; of none, where others are taken over, "nothing".
+/// Returns text such as "4 rows (1 left, 3 session-begun)"; "nothing" if no row is lost and others are taken over.
 std::string rowsText(std::int64_t lost, const std::vector<std::string>& names, bool takesOthers) {
     if (lost <= 0 && takesOthers) return "nothing";
     return (lost > 0 ? countText(lost) : "rows whose number is not known") + kindsText(names);

@@ -44,7 +44,7 @@ RecordFields<AdverseEvent> adverseEventFields() {
     return all;
 }
 
-/// "cap_ma", "approval.expires": settings that are others `now`. What every amendment changes is not among them.
+/// Returns keys such as "cap_ma" of the settings that changed, without those that every amendment changes.
 std::vector<std::string> changedKeys(const nlohmann::json& before, const nlohmann::json& now) {
     constexpr std::string_view kOwn[] = {"approval.reference", "approval.protocol_sha256"};
     std::vector<std::string> changed;
@@ -64,7 +64,7 @@ std::vector<std::string> changedKeys(const nlohmann::json& before, const nlohman
     return changed;
 }
 
-/// One pass over the ledger.
+/// Reads the ledger in one pass.
 class Replay {
 public:
     Replay(const std::string& study, const StudyKeys* keys) : study_(study), keys_(keys) {}
@@ -72,7 +72,7 @@ public:
     [[nodiscard]] Result<void> take(const SessionRow& row) {
         state.last = std::max(state.last, std::chrono::sys_seconds(wholeSeconds(row.at)));
         state.rows.push_back(row.name);
-        // Rows that count from their own time on count from `last`: a clock that was set back dates nothing back.
+        // Effects of a row start at `last`, not at the row's own time: setting the clock back dates nothing back.
         if (row.name == ledger::kStudy || row.name == ledger::kAmendment) {
             settings(row);
             return {};
@@ -104,7 +104,7 @@ public:
             if (session->state != StudySessionState::Unfinished) return unfit(row, "a session that has ended");
             if (!isId(textOr(row.body, "file"))) return unfit(row, "a file whose name is not 16 hexadecimal digits");
             session->parts.push_back({textOr(row.body, "file"), std::chrono::sys_seconds(wholeSeconds(row.at))});
-            // The part before it is as long as it will ever be: it is never written again.
+            // The part before is complete, since nothing is ever appended to it.
             auto head = textOr(row.body, "head");
             if (!head.empty()) state.heads[textOr(row.body, "after")] = std::move(head);
             return {};
@@ -120,12 +120,12 @@ private:
     static std::chrono::seconds wholeSeconds(Instant at) noexcept {
         return std::chrono::floor<std::chrono::seconds>(at);
     }
-    /// Whether it can name a file: hexadecimal digits, and no path.
+    /// Whether the text can name a file: only hexadecimal digits, so no path.
     static bool isId(std::string_view text) noexcept { return isHex(text, 16); }
     static tl::unexpected<Error> unfit(const SessionRow& row, std::string_view what) {
         return fail(ErrorCode::ParseError, "row {} ({}) of the ledger is about {}", row.seq, row.name, what);
     }
-    /// Nothing where there is no key for it.
+    /// Returns nothing if there is no key for the participant.
     [[nodiscard]] Result<std::optional<nlohmann::json>> opened(const SessionRow& row, const std::string& id) const {
         const auto* entry = keys_ != nullptr ? keys_->byId(id) : nullptr;
         if (entry == nullptr) return std::nullopt;
@@ -148,8 +148,8 @@ private:
         state.settings = std::move(now);
     }
 
-    /// A consent to a version of the form counts from the first day on which that version was in force: for the first
-    /// version the approval's day, for a later one the amendment's, or the approval's where that changed with it.
+    /// A consent to a version of the form is valid from the first day when that version was in force: for the first
+    /// version the approval's first day, for a later version the amendment's day, or the approval's if it changed too.
     void formInForce(const SessionRow& row, const nlohmann::json& now) {
         const auto fromOf = [](const nlohmann::json& settings) {
             return textOr(valueOr(settings, "approval"), "from");
@@ -213,7 +213,7 @@ private:
         return {};
     }
 
-    /// What the key may still open, until it is destroyed, is no longer shown.
+    /// Deletes what the key could still open, even before the key is destroyed.
     void withdrawn(Participant& participant, bool isVirtual) {
         Participant left;
         left.virtualGone = isVirtual;
@@ -244,7 +244,7 @@ private:
         session.code = participant.code;
         session.number = ++participant.sessions;
         session.protocol = textOr(row.body, "protocol");
-        // A row of before it was noted: people took part in studies, and virtual participants in rehearsals.
+        // Older rows do not record the basis: then people took part in studies, and virtual participants in rehearsals.
         const bool rehearsal = textOr(state.settings, "kind") == nameOf(StudyKind::Rehearsal);
         const auto usual = participant.isVirtual() || rehearsal ? SessionBasis::Virtual : SessionBasis::Person;
         session.basis = valueFor(kSessionBases, textOr(row.body, "basis")).value_or(usual);
@@ -330,7 +330,7 @@ Result<nlohmann::json> openedInLedger(const std::string& study, const Secret& ke
 
 std::string macInLedger(const std::string& study, const Secret& key, std::int64_t seq, std::chrono::sys_seconds at,
                         std::string_view name, const nlohmann::json& body, std::string_view before) {
-    constexpr std::uint64_t kMacs = 2;  // which of the key's subkeys; number 1 is for labels
+    constexpr std::uint64_t kMacs = 2;  // number of the subkey; number 1 is for labels
     return macText(subkey(key, kMacs), fmt::format("{}\n{}\n{}\n{}\n{}\n{}", study, seq, at.time_since_epoch().count(),
                                                    name, before, dumpJson(body)));
 }

@@ -57,15 +57,13 @@ struct LedgerState {
     std::size_t adverseEventRows = 0;        ///< counted also without the key
     std::vector<Participant> participants;
     std::map<std::string, std::string> promised;  ///< for each participant: data_on_request at their last consent
-    std::map<std::string, std::chrono::sys_seconds> excluded;         ///< for each participant: when they last answered
-                                                                      ///< "yes"
+    std::map<std::string, std::chrono::sys_seconds> excluded;         ///< for each participant: their last "yes"
     std::vector<StudySession> sessions;                               ///< without `answered`
     std::map<std::string, std::string> heads;                         ///< for each ended file: its chain head
     std::vector<std::pair<std::string, AdverseEvent>> adverseEvents;  ///< only with the key
     std::map<std::string, NextDay> nextDays;           ///< for each session: its last record; only with the key
     std::vector<StudyExport> exports;                  ///< only with the key
-    std::map<std::string, CalibrationDate> formSince;  ///< for each version of the consent form: the first day when it
-                                                       ///< is valid
+    std::map<std::string, CalibrationDate> formSince;  ///< for each version of the consent form: its first valid day
     std::vector<StudyGoingBack> wentBack;              ///< in order
     std::vector<std::string> rows;                     ///< the name of each row, from row 2
     std::int64_t vouched = 0;                          ///< number of the last row with a "mac"; 0: none, or no key

@@ -29,10 +29,10 @@ inline constexpr const char* kSkinScores[] = {"none", "very slight", "well defin
 
 /// Returns text such as "3 severe", or the number alone if it has no word.
 [[nodiscard]] std::string scoreText(std::span<const char* const> words, int score, int from = 1);
-/// "1 mild, 2 moderate, 3 severe, 4 life-threatening".
+/// Returns text such as "1 mild, 2 moderate, 3 severe, 4 life-threatening".
 [[nodiscard]] std::string scaleText(std::span<const char* const> words, int from = 1);
-/// How severe an event is for skin with a score of kSkinIsAdverse or more: the worst that it may be, until the
-/// investigator judges it. No skin score is life-threatening.
+/// Returns the severity of the adverse event for a skin score of kSkinIsAdverse or more: the worst that is possible,
+/// until the investigator judges it. No skin score is life-threatening.
 [[nodiscard]] int severityOfSkin(int score) noexcept;
 
 struct SideEffectName {
@@ -52,7 +52,7 @@ inline constexpr SideEffectName kSideEffects[] = {{"tingling", "Tingling"},
                                                   {"concentration", "Poor attention"},
                                                   {"mood", "Changed mood"}};
 
-/// Redness or swelling from which the skin is an adverse event.
+/// The lowest score of redness or swelling that is an adverse event.
 inline constexpr int kSkinIsAdverse = 2;
 
 struct SideEffect {
@@ -72,7 +72,7 @@ struct NextDay {
 
 /// Errors: InvalidArgument naming the field, its value and what is accepted; also for an item that is given twice.
 [[nodiscard]] Result<void> checkNextDay(const NextDay& said);
-/// "redness:2:4": item, severity, relation. Errors: InvalidArgument naming the text and what is expected.
+/// Parses "redness:2:4" (item, severity, relation). Errors: InvalidArgument naming the text and what is expected.
 [[nodiscard]] Result<SideEffect> sideEffectFrom(std::string_view text);
 
 [[nodiscard]] nlohmann::json toJson(const NextDay& said);

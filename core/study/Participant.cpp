@@ -14,7 +14,7 @@ namespace tacto {
 namespace {
 
 constexpr std::string_view kCodeAlphabet = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZ";
-/// Leaves out characters that are mistaken for one another when written by hand.
+/// Leaves out characters that look alike when written by hand.
 constexpr std::string_view kDrawn = "23456789ABCDEFGHJKLMNPQRSTUVWXYZ";
 constexpr std::size_t kShortestCode = 3;
 constexpr std::size_t kLongestCode = 16;
@@ -25,7 +25,7 @@ bool isAge(std::string_view text) {
     return years && *years >= 1 && *years <= kOldest && text == fmt::format("{:.0f}", *years);
 }
 
-/// Empty, or one of `words`.
+/// The text must be empty or one of `words`.
 Result<void> oneOf(std::string_view what, std::string_view given, std::span<const std::string_view> words) {
     if (given.empty() || std::ranges::find(words, given) != words.end()) return {};
     return invalid("{} is \"{}\"; one of {} is accepted, or nothing", what, given.substr(0, 40),
@@ -37,7 +37,7 @@ Result<void> oneOf(std::string_view what, std::string_view given, std::span<cons
 std::string virtualName(std::uint64_t seed) { return fmt::format("{}{}", kVirtualPrefix, seed); }
 
 std::optional<char> checkCharacter(std::string_view lettersAndDigits) noexcept {
-    // ISO 7064, MOD 37,36: hybrid system with modulus 36.
+    // ISO 7064, MOD 37,36: a hybrid system with modulus 36.
     unsigned p = 36;
     for (const char c : lettersAndDigits) {
         const auto value = kCodeAlphabet.find(c);

@@ -1,7 +1,7 @@
-// Participant.h - one person of a study, or one virtual participant. Never a name, a birth date or a hospital number.
+// Participant.h - one person of a study, or one virtual participant. Never holds a name, birth date or hospital number.
 //
-// A code ends in a check character (ISO 7064 mod 37,36 over its letters and digits), so that a mistyped code is not
-// another participant's.
+// A code ends in a check character (ISO 7064 mod 37,36 over its letters and digits), so that a mistyped code does not
+// match another participant's.
 //
 // Thread-safety: values; newCode() draws from the system's random numbers.
 #pragma once
@@ -30,52 +30,52 @@ inline constexpr Word<ParticipantState> kParticipantStates[] = {
 struct Consent {
     std::string version;
     CalibrationDate date{};
-    std::string by;  ///< initials of who took it
+    std::string by;  ///< initials of the person who took the consent
     bool operator==(const Consent&) const = default;
 };
 
-/// The words of BIDS.
+/// The words that BIDS uses.
 inline constexpr std::string_view kSexes[] = {"female", "male", "other"};
 inline constexpr std::string_view kHandednesses[] = {"right", "left", "ambidextrous"};
 
 struct Participant {
-    std::string id;    ///< 16 random hexadecimal digits; stands in the ledger
-    std::string code;  ///< "P-7K3D"; empty without the study's key, and once withdrawn
+    std::string id;    ///< 16 random hexadecimal digits; appears in the ledger
+    std::string code;  ///< such as "P-7K3D"; empty without the study's key, or after withdrawal
     ParticipantGroup group = ParticipantGroup::Intact;
-    std::optional<std::uint64_t> virtualSeed;  ///< a virtual participant's
-    std::string age, sex, handedness;          ///< only where the approval asks for them, in whole years; else empty
+    std::optional<std::uint64_t> virtualSeed;  ///< only for a virtual participant
+    std::string age, sex, handedness;          ///< empty unless the approval asks for them; age in whole years
     std::vector<Consent> consents;
     ParticipantState state = ParticipantState::Active;
-    int sessions = 0;          ///< begun
-    int enrolled = 0;          ///< 1, 2, ... in the order of enrolment: what an order of encodings goes by
-    bool virtualGone = false;  ///< a virtual participant's who withdrew: the seed is gone
-    bool readable = true;      ///< false: all but id, state, sessions and enrolled is sealed and there is no key
+    int sessions = 0;          ///< number of sessions begun
+    int enrolled = 0;          ///< place in the order of enrolment, from 1; decides the order of encodings
+    bool virtualGone = false;  ///< a virtual participant who withdrew; the seed was deleted
+    bool readable = true;      ///< false: without the key, only id, state, sessions and enrolled are known
     bool operator==(const Participant&) const = default;
     [[nodiscard]] bool isVirtual() const noexcept { return virtualSeed.has_value() || virtualGone; }
 };
 
-/// The beginning of a virtual participant's name before there is a code: "virtual:SEED".
+/// A virtual participant's name is "virtual:SEED" until there is a code; this is its beginning.
 inline constexpr std::string_view kVirtualPrefix = "virtual:";
 [[nodiscard]] std::string virtualName(std::uint64_t seed);
 
-/// Age, sex and handedness may each be left out. Errors: InvalidArgument for an age that is not a whole number from 1
-/// to 120 and for other words than kSexes and kHandednesses.
+/// Age, sex and handedness may each be empty. Errors: InvalidArgument for an age that is not a whole number from 1 to
+/// 120, and for words other than kSexes and kHandednesses.
 [[nodiscard]] Result<void> checkAbout(const Participant& participant);
 
-/// The code in its stored form: upper case, with its hyphens.
-/// Errors: NotFound for a text that is not a code or whose check character is wrong, naming what is accepted.
+/// Returns the code in its stored form, in upper case and with hyphens.
+/// Errors: NotFound, naming what is accepted, for a text that is not a code or has a wrong check character.
 [[nodiscard]] Result<std::string> checkedCode(std::string_view text);
-/// A new code, "P-" and four characters, the last of which checks.
+/// Draws a new code: "P-" and four characters, of which the last is the check character.
 [[nodiscard]] std::string newCode();
-/// The check character of letters and digits (upper case). Nothing for another character.
+/// Returns the check character of letters and digits (upper case), or nothing if there is any other character.
 [[nodiscard]] std::optional<char> checkCharacter(std::string_view lettersAndDigits) noexcept;
 
-// The people and devices on which the figures of a session rest. It is noted when the session begins, and every count,
-// figure, name and sentence made of the session says it; figures of one kind are never counted with another's.
+// Whether the figures of a session come from people and real devices. This is recorded when the session begins, and
+// every count, figure, name and sentence about the session states it; different kinds are never counted together.
 
 enum class SessionBasis {
-    Person,           ///< a person answered what real devices gave
-    PersonSimulated,  ///< a person answered, as in a rehearsal; the devices were simulated, and nothing was felt
+    Person,           ///< a person on real devices
+    PersonSimulated,  ///< a person on simulated devices, as in a rehearsal; nothing was felt
     Virtual,          ///< a virtual participant on simulated devices
 };
 inline constexpr Word<SessionBasis> kSessionBases[] = {{"person", SessionBasis::Person},
@@ -87,14 +87,14 @@ inline constexpr Word<SessionBasis> kSessionBases[] = {{"person", SessionBasis::
 
 [[nodiscard]] constexpr bool isSimulatedBasis(SessionBasis basis) noexcept { return basis != SessionBasis::Person; }
 
-/// "P-7K3D", "P-7K3D (simulated devices)", "P-7K3D (virtual)".
+/// Returns text such as "P-7K3D", "P-7K3D (simulated devices)" or "P-7K3D (virtual)".
 [[nodiscard]] std::string namedWith(SessionBasis basis, std::string_view name);
-/// "people", "people on simulated devices", "virtual participants"; of one "person", ...
+/// Returns "people", "people on simulated devices" or "virtual participants"; the singular if `n` is 1.
 [[nodiscard]] std::string_view peopleOf(SessionBasis basis, std::size_t n = 2) noexcept;
-/// "3 people and 12 virtual participants"; "0 people" where there are none.
+/// Returns text such as "3 people and 12 virtual participants", or "0 people" if all counts are 0.
 [[nodiscard]] std::string countsText(const std::map<SessionBasis, std::size_t>& counts);
 
-/// The basis of a pilot protocol's results: their member `participant` tells it.
+/// Returns the basis of a pilot protocol's results, from their member `participant`.
 [[nodiscard]] SessionBasis basisIn(const nlohmann::json& results);
 
 }  // namespace tacto

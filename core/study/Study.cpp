@@ -33,7 +33,7 @@ std::string lettersAndDigits(std::string code) {
 }
 
 fs::path withoutEnd(const fs::path& folder) {
-    return folder.has_filename() ? folder : folder.parent_path();  // "study/" is "study"
+    return folder.has_filename() ? folder : folder.parent_path();  // "study/" means "study"
 }
 
 }  // namespace
@@ -140,7 +140,7 @@ Result<Participant> Study::enrol(Participant participant) {
         return fail(ErrorCode::Unsupported, "{} is enrolled already; another seed is expected",
                     virtualName(*participant.virtualSeed));
     }
-    const auto taken = [&](const std::string& code) {  // compared with and without its hyphens
+    const auto taken = [&](const std::string& code) {  // codes are compared with and without their hyphens
         return std::ranges::any_of(state_->known.participants, [&](const Participant& each) {
             return lettersAndDigits(each.code) == lettersAndDigits(code);
         });
@@ -158,7 +158,7 @@ Result<Participant> Study::enrol(Participant participant) {
     if (auto sound = checkAbout(participant); !sound) return failure(sound);
     if (auto fits = checkForLedger(participant); !fits) return failure(fits);
     participant.id = randomHex(kIdDigits);
-    // The key comes first: a row whose key was lost would never open.
+    // The key is saved first: without its key a row could never be opened.
     if (auto added = state_->keys->add(participant.id, participant.code); !added) return failure(added);
     const auto number = static_cast<int>(state_->known.participants.size()) + 1;
     auto noted = state_->appendOf(participant, ledger::kEnrolled, {{"number", number}}, toJson(participant));
@@ -204,7 +204,7 @@ Result<void> Study::withdraw(std::string_view code) {
     if (auto may = state_->changeable(); !may) return may;
     const auto participant = state_->find(code);
     if (!participant) return failure(participant);
-    // The form on which they consented holds, whatever was amended since.
+    // The form to which they consented applies, whatever was amended since.
     const auto promised = state_->known.promised.find(participant->id);
     const bool mayDestroy =
         promised != state_->known.promised.end() && promised->second == nameOf(DataOnRequest::Destroy);
@@ -215,7 +215,7 @@ Result<void> Study::withdraw(std::string_view code) {
             "part",
             participant->code);
     }
-    // The note first: a key that is gone without it would look like damage. open() finishes what a crash leaves.
+    // The row comes first: a missing key without a row would look like damage. After a crash, open() does the rest.
     auto noted = state_->append(
         ledger::kWithdrawn,
         {{"participant", participant->id}, {"sessions", participant->sessions}, {"virtual", participant->isVirtual()}});

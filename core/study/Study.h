@@ -8,8 +8,7 @@
 // (which is an older copy, or was cut short or recomputed; LedgerEnd.h), no change but goBack() is accepted.
 //
 // Errors of all calls: NotFound (code), kGateRefused (a gate, Gates.h), Unsupported (the study is from a newer
-// Tactoscope, or was opened without its key or for reading), ParseError (damaged), Io. Each error is one sentence and
-// changes nothing.
+// Tactoscope, or open without key or for reading), ParseError (damaged), Io. Each is one sentence and changes nothing.
 //
 // Thread-safety: one caller at a time.
 #pragma once
@@ -83,8 +82,7 @@ struct LedgerLoss {
 
     /// Returns the number of lost rows; 0 if it is not known.
     [[nodiscard]] std::int64_t lost() const noexcept;
-    /// Returns the word that confirms goBack(): "lose-4-rows", or "take-2-rows" if no row is lost and rows are taken
-    /// over.
+    /// Returns the word to confirm goBack(): "lose-4-rows", or "take-2-rows" if none is lost and rows are taken over.
     [[nodiscard]] std::string word() const;
     /// Returns the loss in words, for people.
     [[nodiscard]] std::string sentence() const;
@@ -147,7 +145,7 @@ public:
 
     /// Returns $XDG_DATA_HOME/tactoscope/keys or ~/.local/share/tactoscope/keys.
     [[nodiscard]] static std::filesystem::path defaultKeyFolder();
-    /// Whether `folder` holds a study.
+    /// Whether `folder` contains a study.
     [[nodiscard]] static bool isThere(const std::filesystem::path& folder);
 
     /// Creates the study's folder and key file; sets `settings.id` and the approval's protocolSha256. If the passphrase
@@ -209,11 +207,11 @@ public:
     [[nodiscard]] Result<void> consent(std::string_view code, const Consent& consent);
     /// The participant stops taking part; their data are kept.
     [[nodiscard]] Result<void> leave(std::string_view code);
-    /// Destroys the participant's key: nothing of theirs opens any more. Errors: kGateRefused where the study keeps
-    /// data (data_on_request), and did when they consented last.
+    /// Destroys the participant's key: nobody can open their data any more. Errors: kGateRefused if the study keeps
+    /// data (data_on_request), and did so when they last consented.
     [[nodiscard]] Result<void> withdraw(std::string_view code);
-    /// Changes settings under a committee's amendment. Errors: InvalidArgument without a reference of its own, for one
-    /// that an earlier amendment had, and for fewer participants than are enrolled.
+    /// Changes settings under a committee's amendment. Errors: InvalidArgument for a missing reference or the reference
+    /// of an earlier amendment, and for fewer participants than are enrolled.
     [[nodiscard]] Result<void> amend(StudySettings settings, std::string_view reference);
     /// The amendments in their order; available also without the key.
     [[nodiscard]] const std::vector<StudyAmendment>& amendments() const noexcept;
@@ -241,10 +239,9 @@ public:
     /// Books the end of a session with the chain head of its last file. After Complete or Stopped it never continues.
     [[nodiscard]] Result<void> endSession(std::string_view id, StudySessionState state, std::string_view chainHead);
     /// Ends a session that was just begun but whose bench could not be opened: it does not count for the participant's
-    /// number of sessions or for the gap. Refused if a session's file is merely missing.
+    /// number of sessions or for the gap. Not for a session whose file is merely missing.
     [[nodiscard]] Result<void> cancelSession(std::string_view id);
-    /// Returns the seal for a part's file. Errors: NotFound for an unknown part; Unsupported after withdrawal or
-    /// without key.
+    /// Returns the seal of a part's file. Errors: NotFound for an unknown part; Unsupported if withdrawn or keyless.
     [[nodiscard]] Result<std::shared_ptr<const RowSeal>> sealOf(std::string_view file) const;
     [[nodiscard]] std::filesystem::path pathOf(std::string_view file) const;
     /// Opens the record of a session's part, for resuming, results and exports. Returns nothing if the part's file was

@@ -20,21 +20,21 @@ constexpr const char* kWayBack =
     "nothing is written to it. Put the newest back from your copy; where it is lost for good, tactoscope-cli study "
     "go-back says what that gives up";
 
-/// The newest that is known, and what is wrong with the ledger where it is not that one.
+/// The newest known end of the ledger, and what is wrong with a ledger that is not the newest.
 struct Newest {
     LedgerEnd end;
-    std::string missing;                ///< a sentence; empty where nothing is
-    std::vector<std::string> unsealed;  ///< names of the rows at its end that were not written with the key
+    std::string missing;                ///< one sentence; empty if nothing is wrong
+    std::vector<std::string> unsealed;  ///< names of the last rows, if the key did not write them
 };
 
-/// Rows after the last for which the study's key vouches, in the ledger itself or by the key file. Where neither does,
-/// all were written before either did.
+/// Finds the rows after the last row that the study's key vouches for, in the ledger or in the key file. If neither
+/// vouches for any row, all rows are older than vouching.
 void weighOwn(Newest& newest, const StudyBook& book, const SessionReader& ledger) {
     if (!book.keys) return;
     const auto& noted = book.keys->ledgerEnd();
     const auto vouched = std::max(book.known.vouched, reaches(ledger, noted) ? noted.row : 0);
     const auto& rows = book.known.rows;
-    if (vouched < 1 || vouched > std::ssize(rows)) return;  // row 2 is the first of them
+    if (vouched < 1 || vouched > std::ssize(rows)) return;  // row 2 is the first in `rows`
     newest.unsealed.assign(rows.begin() + vouched - 1, rows.end());
     newest.missing = fmt::format("row {} ({}) of the study's ledger was not written with the study's key", vouched + 1,
                                  newest.unsealed.front());
@@ -55,7 +55,7 @@ void weigh(Newest& newest, const SessionReader& ledger, const LedgerEnd& end, st
 
 Result<Newest> newestKnown(const StudyBook& book) {
     Newest newest;
-    if (book.settings.kind == StudyKind::Rehearsal) return newest;  // a rehearsal's keys lie beside it and go back too
+    if (book.settings.kind == StudyKind::Rehearsal) return newest;  // a rehearsal's keys are as old as its ledger
     const auto ledger = SessionReader::open(book.files.ledger());
     if (!ledger) return failure(ledger);
     weighOwn(newest, book, *ledger);
@@ -91,7 +91,7 @@ Result<StudyBook> StudyBook::open(const std::filesystem::path& folder, const Pas
     if (!Study::isThere(folder)) return fail(ErrorCode::NotFound, "there is no study in {}", folder.string());
     const auto text = readTextFile(files.settings());
     if (!text) return failure(text);
-    // The version is read before everything else: a newer program's study is not judged.
+    // The version is read first: a study of a newer program is not checked any further.
     const auto first = parseStudy(*text, files.settings().string());
     if (!first) return failure(first);
     book.settings = *first;
@@ -117,7 +117,7 @@ Result<StudyBook> StudyBook::open(const std::filesystem::path& folder, const Pas
     auto opened = Ledger::open(files.ledger());
     if (!opened) return failure(opened);
     book.ledger.emplace(std::move(*opened));
-    if (!book.isNewest()) return book;  // every change is refused, with the reason
+    if (!book.isNewest()) return book;  // any change will be refused, with the reason
     if (*current != *text) {
         if (auto published = publishStudy(files); !published) return failure(published);
     }
@@ -194,7 +194,7 @@ Result<LedgerLoss> StudyBook::lossOfGoingBack() const {
     loss.newest = newest->end.row;
     loss.newestHead = newest->end.head;
     loss.newestAt = newest->end.at;
-    // The rows of both up to where they part; after it, what is lost.
+    // The rows are the same up to a point; the newer ledger's rows after that point are lost.
     const auto [ours, theirs] = std::ranges::mismatch(known.rows, newest->end.rows);
     loss.rows.assign(theirs, newest->end.rows.end());
     loss.files = *strangers;
@@ -248,7 +248,7 @@ Result<void> StudyBook::write(const char* name, nlohmann::json body, const Secre
 
 LedgerEnd StudyBook::end() const { return {ledger->next() - 1, ledger->head(), known.last, known.rows}; }
 
-/// Where one of the two cannot be written, the other still says it, and where neither can, the old notes stay.
+/// If one of the two notes cannot be written, the other still holds the end; if neither can, the old notes stay.
 void StudyBook::noteEnd() {
     if (settings.kind == StudyKind::Rehearsal) return;
     const auto now = end();
@@ -337,7 +337,7 @@ Result<void> StudyBook::nextDay(std::string_view session, const NextDay& said) {
     const auto* about = known.session(session);
     if (about == nullptr) return fail(ErrorCode::NotFound, "the study has no session {}", session);
     if (auto fits = checkNextDay(said); !fits) return fits;
-    const Participant participant = *known.participant(about->participant);  // a row replaces what is known
+    const Participant participant = *known.participant(about->participant);  // a copy, since a row replaces the state
     if (const auto key = keyOf(participant.id); !key) return failure(key);
     const auto begun = utcDay(about->parts.back().begun);
     if (!(begun < today())) {
@@ -351,7 +351,7 @@ Result<void> StudyBook::nextDay(std::string_view session, const NextDay& said) {
             "skin on a day after the session scored {} of 4; severity and relation as noted by the program, for the "
             "investigator to judge",
             said.skin());
-        // The last entry counts, and belongs to the same event.
+        // The last record counts, and belongs to the same adverse event.
         const auto isNoted = [&](const auto& each) { return each.first == session && each.second.what == what; };
         if (std::ranges::none_of(known.adverseEvents, isNoted)) {
             auto noted = adverseEvent(session, {.what = what, .severity = severityOfSkin(said.skin()), .relation = 5});
@@ -362,7 +362,7 @@ Result<void> StudyBook::nextDay(std::string_view session, const NextDay& said) {
 }
 
 Result<std::uint64_t> StudyBook::labelSeed() const {
-    constexpr std::uint64_t kLabels = 1;  // which of the key's subkeys; the ledger is sealed under the key itself
+    constexpr std::uint64_t kLabels = 1;  // number of the subkey; the ledger is sealed under the key itself
     if (!keys) return fail(ErrorCode::Unsupported, "labels of participants need the study's passphrase");
     const auto key = subkey(keys->study(), kLabels);
     std::uint64_t seed = 0;
@@ -446,8 +446,8 @@ Result<void> StudyBook::finishWithdrawals() {
 
 namespace {
 
-/// When the participant was first stimulated in the session's last part in which they were; nothing where they never
-/// were. A part that cannot be read counts from its beginning.
+/// Returns the time of the first trial in the last part that had trials; nothing if no part had any. For a part that
+/// cannot be read, returns the time of its beginning.
 std::optional<std::chrono::sys_seconds> stimulatedAt(const StudyFiles& files, const StudySession& session) {
     constexpr std::string_view kTrialBegin = "trial-begin";
     if (!session.opened) return {};
@@ -455,7 +455,7 @@ std::optional<std::chrono::sys_seconds> stimulatedAt(const StudyFiles& files, co
     for (const auto& part : session.parts) {
         const auto reader = SessionReader::open(files.session(part.file));
         const auto events = reader ? reader->events() : Result<std::vector<SessionRow>>(failure(reader));
-        if (!events || !reader->checkChain()) {  // gone, unreadable or changed: unknown is not none
+        if (!events || !reader->checkChain()) {  // a missing or changed file may contain trials
             last = part.begun;
             continue;
         }
@@ -504,7 +504,7 @@ Result<void> StudyGates::stillApproved() const {
     return approvalGate(book_.settings, book_.today());
 }
 
-/// A person's answers and a virtual participant's never belong to one participant.
+/// One participant must not have both a person's answers and a virtual participant's.
 Result<void> StudyGates::basisGate(const SessionRequest& request, const Participant& participant) const {
     if (request.personAnswers && participant.isVirtual() && book_.settings.kind == StudyKind::Study)
         return fail(kGateRefused,

@@ -1,4 +1,4 @@
-// StudyBook.h - an open study: its files, its keys, and what its ledger says now. What Study is made of.
+// StudyBook.h - an open study: its files, its keys and the present state of its ledger. A part of Study.
 //
 // Thread-safety: one caller at a time.
 #pragma once
@@ -27,42 +27,42 @@ struct StudyBook {
     StudySettings settings;
     std::optional<StudyLock> lock;
     std::optional<StudyKeys> keys;  ///< none without the passphrase
-    std::optional<Ledger> ledger;   ///< none when opened for reading
+    std::optional<Ledger> ledger;   ///< none if opened for reading
     LedgerState known;
 
-    /// As Study::open().
+    /// Does what Study::open() does.
     [[nodiscard]] static Result<StudyBook> open(const std::filesystem::path& folder, const Passphrase* passphrase,
                                                 Study::Access access, const Study::Surroundings& around);
 
     [[nodiscard]] std::chrono::sys_seconds now() const { return around.time->wall(); }
-    /// Today in UTC; never before the day of the ledger's last row.
+    /// Today in UTC, but never before the day of the ledger's last row.
     [[nodiscard]] CalibrationDate today() const;
 
-    /// Takes the keys: a rehearsal's without a passphrase; none for a study without one. Errors: as StudyKeys::open().
+    /// Opens the keys: a rehearsal needs no passphrase; without one, a study has none. Errors: as StudyKeys::open().
     [[nodiscard]] Result<void> unlock(const Passphrase* passphrase);
-    /// Takes over what the ledger says. Errors: as replay().
+    /// Reads the state from the ledger. Errors: as replay().
     [[nodiscard]] Result<void> read();
-    /// Errors: Unsupported without the key or when opened for reading; as isNewest().
+    /// Checks that changes are possible. Errors: Unsupported without the key or if opened for reading; as isNewest().
     [[nodiscard]] Result<void> changeable() const;
-    /// The ledger is the newest that this computer knows of: it goes as far as is noted beside the keys, in the key
-    /// file and in each session, and knows every session's file. Errors: kGateRefused, naming the way back.
+    /// Checks that the ledger is the newest that this computer knows of: it contains the ends noted next to the keys,
+    /// in the key file and in each session, and every session's file. Errors: kGateRefused, naming the way back.
     [[nodiscard]] Result<void> isNewest() const;
-    /// The loss where it is not the newest. Errors: as isNewest() where it is; Unsupported as changeable().
+    /// The loss if the ledger is not the newest. Errors: kGateRefused if it is the newest; Unsupported as changeable().
     [[nodiscard]] Result<LedgerLoss> lossOfGoingBack() const;
     [[nodiscard]] Result<void> goBack(std::string_view word);
 
-    /// Appends `body`, with `content` sealed under `key` where there is one. Errors: as changeable().
+    /// Appends `body`; if there is a `key`, with `content` sealed under it. Errors: as changeable().
     [[nodiscard]] Result<void> append(const char* name, nlohmann::json body, const Secret* key = nullptr,
                                       const nlohmann::json& content = {});
-    /// Writes it, whatever the ledger's end is.
+    /// Appends like append(), but without checking the ledger's end.
     [[nodiscard]] Result<void> write(const char* name, nlohmann::json body, const Secret* key = nullptr,
                                      const nlohmann::json& content = {});
-    /// Appends like append(), under a participant's key.
+    /// Appends like append(), with `content` sealed under the participant's key.
     [[nodiscard]] Result<void> appendOf(const Participant& participant, const char* name, nlohmann::json body,
                                         const nlohmann::json& content);
-    /// Errors: Unsupported once the key is destroyed, or without the passphrase.
+    /// Errors: Unsupported if the key was destroyed, or without the passphrase.
     [[nodiscard]] Result<const StudyKeys::Entry*> keyOf(std::string_view participant) const;
-    /// Finds by code or "virtual:SEED". Errors: as Study::find().
+    /// Finds a participant by code or "virtual:SEED". Errors: as Study::find().
     [[nodiscard]] Result<Participant> find(std::string_view code) const;
 
     // Does what Study::amend() does.
@@ -71,13 +71,13 @@ struct StudyBook {
     [[nodiscard]] Result<void> nextDay(std::string_view session, const NextDay& said);
     [[nodiscard]] Result<std::uint64_t> labelSeed() const;
 
-    /// The first day that a consent to this version of the form counts from: of one that was never in force, the first
-    /// approval's.
+    /// Returns the first day from which a consent to this version of the form is valid. For a version that was never in
+    /// force, returns the first day of the first approval.
     [[nodiscard]] CalibrationDate formSince(std::string_view version) const;
-    /// Asks the consent gate for today.
+    /// Checks the consent gate for today.
     [[nodiscard]] Result<void> consented(const Participant& participant) const;
-    /// The file in which this account notes how far the ledger goes (LedgerEnd.h), and the one that copies of the study
-    /// hold while they are changed; both empty for a rehearsal.
+    /// endFile(): the file in which this account notes the ledger's end (LedgerEnd.h). keysLock(): the file that locks
+    /// all copies of the study during a change. Both are empty for a rehearsal.
     [[nodiscard]] std::filesystem::path endFile() const;
     [[nodiscard]] std::filesystem::path keysLock() const;
     [[nodiscard]] LedgerEnd end() const;
@@ -86,35 +86,35 @@ struct StudyBook {
     // Does what Study::sealOf() does.
     [[nodiscard]] Result<std::shared_ptr<const RowSeal>> sealOf(std::string_view file) const;
     [[nodiscard]] Result<std::optional<SessionReader>> part(std::string_view file) const;
-    /// The session as it stands in the ledger now, with the seal of its last part.
+    /// Returns the session as the ledger has it now, with the seal of the session's last part.
     [[nodiscard]] Result<BegunSession> begun(std::string_view id);
-    /// Notes beside the keys and in them how far the ledger goes.
+    /// Notes the ledger's end next to the keys and in the key file.
     void noteEnd();
-    /// A program was killed between the note of a withdrawal and the end of the key.
+    /// Destroys keys that remain because the program was killed after it recorded a withdrawal.
     [[nodiscard]] Result<void> finishWithdrawals();
 };
 
-/// The day of `at` in UTC: days of a study are in UTC, whatever zone the computer is set to.
+/// Returns the day of `at` in UTC; days of a study are UTC days, whatever the computer's time zone.
 [[nodiscard]] CalibrationDate utcDay(std::chrono::sys_seconds at);
-/// The chain head of a session's file; empty for one that was never made, cannot be read or was changed.
+/// Returns the chain head of a session's file; empty for a file that is missing, unreadable or changed.
 [[nodiscard]] std::string headOf(const std::filesystem::path& file);
 
-// The gates of a study as its book stands now: record, approval, participant, consent, exclusion. What each one asks is
-// in Gates.h.
+// Checks the gates of a study in its present state: record, approval, participant, consent, exclusion. Gates.h defines
+// the single gates.
 //
 // Errors of all calls: kGateRefused, one sentence; as SessionReader for a ledger that cannot be read.
 
 class StudyGates {
 public:
-    /// `book` outlives it.
+    /// `book` must outlive this object.
     explicit StudyGates(const StudyBook& book) noexcept : book_(book) {}
 
-    /// The ledger is the newest known (StudyBook::isNewest()), the chains of the sessions that ended are those that it
-    /// noted, and the clock was not set back.
+    /// Checks that the ledger is the newest known (StudyBook::isNewest()), that ended sessions have the chain heads
+    /// recorded in the ledger, and that the clock was not set back.
     [[nodiscard]] Result<void> record() const;
-    /// Record and approval.
+    /// Checks the record and approval gates.
     [[nodiscard]] Result<void> stillApproved() const;
-    /// Asks every gate of a session; `again`: of one that is resumed.
+    /// Checks every gate of a session; `again`: the session is resumed.
     [[nodiscard]] Result<void> session(const SessionRequest& request, Participant participant, bool again) const;
 
 private:
@@ -122,7 +122,7 @@ private:
     const StudyBook& book_;
 };
 
-/// Session files that the ledger does not know, nor gave up when it went back. Errors: Io.
+/// Session files that the ledger neither knows nor gave up in goBack(). Errors: Io.
 [[nodiscard]] Result<std::vector<std::string>> strangersIn(const StudyFiles& files, const LedgerState& known);
 
 }  // namespace tacto

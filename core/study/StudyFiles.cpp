@@ -40,8 +40,8 @@ std::string studyText(const StudySettings& settings) {
 }
 
 namespace {
-/// A study is written whole: what is missing was taken away, and its default was never approved. Studies from before
-/// exports had a license, or pain a ceiling, have none.
+/// study.json is always written with all its fields: a missing field was removed, and its default was never approved.
+/// Only the licence of exports and the pain ceiling may be missing, in older studies.
 Result<void> checkWhole(const nlohmann::json& record, const std::vector<FieldInfo>& infos, const std::string& source) {
     for (const auto& info : infos) {
         if (!record.contains(info.key)) {
@@ -151,7 +151,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Goes with its owner unless it was kept.
+/// A path that is removed with this object unless it was kept.
 struct Draft {
     explicit Draft(fs::path made) : path(std::move(made)) {}
     ~Draft() {
@@ -163,7 +163,7 @@ struct Draft {
     fs::path path;
 };
 
-/// study.json, ledger and sessions/ in `files.folder`, which is there.
+/// Writes study.json, ledger and sessions/ to `files.folder`, which must exist.
 Result<void> layOut(const StudyFiles& files, const StudySettings& settings, std::chrono::sys_seconds now) {
     std::error_code error;
     if (!fs::create_directory(files.sessions(), error))

@@ -29,7 +29,7 @@ constexpr std::size_t kEntryBytes = kIdBytes + kCodeBytes + kKeyBytes;
 constexpr std::size_t kHashDigits = 64;
 constexpr std::size_t kEndBytes = 2 * sizeof(std::int64_t) + kHashDigits;
 
-/// The version is bound too: a file that states another does not open.
+/// The seal is bound to the version too: a file with another version does not open.
 std::string boundTo(const std::string& study, bool saysEnd) { return study + (saysEnd ? "\nkeys with end" : "\nkeys"); }
 
 tl::unexpected<Error> ioError(const fs::path& file) {
@@ -66,7 +66,7 @@ bool writeWhole(int file, std::string_view text) {
     return ::fsync(file) == 0;
 }
 
-/// Overwrites what was in a file that has lost its name.
+/// Overwrites the content of a file that no longer has a name.
 void overwrite(int file) noexcept {
     struct stat about {};
     if (::fstat(file, &about) != 0) return;
@@ -74,7 +74,7 @@ void overwrite(int file) noexcept {
     if (::lseek(file, 0, SEEK_SET) == 0) static_cast<void>(writeWhole(file, zeros));
 }
 
-/// A file of this account alone takes the place of `file`.
+/// Replaces `file` by a file that only this account may access.
 Result<void> replace(const fs::path& file, std::string_view text) {
     auto draft = file;
     draft += ".new";
@@ -207,7 +207,7 @@ Result<void> StudyKeys::destroy(std::string_view id) {
     auto gone = std::move(*found);
     entries_.erase(found);
     auto written = write();
-    if (!written) entries_.push_back(std::move(gone));  // the file still has it
+    if (!written) entries_.push_back(std::move(gone));  // the file still has the entry
     return written;
 }
 

@@ -1,12 +1,12 @@
-// StudyKeys.h - the keys of a study: the study's own and one of each participant, with the code that belongs to it.
+// StudyKeys.h - the keys of a study: the study's own key, and one key with a code for each participant.
 //
-// They lie in one file outside the study's folder, sealed under a passphrase, mode 0600; one that others may read, or a
-// folder that they may write to, is refused (isOwnFile()). What the passphrase opens is binary, so that no key passes
-// through a parser: 32 bytes of the study's key; 80 of how far the ledger goes (8 of the row, 8 of its time, both with
-// the low byte first, 64 digits of its hash; version 1 had none); then 80 bytes a participant (16 of the id, 32 of the
-// code, 32 of the key). A rehearsal's file has no passphrase and says that it is not secret.
+// They lie in one file outside the study's folder, sealed under a passphrase, mode 0600; a file that others may read,
+// or a folder that others may write to, is refused (isOwnFile()). The opened content is binary, so that no key passes
+// through a parser: 32 bytes of the study's key; 80 bytes about the ledger's end (8 of the row, 8 of its time, both
+// with the low byte first, 64 digits of its hash; not in version 1); then 80 bytes for each participant (16 of the id,
+// 32 of the code, 32 of the key). A rehearsal's file has no passphrase and states that it is not secret.
 //
-// Every change writes a new file, which takes the old one's place; the old one's bytes are overwritten.
+// Every change writes a new file in place of the old one and overwrites the old file's bytes.
 //
 // Thread-safety: one caller at a time.
 #pragma once
@@ -34,27 +34,26 @@ public:
         Secret key;
     };
 
-    /// `passphrase` null: a rehearsal's. Errors: InvalidArgument where there is a file already; Io.
+    /// Creates the key file; a null `passphrase` is for a rehearsal. Errors: InvalidArgument if the file exists; Io.
     [[nodiscard]] static Result<StudyKeys> create(const std::filesystem::path& file, const std::string& study,
                                                   const Passphrase* passphrase, const PassphraseCost& cost);
-    /// Errors: NotFound for a file that is not there, is not its owner's alone, belongs to another study, or that the
-    /// passphrase does not open;
-    /// Unsupported for one of a newer version; ParseError; Io.
+    /// Errors: NotFound for a file that is missing, can be accessed by others, belongs to another study, or that the
+    /// passphrase does not open; Unsupported for a file of a newer version; ParseError; Io.
     [[nodiscard]] static Result<StudyKeys> open(const std::filesystem::path& file, const std::string& study,
                                                 const Passphrase* passphrase, const PassphraseCost& cost);
 
     [[nodiscard]] const Secret& study() const noexcept { return study_; }
     [[nodiscard]] const std::vector<Entry>& entries() const noexcept { return entries_; }
-    /// How far the ledger went when the keys were last written; row 0 where that is not known.
+    /// The ledger's end when the keys were last written; row 0 if not known.
     [[nodiscard]] const LedgerEnd& ledgerEnd() const noexcept { return end_; }
-    /// Errors: Io; what was said before stays.
+    /// Replaces the noted end. Errors: Io; the old note then stays.
     [[nodiscard]] Result<void> noteEnd(const LedgerEnd& end);
-    /// Null where there is none.
+    /// Returns null if there is no such participant.
     [[nodiscard]] const Entry* byId(std::string_view id) const noexcept;
 
-    /// A new participant with a key of their own. Errors: Io; nothing is kept then.
+    /// Adds a participant with a new key. Errors: Io; then nothing is added.
     [[nodiscard]] Result<void> add(const std::string& id, const std::string& code);
-    /// Code and key are gone from memory and file. Errors: Io.
+    /// Deletes a participant's code and key from memory and file. Errors: Io.
     [[nodiscard]] Result<void> destroy(std::string_view id);
 
 private:
@@ -66,17 +65,17 @@ private:
     std::filesystem::path file_;
     std::string studyId_;
     std::array<std::byte, Passphrase::kSaltBytes> salt_{};
-    std::optional<Secret> lock_;  // Made of the passphrase; nothing in a rehearsal
+    std::optional<Secret> lock_;  // made from the passphrase; not set in a rehearsal
     Secret study_;
     LedgerEnd end_;
     std::vector<Entry> entries_;
 };
 
-// Seals the rows of one file of a study: each is bound to study, file, row number and kind.
+// Seals the rows of one file of a study. Each seal is bound to study, file, row number and kind of row.
 
 class SessionSeal final : public RowSeal {
 public:
-    /// `file`: the name of a session's file without its ending, or "ledger".
+    /// `file`: the name of a session's file without its extension, or "ledger".
     SessionSeal(std::string study, std::string file, Secret key);
 
     [[nodiscard]] std::string sealText(std::int64_t seq, std::string_view kind, std::string_view text) const override;

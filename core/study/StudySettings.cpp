@@ -19,9 +19,9 @@ constexpr Word<ElectrodeSite> kElectrodeSites[] = {{"forearm", ElectrodeSite::Fo
 constexpr Word<Nerve> kNerves[] = {{"radial", Nerve::Radial}, {"median", Nerve::Median}, {"ulnar", Nerve::Ulnar}};
 constexpr Word<Limb> kLimbs[] = {{"left", Limb::Left}, {"right", Limb::Right}};
 constexpr Word<DataOnRequest> kDataOnRequest[] = {{"destroy", DataOnRequest::Destroy}, {"keep", DataOnRequest::Keep}};
-/// The four conditions of two textures and two pressures. Their names are in the protocol and in no plain text here.
+/// The four conditions of two textures and two pressures. Their names are in the protocol, never in plain text here.
 constexpr std::string_view kTexturePressure = "texture-pressure";
-/// The names of the four as they are, or with texture and pressure exchanged.
+/// The encodings: texture and pressure as they are, or exchanged.
 constexpr std::string_view kEncodings[] = {"standard", "swapped"};
 
 constexpr AcceptedText kShortText{.mostBytes = 200};
@@ -135,7 +135,7 @@ RecordFields<StudySettings> buildStudyFields() {
     return all;
 }
 
-/// `text` as the JSON of a field that holds `before`.
+/// Returns `text` as JSON of the same type as the field's value `before`.
 Result<nlohmann::json> asJson(const nlohmann::json& before, std::string_view key, std::string_view text) {
     const auto refused = [&](std::string_view what) {
         return invalid("{} is \"{}\"; {} is expected", key, text, what);

@@ -1,5 +1,5 @@
-// StudySettings.h - what a study is allowed to do and how it does it: study.json. One field table reads, writes and
-// checks it (studyFields()), and `study create --set KEY=VALUE` and the window's form derive from the same.
+// StudySettings.h - what a study is allowed to do and how (study.json). One table of fields reads, writes and checks
+// study.json (studyFields()); `study create --set KEY=VALUE` and the window's form use the same table.
 //
 // Thread-safety: values; the tables are constant.
 #pragma once
@@ -22,15 +22,15 @@ enum class StudyKind { Study, Rehearsal };
 enum class Modality { Electrodes, Massager };
 inline constexpr Word<Modality> kModalities[] = {{"electrodes", Modality::Electrodes},
                                                  {"massager", Modality::Massager}};
-/// Where electrodes may be put. A closed list: chest, neck and head cannot be chosen.
+/// Where electrodes may be placed. The list is closed: chest, neck and head cannot be chosen.
 enum class ElectrodeSite { Forearm, ResidualLimbEnd, UpperArm, Hand };
 enum class Nerve { Radial, Median, Ulnar };
 enum class Limb { Left, Right };
-/// How the detection threshold is sought (pilot.md section 4); the words are those of the protocols' `method`.
+/// How the detection threshold is measured (pilot.md section 4); the words are those of the protocols' `method`.
 enum class DetectionMethod { Quest, Staircase };
 inline constexpr Word<DetectionMethod> kDetectionMethods[] = {{"quest", DetectionMethod::Quest},
                                                               {"staircase", DetectionMethod::Staircase}};
-/// The fate of a participant's data when they ask for destruction.
+/// What happens to a participant's data if they ask for destruction.
 enum class DataOnRequest { Destroy, Keep };
 
 [[nodiscard]] std::string_view nameOf(StudyKind kind) noexcept;
@@ -39,18 +39,18 @@ enum class DataOnRequest { Destroy, Keep };
 [[nodiscard]] std::string_view nameOf(DetectionMethod method) noexcept;
 [[nodiscard]] std::string_view nameOf(DataOnRequest kept) noexcept;
 
-/// A committee's approval. Days are UTC days; both ends count.
+/// A committee's approval. Days are UTC days; the first and the last day are included.
 struct Approval {
     std::string reference;
     std::string committee;
     CalibrationDate from{};
     CalibrationDate expires{};
     std::string protocolVersion;
-    std::string protocolSha256;  ///< protocolHash() of what the committee approved
+    std::string protocolSha256;  ///< protocolHash() of the approved settings
     bool operator==(const Approval&) const = default;
 };
 
-/// A protocol's script, as its bytes hash.
+/// A protocol's script and the hash of its bytes.
 struct ScriptHash {
     std::string name;  ///< "pilot-identification"
     std::string sha256;
@@ -64,63 +64,63 @@ struct StudyElectrode {
     bool operator==(const StudyElectrode&) const = default;
 };
 
-/// The one kind of train that a study delivers (H6).
-/// The only shape of pulses that a person is given.
+/// The only kind of train that a study delivers (H6).
+/// The only pulse shape that is used with people.
 inline constexpr std::string_view kBiphasic = "biphasic";
 
 struct StudyTrain {
     std::string shape{kBiphasic};
-    double width_us = 200;  ///< one phase's width
+    double width_us = 200;  ///< width of one phase
     double gap_us = 50;
     int pulses = 1;
-    double rate_hz = 0;  ///< pulses in a train; 0 with one pulse
+    double rate_hz = 0;  ///< pulse rate within a train; 0 if there is only one pulse
     bool operator==(const StudyTrain&) const = default;
 };
 
-/// The stimuli and questions for people, beside electrode and train: an approval is for them, and a session's profile
-/// and protocol must agree with them.
+/// The approved stimuli and questions for people, apart from electrode and train. A session's profile and protocol must
+/// agree with them.
 struct StudyProcedure {
     double intervalMin_s = 0.5;  ///< T_min
     double intervalMax_s = 2;    ///< T_max
     DetectionMethod method = DetectionMethod::Quest;
-    std::string conditionsSha256{};  ///< hash of the conditions, their assignment, polarity, load range and ceilings
-    bool comparison = false;         ///< sessions of thresholds measure the Weber fraction of strength too
+    std::string conditionsSha256{};  ///< hash of conditions, assignment, polarity, load range and ceilings
+    bool comparison = false;         ///< threshold sessions also measure the Weber fraction of strength
     bool operator==(const StudyProcedure&) const = default;
 };
 
 inline constexpr int kPainCeiling = 4;
 
 struct StudySettings {
-    std::string id;  ///< 16 hexadecimal digits; made by Study::create()
+    std::string id;  ///< 16 hexadecimal digits; set by Study::create()
     std::string title;
     StudyKind kind = StudyKind::Study;
     Modality modality = Modality::Electrodes;
     Approval approval;
     std::string consentVersion;
     int participantsMax = 5;
-    int sessionsMax = 4;  ///< sessions that one participant may have
+    int sessionsMax = 4;  ///< for each participant
     double gapMin_h = 20;
     double sessionMax_min = 60;
     double cap_mA = 15;
-    std::vector<LimitSetHash> limits;  ///< the approval's limits
+    std::vector<LimitSetHash> limits;  ///< the limit sets of the approval
     ElectrodeSite site = ElectrodeSite::UpperArm;
     Nerve nerve = Nerve::Median;
     Limb limb = Limb::Right;
     StudyElectrode electrode;
     StudyTrain train;
     std::string conditions =
-        "texture-pressure";  ///< the four of texture × pressure; their names stand in no plain text
+        "texture-pressure";  ///< the four of texture × pressure; no plain text contains their names
     std::vector<std::string> encodings{"standard"};
     int blocks = 5;
     int perCondition = 4;
     int catchTrials = 2;  ///< per block
     bool blind = true;
     DataOnRequest dataOnRequest = DataOnRequest::Destroy;
-    /// A pain from 0 to 10 that is rated so high holds the next presentation (pilot.md section 4). Earlier studies have
-    /// no ceiling in their approval, and are held to kPainCeiling.
+    /// A pain rating (0 to 10) this high holds the next presentation (pilot.md section 4). Approvals of earlier studies
+    /// have no ceiling, and kPainCeiling applies.
     std::optional<int> painCeiling;
-    std::string license;                      ///< the licence for using exports: "CC-BY-4.0"; empty: not decided
-    std::vector<ScriptHash> scripts;          ///< approved; a session's script must be one of them
+    std::string license;                      ///< the licence of exported data, such as "CC-BY-4.0"; empty: not decided
+    std::vector<ScriptHash> scripts;          ///< the approved scripts; a session's script must be one of them
     std::optional<StudyProcedure> procedure;  ///< approved; older studies have none until they are amended
     bool operator==(const StudySettings&) const = default;
 };
@@ -128,29 +128,29 @@ struct StudySettings {
 /// The fields of study.json.
 [[nodiscard]] const RecordFields<StudySettings>& studyFields();
 
-/// Sets one field by its key, as `--set blocks=3` or `--set electrode.area_cm2=5`.
-/// Errors: InvalidArgument naming key, value and what is accepted; also for id, kind, approval, scripts and what a
-/// profile says of the procedure, which have options of their own.
+/// Sets one field by its key, as in `--set blocks=3` or `--set electrode.area_cm2=5`.
+/// Errors: InvalidArgument naming key, value and what is accepted; also for id, kind, approval, scripts and the parts
+/// of the procedure that a profile states, which have options of their own.
 [[nodiscard]] Result<void> setStudyField(StudySettings& settings, std::string_view key, std::string_view value);
 
-/// The hash in an approval's protocol_sha256: SHA-256 over every setting but the approval itself and the license of
-/// exports, and the scripts. A missing procedure does not count.
+/// Returns the hash for an approval's protocol_sha256: SHA-256 of the scripts and all settings except the approval
+/// itself and the licence of exports. A missing procedure is left out.
 [[nodiscard]] std::string protocolHash(const StudySettings& settings);
-/// The hash of settings and what a session is run with: an interrupted session resumes with no other.
+/// Returns the hash of settings and procedure of a session: an interrupted session resumes only with the same hash.
 [[nodiscard]] std::string runHash(StudySettings settings, const StudyProcedure& procedure);
 
-// What an approval covers of the procedure, in words, for people who read a report or a terminal.
+// What an approval says about the procedure, in words for reports and terminals.
 
 struct ProcedureFact {
-    std::string what;   ///< "Train"
-    std::string words;  ///< "biphasic, 1 pulse of 200 µs a phase"
+    std::string what;   ///< for example "Train"
+    std::string words;  ///< for example "biphasic, 1 pulse of 200 µs a phase"
 };
-/// Site, electrodes and train (not with a massager), intervals, conditions, detection and test, as approved. Where the
-/// approval keeps no procedure, that is said in the place of intervals, conditions and detection.
+/// Returns site, electrodes and train (not with a massager), intervals, conditions, detection and test, as approved. If
+/// the approval contains no procedure, a note replaces intervals, conditions and detection.
 [[nodiscard]] std::vector<ProcedureFact> approvedProcedure(const StudySettings& settings);
 
-/// The words for a key of study.json that an amendment changed; the key itself where it has no other name, and with a
-/// massager where it is about current.
+/// Returns the words for a key of study.json that an amendment changed. Returns the key itself if it has no words, or
+/// if it is about current and the study uses a massager.
 [[nodiscard]] std::string amendedWords(std::string_view key, Modality modality);
 
 }  // namespace tacto

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One pass over a study's files.
+/// Checks a study's files in one pass.
 class StudyInspection {
 public:
     StudyInspection(const StudyFiles& files, StudyReport& report) : files_(files), report_(report) {}
@@ -23,7 +23,7 @@ public:
         if (!ledger) return failure(ledger);
         report_.ledger = std::move(*ledger);
         std::erase_if(report_.ledger.notes, [](const std::string& note) {
-            return note.starts_with("The session ended without closing");  // a ledger never ends
+            return note.starts_with("The session ended without closing");  // a ledger is never closed
         });
         if (report_.ledger.status != SessionStatus::Intact) {
             problem(fmt::format("the ledger is damaged: {}", report_.ledger.problems.empty()

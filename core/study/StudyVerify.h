@@ -1,4 +1,4 @@
-// StudyVerify.h - is this study what was recorded? Ledger, settings and every session, without a key
+// StudyVerify.h - checks that a study is what was recorded: its ledger, settings and every session, without a key
 // (`tactoscope-cli verify STUDY`).
 //
 // Thread-safety: any thread; reads files.
@@ -21,12 +21,12 @@ struct VerifiedFile {
 struct StudyReport {
     SessionStatus status = SessionStatus::Damaged;  ///< Intact or Damaged
     std::vector<std::string> notes;
-    std::vector<std::string> problems;  ///< problems of the study as a whole; each session has its own
+    std::vector<std::string> problems;  ///< of the study as a whole; each session has its own
     VerifyReport ledger;
     std::vector<VerifiedFile> sessions;
 };
 
-/// Errors: NotFound where there is no study; Unsupported for one of a newer version; Io.
+/// Errors: NotFound if there is no study; Unsupported for a study of a newer version; Io.
 [[nodiscard]] Result<StudyReport> verifyStudy(const std::filesystem::path& folder);
 
 }  // namespace tacto
