@@ -28,7 +28,7 @@ Result<Passphrase> Passphrase::from(const Secret& text) {
 
 Result<Passphrase> Passphrase::fromFile(const std::filesystem::path& file) {
     constexpr std::size_t kLongest = 4096;
-    // Read without a stream: its buffer would keep the passphrase.
+    // Read without a stream, because a stream's buffer would keep the passphrase.
     const int in = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
     if (in < 0) return fail(ErrorCode::NotFound, "the passphrase file {} cannot be read", file.string());
     if (auto own = isOwnFile(in, file, "the passphrase file"); !own) {

@@ -1,4 +1,4 @@
-// Passphrase.h - what a person keeps in their head, and the key that is made of it (Argon2id, libsodium's
+// Passphrase.h - a passphrase that a person remembers, and the key that is derived from it (Argon2id, libsodium's
 // crypto_pwhash).
 //
 // Thread-safety: values; keyFor() is a pure function that blocks for about a second.
@@ -14,12 +14,12 @@
 
 namespace tacto {
 
-/// The cost of one guess. Only a caller in C++ chooses it: no file and no option does.
+/// The cost of one guess. Only C++ code can choose it, never a file or an option.
 class PassphraseCost {
 public:
     /// 256 MiB, three passes.
     [[nodiscard]] static PassphraseCost moderate() noexcept;
-    /// The least that libsodium accepts. For tests.
+    /// The lowest cost that libsodium accepts. For tests.
     [[nodiscard]] static PassphraseCost least() noexcept;
 
     [[nodiscard]] unsigned long long passes() const noexcept { return passes_; }
@@ -35,14 +35,14 @@ class Passphrase {
 public:
     static constexpr std::size_t kSaltBytes = 16;
 
-    /// Errors: InvalidArgument for an empty one.
+    /// Errors: InvalidArgument for an empty text.
     [[nodiscard]] static Result<Passphrase> from(std::string_view text);
     [[nodiscard]] static Result<Passphrase> from(const Secret& text);
-    /// The first line of a file, without its end. Errors: NotFound for a file that is not there, holds nothing
-    /// or is not its owner's alone (isOwnFile()).
+    /// Reads the first line of a file, without its line end. Errors: NotFound for a file that is missing, empty or
+    /// accessible to others (isOwnFile()).
     [[nodiscard]] static Result<Passphrase> fromFile(const std::filesystem::path& file);
 
-    /// 32 bytes. Errors: Io without the memory.
+    /// Returns a key of 32 bytes. Errors: Io if there is not enough memory.
     [[nodiscard]] Result<Secret> keyFor(std::span<const std::byte> salt, const PassphraseCost& cost) const;
 
 private:

@@ -20,7 +20,7 @@ unsigned char* raw(std::byte* bytes) noexcept { return reinterpret_cast<unsigned
 const unsigned char* raw(const std::byte* bytes) noexcept { return reinterpret_cast<const unsigned char*>(bytes); }
 const unsigned char* raw(std::string_view text) noexcept { return reinterpret_cast<const unsigned char*>(text.data()); }
 
-/// Decrypts into `out`, which has sealed.size() - kNonceBytes - kTagBytes bytes. The value is the size without padding.
+/// Decrypts into `out`, of size sealed.size() - kNonceBytes - kTagBytes. Returns the size without padding.
 Result<std::size_t> decrypt(const Secret& key, std::string_view boundTo, std::size_t block,
                             std::span<const std::byte> sealed, std::span<std::byte> out) {
     const auto refused = [] {
@@ -36,7 +36,7 @@ Result<std::size_t> decrypt(const Secret& key, std::string_view boundTo, std::si
     return size;
 }
 
-/// The size of the output, padding included.
+/// Returns the size of the output, padding included.
 Result<std::size_t> paddedSize(const Secret& key, std::size_t block, std::span<const std::byte> sealed) {
     if (key.size() != kKeyBytes) return invalid("a key has {} bytes, not 32", key.size());
     if (sealed.size() < kNonceBytes + kTagBytes + block || (sealed.size() - kNonceBytes - kTagBytes) % block != 0)
@@ -62,7 +62,7 @@ std::vector<std::byte> sealBytes(const Secret& key, std::string_view boundTo, st
     std::size_t paddedTo = 0;
     randombytes_buf(out.data(), kNonceBytes);
     if (key.size() != kKeyBytes || sodium_pad(&paddedTo, raw(text), size, block, padded) != 0 || paddedTo != padded)
-        std::abort();  // a key or block of ours that is not valid
+        std::abort();  // the program passed an invalid key or block
     crypto_aead_xchacha20poly1305_ietf_encrypt(raw(text), nullptr, raw(text), padded, raw(boundTo), boundTo.size(),
                                                nullptr, raw(out.data()), raw(key.bytes().data()));
     return out;
@@ -92,7 +92,7 @@ Result<std::vector<std::byte>> openBytes(const Secret& key, std::string_view bou
 std::string base64Text(std::span<const std::byte> bytes) {
     std::string text(sodium_base64_encoded_len(bytes.size(), kBase64), '\0');
     sodium_bin2base64(text.data(), text.size(), raw(bytes.data()), bytes.size(), kBase64);
-    text.pop_back();  // the null byte
+    text.pop_back();  // removes the null byte
     return text;
 }
 
@@ -127,7 +127,7 @@ std::string macText(const Secret& key, std::string_view text) {
         std::abort();
     std::string digits(2 * hash.size() + 1, '\0');
     sodium_bin2hex(digits.data(), digits.size(), hash.data(), hash.size());
-    digits.pop_back();  // the null byte
+    digits.pop_back();  // removes the null byte
     return digits;
 }
 

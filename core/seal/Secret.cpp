@@ -15,7 +15,7 @@ namespace tacto {
 
 namespace {
 
-/// A core dump would hold every key: not written, and not readable by other processes of this account.
+/// Switches core dumps off, since they would contain every key, and hides memory from this account's other processes.
 void startWithoutCoreDumps() noexcept {
     static const bool started = [] {
         const ::rlimit none{0, 0};
@@ -40,7 +40,7 @@ Secret::Secret(std::span<const std::byte> bytes) : Secret(bytes.size()) {
 }
 
 Secret::~Secret() {
-    if (data_ != nullptr) sodium_free(data_);  // wipes it
+    if (data_ != nullptr) sodium_free(data_);  // also wipes the memory
 }
 
 Secret::Secret(Secret&& other) noexcept

@@ -1,9 +1,9 @@
-// Secret.h - bytes that must not leave the process: keys and passphrases. They lie in memory of their own between guard
-// pages, locked against swapping where the system allows it, and are wiped when they go.
+// Secret.h - bytes that must not leave the process: keys and passphrases. They lie between guard pages in memory of
+// their own, which is locked against swapping if the system allows this, and are wiped by the destructor.
 //
-// Making the first one switches core dumps off for the process.
+// The first Secret switches core dumps off for the process.
 //
-// Thread-safety: as a std::vector.
+// Thread-safety: as std::vector.
 #pragma once
 
 #include <cstddef>
@@ -18,9 +18,9 @@ namespace tacto {
 class Secret {
 public:
     Secret() noexcept = default;
-    /// `size` zeros.
+    /// Makes `size` zero bytes.
     explicit Secret(std::size_t size);
-    /// A copy of `bytes`; wiping those is the caller's business.
+    /// Copies `bytes`; the caller must wipe the originals.
     explicit Secret(std::span<const std::byte> bytes);
     ~Secret();
     Secret(Secret&& other) noexcept;
@@ -33,7 +33,7 @@ public:
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
     [[nodiscard]] bool empty() const noexcept { return size_ == 0; }
 
-    /// Random bytes.
+    /// Makes random bytes.
     [[nodiscard]] static Secret random(std::size_t size);
 
 private:
@@ -41,15 +41,15 @@ private:
     std::size_t size_ = 0;
 };
 
-// Whether a file with a secret, and the folder that keys lie in, are this account's alone (hazard H11), as ssh asks it
-// of a private key.
+// Checks that a file with a secret, or the folder with the keys, belongs to this account alone (hazard H11), as ssh
+// checks a private key.
 
-/// The open file `descriptor` belongs to this account or to root, and no one else may read or change it. `what` it is
-/// stands in the sentence: "the key file". A terminal is not asked. Errors: NotFound, naming the mode or the owner.
+/// Checks that the open file `descriptor` belongs to this account or to root, and that nobody else may read or change
+/// it. `what` names the file in the error ("the key file"). A terminal passes. Errors: NotFound, naming mode or owner.
 [[nodiscard]] Result<void> isOwnFile(int descriptor, const std::filesystem::path& file, std::string_view what);
-/// Checks the file by name; a link counts as what it names.
+/// Checks a file by its name; follows links.
 [[nodiscard]] Result<void> isOwnFile(const std::filesystem::path& file, std::string_view what);
-/// The folder belongs to this account or to root, and no one else may put another file into it.
+/// Checks that the folder belongs to this account or to root, and that nobody else may put files into it.
 [[nodiscard]] Result<void> isOwnFolder(const std::filesystem::path& folder, std::string_view what);
 
 }  // namespace tacto

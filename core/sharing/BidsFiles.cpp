@@ -29,8 +29,8 @@ void addTable(std::vector<BidsFile>& files, const std::string& stem, const BidsT
     files.push_back({stem + ".json", textOf(about)});
 }
 
-/// How many participants and sessions there are of each kind. Those who are enrolled and had no session took no part;
-/// where nobody had one, all are counted.
+/// The numbers of participants and sessions of each basis. Participants without a session did not take part; if nobody
+/// had a session, everyone enrolled is counted.
 struct Basis {
     explicit Basis(const BidsStudy& study) {
         const auto tookPart = [](const BidsParticipant& each) { return !each.sessions.empty(); };
@@ -49,16 +49,16 @@ struct Basis {
         const auto found = sessions.find(one);
         return found == sessions.end() ? 0 : found->second;
     }
-    /// "SIMULATED", "SIMULATED IN PART"; of nothing but people on real devices empty.
+    /// Returns "SIMULATED" or "SIMULATED IN PART"; empty if there are only people on real devices.
     [[nodiscard]] std::string word() const {
         if (participants.empty() || isAll(SessionBasis::Person)) return {};
         return participants.contains(SessionBasis::Person) ? "SIMULATED IN PART" : "SIMULATED";
     }
     std::map<SessionBasis, std::size_t> participants, sessions;
-    std::size_t waiting = 0;  ///< enrolled, and without a session
+    std::size_t waiting = 0;  ///< enrolled, but without a session
 };
 
-/// The title of something simulated, wholly or in part, is none that a study of people could have.
+/// If data are simulated, even in part, the title says so, unlike any study of people alone.
 std::string titleOf(const BidsStudy& study) {
     const Basis basis(study);
     if (basis.word().empty()) return study.rehearsal ? study.title + " (rehearsal)" : study.title;
@@ -68,7 +68,7 @@ std::string titleOf(const BidsStudy& study) {
     return fmt::format("{} ({}{})", study.title, study.rehearsal ? "rehearsal, " : "", who);
 }
 
-/// Approved is what people took part in.
+/// Returns the approvals, which are only for sessions with people.
 json approvalsOf(const BidsStudy& study) {
     const Basis basis(study);
     if (study.rehearsal) return json::array({"none: a rehearsal"});
@@ -127,7 +127,7 @@ BidsFile readme(const BidsStudy& study) {
     return {"README", text};
 }
 
-/// From 89 years on it is "89+", as BIDS recommends: few people are as old.
+/// Returns "89+" for 89 years or more, as BIDS recommends, since few people are that old.
 std::string sharedAge(const std::string& age) {
     constexpr double kOldestShared = 89;
     const auto years = parseNumber(age);
@@ -198,7 +198,7 @@ std::vector<BidsCell> feltCells(const BidsStudy& study, const BidsSession& sessi
             session.detection,       session.tooStrong};
 }
 
-/// "redness:2:4,itching:1:1"; empty where it was not asked.
+/// Returns text such as "redness:2:4,itching:1:1"; empty if nobody was asked.
 std::string sideEffectsNextDay(const BidsSession& session) {
     if (std::ranges::find(session.sideEffectsAsked, kNextDayMoment) == session.sideEffectsAsked.end()) return {};
     const auto rated = [](std::optional<int> rating) { return rating ? std::to_string(*rating) : "n/a"; };
@@ -290,7 +290,7 @@ Result<std::string> bidsLabel(const BidsStudy& study, std::size_t enrolled) {
     if (enrolled < 1 || study.places < 1) {
         return invalid("participant {} of a study of {}; both from 1 are accepted", enrolled, study.places);
     }
-    // An amendment that allows more people must not change the labels of those who are there.
+    // An amendment that allows more people must not change the labels of earlier participants.
     const auto round = (enrolled - 1) / study.places, first = round * study.places;
     std::vector<std::size_t> places(study.places);
     std::iota(places.begin(), places.end(), first + 1);

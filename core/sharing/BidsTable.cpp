@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view kMissing = "n/a";
 
-/// A tab or a line's end in a text would begin another cell.
+/// Replaces tabs and line ends, which would begin another cell.
 std::string oneCell(std::string_view value) {
     if (value.empty()) return std::string(kMissing);
     std::string out(value);
@@ -78,12 +78,12 @@ Levels conditionLevels(const BidsSession& session, bool withAnswers) {
     return levels;
 }
 
-/// BIDS has letters, digits and underscores in words of its own; conditions keep their names.
+/// The words of BIDS contain only letters, digits and underscores; conditions keep their names.
 std::string shared(std::string_view response) {
     return response == kNotSureResponse ? "not_sure" : std::string(response);
 }
 
-/// Whether the answer was right; nothing without an answer, and where nothing was asked.
+/// Whether the answer was right; nothing if there was no answer or no question.
 std::optional<bool> isRight(const IdentificationTrial& trial) {
     if (trial.response.empty()) return std::nullopt;
     if (trial.condition == kCatchCondition) return trial.response == kNoneResponse;

@@ -1,4 +1,4 @@
-// BidsTable.h - one table of a BIDS dataset with its sidecar: tab-separated values, and what each column means.
+// BidsTable.h - one table of a BIDS dataset (tab-separated values) and its sidecar, which explains the columns.
 #pragma once
 
 #include <initializer_list>
@@ -14,7 +14,7 @@
 
 namespace tacto {
 
-/// A cell as it is written: n/a for NaN, an empty text and nothing.
+/// The text of a cell: n/a for NaN, an empty text or a missing value.
 struct BidsCell {
     std::string text;
 
@@ -34,20 +34,20 @@ struct BidsCell {
 struct BidsColumn {
     std::string name;
     std::string description;
-    std::string units{};                                        ///< SI, empty where it has none
-    std::vector<std::pair<std::string, std::string>> levels{};  ///< for a column of words, each with its meaning
+    std::string units{};                                        ///< SI; empty for a column without unit
+    std::vector<std::pair<std::string, std::string>> levels{};  ///< the words of the column, each with its meaning
 };
 
 class BidsTable {
 public:
     explicit BidsTable(std::vector<BidsColumn> columns) : columns_(std::move(columns)) {}
 
-    /// There must be as many cells as columns.
+    /// The number of cells must equal the number of columns.
     void add(std::initializer_list<BidsCell> cells) { add(std::vector<BidsCell>(cells)); }
     void add(std::vector<BidsCell> cells);
     [[nodiscard]] bool isEmpty() const noexcept { return rows_.empty(); }
     [[nodiscard]] std::string tsv() const;
-    /// Description, units and levels of each column.
+    /// Returns description, units and levels of each column.
     [[nodiscard]] nlohmann::json sidecar() const;
 
 private:
@@ -55,8 +55,8 @@ private:
     std::vector<std::vector<BidsCell>> rows_;
 };
 
-// The tables of one session: trials, thresholds, ratings, side effects. With a massager they have strengths, and what
-// its motor did, in place of currents, voltages and impedances.
+// The tables of one session: trials, thresholds, ratings, side effects. With a massager they contain intensities and
+// the measured vibration instead of currents, voltages and impedances.
 
 [[nodiscard]] BidsTable identificationTable(const BidsSession& session, bool massager);
 [[nodiscard]] BidsTable thresholdsTable(const BidsSession& session, bool massager);

@@ -30,7 +30,7 @@ Result<SessionRecord> readSession(const Study& study, const StudySession& about)
     for (const auto& part : about.parts) {
         const auto file = study.part(part.file);
         if (!file) return failure(file);
-        if (!*file) continue;  // booked, and never begun
+        if (!*file) continue;  // booked, but never begun
         auto rows = (*file)->events();
         if (!rows) return failure(rows);
         std::ranges::move(*rows, std::back_inserter(record.rows));
@@ -54,7 +54,7 @@ Result<SessionRecord> readSession(const Study& study, const StudySession& about)
     return record;
 }
 
-/// Days of the calendar between the beginnings of two sessions.
+/// Returns the calendar days between the starts of two sessions.
 double daysBetween(const StudySession& first, const StudySession& other) {
     const auto dayOf = [](const StudySession& session) {
         return std::chrono::floor<std::chrono::days>(session.parts.front().begun);
@@ -166,14 +166,14 @@ namespace {
 
 using nlohmann::json;
 
-/// "detection 12" → {"detection", "12"}: the last word, and what comes before it.
+/// Splits a name at its last word: "detection 12" becomes {"detection", "12"}.
 std::pair<std::string, std::string> lastWordOf(const std::string& name) {
     const auto blank = name.rfind(' ');
     if (blank == std::string::npos) return {name, {}};
     return {name.substr(0, blank), name.substr(blank + 1)};
 }
 
-/// The answer to a question of any kind.
+/// Returns the answer to a question of any kind.
 std::string saidIn(const json& body) {
     if (const auto keys = textsOr(body, "keys"); !keys.empty()) return fmt::format("{}", fmt::join(keys, ","));
     if (const auto key = textOr(body, "key"); !key.empty()) return key;
@@ -181,7 +181,7 @@ std::string saidIn(const json& body) {
     return std::isfinite(value) ? fmt::format("{:g}", value) : std::string();
 }
 
-/// Goes through the rows once; what was measured last stands beside each trial.
+/// Goes through the rows in one pass; each trial gets the last values measured before it.
 class SessionRows {
 public:
     explicit SessionRows(std::vector<std::string> labels) { out_.labels = std::move(labels); }
@@ -197,7 +197,7 @@ public:
             impedance_ = numberOr(body, "impedance_ohm");
             if (std::isnan(out_.impedance.value())) out_.impedance = Ohms(impedance_);
         } else if (each.name == row::kEstimate && body.contains("amplitude_weber")) {
-            // At the edge of what was considered it may be anything beyond: there is no figure.
+            // An estimate at the edge of the considered range may lie anywhere beyond, so there is no figure.
             if (!flagOr(body, "at_edge")) out_.amplitudeWeber = estimateFrom(body["amplitude_weber"]).value;
         } else if (each.name == row::kEstimate) {
             const auto estimate =
@@ -270,7 +270,7 @@ private:
         } else if (procedure == "range") {
             trial.type = "stimulus";
         } else {
-            return;  // felt again, without a question of its own
+            return;  // presented again, without a question
         }
         const auto dot = place.find('.');
         if (dot != std::string::npos)
@@ -280,8 +280,8 @@ private:
         out_.thresholds.push_back(std::move(trial));
     }
 
-    /// U is the lowest level called too strong, else the highest given. The answer to an empty presentation counts
-    /// for the level before it.
+    /// `tooStrong` is the lowest level called too strong, else the highest level given. The answer to an empty
+    /// presentation counts for the level before it.
     void takeAscending(BidsThresholdTrial& trial, const json& body) {
         trial.series = countOr(body, "series");
         const double level = std::isfinite(trial.intensity) ? trial.intensity : trial.current.value();
@@ -335,8 +335,8 @@ private:
     double impedance_ = kNaN;
     double detectionLevel_ = kNaN;
     double beforeLevel_ = kNaN, highestLevel_ = kNaN;  // levels in the ascending limits
-    std::set<std::size_t> adapted_;                    // blocks
-    std::map<std::size_t, BidsTrial> silent_;          // trials without an answer so far
+    std::set<std::size_t> adapted_;                    // block numbers
+    std::map<std::size_t, BidsTrial> silent_;          // the last attempt of trials that have no answer yet
 };
 
 }  // namespace
