@@ -1,10 +1,10 @@
-// Clock.h - the only source of time in core; nothing else asks the system.
+// Clock.h - the only source of time in core, apart from SystemTime; no other code asks the system for the time.
 //
-// A SteadyClock runs in real time; a VirtualClock moves only when the control loop moves it, so that a
-// two-hour session takes seconds and the same seed gives the same bytes.
+// A SteadyClock runs in real time. Only the control loop moves a VirtualClock, so that a session of two hours takes
+// seconds and the same seed gives the same bytes.
 //
-// Thread-safety: now() and asleep() may be called from any thread. VirtualClock::advanceTo() and sleepFor() have one
-// caller, the control loop.
+// Thread-safety: any thread may call now() and asleep(). VirtualClock::advanceTo() and sleepFor() have one caller, the
+// control loop.
 #pragma once
 
 #include <atomic>
@@ -19,11 +19,11 @@ namespace tacto {
 class Clock {
 public:
     virtual ~Clock() = default;
-    /// Time since this clock was made, as long as the computer was awake. Never goes back.
+    /// Time since this clock was made, without the time for which the computer slept. Never goes back.
     [[nodiscard]] virtual Instant now() const noexcept = 0;
-    /// How long the computer has slept (suspended) since this clock was made: now() does not count that.
+    /// How long the computer has slept (was suspended) since this clock was made. now() does not include this time.
     [[nodiscard]] virtual Instant asleep() const noexcept { return Instant(0); }
-    /// now() and asleep() together: what a heartbeat is timed by, so that a computer that slept counts as silence.
+    /// The sum of now() and asleep(). Heartbeats use it, so that the sleep of a computer counts as silence.
     [[nodiscard]] Instant elapsed() const noexcept { return now() + asleep(); }
     [[nodiscard]] virtual bool isVirtual() const noexcept = 0;
 };
@@ -32,7 +32,7 @@ class SteadyClock final : public Clock {
 public:
     SteadyClock() noexcept;
     [[nodiscard]] Instant now() const noexcept override;
-    [[nodiscard]] Instant asleep() const noexcept override;  ///< right to a millisecond
+    [[nodiscard]] Instant asleep() const noexcept override;  ///< accurate to a millisecond
     [[nodiscard]] bool isVirtual() const noexcept override { return false; }
 
 private:
@@ -45,9 +45,9 @@ public:
     [[nodiscard]] Instant now() const noexcept override;
     [[nodiscard]] bool isVirtual() const noexcept override { return true; }
     [[nodiscard]] Instant asleep() const noexcept override;
-    /// Moves time forward; a moment already past is ignored.
+    /// Moves time forward; ignores a moment in the past.
     void advanceTo(Instant moment) noexcept;
-    /// The computer sleeps for `duration`: now() stands still.
+    /// Simulates a sleep of the computer for `duration`: now() does not change.
     void sleepFor(Instant duration) noexcept;
 
 private:
@@ -55,26 +55,26 @@ private:
     std::atomic<Instant::rep> asleep_{0};
 };
 
-/// Wall time as ISO 8601 UTC, e.g. "2026-11-20T14:03:05Z". For a session's header and names, nothing else.
+/// Returns wall time as ISO 8601 UTC, such as "2026-11-20T14:03:05Z". Only for a session's header and names.
 [[nodiscard]] std::string wallTimeUtc();
-/// Reads what wallTimeUtc() wrote. Returns nothing for any other text.
+/// Reads a text of wallTimeUtc(). Returns nothing for any other text.
 [[nodiscard]] std::optional<std::chrono::sys_seconds> wallTimeFrom(const std::string& utc);
 
-// Time as other processes read it too, for what outlives the program. A Clock begins with the program.
+// Time that other processes also see, for data that outlive the program; a Clock starts with the program.
 //
-// The second seam to the system's time beside Clock: nothing else in core asks for it.
+// The second access to the system's time, besides Clock; core has no other.
 
 class SystemTime {
 public:
     virtual ~SystemTime() = default;
-    /// The time since the computer was started, including the time for which it slept. Never goes back. Does not block.
+    /// Time since the computer was started, including the time for which it slept. Never goes back. Does not block.
     [[nodiscard]] virtual Instant sinceBoot() const noexcept = 0;
-    /// Names this start of the computer; empty where the system does not tell.
+    /// Returns an identifier for this start of the computer; empty if the system has none.
     [[nodiscard]] virtual std::string boot() const = 0;
     /// Wall time, UTC. May jump. Does not block.
     [[nodiscard]] virtual std::chrono::sys_seconds wall() const noexcept = 0;
 
-    /// The system's own.
+    /// Returns the computer's own time.
     [[nodiscard]] static const SystemTime& real() noexcept;
 };
 

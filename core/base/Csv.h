@@ -1,11 +1,11 @@
-// Csv.h - tables of text as laboratories really write them, read line by line with the line number kept.
+// Csv.h - reads tables of text as laboratories really write them, line by line with line numbers.
 //
-// Tolerated: a byte-order mark, CR LF, blank lines, `#` comment lines, blanks around fields, quoted fields,
-// trailing separators, and comma, semicolon or tab as separator (found on the first line that is not a comment).
-// A decimal comma is not guessed at. What a field means is the caller's business, and so is refusing it; every
-// refusal names file and line.
+// Accepts a byte-order mark, CR LF, blank lines, `#` comment lines, blanks around fields, quoted fields, trailing
+// separators, and comma, semicolon or tab as separator (taken from the first line that is not a comment). Does not
+// guess at decimal commas. The caller interprets the fields and refuses unsuitable ones; every refusal names file and
+// line.
 //
-// Thread-safety: none; one owner. Fields are views into the text given, which must outlive them.
+// Thread-safety: none; one owner. Fields are views into the given text, which must outlive them.
 #pragma once
 
 #include <cstddef>
@@ -22,32 +22,33 @@
 
 namespace tacto {
 
-/// Errors: NotFound when it is not there, Io for a folder, a pipe or a device.
+/// Checks that a plain file exists. Errors: NotFound; Io for a folder, a pipe or a device.
 [[nodiscard]] Result<void> checkPlainFile(const std::filesystem::path& path);
 
-/// The whole of a file. Errors: NotFound when it is not there, Io when it cannot be read, or is not a plain file,
-/// ParseError when it has more than `maxBytes`.
+/// Reads a whole file. Errors: NotFound if it does not exist, Io if it is not a plain file or cannot be read,
+/// ParseError if it has more than `maxBytes`.
 [[nodiscard]] Result<std::string> readTextFile(const std::filesystem::path& path,
                                                std::uintmax_t maxBytes = std::numeric_limits<std::uintmax_t>::max());
 
-/// Whether the line is empty, or holds only a remark behind `#`.
+/// Whether the line is empty or contains only a `#` comment.
 [[nodiscard]] bool isBlankOrComment(std::string_view line);
-/// Cuts a line into `fields`, trimmed, a quoted one without its outer quotes. A quoted field may hold separators; it
-/// may not span lines, which no table of readings does.
+/// Cuts a line into trimmed `fields`, and removes outer quotes. A quoted field may contain separators, but not line
+/// ends, which tables of readings never contain.
 void cutLine(std::string_view line, char separator, std::vector<std::string_view>& fields);
 
 class CsvReader {
 public:
-    /// Passes over the first `skipRows` lines. A `separator` of '\0' is found on the first line that is then left.
+    /// Skips the first `skipRows` lines. A `separator` of '\0' means: take the separator from the first line after
+    /// them.
     explicit CsvReader(std::string_view text, std::size_t skipRows = 0, char separator = '\0');
 
-    /// Moves to the next line that holds anything; false at the end.
+    /// Moves to the next line that is not blank; returns false at the end.
     [[nodiscard]] bool next();
-    /// The current line's fields, trimmed, trailing empty ones kept. A quoted field loses its outer quotes.
+    /// The current line's fields, trimmed and without outer quotes; empty fields at the end are kept.
     [[nodiscard]] const std::vector<std::string_view>& fields() const noexcept { return fields_; }
-    /// 1-based number of the current line in the file.
+    /// Number of the current line in the file, from 1.
     [[nodiscard]] std::size_t line() const noexcept { return line_; }
-    /// Lines without anything between the one before and the current one; with tabs alone where tabs separate.
+    /// Number of empty lines directly before the current line; with tabs as separator, lines of tabs count as empty.
     [[nodiscard]] std::size_t blanksBefore() const noexcept { return blanks_; }
 
 private:
@@ -61,20 +62,20 @@ private:
     std::vector<std::string_view> fields_;
 };
 
-/// The rows of a table whose header names its columns. Every refusal names file and line.
+/// The rows of a table with column names in its header. Every refusal names file and line.
 class NamedRows {
 public:
-    /// `text` and the words must outlive this. `name` is the file's; `columns` says what the header must name ("columns
-    /// a and b were expected"), `row` what a row is ("a row per trial").
+    /// `text` and the words must outlive this object. `name`: of the file. For messages: `columns`, what the header
+    /// must contain ("columns a and b were expected"), and `row`, what a row is ("a row per trial").
     NamedRows(std::string_view text, std::string_view name, std::string_view columns, std::string_view row);
 
-    /// The column of the first of `names` that the header has; nothing where it has none of them.
+    /// Returns the column of the first of `names` that is in the header, or nothing.
     [[nodiscard]] std::optional<std::size_t> find(std::initializer_list<std::string_view> names);
-    /// Errors: ParseError where the header has none of them, or the file is empty.
+    /// As find(). Errors: ParseError if none of `names` is in the header, or the file is empty.
     [[nodiscard]] Result<std::size_t> column(std::initializer_list<std::string_view> names);
 
-    /// Moves to the next row; false at the end. Errors: ParseError for a row that lacks a column that was found, and
-    /// where there is no row at all.
+    /// Moves to the next row; returns false at the end. Errors: ParseError for a row without a column that was found,
+    /// and if the table has no rows.
     [[nodiscard]] Result<bool> next();
     [[nodiscard]] std::string_view operator[](std::size_t column) const { return reader_.fields()[column]; }
 
@@ -89,7 +90,7 @@ private:
     std::string_view name_, columns_, row_;
     bool empty_;
     std::vector<std::string_view> header_;
-    std::size_t needed_ = 0;  ///< fields of a row
+    std::size_t needed_ = 0;  ///< number of fields that a row must have
     bool any_ = false;
 };
 

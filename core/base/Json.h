@@ -1,7 +1,7 @@
-// Json.h - nlohmann's json, with its functions compiled once, in core/base: in each of 200 units they took half a
-// second, and a program took them from whichever unit it was linked with first, optimised or not.
+// Json.h - nlohmann's json with its functions compiled once, in core/base. Otherwise each of 200 files took half a
+// second, and a program used the functions of the file that was linked first, optimised or not.
 //
-// For precompiled headers; sources include <nlohmann/json.hpp>, as if this were not.
+// For precompiled headers; sources include <nlohmann/json.hpp> as usual.
 //
 // Thread-safety: nlohmann's.
 #pragma once

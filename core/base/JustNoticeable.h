@@ -6,7 +6,7 @@
 
 namespace tacto {
 
-/// Smallest relative changes that people notice.
+/// The smallest relative changes that people notice.
 inline constexpr double kAmplitudeWeberFraction = 0.10;
 inline constexpr double kIntervalWeberFraction = 0.16;
 

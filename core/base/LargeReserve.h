@@ -1,11 +1,11 @@
 // LargeReserve.h - room for many elements that are about to be filled.
 //
-// Every fresh page of memory that is touched costs a fault, several microseconds on a virtual machine: of 64 MB, more
-// than what is then done with it. Where the kernel has huge pages to give (Linux, "madvise" or "always" in
-// /sys/kernel/mm/transparent_hugepage/enabled), it is asked for them: one fault for 512 pages. Elsewhere this is
+// The first access to a page of memory causes a fault, which takes several microseconds on a virtual machine; for 64 MB
+// that is more than the later work on them. If the kernel offers huge pages (Linux, "madvise" or "always" in
+// /sys/kernel/mm/transparent_hugepage/enabled), this asks for them, with one fault for 512 pages. Otherwise it equals
 // reserve().
 //
-// Thread-safety: as the vector's.
+// Thread-safety: as the vector.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace tacto {
 
-/// The whole pages of a block are marked; smaller blocks than a few pages are left alone. Never fails.
+/// Marks the whole pages of a block for the kernel; ignores blocks of only a few pages. Never fails.
 void askForHugePages(void* block, std::size_t bytes) noexcept;
 
 template <class T>

@@ -1,4 +1,4 @@
-// LocaleFreeText.h - numbers to and from text, the same way in every language setting.
+// LocaleFreeText.h - converts between numbers and text, in the same way for every language setting.
 #pragma once
 
 #include <algorithm>
@@ -16,23 +16,23 @@
 
 namespace tacto {
 
-/// Takes the number that `text` begins with off it ("1e-3", "-4"): "2.5 kHz" leaves " kHz". Nothing, and `text` as it
-/// was, where there is none and where a double cannot hold it. Accepts "nan" and "inf".
+/// Reads the number at the start of `text` ("1e-3", "-4") and removes it: "2.5 kHz" leaves " kHz". Accepts "nan" and
+/// "inf". Returns nothing, and keeps `text`, if there is no number or a double cannot hold it.
 [[nodiscard]] std::optional<double> takeNumber(std::string_view& text);
 
 /// The whole of `text`, blanks trimmed, as a number ("1e-3", "-4"). Nothing for an empty text, trailing
 /// characters or a decimal comma. Accepts "nan" and "inf": whether those are welcome is the caller's rule.
 [[nodiscard]] std::optional<double> parseNumber(std::string_view text);
 
-/// A number with an optional engineering prefix and the given unit: "1.5 kohm", "500ohm", "50 nF", "500".
-/// Prefixes p n u µ m k M G. Nothing when the text is something else.
+/// Reads a number with an optional engineering prefix and the given unit: "1.5 kohm", "500ohm", "50 nF", "500".
+/// Prefixes: p n u µ m k M G. Returns nothing for any other text.
 [[nodiscard]] std::optional<double> parseQuantity(std::string_view text, std::string_view unit);
 
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 [[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);
 
-// Small letters and capitals from A to Z, the same in every language setting. The functions of the C library follow the
-// locale, which Qt sets: in Turkish the letter I has no small form of one byte.
+// Lower and upper case of the letters A to Z, the same for every language setting. The functions of the C library
+// follow the locale, which Qt sets: in Turkish the lower case of I is not a single byte.
 
 [[nodiscard]] constexpr char lowered(char letter) noexcept {
     return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
@@ -41,7 +41,7 @@ namespace tacto {
     return letter >= 'a' && letter <= 'z' ? static_cast<char>(letter - 'a' + 'A') : letter;
 }
 
-/// Other bytes than the letters A to Z stay as they are, so UTF-8 stays UTF-8.
+/// Changes only the letters A to Z, so that UTF-8 stays UTF-8.
 [[nodiscard]] inline std::string lowered(std::string_view text) {
     std::string result(text);
     for (char& letter : result) letter = lowered(letter);
@@ -53,25 +53,25 @@ namespace tacto {
     return result;
 }
 
-/// Whether both are the same apart from small letters and capitals.
+/// Whether both texts are the same if case is ignored.
 [[nodiscard]] constexpr bool sameLetters(std::string_view a, std::string_view b) noexcept {
     return std::ranges::equal(a, b, [](char x, char y) { return lowered(x) == lowered(y); });
 }
 
-// Texts in hexadecimal digits: digests, and the names of drawn files.
+// Texts of hexadecimal digits: digests, and random file names.
 
-/// Whether a text consists of exactly so many characters from 0 to 9 and a to f.
+/// Whether a text is exactly `digits` characters from 0 to 9 and a to f.
 [[nodiscard]] constexpr bool isHex(std::string_view text, std::size_t digits) noexcept {
     return text.size() == digits && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
 
-/// A SHA-256 digest, as this program writes it.
+/// Whether a text is a SHA-256 digest as this program writes it.
 [[nodiscard]] constexpr bool isSha256(std::string_view text) noexcept { return isHex(text, 64); }
 
 // Whole numbers from text.
 
-/// The whole of `text` as a number: digits of `base`, after a minus where T has a sign. Nothing for an empty text, a
-/// plus, blanks, other characters and what T cannot hold.
+/// Reads all of `text` as a number: digits of `base`, after a minus if T is signed. Returns nothing for an empty text,
+/// a plus, blanks, other characters, or a number that T cannot hold.
 template <std::integral T>
 [[nodiscard]] std::optional<T> parseWhole(std::string_view text, int base = 10) noexcept {
     T value = 0;
@@ -81,9 +81,9 @@ template <std::integral T>
     return value;
 }
 
-// Names that may be given once: a key, an option. Finds a second one, and words the sentence that refuses it.
+// Names that may be given only once, such as a key or an option: finds a repeated name and writes the error.
 
-/// The first of `values` whose projection equals an earlier one. Null when all differ.
+/// Returns the first of `values` with the same projection as an earlier value; null if all differ.
 template <class Values, class Projection = std::identity>
 [[nodiscard]] constexpr auto secondIn(const Values& values, Projection projection = {}) -> decltype(&*values.begin()) {
     for (auto at = std::begin(values); at != std::end(values); ++at) {
@@ -92,7 +92,7 @@ template <class Values, class Projection = std::identity>
     return nullptr;
 }
 
-/// `the tag "a" is given twice; once is expected`: `text` with `args` names what is.
+/// Returns a sentence such as `the tag "a" is given twice; once is expected`; `text` and `args` say what is given.
 template <class... Args>
 [[nodiscard]] std::string givenTwice(fmt::format_string<Args...> text, Args&&... args) {
     return fmt::format(text, std::forward<Args>(args)...) + " is given twice; once is expected";

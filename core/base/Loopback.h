@@ -1,4 +1,4 @@
-// Loopback.h - a socket that listens on this computer alone.
+// Loopback.h - a socket that accepts connections only from this computer.
 //
 // Thread-safety: a pure function, apart from the system call.
 #pragma once
@@ -10,11 +10,11 @@
 namespace tacto {
 
 struct LoopbackSocket {
-    int descriptor;  ///< the caller's to close; does not block, and is not handed on to programs that are started
+    int descriptor;  ///< closed by the caller; does not block, and programs that are started do not inherit it
     std::uint16_t port;
 };
 
-/// Listens on 127.0.0.1 at a port that the system chooses. `backlog`: how many connections may wait to be accepted.
+/// Listens on 127.0.0.1, on a port that the system chooses. `backlog`: how many connections may wait.
 /// Errors: Io with the system's reason.
 [[nodiscard]] Result<LoopbackSocket> listenOnLoopback(int backlog);
 

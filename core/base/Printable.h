@@ -1,5 +1,5 @@
-// Printable.h - text from a file or a device as a terminal may show it: what would move the cursor, change colours or
-// turn the reading direction is spelled out instead (hazard H10).
+// Printable.h - makes text from a file or a device safe for a terminal: characters that would move the cursor, change
+// colours or turn the reading direction are written as escapes (hazard H10).
 #pragma once
 
 #include <cstddef>
@@ -10,22 +10,22 @@ namespace tacto {
 
 enum class Newlines { Escape, Keep };
 
-/// `text` with C0 and C1 control characters, DEL and bytes that are not UTF-8 written as "\x1b", and characters that
-/// turn the reading direction or cannot be seen as "\u202e". Everything else stays as it is.
+/// Returns `text` with C0 and C1 control characters, DEL and bytes that are not UTF-8 written like "\x1b", and
+/// invisible characters or those that turn the reading direction like "\u202e". All else is unchanged.
 [[nodiscard]] std::string printable(std::string_view text, Newlines newlines = Newlines::Escape);
 
-/// Whether every byte is part of a character in its shortest form, and no part of a surrogate.
+/// Whether the text is valid UTF-8: shortest forms only, no surrogates.
 [[nodiscard]] bool isUtf8(std::string_view text) noexcept;
 
-/// Whether printable() spells it out: C0, DEL and C1.
+/// Whether printable() escapes a character as a control character: C0, DEL and C1.
 [[nodiscard]] bool isControl(char32_t code) noexcept;
-/// The others that it spells out: they turn the reading direction, separate lines or have no width.
+/// Whether printable() escapes a character because it turns the reading direction, separates lines or has no width.
 [[nodiscard]] bool isHidden(char32_t code) noexcept;
 
 /// The number of code points in a UTF-8 text.
 [[nodiscard]] std::size_t charactersOf(std::string_view utf8) noexcept;
 
-/// Every number becomes "…": a level in a sentence tells what was felt.
+/// Replaces every number by "…", because a level in a sentence would reveal what was felt.
 [[nodiscard]] std::string withoutNumbers(std::string_view text);
 
 }  // namespace tacto

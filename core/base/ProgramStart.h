@@ -1,6 +1,6 @@
-// ProgramStart.h - what every program of ours needs of its surroundings before it does anything.
+// ProgramStart.h - prepares the surroundings of each of our programs before it does anything else.
 //
-// Thread-safety: once, in main(), before other threads are started.
+// Thread-safety: call once, in main(), before any thread is started.
 #pragma once
 
 #include <filesystem>
@@ -10,41 +10,39 @@
 
 namespace tacto {
 
-/// HOME becomes the folder that the system's list of accounts names, as a shell has it, where the environment has no
-/// absolute one: nothing of the user's is written into the folder that the program was started in.
-/// Returns the sentence to end with (exit code 3) where no folder is known for the user's data, and where an argument
-/// is not UTF-8, with the bytes that are not spelled out: Qt would look for a file of another name.
+/// If the environment has no absolute HOME, sets it to the folder in the system's list of accounts, so that no user
+/// data is written to the folder in which the program was started.
+/// Returns the sentence to end with (exit code 3) if no folder for user data is known, or if an argument is not UTF-8
+/// (its wrong bytes are escaped): Qt would look for a file with another name.
 [[nodiscard]] std::optional<std::string> refusedStart(int argc, const char* const* argv);
 
-// Stdin, stdout and stderr are open in every program of ours: where one is closed, the next file
-// that is opened takes its number, and what is printed for the user would be written into a device (hazard H4).
+// Stdin, stdout and stderr must be open in each of our programs: if one is closed, the next opened file gets its
+// number, and text printed for the user could be written to a device (hazard H4).
 //
-// A limit on the size of files is an error of what writes, as a full disk is, and does not end the program.
+// Exceeding a limit on file sizes is a write error, like a full disk, and does not end the program.
 
-/// Opens /dev/null for each of the three streams that is closed, and ignores SIGXFSZ. Ends the program when /dev/null
-/// cannot be opened.
+/// Opens /dev/null for each closed stream, and ignores SIGXFSZ. Ends the program if /dev/null cannot be opened.
 void holdStandardStreams() noexcept;
 
-/// Whether a line can be written to `stream` at once: writing into a full pipe would hold the thread, and with it a
-/// stop.
+/// Whether `stream` can take a line at once: writing to a full pipe would block the thread, and so delay a stop.
 [[nodiscard]] bool takesMore(int stream) noexcept;
 
-// The programs that belong to this one lie in the same folder.
+// The other programs of Tactoscope lie in the same folder as this program.
 
-/// The folder of the program that runs; empty where the system does not tell.
+/// Returns the folder of the running program; empty if the system does not tell.
 [[nodiscard]] inline std::filesystem::path programFolder() {
     std::error_code error;
     return std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
 }
 
-/// "tactoscope-watchdog" beside it.
+/// Returns the path of a program in that folder, such as "tactoscope-watchdog".
 [[nodiscard]] inline std::filesystem::path programBeside(std::string_view name) { return programFolder() / name; }
 
-// Where the program keeps its user's data: calibrations, keys, sessions, protocols.
+// The folder with the user's data: calibrations, keys, sessions, protocols.
 
-/// $XDG_DATA_HOME/tactoscope, or ~/.local/share/tactoscope where that is not set or not absolute, which the XDG base
-/// directory specification tells programs to ignore: it would be another folder for each folder that the program is
-/// started in. Need not exist. Relative only where HOME is not set either.
+/// Returns $XDG_DATA_HOME/tactoscope, or ~/.local/share/tactoscope if that is not set or not absolute. The XDG base
+/// directory specification tells programs to ignore relative paths: they depend on where the program is started. The
+/// folder need not exist. The path is relative only if HOME is not set either.
 [[nodiscard]] std::filesystem::path dataFolder();
 
 }  // namespace tacto

@@ -1,7 +1,7 @@
-// Random.h - seeded randomness; the only source of it, so that the same seed gives the same bytes.
+// Random.h - random numbers from a seed. There is no other source, so that the same seed gives the same bytes.
 //
-// Each user takes a stream of its own by name (`Random(seed, "oscilloscope noise")`), so that adding a
-// draw in one place does not shift every other.
+// Each user has a stream of its own by name (`Random(seed, "oscilloscope noise")`), so that an additional draw in one
+// place does not shift the draws in other places.
 //
 // Thread-safety: none; one owner.
 #pragma once
@@ -26,7 +26,7 @@ public:
 
 private:
     std::mt19937_64 engine_;
-    std::optional<double> spare_;  ///< normal draws come in pairs
+    std::optional<double> spare_;  ///< the second of a pair of normal draws
 };
 
 }  // namespace tacto

@@ -1,6 +1,6 @@
-// RecordFields.h - the fields of a stored record, each described once: its key, its unit, what it accepts, its member.
+// RecordFields.h - describes each field of a stored record once: its key, unit, accepted values and member.
 //
-// Reading, writing and checking derive from the table, and so does the form that edits the record:
+// Reading, writing, checking and the form that edits the record all use this table:
 //
 //   RecordFields<Contact> contactFields() {
 //       RecordFields<Contact> all;
@@ -9,11 +9,11 @@
 //       return all;
 //   }
 //
-// A key that is missing keeps what the member holds, unless it is required. Keys that the table does not know are
-// refused, and so is what a field does not accept (ValueKind.h).
+// A member keeps its value if its key is missing, unless the key is required. Unknown keys are refused, and so are
+// values that a field does not accept (ValueKind.h).
 //
-// Thread-safety: a table is constant once it is built; reading, writing and checking are pure. No exception whatever
-// the JSON.
+// Thread-safety: a table is constant once it is built; reading, writing and checking are pure. No JSON causes an
+// exception.
 #pragma once
 
 #include <cassert>
@@ -33,21 +33,21 @@
 
 namespace tacto {
 
-// What RecordFields (RecordFields.h) does with a record, for code that does not know its type: records
-// by their address, members by where they stand in them.
+// What RecordFields does with a record, for code that does not know the record's type: records are given by address,
+// members by their offset in the record.
 
 class RecordTable {
 public:
-    /// Reaches a member that is a std::optional.
+    /// Access to a member that is a std::optional.
     struct OptionalAccess {
-        const void* (*get)(const void*);  ///< null: none
+        const void* (*get)(const void*);  ///< returns null if there is no value
         void* (*emplace)(void*);
         void (*reset)(void*);
     };
     using Rule = std::function<Result<void>(const void* record)>;
 
-    /// A field whose member stands `offset` bytes into the record. The returned field may be changed until the next one
-    /// is added. `optional`: for a member that is a std::optional; must live forever.
+    /// Adds a field whose member lies `offset` bytes into the record. The returned field may be changed until the next
+    /// field is added. `optional`: for a std::optional member; must stay valid forever.
     FieldInfo& add(std::string_view key, std::size_t offset, AnyKind kind, const OptionalAccess* optional = nullptr);
     void note(std::string_view key, const AcceptedText& accepted);
     void rule(Rule holds) { rules_.push_back(std::move(holds)); }
@@ -55,7 +55,7 @@ public:
     void takeNullAsMissing() { nullIsMissing_ = true; }
     void passOverUnknownKeys() { passOver_ = true; }
 
-    /// As in RecordFields.
+    /// These do what the same functions of RecordFields do.
     [[nodiscard]] Result<void> read(const nlohmann::json& object, void* into, const RecordPlace& place) const;
     [[nodiscard]] nlohmann::json write(const void* record) const;
     [[nodiscard]] Result<void> check(const void* record, const RecordPlace& place) const;
@@ -69,9 +69,9 @@ private:
         const OptionalAccess* optional;
 
         [[nodiscard]] void* in(void* record) const noexcept { return static_cast<std::byte*>(record) + offset; }
-        /// A member that is not a std::optional keeps its value.
+        /// Does nothing to a member that is not a std::optional.
         void clear(void* record) const;
-        /// Null where the member is a std::optional that holds nothing.
+        /// Returns null if the member is a std::optional without a value.
         [[nodiscard]] const void* held(const void* record) const;
         [[nodiscard]] Result<void> read(const nlohmann::json& value, void* record, const RecordPlace& place) const;
         [[nodiscard]] nlohmann::json write(const void* record) const;
@@ -85,7 +85,7 @@ private:
     bool passOver_ = false;
 };
 
-/// The member `inner` of the member `outer`, as the member of a field.
+/// Gives the member `inner` of the member `outer` as the member of a field.
 template <class Outer, class Inner>
 [[nodiscard]] auto in(Outer outer, Inner inner) {
     return [=](auto& record) -> auto& { return std::invoke(inner, std::invoke(outer, record)); };
@@ -112,14 +112,14 @@ class RecordFields {
     };
     template <class Member>
     using Held = std::remove_cvref_t<std::invoke_result_t<Member, Record&>>;
-    /// The value in a member; for a std::optional, the value in that.
+    /// The type of a member's value; for a std::optional, the type inside.
     template <class Member>
     using ValueOf = typename Bare<Held<Member>>::Type;
 
 public:
-    // `member` is a pointer to a member, in() for a member of a member, or std::identity for fields of the record
-    // itself that stand in an object of their own: a part of the record, not of what it points to. What is returned may
-    // be changed until the next field is added.
+    // `member` is a pointer to a member; or in() for a member of a member; or std::identity for fields of the record
+    // itself that are in a JSON object of their own. It must be part of the record, not reached by a pointer. The
+    // returned field may be changed until the next field is added.
 
     template <class Member>
     FieldInfo& number(std::string_view key, Member member, const AcceptedNumbers& accepted = {}) {
@@ -159,33 +159,33 @@ public:
         return table_.add(key, offset, std::move(kind), Bare<Held<Member>>::kAccess);
     }
 
-    /// A text for people who read the file. It is kept by no member.
+    /// A text for people who read the file. No member keeps it.
     void note(std::string_view key, const AcceptedText& accepted = {}) { table_.note(key, accepted); }
-    /// A rule between fields; checked after each field by itself. `holds(record)` gives a Result<void>.
+    /// A rule between fields, checked after the single fields. `holds(record)` returns a Result<void>.
     template <class Rule>
     void rule(Rule holds) {
         table_.rule([holds = std::move(holds)](const void* record) -> Result<void> {
             return holds(*static_cast<const Record*>(record));
         });
     }
-    /// The record is written as null where `absent(record)`.
+    /// Writes the record as null if `absent(record)` is true.
     template <class Absent>
     void absentWhere(Absent absent) {
         table_.absentWhere([absent = std::move(absent)](const void* record) -> bool {
             return absent(*static_cast<const Record*>(record));
         });
     }
-    /// Null stands for a missing key: what a script hands on.
+    /// Treats null like a missing key, for data from scripts.
     void takeNullAsMissing() { table_.takeNullAsMissing(); }
-    /// Keys that the table does not know are notes.
+    /// Ignores keys that are not in the table, as notes.
     void passOverUnknownKeys() { table_.passOverUnknownKeys(); }
 
     /// Errors: ParseError naming an unknown or missing key or a value of another type; InvalidArgument naming a value
-    /// that is not accepted; as the rules. `into` may hold a part of it then.
+    /// that is not accepted; as the rules. After an error `into` may be partly changed.
     [[nodiscard]] Result<void> read(const nlohmann::json& object, Record& into, const RecordPlace& place) const {
         return table_.read(object, &into, place);
     }
-    /// A new record. Errors: as read().
+    /// Reads a new record. Errors: as above.
     [[nodiscard]] Result<Record> read(const nlohmann::json& object, const RecordPlace& place) const {
         Record record{};
         if (auto done = read(object, record, place); !done) return failure(done);
@@ -201,7 +201,7 @@ public:
     [[nodiscard]] ValueKind<Record> kind() const { return ValueKind<Record>(table_.kind()); }
 
 private:
-    /// A record that shows where its members stand.
+    /// A record that shows the offsets of its members.
     [[nodiscard]] static Record& example() {
         static Record one{};
         return one;
@@ -210,7 +210,7 @@ private:
     RecordTable table_;
 };
 
-/// A record that stands in the file as a `Stored`: `fromStored(stored)` and `toStored(record)` make one of the other.
+/// A record that is stored as a `Stored`: `fromStored(stored)` and `toStored(record)` convert between the two.
 template <class Record, class Stored, class From, class To>
 [[nodiscard]] ValueKind<Record> storedAs(const RecordFields<Stored>& fields, From fromStored, To toStored) {
     const auto stored = fields.kind();
@@ -230,7 +230,7 @@ template <class Record, class Stored, class From, class To>
     return kind;
 }
 
-/// The record that `text` holds. `source` begins every message. Errors: ParseError.
+/// Parses a record from `text`. `source` begins every message. Errors: ParseError.
 template <class Record>
 [[nodiscard]] Result<Record> parseRecord(const RecordFields<Record>& fields, std::string_view text,
                                          std::string_view source, const JsonLimits& limits = {}) {
@@ -239,7 +239,7 @@ template <class Record>
     return fields.read(*document, {.file = std::string(source)}).map_error(asParseError);
 }
 
-/// The result of `build`, a table for example, made at the first call and kept.
+/// Returns the result of `build`, for example a table, which is built at the first call and kept.
 template <auto build>
 [[nodiscard]] const auto& builtOnce() {
     static const auto built = build();
