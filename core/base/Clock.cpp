@@ -18,8 +18,8 @@ Instant read(clockid_t clock) noexcept {
     return std::chrono::seconds(at.tv_sec) + std::chrono::nanoseconds(at.tv_nsec);
 }
 
-/// CLOCK_BOOTTIME counts on while the computer sleeps, CLOCK_MONOTONIC (the steady clock) does not. The two are not
-/// read in one instruction: a reading that a pause came between is taken again, or the pause would pass for sleep.
+/// CLOCK_BOOTTIME counts while the computer sleeps; CLOCK_MONOTONIC (the steady clock) does not. If the thread was
+/// paused between the two readings, they are taken again, since the pause would look like sleep.
 Instant asleepSinceBoot() noexcept {
     constexpr Instant kTogether = std::chrono::milliseconds(1);
     constexpr int kAttempts = 100;
@@ -82,7 +82,7 @@ std::optional<std::chrono::sys_seconds> wallTimeFrom(const std::string& utc) {
     parts.tm_min = number(14, 2);
     parts.tm_sec = number(17, 2);
     const auto at = timegm(&parts);
-    if (wallText(at) != utc) return std::nullopt;  // a day that does not exist, or other text between the numbers
+    if (wallText(at) != utc) return std::nullopt;  // an impossible day, or other text between the numbers
     return std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::from_time_t(at));
 }
 

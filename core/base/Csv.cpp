@@ -17,7 +17,7 @@ Result<void> checkPlainFile(const std::filesystem::path& path) {
     if (std::filesystem::is_directory(status)) {
         return fail(ErrorCode::Io, "{} is a folder; a file was expected", path.string());
     }
-    if (!std::filesystem::is_regular_file(status)) {  // a pipe would wait for its other end
+    if (!std::filesystem::is_regular_file(status)) {  // opening a pipe would wait for its other end
         return fail(ErrorCode::Io, "{} is a pipe or a device; a file was expected", path.string());
     }
     return {};

@@ -38,8 +38,7 @@ void cutLine(std::string_view line, char separator, std::vector<std::string_view
 
 class CsvReader {
 public:
-    /// Skips the first `skipRows` lines. A `separator` of '\0' means: take the separator from the first line after
-    /// them.
+    /// Skips the first `skipRows` lines. If `separator` is '\0', the first line after them decides.
     explicit CsvReader(std::string_view text, std::size_t skipRows = 0, char separator = '\0');
 
     /// Moves to the next line that is not blank; returns false at the end.

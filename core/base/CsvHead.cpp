@@ -15,7 +15,7 @@ namespace tacto {
 
 namespace {
 
-/// Whether every comma stands between digits, as a decimal comma does.
+/// Whether every comma is between digits, as a decimal comma is.
 bool commasAreDecimal(std::string_view line) {
     const auto isDigit = [&](std::size_t i) { return i < line.size() && line[i] >= '0' && line[i] <= '9'; };
     for (auto at = line.find(','); at != std::string_view::npos; at = line.find(',', at + 1)) {
@@ -24,8 +24,8 @@ bool commasAreDecimal(std::string_view line) {
     return true;
 }
 
-/// What most of the first lines hold: a title line in front of a table may hold anything. A semicolon or a tab goes
-/// before a comma, which beside it is the decimal point of another country.
+/// Returns the separator of most of the first lines, since a title line above the table may contain anything.
+/// Semicolons and tabs win over commas, which are then decimal commas.
 char separatorOf(const std::vector<std::string_view>& lines) {
     constexpr std::size_t kLooked = 40;
     std::size_t tabs = 0;
@@ -35,13 +35,13 @@ char separatorOf(const std::vector<std::string_view>& lines) {
         tabs += line.find('\t') != std::string_view::npos && commasAreDecimal(line) ? 1U : 0U;
         semicolons += line.find(';') != std::string_view::npos ? 1U : 0U;
     }
-    const auto whole = std::span(lines).first(seen > 2 ? seen - 1 : seen);  // the last one may be cut off
+    const auto whole = std::span(lines).first(seen > 2 ? seen - 1 : seen);  // the last line may be cut off
     if (areApartByBlanks(whole)) return areApartByTabs(whole) ? '\t' : ' ';
     if (2 * tabs > seen) return '\t';
     return 2 * semicolons > seen ? ';' : ',';
 }
 
-/// The separator of lines in which `;` may not begin a comment.
+/// Returns the separator, ignoring lines that begin with `;` (possible comments) if there are other lines.
 char separatorWithout(const std::vector<std::string_view>& lines) {
     std::vector<std::string_view> others;
     std::ranges::copy_if(lines, std::back_inserter(others), [](auto line) { return !line.starts_with(';'); });
@@ -49,7 +49,7 @@ char separatorWithout(const std::vector<std::string_view>& lines) {
 }
 
 struct Remark {
-    std::size_t number;  // number of its line
+    std::size_t number;  // of its line
     std::string_view words;
 };
 
@@ -64,8 +64,8 @@ bool isRowOfNumbers(const std::vector<std::string>& fields, char point) {
     return any;
 }
 
-/// Whether `line`, which holds text beside numbers, is a row like `row`: numbers and stamps stand in the same columns,
-/// the first included.
+/// Whether `line`, which contains text and numbers, is a row like `row`: both have numbers and stamps in the same
+/// columns, including the first column.
 bool isRowLike(const CsvLine& line, const CsvLine& row, char point) {
     if (line.fields.size() != row.fields.size()) return false;
     const auto isRead = [&](const std::string& field) {
@@ -160,13 +160,13 @@ CsvHead readCsvHead(std::string_view text, std::size_t skipRows) {
     };
     auto row = firstRow('.');
     if (head.separator != ',') {
-        // The last line looked at may be cut off in the middle; anything before it settles the matter.
+        // The last line may be cut off in the middle; any earlier line decides.
         const auto withComma = firstRow(',');
         if (withComma && (!row || *withComma < *row)) {
             head.point = ',';
             row = withComma;
         }
-        // Whole numbers are the same with either; what follows them may not be.
+        // Whole numbers are the same with either decimal mark; later lines may decide.
         constexpr std::size_t kLooked = 200;
         std::size_t commas = 0;
         std::size_t points = 0;
@@ -188,11 +188,11 @@ CsvHead readCsvHead(std::string_view text, std::size_t skipRows) {
         };
         if (numbers(',') > numbers('.')) head.point = ',';
     }
-    // Rows with a text in one of their columns, before the first without or where all are so.
+    // Looks for rows with text in one column, before the first row without text, or if all rows are like this.
     constexpr std::size_t kLikeRows = 3;
     const bool allHaveText = !row && lines.size() > kLikeRows;
     if (row || allHaveText) {
-        const auto like = lineAt(row.value_or(lines.size() - 2));  // the last one may be cut off
+        const auto like = lineAt(row.value_or(lines.size() - 2));  // the last line may be cut off
         std::size_t first = row.value_or(lines.size() - 2);
         while (first > 0 && isRowLike(lineAt(first - 1), like, head.point)) --first;
         if (row || first + kLikeRows < lines.size()) row = first;
@@ -230,7 +230,7 @@ namespace {
 
 constexpr std::string_view kBlank = " \t\r";
 
-/// Cut where `isBetween` says that the blanks from one place to another divide two fields.
+/// Cuts a line at those runs of blanks for which `isBetween` says that they separate two fields.
 template <class IsBetween>
 void cutAt(std::string_view line, std::vector<std::string_view>& fields, IsBetween&& isBetween) {
     fields.clear();
@@ -278,7 +278,7 @@ bool areApartByTabs(std::span<const std::string_view> lines) {
             wordsHaveTabs = wordsHaveTabs || trimmed(line).find('\t') != std::string_view::npos;
             continue;
         }
-        // With blanks beside a tab, the tab counts as one of them.
+        // If a blank is next to a tab, the tab is only one of the blanks.
         if (line.find(" \t") != std::string_view::npos || line.find("\t ") != std::string_view::npos) return false;
         cutLine(line, '\t', fields);
         const auto its = fields.size();

@@ -51,9 +51,9 @@ struct CsvHead {
 /// Whether most lines contain only two or more numbers, separated by blanks.
 [[nodiscard]] bool areApartByBlanks(std::span<const std::string_view> lines);
 
-/// Whether single tabs divide such lines, where a field may be empty. Rows agree in their tabs, with a number
-/// or nothing between two of them, and no gap between two numbers in all rows; one before the first number is a column
-/// where a line of words has tabs too.
+/// Whether single tabs separate the fields of such lines, so that a field may be empty: all rows have the same number
+/// of tabs, with a number or nothing between two tabs, and no column between two numbers is empty in all rows. A tab
+/// before the first number starts a column if a line of words has tabs too.
 [[nodiscard]] bool areApartByTabs(std::span<const std::string_view> lines);
 
 /// Cuts a line into fields, for any separator of CsvHead.

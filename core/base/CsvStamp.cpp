@@ -15,7 +15,7 @@ public:
         ++at_;
         return true;
     }
-    /// A number of exactly `digits` digits.
+    /// Reads a number of exactly `digits` digits.
     [[nodiscard]] std::optional<int> digits(int digits) noexcept {
         int value = 0;
         for (int i = 0; i < digits; ++i, ++at_) {
@@ -24,7 +24,7 @@ public:
         }
         return value;
     }
-    /// The digits behind a decimal point.
+    /// Reads the digits after a decimal point.
     [[nodiscard]] double fraction() noexcept {
         double value = 0;
         double scale = 1;
@@ -41,7 +41,7 @@ private:
     const char* end_;
 };
 
-/// "10:00:00.5" or "100000.5", 60 s of a leap second included.
+/// Reads "10:00:00.5" or "100000.5"; accepts 60 s for a leap second.
 bool takeTimeOfDay(StampReader& reader, bool colons, char point, CsvStamp& stamp) noexcept {
     const auto hours = reader.digits(2);
     if (!hours || *hours > 23 || (colons && !reader.take(':'))) return false;
@@ -58,7 +58,7 @@ bool takeTimeOfDay(StampReader& reader, bool colons, char point, CsvStamp& stamp
 bool takeZone(StampReader& reader, CsvStamp& stamp) noexcept {
     if (reader.take('Z') || reader.take('z')) return true;
     const bool east = reader.take('+');
-    if (!east && !reader.take('-')) return true;  // none
+    if (!east && !reader.take('-')) return true;  // no zone
     const auto hours = reader.digits(2);
     if (!hours || *hours > 23) return false;
     const bool colon = reader.take(':');

@@ -10,8 +10,7 @@
 namespace tacto {
 
 struct CsvStamp {
-    std::int64_t seconds = 0;  ///< since 1970 in UTC (as written, if without a zone), or since midnight for a time of
-                               ///< day
+    std::int64_t seconds = 0;  ///< since 1970 in UTC (as written if there is no zone), or since midnight
     double fraction = 0;       ///< 0 to 1
     /// Returns seconds since `origin`, which is the whole seconds of another stamp.
     [[nodiscard]] double since(std::int64_t origin) const noexcept {

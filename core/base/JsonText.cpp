@@ -7,7 +7,7 @@
 
 #include "core/base/LocaleFreeText.h"
 
-template class nlohmann::basic_json<>;  // Json.h
+template class nlohmann::basic_json<>;  // see Json.h
 
 namespace tacto {
 
@@ -15,13 +15,13 @@ namespace {
 
 using nlohmann::json;
 
-/// Builds the value as the parser reports its parts; false from any function ends the parsing.
+/// Builds the value from the parts that the parser reports. A function that returns false stops the parser.
 class Builder {
 public:
     Builder(const JsonLimits& limits, bool finite) : depth_(limits.depth), values_(limits.values), finite_(finite) {}
 
     [[nodiscard]] const std::string& problem() const noexcept { return problem_; }
-    /// Whether the problem lies in the text's form, at the byte wrongAt() (from 1).
+    /// Whether the text is malformed, at the byte wrongAt() (from 1).
     [[nodiscard]] bool isSyntax() const noexcept { return isSyntax_; }
     [[nodiscard]] std::size_t wrongAt() const noexcept { return wrongAt_; }
     [[nodiscard]] json take() { return std::move(root_); }
@@ -46,7 +46,7 @@ public:
         return true;
     }
     bool parse_error(std::size_t position, const std::string&, const json::exception& why) {
-        constexpr int kOutOfRange = 406;  // the library's number of an error: a number that is not a double
+        constexpr int kOutOfRange = 406;  // the library's error number for a number outside the range of double
         isSyntax_ = true;
         wrongAt_ = position;
         return refuse(why.id == kOutOfRange ? ": a number is out of range" : " is not JSON");
@@ -85,10 +85,10 @@ private:
     }
 
     const int depth_;
-    std::size_t values_;  // how many values may still come
+    std::size_t values_;  // how many more values are accepted
     const bool finite_;   // only finite numbers are accepted
     json root_;
-    std::vector<json*> within_;  // the innermost last; a child moves only when its parent has none open
+    std::vector<json*> within_;  // innermost last; an element moves only if nothing is open inside its parent
     std::string key_;
     std::string problem_;
     bool isSyntax_ = false;
@@ -101,7 +101,7 @@ Result<json> parseJson(std::string_view text, std::string_view source, const Jso
     if (text.size() > limits.bytes) {
         return fail(ErrorCode::ParseError, "{}: {} bytes; at most {} are accepted", source, text.size(), limits.bytes);
     }
-    // The library takes a null byte for the end, whatever follows.
+    // The library treats a null byte as the end of the text.
     if (text.find('\0') != std::string_view::npos)
         return fail(ErrorCode::ParseError, "{}: a null byte is not JSON", source);
     Builder builder(limits, true);
@@ -114,8 +114,8 @@ Result<json> parseJson(std::string_view text, std::string_view source, const Jso
 
 namespace {
 
-/// Whether each item states its length. The library reads an open-ended text by calling itself for each part, which may
-/// be open-ended again: it would lose the stack before this counts a level.
+/// Whether each item states its length. For a text without length the library calls itself for each part, which may
+/// again have no length: the stack would overflow before this code counts a level.
 bool statesAllLengths(std::string_view bytes) noexcept {
     for (std::size_t at = 0; at < bytes.size();) {
         const auto head = static_cast<unsigned char>(bytes[at++]);
@@ -184,7 +184,7 @@ std::string shownJson(const json& value) {
     std::string text = dumpJson(value);
     if (text.size() <= kMaxExcerpt) return text;
     std::size_t end = kMaxExcerpt - 3;
-    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // whole characters only
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // cuts only between characters
     return text.substr(0, end) + "...";
 }
 

@@ -1,8 +1,8 @@
 // JsonText.h - the only reader for JSON text from outside: profiles, limit sets, templates, recordings, calibrations,
 // rows of session files.
 //
-// JSON does not define what a repeated key means, how deep objects may nest or how large a number may be; this reader
-// refuses all three, naming the fault (hazard H10: a repeated key loses a ceiling, 400 000 brackets overflow the
+// JSON does not define what a repeated key means, how deep values may nest or how large a number may be; this reader
+// refuses such texts and names the fault (hazard H10: a repeated key loses a ceiling, 400 000 brackets overflow the
 // stack). tests/base/JsonTextTest.cpp checks that core, drivers and app use no other parser.
 //
 // Thread-safety: pure functions, except for documentsIn(), which reads a folder. No text causes an exception, except

@@ -27,7 +27,7 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
     }
 }
 
-// Not fast_float, which reads the millions of numbers of a capture: it makes infinity of 1e999, and 0 of 1e-400.
+// Not fast_float, which reads the millions of numbers of a capture: it turns 1e999 into infinity and 1e-400 into 0.
 std::optional<double> takeNumber(std::string_view& text) {
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -45,7 +45,7 @@ std::optional<double> parseNumber(std::string_view text) {
 
 namespace {
 
-/// The engineering prefix that a text ends with; "u" and the Greek letter stand for the micro sign.
+/// Returns the engineering prefix at the end of a text; "u" and the Greek letter also mean micro.
 std::optional<UnitPrefix> prefixAtEnd(std::string_view text) {
     for (const char* micro : {"u", "μ"}) {
         if (text.ends_with(micro)) return UnitPrefix{-6, micro};
@@ -65,7 +65,7 @@ std::optional<double> parseQuantity(std::string_view text, std::string_view unit
     if (const auto plain = parseNumber(text)) return plain;
     const auto prefix = prefixAtEnd(text);
     if (!prefix) return std::nullopt;
-    // Parsing "1.5e3" keeps the nearest double, which 1.5 * 1000.0 might miss.
+    // Parsing "1.5e3" gives the nearest double, which 1.5 * 1000.0 might miss.
     text.remove_suffix(std::string_view(prefix->symbol).size());
     return parseNumber(fmt::format("{}e{}", trimmed(text), prefix->exponent));
 }

@@ -20,8 +20,8 @@ namespace tacto {
 /// "inf". Returns nothing, and keeps `text`, if there is no number or a double cannot hold it.
 [[nodiscard]] std::optional<double> takeNumber(std::string_view& text);
 
-/// The whole of `text`, blanks trimmed, as a number ("1e-3", "-4"). Nothing for an empty text, trailing
-/// characters or a decimal comma. Accepts "nan" and "inf": whether those are welcome is the caller's rule.
+/// Reads all of `text`, without outer blanks, as a number ("1e-3", "-4"). Returns nothing for an empty text, trailing
+/// characters or a decimal comma. Accepts "nan" and "inf"; the caller decides about those.
 [[nodiscard]] std::optional<double> parseNumber(std::string_view text);
 
 /// Reads a number with an optional engineering prefix and the given unit: "1.5 kohm", "500ohm", "50 nF", "500".

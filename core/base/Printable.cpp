@@ -11,10 +11,10 @@ namespace {
 
 struct Character {
     char32_t code = 0;
-    std::size_t bytes = 0;  // 0: no UTF-8
+    std::size_t bytes = 0;  // 0: not UTF-8
 };
 
-/// The character that `text` begins with; only its shortest form is one.
+/// Returns the first character of `text`; accepts only shortest forms.
 Character firstOf(std::string_view text) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
     const unsigned char lead = byte(0);

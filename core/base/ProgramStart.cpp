@@ -50,7 +50,7 @@ std::optional<std::string> refusedStart(int argc, const char* const* argv) {
 void holdStandardStreams() noexcept {
     std::signal(SIGXFSZ, SIG_IGN);
     for (;;) {
-        const int file = ::open("/dev/null", O_RDWR);  // the lowest number that is free
+        const int file = ::open("/dev/null", O_RDWR);  // gets the lowest free number
         if (file < 0) std::_Exit(3);
         if (file <= STDERR_FILENO) continue;
         ::close(file);

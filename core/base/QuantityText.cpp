@@ -23,7 +23,7 @@ void replaceAll(std::string& text, std::string_view what, std::string_view by) {
         text.replace(at, what.size(), by);
 }
 
-/// The value with `decimals` places, which may be negative: 457 with -1 is "460". Never "-0".
+/// Returns the value with `decimals` decimals. These may be negative: 457 with -1 is "460". Never "-0".
 std::string fixedText(double value, int decimals) {
     if (decimals < 0) {
         const double step = std::pow(10.0, -decimals);
@@ -46,7 +46,7 @@ std::string powerOfTen(int exponent) {
     return text;
 }
 
-/// Written out from 0.0001 to below 10 million.
+/// Numbers from 0.0001 to below 10 million are written out.
 bool isWrittenOut(int exponent) { return exponent >= -4 && exponent < 7; }
 
 }  // namespace
@@ -131,12 +131,12 @@ std::string measuredText(double value, double expanded, std::string_view unit) {
     const std::string written = writtenUnit(unit);
     const auto parts = partsOfUnit(written);
     const double factor = parts.base.empty() ? 1 : parts.factor;
-    const int first = decimalExponent(expanded * factor, 2);  // place of U's first digit
+    const int first = decimalExponent(expanded * factor, 2);  // decimal place of U's first digit
     const bool farBelow = std::abs(value) * factor < 0.5 * std::pow(10.0, first);
     const double leading = expanded * factor / std::pow(10.0, first);
-    const int last = first - (farBelow && leading >= 2.95 ? 0 : 1);  // place of the last digit
+    const int last = first - (farBelow && leading >= 2.95 ? 0 : 1);  // decimal place of the last digit
     const int largest = value == 0 ? first : std::max(decimalExponent(value * factor, 4), first);
-    // The last digit stands at or behind the point: "0.46 ± 0.12 V" and not "460 ± 120 mV", where zeros say nothing.
+    // The last digit is at or after the decimal point: "0.46 ± 0.12 V", not "460 ± 120 mV" with meaningless zeros.
     const auto prefix = parts.base.empty() ? UnitPrefix{} : prefixFor(parts.base, std::max(largest, last + 2));
     const int power = parts.base.empty() && !isWrittenOut(largest) ? largest : prefix.exponent;
     const double scale = factor * std::pow(10.0, -power);

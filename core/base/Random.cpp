@@ -7,7 +7,7 @@
 namespace tacto {
 
 namespace {
-// FNV-1a: std::hash may differ between libraries, and a seed must not.
+// FNV-1a, because std::hash may differ between libraries, but a seed must give the same numbers everywhere.
 std::uint64_t hashOf(std::string_view text) noexcept {
     std::uint64_t hash = 0xcbf29ce484222325ULL;
     for (const char c : text) {
@@ -29,8 +29,8 @@ Random::Random(std::uint64_t seed, std::string_view stream) : engine_(engineFor(
 
 double Random::uniform() noexcept { return static_cast<double>(engine_() >> 11U) * 0x1.0p-53; }
 
-// Marsaglia's polar method (Marsaglia and Bray 1964). std::normal_distribution's draws differ between libraries, and
-// under clang libstdc++'s take nine times as long (114 ns): it computes the logarithm of a constant every time.
+// Marsaglia's polar method (Marsaglia and Bray 1964). std::normal_distribution differs between libraries; under clang
+// libstdc++'s is nine times slower (114 ns), since it computes a constant logarithm every time.
 double Random::normal() noexcept {
     if (spare_) return *std::exchange(spare_, std::nullopt);
     const auto coordinate = [this] {

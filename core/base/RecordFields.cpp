@@ -19,7 +19,7 @@ void RecordTable::Field::clear(void* record) const {
 Result<void> RecordTable::Field::read(const json& value, void* record, const RecordPlace& place) const {
     void* member = in(record);
     auto done = kind.readInto(value, optional != nullptr ? optional->emplace(member) : member, place, kind.info.key);
-    if (!done) clear(record);  // a damaged row continues: an unread value is none, and not 0
+    if (!done) clear(record);  // for a damaged row: an unread value is empty, not 0
     return done;
 }
 

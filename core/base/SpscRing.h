@@ -1,18 +1,17 @@
-// SpscRing.h - a bounded queue between exactly one producer thread and one consumer thread.
+// SpscRing.h - a queue of limited length between exactly one producer thread and one consumer thread.
 //
-// Neither side ever waits or allocates. When the ring is full the producer drops the oldest element and
-// counts it: the newest data matter most to a control loop, and a loss must be seen, not guessed.
+// Neither thread ever waits or allocates. If the ring is full, the producer drops the oldest element and counts the
+// loss: a control loop needs the newest data most, and a loss must be visible.
 //
-// Memory order. `head_` counts elements ever pushed, `tail_` elements ever taken or dropped; both only
-// grow. A slot is published by the release store of `head_` and read after the acquire load of it, so
-// the consumer sees the element whole. Because the producer too may advance `tail_` (to drop), the
-// consumer claims a slot by compare-exchange on `tail_` *after* copying the element out: if the
-// producer dropped that slot meanwhile the exchange fails, and the copy, which may be torn, is thrown
-// away. The producer in turn overwrites a slot only after it moved `tail_` past it (acq_rel), so no
-// claimed copy can overlap a write. Elements are copied word by word through atomics, which makes the
-// discarded torn copy defined behaviour rather than a data race; the words are stored with release and
-// loaded with acquire, so a consumer that saw any new word also sees the `tail_` moved before it was
-// written, and its exchange must fail. (Fences would do too; the thread sanitizer cannot see those.)
+// Memory order. `head_` counts elements ever pushed, `tail_` elements ever taken or dropped; both only grow. The
+// release store of `head_` publishes a slot, and the consumer reads the slot after an acquire load of `head_`, so it
+// sees the whole element. Because the producer too may advance `tail_` (to drop), the consumer claims a slot by
+// compare-exchange on `tail_` *after* copying the element out: if the producer dropped that slot meanwhile, the
+// exchange fails and the consumer discards its copy, which may be torn. The producer overwrites a slot only after
+// moving `tail_` past it (acq_rel), so no claimed copy can overlap a write. Elements are copied word by word through
+// atomics, so that a torn copy is defined behaviour and not a data race. Words are stored with release and loaded with
+// acquire, so a consumer that saw any new word also sees the `tail_` moved before it was written, and its exchange must
+// fail. (Fences would also work, but the thread sanitizer does not understand them.)
 //
 // Thread-safety: one producer thread and one consumer thread; see each function.
 #pragma once
@@ -39,7 +38,7 @@ public:
     /// Room for `capacity` elements (at least 1). Allocates here and never again.
     explicit SpscRing(std::size_t capacity) : capacity_(capacity == 0 ? 1 : capacity), slots_(capacity_ * kWords) {}
 
-    /// Producer only. Drops the oldest element when full.
+    /// Producer only. Drops the oldest element if the ring is full.
     void push(const T& element) noexcept {
         const std::uint64_t head = head_.load(std::memory_order_relaxed);
         std::uint64_t tail = tail_.load(std::memory_order_acquire);
@@ -54,7 +53,7 @@ public:
         head_.store(head + 1, std::memory_order_release);
     }
 
-    /// Consumer only. The oldest element, or nothing when empty.
+    /// Consumer only. Returns the oldest element, or nothing if the ring is empty.
     [[nodiscard]] std::optional<T> pop() noexcept {
         std::uint64_t tail = tail_.load(std::memory_order_acquire);
         for (;;) {
@@ -70,7 +69,7 @@ public:
         }
     }
 
-    /// Elements lost to overflow since construction. Any thread.
+    /// Number of elements lost to overflow since construction. Any thread.
     [[nodiscard]] std::uint64_t dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }
     [[nodiscard]] std::size_t capacity() const noexcept { return capacity_; }
 
@@ -79,26 +78,26 @@ private:
     using Slot = std::atomic<std::uint64_t>;
     [[nodiscard]] Slot* slotAt(std::uint64_t position) noexcept { return &slots_[(position % capacity_) * kWords]; }
 
-    const std::size_t capacity_;  // Constant after construction
+    const std::size_t capacity_;  // constant after construction
     std::vector<Slot> slots_;
     alignas(64) std::atomic<std::uint64_t> head_{0};
     alignas(64) std::atomic<std::uint64_t> tail_{0};
     alignas(64) std::atomic<std::uint64_t> dropped_{0};
 };
 
-// The newest value of something, written by one thread and read by any.
+// The newest value of something, written by one thread and read by any thread.
 //
-// A sequence lock: the writer never waits; a reader that met a write in progress reads again. Values are
-// copied word by word through atomics (release stores, acquire loads), so a torn copy is thrown away
-// rather than undefined: a reader that saw any new word also sees the odd sequence number before it.
-// The writer stores what differs from the value before: telemetry is written each step, and most of it stays.
+// A sequence lock: the writer never waits; a reader reads again if the writer was active meanwhile. Values are copied
+// word by word through atomics (release stores, acquire loads), so a torn copy is defined behaviour and is discarded: a
+// reader that saw any new word also sees the odd sequence number before it. The writer stores only words that changed,
+// since telemetry is written in each step and mostly stays the same.
 
 template <class T>
 class Latest {
     static_assert(std::is_trivially_copyable_v<T>, "a copy may be torn and thrown away");
 
 public:
-    /// There is one writer at a time.
+    /// Only one thread may write.
     void write(const T& value) noexcept {
         const auto* const bytes = reinterpret_cast<const std::byte*>(&value);
         auto* const written = reinterpret_cast<std::byte*>(written_.data());
@@ -133,7 +132,7 @@ private:
     static constexpr std::size_t kBlock = 32;  ///< words that are compared at a time
     std::atomic<std::uint64_t> sequence_{0};
     std::array<std::atomic<std::uint64_t>, kWords> words_{};
-    std::array<std::uint64_t, kWords> written_{};  ///< the words as last written, for the writer alone
+    std::array<std::uint64_t, kWords> written_{};  ///< the last written words; only the writer uses them
 };
 
 }  // namespace tacto

@@ -9,14 +9,14 @@ namespace tacto {
 
 namespace {
 
-/// The mean of the readings with these ranks, which are the same or neighbours. Reorders `readings`.
+/// Returns the mean of the readings with two ranks, which are equal or neighbours. Reorders `readings`.
 double meanOfRanks(std::vector<double>& readings, std::size_t lower, std::size_t upper) {
     const auto at = readings.begin() + static_cast<std::ptrdiff_t>(upper);
     std::nth_element(readings.begin(), at, readings.end());
     return lower == upper ? *at : 0.5 * (*std::max_element(readings.begin(), at) + *at);
 }
 
-/// The readings within a window, in their order, and the number below it.
+/// The readings inside a window, in their order, and the number of readings below the window.
 struct Within {
     std::size_t below = 0;
     std::vector<double> readings;
@@ -25,7 +25,7 @@ struct Within {
         std::array<double, 1024> chunk;
         for (std::size_t first = 0; first < all.size(); first += chunk.size()) {
             std::size_t kept = 0;
-            // This has no branch: whether the next reading is kept cannot be foretold.
+            // Without a branch, since the processor could not predict whether the next reading is kept.
             for (const double x : all.subspan(first, std::min(chunk.size(), all.size() - first))) {
                 const std::size_t isBelow = x < least ? 1 : 0;
                 const std::size_t isAbove = x > most ? 1 : 0;
@@ -38,11 +38,11 @@ struct Within {
     }
 };
 
-/// Where there are many readings, a thousand say nearly where the median lies; then only the few near it are put in
-/// order. Where it lies elsewhere (readings that repeat in step with the thousand), all are.
+/// If there are many readings, about a thousand of them show roughly where the median is, and only readings near it are
+/// sorted. If the median is elsewhere (readings repeat in step with the thousand), all readings are used.
 double medianOf(std::span<const double> readings) {
     constexpr std::size_t kAsked = 1024;
-    constexpr std::size_t kReach = 64;  // ranks of the thousand: four standard deviations of their median's
+    constexpr std::size_t kReach = 64;  // in ranks of the sample: four standard deviations of its median's rank
     const std::size_t upper = readings.size() / 2;
     const std::size_t lower = (readings.size() - 1) / 2;
     if (readings.size() > 8 * kAsked) {
@@ -65,7 +65,7 @@ Statistics statisticsOf(std::span<const double> readings) {
     result.n = readings.size();
     if (readings.empty()) return result;
     const auto n = static_cast<double>(readings.size());
-    // Deviations from the first reading: a large common offset costs no digits.
+    // Sums differences from the first reading, so that a large common offset costs no precision.
     const double origin = readings.front();
     double sum = 0, least = origin, most = origin;
     for (const double x : readings) {

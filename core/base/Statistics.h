@@ -1,4 +1,4 @@
-// Statistics.h - the six numbers with which every repeated reading is reported.
+// Statistics.h - the six figures that are reported for every repeated reading.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,8 @@ namespace tacto {
 /// A value that does not exist, was not measured or is not stated.
 inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// Statistics of n readings, in the readings' unit. What does not exist is NaN: everything when n = 0, the standard
-/// deviation when n = 1; one reading that is NaN makes everything but n NaN. NaN is null in JSON and empty in CSV.
+/// Statistics of n readings, in the readings' unit. A figure that does not exist is NaN: all figures for n = 0, the
+/// standard deviation for n = 1. A reading of NaN makes all but n NaN. NaN is null in JSON and empty in CSV.
 struct Statistics {
     double mean = kNaN;
     double sd = kNaN;  ///< standard deviation of the sample, with n - 1

@@ -1,6 +1,6 @@
-// Stream.h - sampled data of one kind at one rate, with the time stamps it came with.
+// Stream.h - sampled data of one kind at one rate, with their original time stamps.
 //
-// In base because acquisition makes streams, dsp reads them, and the two know nothing of each other.
+// In base because acquisition makes streams and dsp reads them, and neither of them may depend on the other.
 #pragma once
 
 #include <cmath>
@@ -17,7 +17,7 @@ namespace tacto {
 
 enum class StreamKind { Acceleration, Force, Taxels };
 
-/// Units after conversion on reading. Count: uncalibrated, used as it is and said so.
+/// Units after conversion by the reader. Count: uncalibrated values, used unchanged and marked as such.
 enum class StreamUnit { MetrePerSecondSquared, Newton, Pascal, Count };
 
 inline constexpr Word<StreamKind> kStreamKinds[] = {
@@ -32,16 +32,16 @@ inline constexpr Word<StreamUnit> kStreamUnits[] = {{"m/s2", StreamUnit::MetrePe
 struct StreamInfo {
     StreamKind kind;
     StreamUnit unit;
-    std::size_t channels;  ///< 1..3 axes, 1 for force, taxel count
-    double rate_hz;        ///< nominal where live, measured where recorded (science.md section 1)
-    std::string name;      ///< what people read: "fingertip accelerometer"
+    std::size_t channels;  ///< 1 to 3 axes, 1 for force, or the number of taxels
+    double rate_hz;        ///< nominal for live data, measured for recordings (science.md section 1)
+    std::string name;      ///< the name for people: "fingertip accelerometer"
 };
 
-/// Consecutive samples of one stream. A caller that reads in a loop reuses its buffers, so that a steady state
-/// does not allocate: clear() keeps capacity.
+/// Consecutive samples of one stream. A caller that reads in a loop reuses its block, since clear() keeps the memory:
+/// steady reading then does not allocate.
 struct SampleBlock {
     std::vector<double> t_s;     ///< time stamps, seconds on the session's time base, one per sample
-    std::vector<double> values;  ///< interleaved: sample i, channel c at [i * channels + c]; SI units or counts
+    std::vector<double> values;  ///< sample i, channel c at [i * channels + c]; in SI units or counts
 
     [[nodiscard]] std::size_t samples() const noexcept { return t_s.size(); }
     void clear() noexcept {
@@ -57,25 +57,25 @@ struct TimeInterval {
     [[nodiscard]] bool contains(double t_s) const noexcept { return t_s >= begin_s && t_s <= end_s; }
 };
 
-/// The maker's statements on the data, on the same time base as its stamps.
+/// The manufacturer's statements about the data, on the time base of the data's stamps.
 struct DeclaredIntervals {
-    std::optional<TimeInterval> baseline;              ///< the time at rest, when nothing is touched
-    std::optional<std::vector<TimeInterval>> contact;  ///< times of contact, in order; absent = not stated
+    std::optional<TimeInterval> baseline;              ///< the time at rest, without touch
+    std::optional<std::vector<TimeInterval>> contact;  ///< times of contact, in order; not set = not stated
 };
 
-// Tells a regular time stamp from a gap, a repeat or a clock that was set back.
+// Tells a regular time stamp from a gap, a repeated stamp or a clock that was set back.
 //
-// Stamps are compared with the grid they should lie on, not with the stamp before: a jitter of less than
-// half a step is regular (science.md section 1), while one lost sample never is. The grid follows the
-// stamps slowly, so a nominal rate that is off by 2 % does not drift into false gaps.
+// A stamp is compared with its place on a regular grid, not with the stamp before: jitter below half a step is regular
+// (science.md section 1), but one lost sample is always a gap. The grid follows the stamps slowly, so that a nominal
+// rate that is wrong by 2 % causes no false gaps.
 
 enum class StampClass {
-    First,     ///< the first sample: nothing to compare with
+    First,     ///< the first sample: nothing to compare it with
     Regular,   ///< within half a step of its place on the grid
-    Gap,       ///< half a step or more late: samples are missing before this one
-    Early,     ///< half a step or more early, yet later than the one before
-    Repeat,    ///< the same stamp again
-    Backward,  ///< earlier than the one before: the clock was stepped
+    Gap,       ///< half a step or more too late: samples before this one are missing
+    Early,     ///< half a step or more too early, but later than the stamp before
+    Repeat,    ///< equal to the stamp before
+    Backward,  ///< earlier than the stamp before: the clock was set back
     Invalid,   ///< not a finite number
 };
 
@@ -84,7 +84,7 @@ public:
     /// `rate_hz` must be finite and positive.
     explicit SampleGrid(double rate_hz) noexcept : step_(1.0 / rate_hz) {}
 
-    /// Judges the next stamp and moves the grid. After anything but Regular the grid starts again at that stamp; a
+    /// Classifies the next stamp and moves the grid. After First, Gap or Early the grid starts again at that stamp; a
     /// Backward, Repeat or Invalid stamp leaves the grid unchanged.
     [[nodiscard]] StampClass next(double t_s) noexcept {
         const double late = t_s - expected_;
@@ -102,7 +102,7 @@ public:
         return first ? StampClass::First : late > 0 ? StampClass::Gap : StampClass::Early;
     }
 
-    /// The newest stamp that moved time forward; -infinity before the first.
+    /// The latest valid stamp; -infinity before the first.
     [[nodiscard]] double last() const noexcept { return last_; }
     [[nodiscard]] double step() const noexcept { return step_; }
     void reset() noexcept { last_ = expected_ = -std::numeric_limits<double>::infinity(); }

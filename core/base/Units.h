@@ -1,8 +1,8 @@
-// Units.h - the physical quantities that cross headers, as types that do not mix.
+// Units.h - the physical quantities in public interfaces, as types that cannot be mixed up.
 //
-// The families compiled in are listed once, in core/base/CMakeLists.txt; a new one costs compile time
-// in every file. Durations are std::chrono, sample positions are plain indices of their stream.
-// `.value()` belongs in arithmetic kernels, wire protocols, file formats and plots.
+// core/base/CMakeLists.txt lists the compiled families of units; each new family costs compile time in every file.
+// Durations are std::chrono, sample positions are plain indices of their stream. Use `.value()` only in arithmetic
+// kernels, wire protocols, file formats and plots.
 #pragma once
 
 #include <chrono>
@@ -26,7 +26,7 @@ using MillimetresPerSecond =
 using Seconds = std::chrono::duration<double>;
 using Micros = std::chrono::duration<double, std::micro>;
 
-/// A moment on the session's one time base: nanoseconds since the session's clock started.
+/// A moment on the session's only time base: nanoseconds since the session's clock started.
 using Instant = std::chrono::nanoseconds;
 
 [[nodiscard]] constexpr double toSeconds(Instant t) noexcept { return Seconds(t).count(); }

@@ -57,7 +57,7 @@ std::string asUtf8(std::string_view bytes) {
     const auto order = utf16OrderOf(bytes);
     if (!order) return std::string(bytes);
     std::string text;
-    (void)appendAsUtf8(bytes.substr(2), *order, text);  // half a character at the end of a head is nothing to miss
+    (void)appendAsUtf8(bytes.substr(2), *order, text);  // half a character at the end may be lost
     return text;
 }
 

@@ -1,4 +1,4 @@
-// Utf16.h - text in UTF-16, as spreadsheets save it, turned into the UTF-8 that everything here reads.
+// Utf16.h - converts UTF-16 text, as spreadsheets save it, to UTF-8, which all other code reads.
 #pragma once
 
 #include <array>
@@ -11,25 +11,25 @@ namespace tacto {
 
 enum class Utf16Order { Little, Big };
 
-/// The order by the byte-order mark at the beginning of `bytes`; nothing where there is no mark.
+/// Returns the byte order from the mark at the start of `bytes`; nothing if there is no mark.
 [[nodiscard]] std::optional<Utf16Order> utf16OrderOf(std::string_view bytes) noexcept;
 
-/// Bytes of UTF-8 that two bytes of UTF-16 become at most.
+/// The most bytes of UTF-8 for two bytes of UTF-16.
 constexpr std::size_t kUtf8PerUtf16 = 3;
 
-/// Appends `bytes` as UTF-8 and returns how many of them were used: a last odd byte, and the first half of a pair whose
-/// second half is still to come, stay. Half a pair alone becomes U+FFFD.
+/// Appends `bytes` as UTF-8 and returns how many were used. Leaves a last odd byte, and the first half of a pair whose
+/// second half is not there yet. A lone half of a pair becomes U+FFFD.
 [[nodiscard]] std::size_t appendAsUtf8(std::string_view bytes, Utf16Order order, std::string& text);
 
-/// `bytes` themselves, or as UTF-8 where they begin with the mark of UTF-16; without the mark then.
+/// Converts `bytes` to UTF-8, without the mark, if they start with the mark of UTF-16; else returns them unchanged.
 [[nodiscard]] std::string asUtf8(std::string_view bytes);
 
-/// `text` as UTF-8: itself where it is that, else read as Latin-1, as old programs write µ.
+/// Returns `text` if it is UTF-8; else converts it from Latin-1, which old programs use for µ.
 [[nodiscard]] std::string latin1AsUtf8(std::string_view text);
 
-// A character as the bytes of UTF-8.
+// Encodes a character as UTF-8.
 
-/// Writes `point`, up to 0x10FFFF, to the front of `bytes` and returns how many of them it takes.
+/// Writes `point`, up to 0x10FFFF, to the start of `bytes` and returns the number of bytes written.
 constexpr std::size_t encodeUtf8(char32_t point, std::array<char, 4>& bytes) noexcept {
     std::size_t size = 0;
     const auto put = [&](char32_t byte) { bytes[size++] = static_cast<char>(byte); };

@@ -1,10 +1,10 @@
-// ValueKind.h - how the values of a field stand in JSON, and which are accepted: numbers, texts, words, flags.
+// ValueKind.h - how values of fields are stored in JSON, and which are accepted: numbers, texts, words, flags.
 //
-// A value that is not accepted is refused with its place and what was expected, NaN and the infinities among it;
-// nothing is clamped.
+// A value that is not accepted, such as NaN or an infinity, is refused with its place and what was expected; no value
+// is clamped.
 //
-// Thread-safety: a kind is constant once it is built; reading, writing and checking are pure. No exception whatever the
-// JSON.
+// Thread-safety: a kind is constant once it is built; reading, writing and checking are pure. No JSON causes an
+// exception.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +26,7 @@
 
 namespace tacto {
 
-/// The numbers that a field accepts. NaN and the infinities are never among them.
+/// The numbers that a field accepts, never NaN or an infinity.
 struct AcceptedNumbers {
     double low = std::numeric_limits<double>::lowest();
     double high = std::numeric_limits<double>::max();
@@ -36,7 +36,7 @@ struct AcceptedNumbers {
     std::string_view unit{};
 
     [[nodiscard]] bool contain(double value) const noexcept;
-    /// "a number above 0 to 60 s".
+    /// Returns a text such as "a number above 0 to 60 s".
     [[nodiscard]] std::string text() const;
 };
 
@@ -46,53 +46,53 @@ struct AcceptedText {
     [[nodiscard]] std::string text() const;
 };
 
-/// What is known about a field of any type: what a form needs.
+/// The description of a field of any type, for a form.
 struct FieldInfo {
     std::string key{};
     std::string accepted{};                    ///< "a number from 0.01 to 500 V", for messages
-    std::optional<AcceptedNumbers> numbers{};  ///< the accepted numbers, where the field is a number
-    std::vector<std::string_view> words{};     ///< the words it may be, where it is one of these
-    std::vector<FieldInfo> members{};          ///< the fields, where it is a record
-    bool required = false;                     ///< the key must be there
+    std::optional<AcceptedNumbers> numbers{};  ///< set if the field is a number
+    std::vector<std::string_view> words{};     ///< the accepted words, if the field is one of several words
+    std::vector<FieldInfo> members{};          ///< the fields of the record, if the field is a record
+    bool required = false;                     ///< the key must exist
     bool mayBeNull = false;                    ///< null stands for "none"; true for a std::optional
-    bool leftOutIfEmpty = false;               ///< left out when empty, instead of written as null
+    bool leftOutIfEmpty = false;               ///< an empty value is left out, not written as null
 
-    /// The member with that key. Null if there is none.
+    /// Returns the member with that key; null if there is none.
     [[nodiscard]] const FieldInfo* find(std::string_view memberKey) const noexcept;
 };
 
-/// Where a record stands; for messages.
+/// The place of a record, for messages.
 struct RecordPlace {
     std::string file{};    ///< begins every message; may be empty
-    std::string path{};    ///< where it stands in the file: "limits[2]", "roughness.references"
-    bool lenient = false;  ///< passes over what cannot be read: rows of a damaged file are read too
+    std::string path{};    ///< the place in the file: "limits[2]", "roughness.references"
+    bool lenient = false;  ///< skips what cannot be read, so that damaged files can be read
 
     [[nodiscard]] std::string text() const;
     [[nodiscard]] RecordPlace in(std::string_view key) const;
-    /// `lab.json: limits[2]: "max" is -1; a number above 0 was expected`.
+    /// Returns the error `lab.json: limits[2]: "max" is -1; a number above 0 was expected`.
     [[nodiscard]] tl::unexpected<Error> refuse(ErrorCode code, std::string_view key, std::string_view shown,
                                                std::string_view accepted) const;
-    /// `error`, with the place in front of its message.
+    /// Puts the place in front of the message of `error`.
     [[nodiscard]] tl::unexpected<Error> refuse(Error error) const;
 };
 
-/// How the values of a type stand in JSON, for code that does not know the type: `into` and `held` are addresses of
-/// one. Compiled once: a template took a third of the compiling and of the code of the layers that store records.
+/// How the values of a type are stored in JSON, for code that does not know the type: `into` and `held` are addresses
+/// of a value. Compiled once: a template took a third of the compile time and code size of layers that store records.
 struct AnyKind {
-    FieldInfo info{};  ///< what is known of the field, except its key
+    FieldInfo info{};  ///< the description of the field, without its key
     std::function<Result<void>(const nlohmann::json&, void* into, const RecordPlace&, std::string_view key)> readInto{};
     std::function<nlohmann::json(const void* held)> writeFrom{};
-    /// Empty: any value.
+    /// Empty: every value is accepted.
     std::function<Result<void>(const void* held, const RecordPlace&, std::string_view key)> checkOf{};
 };
 
-/// The kind of a type that is known.
+/// The kind of a known type T.
 template <class T>
 struct ValueKind : AnyKind {
     ValueKind() = default;
     explicit ValueKind(AnyKind kind) : AnyKind(std::move(kind)) {}
 
-    /// Errors: ParseError for another type of value, InvalidArgument for one that is not accepted.
+    /// Errors: ParseError for another type of value, InvalidArgument for a value that is not accepted.
     [[nodiscard]] Result<void> read(const nlohmann::json& value, T& into, const RecordPlace& place,
                                     std::string_view key) const {
         return readInto(value, &into, place, key);
@@ -102,7 +102,7 @@ struct ValueKind : AnyKind {
         return checkOf ? checkOf(&held, place, key) : Result<void>();
     }
 
-    /// `how` is called as read() is.
+    /// `how` gets the arguments of read().
     template <class How>
     void reads(How how) {
         readInto = [how = std::move(how)](const nlohmann::json& value, void* into, const RecordPlace& place,
@@ -125,7 +125,7 @@ struct ValueKind : AnyKind {
     }
 };
 
-/// The number in `value`. Errors: those of ValueKind::read().
+/// Reads the number in `value`. Errors: as ValueKind::read().
 [[nodiscard]] Result<double> readNumber(const nlohmann::json& value, const AcceptedNumbers& accepted,
                                         const RecordPlace& place, std::string_view key);
 [[nodiscard]] Result<void> checkNumber(double value, const AcceptedNumbers& accepted, const RecordPlace& place,
@@ -133,7 +133,7 @@ struct ValueKind : AnyKind {
 [[nodiscard]] ValueKind<std::string> textKind(const AcceptedText& accepted = {});
 [[nodiscard]] ValueKind<bool> flagKind();
 
-/// `from(json)` gives a std::optional<T>, empty for JSON that is not accepted; `to(value)` gives JSON.
+/// `from(json)` returns a std::optional<T>, empty for JSON that is not accepted; `to(value)` returns JSON.
 template <class T, class From, class To>
 [[nodiscard]] ValueKind<T> codedKind(const std::string& accepted, From from, To to) {
     ValueKind<T> kind;
@@ -149,7 +149,7 @@ template <class T, class From, class To>
     return kind;
 }
 
-/// A bare number, a unit type or a duration.
+/// Converts a bare number, a unit type or a duration to double.
 template <class T>
 [[nodiscard]] double plainNumber(const T& value) noexcept {
     if constexpr (requires { value.count(); })
@@ -160,7 +160,7 @@ template <class T>
         return static_cast<double>(value);
 }
 
-/// Whether T can hold this whole number: a script hands on every number as a double, a file may have more digits.
+/// Whether T can hold this whole number: scripts pass every number as a double, and files may have more digits.
 template <class T>
 [[nodiscard]] bool holdsWhole(const nlohmann::json& value) {
     if (value.is_number_unsigned()) return std::in_range<T>(value.get<std::uint64_t>());
@@ -168,16 +168,16 @@ template <class T>
     return value.get<double>() < std::ldexp(1.0, std::numeric_limits<T>::digits);
 }
 
-/// Reaches a number of some type.
+/// Access to a number of some type.
 struct NumberAccess {
     double (*get)(const void*);
-    /// False where the type cannot hold this whole number: `value`, which is `number` as a double.
+    /// Returns false if the type cannot hold the whole number `value`; `number` is the same as a double.
     bool (*set)(void*, const nlohmann::json& value, double number);
-    nlohmann::json (*write)(const void*);  ///< exact to the last digit; null: what get() gives
+    nlohmann::json (*write)(const void*);  ///< exact to the last digit; null: writes the result of get()
 };
 [[nodiscard]] AnyKind numberKindOf(const AcceptedNumbers& accepted, const NumberAccess& access);
 
-/// A value that is not finite is written as null.
+/// Writes a value that is not finite as null.
 template <class T>
 [[nodiscard]] ValueKind<T> numberKind(AcceptedNumbers accepted) {
     NumberAccess access{[](const void* held) { return plainNumber(*static_cast<const T*>(held)); },
@@ -200,12 +200,12 @@ template <class T>
     return ValueKind<T>(numberKindOf(accepted, access));
 }
 
-/// "a, b or c".
+/// Returns "a, b or c".
 [[nodiscard]] std::string listedWords(const std::vector<std::string_view>& words);
 
-/// Reaches a value that is one of several words.
+/// Access to a value that is one of several words.
 struct WordAccess {
-    std::function<std::size_t(const void*)> find;  ///< which word it is; a number beyond the last: none
+    std::function<std::size_t(const void*)> find;  ///< index of the value's word; beyond the last: no word
     std::function<void(void*, std::size_t)> set;
 };
 [[nodiscard]] AnyKind wordKindOf(const std::vector<std::string_view>& words, WordAccess access);
@@ -224,16 +224,16 @@ template <class T>
     return ValueKind<T>(wordKindOf(texts, {find, set}));
 }
 
-/// Reaches a list of some type.
+/// Access to a list of some type.
 struct ListAccess {
     std::size_t (*size)(const void*);
     const void* (*at)(const void*, std::size_t);
     void (*clear)(void*);
-    void* (*append)(void*);  ///< a new entry
+    void* (*append)(void*);  ///< appends an empty entry and returns its address
 };
 [[nodiscard]] AnyKind listKindOf(AnyKind each, std::size_t least, std::size_t most, const ListAccess& access);
 
-/// A list of `least` to `most` values.
+/// A list with `least` to `most` values.
 template <class List>
 [[nodiscard]] ValueKind<List> listKind(const ValueKind<typename List::value_type>& each, std::size_t least,
                                        std::size_t most) {

@@ -27,7 +27,7 @@ std::string draftsOf(int owner) { return fmt::format(".tactoscope-{}-", owner); 
 
 fs::path folderOf(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
-/// The file that a link names in the end, existing or not; `path` itself if it is no link. Links end: stat() took it.
+/// Follows links from `path` to the last file, existing or not. stat() has already followed them, so there is no loop.
 fs::path behindLinks(fs::path path) {
     std::error_code error;
     while (fs::is_symlink(fs::symlink_status(path, error))) {
@@ -37,7 +37,7 @@ fs::path behindLinks(fs::path path) {
     return path;
 }
 
-/// Removes the draft unless it became the file.
+/// Removes the draft unless it has replaced the file.
 struct Draft {
     fs::path path;
     bool kept = false;
@@ -50,9 +50,9 @@ struct Draft {
     Draft& operator=(const Draft&) = delete;
 };
 
-/// An empty file beside `path`, with its permissions where it is there.
+/// Creates an empty file next to `path`, with the permissions of `path` if that exists.
 Result<fs::path> draftFor(const fs::path& path, const struct stat* before) {
-    constexpr int kTries = 100;  // a killed process with the same number may have left a draft
+    constexpr int kTries = 100;  // a killed process with the same number may have left drafts
     for (int i = 0; i < kTries; ++i) {
         auto draft = draftBeside(path);
         const int file = ::open(draft.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -102,7 +102,7 @@ FileOut::~FileOut() {
 
 Result<void> FileOut::write(std::string_view text) {
     while (!text.empty()) {
-        // A full disk takes a part first; only the next write says why it takes no more.
+        // A full disk first takes part of the text; only the next write returns the reason.
         const auto written = ::write(file_, text.data(), text.size());
         if (written < 0 && errno == EINTR) continue;
         if (written < 0) return because(errno);

@@ -1,9 +1,9 @@
-// WholeFile.h - replaces a file by a whole new one or leaves it unchanged, even on a disk that fills up (hazard H8).
+// WholeFile.h - replaces a file by a complete new file or leaves it unchanged, even if the disk fills up (hazard H8).
 //
-// The content goes into a draft in the same folder, with a short name whatever the file is called: a name may have as
-// many bytes as the file system allows.
+// The content is written to a draft in the same folder. The draft has a short name, because the file's own name may
+// already be as long as the file system allows.
 //
-// Thread-safety: any thread; two that write one file at once both leave a whole one. A FileOut has one owner.
+// Thread-safety: any thread; if two write one file at once, it holds one complete content. A FileOut has one owner.
 #pragma once
 
 #include <cstdint>
@@ -16,14 +16,14 @@
 
 namespace tacto {
 
-/// A path in the folder of `path` that no other draft of this program has: ".tactoscope-", its process's number and a
-/// count. Nothing is made.
+/// Returns a path in the folder of `path` that no other draft of this program has: ".tactoscope-", the process number
+/// and a count. Creates nothing.
 [[nodiscard]] std::filesystem::path draftBeside(const std::filesystem::path& path);
 
-/// Removes the drafts in the folder of `path` that the process `owner`, which has ended, left there.
+/// Removes the drafts that the process `owner`, which has ended, left in the folder of `path`.
 void removeDraftsOf(int owner, const std::filesystem::path& path);
 
-/// A file that is written from its beginning. Errors: Io with the system's reason alone ("No space left on device").
+/// A file written from its beginning. Errors: Io; the message is only the system's reason ("No space left on device").
 class FileOut {
 public:
     [[nodiscard]] static Result<FileOut> create(const std::filesystem::path& path);
@@ -31,7 +31,7 @@ public:
     FileOut(FileOut&& other) noexcept;
     FileOut& operator=(FileOut&&) = delete;
 
-    /// The whole text or an error.
+    /// Writes the whole text, or returns an error.
     [[nodiscard]] Result<void> write(std::string_view text);
     [[nodiscard]] int descriptor() const noexcept { return file_; }
 
@@ -40,39 +40,38 @@ private:
     int file_;
 };
 
-/// Lets `write` make the draft that it is given, which exists and is empty; then the disk holds it, and it takes the
-/// place of `path`, with its permissions. A link stays, and the file that it names is replaced. A pipe or a device is
-/// written to directly: it is the draft itself.
-/// Errors: those of `write`, and Io with the system's reason alone, for the caller's own sentence.
+/// Lets `write` fill an existing empty draft, waits until the disk holds it, and then replaces `path` with it; the
+/// permissions stay. If `path` is a link, the file behind the link is replaced. A pipe or device is its own draft: it
+/// is written directly.
+/// Errors: as `write`; Io with only the system's reason, so that the caller can add its own sentence.
 [[nodiscard]] Result<void> replaceWholeFile(
     const std::filesystem::path& path, const std::function<Result<void>(const std::filesystem::path& draft)>& write);
 
-/// Writes a content that is at hand.
+/// Replaces a file by `content`.
 [[nodiscard]] Result<void> writeWholeFile(const std::filesystem::path& path, std::string_view content);
 
-/// The sentence about a file that was asked for: "out.csv could not be written: No space left on device". Errors that
-/// are not about the file (other than Io) stay as they are.
+/// Adds the file to an Io error: "out.csv could not be written: No space left on device". Other errors stay unchanged.
 [[nodiscard]] Result<void> namedAs(const std::filesystem::path& path, Result<void> written);
 
-// Which program holds a lock on a file, as the system lists it. Opens nothing: a handle that this
-// process closed would drop its own locks on the file (fcntl(2)).
+// Finds the program that holds a lock on a file in the system's list of locks. Does not open the file: closing it would
+// drop this process's own locks on the file (fcntl(2)).
 
 enum class LockedBy {
     Any,
-    Another  ///< a process other than this one
+    Another  ///< any process except this one
 };
 
-/// The process. `kind`: "FLOCK" (flock(2)) or "POSIX" (fcntl(2)). Nothing where none holds one, and where that cannot
-/// be seen.
+/// Returns the process number. `kind`: "FLOCK" (flock(2)) or "POSIX" (fcntl(2)). Returns nothing if no process holds
+/// such a lock or the list cannot be read.
 [[nodiscard]] std::optional<std::int64_t> lockHolder(const std::filesystem::path& file, std::string_view kind,
                                                      LockedBy by = LockedBy::Any);
 
-// Makes a file that was written under another name survive power loss before it takes its place.
+// Makes a file survive power loss before the file replaces another.
 
-/// Waits until the content of a file would survive power loss. Errors: Io.
+/// Waits until the file's content is safe from power loss. Errors: Io.
 [[nodiscard]] Result<void> syncFile(const std::filesystem::path& file);
-/// Makes the names in its folder durable. A folder that cannot be synced (some network file systems) is no reason to
-/// refuse a session.
+/// Makes the names in the file's folder safe from power loss. Ignores errors: some network file systems cannot sync
+/// folders, and a session must still be possible.
 void syncFolderOf(const std::filesystem::path& file) noexcept;
 /// Removes an SQLite file and its journals.
 void removeDraft(const std::filesystem::path& draft);

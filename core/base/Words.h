@@ -1,4 +1,4 @@
-// Words.h - the word that stands for each value of an enumeration, in files, messages and scripts.
+// Words.h - the word for each value of an enumeration, in files, messages and scripts.
 //
 //   constexpr Word<Hold> kHolds[] = {{"voltage", Hold::Voltage}, {"charge", Hold::Charge}};
 #pragma once
@@ -20,7 +20,7 @@ using Words = std::span<const Word<Value>>;
 
 constexpr std::string_view kNoWord = "unknown";
 
-/// `otherwise` for a value that has no word.
+/// Returns the word for `value`, or `otherwise` if there is none.
 template <class Value>
 [[nodiscard]] constexpr std::string_view wordFor(std::type_identity_t<Words<Value>> words, Value value,
                                                  std::string_view otherwise = kNoWord) noexcept {
@@ -30,7 +30,7 @@ template <class Value>
     return otherwise;
 }
 
-/// Nothing for a text that is not one of the words.
+/// Returns the value for a word; nothing if `text` is not one of the words.
 template <class Value, std::size_t count>
 [[nodiscard]] constexpr std::optional<Value> valueFor(const Word<Value> (&words)[count],
                                                       std::string_view text) noexcept {
@@ -40,7 +40,7 @@ template <class Value, std::size_t count>
     return std::nullopt;
 }
 
-// How sure we are that a figure of a standard or a data sheet is what it says.
+// How certain a figure from a standard or a data sheet is.
 
 enum class Confidence { High, Medium, MediumLow, Low };
 
@@ -52,7 +52,7 @@ inline constexpr Word<Confidence> kConfidences[] = {{"high", Confidence::High},
     return wordFor(kConfidences, confidence);
 }
 
-// The role of a device on the bench, and the word for it in addresses, files and results.
+// The role of a device on the bench, with its word in addresses, files and results.
 
 enum class Role { Sensor, Stimulator, Oscilloscope, Massager };
 inline constexpr Word<Role> kRoles[] = {{"sensor", Role::Sensor},
