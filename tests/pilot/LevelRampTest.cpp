@@ -1,4 +1,4 @@
-// The levels that were accepted are reached again from the weakest up, and none above what was settled or too strong.
+// A ramp reaches accepted levels again from the weakest up, but none above the settled level or a level too strong.
 #include "core/pilot/PilotOutput.h"
 #include "tests/pilot/StageFixture.h"
 
@@ -10,7 +10,7 @@ using testing::IsEmpty;
 
 class LevelRampTest : public PilotStageTest {
 protected:
-    /// Accepts levels as a resumed session learns of them.
+    /// Accepts levels in the way in which a resumed session does.
     void accepted(LevelRamp& ramp) {
         for (const double level : {1.0, 0.5, 1.5})
             ASSERT_TRUE(ramp.judged(level, false, fmt::format("ascending {}", level), true));

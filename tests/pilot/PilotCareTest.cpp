@@ -1,4 +1,4 @@
-// The gates that only the running bench can ask.
+// Tests the gates that only the running bench can check.
 #include "core/pilot/PilotCare.h"
 #include "core/pilot/PilotSession.h"
 #include "tests/pilot/StageFixture.h"
@@ -47,7 +47,7 @@ TEST_F(PilotCareTest, AStopOfTheRunWhileAStopIsTestedIsNoTestAndNothingGoesOnAft
     someone_.onAsk = [this](const PilotPrompt& prompt) {
         if (prompt.name != "stop-test") return;
         stage_->endRun();
-        bench_->stop("operator (STOP)");  // the participant presses next, as they were asked to
+        bench_->stop("operator (STOP)");  // next, the participant presses STOP as asked
     };
     EXPECT_THAT(care.checklist(), test::refused(ErrorCode::Stopped));
     EXPECT_EQ(someone_.asked.back(), "stop-test") << "no one is asked to go on";
@@ -59,7 +59,7 @@ TEST_F(PilotCareTest, TheOthersStopProvesNothingAndItIsAskedAgain) {
     RecordProperty("hazard", "H2");
     PilotCare care(*stage_);
     someone_.answers = {{"erythema", "0"}, {"oedema", "0"}};
-    someone_.testPresses = 2;  // the participant's, who is asked, and once more when the operator is asked
+    someone_.testPresses = 2;  // the participant presses once when asked, and once more when the operator is asked
     accepted(care.checklist());
     const auto tests = bodies(row::kStopTest);
     ASSERT_THAT(tests, SizeIs(3));
@@ -153,7 +153,7 @@ TEST_F(PilotCareTest, ASessionThatWasStoppedGoesOnWithNothingButItsQuestions) {
         someone_.answers = {{"erythema", "2"}, {"oedema", "0"}};
         EXPECT_FALSE(care.skin("break 3"));
     }
-    // Begins as if it had died when it asked for the skin afterwards.
+    // Begins as if the program had died when it asked for the skin after the session.
     begin(rowsUntil(row::kSessionEnd));
     PilotSession session(*bench_, someone_, *record_, PilotSettings{}, nullptr, 2);
     session.resumesFrom("part 1", "head");
@@ -178,7 +178,7 @@ TEST_F(PilotCareTest, AStopRightAfterATestOfItIsOneAndIsHandled) {
     EXPECT_THAT(someone_.asked, Contains("go-on")) << "nothing resumes without them";
 }
 
-/// What is on disk where the program was killed before it wrote that the session had ended.
+/// The rows on disk if the program was killed before it wrote the session's end.
 struct Killed {
     const char* name;
     std::vector<std::pair<const char*, nlohmann::json>> rows;

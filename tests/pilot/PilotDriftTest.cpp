@@ -1,4 +1,4 @@
-// The levels that the drift check presents in a session with a participant who feels less and less.
+// The levels of the drift check in a session with a participant whose sensitivity falls.
 #include "core/pilot/PilotSession.h"
 #include "core/pilot/VirtualPilotParticipant.h"
 #include "tests/pilot/StageFixture.h"
@@ -7,7 +7,7 @@
 namespace tacto::test {
 namespace {
 
-/// A virtual participant, and what they felt.
+/// Passes everything to a virtual participant, and notes what they felt.
 class Noting final : public PilotParticipant {
 public:
     explicit Noting(PilotParticipant& people) : people_(people) {}
@@ -34,7 +34,7 @@ public:
     [[nodiscard]] std::optional<Hindrance> hindrance() const override { return people_.hindrance(); }
     [[nodiscard]] bool answersInRealTime() const noexcept override { return people_.answersInRealTime(); }
     std::vector<FeltPresentation> felt;
-    std::vector<PilotPrompt> offered;  // on demand
+    std::vector<PilotPrompt> offered;  // prompts on demand
 
 private:
     [[nodiscard]] static PilotAnswer answer(std::string key) {

@@ -1,5 +1,5 @@
-// Gates of pilot.md section 3 that the electrodes and the STOPs have to pass, each with its sentence, and with nothing
-// presented behind it.
+// Gates of pilot.md section 3 about the electrodes and the STOPs: each refusal has its sentence, and nothing is
+// presented after it.
 #include <thread>
 
 #include "core/pilot/PilotCare.h"
@@ -11,7 +11,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A twin with an output that takes its time to switch off, or with electrodes that come off by and by.
+/// A simulated stimulator that switches off slowly, or with electrodes that gradually come off.
 class WornStimulator final : public WrappedStimulator {
 public:
     WornStimulator(std::unique_ptr<Stimulator> twin, std::chrono::milliseconds offTakes, double skinLater)

@@ -1,4 +1,4 @@
-// What holds a session until the operator has answered by name: too strong, pain, adverse events.
+// Events that hold a session until the operator has answered by name: too strong, pain, adverse events.
 #include <fstream>
 
 #include "core/base/JsonText.h"
@@ -15,7 +15,7 @@ namespace {
 
 class PilotHoldTest : public PilotStageTest {
 protected:
-    /// Names of the session's rows of three kinds, in order.
+    /// Returns the names of the session's rows of three kinds, in order.
     [[nodiscard]] std::vector<std::string> course() const {
         std::vector<std::string> all;
         for (const auto& each : rows()) {
@@ -36,7 +36,7 @@ TEST_F(PilotHoldTest, AfterTooStrongNothingIsPresentedBeforeTheOperatorHasAnswer
         if (prompt.name != kHoldPrompt) return;
         EXPECT_FALSE(stage_->isArmed()) << "the output is off";
         EXPECT_EQ(prompt.to, PromptTo::Operator);
-        someone_.answers[kHoldPrompt] = ++asked % 2 == 1 ? "" : "KL";  // the first answer names nobody
+        someone_.answers[kHoldPrompt] = ++asked % 2 == 1 ? "" : "KL";  // the first answer contains no name
     };
     accepted(thresholds.ascendingLimits());
     const auto rowsInOrder = course();
@@ -71,7 +71,7 @@ TEST_F(PilotHoldTest, PainFromTheCeilingOnHoldsTheNextPresentationAndNoneBelowIt
     PilotCare care(*stage_);
     someone_.values = {{"intensity", 10}, {"unpleasantness", 10}, {"pain", 6}};
     someone_.onAsk = [&](const PilotPrompt& prompt) {
-        if (prompt.name == "naturalness") someone_.values["pain"] = 9;  // the second time
+        if (prompt.name == "naturalness") someone_.values["pain"] = 9;  // at the second rating
         if (prompt.name == kHoldPrompt) {
             EXPECT_FALSE(stage_->isArmed());
             EXPECT_THAT(prompt.text, testing::HasSubstr("pain 9 of 10, and the study's ceiling is 7"));
@@ -99,7 +99,7 @@ protected:
         const char* kind;
         nlohmann::json body;
     };
-    /// A session of `code` with these rows, ended.
+    /// A complete session of `code` with these rows.
     std::string session(Study& study, const std::string& code, const std::vector<Row>& rows) {
         time.now += std::chrono::hours(24);
         const auto begun = study.beginSession(someRequest(code)).value();
@@ -170,7 +170,7 @@ TEST_F(OpenHolds, ARecordThatIsGoneOrDoesNotOpenHoldsTheNextSession) {
     const auto open = [&](const std::string& of) { return openHolds(study, study.find(of).value()); };
     for (const bool gone : {false, true}) {
         time.now += std::chrono::hours(24);
-        // Killed before the ledger knew its end; then it was damaged and ended as stopped.
+        // Killed before the ledger knew the end; then the file was damaged, and the session ended as stopped.
         const auto begun = study.beginSession(someRequest(code)).value();
         VirtualClock clock;
         {

@@ -1,5 +1,5 @@
-// What a recorder is told of a session: rows that are on disk, at the times that they state, and nothing that depends
-// on what is presented or answered.
+// Markers that a recorder gets from a session: for rows on disk, with the rows' times, and without anything that
+// depends on a stimulus or an answer.
 #include <map>
 
 #include "core/base/Random.h"
@@ -25,7 +25,7 @@ protected:
         record_->onMarker = [this](const PilotMarker& marker) {
             const auto all = rows();
             ASSERT_FALSE(all.empty());
-            bool isThere = false;  // the bench writes rows of its own meanwhile
+            bool isThere = false;  // the bench also writes rows
             for (const auto& row : all) isThere = isThere || (row.name == marker.name && row.at == marker.at);
             EXPECT_TRUE(isThere) << marker.name << " is told before its row is on disk";
             told.push_back({marker.at, std::string(marker.name)});
@@ -102,7 +102,7 @@ TEST_F(PilotMarkers, SayNothingOfTheIntervalThatHoldsTheTrain) {
 TEST_F(PilotMarkers, TargetsComeTheSameTimeAfterAnyPresentation) {
     RecordProperty("hazard", "H9");
     Random random(20, "times of trials");
-    std::map<std::string, std::pair<double, double>> times;  // least and most, of the kinds of trials
+    std::map<std::string, std::pair<double, double>> times;  // shortest and longest time for each kind of trial
     Instant began{0}, targets{0};
     record_->onMarker = [&](const PilotMarker& marker) {
         if (marker.name == row::kPresentation) began = marker.at;

@@ -1,5 +1,5 @@
-// Breaks, pauses, a lost screen, electrodes that are seated again, an abort: the output is off, a row says so, and it
-// is armed again before the rest.
+// Breaks, pauses, a lost screen, electrodes seated again, an abort: each switches the output off and writes a row, and
+// the output is armed again before the session goes on.
 #include <thread>
 
 #include "core/pilot/PilotCare.h"
@@ -18,7 +18,7 @@ using testing::SizeIs;
 
 class PilotOutputTest : public PilotStageTest {
 protected:
-    /// A session in which 0.5 and 1 mA were accepted.
+    /// Runs a session in which 0.5 and 1 mA were accepted.
     void reachOne() {
         someone_.letsGo = true;
         someone_.holds = false;
@@ -30,7 +30,7 @@ protected:
         });
         someone_.asked.clear();
     }
-    /// The first time that trains may come.
+    /// Calls `happens` the first time that trains may come.
     void atFirstFeel(std::function<void()> happens) {
         someone_.onShow = [this, happens = std::move(happens), done = false]() mutable {
             if (someone_.shown.back().state != ScreenState::Feel || std::exchange(done, true)) return;
@@ -182,7 +182,7 @@ TEST_F(PilotOutputTest, ABreakNowSwitchesOffAtOnceAndTheTrialIsRepeatedAfterIt) 
 TEST_F(PilotOutputTest, ABenchThatIsPausedIsWaitedForAndTheTrialIsRepeatedHoweverOften) {
     RecordProperty("hazard", "H2");
     reachOne();
-    constexpr int kPauses = 6;  // more than presentations may be late in a row
+    constexpr int kPauses = 6;  // more than the number of presentations in a row that may be late
     int paused = 0;
     std::jthread resumes;
     someone_.onShow = [&] {
@@ -193,7 +193,7 @@ TEST_F(PilotOutputTest, ABenchThatIsPausedIsWaitedForAndTheTrialIsRepeatedHoweve
         if (screen.state != ScreenState::Feel || paused == kPauses) return;
         ++paused;
         bench_->pause();
-        resumes = std::jthread([this] {  // resumes while it presents, or in the pause that the stage makes of it
+        resumes = std::jthread([this] {  // resumes during the presentation, or in the pause that the stage makes
             std::this_thread::sleep_for(std::chrono::milliseconds(20));
             bench_->resume();
         });
@@ -242,7 +242,7 @@ TEST_F(PilotOutputTest, WithoutTheKeysWhileAQuestionWaitsTheOutputIsSoonOff) {
         someone_.onHindrance = elsewhere;
         for (int looks = 0; looks < 60; ++looks) someone_.waiting();
         someone_.onHindrance = {};
-        someone_.waiting();  // the participant was back for a moment
+        someone_.waiting();  // the participant's window had the keyboard for a moment
         someone_.onHindrance = elsewhere;
         for (int looks = 0; looks < 99; ++looks) someone_.waiting();
         EXPECT_NE(state(), InterlockState::Disarmed) << "9.9 s";
@@ -296,7 +296,7 @@ TEST_F(PilotOutputTest, AStopWithAFaultCounts) {
     EXPECT_EQ(record_->count(row::kParticipantStop), 1U);
 }
 
-/// Told once, as a sentence that does not say "off" where the output may still be on.
+/// Told once, in a sentence that does not say "off" if the output may still be on.
 TEST_F(PilotOutputTest, OfEachFaultTheOperatorReadsWhatItLeavesOfTheOutput) {
     RecordProperty("hazard", "H2");
     for (const auto* fault : {"open", "short", "unplug", "garbage", "stuck-on"}) {
@@ -342,7 +342,7 @@ TEST_F(PilotOutputTest, AnAbortWhileAStopIsHandledIsNotForgotten) {
     RecordProperty("hazard", "H2");
     someone_.stops = 1;
     bool aborted = false;
-    someone_.onShow = [&] {  // before they are asked to continue, and after the stop was noted
+    someone_.onShow = [&] {  // after the stop was recorded, before the question whether to continue
         if (someone_.shown.back().text.starts_with("Stopped.") && !std::exchange(aborted, true))
             someone_.stop(kOperatorAborts);
     };
@@ -370,7 +370,7 @@ protected:
         PilotOutputTest::SetUp();
         someone_.answers = {{"erythema", "0"}, {"oedema", "0"}};
     }
-    /// After the `n`-th measurement of the electrodes the load is `ohm`.
+    /// After the n-th measurement of the electrodes, fits the load given for n, in ohms.
     void fitAfter(std::map<std::size_t, double> loads) {
         record_->onWritten = [this, loads = std::move(loads), done = std::size_t(0)](std::size_t) mutable {
             const auto measured = record_->count(row::kImpedance);

@@ -1,5 +1,5 @@
-// What a session's rows say: what has an answer, what was begun, and how often.
-// How a participant's range and the study's encoding make the four conditions.
+// What a session's rows show: which trials have an answer, which were begun, and how often.
+// How a participant's range and the study's encoding define the four conditions.
 #include <gtest/gtest.h>
 
 #include "core/pilot/PilotRecord.h"
@@ -15,7 +15,7 @@ using nlohmann::json;
 
 struct Part {
     explicit Part(const std::vector<SessionRow>& earlier = {}) : record(*writer, clock, earlier) {}
-    /// What a later part is given.
+    /// The rows that a later part gets.
     [[nodiscard]] std::vector<SessionRow> rows() const {
         return SessionReader::open(dir.path() / "s.tacto").value().events().value();
     }

@@ -1,4 +1,4 @@
-// What happens once, what a stop does, and what comes before a train.
+// Nothing with an answer happens twice; what a stop does; what happens before a train.
 #include "tests/pilot/StageFixture.h"
 #include "tests/support/Refused.h"
 
@@ -61,7 +61,7 @@ TEST_F(PilotStageTest, TheIntervalsOfADetectionTrialAreMarkedAlikeWhicheverHolds
     RecordProperty("hazard", "H9");
     struct Mark {
         int interval;
-        double after_s;  // seconds since the first
+        double after_s;  // since the first mark
         bool operator==(const Mark&) const = default;
     };
     std::vector<std::vector<Mark>> seen;
@@ -76,7 +76,7 @@ TEST_F(PilotStageTest, TheIntervalsOfADetectionTrialAreMarkedAlikeWhicheverHolds
             const auto& screen = someone_.shown.back();
             if (screen.state != ScreenState::Interval) return;
             const double now_s = toSeconds(clock_->now());
-            if (marks.size() <= 1) first_s = now_s;  // from interval 1 on: the wait before it is drawn
+            if (marks.size() <= 1) first_s = now_s;  // counted from interval 1: the wait before it is random
             marks.push_back({screen.interval, marks.empty() ? 0 : now_s - first_s});
         };
         ASSERT_TRUE(stage_->trial(made));
@@ -188,7 +188,7 @@ TEST_F(PilotStageTest, AContactThatBouncesSwitchesOffAndIsNoneOfTheirStops) {
         EXPECT_EQ(row.body["why"], "the contact of the button that is held bounced");
     }
 
-    // If it was not the contact, it is a stop like any other, and the third ends the session.
+    // A stop that was not a bounce is a normal stop, and the third stop ends the session.
     someone_.onAsk = {};
     someone_.stops = 3;
     EXPECT_FALSE(stage_->trial(trial("test 2")));
@@ -199,7 +199,7 @@ TEST_F(PilotStageTest, AContactThatBouncesSwitchesOffAndIsNoneOfTheirStops) {
 TEST_F(PilotStageTest, AStopThatIsPressedIsNoBounceWhateverItsContactDoes) {
     RecordProperty("hazard", "H2");
     someone_.stops = 1;
-    someone_.bounces = true;  // another button bounces
+    someone_.bounces = true;  // the contact of another button bounces
     ASSERT_TRUE(stage_->trial(trial()));
     EXPECT_EQ(record_->count(row::kParticipantStop), 1U);
     EXPECT_EQ(record_->count(row::kPause), 0U);
@@ -230,13 +230,13 @@ TEST_F(PilotStageTest, RisingLevelsAreNotPresentedWhileTheParticipantDoesNotHold
     rising.held = true;
     someone_.holds = false;
     someone_.letsGo = true;
-    someone_.stops = 1;  // they stop at the prompt that asks them to hold
+    someone_.stops = 1;  // a stop at the prompt that asks the participant to hold
     const auto answer = accepted(stage_->trial(rising));
     EXPECT_THAT(someone_.asked, ElementsAre("hold", "go-on", "hold", "strength"));
     EXPECT_EQ(answer.attempt, 1U) << "nothing had been presented";
 }
 
-/// A session in which 0.5 and 1 mA were accepted before an electrode lifts at 20 s, for 10 s.
+/// A session in which 0.5 and 1 mA were accepted; then an electrode lifts at 20 s, for 10 s.
 class PilotStageFaultTest : public PilotStageTest {
 protected:
     void reachOne(const std::string& fault) {

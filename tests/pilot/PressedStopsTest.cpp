@@ -1,4 +1,4 @@
-// Stops that were not handled yet: each is known by what pressed it, and taken once.
+// Stops that were not handled yet: each keeps the name of its source and is taken once.
 #include <atomic>
 #include <gtest/gtest.h>
 #include <latch>
@@ -45,8 +45,8 @@ TEST(PressedStops, AScreenAPauseAndAnAbortAreNoPress) {
     EXPECT_TRUE(stops.any());
 }
 
-// Otherwise the session handles the press before it takes effect. The output's stop then has no name, which breaks the
-// session off, and a STOP's test reads the time of the previous press.
+// Otherwise the session would handle the press too early: the output's stop would have no name, which would abort the
+// session, and the test of a STOP would read the time of the previous press.
 TEST(PressedStops, OneIsTakenAfterTheOutputWasTold) {
     RecordProperty("hazard", "H2");
     PressedStops stops;

@@ -1,4 +1,4 @@
-// StageFixture.h - a pilot stage on a simulated bench, with someone who answers and a session file for each part.
+// StageFixture.h - a pilot stage on a simulated bench, a person who answers, and a session file for each part.
 //
 // Thread-safety: as PilotStage: one caller.
 #pragma once
@@ -13,7 +13,7 @@
 
 namespace tacto::test {
 
-/// Answers with the first target, and stops where it is told to.
+/// A participant who answers with the first target, and stops when the test says so.
 class Someone final : public PilotParticipant {
 public:
     void show(const PilotScreen& screen) override {
@@ -23,7 +23,7 @@ public:
         if (onShow) onShow();
     }
     [[nodiscard]] Result<PilotAnswer> ask(const PilotPrompt& prompt) override {
-        // At a desk it is the same: a stop that came between questions is the answer to the next one.
+        // As with real people: a stop between two questions is the answer to the next question.
         if (stopped_) return fail(ErrorCode::Stopped, "stopped before it was asked");
         if (onAsk) onAsk(prompt);
         asked.push_back(prompt.name);
@@ -71,23 +71,23 @@ public:
     std::function<void(const PilotPrompt&)> onAsk;
     std::function<std::optional<Hindrance>()> onHindrance;
     bool there = true;
-    std::set<std::string> silent;  // prompts that they leave unanswered
+    std::set<std::string> silent;  // prompts that stay unanswered
     void press(const char* by) {
         stopped_ = true;
         stop(by);
     }
 
     std::vector<std::string> texts;
-    std::map<std::string, std::string> answers;  // by the prompt's name; otherwise its first target answers
-    std::map<std::string, int> values;           // of scales
+    std::map<std::string, std::string> answers;  // by the prompt's name; other prompts get their first target
+    std::map<std::string, int> values;           // answers to scales
     int stops = 0;
     const char* stoppedBy = "participant";
     int stopsAtGoOn = 0;
-    int testPresses = 0;  // how often `testedBy` presses a STOP under test before the right one does
+    int testPresses = 0;  // how often `testedBy` presses STOP before the person whose STOP is tested
     const char* testedBy = "participant";
     bool holds = true;
-    bool bounces = false;  // what they let go next is their button's contact
-    bool letsGo = false;   // lets go as soon as they may
+    bool bounces = false;  // the next letting go is only a bounce of the button's contact
+    bool letsGo = false;   // lets go as soon as allowed
 
 private:
     bool stopped_ = false;
@@ -110,7 +110,7 @@ protected:
         clockOfFile_ = std::make_shared<VirtualClock>();
         begin();
     }
-    /// A part of the session with what the earlier ones wrote.
+    /// Begins a part of the session, which gets the rows of the earlier parts.
     void begin(const std::vector<SessionRow>& earlier = {}) {
         close();
         ++part_;
@@ -124,7 +124,7 @@ protected:
         settings.basis = SessionBasis::Virtual;
         stage_ = std::make_unique<PilotStage>(*bench_, someone_, *record_, settings);
     }
-    /// The bench writes to the session until it ends.
+    /// Must come before the session's end, since the bench writes to the session.
     void close() {
         stage_.reset();
         record_.reset();
@@ -132,7 +132,7 @@ protected:
     }
     [[nodiscard]] std::filesystem::path file() const { return dir_.path() / fmt::format("{}.tacto", part_); }
     [[nodiscard]] std::vector<SessionRow> rows() const { return SessionReader::open(file()).value().events().value(); }
-    /// All rows up to the first of this kind, as if the program had died there.
+    /// Returns all rows up to the first of this kind, as if the program had died there.
     [[nodiscard]] std::vector<SessionRow> rowsUntil(const char* kind) const {
         auto all = rows();
         all.erase(std::next(std::ranges::find(all, kind, &SessionRow::name)), all.end());
@@ -149,7 +149,7 @@ protected:
         for (const auto& body : bodies(row::kAnswer)) all.push_back(body["name"]);
         return all;
     }
-    /// The rows of the session's own kinds, in order.
+    /// Returns the session's rows of certain kinds, in order.
     [[nodiscard]] std::vector<std::string> kinds() const {
         std::vector<std::string> all;
         for (const auto& each : rows()) {
@@ -159,7 +159,7 @@ protected:
         }
         return all;
     }
-    /// The operator takes six seconds to see to the electrodes. A bench that has faulted lets no time pass.
+    /// The operator takes six seconds for the electrodes. A faulted bench lets no time pass, so the clock is moved.
     void operatorTakesTime() {
         someone_.onAsk = [this](const PilotPrompt& prompt) {
             const Seconds time(6);
@@ -193,7 +193,7 @@ protected:
     ScratchDir dir_;
     std::shared_ptr<VirtualClock> clockOfFile_;
     int part_ = 0;
-    std::string more_;  // further keys of the stimulator's address
+    std::string more_;  // more keys for the stimulator's address
     Someone someone_;
     std::unique_ptr<SessionWriter> writer_;
     std::unique_ptr<PilotRecord> record_;

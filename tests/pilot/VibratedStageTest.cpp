@@ -1,4 +1,4 @@
-// The stage with a massager: strengths are reached by steps, and what the motor did is kept where it was measured.
+// The stage with a massager: intensities rise in steps, and the measured vibration is kept.
 #include "tests/pilot/StageFixture.h"
 #include "tests/support/Refused.h"
 
@@ -7,7 +7,7 @@ namespace {
 
 using testing::ElementsAre;
 
-/// The stage with a massager, and perhaps a sensor board on its motor.
+/// A stage with a massager, with or without a sensor board on the motor.
 class VibratedStageTest : public PilotStageTest {
 protected:
     void SetUp() override {
@@ -37,7 +37,7 @@ protected:
         made.presentation = ascendingPresentation(VibrationIntensity{kIntensityStep * steps}, Seconds(0.5));
         return made;
     }
-    /// Levels of one to `most` steps, each accepted.
+    /// Presents and accepts levels of 1 to `most` steps.
     void rise(int most) {
         for (int steps = 1; steps <= most; ++steps) {
             const auto made = vibrated(fmt::format("ascending {}", steps), steps);
@@ -118,7 +118,7 @@ TEST_F(VibratedStageTest, NothingListensOnceAPresentationHasEndedHoweverItDid) {
     someone_.stops = 1;
     someone_.stoppedBy = "operator";
     ASSERT_FALSE(stage_->trial(vibrated("test 1", 1)));
-    stage_.reset();  // a tap that was still listened to would be gone
+    stage_.reset();  // crashes if a destroyed tap were still in use
     bench_->idle(Seconds(1));
     bench_.reset();
 }

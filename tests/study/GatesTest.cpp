@@ -57,7 +57,7 @@ TEST(Gates, AnApprovalIsForTheSettingsAndScriptsThatItWasGivenFor) {
     settings.scripts.front().sha256[0] = 'b';
     EXPECT_EQ(approvalGate(settings, kToday).error().code, kGateRefused);
     settings = approved();
-    settings.approval.committee = "EC";  // neither is a part of the protocol
+    settings.approval.committee = "EC";  // not part of the approved protocol
     settings.license = "CC-BY-4.0";
     EXPECT_TRUE(approvalGate(settings, kToday));
 }
@@ -190,7 +190,7 @@ TEST(Gates, AfterALedgerWentBackNoSessionBeginsThatDayNorWithinTheGap) {
     EXPECT_FALSE(wentBackGate(settings, once, at + 11h)) << "the same day";
     EXPECT_TRUE(wentBackGate(settings, once, at + 12h));
     EXPECT_FALSE(wentBackGate(settings, once, at - 24h)) << "a clock that is behind";
-    // The clock was set back by two days; the newest known row tells how late it was.
+    // The clock was set back by two days; the newest known row shows the real time.
     settings.gapMin_h = 20;
     back.at = at - 48h;
     back.newestAt = at;
@@ -211,7 +211,7 @@ TEST(Gates, EveryItemOfTheChecklistIsAnsweredWithNo) {
         std::ranges::find(answers, item.key, &ExclusionAnswer::key)->yes = true;
         const auto gate = exclusionGate(answers);
         ASSERT_THAT(gate, test::refused(kGateRefused)) << item.key;
-        // The message hides which one it was.
+        // The message does not say which item it was.
         EXPECT_EQ(gate.error().message.find(item.key), std::string::npos);
         std::erase_if(answers, [&](const auto& answer) { return answer.key == item.key; });
         EXPECT_EQ(exclusionGate(answers).error().code, kGateRefused) << item.key;

@@ -1,5 +1,5 @@
-// A ledger behind the newest that this computer knows takes no change, whatever is tried on it, until someone goes back
-// to it by name; and 10 000 ledgers are cut, reordered and rolled back at every row (./dev campaign).
+// A ledger older than the newest that this computer knows accepts no change until someone goes back to it by name. The
+// campaign (./dev campaign) cuts, reorders and rolls back 10 000 ledgers at every row.
 #include <chrono>
 #include <random>
 
@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A study with a person who takes part, and copies of it as it was.
+/// A study with a person as participant, and copies of its earlier states.
 class RolledBack : public test::StudyDesk {
 protected:
     [[nodiscard]] fs::path keys() const { return around().keyFolder; }
@@ -38,7 +38,7 @@ protected:
         code_ = study.enrol({}).value().code;
         ASSERT_TRUE(study.consent(code_, {"2", study.today(), "KL"}));
     }
-    /// A session of the person, from its beginning to its end.
+    /// Runs a whole session of the person.
     void runSession(Study& study) const {
         const auto begun = test::accepted(study.beginSession(request()));
         const auto head = record(begun);
@@ -48,7 +48,7 @@ protected:
         const char* name;
         std::function<Result<void>(Study&)> run;
     };
-    /// Everything that appends a row, with words that a sound study accepts.
+    /// Returns all calls that append a row, with arguments that an intact study accepts.
     [[nodiscard]] std::vector<Write> writes(const Study& study) const {
         const auto drop = [](auto result) { return result ? Result<void>() : Result<void>(failure(result)); };
         const auto code = code_;
@@ -86,7 +86,7 @@ protected:
         static int count = 0;
         return std::to_string(++count);
     }
-    /// Each is refused with `part` in its sentence, and neither the study nor its keys change.
+    /// Checks that each call is refused with `part` in its sentence, and changes neither the study nor its keys.
     void expectEachRefused(Study& study, std::string_view part) {
         for (const auto& write : writes(study)) {
             SCOPED_TRACE(write.name);
@@ -144,7 +144,7 @@ TEST_F(RolledBack, ANoteThatIsLostIsFoundByTheKeyFileAndBySessions) {
     const auto whole = scratch.path() / "whole";
     fs::copy_file(folder() / "ledger.tacto", whole);
     ASSERT_TRUE(fs::remove(noted()));
-    {  // Only the note is lost: it is written again.
+    {  // only the note is lost: it is written again
         ASSERT_TRUE(open()->exported("/media/stick", "bids"));
         EXPECT_TRUE(fs::exists(noted()));
         fs::remove(noted());
@@ -154,7 +154,7 @@ TEST_F(RolledBack, ANoteThatIsLostIsFoundByTheKeyFileAndBySessions) {
         auto study = test::accepted(open());
         expectEachRefused(study, "is not the one that the key file notes");
     }
-    // The key file is an older copy too: the records of sessions know how far it went.
+    // The key file is an older copy too; the sessions' records show how far the ledger went.
     fs::remove(noted());
     fs::copy_file(olderKeys / keyFile().filename(), keyFile(), fs::copy_options::overwrite_existing);
     fs::copy_file(older, folder() / "ledger.tacto", fs::copy_options::overwrite_existing);
@@ -162,7 +162,7 @@ TEST_F(RolledBack, ANoteThatIsLostIsFoundByTheKeyFileAndBySessions) {
         auto study = test::accepted(open());
         expectEachRefused(study, "is not in the ledger");
     }
-    // A ledger also fails in which the session is booked and what lay before it is different.
+    // A ledger that contains the session, but differs before it, is refused too.
     fs::copy_file(whole, folder() / "ledger.tacto", fs::copy_options::overwrite_existing);
     auto forged = test::everythingIn(folder() / "ledger.tacto");
     test::forge(folder() / "ledger.tacto", "UPDATE entries SET hash=randomblob(32) WHERE name='session-begun'");
@@ -232,7 +232,7 @@ TEST_F(RolledBack, CopiesOfAStudyAreNotChangedAtOnce) {
     EXPECT_TRUE(Study::open(scratch.path() / "old", &words, Study::Access::Read, around()));
 }
 
-/// Rows that are appended by a program with the folder and without the key: the chain holds, for it is recomputed.
+/// Rows appended by a program that has the folder but not the key; the chain is computed again, so it is valid.
 class ForgedRows : public RolledBack {
 protected:
     [[nodiscard]] fs::path ledgerFile() const { return folder() / "ledger.tacto"; }
@@ -241,7 +241,7 @@ protected:
         ASSERT_TRUE(forged.append(time.now, name, body));
     }
     [[nodiscard]] std::vector<SessionRow> rows() const { return SessionReader::open(ledgerFile())->events().value(); }
-    /// A study with a session that ended and one that is unfinished.
+    /// Makes a study with one session that ended and one unfinished session.
     void makeWithSessions() {
         makeStudy();
         auto study = open().value();
@@ -250,7 +250,7 @@ protected:
         unfinished_ = study.beginSession(request()).value().session;
         participant_ = study.participants().front().id;
     }
-    /// Everything that can be written without a key.
+    /// Returns all rows that can be written without a key.
     [[nodiscard]] std::vector<std::pair<const char*, nlohmann::json>> forgeries() const {
         auto amended = rows().front().body;
         amended.erase("mac");
@@ -273,7 +273,7 @@ protected:
                   {"head", ""}}},
                 {"went-back", {{"row", 9}, {"lost", 1}, {"rows", {"left"}}, {"files", {"a.tacto"}}}}};
     }
-    /// Makes a ledger from before rows had a "mac": the same rows, and what notes its end says so.
+    /// Makes a ledger from before rows had a "mac": the same rows, with notes of its end that match.
     void makeOld() {
         auto old = rows();
         const auto about = SessionReader::open(ledgerFile())->about();
@@ -381,7 +381,7 @@ TEST_F(ForgedRows, AreTakenOverByTheirWordAlone) {
     EXPECT_EQ(study.participants().front().state, ParticipantState::Withdrawn);
 }
 
-/// The rows of a ledger as another program reads them: what the oracle goes by.
+/// Returns the rows of a ledger as another program reads them; the test compares with these.
 std::vector<std::string> rawRows(const fs::path& path) {
     sqlite3* database = nullptr;
     std::vector<std::string> all;
@@ -401,14 +401,14 @@ std::vector<std::string> rawRows(const fs::path& path) {
     return all;
 }
 
-/// Whether `newest` is the beginning of `rows`.
+/// Whether `rows` begins with `newest`.
 bool holds(const std::vector<std::string>& rows, const std::vector<std::string>& newest) {
     return rows.size() >= newest.size() && std::equal(newest.begin(), newest.end(), rows.begin());
 }
 
 class CutLedgers : public RolledBack {
 protected:
-    /// Rows of every kind; a copy of the ledger and of the keys after each one.
+    /// Writes rows of every kind; keeps a copy of the ledger and the keys after each row.
     void build(std::mt19937& random) {
         fs::remove_all(scratch.path() / "home");
         fs::remove_all(folder());
@@ -432,7 +432,7 @@ protected:
                 const auto all = writes(study);
                 const auto& write = all[random() % all.size()];
                 const std::string_view name = write.name;
-                if (name == "leave" || name == "withdraw") continue;  // nothing of theirs could be tried afterwards
+                if (name == "leave" || name == "withdraw") continue;  // later calls for them would all be refused
                 if (!write.run(study)) continue;
             }
             keep();
@@ -465,7 +465,7 @@ protected:
         }
     }
 
-    /// A ledger with a valid chain that has the same rows without one of them, or with two of them exchanged.
+    /// Rewrites the ledger with a valid chain and the same rows, but leaves one out or exchanges two.
     void recompute(std::mt19937& random) const {
         const auto ledger = folder() / "ledger.tacto";
         auto reader = SessionReader::open(ledger);

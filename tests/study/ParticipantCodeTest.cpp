@@ -8,7 +8,7 @@ namespace tacto {
 namespace {
 
 TEST(ParticipantCode, HasTheCheckCharacterOfIso7064) {
-    // The standard's own examples of MOD 37,36, as python-stdnum lists them.
+    // The examples of MOD 37,36 in the standard, as listed by python-stdnum.
     EXPECT_EQ(checkCharacter("A12425GABC1234002"), 'M');
     EXPECT_EQ(checkCharacter("P7K3"), 'D');
     EXPECT_EQ(checkCharacter("P-7"), std::nullopt);

@@ -1,5 +1,5 @@
-// What was typed about a person, in every place that takes a text, stands sealed in the study's folder: in the ledger,
-// in a session's file and in the logs beside them, while they are open and afterwards.
+// Texts about a person, typed in any place that takes a text, are always sealed in the study's folder: in the ledger,
+// in session files and in the logs next to them, while these are open and afterwards.
 #include "tests/study/StudySupport.h"
 #include "tests/support/Refused.h"
 

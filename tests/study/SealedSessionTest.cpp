@@ -1,4 +1,4 @@
-// A session with sealed rows: what it shows, what its key opens, and that a change is found without the key.
+// A session with sealed rows: what it shows, what its key opens, and that changes are found without the key.
 #include <sqlite3.h>
 
 #include "core/session/Origin.h"
@@ -75,7 +75,7 @@ TEST_F(SealedSession, ShowsWithoutAKeyWhatAReviewerNeedsAndSaysThatTheRestIsSeal
     EXPECT_EQ(events[2].name, "answer");
     EXPECT_EQ(events[7].name, "refused");
     EXPECT_EQ(events[7].body["text"], "… mA is above the discomfort limit of … mA");
-    EXPECT_EQ(events[8].name, "sealed");  // "too strong" is an answer
+    EXPECT_EQ(events[8].name, "sealed");  // "too strong" is an answer, so it is sealed
     EXPECT_EQ(reader.commands()->front().name, "sealed");
     EXPECT_EQ(reader.trials()->front().condition, "sealed");
     EXPECT_EQ(reader.trials()->front().number, 1);
@@ -87,7 +87,7 @@ TEST_F(SealedSession, ShowsWithoutAKeyWhatAReviewerNeedsAndSaysThatTheRestIsSeal
           reader.capture(reader.captures()->front().seq).error().code, reader.reproducibleText().error().code})
         EXPECT_EQ(code, ErrorCode::Unsupported);
     EXPECT_EQ(summarise(path)->verdict, "sealed");
-    EXPECT_EQ(deliveredIn(reader).error().code, ErrorCode::Unsupported);  // an error, not an empty answer
+    EXPECT_EQ(deliveredIn(reader).error().code, ErrorCode::Unsupported);  // an error, not an empty result
 }
 
 TEST_F(SealedSession, ShowsTheLengthOfARowOrChunkToABlockAlone) {
@@ -128,7 +128,7 @@ TEST_F(SealedSession, AFlippedBitIsFoundWithoutAKey) {
     int found = 0, looked = 0;
     const auto rows = SessionReader::open(path)->events()->size();
     ASSERT_GT(rows, 0U);
-    // The bytes lie within the stored seals: the nonce of each is unlike anything else in the file.
+    // Looks for each stored seal by its bytes: its random nonce occurs nowhere else in the file.
     sqlite3* database = nullptr;
     ASSERT_EQ(sqlite3_open(path.c_str(), &database), SQLITE_OK);
     std::vector<std::string> seals;
@@ -145,7 +145,7 @@ TEST_F(SealedSession, AFlippedBitIsFoundWithoutAKey) {
     ASSERT_GT(seals.size(), 15U);
     for (const auto& seal : seals) {
         const auto at = bytes.find(seal);
-        if (at == std::string::npos) continue;  // across two pages
+        if (at == std::string::npos) continue;  // the seal lies across two pages
         auto altered = bytes;
         altered[at + 7] = static_cast<char>(altered[at + 7] ^ 1);
         const auto copy = scratch.write("altered.tacto", altered);

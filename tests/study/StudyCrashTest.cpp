@@ -1,5 +1,5 @@
-// A program that changes a study is killed at random moments, for real: what it was told stays, and the next program
-// opens the study.
+// Kills a program that changes a study at random moments: acknowledged changes stay, and the next program can open the
+// study.
 #include <random>
 #include <signal.h>
 #include <sys/wait.h>
@@ -14,7 +14,7 @@ namespace {
 
 class StudyCrash : public test::StudyDesk {
 protected:
-    /// Enrols, consents and lets every third withdraw until killed; says how many of each were acknowledged.
+    /// Enrols, takes consents and withdraws every third participant until killed; reports each acknowledged change.
     [[noreturn]] void changeForEver(int pipe) const {
         auto study = open();
         if (!study) ::_exit(1);

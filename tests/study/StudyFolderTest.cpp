@@ -1,4 +1,4 @@
-// What lies in a study's folder: nothing that tells who or what outside the seals, and damage is found.
+// A study's folder reveals no person and no result outside the seals, and damage is found.
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -16,7 +16,7 @@ namespace {
 
 class StudyFolder : public test::StudyDesk {
 protected:
-    /// Asks another process, for which `besides` holds, too.
+    /// Whether another process is refused; `besides` must hold there too.
     [[nodiscard]] bool refusedInAnotherProgram(const std::function<bool()>& besides) const {
         const pid_t child = ::fork();
         if (child == 0) {
@@ -70,11 +70,11 @@ TEST_F(StudyFolder, TellsNeitherWhoNorWhatWhileASessionRunsAndAfterIt) {
     words.push_back("/media/stick");
     for (const auto& below : {folder(), scratch.path() / "crashed"}) {
         const auto all = everythingBelow(below);
-        EXPECT_NE(all.find("Four conditions"), std::string::npos);  // the search does find what is there
+        EXPECT_NE(all.find("Four conditions"), std::string::npos);  // shows that the search finds what is there
         EXPECT_NE(all.find("trial-begin"), std::string::npos);
         for (const auto& word : words) EXPECT_EQ(all.find(word), std::string::npos) << word;
     }
-    // The bytes of no key appear either, plain or as text.
+    // The bytes of the keys do not appear either, in binary or as text.
     const auto passphrase = test::somePassphrase();
     const auto keys =
         test::accepted(StudyKeys::open(keyFile(), study.settings().id, &passphrase, PassphraseCost::least()));
@@ -95,10 +95,10 @@ TEST_F(WithStudyFolder, TheKeyFileIsItsOwnersAloneAndSealed) {
     EXPECT_EQ(about.st_mode & 0777, 0600U);
     const auto text = textOf(keyFile());
     EXPECT_EQ(text.find(code), std::string::npos);
-    EXPECT_EQ(text.find("limit"), std::string::npos);  // the cost of a guess is not a file's business
+    EXPECT_EQ(text.find("limit"), std::string::npos);  // no file may choose the cost of a guess
 }
 
-// What a link names would keep its bytes when the keys are written again: a withdrawal would destroy nothing.
+// When keys are written again, the file behind a link would keep its bytes: a withdrawal would destroy nothing.
 TEST_F(StudyFolder, AKeyFileThatIsALinkIsRefused) {
     RecordProperty("hazard", "H11");
     {
@@ -165,7 +165,7 @@ TEST_F(StudyFolder, AKeyFileOfAnEarlierVersionIsReadAndSaysHowFarTheLedgerGoesFr
         code = enrolled(study);
         id = study.settings().id;
     }
-    // Version 1 was like this: without the 80 bytes that say how far the ledger goes, bound by another word.
+    // A file of version 1: without the 80 bytes about the ledger's end, and bound to another word.
     auto json = nlohmann::json::parse(textOf(keyFile()));
     ASSERT_EQ(json["version"], 2);
     const auto salt = bytesOfBase64(json["salt"].get<std::string>()).value();
@@ -187,7 +187,7 @@ TEST_F(StudyFolder, AKeyFileOfAnEarlierVersionIsReadAndSaysHowFarTheLedgerGoesFr
         EXPECT_TRUE(study.find(code));
     }
     EXPECT_EQ(endInKeys(), 4);
-    json["version"] = 2;  // what was sealed as version 1 does not open as another
+    json["version"] = 2;  // what was sealed as version 1 does not open as version 2
     write(keyFile(), json.dump());
     EXPECT_FALSE(open());
 }
@@ -255,7 +255,7 @@ TEST_F(StudyFolder, ALedgerThatWasCutShortOrIsAnOlderCopyBeginsNoSession) {
     request.devicesSimulated = false;
     const auto older = scratch.path() / "older", whole = scratch.path() / "whole", ledger = folder() / "ledger.tacto";
     std::filesystem::copy_file(ledger, older);
-    auto elsewhere = around();  // a computer that knows of nothing newer
+    auto elsewhere = around();  // a computer that knows no newer ledger
     elsewhere.keyFolder = scratch.path() / "elsewhere";
     std::filesystem::copy(around().keyFolder, elsewhere.keyFolder);
     {
@@ -317,7 +317,7 @@ TEST_F(StudyFolder, ASessionThatTheLedgerDoesNotKnowBeginsNoOther) {
         const auto begun = study.beginSession(test::someRequest(code)).value();
         ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Complete, record(begun)));
     }
-    // An older ledger, on a computer that never wrote a newer one.
+    // An older ledger on a computer that never wrote a newer one.
     std::filesystem::copy_file(older, ledger, std::filesystem::copy_options::overwrite_existing);
     const auto keys = around().keyFolder;
     std::filesystem::remove_all(keys);

@@ -1,4 +1,4 @@
-// What lets a session begin, and what does not: each gate, the gap between sessions, and records that are not whole.
+// What a session needs to begin: each gate, the gap between sessions, and records that are complete.
 #include <random>
 
 #include "tests/session/SessionSupport.h"
@@ -12,7 +12,7 @@ namespace {
 
 using Desk = test::StudyDesk;
 
-/// Nothing is made when a gate refuses: folder and keys are the same, byte for byte.
+/// If a gate refuses, nothing is created: the study's folder and keys stay the same, byte for byte.
 class GateOfASession : public Desk {
 protected:
     void expectRefused(Study& study, const SessionRequest& request, std::string_view part,
@@ -112,7 +112,7 @@ TEST_F(GateOfASession, AClockThatIsSetBackDatesNothingBack) {
         const auto back = std::chrono::hours(24 * days);
         auto request = test::someRequest(code);
         request.devicesSimulated = false;
-        // A form that is approved today is not one of the day that the clock says.
+        // A form approved today is not valid on the earlier day that the clock now shows.
         time.now -= back;
         auto amended = study.settings();
         amended.consentVersion = "3";
@@ -122,7 +122,7 @@ TEST_F(GateOfASession, AClockThatIsSetBackDatesNothingBack) {
         EXPECT_FALSE(study.consent(code, {"3", before, "KL"}));
         ASSERT_TRUE(study.consent(code, {"3", today, "KL"}));
         ASSERT_TRUE(study.mayBegin(request));
-        // Today's yes does not become an earlier one either.
+        // A "yes" of today does not become an earlier one when the clock is set back.
         time.now -= back;
         request.exclusions.front().yes = true;
         ASSERT_TRUE(study.noteExclusions(request));
@@ -149,7 +149,7 @@ TEST_F(WithDesk, TheNextSessionWaitsForTheGap) {
 TEST_F(WithDesk, TheGapIsCountedFromTheFirstTrainAndNotFromTheChecklist) {
     RecordProperty("hazard", "H12");
     const auto begun = study.beginSession(test::someRequest(code)).value();
-    test::HandClock clock;  // as on a real bench, an event's time comes from the wall clock
+    test::HandClock clock;  // as on a real bench, wall time and session time differ
     auto writer = test::accepted(SessionWriter::create(begun.path, {}, clock, begun.seal));
     clock.advance(std::chrono::minutes(18));
     ASSERT_TRUE(writer->event(clock.now(), "trial-begin", {{"name", "ascending 1"}}));
@@ -201,7 +201,7 @@ TEST_F(WithDesk, ASessionInWhichNothingWasPresentedCostsNoDay) {
         EXPECT_FALSE(study.cancelSession(booked.session.id)) << "once";
     }
     auto next = test::accepted(study.beginSession(test::someRequest(code)));
-    std::ofstream(next.path) << "no session";  // what cannot be read may hold anything
+    std::ofstream(next.path) << "no session";  // a file that cannot be read may contain trials
     ASSERT_TRUE(study.endSession(next.session.id, StudySessionState::Stopped, ""));
     EXPECT_EQ(study.beginSession(test::someRequest(code)).error().code, kGateRefused);
 }
@@ -224,7 +224,7 @@ TEST_F(Desk, ARecordThatWasExchangedBarsTheNextSession) {
     const auto begun = study.beginSession(test::someRequest(first)).value();
     ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Complete, record(begun)));
     ASSERT_TRUE(std::filesystem::remove(begun.path));
-    record(begun);  // the same rows with other seals
+    record(begun);  // the same rows with different seals
     EXPECT_THAT(study.beginSession(test::someRequest(second)),
                 test::refused(kGateRefused, "is not the one that the ledger notes"));
 }
@@ -235,14 +235,14 @@ TEST_F(WithDesk, ARecordThatWasChangedAmongItsRowsBarsTheNextSession) {
     ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Complete, record(begun)));
     ASSERT_TRUE(study.stillApproved());
     ASSERT_TRUE(study.events(begun.session));
-    // The head of its chain stays: nothing was presented, it says now, and the gap would be none.
+    // The chain head stays the same, but the file now says that nothing was presented, so there would be no gap.
     test::forge(begun.path, "UPDATE entries SET name='note' WHERE name='trial-begin'");
     EXPECT_THAT(study.beginSession(test::someRequest(code)),
                 test::refusedSaying("is not the one that the ledger notes"));
     EXPECT_FALSE(study.events(begun.session));
 }
 
-/// The zone of this process, as TZ names it, while it lives.
+/// Sets this process's time zone (TZ) as long as this object exists.
 class Zone {
 public:
     explicit Zone(const char* text) {

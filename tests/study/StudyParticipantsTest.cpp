@@ -1,4 +1,4 @@
-// The participants of a study: enrolled, consented, asked the day after, left and withdrawn.
+// The participants of a study: enrolment, consent, the day after, leaving and withdrawal.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ TEST_F(Desk, AWithdrawnParticipantLeavesNothingThatOpens) {
     EXPECT_EQ(gone.code, "");
     EXPECT_TRUE(gone.consents.empty());
     EXPECT_TRUE(SessionReader::open(path)->locked());
-    EXPECT_TRUE(study.stillApproved());  // the chains stay whole
+    EXPECT_TRUE(study.stillApproved());  // the hash chains stay whole
     EXPECT_EQ(everythingBelow(scratch.path() / "home").find(code), std::string::npos);
 }
 
@@ -147,7 +147,7 @@ TEST_F(Desk, NoMoreParticipantsThanApproved) {
     const auto code = enrolled(study, 2);
     EXPECT_EQ(study.enrol({}).error().code, kGateRefused);
     ASSERT_TRUE(study.withdraw(code));
-    EXPECT_EQ(study.enrol({}).error().code, kGateRefused);  // someone who took part is not replaced
+    EXPECT_EQ(study.enrol({}).error().code, kGateRefused);  // nobody may take the place of a person who took part
 }
 
 TEST_F(Desk, ACodeAndASeedAreEnrolledOnce) {
@@ -162,7 +162,7 @@ TEST_F(Desk, ACodeAndASeedAreEnrolledOnce) {
     Participant twin;
     twin.virtualSeed = 5;
     EXPECT_EQ(study.enrol(twin).error().code, ErrorCode::Unsupported);
-    for (const char* same : {"P7K3D", "P-7-K3D", "p7k3-d"}) {  // leaving out a hyphen makes nobody another person
+    for (const char* same : {"P7K3D", "P-7-K3D", "p7k3-d"}) {  // the same code with other hyphens is the same person
         named.code = same;
         EXPECT_EQ(study.enrol(named).error().code, ErrorCode::Unsupported) << same;
     }

@@ -1,6 +1,6 @@
-// StudySupport.h - what the study tests share: a time set by hand, a study in a scratch folder, its session files.
+// StudySupport.h - shared by the study tests: a clock set by hand, a study in a scratch folder, its session files.
 //
-// Thread-safety: the test's own thread.
+// Thread-safety: only the test's thread.
 #pragma once
 
 #include <fstream>
@@ -18,13 +18,13 @@
 
 namespace tacto::test {
 
-/// Wall time that moves when told.
+/// Wall time that the test sets.
 class HandTime final : public SystemTime {
 public:
     [[nodiscard]] Instant sinceBoot() const noexcept override { return Instant(0); }
     [[nodiscard]] std::string boot() const override { return "boot"; }
     [[nodiscard]] std::chrono::sys_seconds wall() const noexcept override { return now; }
-    /// Noon: the same day in most of the world.
+    /// Noon in UTC: the same date in most of the world.
     std::chrono::sys_seconds now = std::chrono::sys_days(std::chrono::year(2026) / 11 / 23) + std::chrono::hours(12);
 };
 
@@ -74,7 +74,7 @@ protected:
     [[nodiscard]] Result<Study> openWithoutKey() const {
         return Study::open(folder(), nullptr, Study::Access::Read, around());
     }
-    /// Returns the code.
+    /// Enrols a participant who consents; returns the code.
     static std::string enrolled(Study& study, std::uint64_t seed = 1) {
         Participant participant;
         participant.virtualSeed = seed;
@@ -84,7 +84,7 @@ protected:
         EXPECT_TRUE(given) << given.error().message;
         return made->code;
     }
-    /// The session file as a pilot session writes it; the value is its chain head.
+    /// Writes a session file as a pilot session does; returns its chain head.
     static std::string record(const BegunSession& begun, const std::function<void()>& beforeClosing = {}) {
         VirtualClock clock;
         SessionAbout about;
@@ -127,7 +127,7 @@ protected:
         EXPECT_TRUE(session.close());
         return session.chainHead();
     }
-    /// Everything in a folder, as bytes, file by file in the order of their names.
+    /// Returns the bytes of all files in a folder, in the order of their names.
     static std::string everythingBelow(const std::filesystem::path& below) {
         std::set<std::filesystem::path> files;
         for (const auto& entry : std::filesystem::recursive_directory_iterator(below)) {
@@ -145,7 +145,7 @@ protected:
     ScratchDir scratch;
 };
 
-/// The study and the one participant, as a test begins with them.
+/// A study and its only participant, ready for a test.
 template <typename Desk>
 class WithPerson : public Desk {
 protected:

@@ -1,4 +1,4 @@
-// A study as the next program finds it: sessions, records, amendments, events, rehearsals.
+// A study as the next program finds it: sessions, records, amendments, events and rehearsals.
 #include "tests/session/SessionSupport.h"
 #include "tests/study/StudySupport.h"
 #include "tests/support/Refused.h"
@@ -118,7 +118,7 @@ TEST_F(Desk, NothingGoesOnFromARecordThatIsNotWholeAndNothingIsReadFromIt) {
         EXPECT_THAT(study.continueSession(begun.session.id, test::someRequest(code)),
                     test::refused(ErrorCode::ParseError));
         EXPECT_EQ(study.ledgerHead(), before);
-        // It can be ended; what was presented in it is not known, so that the gap counts.
+        // The session can be ended. Nobody knows what was presented in it, so the gap applies.
         ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Stopped, ""));
         EXPECT_EQ(study.beginSession(test::someRequest(code)).error().code, kGateRefused);
         time.now += std::chrono::hours(20);
@@ -131,7 +131,7 @@ TEST_F(WithDesk, ARecordThatIsNotSealedIsNotOneOfAStudy) {
     RecordProperty("hazard", "H8");
     const auto begun = study.beginSession(test::someRequest(code)).value();
     auto unsealed = begun;
-    unsealed.seal = nullptr;  // anyone can make one, with any answers
+    unsealed.seal = nullptr;  // anyone could make such a file, with any answers
     record(unsealed);
     EXPECT_EQ(study.events(begun.session).error().code, ErrorCode::ParseError);
     EXPECT_EQ(study.continueSession(begun.session.id, test::someRequest(code)).error().code, ErrorCode::ParseError);
@@ -142,7 +142,7 @@ TEST_F(WithDesk, ARecordThatIsGoneOrCutShortGivesNoResults) {
     const auto begun = study.beginSession(test::someRequest(code)).value();
     ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Complete, record(begun)));
     ASSERT_TRUE(study.events(begun.session));
-    // The chain is whole in itself.
+    // The shortened chain is valid in itself.
     test::forge(begun.path, "DELETE FROM entries WHERE seq > (SELECT min(seq) FROM entries WHERE name='answer')");
     EXPECT_EQ(study.events(begun.session).error().code, ErrorCode::ParseError);
     std::filesystem::remove(begun.path);
@@ -235,7 +235,7 @@ TEST_F(Desk, ARehearsalNeedsNoPassphraseAndSaysSo) {
         ASSERT_TRUE(study.consent("virtual:3", {study.settings().consentVersion, study.today(), "rehearsal"}));
         auto request = test::someRequest("virtual:3");
         request.script = {"anything", "x"};
-        for (int i = 0; i < 6; ++i) {  // neither a gap nor a number is asked for
+        for (int i = 0; i < 6; ++i) {  // rehearsals have no gap and no limit on sessions
             const auto begun = test::accepted(study.beginSession(request));
             ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Complete, record(begun)));
         }
