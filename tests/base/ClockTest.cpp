@@ -36,7 +36,7 @@ TEST(SteadyClock, HasNotSleptWhileThisTestRuns) {
     SteadyClock clock;
     const Instant begun = clock.now();
     while (clock.now() < begun + 20ms) {
-        // Read by turns with other threads on the machine: a pause between two readings is not sleep.
+        // A pause between the two clock readings must not look like sleep.
         ASSERT_LT(clock.asleep(), 5ms);
     }
     EXPECT_GE(clock.elapsed(), begun + 20ms);

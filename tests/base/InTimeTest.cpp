@@ -1,5 +1,5 @@
-// A missed deadline is told apart from every other failure: only it is tried again, and only where the machine stood
-// still.
+// A missed deadline differs from all other failures: only a missed deadline is tried again, and only if the machine was
+// too busy.
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -74,12 +74,12 @@ TEST(InTime, OnlyAnErrorThatLatenessCausesIsAMissedDeadline) {
     }
 }
 
-/// Stands still like a machine that has no time for this process.
+/// Stops this process for a while, like a machine that has no time for it.
 void standStill() {
     const pid_t process = ::getpid();
     const pid_t waker = ::fork();
     ASSERT_GE(waker, 0);
-    if (waker == 0) {  // system calls only: this process has threads
+    if (waker == 0) {  // only system calls are safe: this process has threads
         ::usleep(60'000);
         ::kill(process, SIGCONT);
         ::_exit(0);
@@ -88,8 +88,8 @@ void standStill() {
     ASSERT_EQ(::waitpid(waker, nullptr, 0), waker);
 }
 
-/// Tests that fail at their first try. They are disabled for ctest; the last test of this file runs each of them in a
-/// process of its own.
+/// Tests that fail at their first try. They are disabled for ctest; the last test of this file runs each of them in its
+/// own process.
 class InTimeExample : public testing::Test {
 protected:
     static bool first() { return std::getenv("TACTO_TEST_TRY") == nullptr; }
@@ -156,7 +156,7 @@ TEST(PatientClock, StandsStillWithTheMachineAndSoDoDeadlines) {
         EXPECT_FALSE(never.wait_for(lock, std::chrono::milliseconds(100), [] { return false; }));
     });
     auto sleeping = inOwnTime(slept_ms, [] { std::this_thread::sleep_for(std::chrono::milliseconds(100)); });
-    ::usleep(20'000);  // 20 ms by the machine's clock: all of them wait
+    ::usleep(20'000);  // 20 ms by the machine's clock, in which all of them wait
     const double machine = machine_ms(), own = own_ms();
     for (int i = 0; i < 3; ++i) standStill();
     EXPECT_GE(machine_ms() - machine, 180);

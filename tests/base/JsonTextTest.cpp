@@ -30,7 +30,7 @@ TEST(JsonText, RefusesAKeyThatStandsTwice) {
     EXPECT_EQ(refusal(R"({"a": 1, "b": {"max": 1, "x": {"max": 2}, "max": 3}})"),
               "lab.json: the key \"max\" of one object is given twice; once is expected");
     EXPECT_THAT(refusal(R"([{"max": 1}, {"max": 2}])"), HasSubstr("accepted"));
-    // An escape does not make another key of it.
+    // A key with an escape is still the same key.
     EXPECT_THAT(refusal(R"({"max": 1, "m\u0061x": 2})"), HasSubstr("is given twice"));
 }
 
@@ -77,7 +77,7 @@ TEST(JsonText, NamesTheKeyThatIsNotKnown) {
 
 TEST(JsonText, IsTheOnlyReaderAndWriterOfJsonInTheProgram) {
     RecordProperty("hazard", "H10");
-    // QJsonDocument converts what the program itself made; nothing from outside reaches it.
+    // QJsonDocument converts only JSON that the program itself made, never JSON from outside.
     const std::regex other(
         R"re((json|Json|basic_json\s*<[^>]*>)\s*::\s*(parse|accept|sax_parse|from_\w+)\s*\(|"_json\b|>>\s*\w*[jJ]son)re"
         R"re(|(\.|->)dump\()re");
@@ -91,7 +91,7 @@ TEST(JsonText, IsTheOnlyReaderAndWriterOfJsonInTheProgram) {
             std::ifstream in(entry.path());
             std::string line;
             for (int number = 1; std::getline(in, line); ++number) {
-                // All that the expression finds has one of these; asking it for every line would take seconds.
+                // Each match contains one of these; matching every line with the expression would take seconds.
                 if (line.find("son") == std::string::npos && line.find("dump(") == std::string::npos) continue;
                 if (std::regex_search(line, other))
                     found.push_back(fmt::format("{}:{}", entry.path().string(), number));
@@ -99,7 +99,7 @@ TEST(JsonText, IsTheOnlyReaderAndWriterOfJsonInTheProgram) {
         }
     }
     EXPECT_GT(files, 300U);
-    ASSERT_EQ(found.size(), 3U) << testing::PrintToString(found);  // two read, text and binary; one writes
+    ASSERT_EQ(found.size(), 3U) << testing::PrintToString(found);  // two for reading (text and binary), one for writing
     EXPECT_THAT(found, testing::Each(HasSubstr("core/base/JsonText.cpp")));
 }
 

@@ -1,4 +1,4 @@
-// A program's surroundings: a home folder, arguments in UTF-8.
+// What a program needs at its start: a home folder, arguments in UTF-8.
 #include <array>
 #include <cstdlib>
 #include <gmock/gmock.h>
@@ -61,7 +61,7 @@ TEST_F(ProgramStart, WithoutAHomeItIsThatOfTheAccount) {
     }
 }
 
-/// The C library's own decoder, which knows neither surrogates nor characters longer than they must be.
+/// The C library's own decoder, which rejects surrogates and overlong characters.
 bool isUtf8ForTheCLibrary(std::string text) {
     const auto decoder = ::iconv_open("UTF-32LE", "UTF-8");
     std::array<char, 4096> out{};
@@ -94,7 +94,7 @@ TEST_F(ProgramStart, AnArgumentThatIsNotUtf8IsNamedWithItsBytes) {
     EXPECT_LT(refusals, 1900U);
 }
 
-// The user's files lie where the environment says.
+// User files lie in the folder that the environment names.
 
 class DataFolder : public testing::Test {
 protected:

@@ -45,7 +45,7 @@ TEST(Random, UniformStaysInRangeWithTheRightMean) {
     EXPECT_NEAR(sum / kDraws, 0.5, 5 * std::sqrt(1.0 / 12 / kDraws));
 }
 
-/// libstdc++ 12 draws these numbers: recordings of earlier versions can be made again.
+/// libstdc++ 12 draws these numbers; they must not change, so that old recordings can be made again.
 TEST(Random, NormalDrawsAreTheSameWithEveryLibrary) {
     Random random(7, "noise");
     constexpr double kDrawn[] = {0x1.1d8b2787a1d62p-1, -0x1.56f431494af6p-1, 0x1.d4d231dea8e6cp-1,

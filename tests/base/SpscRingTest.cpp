@@ -41,7 +41,7 @@ TEST(SpscRing, HasRoomForAtLeastOne) {
     EXPECT_EQ(ring.pop(), 5);
 }
 
-/// Odd-sized, several words, and every field follows from the first: a torn copy cannot look whole.
+/// Odd-sized, with several words that all follow from the first: a torn copy is always recognised.
 struct Element {
     std::uint64_t number;
     std::uint64_t words[5];
@@ -75,7 +75,7 @@ TEST_P(SpscRingThreads, LoseNothingUncountedAndTearNothing) {
     std::thread producer([&] {
         for (std::uint64_t n = 1; n <= kPushes; ++n) {
             ring.push(Element::of(n));
-            if (n % 64 == 0) std::this_thread::yield();  // lets the consumer overlap on one core too
+            if (n % 64 == 0) std::this_thread::yield();  // lets the consumer run in between, even on one core
         }
         done.store(true, std::memory_order_release);
     });
@@ -105,7 +105,7 @@ TEST_P(SpscRingThreads, LoseNothingUncountedAndTearNothing) {
 INSTANTIATE_TEST_SUITE_P(Capacities, SpscRingThreads, testing::Values(1, 2, 7, 64, 1024),
                          testing::PrintToStringParamName());
 
-/// Larger than what is compared at a time, and no whole number of words.
+/// Larger than the block that is compared at once, and not a whole number of words.
 struct Value {
     std::array<std::uint32_t, 501> parts{};
     bool operator==(const Value&) const = default;
@@ -122,7 +122,7 @@ TEST(Latest, GivesBackEachValueWhateverChangedSinceTheOneBefore) {
         latest.write(value);
         ASSERT_EQ(latest.read(), value) << i;
     }
-    value.parts.back() += 1;  // the word that is not whole
+    value.parts.back() += 1;  // the last, incomplete word
     latest.write(value);
     EXPECT_EQ(latest.read(), value);
     latest.write(Value{});
@@ -138,7 +138,7 @@ TEST(Latest, AReaderNeverSeesHalfOfOneAndHalfOfTheNext) {
             value.parts.front() = value.parts.back() = n;
             if (n % 3 == 0) value.parts[250] = n;
             latest.write(value);
-            if (n % 64 == 0) std::this_thread::yield();  // lets the reader overlap on one core too
+            if (n % 64 == 0) std::this_thread::yield();  // lets the reader run in between, even on one core
         }
         done.store(true, std::memory_order_release);
     });

@@ -92,7 +92,7 @@ TEST(Ascii, TwoTextsAreTheSameButForCapitals) {
 }  // namespace
 }  // namespace tacto::test
 
-// Whole numbers: all of a text, or nothing.
+// Whole numbers: the whole text is read, or nothing.
 namespace tacto::test {
 namespace {
 

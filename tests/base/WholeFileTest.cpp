@@ -1,4 +1,4 @@
-// A disk that fills up: the limit on a file's size makes write() fail just so.
+// A disk that fills up, simulated by the limit on file sizes, which makes write() fail in the same way.
 #include <array>
 #include <csignal>
 #include <fstream>
@@ -29,7 +29,7 @@ std::ptrdiff_t filesIn(const fs::path& folder) {
     return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
 }
 
-/// Writes in a process of its own, with files of at most `limit` bytes; `reason` gets what was said.
+/// Writes in its own process, with files of at most `limit` bytes; `reason` gets the error message.
 int writeWithin(rlim_t limit, const std::filesystem::path& path, const std::string& content, std::string& reason) {
     std::array<int, 2> pipe{};
     EXPECT_EQ(::pipe(pipe.data()), 0);
@@ -75,7 +75,7 @@ TEST(WholeFile, EveryNameThatTheFileSystemAllowsIsWritten) {
     const ScratchDir scratch;
     Random random(20261129, "file names");
     for (std::size_t length = 1; length <= 255; ++length) {
-        // Names of files are bytes, in UTF-8 or not.
+        // File names may be any bytes, in UTF-8 or not.
         std::string name;
         while (name.size() < length) {
             const char byte = static_cast<char>(1 + random.below(255));

@@ -10,7 +10,7 @@ namespace {
 
 std::span<const std::byte> bytes(std::string_view text) { return std::as_bytes(std::span(text)); }
 
-// Against Python's hashlib and zlib (tests/reference/digests.py).
+// Compared with Python's hashlib and zlib (tests/reference/digests.py).
 TEST(Digest, Sha256IsHashlibs) {
     for (const auto& [text, digest] : test::figuresOf("digests").at("sha256").items())
         EXPECT_EQ(sha256Hex(text), digest.get<std::string>()) << text;

@@ -1,4 +1,4 @@
-// Marks: what is simulated, replayed and real in a session, in sentences.
+// Marks: sentences about simulated, replayed and real devices of a session.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -72,7 +72,7 @@ TEST_F(Origins, OldSessionsAreReadByTheirMarkAndAddress) {
     EXPECT_EQ(originOf(old), origin::kHardware);
 }
 
-// What a result must be read with, kept in the session: calibration, the flags of the recording, the limit of R.
+// What a reader of a result must know, kept in the session: calibration, flags of the recording, the limit of R.
 
 using testing::Contains;
 using testing::HasSubstr;
@@ -85,7 +85,7 @@ protected:
                          {"sciencemode:", "stimulator", "P24", "0123", "1", false, "real"}};
         about.simulated = false;
     }
-    /// The marks of a session with these events.
+    /// Returns the marks of a session with these events.
     std::vector<std::string> of(const std::vector<std::pair<const char*, nlohmann::json>>& events, bool close = true) {
         const auto path = folder.path() / "run.tacto";
         const auto writer = SessionWriter::create(path, about, clock).value();

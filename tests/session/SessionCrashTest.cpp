@@ -1,5 +1,5 @@
-// A writer is killed at random moments, for real: a child process, SIGKILL, and a parent that knows what the child had
-// been told was safe.
+// Kills a writer at random moments: a child process writes until SIGKILL, and the parent knows which rows the child was
+// told are safe.
 #include <map>
 #include <random>
 #include <signal.h>
@@ -15,8 +15,8 @@ namespace {
 
 using test::ScratchDir;
 
-/// Writes until killed. Says each acknowledgement on `pipe`: "e 3" for the third event, likewise trials and verdicts,
-/// "s 12.34" for the stamp of the newest sample that append() took.
+/// Writes until killed. Reports each acknowledgement on `pipe`: "e 3" for the third event, likewise for trials and
+/// verdicts, and "s 12.34" for the time stamp of the last sample that append() took.
 [[noreturn]] void writeForEver(const std::filesystem::path& path, int pipe) {
     test::HandClock clock;
     const auto say = [&](char what, double number) {
@@ -43,10 +43,10 @@ using test::ScratchDir;
 }
 
 struct Killed {
-    std::map<char, double> acknowledged;  // the last number said, by letter
+    std::map<char, double> acknowledged;  // the last number reported for each letter
 };
 
-/// Lets a child write `lines` acknowledgements or more, then kills it.
+/// Lets a child write at least `lines` acknowledgements, then kills it.
 Killed killAfter(const std::filesystem::path& path, int lines) {
     int ends[2];
     EXPECT_EQ(pipe(ends), 0);
@@ -130,7 +130,7 @@ TEST(SessionCrash, AFreshSessionThatIsKilledIsASessionToo) {
     EXPECT_EQ(verifySession(path)->status, SessionStatus::Intact);
 }
 
-/// A killed session of some length, with its journal.
+/// A session of some length that was killed, with its journal.
 class SessionJournal : public testing::Test {
 protected:
     void SetUp() override {
@@ -173,7 +173,7 @@ TEST_F(SessionJournal, DamagedInTheMiddleIsFoundAlthoughSqliteSeesAnEarlierEnd) 
 TEST_F(SessionJournal, TornInItsLastTransactionIsWhatACrashLeaves) {
     auto bytes = test::bytesOf(wal_);
     auto rows = whole_.rows;
-    // Behind the last transaction may lie one that was never finished: torn, it takes no row along.
+    // An unfinished transaction may follow the last one; cutting it loses no row.
     for (int cuts = 0; cuts < 4 && rows == whole_.rows; ++cuts) {
         bytes.erase(bytes.end() - 5000, bytes.end());
         test::writeBytes(wal_, bytes);

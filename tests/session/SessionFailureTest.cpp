@@ -1,4 +1,4 @@
-// A disk that is full, and a session that grows for hours.
+// A full disk, and a session that grows for hours.
 #include <signal.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -11,7 +11,7 @@ namespace {
 
 using test::ScratchDir;
 
-/// While this lives, no file of this process may grow beyond `bytes`: what a full disk looks like to a program.
+/// As long as this exists, no file of this process can grow beyond `bytes`; a program sees this as a full disk.
 class FullDisk {
 public:
     explicit FullDisk(rlim_t bytes) {
@@ -29,7 +29,7 @@ private:
     rlimit before_{};
 };
 
-/// A session that is written, with one stream.
+/// A session with one stream that is being written.
 struct Recording {
     ScratchDir dir;
     std::filesystem::path path = dir.path() / "s.tacto";
@@ -76,7 +76,7 @@ TEST(SessionFailure, APathThatCannotBeOpenedIsRefusedWithTheReason) {
         return made ? std::string("made") : made.error().message;
     };
     const auto name = [](std::size_t bytes) { return std::string(bytes - 6, 's') + ".tacto"; };
-    // SQLite's journal has four bytes more.
+    // The journal's name is four bytes longer.
     EXPECT_EQ(refusal(dir.path() / name(251)), "made");
     for (const std::size_t bytes : {252U, 255U, 256U}) {
         const auto path = dir.path() / name(bytes);
@@ -133,7 +133,7 @@ TEST(SessionFailure, TheRecorderShowsAFullDiskToTheControlLoop) {
     EXPECT_EQ(recorder.error()->code, ErrorCode::Io);
 }
 
-#ifndef TACTOSCOPE_SANITIZED  // sanitizers keep freed memory aside
+#ifndef TACTOSCOPE_SANITIZED  // sanitizers do not return freed memory
 TEST(SessionFailure, MemoryStaysFlatFromOneToTenHours) {
     const auto residentPages = [] {
         long total = 0;

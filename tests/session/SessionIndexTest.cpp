@@ -1,4 +1,4 @@
-// Summaries from a cache: as fast as thousands want it, and never believed against the session.
+// Summaries from a cache: fast enough for thousands of sessions, and always overruled by the session itself.
 #include <chrono>
 #include <gmock/gmock.h>
 
@@ -21,11 +21,11 @@ protected:
         age(path);
         return path;
     }
-    /// A session that was written a while ago.
+    /// Makes a session look as if it was written a while ago.
     static void age(const fs::path& path) {
         fs::last_write_time(path, fs::last_write_time(path) - std::chrono::seconds(10));
     }
-    /// Lists, and says how many had to be read.
+    /// Lists the sessions and returns how many had to be read.
     int readsOf(const std::vector<fs::path>& paths) {
         int read = 0;
         listed = index.list(paths, [&](std::size_t) {
@@ -89,7 +89,7 @@ TEST_F(Index, ThatIsMissingOrDamagedIsMadeAnew) {
         EXPECT_EQ(readsOf({a, b}), 0) << "it is one again";
     }
     auto bytes = test::bytesOf(file);
-    for (std::size_t i = 4096; i < bytes.size(); ++i) bytes[i] = '\x5a';  // all pages but the first
+    for (std::size_t i = 4096; i < bytes.size(); ++i) bytes[i] = '\x5a';  // damages all pages except the first
     test::writeBytes(file, bytes);
     EXPECT_EQ(readsOf({a, b}), 2);
     EXPECT_EQ(readsOf({a, b}), 0);
@@ -105,7 +105,7 @@ TEST_F(Index, OfAnotherVersionIsMadeAnew) {
 
 TEST_F(Index, ThatCannotBeKeptCostsTimeAndNothingElse) {
     const auto a = session("a.tacto");
-    fs::create_directories(file);  // a folder stands in its place
+    fs::create_directories(file);  // a folder takes the place of the index
     EXPECT_EQ(readsOf({a}), 1);
     EXPECT_EQ(readsOf({a}), 1);
     EXPECT_EQ(listed[0].summary.verdict, "pass");
@@ -122,7 +122,7 @@ TEST_F(Index, ARowThatWasAlteredIsReadFromTheSession) {
 TEST_F(Index, ALieThatLooksRightIsCorrectedByTheSession) {
     const auto a = session("a.tacto");
     EXPECT_EQ(readsOf({a}), 1);
-    // Everything in it fits, as if the session had said so: only the session can tell.
+    // The forged row is valid in itself: only reading the session shows the truth.
     auto lie = listed[0].summary;
     lie.verdict = "fail";
     const auto body = toJsonText(lie);

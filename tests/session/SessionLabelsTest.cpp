@@ -1,4 +1,4 @@
-// What people say of a session after it ended: kept in it without touching what was recorded, or refused with a reason.
+// Labels entered after a session ended: saved without a change to the recording, or refused with a reason.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <random>
@@ -88,7 +88,7 @@ TEST_F(Labels, AreChangedOneByOneAndOnlyChangesAreWritten) {
 
 TEST_F(Labels, ThatWereChangedElsewhereMeanwhileStay) {
     ASSERT_TRUE(saveLabels(path, {}, labels));
-    const auto shown = labels;  // the labels as two windows show them
+    const auto shown = labels;  // what two windows show
     auto here = shown, there = shown;
     there.operatorName = "B. Ott";
     there.tags = {"repeat"};
@@ -131,7 +131,7 @@ TEST_F(Labels, OfAReadOnlySessionAreRefusedWithTheReason) {
 }
 
 TEST_F(Labels, OfALockedSessionAreRefusedWithTheReason) {
-    const int other = ::open(path.c_str(), O_RDONLY);  // opened as by another program: each open file has its own locks
+    const int other = ::open(path.c_str(), O_RDONLY);  // as another program would: each open file has locks of its own
     ASSERT_EQ(::flock(other, LOCK_EX), 0);
     EXPECT_THAT(refusal(labels), HasSubstr("run.tacto is locked"));
     ::close(other);
@@ -188,7 +188,7 @@ TEST_F(Labels, OfAProgramThatIsKilledAreWholeOrNotThere) {
         const auto told = static_cast<int>(random() % 3);
         char said = 0;
         for (int i = 0; i < told; ++i) ASSERT_EQ(read(ends[0], &said, 1), 1);
-        std::this_thread::sleep_for(std::chrono::microseconds(random() % 8000));  // the moment is drawn
+        std::this_thread::sleep_for(std::chrono::microseconds(random() % 8000));  // killed at a random moment
         ASSERT_EQ(kill(child, SIGKILL), 0);
         int acknowledged = kept + told;
         while (read(ends[0], &said, 1) == 1) ++acknowledged;
@@ -203,7 +203,7 @@ TEST_F(Labels, OfAProgramThatIsKilledAreWholeOrNotThere) {
         EXPECT_TRUE(reader->checkChain());
         EXPECT_EQ(verifySession(path)->status, SessionStatus::Intact);
         const auto note = reader->labels()->note;
-        if (note == fmt::format("note {}", acknowledged + 1)) ++acknowledged;  // killed before it could say so
+        if (note == fmt::format("note {}", acknowledged + 1)) ++acknowledged;  // killed before it could tell
         EXPECT_EQ(note, acknowledged == 0 ? "" : fmt::format("note {}", acknowledged));
         kept = acknowledged;
     }

@@ -104,7 +104,7 @@ TEST(SessionRecorder, SaysInTheSessionWhatItLost) {
     {
         SessionRecorder recorder(*writer, {.ownThread = true, .ringRecords = 4});
         const double value[] = {1};
-        // Far faster than any disk: the ring of four must overflow.
+        // Much faster than any disk: the ring with room for four overflows.
         for (int i = 0; i < 100'000 && recorder.dropped() < 100; ++i) recorder.frame(stream, i * 1e-3, value);
         EXPECT_TRUE(recorder.drain());
         dropped = recorder.dropped();
@@ -153,14 +153,14 @@ TEST(SessionRecorder, IdleSamplesAreCommittedByTheRecordersOwnClock) {
     SessionRecorder recorder(*writer, {.ownThread = true, .ringRecords = 16});
     const double value[] = {1};
     recorder.frame(stream, 0.5, value);
-    clock.advance(std::chrono::seconds(1));  // nothing is recorded any more
+    clock.advance(std::chrono::seconds(1));  // nothing is recorded from now on
     const SteadyClock wall;
     std::uint64_t samples = 0;
     while (samples == 0 && wall.now() < std::chrono::seconds(20)) samples = verifySession(path)->samples;
     EXPECT_EQ(samples, 1U);
 }
 
-/// Another program holds the session: for a writer the disk stands still, until busy_timeout (2 s) is over.
+/// Locks the session as another program would: the writer's disk stalls until busy_timeout (2 s) is over.
 class StalledDisk {
 public:
     explicit StalledDisk(const std::filesystem::path& path) {

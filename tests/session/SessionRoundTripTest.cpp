@@ -128,7 +128,7 @@ TEST(Session, KeepsCapturesThatDoNotCompress) {
         std::memcpy(&value, &state, sizeof value);
         capture.channels[0].samples.push_back(value);
     }
-    Capture silent;  // it has no channel at all
+    Capture silent;  // a capture without channels
     {
         auto writer = SessionWriter::create(path, {}, clock).value();
         ASSERT_TRUE(writer->capture(clock.now(), capture));

@@ -1,4 +1,4 @@
-// Reading a session takes nothing from who writes it.
+// Reading a session takes no lock away from its writer.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sqlite3.h>
@@ -14,7 +14,7 @@ namespace {
 
 using test::ScratchDir;
 
-/// Whether a process holds SQLite's shared lock on a file: only another process can tell.
+/// Whether a process holds SQLite's shared lock on a file. Only another process can see this.
 bool isLocked(const std::filesystem::path& path) {
     constexpr off_t kSharedFirst = 0x40000002, kSharedBytes = 510;  // sqlite3/src/os.h
     const auto child = ::fork();
@@ -50,7 +50,7 @@ protected:
 
 TEST_F(SessionBeingWritten, KeepsItsLocksWhenACopyIsRead) {
     RecordProperty("hazard", "H8");
-    std::filesystem::remove(path_.string() + "-shm");  // a copy is read where the journal has no index
+    std::filesystem::remove(path_.string() + "-shm");  // without an index of the journal, a copy is read
     const auto reader = SessionReader::open(path_);
     ASSERT_TRUE(reader) << reader.error().message;
     EXPECT_EQ(reader->events().value().size(), 1U);

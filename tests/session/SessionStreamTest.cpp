@@ -16,7 +16,7 @@ bool sameBits(const std::vector<double>& a, const std::vector<double>& b) {
     return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
 }
 
-/// Any double at all, the awkward ones often.
+/// Any double, often a difficult one.
 rc::Gen<double> anyDouble() {
     return rc::gen::oneOf(
         rc::gen::map(rc::gen::arbitrary<std::uint64_t>(),

@@ -1,6 +1,6 @@
-// SessionSupport.h - what the session tests share: a clock moved by hand, a filled-in SessionAbout, SQL from outside.
+// SessionSupport.h - shared by the session tests: a clock set by hand, a complete SessionAbout, changes by SQL.
 //
-// Thread-safety: the test's own thread.
+// Thread-safety: only the test's thread.
 #pragma once
 
 #include <atomic>
@@ -19,7 +19,7 @@
 
 namespace tacto::test {
 
-/// A clock that calls itself steady and moves when told, so that a second needs no second.
+/// A clock that claims to be steady but moves only when told, so that tests need no real time.
 class HandClock final : public Clock {
 public:
     [[nodiscard]] Instant now() const noexcept override { return Instant(now_.load()); }
@@ -66,7 +66,7 @@ inline void writeBytes(const std::filesystem::path& path, const std::vector<char
         .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }
 
-/// Every value of every row of every table, with its type, as another program sees it; the error where it cannot.
+/// Returns every value of every row and table, with its type, as another program reads them, or an error mark.
 inline std::string everythingIn(const std::filesystem::path& path) {
     sqlite3* database = nullptr;
     std::string all;
@@ -102,7 +102,7 @@ inline void runSql(const std::filesystem::path& path, const std::string& sql) {
     sqlite3_close(database);
 }
 
-/// Lifts the append-only triggers for `sql` and puts them back: a careful forger leaves no trace in the schema.
+/// Runs `sql` without the append-only triggers and restores them, like a careful forger: the schema shows nothing.
 inline void forge(const std::filesystem::path& path, const std::string& sql) {
     std::string drop;
     std::string restore;
@@ -122,7 +122,7 @@ inline void forge(const std::filesystem::path& path, const std::string& sql) {
     runSql(path, drop + sql + ";" + restore);
 }
 
-/// A closed session with a few rows of every kind.
+/// Writes a closed session with a few rows of every kind.
 inline void writeSession(const std::filesystem::path& path, std::uint64_t seed = 1) {
     VirtualClock clock;
     auto about = someAbout();

@@ -51,7 +51,7 @@ TEST_F(SessionVerify, TheWriterKnowsTheHeadThatVerifyFinds) {
     EXPECT_EQ(writer->chainHead(), verifySession(path)->head);
 }
 
-// The oracle is SQLite itself: when any program would see other rows than were written, verify must say so.
+// SQLite itself is the oracle: if any program would read other rows than were written, verify must report damage.
 TEST_F(SessionVerify, FindsAnyFlippedByteThatChangesARow) {
     const auto good = test::bytesOf(path_);
     const auto rows = test::everythingIn(path_);
@@ -117,7 +117,7 @@ TEST_F(SessionVerify, FindsEachWayOfTampering) {
     }
 }
 
-// A chain computed again is consistent; the head that the report printed is what gives the forger away.
+// A recomputed chain is valid in itself; its head differs from the head in the report and so reveals the forgery.
 TEST_F(SessionVerify, ARecomputedChainIsFoundByItsHead) {
     const auto printed = verify().head;
     std::string updates = "UPDATE entries SET body=replace(body, '\"pass\"', '\"fail\"') WHERE kind='verdict';";

@@ -149,7 +149,7 @@ TEST_F(WithDesk, TheNextSessionWaitsForTheGap) {
 TEST_F(WithDesk, TheGapIsCountedFromTheFirstTrainAndNotFromTheChecklist) {
     RecordProperty("hazard", "H12");
     const auto begun = study.beginSession(test::someRequest(code)).value();
-    test::HandClock clock;  // as on a real bench, wall time and session time differ
+    test::HandClock clock;  // as on a real bench, an event's time comes from the wall clock
     auto writer = test::accepted(SessionWriter::create(begun.path, {}, clock, begun.seal));
     clock.advance(std::chrono::minutes(18));
     ASSERT_TRUE(writer->event(clock.now(), "trial-begin", {{"name", "ascending 1"}}));
