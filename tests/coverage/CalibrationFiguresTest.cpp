@@ -1,4 +1,4 @@
-// The figures of a stimulator's calibration: gain, offset, and the error at each level that is judged.
+// The figures of a stimulator's calibration: gain, offset, and the error at each judged level.
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@ namespace tacto::test {
 namespace {
 
 constexpr std::size_t kLevels = 11;
-constexpr int kRepeats = 5;  // each way
+constexpr int kRepeats = 5;  // in each direction
 constexpr double kSweepRange_v = 52;
 
 enum class Quantity { Amplitude, Width, Gap, Interval };
@@ -30,7 +30,7 @@ constexpr Asked kAsked[] = {{Quantity::Amplitude, "amplitude", 10, 40},
                             {Quantity::Gap, "gap", 100e-6, 400e-6},
                             {Quantity::Interval, "interval", 0.5, 2}};
 
-/// The instrument as the run knows it: by what the captures state.
+/// The instrument's errors as the run knows them: from the captures.
 InstrumentErrors statedBy(const Capture& capture, Quantity quantity) {
     InstrumentErrors out;
     if (quantity != Quantity::Amplitude) {

@@ -1,4 +1,4 @@
-// Ratios of two captured trains, in just-noticeable differences: what a gain or a time base shares divides out.
+// Ratios of two captured trains in just noticeable differences: errors of gain and time base that both share cancel.
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ constexpr double kFrom_v = 20, kTo_v = 23, kFrom_s = 0.5, kTo_s = 0.55, kCompare
 const double kAmplitudeJnd = std::log(1.10), kIntervalJnd = std::log(1.16);
 
 struct Compared {
-    double amplitude_v, own_v, gain;  ///< the amplitude, what the level adds by itself, and the gain's relative error
+    double amplitude_v, own_v, gain;  ///< amplitude; error of this level alone; relative error of the gain
     double onset_s, onset_u_s;
     double interval_s = kNaN, interval_u_s = kNaN;
 };

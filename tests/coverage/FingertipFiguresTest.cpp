@@ -1,4 +1,4 @@
-// The figures of a fingertip: a known weight, the scales of force and taxels, and R of a slide.
+// The figures of a fingertip: a known weight, the scales of force and taxels, and R (roughness) of a slide.
 #include <cmath>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -14,10 +14,10 @@
 namespace tacto::test {
 namespace {
 
-/// Weights and local gravity, drawn within what is stated of them.
+/// Mass and local gravity, drawn within their stated uncertainties.
 struct Weights {
     double mass = 0.01, gravity = 0.003;
-    double truth = 1;  ///< their weight, over what it should be
+    double truth = 1;  ///< true weight divided by nominal weight
 };
 
 Weights drawnWeights(Random& random) {
@@ -27,7 +27,7 @@ Weights drawnWeights(Random& random) {
     return out;
 }
 
-/// A simulated finger under a weight, for 2 s.
+/// Returns samples of a simulated finger under a weight, for 2 s.
 SensorSamples pressed(SimBench& bench, double newtons) {
     if (const auto put =
             bench.devices.surface->present(newtons > 0 ? "glass" : "", MillimetresPerSecond(0), Newtons(newtons));
@@ -60,7 +60,7 @@ TEST(Coverage, KnownWeight) {
         const ForceInUse atRest{levelOf(rest, StreamKind::Force).mean, StreamUnit::Newton,
                                 meanUncertainty(rest, StreamKind::Force)};
         const auto off = weightError(reading, atRest, weights.mass, weights.gravity);
-        // The excess of the sensor's reading over the weight on it, of what it should weigh.
+        // How much the reading exceeds the true weight, as a share of the nominal weight.
         const double truth = gain * weights.truth - weights.truth;
         table.add("error of a known weight", truth, off.value / reference_n, off.expanded / reference_n);
     }
@@ -92,7 +92,7 @@ TEST(Coverage, ScaleOfForceAndTaxels) {
     table.judge("fingertip");
 }
 
-/// log10 of h and v over a surface in the long run.
+/// log10 of the features h and v of a surface, in the long run.
 struct SurfaceTruth {
     double h, v, ra_um;
 };
@@ -101,7 +101,7 @@ constexpr SurfaceTruth kSmooth{-1.6, -3.5, 1.6}, kMiddle{-1.05, -2.4, 10}, kRoug
 SlideReading slideOver(Random& random, const SurfaceTruth& surface) {
     constexpr double kScatter = 0.06;
     SlideReading out;
-    const double shared = 0.5 * kScatter * random.normal();  // features of one slide move together
+    const double shared = 0.5 * kScatter * random.normal();  // the features of one slide vary together
     out.h = std::pow(10, surface.h + shared + kScatter * random.normal());
     out.vStatic = std::pow(10, surface.v + shared + kScatter * random.normal());
     out.hAbs = 2 * out.h;
@@ -123,7 +123,7 @@ TEST(Coverage, RoughnessOfASlide) {
         }
         const auto found = calibrateSensor(surfaces, {}, {}).value();
         ASSERT_TRUE(found.accepted && found.uncertainty) << seed;
-        // A further slide. The references read what they are assigned; halfway between them in both features is 0.5.
+        // One more slide. The references read their assigned R; halfway between them in both features, R is 0.5.
         for (const auto& [name, truth, R] : {std::tuple("R over the smooth reference", kSmooth, 0.0),
                                              {"R over the rough reference", kRough, 1.0},
                                              {"R over a surface between", kMiddle, 0.5}}) {

@@ -1,4 +1,4 @@
-// The figures of pulses and loads: `measure`, the known load, the load-safety check.
+// The figures of pulses and loads: `measure`, the known load and the load-safety check.
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kVolts = 30, kRange_v = 45, kWidth_s = 200e-6, kInterval_s = 0.53, kRise_s = 100e-9;
 
-/// Two trains, `pulses` in each.
+/// Captures two trains with `pulses` pulses each.
 std::vector<Capture> twoTrains(TwinRuns& runs, int pulses) {
     const auto train = twinTrain(kVolts, 200, 100, pulses, runs.truth.train_hz);
     return runs.captured({train, train}, kRange_v, {kInterval_s});
@@ -33,7 +33,7 @@ TEST(Coverage, PulsesInACapture) {
         table.add("gap", 100e-6 + truth.gap_s, volts.pulses.front().gap_s, kCoverage * u.gap_s);
         table.add("interval", kInterval_s, volts.interval_s.mean, kCoverage * u.interval_s);
         table.add("charge", height * width, volts.charge.mean, kCoverage * u.charge);
-        const double weaker = std::max(0.0, truth.imbalance);  // a stronger second phase is the larger of the two
+        const double weaker = std::max(0.0, truth.imbalance);  // the larger phase is the second if that is stronger
         const double imbalance = truth.imbalance > 0 ? weaker : -truth.imbalance / (1 - truth.imbalance);
         table.add("imbalance", imbalance, volts.imbalance.mean, kCoverage * u.imbalance);
         const auto load = measureLoad(captures.front(), 0, 1).value();
@@ -56,7 +56,7 @@ struct LoadFigure {
 std::vector<LoadFigure> loadFigures(const TwinTruth& truth, int pulses) {
     const double volts = truth.volts(kVolts), amps = volts / truth.ohms, width = kWidth_s + truth.width_s;
     const double second = 1 - truth.imbalance, larger = std::max(1.0, second);
-    // The square of a trapezoid is integrated; its width at half height is the phase's.
+    // Integrates the square of a trapezoid whose width at half height is the phase's width.
     const double squares = amps * amps * (width - kRise_s / 3) * (1 + second * second);
     const double net = amps * width * std::abs(truth.imbalance);
     const double in1s = 2 * pulses, in5s = 10 * pulses;
@@ -100,7 +100,7 @@ TEST(Coverage, TrainsOnALoad) {
             if (pulses > 1)
                 table.add("rate in the train", runs.truth.train_hz, found.rate_hz.value, found.rate_hz.expanded);
         }
-        // Trains of one clock may all begin at the same place between two samples.
+        // Trains on one clock may all begin at the same place between two samples.
         table.promise("width", {.most = 1,
                                 .mostWithinHalf = 1,
                                 .because = "the widths of two trains are not known to differ in where samples fall"});

@@ -1,7 +1,7 @@
 // The figures of a person: the detection threshold, its drift, and the Weber fraction of strength, with their
-// intervals. The people are drawn from the very prior that the intervals stand on, so that they hold 95 % by Bayes'
-// rule; fewer or more means that model, posterior or quantiles are wrong. Answers are drawn from the model's formula,
-// written here once more.
+// intervals. The people are drawn from the prior on which the intervals are based, so by Bayes' rule 95 % of intervals
+// contain the truth; any other share shows an error in model, posterior or quantiles. Answers are drawn from the
+// model's formula, which is repeated here independently.
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ TrialInterval said(Random& random, TrialInterval right, double probability) {
     return right == TrialInterval::First ? TrialInterval::Second : TrialInterval::First;
 }
 
-/// A person with a threshold about `median_ma`, and with its slope.
+/// A person with a random threshold near `median_ma`, and with the slope of the model.
 struct Person {
     double threshold_db, slope;
     [[nodiscard]] double right(double level_ma) const {
