@@ -1,6 +1,6 @@
-// Any JSON as a record of the store of calibrations, any file as that store, and any lines of JSON as the stores of
-// certificates and of load-safety checks: each is read, or refused with a sentence, and nothing of unknown provenance
-// counts as valid (hazards H9 and H10). The first byte chooses.
+// Reads any JSON as a record of the calibration store, any file as that store, and any lines of JSON as the stores of
+// certificates and of load-safety checks. Each must be read, or refused with a sentence, and nothing of unknown origin
+// may be valid (hazards H9 and H10). The first byte chooses the kind of input.
 #include <cstdlib>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -46,12 +46,12 @@ void checkStore(std::span<const std::uint8_t> bytes) {
     }
 }
 
-/// A file of these lines, chained as the program chains them: otherwise none of them would be looked at.
+/// Makes a file of these lines with a valid chain; without it no line would be read.
 std::filesystem::path chained(std::span<const std::uint8_t> bytes) {
     const auto path = fuzz::scratchFolder() / "chained.jsonl";
     std::filesystem::remove(path);
     std::filesystem::remove(path.string() + ".end");
-    constexpr std::size_t kMaxLines = 8;  // each is committed to a disk
+    constexpr std::size_t kMaxLines = 8;  // each line is committed to a disk
     std::istringstream lines(std::string(bytes.begin(), bytes.end()));
     std::size_t count = 0;
     for (std::string line; count < kMaxLines && std::getline(lines, line);) {

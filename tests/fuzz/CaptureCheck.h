@@ -1,4 +1,4 @@
-// CaptureCheck.h - what measuring relies on in a capture from a file of any format.
+// CaptureCheck.h - checks what measuring code relies on in a capture from a file of any format.
 //
 // Thread-safety: pure function.
 #pragma once
@@ -11,8 +11,8 @@
 
 namespace tacto::fuzz {
 
-/// Aborts unless `reading` is refused with a sentence, or has a rate, a start, 2 to `maxSamples` samples (of a list of
-/// changes, 64 million in all channels: they are drawn), and channels of one length in known units.
+/// Aborts unless `reading` is refused with a sentence, or has a rate, a start, 2 to `maxSamples` samples (64 million in
+/// all channels for a list of changes, which is drawn as samples), and channels of one length in known units.
 inline void checkCapture(const Result<CaptureReading>& reading, std::size_t maxSamples) {
     if (!reading) {
         if (reading.error().message.empty()) std::abort();

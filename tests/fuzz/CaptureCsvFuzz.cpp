@@ -1,4 +1,4 @@
-// Any bytes as a capture: they are read, or refused with a sentence whose advice reads them; and measured without harm.
+// Any bytes as a capture: read, or refused with a sentence whose advice makes them readable; and measured safely.
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>
@@ -22,7 +22,7 @@ TACTO_FUZZ(CaptureCsvFuzz, const std::uint8_t* data, std::size_t size) {
     }
     for (const auto& channel : tacto::measureCapture(reading->capture).channels) {
         if (channel.measuredPulses > channel.pulses.size()) std::abort();
-        // An unmeasured channel must say so.
+        // A channel that was not measured must have a warning.
         if (channel.measuredPulses == 0 && channel.warnings.empty()) std::abort();
     }
     return 0;

@@ -1,5 +1,5 @@
-// Any bytes as a capture of any format: they are read or refused with a sentence, in memory that the input bounds. The
-// first byte says which options come along; the rest is the file, in memory where the system allows.
+// Any bytes as a capture of any format: read or refused with a sentence, with memory limited by the input's size. The
+// first byte chooses the options; the rest is the file, kept in memory if the system allows.
 #include <cstdint>
 #include <string_view>
 #include <sys/mman.h>

@@ -1,6 +1,5 @@
-// Whatever the process of a script says, even when the script has taken it over, becomes a value or a sentence. What is
-// handed to protocol() makes a declaration or a sentence, and every default of a declaration is one that its parameter
-// accepts (hazard H10).
+// Any output of a script's process, even of a hostile script, becomes a value or a sentence. The argument of protocol()
+// becomes a declaration or a sentence, and each default in a declaration is accepted by its parameter (hazard H10).
 #include <cstdint>
 #include <cstdlib>
 #include <nlohmann/json.hpp>

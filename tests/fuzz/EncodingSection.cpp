@@ -1,5 +1,5 @@
-// A profile's encoding section is read or refused, never crashes; one that was read is valid and reads back (hazard
-// H10).
+// A profile's encoding section is read or refused, without a crash; a section that was read is valid and can be written
+// and read again (hazard H10).
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// Any JSON as a figure of a report is understood, or refused with a sentence (hazard H10).
+// Any JSON as a figure of a report is read, or refused with a sentence (hazard H10).
 #include <QJsonDocument>
 #include <QJsonObject>
 #include <cstdint>

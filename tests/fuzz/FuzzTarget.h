@@ -1,11 +1,11 @@
-// FuzzTarget.h - what a fuzz target is: a function of some bytes that ends the program where something is wrong.
+// FuzzTarget.h - defines a fuzz target: a function of some bytes that aborts the program if something is wrong.
 //
 //     TACTO_FUZZ(Name, const std::uint8_t* data, std::size_t size) { ...; return 0; }
 //
-// Each target stands in Name.cpp, in a namespace of its own. libFuzzer (the preset "fuzz") has a program for each;
-// elsewhere all are in one program, which finds them by name (ShortRun.cpp).
+// Each target is in its own Name.cpp, in its own namespace. libFuzzer (the preset "fuzz") has a program for each
+// target; other builds have one program for all targets, which finds them by name (ShortRun.cpp).
 //
-// Thread-safety: before main() and on its thread.
+// Thread-safety: before main(), and on its thread.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,7 @@ using Target = int (*)(const std::uint8_t* data, std::size_t size);
     return all;
 }
 
-/// Ends the program where what must hold does not.
+/// Aborts the program if `held` is false.
 inline void require(bool held) {
     if (!held) std::abort();
 }

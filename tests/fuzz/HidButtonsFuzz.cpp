@@ -1,5 +1,5 @@
-// Whatever a descriptor says, its buttons are read from any report or none are (hazard H10). The input: one byte, how
-// much of the rest is the descriptor (in 1/256); what remains is one report, read whole and then byte by byte shorter.
+// Whatever a descriptor says, its buttons can be read from any report, or it has none (hazard H10). The input: one byte
+// for the descriptor's share of the rest (in 1/256), the descriptor, and a report, read at every length.
 #include <cstdint>
 #include <cstdlib>
 #include <span>
@@ -25,9 +25,9 @@ TACTO_FUZZ(HidButtonsFuzz, const std::uint8_t* data, std::size_t size) {
     const auto report = rest.subspan(cut);
     const auto first = buttons->read(report);
     for (const auto& change : first) {
-        if (change.button >= buttons->labels().size() || !change.down) std::abort();  // all buttons were up
+        if (change.button >= buttons->labels().size() || !change.down) std::abort();  // no button was down before
     }
-    if (!buttons->read(report).empty()) std::abort();  // the same state once more
+    if (!buttons->read(report).empty()) std::abort();  // the same state again
     for (std::size_t length = report.size(); length > 0; --length) {
         for (const auto& change : buttons->read(report.first(length))) {
             if (change.button >= buttons->labels().size()) std::abort();

@@ -1,6 +1,6 @@
-// Whatever a device says of itself is read or refused, every control lies inside its report, and haptic reports made of
-// it are valid (hazard H10). The input: one byte, how much of the rest is the descriptor (in 1/256); what remains is
-// the waveform list.
+// Any descriptor of a device is read or refused, every control lies inside its report, and haptic reports made from the
+// descriptor are valid (hazard H10). The input: one byte for the descriptor's share of the rest (in 1/256), the
+// descriptor, and the waveform list.
 #include <cstdint>
 #include <cstdlib>
 #include <span>
@@ -31,7 +31,7 @@ TACTO_FUZZ(HidDescriptorFuzz, const std::uint8_t* data, std::size_t size) {
     if (!controls) return 0;
     const auto reports = hapticReports(*controls, rest.subspan(cut));
     if (!reports) return 0;
-    // The shortest burst; a device that ends bursts by itself may refuse a longer one.
+    // The shortest burst; a device that ends bursts itself may refuse a longer one.
     if (!validate(*reports) || !startBytes(*reports, 0.5, tacto::Seconds(1e-4)) || startBytes(*reports, 1.5))
         std::abort();
     return 0;

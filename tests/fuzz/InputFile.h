@@ -1,4 +1,4 @@
-// InputFile.h - an input as a file, for readers that take a path.
+// InputFile.h - writes an input to a file, for readers that take a path.
 //
 // Thread-safety: none; a target has one thread.
 #pragma once
@@ -12,7 +12,7 @@
 
 namespace tacto::fuzz {
 
-/// A folder of this process, made at its first use and left to the system.
+/// Returns a folder of this process, created at the first call and left for the system to delete.
 inline const std::filesystem::path& scratchFolder() {
     static const auto folder = [] {
         auto made = std::filesystem::temp_directory_path() / ("tactoscope-fuzz-" + std::to_string(getpid()));
@@ -22,7 +22,7 @@ inline const std::filesystem::path& scratchFolder() {
     return folder;
 }
 
-/// Writes `bytes` as `name` below the folder, its owner's alone, in place of what was there.
+/// Writes `bytes` to the file `name` in the scratch folder, accessible to its owner only; replaces an older file.
 inline std::filesystem::path inputFile(const char* name, std::span<const std::uint8_t> bytes) {
     const auto path = scratchFolder() / name;
     std::ofstream file(path, std::ios::binary | std::ios::trunc);

@@ -1,5 +1,5 @@
-// Any text for an instrument's profile is either refused with a sentence or gives a profile whose figures can be stated
-// and which knows its own models (H9).
+// Any text as an instrument's profile is refused with a sentence, or gives a profile that can state its figures and
+// recognises its own models (H9).
 #include <cmath>
 #include <cstdint>
 #include <string_view>

@@ -1,5 +1,5 @@
-// Any text for a profile or another JSON file is read as the library reads it, or refused with a sentence (H10): never
-// deeper than it may nest, never with a key that stood twice.
+// Any text as a profile or other JSON file is read with the same result as the library's, or refused with a sentence
+// (H10): never nested too deep, never with a repeated key.
 #include <cstdint>
 #include <string_view>
 

@@ -1,4 +1,4 @@
-// Any text for a limit set is either refused with a sentence or gives limits that can be judged (H10).
+// Any text as a limit set is refused with a sentence, or gives limits that can be checked (H10).
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>

@@ -1,5 +1,5 @@
-// Whatever an operator or a script writes as a load is read or refused, never crashes, and what was read writes itself
-// so that it reads back (hazard H10).
+// Any text as a load is read or refused, without a crash; a load that was read can be written and read again (hazard
+// H10).
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

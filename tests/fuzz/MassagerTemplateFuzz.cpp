@@ -1,4 +1,4 @@
-// Any text for a massager's template is refused with a sentence or gives reports that can be sent (hazard H10).
+// Any text as a massager's template is refused with a sentence, or gives reports that can be sent (hazard H10).
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>

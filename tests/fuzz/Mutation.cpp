@@ -7,14 +7,14 @@
 namespace tacto::fuzz {
 namespace {
 
-/// The ends of ranges: 0, 1, the largest signed and unsigned, the start of a ScienceMode frame, and its stuffing byte.
+/// Values at the ends of ranges: 0, 1, the largest signed and unsigned, a ScienceMode frame's start and stuffing byte.
 constexpr std::array<std::uint8_t, 10> kTelling{0x00, 0x01, 0x7F, 0x80, 0xFE, 0xFF, 0xF0, 0x0F, 0x81, 0x55};
 
 enum class Change { Flip, Replace, Insert, Delete, Truncate, Repeat, Splice, Count };
 
 std::ptrdiff_t at(std::size_t index) noexcept { return static_cast<std::ptrdiff_t>(index); }
 
-/// 0 to `size`, both included.
+/// Returns a position from 0 to `size`, including both.
 std::size_t place(std::size_t size, Random& random) noexcept { return random.below(size + 1); }
 
 std::uint8_t anyByte(Random& random) noexcept {
@@ -58,7 +58,7 @@ void change(Bytes& input, const std::vector<Bytes>& corpus, const std::vector<By
     }
 }
 
-/// The word between the quotes of a line, or nothing.
+/// Returns the word between the quotes of a line, or nothing.
 std::optional<Bytes> wordOf(std::string_view line) {
     const auto begin = line.find('"');
     const auto end = line.rfind('"');

@@ -1,4 +1,4 @@
-// Mutation.h - new inputs made of old ones: what a fuzzer does, without its feedback.
+// Mutation.h - makes new inputs from old ones, like a fuzzer without its feedback.
 //
 // Thread-safety: pure function of its arguments; the same state of `random` gives the same input.
 #pragma once
@@ -18,13 +18,13 @@ using Bytes = std::vector<std::uint8_t>;
 /// The longest file of a corpus.
 inline constexpr std::size_t kMaxFile = 65'536;
 
-/// One of `corpus` (not empty, files of kMaxFile bytes at most) after 1 to 8 changes: a bit flipped, a byte replaced,
-/// bytes or a word of `dictionary` (may be empty) inserted, bytes deleted, cut off or repeated, or the end of another.
-/// Never longer than kMaxFile.
+/// Returns a file of `corpus` (not empty, files of at most kMaxFile bytes) after 1 to 8 changes: a bit flipped, a byte
+/// replaced, bytes or a word of `dictionary` (may be empty) inserted, bytes deleted, cut off or repeated, or the end of
+/// another file appended. Never longer than kMaxFile.
 [[nodiscard]] Bytes mutated(const std::vector<Bytes>& corpus, const std::vector<Bytes>& dictionary, Random& random);
 
-/// The words of a dictionary in libFuzzer's format: a line `"word"` or `name="word"` each, with \\, \" and \xAB; lines
-/// that are empty or begin with # are passed over. Nothing where a line is none of these.
+/// Parses a dictionary in libFuzzer's format: lines `"word"` or `name="word"`, with \\, \" and \xAB; empty lines and
+/// lines that begin with # are skipped. Returns nothing if any line is different.
 [[nodiscard]] std::optional<std::vector<Bytes>> dictionaryFrom(std::string_view text);
 
 }  // namespace tacto::fuzz

@@ -1,5 +1,5 @@
-// Any text as a profile is read or refused with a sentence; once read, it is written and reads back as the same text
-// (hazard H10).
+// Any text as a profile is read or refused with a sentence; a profile that was read is written and read again as the
+// same text (hazard H10).
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

@@ -1,5 +1,5 @@
-// Whatever a Pulse Pal answers is read or refused, and whatever a host sends to the emulated one leaves it within its
-// range and its bounds (hazard H10).
+// Any answer of a Pulse Pal is read or refused, and any bytes from a host leave the emulated Pulse Pal within its range
+// and its limits (hazard H10).
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
@@ -19,7 +19,7 @@ TACTO_FUZZ(PulsePalFuzz, const std::uint8_t* data, std::size_t size) {
     EmulatedPulsePal device;
     device.setReady(true);
     tacto::Instant now{0};
-    // Transfers of 1 to 8 bytes, a millisecond apart.
+    // Transfers of 1 to 8 bytes, one millisecond apart.
     for (std::size_t at = 0; at < std::min<std::size_t>(size, 256);) {
         const std::size_t length = std::min<std::size_t>(1 + data[at] % 8, size - at);
         device.receive(bytes.subspan(at, length), now);
@@ -31,7 +31,7 @@ TACTO_FUZZ(PulsePalFuzz, const std::uint8_t* data, std::size_t size) {
     }
     std::uint8_t answers[64];
     static_cast<void>(device.transmit(answers, now));
-    // Twice: a trigger that was kept starts its train behind the first click, as behind an abort.
+    // Clicks twice: a stored trigger starts its train after the first click, as after an abort.
     device.clickJoystick(now);
     now += std::chrono::milliseconds(1);
     device.clickJoystick(now);

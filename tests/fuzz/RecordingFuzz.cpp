@@ -1,5 +1,5 @@
-// Any text as recording.json, beside sound tables, is opened or refused with a sentence, and never gives a stream that
-// contradicts itself (hazard H10).
+// Any text as recording.json, with valid tables next to it, is opened or refused with a sentence, and never gives a
+// stream that contradicts itself (hazard H10).
 #include <cstdlib>
 #include <string_view>
 

@@ -1,4 +1,4 @@
-// Any text as a recording's table is read or refused with a message, never a crash; and described by JSON, or refused.
+// Any text as a recording's table is read or refused with a message, never a crash; so is any JSON that describes it.
 #include "core/acquisition/RecordingTable.h"
 
 #include <cstddef>

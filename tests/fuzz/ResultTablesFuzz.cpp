@@ -1,6 +1,6 @@
 // Any text as a table of results (trials, readings of a calibration, a profilometer's export, answers of an
-// identification) is read, or refused with a sentence that names the file; nothing infinite is read (hazard H10). The
-// first byte chooses.
+// identification) is read, or refused with a sentence that names the file; infinite values are never read (hazard H10).
+// The first byte chooses the table.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>

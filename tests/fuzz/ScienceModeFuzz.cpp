@@ -1,5 +1,5 @@
-// Whatever bytes come from a stimulator, or reach an emulated one, are taken as frames or skipped, never crash, hang or
-// grow, and cost no sound frame behind them (hazard H10). The first byte says what the others are.
+// Any bytes from a stimulator, or to an emulated stimulator, are read as frames or skipped; they never cause a crash, a
+// hang or growing memory, or the loss of a valid frame after them (hazard H10). The first byte chooses.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -39,7 +39,7 @@ void parse(std::span<const std::uint8_t> payload) {
     static_cast<void>(readStimStatusAck(payload));
     static_cast<void>(readExtendedVersionAck(payload));
     static_cast<void>(readPlainAck(sciencemode::Command::LowLevelStop, payload));
-    // A builder makes the same bytes of what was read.
+    // Building from the values that were read gives the same bytes.
     if (const auto request = readChannelConfig(payload)) {
         const auto again = payloadOf(*request);
         require(again && readChannelConfig(again->view()).has_value());
@@ -47,7 +47,7 @@ void parse(std::span<const std::uint8_t> payload) {
     static_cast<void>(readLowLevelInit(payload));
 }
 
-/// Gives the input as the device's answers.
+/// A device that answers with the input.
 class InputTransport final : public Transport {
 public:
     explicit InputTransport(std::span<const std::uint8_t> input) : input_(input) {}
@@ -66,7 +66,7 @@ private:
     std::span<const std::uint8_t> input_;
 };
 
-/// A stream of any bytes, and a sound frame behind it.
+/// Decodes any bytes, followed by a valid frame.
 void decode(std::span<const std::uint8_t> input) {
     FrameDecoder decoder;
     auto rest = input;
@@ -90,7 +90,7 @@ void decode(std::span<const std::uint8_t> input) {
     for (int i = 0; i < 4; ++i) static_cast<void>(exchange.ask(sciencemode::Command::StimStatus));
 }
 
-/// Requests with sound frames: a length, a command and a payload each, with time between.
+/// Sends requests in valid frames: each has a length, a command and a payload, with time in between.
 void request(std::span<const std::uint8_t> input) {
     EmulatedStimulator device;
     Instant now{0};
@@ -112,7 +112,7 @@ void request(std::span<const std::uint8_t> input) {
     device.receive(stopFrames().lowLevel.view(), now);
     device.receive(stopFrames().midLevel.view(), now);
     const auto before = device.pulses(now).size();
-    require(device.pulses(now + std::chrono::seconds(10)).size() == before);  // off is off
+    require(device.pulses(now + std::chrono::seconds(10)).size() == before);  // once off, it stays off
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
-// Whatever bytes come from a sensor board, or reach one, are taken as frames or skipped, never crash, hang or grow, and
-// cost no sound frame behind them (hazard H10); no sample is stamped ahead of now (hazard H7). The first byte says what
-// the others are.
+// Any bytes from a sensor board, or to a board, are read as frames or skipped; they never cause a crash, a hang or
+// growing memory, or the loss of a valid frame after them (hazard H10); no sample has a time stamp in the future
+// (hazard H7). The first byte chooses what the other bytes are.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace {
 using namespace tacto;
 using namespace tacto::sensorboard;
 
-/// Any bytes as the content of a frame with a right CRC.
+/// Puts any bytes in a frame with a correct CRC.
 std::vector<std::uint8_t> sealed(std::span<const std::uint8_t> content) {
     std::vector<std::uint8_t> frame(TSB_FRAME_MOST);
     tsb_writer writer{};
@@ -27,7 +27,7 @@ std::vector<std::uint8_t> sealed(std::span<const std::uint8_t> content) {
     return frame;
 }
 
-/// Values are read within their ranges, and writing them again gives the same bytes.
+/// Checks that values are within their ranges, and that writing them again gives the same bytes.
 void parse(const Frame& frame) {
     if (const auto identity = readIdentity(frame)) {
         require(identity->streams >= 1 && identity->streams <= kMaxStreams && identity->name.size() <= 24);
@@ -45,7 +45,7 @@ void parse(const Frame& frame) {
     static_cast<void>(readDone(frame, sensorboard::Command::Start));
 }
 
-/// One stream and its clock, fed with blocks as they come.
+/// One stream and its clock; takes blocks as they arrive.
 class Stream {
 public:
     Stream() : track_(configuration()) {}
@@ -71,7 +71,7 @@ private:
     SampleBlock samples_;
 };
 
-/// A stream of any bytes, and a sound frame behind it.
+/// Decodes any bytes, followed by a valid frame.
 void decode(std::span<const std::uint8_t> input) {
     FrameDecoder decoder;
     auto rest = input;
@@ -79,7 +79,7 @@ void decode(std::span<const std::uint8_t> input) {
     require(rest.empty() && decoder.counts().bytes == input.size());
     const auto command = encodeCommand(sensorboard::Command::GetStatus, 9);
     std::span<const std::uint8_t> good(command);
-    // The frame's leading zero may end a frame of the input that is sound, too.
+    // The frame's leading zero may also complete a valid frame at the end of the input.
     int found = 0;
     std::uint8_t token = 0;
     while (const auto frame = decoder.take(good)) {
@@ -96,7 +96,7 @@ void decode(std::span<const std::uint8_t> input) {
     require(found >= 1 && heard.type == TSB_GET_STATUS && heard.token == 9);
 }
 
-/// Sound frames of any content: a length, then that many bytes, with time between.
+/// Passes on valid frames with any content: a length, then that many bytes, with time in between.
 template <class Take>
 void frames(std::span<const std::uint8_t> input, Take&& take) {
     while (input.size() >= 3) {
@@ -121,7 +121,7 @@ void read(std::span<const std::uint8_t> input) {
     });
 }
 
-/// A tenth of the real one's rate, in blocks as long: its own samples are not what is tested, and cost the time.
+/// A tenth of the real rate with blocks of the same duration: the board's own samples only cost time in this test.
 EmulatedBoardSettings slowBoard() {
     EmulatedBoardSettings settings;
     settings.tickRate_hz = settings.rate_hz = 400;
@@ -131,7 +131,7 @@ EmulatedBoardSettings slowBoard() {
     return settings;
 }
 
-/// An emulated board that answers as it should until the streams run, and then sends the input.
+/// An emulated board that answers correctly until the streams run, and then sends the input.
 class TurningTransport final : public Transport {
 public:
     explicit TurningTransport(std::unique_ptr<Transport> board) : board_(std::move(board)) {}
@@ -178,7 +178,7 @@ void whole(std::span<const std::uint8_t> input, bool fromTheStart) {
     }
 }
 
-/// Commands of any content reach the firmware, which answers each with whole frames.
+/// Sends commands with any content to the firmware, which answers each command with whole frames.
 void request(std::span<const std::uint8_t> input) {
     EmulatedBoard board(std::make_unique<CountingSignal>(), slowBoard(), Instant(0));
     Instant now{0};

@@ -1,6 +1,6 @@
-// Any file at all is judged and read without a crash, a hang or a leak, and what is judged intact can be read (hazard
-// H10). The first byte says what the others are: a file as it is, or places in a sound session that are changed, three
-// bytes of position and one that is laid over the one there; or the same, and the file is cut at the last position.
+// Any file is judged and read without a crash, a hang or a leak, and an intact file can be read (hazard H10). The first
+// byte chooses what the rest is: a whole file; changes to an intact session, each with three bytes of position and one
+// byte to XOR there; or such changes, with the file cut at the last position.
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -23,7 +23,7 @@ namespace {
 using namespace tacto;
 using Bytes = std::vector<char>;
 
-/// A session with a row of every kind, closed in order.
+/// Writes a session with a row of every kind, closed in order.
 Bytes soundSession(const std::filesystem::path& path) {
     VirtualClock clock;
     SessionAbout about;

@@ -1,7 +1,7 @@
-// Any row of a session file on its samples, and the samples themselves: read or refused, whatever the bytes (hazard
-// H10). SessionFuzz reads whole files, at the speed of SQLite; this is what Tactoscope itself decodes of them. The
-// input: one byte for which kind of row; one byte, how much of the rest is the row's JSON (in 1/256); what remains is
-// its data.
+// Any row of a session file about samples, and the samples themselves, are read or refused, whatever the bytes (hazard
+// H10). SessionFuzz reads whole files, at the speed of SQLite; this target tests only Tactoscope's own decoding. The
+// input: one byte for the kind of row; one byte for the share of the row's JSON in the rest (in 1/256); then the JSON
+// and the row's data.
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -54,7 +54,7 @@ void about(std::string_view text) {
     const auto json = nlohmann::json::parse(text, nullptr, false);
     if (json.is_discarded()) return;
     require(dumpJson(json).find('\n') == std::string::npos);
-    // Compared as text, where NaN is null and so equal to itself.
+    // Compared as text, because NaN is null there and so equals itself.
     const auto once = reproducible(aboutFrom(json));
     require(dumpJson(reproducible(aboutFrom(toJson(aboutFrom(json))))) == dumpJson(once));
     const auto stream = toJson(streamFrom(json));

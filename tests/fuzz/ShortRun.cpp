@@ -1,13 +1,13 @@
-// The short run of a fuzz target in the ordinary builds, without clang:
+// The short run of a fuzz target in ordinary builds, without clang:
 //   fuzzed TARGET CORPUS_FOLDER [--dictionary FILE] [--inputs N] [--seconds S] [--seed K]
 //   fuzzed TARGET FILE          one input again
-// Runs every file of the folder, then N inputs made of them and of the dictionary's words (20000; where a change lands
-// and under a sanitizer 200000), until S seconds (1; there 3) are over. Without --seed each run draws another, and says
-// which.
+// Runs every file of the folder, then N inputs made from these files and the dictionary's words (default 20000; in
+// campaigns and with a sanitizer 200000), until S seconds are over (1; with a sanitizer 3). Without --seed each run
+// draws a seed and prints it.
 //
-// The inputs run in a process of their own and lie in memory that both share. So an input that kills it, in whatever
-// way (a failed check, a sanitizer, no memory), or that never ends, is still there: it is kept in
-// fuzzed-TARGET.crash beside the program, and the run fails.
+// The inputs run in a separate process and lie in memory that both processes share. An input that kills its process in
+// any way (a failed check, a sanitizer, no memory) or never ends is thus kept: it is saved as fuzzed-TARGET.crash next
+// to the program, and the run fails.
 #include <algorithm>
 #include <charconv>
 #include <chrono>
@@ -35,7 +35,7 @@ namespace {
 using tacto::fuzz::Bytes;
 using tacto::fuzz::Target;
 
-/// One input that takes longer hangs. A sound one takes milliseconds, also under a sanitizer on a busy machine.
+/// An input that takes longer hangs. A normal input takes milliseconds, even with a sanitizer on a busy machine.
 constexpr unsigned kMaxInput_s = 20;
 constexpr int kMisused = 2;
 
@@ -58,7 +58,7 @@ struct Options {
     std::uint64_t seed = std::random_device{}();
 };
 
-/// The traces that the running process leaves behind.
+/// What the process with the inputs leaves behind when it dies.
 struct Shared {
     std::uint64_t corpus;
     std::uint64_t mutated;
@@ -92,7 +92,7 @@ std::optional<Options> optionsFrom(int count, char** words) {
     return options;
 }
 
-/// The file, or every file of the folder by name. A folder without one is a mistake: nothing would be tested.
+/// Returns the file, or all files of the folder by name. An empty folder is an error: nothing would be tested.
 std::vector<Bytes> corpusAt(const std::filesystem::path& where) {
     std::vector<std::filesystem::path> files;
     std::error_code error;
@@ -126,13 +126,13 @@ void run(Target target, const Bytes& input, Shared& shared) {
     shared.size = input.size();
     std::ranges::copy(input, shared.input);
     ::alarm(kMaxInput_s);
-    // A copy of its exact size, so that a sanitizer sees a byte read behind the end.
+    // A copy of exactly this size, so that a sanitizer notices reads beyond the end.
     const Bytes exact(input);
     target(exact.data(), exact.size());
     ::alarm(0);
 }
 
-/// The process that may die.
+/// Runs all inputs in the process that may die.
 void runAll(const std::vector<Bytes>& corpus, const std::vector<Bytes>& words, const Options& options, Shared& shared) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(options.seconds);
     for (const auto& input : corpus) {
@@ -147,7 +147,7 @@ void runAll(const std::vector<Bytes>& corpus, const std::vector<Bytes>& words, c
     }
 }
 
-/// Fails the run: says what happened, and where the input is.
+/// Saves the input, prints what happened and where the input is, and fails the run.
 int keep(const Shared& shared, int status, const Options& options, const std::filesystem::path& program) {
     auto file = program;
     file += '-' + options.name + ".crash";
@@ -204,7 +204,7 @@ int main(int argc, char** argv) {
     }
     if (child == 0) {
         runAll(corpus, *words, *options, shared);
-        std::exit(EXIT_SUCCESS);  // unlike _exit, this looks for leaks
+        std::exit(EXIT_SUCCESS);  // unlike _exit, this checks for leaks
     }
     int status = 0;
     while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {

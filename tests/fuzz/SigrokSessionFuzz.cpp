@@ -1,5 +1,5 @@
-// Any bytes as a sigrok session (.sr) are read or refused with a sentence, in memory that the input bounds (hazard
-// H10). Deflate can make 1032 bytes of one.
+// Any bytes as a sigrok session (.sr) are read or refused with a sentence, with memory limited by the input's size
+// (hazard H10). Deflate can turn one byte into 1032.
 #include "drivers/sigrok/session_file/SigrokFormat.h"
 #include "tests/fuzz/CaptureCheck.h"
 #include "tests/fuzz/FuzzTarget.h"

@@ -1,7 +1,7 @@
-// The files of a study: its settings, its key files, the rows of its ledger and what is sealed in them. Any of them is
-// read or refused with a sentence (hazard H10), and nothing that was altered opens (hazards H8 and H11). The first byte
-// says what the others are: study.json; the key file of a rehearsal; changes to a key file under a passphrase, two
-// bytes of position and one that is laid over the one there; rows of a ledger, "NAME JSON" a line; a sealed text.
+// The files of a study (settings, key files, rows of its ledger with their sealed contents) are read or refused with a
+// sentence (hazard H10), and nothing that was altered can be opened (hazards H8 and H11). The first byte chooses what
+// the rest is: study.json; a rehearsal's key file; changes to a key file with a passphrase, each with two bytes of
+// position and one byte to XOR there; rows of a ledger, one "NAME JSON" a line; or a sealed text.
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
@@ -27,7 +27,7 @@ using Input = std::span<const std::uint8_t>;
 
 constexpr const char* kStudy = "0123456789abcdef";
 constexpr const char* kPerson = "00112233445566aa";
-constexpr std::size_t kMaxRows = 12;  // each is committed to a disk
+constexpr std::size_t kMaxRows = 12;  // each row is committed to a disk
 
 template <class T>
 bool refused(const Result<T>& read) {
@@ -55,7 +55,7 @@ bool same(const Secret& a, const Secret& b) {
     return std::equal(a.bytes().begin(), a.bytes().end(), b.bytes().begin(), b.bytes().end());
 }
 
-/// A file of keys that `passphrase` opens, or nothing does.
+/// Creates a key file that `passphrase` opens; null for a rehearsal's file.
 StudyKeys newKeys(const char* name, const Passphrase* passphrase) {
     const auto file = fuzz::scratchFolder() / name;
     std::filesystem::remove(file);
@@ -79,7 +79,7 @@ void checkKeysUnderAPassphrase(Input changes) {
     require(keys->entries()[0].code == "P-7K3M" && same(keys->entries()[0].key, made.entries()[0].key));
 }
 
-/// `row` with what stands under "content" sealed, as the ledger has it.
+/// Seals the content under "content" in `row`, as the ledger does.
 nlohmann::json sealedRow(nlohmann::json row, std::string_view name, std::int64_t seq, const StudyKeys& keys) {
     const auto content = row.find("content");
     if (content == row.end()) return row;

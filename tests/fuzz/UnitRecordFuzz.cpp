@@ -1,7 +1,7 @@
-// The record of what a unit delivered, with any of its bytes changed, or any bytes in its place: it opens, and unless
-// all of it is as it was written nothing of it is believed, the unit rests, and a fault that may have been there stands
-// (hazards H1 and H2). The first byte says what the others are: changes to a sound record, three bytes of position and
-// one that is laid over the one there; or the whole file.
+// The record of what a unit delivered, with any bytes changed or replaced: it opens, but unless it is unchanged,
+// nothing in it is believed, the unit must rest, and a possible fault stays (hazards H1 and H2). The first byte chooses
+// what the rest is: changes to an intact record, each with three bytes of position and one byte to XOR there; or the
+// whole file.
 #include <vector>
 
 #include "core/base/Csv.h"
@@ -42,7 +42,7 @@ void write(const std::filesystem::path& path, const Bytes& bytes) {
     require(!!file.flush());
 }
 
-/// A record with trains and a fault, and the claim that says that it is the last one.
+/// A record with trains and a fault, and the claim that this record is the latest.
 struct Sound {
     Sound() {
         for (const auto& folder : {folders().records, folders().claims}) std::filesystem::create_directories(folder);
@@ -91,7 +91,7 @@ TACTO_FUZZ(UnitRecordFuzz, const std::uint8_t* data, std::size_t size) {
         require((*opened)->whyQuiet().empty() && meter.size() == kTrainsBooked);
         require((*opened)->fault()->reason.view() == "the device said so");
     } else if ((*opened)->whyQuiet().empty()) {
-        // Only the record of its fault was changed, and then that is not believed.
+        // Only the record of the fault was changed; then the fault is treated as damaged.
         require(meter.size() == kTrainsBooked);
         require((*opened)->fault()->reason.view().find("damaged") != std::string_view::npos);
     } else {

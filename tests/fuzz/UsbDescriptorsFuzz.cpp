@@ -1,6 +1,6 @@
-// The descriptors of any USB device: a pair of bulk endpoints that they hold, or a sentence (hazard H10). Each
-// interface setting is four bytes (number, alternate setting, class, endpoints: 0 to 7), each endpoint four (address,
-// attributes, largest packet); the first byte says which function is looked for.
+// Any USB device's descriptors give a pair of bulk endpoints that they contain, or a sentence (hazard H10). Each
+// interface setting is four bytes (number, alternate setting, class, number of endpoints 0 to 7), each endpoint four
+// (address, attributes, largest packet); the first byte chooses the function to look for.
 #include <cstdint>
 #include <cstdlib>
 #include <libusb.h>

@@ -1,6 +1,6 @@
-// The log of a session that was cut off by a crash, with any of its bytes changed: judged and read without a crash or a
-// hang (hazard H10), and never with a row more than were written. The input is a list of changes: three bytes of place
-// in the log, one that is laid over the one there; a first byte that is odd cuts the log at the last place.
+// The log of a session that a crash cut off, with any bytes changed: judged and read without a crash or a hang (hazard
+// H10), and never with more rows than were written. The input is a list of changes, each with three bytes of position
+// and one byte to XOR there; if the first byte is odd, the log is cut at the last position.
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -35,7 +35,7 @@ struct CutOff {
     Bytes log;
 };
 
-/// A session and its log as a killed program leaves them.
+/// Makes a session and its log as a killed program leaves them.
 CutOff cutOffSession() {
     const auto path = fuzz::scratchFolder() / "whole.tacto";
     VirtualClock clock;
