@@ -57,7 +57,7 @@ private:
     std::size_t position_ = 0;
     std::size_t line_ = 0;
     std::size_t blanks_ = 0;
-    char separator_;  // '\0' until the first line decides
+    char separator_;  // '\0' until the first line decides the separator
     std::vector<std::string_view> fields_;
 };
 

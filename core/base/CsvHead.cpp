@@ -24,8 +24,8 @@ bool commasAreDecimal(std::string_view line) {
     return true;
 }
 
-/// Returns the separator of most of the first lines, since a title line above the table may contain anything.
-/// Semicolons and tabs win over commas, which are then decimal commas.
+/// Returns the separator of most of the first lines: a title line above the table may contain anything. Semicolons and
+/// tabs win over commas, which are then decimal commas.
 char separatorOf(const std::vector<std::string_view>& lines) {
     constexpr std::size_t kLooked = 40;
     std::size_t tabs = 0;
@@ -49,7 +49,7 @@ char separatorWithout(const std::vector<std::string_view>& lines) {
 }
 
 struct Remark {
-    std::size_t number;  // of its line
+    std::size_t number;  // of the remark's line
     std::string_view words;
 };
 
@@ -278,7 +278,7 @@ bool areApartByTabs(std::span<const std::string_view> lines) {
             wordsHaveTabs = wordsHaveTabs || trimmed(line).find('\t') != std::string_view::npos;
             continue;
         }
-        // If a blank is next to a tab, the tab is only one of the blanks.
+        // A tab next to a blank belongs to the blanks and is not a separator.
         if (line.find(" \t") != std::string_view::npos || line.find("\t ") != std::string_view::npos) return false;
         cutLine(line, '\t', fields);
         const auto its = fields.size();

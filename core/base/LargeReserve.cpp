@@ -12,7 +12,7 @@ void askForHugePages(void* block, std::size_t bytes) noexcept {
     if (block == nullptr || bytes < kMinBytes) return;
     const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
     const std::size_t before = (page - reinterpret_cast<std::uintptr_t>(block) % page) % page;
-    // A kernel without huge pages returns an error, which changes nothing.
+    // A kernel without huge pages returns an error, which has no effect.
     static_cast<void>(::madvise(static_cast<char*>(block) + before, (bytes - before) / page * page, MADV_HUGEPAGE));
 #else
     static_cast<void>(block);

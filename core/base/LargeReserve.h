@@ -2,8 +2,8 @@
 //
 // The first access to a page of memory causes a fault, which takes several microseconds on a virtual machine; for 64 MB
 // that is more than the later work on them. If the kernel offers huge pages (Linux, "madvise" or "always" in
-// /sys/kernel/mm/transparent_hugepage/enabled), this asks for them, with one fault for 512 pages. Otherwise it equals
-// reserve().
+// /sys/kernel/mm/transparent_hugepage/enabled), this asks for them, with one fault for 512 pages. Otherwise
+// reserveLarge() is the same as reserve().
 //
 // Thread-safety: as the vector.
 #pragma once

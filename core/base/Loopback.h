@@ -10,7 +10,7 @@
 namespace tacto {
 
 struct LoopbackSocket {
-    int descriptor;  ///< closed by the caller; does not block, and programs that are started do not inherit it
+    int descriptor;  ///< non-blocking; the caller closes it; programs that are started do not inherit it
     std::uint16_t port;
 };
 

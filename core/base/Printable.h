@@ -22,7 +22,7 @@ enum class Newlines { Escape, Keep };
 /// Whether printable() escapes a character because it turns the reading direction, separates lines or has no width.
 [[nodiscard]] bool isHidden(char32_t code) noexcept;
 
-/// The number of code points in a UTF-8 text.
+/// Returns the number of code points in a UTF-8 text.
 [[nodiscard]] std::size_t charactersOf(std::string_view utf8) noexcept;
 
 /// Replaces every number by "…", because a level in a sentence would reveal what was felt.

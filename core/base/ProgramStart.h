@@ -1,4 +1,4 @@
-// ProgramStart.h - prepares the surroundings of each of our programs before it does anything else.
+// ProgramStart.h - what each of our programs does first: it checks its folders, arguments and standard streams.
 //
 // Thread-safety: call once, in main(), before any thread is started.
 #pragma once

@@ -17,11 +17,11 @@ class Random {
 public:
     Random(std::uint64_t seed, std::string_view stream);
 
-    /// Uniform in [0, 1).
+    /// Returns a uniform random number in [0, 1).
     [[nodiscard]] double uniform() noexcept;
-    /// Standard normal.
+    /// Returns a standard normal random number.
     [[nodiscard]] double normal() noexcept;
-    /// Uniform in 0..bound-1; bound ≥ 1.
+    /// Returns a uniform random whole number from 0 to bound-1; `bound` must be at least 1.
     [[nodiscard]] std::uint64_t below(std::uint64_t bound) noexcept;
 
 private:

@@ -70,7 +70,7 @@ struct DeclaredIntervals {
 // rate that is wrong by 2 % causes no false gaps.
 
 enum class StampClass {
-    First,     ///< the first sample: nothing to compare it with
+    First,     ///< the first sample, which cannot be compared
     Regular,   ///< within half a step of its place on the grid
     Gap,       ///< half a step or more too late: samples before this one are missing
     Early,     ///< half a step or more too early, but later than the stamp before

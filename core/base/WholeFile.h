@@ -73,7 +73,7 @@ enum class LockedBy {
 /// Makes the names in the file's folder safe from power loss. Ignores errors: some network file systems cannot sync
 /// folders, and a session must still be possible.
 void syncFolderOf(const std::filesystem::path& file) noexcept;
-/// Removes an SQLite file and its journals.
+/// Removes a draft of an SQLite file, with its journals.
 void removeDraft(const std::filesystem::path& draft);
 
 }  // namespace tacto

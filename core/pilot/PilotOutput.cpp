@@ -143,7 +143,7 @@ Result<void> PilotOutput::askToSee(const std::string& why) {
     return seen ? Result<void>() : failure(seen);
 }
 
-// What is in the way of a presentation
+// Hindrances of a presentation
 
 Result<void> PilotOutput::clearTheWay(const StageTrial& trial) {
     bool noted = false;
@@ -188,7 +188,7 @@ Result<void> PilotOutput::takeBreak(const std::string& during, PilotScreen scree
     const auto name = fmt::format("operator's break {}", record.count(row::kBreakBegin) + 1);
     auto kept = record.write(row::kBreakBegin, name, {{"by", "operator"}, {"during", during}});
     if (!kept) return kept;
-    people.show({});  // what is held may be let go
+    people.show({});  // the participant may let go
     screen.state = ScreenState::Break;
     screen.named.clear();
     screen.right.reset();

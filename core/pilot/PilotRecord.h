@@ -76,7 +76,7 @@ inline constexpr const char* kMoreLikeTouch = "more-like-touch";
 inline constexpr const char* kNoDifference = "no-difference";
 }  // namespace row
 
-/// The message to an EEG or EMG recorder about a row that is on disk (resources/design/pilot.md, section 5).
+/// The marker for an EEG or EMG recorder about a row that is on disk (resources/design/pilot.md, section 5).
 struct PilotMarker {
     Instant at{0};          ///< the time in the row
     std::string_view name;  ///< the row's kind; the content of the row is not sent

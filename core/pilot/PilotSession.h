@@ -29,7 +29,7 @@ public:
     /// Plans the session and runs the checklist; in a later part, first writes the row `resumed`. `withTrials`: the
     /// plan contains trials. Errors: as PilotStage.
     [[nodiscard]] Result<void> begin(bool withTrials);
-    /// Makes this part continue the session of `part`, whose hash chain ends in `chainHead`; begin() writes both.
+    /// Makes this part continue the session of `part`, whose hash chain ends in `chainHead`; begin() records both.
     void resumesFrom(std::string part, std::string chainHead);
 
     /// Checks before each block that the study is still approved and has time left. If empty, nothing is checked.

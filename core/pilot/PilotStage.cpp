@@ -112,7 +112,7 @@ Result<StageAnswer> PilotStage::trial(const StageTrial& trial) {
         if (participant_.hindrance()) continue;
         if (trial.held && !participant_.holding()) {
             if (auto held = hold(); !held) return failure(held);
-            continue;  // a stop may have come before they held: arm again
+            continue;  // a stop may have come before they held: arms again
         }
         const auto number = record_.begun(trial.name) + 1;
         auto answer = attempt(trial, number, late);
@@ -201,7 +201,7 @@ Result<std::optional<StageAnswer>> PilotStage::attempt(const StageTrial& trial, 
     screen.state = trial.screen.state;
     if (screen.state != ScreenState::Rest) participant_.show(screen);
     auto presented = present(presentation, trial);
-    if (!presented) {  // either paused before it began, or failed
+    if (!presented) {  // the presentation was paused before it began, or it failed
         if (presented.error().code != ErrorCode::NotArmed || !output_.isPaused()) return failure(presented);
         if (auto goesOn = output_.afterThePause(trial); !goesOn) return failure(goesOn);
         return std::optional<StageAnswer>();

@@ -1,5 +1,5 @@
 // VirtualPilotParticipant.h - both people of a rehearsal: a virtual participant, and an operator who answers everything
-// harmlessly, through the same interface as a window's people.
+// harmlessly, through the same interface as people at a window.
 //
 // Feelings follow from what was delivered (VirtualObserver.h); the participant knows the conditions by the names under
 // which familiarisation presented them. Response times are drawn without a source: they say nothing about people.

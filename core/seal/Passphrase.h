@@ -17,7 +17,7 @@ namespace tacto {
 /// The cost of one guess. Only C++ code can choose it, never a file or an option.
 class PassphraseCost {
 public:
-    /// 256 MiB, three passes.
+    /// 256 MiB of memory, three passes.
     [[nodiscard]] static PassphraseCost moderate() noexcept;
     /// The lowest cost that libsodium accepts. For tests.
     [[nodiscard]] static PassphraseCost least() noexcept;

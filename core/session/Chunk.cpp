@@ -17,7 +17,7 @@ static_assert(std::endian::native == std::endian::little, "session files are lit
 
 namespace {
 
-/// Describes a number in the line that stands among the members of the head, not in an object of its own.
+/// Describes a number of the line. In JSON the number is a member of the head, not of an object of its own.
 ValueKind<ChunkHead> lineKind(double StampLine::*number) {
     ValueKind<ChunkHead> kind;
     kind.info.accepted = "a number";

@@ -38,7 +38,7 @@ private:
     Job job_;  // guarded by mutex_, like the members below; not empty while the job waits or runs
     Result<void> result_;
     bool ending_ = false;
-    std::thread thread_;  // the last member: starts once all others exist
+    std::thread thread_;  // the last member, since the thread uses the others
 };
 
 }  // namespace tacto

@@ -153,7 +153,7 @@ struct DatabaseFile::State {
     [[nodiscard]] sqlite3_file* file() noexcept { return reinterpret_cast<sqlite3_file*>(room.data()); }
 
     sqlite3_filename name;
-    std::vector<std::max_align_t> room;  // memory for one file of the layer, which states its size
+    std::vector<std::max_align_t> room;  // memory for one file of SQLite's file layer
 };
 
 Result<DatabaseFile> DatabaseFile::open(const std::filesystem::path& path) {

@@ -78,7 +78,7 @@ class DatabaseFile {
 public:
     /// Opens the file for reading; locks nothing. Errors: Io.
     [[nodiscard]] static Result<DatabaseFile> open(const std::filesystem::path& path);
-    /// The size in bytes. Errors: Io.
+    /// Returns the size in bytes. Errors: Io.
     [[nodiscard]] Result<std::int64_t> size() const;
     /// Fills `bytes` with the bytes of the file from position `at`. Errors: Io, also if the file ends too early.
     [[nodiscard]] Result<void> read(std::int64_t at, std::span<std::byte> bytes) const;

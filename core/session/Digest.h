@@ -13,7 +13,7 @@
 
 namespace tacto {
 
-/// 32 bytes: a SHA-256 of a row, or a BLAKE2b-256 of a chunk's samples.
+/// 32 bytes: the SHA-256 of a row, or the BLAKE2b-256 of a chunk's samples.
 using Digest = std::array<unsigned char, 32>;
 
 /// Returns the SHA-256 as 64 lower-case hexadecimal digits.

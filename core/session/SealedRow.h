@@ -39,8 +39,8 @@ struct InsideRow {
 [[nodiscard]] OutsideRow sealedRow(const RowSeal& seal, std::int64_t seq, std::string_view kind, Instant at,
                                    std::string_view name, std::string_view body);
 
-/// `seal` may be null: a sealed row then has the body {"sealed": true} with what is shown, and the name "sealed" if its
-/// name is sealed. Errors: ParseError for a row that the key does not open.
+/// `seal` may be null: a sealed row then has the body {"sealed": true} with what is shown, and a sealed name reads
+/// "sealed". Errors: ParseError for a row that the key does not open.
 [[nodiscard]] Result<InsideRow> openedRow(const RowSeal* seal, std::int64_t seq, std::string_view kind, Instant at,
                                           std::string_view name, nlohmann::json body);
 

@@ -20,7 +20,7 @@ namespace tacto {
 
 namespace {
 
-/// How long the recorder sleeps if the ring is empty, so how long the ring fills at most before it is read.
+/// How long the recorder sleeps if the ring is empty: the ring then fills for at most 10 ms.
 constexpr auto kPoll = std::chrono::milliseconds(10);
 constexpr auto kDrainTimeout = std::chrono::seconds(5);
 

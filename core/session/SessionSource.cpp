@@ -88,7 +88,7 @@ Result<SessionSource> SessionSource::openInPlace(const std::filesystem::path& pa
     auto database = Database::open(uriOf(path, mode), SQLITE_OPEN_READONLY | SQLITE_OPEN_URI);
     if (!database) return failure(database);
     if (auto set = database->execute("PRAGMA busy_timeout=2000"); !set) return failure(set);
-    // The first read: it fails if the file is damaged or its journal cannot be opened.
+    // This first read fails if the file is damaged or its journal cannot be opened.
     if (auto rows = database->number("SELECT count(*) FROM sqlite_schema"); !rows) return failure(rows);
     return SessionSource(std::move(*database));
 }

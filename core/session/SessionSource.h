@@ -4,8 +4,8 @@
 //   *-wal and *-shm           a running or killed writer: read only, with the journal's content
 //   *-wal alone, or no access a private copy of both, recovered and removed afterwards
 //
-// Only SQLite opens the file itself (Database.h), since a writer of this process may hold it. A copy shows one moment:
-// if another program writes while it is made, it is made again.
+// Only SQLite opens the file itself (Database.h), since a writer of this process may hold it. A copy shows one moment;
+// it is made again if another program writes meanwhile.
 //
 // Thread-safety: one owner; several sources may be open on one file.
 #pragma once

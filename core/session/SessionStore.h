@@ -94,7 +94,7 @@ private:
     SessionStore(Database database, Statements statements) noexcept
         : database_(std::move(database)), statements_(std::move(statements)) {}
     [[nodiscard]] static Result<SessionStore> attach(Database database);
-    /// Gives a row its number and hash.
+    /// Gives a row its number and its hash.
     [[nodiscard]] Row chain(std::string_view kind, Instant at, std::string_view name, std::string_view body,
                             const std::optional<Digest>& digest);
     /// Seals the row, if rows are sealed, and writes it.

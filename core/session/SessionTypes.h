@@ -55,7 +55,7 @@ struct SessionAbout {
     std::string programVersion;
     std::string protocol;        ///< name, e.g. "separability"; empty for a session without a script
     std::string protocolSha256;  ///< digest of the script's bytes
-    std::string protocolFrom;    ///< where the script came from: "shipped with the program", or its path
+    std::string protocolFrom;    ///< "shipped with the program", or the script's path
     nlohmann::json parameters = nlohmann::json::object();
     std::uint64_t seed = 0;
     std::vector<SessionDevice> devices;
@@ -99,9 +99,9 @@ struct SessionStreamInfo {
 
 /// An event, command, measurement, report item or log line.
 struct SessionRow {
-    std::int64_t seq = 0;  ///< place in the hash chain, from 1
+    std::int64_t seq = 0;  ///< position in the hash chain, from 1
     Instant at{0};
-    std::string name;     ///< event kind, command, measured quantity; a log line's level
+    std::string name;     ///< kind of event, command or measured quantity; or the level of a log line
     nlohmann::json body;  ///< body["text"] is the text of a log line
     bool sealed = false;  ///< sealed, without a key: name and body hold only what is shown (SealedRow.h)
 };

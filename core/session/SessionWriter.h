@@ -5,7 +5,7 @@
 // session's clock, and together with every row named before; another thread writes them to disk. On a virtual clock the
 // commits of each second survive kill -9, but survive power loss only after the next acknowledged row. Nothing is lost
 // silently: the call that meets a disk error and every later call return it, and failed() reports it.
-//
+// With a virtual clock the same calls write the same rows and chunks on every machine.
 // With a virtual clock the same calls write the same rows and chunks, whatever the machine.
 //
 // Thread-safety: any thread; a mutex lets one call in at a time. Calls may block for a disk write: a control loop on
@@ -44,7 +44,7 @@ public:
     SessionWriter(const SessionWriter&) = delete;
     SessionWriter& operator=(const SessionWriter&) = delete;
 
-    /// Returns the id for append(). Errors: InvalidArgument without columns; Io.
+    /// Adds a stream and returns its id for append(). Errors: InvalidArgument without columns; Io.
     [[nodiscard]] Result<int> addStream(const SessionStream& stream);
     /// Adds a sensor's stream. Its columns are "x","y","z" | "force" | "c1".."cn".
     [[nodiscard]] Result<int> addStream(const StreamInfo& stream);
@@ -67,10 +67,10 @@ public:
     [[nodiscard]] Result<std::int64_t> measurement(Instant at, std::string_view name, const nlohmann::json& values);
     /// Adds a figure, table or text to the report; the writer does not read its content. Commits before it returns.
     [[nodiscard]] Result<std::int64_t> reportItem(Instant at, const nlohmann::json& item);
-    /// Commits before it returns.
+    /// Records a verdict. Commits before it returns.
     [[nodiscard]] Result<std::int64_t> verdict(Instant at, std::string_view subject, std::string_view verdict,
                                                const std::vector<std::string>& reasons, const nlohmann::json& results);
-    /// Committed with the samples. `level`: "info", "warning", "error".
+    /// Records a log line. Committed with the samples. `level`: "info", "warning", "error".
     [[nodiscard]] Result<std::int64_t> log(Instant at, std::string_view level, std::string_view text);
 
     /// Commits pending rows if a second has passed since the last commit. For a caller that may add nothing for a

@@ -86,7 +86,7 @@ struct BidsSession {
     std::optional<int> skinBefore, skinAfter;          ///< the worse of erythema and oedema, 0 to 4
     bool complete = false;
     std::size_t parts = 1;
-    std::vector<std::string> labels;  ///< the answers offered, in the study's order
+    std::vector<std::string> labels;  ///< the offered answers, in the order of the study
     std::vector<BidsTrial> trials;    ///< familiarisation, training and test, in the order of presentation
     std::vector<BidsThresholdTrial> thresholds;
     std::vector<BidsDrift> drift;

@@ -149,7 +149,7 @@ private:
     }
 
     /// A consent to a version of the form is valid from the first day when that version was in force: for the first
-    /// version the approval's first day, for a later version the amendment's day, or the approval's if it changed too.
+    /// version the approval's first day, for a later one the amendment's day, or a new approval's first day.
     void formInForce(const SessionRow& row, const nlohmann::json& now) {
         const auto fromOf = [](const nlohmann::json& settings) {
             return textOr(valueOr(settings, "approval"), "from");

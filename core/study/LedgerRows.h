@@ -1,19 +1,19 @@
 // LedgerRows.h - the rows of a study's ledger and the state that results from replaying them. The names of rows are
 // defined only here. What a row says about a person is sealed under that person's key.
 //
-//   study, amendment      {settings, sha256, reference}      enrolled  {participant, sealed}
-//   consent               {participant, sealed}              left, withdrawn  {participant, sessions}; withdrawn:
-//   virtual session-begun         {session, file, participant, number, protocol, basis, script_sha256, sealed}
-//   session-part          {session, file, participant, after, head}
-//   session-ended         {session, participant, state, file, head}, "opened": false where its bench could not be
-//   excluded              {participant, sealed}              of that day
-//   next-day              {participant, session, sealed}
-//   went-back             {row, head, at, lost, rows, files, unsealed}   of what was given up; `rows` is empty where
-//                         not known; `unsealed` names rows that were taken over without a "mac"
-//   adverse-event, exported   {session, sealed under the study's key}
+//   study, amendment         {settings, sha256, reference}
+//   enrolled, consent        {participant, sealed}; excluded: the same, for that day
+//   left, withdrawn          {participant, sessions}; withdrawn also has "virtual"
+//   session-begun            {session, file, participant, number, protocol, basis, script_sha256, sealed}
+//   session-part             {session, file, participant, after, head}
+//   session-ended            {session, participant, state, file, head}; "opened" is false if the bench did not open
+//   next-day                 {participant, session, sealed}
+//   went-back                {row, head, at, lost, rows, files, unsealed} about the ledger that was given up; `rows` is
+//                            empty if not known; `unsealed`: names of rows taken over without a "mac"
+//   adverse-event, exported  {session, sealed}, under the study's key
 //
-// Each row has a "mac" over itself and the hash of the row before, made with a subkey of the study's key: it vouches
-// for all rows up to it. Older rows, and rows appended without the key, have none.
+// Each row has a "mac" over itself and the hash of the row before, made with a subkey of the study's key. The "mac"
+// vouches for all rows up to its own. Older rows, and rows appended without the key, have none.
 //
 // Thread-safety: values.
 #pragma once

@@ -76,7 +76,7 @@ struct NextDay {
 [[nodiscard]] Result<SideEffect> sideEffectFrom(std::string_view text);
 
 [[nodiscard]] nlohmann::json toJson(const NextDay& said);
-/// Errors: ParseError, as checkNextDay().
+/// Errors: ParseError; as checkNextDay().
 [[nodiscard]] Result<NextDay> nextDayFrom(const nlohmann::json& json);
 
 }  // namespace tacto

@@ -61,7 +61,7 @@ struct StudySession {
     std::string encoding;
     StudySessionState state = StudySessionState::Unfinished;
     SessionBasis basis = SessionBasis::Person;
-    bool opened = true;            ///< false if the program noted that it could not open the session's bench
+    bool opened = true;            ///< false if it was recorded that its bench could not be opened
     std::vector<StudyPart> parts;  ///< in the order in which they began, at least one
     int answered = 0;              ///< number of rows "answer" in the files
 };
@@ -180,9 +180,9 @@ public:
     [[nodiscard]] bool hasKey() const noexcept;
     /// Hash of the ledger's last row: 64 hexadecimal digits.
     [[nodiscard]] std::string ledgerHead() const;
-    /// Whether such a session has a person's or a virtual participant's figures.
+    /// Returns the basis of such a session's figures: who answers, and whether the devices are simulated.
     [[nodiscard]] static SessionBasis basisOf(const SessionRequest& request, const Participant& who) noexcept;
-    /// The same for this participant: for all their sessions, or for the session that they would begin.
+    /// Returns the same for this participant: for all their sessions, or for the session that they would begin.
     [[nodiscard]] SessionBasis basisOf(const Participant& who) const;
     /// Today's day in UTC, by the clock that dates the ledger's rows.
     [[nodiscard]] CalibrationDate today() const;
@@ -263,7 +263,7 @@ public:
     /// Returns nothing if the participant was not asked, or without the key.
     [[nodiscard]] std::optional<NextDay> nextDay(std::string_view session) const;
     /// Returns the seed of the order in which exports label participants. It is derived from the study's key, so that
-    /// the study folder alone does not reveal who has which label. Always the same. Errors: Unsupported without the
+    /// the study folder alone does not reveal who has which label, and never changes. Errors: Unsupported without the
     /// key.
     [[nodiscard]] Result<std::uint64_t> labelSeed() const;
     /// Number of participants in the first approval, whatever was amended since.

@@ -26,7 +26,7 @@ struct StudyBook {
     Study::Surroundings around;
     StudySettings settings;
     std::optional<StudyLock> lock;
-    std::optional<StudyKeys> keys;  ///< none without the passphrase
+    std::optional<StudyKeys> keys;  ///< not set without the passphrase
     std::optional<Ledger> ledger;   ///< none if opened for reading
     LedgerState known;
 

@@ -21,7 +21,7 @@ struct VerifiedFile {
 struct StudyReport {
     SessionStatus status = SessionStatus::Damaged;  ///< Intact or Damaged
     std::vector<std::string> notes;
-    std::vector<std::string> problems;  ///< of the study as a whole; each session has its own
+    std::vector<std::string> problems;  ///< of the study as a whole; each session's report has its own
     VerifyReport ledger;
     std::vector<VerifiedFile> sessions;
 };

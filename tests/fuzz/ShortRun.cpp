@@ -43,7 +43,7 @@ constexpr int kMisused = 2;
 constexpr std::uint64_t kSeconds = 3;
 constexpr std::uint64_t kInputs = 200'000;
 #else
-// Before a change lands, the address sanitizer's run is the long one.
+// In CI only the run with the address sanitizer is long.
 const auto kSeconds = tacto::test::trials<std::uint64_t>({.local = 1, .ci = 1, .campaign = 30});
 const auto kInputs = tacto::test::trials<std::uint64_t>({.local = 20'000, .ci = 20'000, .campaign = 200'000});
 #endif
