@@ -55,7 +55,7 @@ public:
     void takeNullAsMissing() { nullIsMissing_ = true; }
     void passOverUnknownKeys() { passOver_ = true; }
 
-    /// These do what the same functions of RecordFields do.
+    /// These functions do what the same functions of RecordFields do.
     [[nodiscard]] Result<void> read(const nlohmann::json& object, void* into, const RecordPlace& place) const;
     [[nodiscard]] nlohmann::json write(const void* record) const;
     [[nodiscard]] Result<void> check(const void* record, const RecordPlace& place) const;
@@ -181,7 +181,7 @@ public:
     void passOverUnknownKeys() { table_.passOverUnknownKeys(); }
 
     /// Errors: ParseError naming an unknown or missing key or a value of another type; InvalidArgument naming a value
-    /// that is not accepted; as the rules. After an error `into` may be partly changed.
+    /// that is not accepted; the errors of the rules. After an error `into` may be partly changed.
     [[nodiscard]] Result<void> read(const nlohmann::json& object, Record& into, const RecordPlace& place) const {
         return table_.read(object, &into, place);
     }
@@ -192,7 +192,7 @@ public:
         return record;
     }
     [[nodiscard]] nlohmann::json write(const Record& record) const { return table_.write(&record); }
-    /// Errors: InvalidArgument naming the first value that is not accepted; as the rules.
+    /// Errors: InvalidArgument naming the first value that is not accepted; the errors of the rules.
     [[nodiscard]] Result<void> check(const Record& record, const RecordPlace& place) const {
         return table_.check(&record, place);
     }

@@ -16,7 +16,7 @@ namespace {
 
 constexpr Seconds kBetweenChecks{30};
 constexpr double kChecksAgree = 0.2;  // two checks, 30 s apart, agree within 20 %
-constexpr double kBlocksAgree = 0.3;  // |Z| before a block or on a resume must be within 30 % of the first
+constexpr double kBlocksAgree = 0.3;  // impedance before a block or on a resume: within 30 % of the first
 constexpr int kSkinEnds = 2;          // score of erythema or oedema that ends the session
 constexpr std::chrono::milliseconds kStopIn{10};
 constexpr int kStopTries = 3;  // how often a test is repeated if the other person's STOP is pressed
@@ -254,7 +254,8 @@ Result<void> PilotCare::beforeBlock(int block) {
     return judged != nullptr && flagOr(*judged, "holds") ? Result<void>() : asAtFirst(name);
 }
 
-/// If |Z| differs from the first value, has the electrodes seated again; a ramp then reaches the levels again.
+/// If the impedance differs from the first value, has the electrodes seated again; a ramp then reaches the levels
+/// again.
 Result<void> PilotCare::asAtFirst(const std::string& name) {
     const auto* begun = firstImpedance();
     const double before = begun != nullptr ? numberOr(*begun, "impedance_ohm") : kNaN;

@@ -17,7 +17,7 @@ namespace tacto {
 class PilotCare {
 public:
     /// `stage` must outlive this object. Electrodes that were touched must measure within 30 % of the session's first
-    /// |Z|. A session that is stopped for good still asks for skin and side effects.
+    /// impedance. A session that is stopped for good still asks for skin and side effects.
     explicit PilotCare(PilotStage& stage);
     PilotCare(const PilotCare&) = delete;
     PilotCare& operator=(const PilotCare&) = delete;
@@ -26,7 +26,7 @@ public:
     /// part also asks for the skin before and the electrodes' lot; later parts, whether electrodes or massager were
     /// left untouched. Errors: Stopped with the gate's sentence, when the session has ended.
     [[nodiscard]] Result<void> checklist();
-    /// Checks that |Z| is within 30 % of the session's first value, except with a massager. Errors: as checklist().
+    /// Checks that the impedance is within 30 % of the session's first, except with a massager. Errors: as checklist().
     [[nodiscard]] Result<void> beforeBlock(int block);
     /// Called with a score that ends the session and is an adverse event of the whole study. skin() returns its error.
     std::function<Result<void>(const std::string& moment, int score)> skinReacted;
@@ -48,9 +48,9 @@ private:
     [[nodiscard]] Result<void> massager();
     [[nodiscard]] Result<void> mustHold(const std::string& name, const char* asked, const char* question,
                                         const char* sentence);
-    /// |Z| of the second of two checks that agree; ends the session if they still disagree after the third seating.
+    /// The second of two impedances that agree; ends the session if they still disagree after the third seating.
     [[nodiscard]] Result<double> checkedTwice();
-    /// Records |Z| as `name`; ends the session if |Z| still differs from the first value after the third seating.
+    /// Records the impedance as `name`; ends the session if it still differs from the first after the third seating.
     [[nodiscard]] Result<void> asAtFirst(const std::string& name);
     [[nodiscard]] std::string part() const;
     [[nodiscard]] const nlohmann::json* firstImpedance() const;

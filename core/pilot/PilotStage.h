@@ -71,7 +71,7 @@ public:
 
     /// Presents, asks and records; if the record has the answer, returns that answer.
     [[nodiscard]] Result<StageAnswer> trial(const StageTrial& trial);
-    /// Asks without presenting. `kind`: of the row, which holds key, keys or value, and `rt_s`.
+    /// Asks without presenting. The row, of kind `kind`, holds key, keys or value, and `rt_s`.
     [[nodiscard]] Result<Json> ask(const char* kind, const std::string& name, const PilotPrompt& prompt);
     /// Arms the output. If the session was resumed, first reaches the participant's accepted levels again.
     [[nodiscard]] Result<void> ready() { return output_.ready(); }
@@ -81,7 +81,7 @@ public:
     [[nodiscard]] Result<void> answeredFor(const PilotHold& held);
     /// Asks the participant to hold (letting go stops the output) and waits until they do.
     [[nodiscard]] Result<void> hold();
-    /// Records |Z| as `name`; nothing is armed before or after. NaN if the stimulator reads nothing back.
+    /// Records the impedance as `name`, with nothing armed before or after. NaN if the stimulator reads nothing back.
     [[nodiscard]] Result<double> measureImpedance(const std::string& name) { return output_.measureImpedance(name); }
     /// Sets a function that measures the electrodes, which may have changed. Called before anything is armed after a
     /// fault, a break, a pause or a lost screen, unless they were measured since. Its errors end the trial.
@@ -137,7 +137,7 @@ public:
     /// One step of the output in mA, or as an intensity.
     [[nodiscard]] double step() const;
     [[nodiscard]] StimulusLevel levelOf(double level) const;
-    /// Returns the last measured |Z|; NaN if none is known.
+    /// Returns the last measured impedance in ohms; NaN if none is known.
     [[nodiscard]] double impedance() const noexcept { return output_.impedance(); }
     /// How long trains were given in this and earlier parts.
     [[nodiscard]] Seconds stimulated() const noexcept { return stimulated_; }

@@ -39,7 +39,7 @@ public:
     [[nodiscard]] const nlohmann::json& rangeJson() const noexcept { return rangeRow_; }
     [[nodiscard]] const AscendingResult& limits() const noexcept { return ascending_; }
     [[nodiscard]] const std::optional<PersonalRangeResult>& found() const noexcept { return range_; }
-    /// Posterior mean of the detection threshold; NaN without one.
+    /// Posterior mean of the detection threshold; NaN without an estimate.
     [[nodiscard]] double estimate() const noexcept { return estimate_.value; }
     /// The levels that detection and drift trials may use; set by detection().
     [[nodiscard]] const std::optional<LevelGrid>& grid() const noexcept { return detectionGrid_; }

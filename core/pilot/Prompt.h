@@ -95,7 +95,7 @@ struct PilotScreen {
     int blocks = 0;     ///< blocks in the test
     int trial = 0;      ///< number of the trial within the phase, for the operator; 0: none
     int trials = 0;
-    double impedance_ohm = kNaN;   ///< |Z| from a measurement before the block, not from a train; NaN: not measured
+    double impedance_ohm = kNaN;   ///< impedance measured before the block, not by a train; NaN: not measured
     int interval = 0;              ///< state Interval: 1 or 2; 0: before, between or after the two intervals
     std::string named;             ///< state Named: the name of what is or was felt
     std::optional<bool> right;     ///< training: true if the answer was right

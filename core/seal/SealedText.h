@@ -33,7 +33,7 @@ inline constexpr std::size_t kChunkBlock = 4096;
                                                        std::span<const std::byte> sealed);
 
 [[nodiscard]] std::string base64Text(std::span<const std::byte> bytes);
-/// Errors: ParseError.
+/// Decodes base64. Errors: ParseError.
 [[nodiscard]] Result<std::vector<std::byte>> bytesOfBase64(std::string_view text);
 
 /// Seals and opens texts, with kTextBlock.

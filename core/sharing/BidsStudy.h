@@ -25,14 +25,14 @@ struct BidsTrial {
     Volts voltage{kNaN};      ///< at `impedance`
     Ohms impedance{kNaN};     ///< the last measurement before the trial
     double detection = kNaN;  ///< mA, or a massager's intensity
-    bool adapted = false;     ///< the trial's block may have a weakest level that is no longer felt
+    bool adapted = false;     ///< the weakest level of the trial's block may not be felt any more
     BurstFigures vibration;   ///< what a massager did; NaN if not measured
 };
 
 /// One presentation of a threshold procedure.
 struct BidsThresholdTrial {
     std::size_t number = 0;
-    std::string procedure{};  ///< "ascending", "detection", "range", "comparison", "drift"
+    std::string procedure{};  ///< "ascending", "detection", "range", "comparison" or "drift"
     std::size_t series = 0;   ///< number of the ascending series, or of the block after a drift check; 0: none
     /// "stimulus" or "catch"; with two intervals, the interval with the (stronger) train: "first" or "second"
     std::string type{};

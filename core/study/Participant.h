@@ -70,8 +70,8 @@ inline constexpr std::string_view kVirtualPrefix = "virtual:";
 /// Returns the check character of letters and digits (upper case), or nothing if there is any other character.
 [[nodiscard]] std::optional<char> checkCharacter(std::string_view lettersAndDigits) noexcept;
 
-// Whether the figures of a session come from people and real devices. This is recorded when the session begins, and
-// every count, figure, name and sentence about the session states it; different kinds are never counted together.
+// Who answered in a session, and whether the devices were real. This is recorded when the session begins, and every
+// count, figure, name and sentence about the session states it; different kinds are never counted together.
 
 enum class SessionBasis {
     Person,           ///< a person on real devices

@@ -39,7 +39,7 @@ struct StudyFiles {
 [[nodiscard]] Result<void> draftStudy(const StudyFiles& files, std::string_view text);
 /// Replaces study.json with the draft. Errors: Io.
 [[nodiscard]] Result<void> publishStudy(const StudyFiles& files);
-/// Reads study.json, or its draft if that has the hash `sha256`: the program was killed before publishStudy().
+/// Reads study.json; if the draft has the hash `sha256` (the program was killed before publishing), reads the draft.
 [[nodiscard]] Result<std::string> readStudy(const StudyFiles& files, std::string_view sha256);
 
 /// Whether `path` lies in `folder` once all links are followed.

@@ -1,10 +1,10 @@
 // StudyKeys.h - the keys of a study: the study's own key, and one key with a code for each participant.
 //
-// They lie in one file outside the study's folder, sealed under a passphrase, mode 0600; a file that others may read,
-// or a folder that others may write to, is refused (isOwnFile()). The opened content is binary, so that no key passes
-// through a parser: 32 bytes of the study's key; 80 bytes about the ledger's end (8 of the row, 8 of its time, both
-// with the low byte first, 64 digits of its hash; not in version 1); then 80 bytes for each participant (16 of the id,
-// 32 of the code, 32 of the key). A rehearsal's file has no passphrase and states that it is not secret.
+// The keys lie in one file outside the study's folder, sealed under a passphrase, mode 0600; a file that others may
+// read, or a folder that others may write to, is refused (isOwnFile()). The opened content is binary, so that no key
+// passes through a parser: 32 bytes of the study's key; 80 bytes about the ledger's end (8 of the row, 8 of its time,
+// both with the low byte first, 64 digits of its hash; not in version 1); then 80 bytes for each participant (16 of the
+// id, 32 of the code, 32 of the key). A rehearsal's file has no passphrase and states that it is not secret.
 //
 // Every change writes a new file in place of the old one and overwrites the old file's bytes.
 //

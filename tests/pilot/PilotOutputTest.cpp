@@ -182,7 +182,7 @@ TEST_F(PilotOutputTest, ABreakNowSwitchesOffAtOnceAndTheTrialIsRepeatedAfterIt) 
 TEST_F(PilotOutputTest, ABenchThatIsPausedIsWaitedForAndTheTrialIsRepeatedHoweverOften) {
     RecordProperty("hazard", "H2");
     reachOne();
-    constexpr int kPauses = 6;  // more than the number of presentations in a row that may be late
+    constexpr int kPauses = 6;  // more than may be late in a row
     int paused = 0;
     std::jthread resumes;
     someone_.onShow = [&] {

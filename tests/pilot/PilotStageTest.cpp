@@ -76,7 +76,7 @@ TEST_F(PilotStageTest, TheIntervalsOfADetectionTrialAreMarkedAlikeWhicheverHolds
             const auto& screen = someone_.shown.back();
             if (screen.state != ScreenState::Interval) return;
             const double now_s = toSeconds(clock_->now());
-            if (marks.size() <= 1) first_s = now_s;  // counted from interval 1: the wait before it is random
+            if (marks.size() <= 1) first_s = now_s;  // the wait before interval 1 is random
             marks.push_back({screen.interval, marks.empty() ? 0 : now_s - first_s});
         };
         ASSERT_TRUE(stage_->trial(made));

@@ -203,7 +203,7 @@ TEST_F(Labels, OfAProgramThatIsKilledAreWholeOrNotThere) {
         EXPECT_TRUE(reader->checkChain());
         EXPECT_EQ(verifySession(path)->status, SessionStatus::Intact);
         const auto note = reader->labels()->note;
-        if (note == fmt::format("note {}", acknowledged + 1)) ++acknowledged;  // killed before it could tell
+        if (note == fmt::format("note {}", acknowledged + 1)) ++acknowledged;  // killed before it reported this
         EXPECT_EQ(note, acknowledged == 0 ? "" : fmt::format("note {}", acknowledged));
         kept = acknowledged;
     }

@@ -211,7 +211,7 @@ TEST(Gates, EveryItemOfTheChecklistIsAnsweredWithNo) {
         std::ranges::find(answers, item.key, &ExclusionAnswer::key)->yes = true;
         const auto gate = exclusionGate(answers);
         ASSERT_THAT(gate, test::refused(kGateRefused)) << item.key;
-        // The message does not say which item it was.
+        // The message does not say which item was answered "yes".
         EXPECT_EQ(gate.error().message.find(item.key), std::string::npos);
         std::erase_if(answers, [&](const auto& answer) { return answer.key == item.key; });
         EXPECT_EQ(exclusionGate(answers).error().code, kGateRefused) << item.key;

@@ -95,7 +95,7 @@ TEST_F(WithStudyFolder, TheKeyFileIsItsOwnersAloneAndSealed) {
     EXPECT_EQ(about.st_mode & 0777, 0600U);
     const auto text = textOf(keyFile());
     EXPECT_EQ(text.find(code), std::string::npos);
-    EXPECT_EQ(text.find("limit"), std::string::npos);  // no file may choose the cost of a guess
+    EXPECT_EQ(text.find("limit"), std::string::npos);  // the key file does not set the cost of a guess
 }
 
 // When keys are written again, the file behind a link would keep its bytes: a withdrawal would destroy nothing.
