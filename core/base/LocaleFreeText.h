@@ -81,7 +81,7 @@ template <std::integral T>
     return value;
 }
 
-// Names that may be given only once, such as a key or an option: finds a repeated name and writes the error.
+// Names that may be given only once, such as a key or an option: find a repeated name, and word the error.
 
 /// Returns the first of `values` with the same projection as an earlier value; null if all differ.
 template <class Values, class Projection = std::identity>

@@ -41,7 +41,7 @@ struct StreamInfo {
 /// steady reading then does not allocate.
 struct SampleBlock {
     std::vector<double> t_s;     ///< time stamps, seconds on the session's time base, one per sample
-    std::vector<double> values;  ///< sample i, channel c at [i * channels + c]; in SI units or counts
+    std::vector<double> values;  ///< sample i, channel c is at [i * channels + c]; in SI units or counts
 
     [[nodiscard]] std::size_t samples() const noexcept { return t_s.size(); }
     void clear() noexcept {

@@ -254,8 +254,7 @@ Result<void> PilotCare::beforeBlock(int block) {
     return judged != nullptr && flagOr(*judged, "holds") ? Result<void>() : asAtFirst(name);
 }
 
-/// If the impedance differs from the first value, has the electrodes seated again; a ramp then reaches the levels
-/// again.
+/// If the impedance differs from the first, has the electrodes seated again; a ramp then reaches the levels again.
 Result<void> PilotCare::asAtFirst(const std::string& name) {
     const auto* begun = firstImpedance();
     const double before = begun != nullptr ? numberOr(*begun, "impedance_ohm") : kNaN;

@@ -116,7 +116,7 @@ inline constexpr std::size_t kAnswerWays = 8;
 /// `way` must be below kAnswerWays.
 [[nodiscard]] std::vector<std::string> answersIn(std::size_t way);
 
-// Prompts with fixed texts, which people read as they stand here.
+// Prompts with fixed texts.
 [[nodiscard]] PilotPrompt holdPrompt();
 [[nodiscard]] PilotPrompt strengthPrompt();
 [[nodiscard]] PilotPrompt intervalPrompt();

@@ -80,7 +80,7 @@ std::string VirtualPilotParticipant::answerTo(const PilotPrompt& prompt) const {
         case PromptKind::Choice:
             if (prompt.name == "naturalness")
                 return std::string(nameOf(observer_.rate(key, felt_.level, felt_.stimulated).naturalness));
-            if (prompt.name.starts_with(row::kEncodings)) return row::kNoDifference;  // cannot compare encodings
+            if (prompt.name.starts_with(row::kEncodings)) return row::kNoDifference;  // it compares no encodings
             // Prefers "go on" at any place in the list: nothing is felt a second time.
             if (std::ranges::find(prompt.targets, "go-on", &PromptTarget::key) != prompt.targets.end()) return "go-on";
             return prompt.targets.empty() ? "" : prompt.targets.front().key;

@@ -128,7 +128,7 @@ TEST(InTime, OfATestThatFailedWhileTheMachineStoodStillOnlyDeadlinesAreTriedAgai
     EXPECT_EQ(exitCodeOf("AnInvariant"), 1) << "it failed once: that is final";
 }
 
-#ifndef TACTOSCOPE_SANITIZED  // sanitized programs have no patient clock
+#ifndef TACTOSCOPE_SANITIZED  // sanitized programs lack PatientClock.cpp
 double machine_ms() {
     std::timespec at{};
     ::syscall(SYS_clock_gettime, CLOCK_MONOTONIC, &at);
