@@ -1,7 +1,7 @@
 // LargeReserve.h - room for many elements that are about to be filled.
 //
 // The first access to a page of memory causes a fault, which takes several microseconds on a virtual machine; for 64 MB
-// that is more than the later work on them. If the kernel offers huge pages (Linux, "madvise" or "always" in
+// this takes longer than the later work on the data. If the kernel offers huge pages (Linux, "madvise" or "always" in
 // /sys/kernel/mm/transparent_hugepage/enabled), this asks for them, with one fault for 512 pages. Otherwise
 // reserveLarge() is the same as reserve().
 //

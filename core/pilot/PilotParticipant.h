@@ -21,8 +21,8 @@ namespace tacto {
 /// One presentation as approved and delivered. A virtual participant feels it; a window ignores it. After a resume the
 /// session repeats the presentations of earlier parts, so that what was learned is known.
 struct FeltPresentation {
-    double level = 0;     ///< from onset to onset
-    Seconds interval{0};  ///< onset to onset
+    double level = 0;     ///< mA, or a massager's intensity (0 to 1); 0: an empty presentation
+    Seconds interval{0};  ///< from onset to onset
     double weaker = 0;    ///< in a comparison, the other of its two levels; else 0
     int inInterval = 0;   ///< interval (1 or 2) of a detection trial's train or of the stronger train; else 0
     std::string named;    ///< familiarisation: the key of the condition named on the screen; else empty

@@ -4,8 +4,8 @@
 // A step that has an answer in the record does not happen again. ready() arms the output, which stays armed until
 // rest(), a break, a stop or a fault, or until the participant's window has lacked the keyboard for too long.
 //
-// Errors of all calls: Stopped when the session ended or was interrupted (end() says which); Io when a row cannot be
-// written, which comes before any train; LimitExceeded and Device as the bench's.
+// Errors of all calls: Stopped when the session ended or was interrupted (see ended()); Io when a row cannot be
+// written, always before a train; LimitExceeded and Device as the bench.
 //
 // Thread-safety: one caller, the session's thread; any thread may call the participant's `stop`.
 #pragma once

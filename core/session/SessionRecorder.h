@@ -1,4 +1,4 @@
-// SessionRecorder.h - records for a control loop, which never has to wait for a disk.
+// SessionRecorder.h - records the data of a control loop, which never has to wait for a disk.
 //
 // On the steady clock each call copies fixed-size records to a ring, without blocking or allocating; the recorder's own
 // thread writes them to the session. On a virtual clock the same calls write at once, on the caller's thread, so that

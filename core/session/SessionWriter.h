@@ -5,8 +5,8 @@
 // session's clock, and together with every row named before; another thread writes them to disk. On a virtual clock the
 // commits of each second survive kill -9, but survive power loss only after the next acknowledged row. Nothing is lost
 // silently: the call that meets a disk error and every later call return it, and failed() reports it.
+//
 // With a virtual clock the same calls write the same rows and chunks on every machine.
-// With a virtual clock the same calls write the same rows and chunks, whatever the machine.
 //
 // Thread-safety: any thread; a mutex lets one call in at a time. Calls may block for a disk write: a control loop on
 // the steady clock uses SessionRecorder instead.
