@@ -29,10 +29,10 @@ inline constexpr Word<InstrumentKind> kInstrumentKinds[] = {
 
 struct InstrumentPreset {
     InstrumentKind kind = InstrumentKind::Oscilloscope;
-    std::string name;            ///< chosen by the laboratory; unique within its kind
-    std::string serial;          ///< may be empty
-    std::string address;         ///< only for oscilloscopes: "sigrok:rigol-ds:conn=...?voltage=CH1&current=CH2"
-    std::optional<double> ohms;  ///< only for shunts
+    std::string name;                    ///< chosen by the laboratory; unique within its kind
+    std::string serial;                  ///< may be empty
+    std::string address;                 ///< only for oscilloscopes: "sigrok:rigol-ds:conn=...?voltage=CH1&current=CH2"
+    std::optional<double> ohms;          ///< only for shunts
     std::optional<double> accuracy_pct;  ///< half-width: gain of an oscilloscope, tolerance of a shunt or probe
     std::optional<double> timeBase_ppm;  ///< half-width; only for oscilloscopes
     std::optional<CalibrationDate> due;  ///< last day of its certificate; nothing: figures from a data sheet

@@ -92,12 +92,11 @@ struct StepTelemetry {
 
     bool uncalibratedStimulator = false;  ///< true if a stimulator is open that no valid calibration covers
     double trainAmplitude = NAN;          ///< programmed amplitude of the last train, V or mA depending on its drive
-    std::array<ProgrammedTrain, 16>
-        programmed{};                   ///< the last trains, in any order; an empty place has no amplitude
-    MeasuredOutput measured;            ///< largest of the last 5 s, from trains since arming
-    std::uint64_t trainsDelivered = 0;  ///< trains, or bursts of a massager
-    std::uint64_t trainsRefused = 0;    ///< trains that the limits refused
-    std::uint64_t trainsSkipped = 0;    ///< trains skipped because sensor data were stale or missing
+    std::array<ProgrammedTrain, 16> programmed{};  ///< the last trains, in any order; an empty place has no amplitude
+    MeasuredOutput measured;                       ///< largest of the last 5 s, from trains since arming
+    std::uint64_t trainsDelivered = 0;             ///< trains, or bursts of a massager
+    std::uint64_t trainsRefused = 0;               ///< trains that the limits refused
+    std::uint64_t trainsSkipped = 0;               ///< trains skipped because sensor data were stale or missing
     FixedText<200> lastRefusal;
     std::uint64_t samplesLost = 0;  ///< ring overflows since the start
     std::uint64_t gaps = 0;         ///< gaps found in the sensor streams

@@ -132,9 +132,9 @@ struct SignalQuality {
     double snr_db = kNotMeasured;  ///< largest state over the noise, as measured (averaged); infinite if no noise
     std::size_t mean = 1;          ///< samples averaged into one before the measurement
     std::size_t meanOfSecond = 1;  ///< samples averaged into one for the shallower side of biphasic pulses
-    double foundStep = 0;   ///< converter's step, found in the samples if none is stated; 0 = none found
-    std::size_t leaps = 0;  ///< single samples far from both neighbours, which were left out
-    double drift = 0;       ///< peak-to-peak drift of a baseline that was followed; 0 = no drift
+    double foundStep = 0;          ///< converter's step, found in the samples if none is stated; 0 = none found
+    std::size_t leaps = 0;         ///< single samples far from both neighbours, which were left out
+    double drift = 0;              ///< peak-to-peak drift of a baseline that was followed; 0 = no drift
     double unrest = 0;      ///< standard deviation of a moving baseline that could not be followed, or its deviation
                             ///< just outside the pulses
     double levelAfter = 0;  ///< signal level after its pulses minus the level before, if noise seems to hide a second

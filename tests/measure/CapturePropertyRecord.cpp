@@ -860,8 +860,7 @@ CaptureDraw drawCapture(CaptureKind kind, std::uint64_t seed) {
     const bool converted = kind == CaptureKind::Onsets || kind == CaptureKind::Edge || kind == CaptureKind::Moving ||
                            kind == CaptureKind::Quiet;
     if (!converted) drawConverter(dice, plan);
-    if (kind == CaptureKind::Clipped && plan.unit.phases.size() == 1)
-        plan.offset = 0;  // keeps the rest of its height
+    if (kind == CaptureKind::Clipped && plan.unit.phases.size() == 1) plan.offset = 0;  // keeps the rest of its height
     if (kind == CaptureKind::Clipped) draw.mustWarn = drawClipping(dice, plan);
     if (kind == CaptureKind::Disturbed) drawDisturbances(dice, plan);
     if (kind == CaptureKind::Drifting) drawDrift(dice, plan);

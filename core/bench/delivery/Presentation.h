@@ -31,7 +31,7 @@ using StimulusLevel = std::variant<Milliamps, VibrationIntensity>;
 struct Presentation {
     StimulusLevel level = Milliamps(0);  ///< level of every train; with `levels`, the highest of them
     std::vector<Seconds> onsets{};       ///< from the beginning, ascending, at least `interval` apart; 1 to kMaxTrains
-    Seconds interval{0};   ///< > 0; the shortest time to the next train, used to judge each train
+    Seconds interval{0};                 ///< > 0; the shortest time to the next train, used to judge each train
     Seconds duration{0};   ///< the whole presentation, at least kTail after the last onset, at most kLongest
     Instant notBefore{0};  ///< on the bench's clock: begins then, or later once the bench is ready
     std::vector<StimulusLevel> levels{};  ///< one per onset, none of them 0; if empty, all trains use `level`

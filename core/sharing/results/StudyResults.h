@@ -49,7 +49,7 @@ struct StudyRecord {
     std::string ledgerHead;
     std::vector<StudyAmendment> amendments;
     std::vector<StudyGoingBack> goingsBack;
-    std::vector<ParticipantRecord> participants;  ///< in the order of enrolment; no sessions if withdrawn
+    std::vector<ParticipantRecord> participants;               ///< in the order of enrolment; no sessions if withdrawn
     std::vector<std::pair<std::string, AdverseEvent>> events;  ///< session id, event
     std::map<std::string, SessionBasis> bases;  ///< for each session id, including sessions of withdrawn participants
 };

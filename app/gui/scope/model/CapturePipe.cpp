@@ -151,8 +151,7 @@ void CapturePipe::save(const ShownPtr& shown, double from_s, double to_s, const 
 
 namespace {
 
-constexpr double kCrossingReach =
-    1;  ///< samples: how precisely an oscilloscope states its trigger
+constexpr double kCrossingReach = 1;  ///< samples: how precisely an oscilloscope states its trigger
 constexpr double kSameMoment = 1e-3;  ///< share of a sample within which two moments are the same
 
 /// Returns where |signal| rises through `level` nearest to `stated`, in samples from the start of the record.
