@@ -11,7 +11,7 @@ namespace {
 constexpr std::array kFigures{int(Qt::Key_1), int(Qt::Key_2), int(Qt::Key_3), int(Qt::Key_4), int(Qt::Key_5),
                               int(Qt::Key_6), int(Qt::Key_7), int(Qt::Key_8), int(Qt::Key_9), int(Qt::Key_0),
                               int(Qt::Key_Q), int(Qt::Key_W), int(Qt::Key_E), int(Qt::Key_R), int(Qt::Key_T)};
-// Two columns of three, as the targets of a trial lie. The same places on QWERTY and QWERTZ.
+// Two columns of three keys, laid out like the targets of a trial; the same places on QWERTY and QWERTZ keyboards.
 constexpr std::array kLeftHand{int(Qt::Key_W), int(Qt::Key_E), int(Qt::Key_S),
                                int(Qt::Key_D), int(Qt::Key_X), int(Qt::Key_C)};
 constexpr std::array kRightHand{int(Qt::Key_U), int(Qt::Key_I), int(Qt::Key_J),

@@ -1,8 +1,8 @@
-// AnswerKeys.h - which key answers which target: the figures, or six keys under the left or the right hand that lie as
-// the targets do.
+// AnswerKeys.h - which key answers which target: the digit keys, or six keys under the left or right hand, laid out
+// like the targets.
 //
-// A set for one hand is for prompts of at most six targets; longer lists always take the figures. A scale takes the
-// figure of its value, and T for ten. No key that stops (Space, Esc, Pause) and none that presses buttons is in a set.
+// The six keys of a hand serve prompts of at most six targets; longer lists always use the digits. A scale uses the
+// digit of the value, and T for ten. No set contains a key that stops (Space, Esc, Pause) or presses buttons.
 //
 // Thread-safety: values.
 #pragma once
@@ -24,7 +24,7 @@ class AnswerKeys {
 public:
     AnswerKeys() = default;
     AnswerKeys(KeySet set, const PilotPrompt& prompt);
-    /// The text on the target, counted from 0; empty where it has no key.
+    /// Returns the key's label for the target, counted from 0; empty if the target has no key.
     [[nodiscard]] QString text(int target) const;
     /// The target that this Qt::Key answers; nothing for every other key.
     [[nodiscard]] std::optional<int> targetOf(int key) const;
@@ -33,13 +33,13 @@ private:
     std::vector<int> keys_;  ///< the key of each target
 };
 
-/// How many targets the prompt shows: its own, or one for each value of a scale, or one to hold.
+/// Returns the number of targets shown: the prompt's own, one for each value of a scale, or one to hold.
 [[nodiscard]] int targetCount(const PilotPrompt& prompt);
 
-/// Keys and buttons that went down while no target was there: while still held they do not answer.
+/// Remembers keys and buttons that went down before any target was shown; while still held they do not answer.
 class EarlierPresses {
 public:
-    /// Whether a press is one that went down before: marked as `repeated`, or too soon after the last for another.
+    /// True if the key was already down: the press is marked as `repeated`, or follows the last press too soon.
     [[nodiscard]] bool isHeld(int code, SteadyTime at, bool repeated) {
         const auto before = last_.find(code);
         const bool held = repeated || (before != last_.end() && at - before->second < kRepeats);
@@ -51,7 +51,7 @@ public:
     void clear() { last_.clear(); }
 
 private:
-    static constexpr std::chrono::milliseconds kRepeats{150};  // X does not mark every press of a held key as repeated
+    static constexpr std::chrono::milliseconds kRepeats{150};  // X does not mark every repeat of a held key as repeated
     std::map<int, SteadyTime> last_;
 };
 

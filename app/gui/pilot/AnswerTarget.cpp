@@ -12,15 +12,15 @@ namespace tacto::gui {
 namespace {
 
 constexpr double kRadius = 8, kKeyRadius = 4, kEdge = 2;
-constexpr double kIconShare = 1.75;  // the icon's size over the words' size
+constexpr double kIconShare = 1.75;  // icon size divided by word size
 constexpr double kPadShare = 0.9;
-constexpr double kBetweenCaps = 0.4;  // the gap between key caps over a key's size
+constexpr double kBetweenCaps = 0.4;  // gap between key caps divided by key size
 constexpr int kMinText_px = 11;
 
 }  // namespace
 
 AnswerTarget::AnswerTarget(QWidget* parent) : QAbstractButton(parent) {
-    setFocusPolicy(Qt::NoFocus);  // the window has the keys
+    setFocusPolicy(Qt::NoFocus);  // the window handles the keys
     setAttribute(Qt::WA_AcceptTouchEvents);
 }
 
@@ -57,15 +57,15 @@ QFont AnswerTarget::wordFont(int px) const {
 
 int AnswerTarget::keyPx() const { return std::max(kMinText_px, std::min(key_px_, height() / 5)); }
 
-/// The width of a key's cap or a button's circle.
+/// Returns the width of a key's cap or of a button's circle.
 int AnswerTarget::capWide(const QString& of) const {
     auto font = textFont(TextSize::Body);
     font.setPixelSize(keyPx());
     return of.isEmpty() ? 0 : std::max(int(keyPx() * 1.6), QFontMetrics(font).horizontalAdvance(of) + keyPx() / 2);
 }
 
-/// The room that the words leave on a side, with the margin; 0 where there is none. Below words that stand in the
-/// middle the key is at the right and the button at the left, so that the words stay as large as with the key alone.
+/// Returns the width that the words leave free on one side, with the margin; 0 if there is no key or button. If words
+/// are centred, the key is on the right and the button on the left, so the words stay as large as with the key alone.
 int AnswerTarget::capsWide() const {
     if (key_.isEmpty() && button_.isEmpty()) return 0;
     const int margin = keyPx() * 7 / 10;
@@ -85,12 +85,12 @@ int AnswerTarget::fittingPx() const {
         const int icons = icons_.isEmpty() || !row ? 0 : int(px * kIconShare) + pad / 2;
         const int cap = row ? capsWide() : 0;
         const int high = metrics.height() + (row || icons_.isEmpty() ? 0 : int(px * (kIconShare + 0.9)));
-        // Words that reach down to the key stand beside it, not under it.
+        // If the words reach down to the key, they are placed next to the key, not above it.
         const bool low = !row && capsWide() > 0 && (height() + high) / 2 > height() - int(keyPx() * 2.3);
         const int beside = low ? 2 * (capsWide() + keyPx() / 10) : 2 * pad;
         const bool wide = metrics.horizontalAdvance(text()) + icons + cap + beside <= width();
         if (wide && high <= height() - 8) return px;
-        // Beside the key there may be two lines, before letters get small.
+        // Next to the key, words wrap to two lines before their letters get small.
         const int room = width() - icons - cap - 2 * pad;
         if (row && wrapped(metrics, room).width() <= room && wrapped(metrics, room).height() <= height() - 8) return px;
     }
@@ -109,7 +109,7 @@ QSize AnswerTarget::minimumSizeHint() const {
 bool AnswerTarget::event(QEvent* event) {
     if (event->type() == QEvent::TouchBegin) {
         emit wentDown(timeOf(*static_cast<QTouchEvent*>(event)));
-        event->accept();  // so that the mouse makes no press of it
+        event->accept();  // so that the mouse does not report the same press again
         return true;
     }
     if (event->type() == QEvent::TouchEnd || event->type() == QEvent::TouchCancel) {

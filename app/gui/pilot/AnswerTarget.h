@@ -1,5 +1,5 @@
-// AnswerTarget.h - one answer on the participant's screen: large, with its key and, in a circle, the button of a pad,
-// taken the moment a press goes down on it, by mouse or finger.
+// AnswerTarget.h - one large answer on the participant's screen, with its key and, in a circle, its game-pad button. A
+// press by mouse or finger answers when it goes down.
 #pragma once
 
 #include <QAbstractButton>
@@ -16,22 +16,21 @@ namespace tacto::gui {
 class AnswerTarget final : public QAbstractButton {
     Q_OBJECT
 public:
-    /// Words below their icons, or to the right of them.
+    /// Stacked: words below their icons. Row: words to the right of their icons.
     enum class Shape { Stacked, Row };
     explicit AnswerTarget(QWidget* parent);
     /// `key` and `button` may be empty. setType() sets the sizes.
     void setContent(const QString& words, const QStringList& icons, const QString& key, const QString& button,
                     Shape shape);
     [[nodiscard]] const QString& button() const { return button_; }
-    /// Pixels of the words and of the key; words shrink where the target is too narrow for them.
+    /// Sets the size in pixels of the words and of the key; words shrink if the target is too narrow.
     void setType(int words_px, int key_px);
-    /// The largest pixels of the words for which it has room, setType()'s at most.
+    /// Returns the largest word size in pixels that fits, at most the size given to setType().
     [[nodiscard]] int fittingPx() const;
-    /// Until the next setType() words are no larger than this: the smallest of the targets that stand beside each
-    /// other.
+    /// Limits the word size until the next setType(), so that neighbouring targets all use their smallest size.
     void limitWords(int px);
     [[nodiscard]] int wordsPx() const { return std::min(fittingPx(), most_px_); }
-    /// The smallest size that the words may get.
+    /// Returns the size needed for the smallest words.
     [[nodiscard]] QSize minimumSizeHint() const override;
     [[nodiscard]] QSize sizeHint() const override { return minimumSizeHint(); }
 
@@ -54,7 +53,7 @@ private:
     [[nodiscard]] int capsWide() const;
     void paintCaps(QPainter& painter) const;
     [[nodiscard]] int leastPx() const;
-    /// The words' size where lines are as long as `room`.
+    /// Returns the size of the words when wrapped to lines of width `room`.
     [[nodiscard]] QSize wrapped(const QFontMetrics& metrics, int room) const;
     QStringList icons_;
     QString key_, button_;

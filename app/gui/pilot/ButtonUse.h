@@ -1,4 +1,4 @@
-// ButtonUse.h - what a button of a game pad or a foot switch does for the person whom the device is assigned to.
+// ButtonUse.h - what a button of a game pad or foot switch does for the person to whom the device is assigned.
 //
 // Thread-safety: values and pure functions.
 #pragma once
@@ -15,46 +15,46 @@ namespace tacto::gui {
 struct ButtonUse {
     enum class Does { Nothing, Stop, Hold, Answer };
     Does does = Does::Nothing;
-    int answer = 0;  ///< for Answer: the target's number on the screen, from 1
+    int answer = 0;  ///< for Answer: the number of the target on the screen, from 1
 
     bool operator==(const ButtonUse&) const = default;
 };
 
-inline constexpr int kMaxAnswers = 6;  ///< answers to a question that buttons can give
+inline constexpr int kMaxAnswers = 6;  ///< most answers to a question that can be given by buttons
 
-/// The usual use of a device's buttons, by their number, until the operator says otherwise: one pedal is STOP; of two
-/// the first holds; of up to five the last is STOP; of more the fifth and sixth are STOP, the shoulder buttons of a
-/// game pad, and the two after them hold.
+/// Returns the default use of each button, until the operator changes it. One button (a pedal): STOP. Two: the first
+/// holds. Three to five: the last is STOP. More: the fifth and sixth (the shoulder buttons of a game pad) are STOP, and
+/// the next two hold.
 [[nodiscard]] std::vector<ButtonUse> usualUses(std::size_t buttons);
 
-/// A device and its person for one session.
+/// A device, and the person who uses it, for one session.
 struct SeatedDevice {
     ButtonDeviceInfo device;
     PromptTo whose = PromptTo::Participant;  ///< Participant or Operator
     std::vector<ButtonUse> uses;             ///< one for each button
-    /// Answers 1 to n are all on the device.
+    /// Returns the largest n for which the device has buttons for all answers 1 to n.
     [[nodiscard]] int answers() const;
 };
 
-/// The text on the targets that the participant's device reaches: the numbers of its buttons.
+/// The button numbers written on the targets that the participant's device can answer.
 struct ButtonLabels {
-    QStringList answers;  ///< the buttons for answer 1 to n; together they reach every answer
-    QString hold;         ///< empty where none holds
-    QStringList stops;    ///< on the first device with a STOP; a device with one button is a pedal, and has no number
+    QStringList answers;  ///< the buttons for answers 1 to n; they may be on one device only
+    QString hold;         ///< empty if no button holds
+    QStringList stops;    ///< the STOP buttons of the first device with a STOP; a pedal (one button) has no number
 };
-/// The labels belong to the participant's device with the most answers; the button that holds may be on another.
+/// Returns the labels for the participant's device with the most answers; the hold button may be on another device.
 [[nodiscard]] ButtonLabels labelsOf(const std::vector<SeatedDevice>& seats);
 
-/// The target that each of the participant's buttons answers, and what is written on it. Buttons answer a question only
-/// where they reach all its targets: targets that they do not reach would be chosen less. They answer no scale and no
-/// question with several answers.
+/// The target that each of the participant's buttons answers, and the label on that target. Buttons answer a question
+/// only if they reach all its targets: targets without a button would be chosen less often. Buttons answer no scale and
+/// no question with several answers.
 struct AnswerButtons {
-    int reached = 0;  ///< answers 1 to this have a button
+    int reached = 0;  ///< answers 1 to `reached` have a button
     ButtonLabels labels;
 
-    /// The target, from 0, of answer 1 to n.
+    /// Returns the target, counted from 0, of answers 1 to n.
     [[nodiscard]] std::optional<int> targetOf(int answer, const PilotPrompt& prompt) const;
-    /// The label of each target; empty where buttons do not answer.
+    /// Returns the label of each target; empty if buttons cannot answer the prompt.
     [[nodiscard]] QStringList textsFor(const PilotPrompt& prompt) const;
 };
 

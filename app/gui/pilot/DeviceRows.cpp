@@ -23,7 +23,7 @@ void fill(QComboBox& box, const std::vector<DeviceIdentity>& present, Role role)
     }
 }
 
-/// Keeps the earlier choice while it is still offered; nothing takes its place.
+/// Keeps the earlier choice while it is still offered; otherwise chooses nothing.
 void chooseAgain(QComboBox& box, const QVariant& before) {
     const int at = before.isValid() ? box.findData(before) : -1;
     auto* items = qobject_cast<QStandardItemModel*>(box.model());

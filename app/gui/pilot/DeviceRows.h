@@ -1,8 +1,8 @@
-// DeviceRows.h - rows of a form: the device that a session delivers with, of those that are plugged in, and with a
-// massager the sensor board on its motor.
+// DeviceRows.h - form rows to choose the connected device that a session delivers with and, for a massager, the sensor
+// board on its motor.
 //
-// The gates of a study (pilot.md, section 3) decide what may deliver: the simulated bench for a virtual participant and
-// in a rehearsal; a device for a person, in a rehearsal a massager alone.
+// The rules of a study (pilot.md, section 3) decide what may deliver. Virtual participants and rehearsals use the
+// simulated bench; a person is given a real device, and in a rehearsal only a massager.
 #pragma once
 
 #include <QComboBox>
@@ -17,14 +17,14 @@ namespace tacto::gui {
 class DeviceRows final : public QObject {
     Q_OBJECT
 public:
-    /// fields() are to be shown in `form` before anything else is called. `watch` outlives them.
+    /// Show fields() in `form` before any other call. `watch` must outlive these rows.
     DeviceRows(FieldForm& form, const DeviceWatch& watch);
     [[nodiscard]] std::vector<FormField> fields() const;
-    /// Afresh: for a person, or for a virtual participant.
+    /// Lists the devices anew, for a person or for a virtual participant.
     void offer(const StudySettings& study, bool person);
-    /// None while one is missing.
+    /// Returns the chosen devices; none while one is missing.
     [[nodiscard]] std::vector<DeviceUri> chosen() const;
-    /// Why none is chosen, a sentence; empty where one is.
+    /// Returns a sentence that says why no device is chosen; empty if one is chosen.
     [[nodiscard]] QString missing() const;
 
 signals:
@@ -40,8 +40,8 @@ private:
     QComboBox* looks_;
     std::vector<DeviceIdentity> listed_;
     Role role_ = Role::Stimulator;
-    bool simulated_ = false;  ///< the simulated bench is offered
-    bool plugged_ = false;    ///< devices are
+    bool simulated_ = false;  ///< true if the simulated bench is offered
+    bool plugged_ = false;    ///< true if connected devices are offered
 };
 
 }  // namespace tacto::gui

@@ -11,7 +11,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr double kMayMove = 0.3;  // change from the start; beyond it electrodes are seated anew
+constexpr double kMayMove = 0.3;  // allowed relative change from the start; beyond it electrodes must be placed again
 constexpr int kPoint_px = 7, kMinPlot = 120;
 
 }  // namespace
@@ -116,7 +116,7 @@ void ImpedanceTrend::draw() {
     empty_->setVisible(!known);
     empty_->setColor(c.quiet);
     empty_->setFont(QApplication::font());
-    plot_->yAxis->setTickLabels(known);  // before that, its numbers stand for nothing
+    plot_->yAxis->setTickLabels(known);  // before the first reading the axis numbers mean nothing
     plot_->yAxis->setTicks(known);
     const double low = start_ohm_ / 1000 * (1 - kMayMove), high = start_ohm_ / 1000 * (1 + kMayMove);
     band_->setVisible(known);

@@ -1,6 +1,6 @@
-// ImpedanceTrend.h - impedance over a session: a point a trial, with the band that it may move in and the blocks.
+// ImpedanceTrend.h - plot of the impedance over a session: one point per trial, the blocks, and the allowed band.
 //
-// Each trial is one point and no more, so that the number of trains cannot be read from it.
+// Each trial has exactly one point, so that the plot does not reveal the number of trains.
 #pragma once
 
 #include <QLabel>
@@ -15,10 +15,10 @@ class ImpedanceTrend final : public QWidget {
 public:
     explicit ImpedanceTrend(QWidget* parent = nullptr);
     void clear();
-    /// Axes for a test of so many trials and blocks.
+    /// Scales the axes for a test with this number of trials and blocks.
     void setPlan(int trials, int blocks);
     void setSimulated(bool simulated);
-    /// Notes the last reading in that trial, from 1; the first one sets the band. NaN is left out.
+    /// Stores the last reading of a trial, counted from 1; the first reading sets the band. Ignores NaN.
     void note(int trial, double ohm);
 
 private:

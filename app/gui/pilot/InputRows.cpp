@@ -96,8 +96,8 @@ InputRows::Row* InputRows::find(const std::string& identity) {
     return found == rows_.end() ? nullptr : &*found;
 }
 
-/// Rows keep what was chosen; one that is gone stays while it is assigned. Twins have the same identity, and no row
-/// of theirs can be assigned.
+/// Rows keep their settings; the row of an unplugged device stays while the device is assigned. Devices with the same
+/// identity cannot be told apart, so none of them can be assigned.
 void InputRows::list(const std::vector<ButtonDeviceInfo>& found) {
     std::vector<Row> now;
     for (const auto& info : found) {
@@ -140,7 +140,7 @@ void InputRows::build() {
     while (column_->count() > 1) {
         auto* item = column_->takeAt(1);
         item->widget()->hide();
-        item->widget()->deleteLater();  // perhaps from its own box
+        item->widget()->deleteLater();  // perhaps called from this row's own box
         delete item;
     }
     none_->setVisible(rows_.empty());
@@ -185,7 +185,7 @@ QWidget* InputRows::build(Row& row) {
     return row.widget;
 }
 
-/// A device that is as in the last session is shown so; where one of its model was used there, a button takes it over.
+/// Says if the device is used as in the last session, or offers to copy the last use of a device of its model.
 void InputRows::buildBefore(Row& row, QVBoxLayout& column) {
     if (!row.before || !row.there || !row.trouble.isEmpty()) return;
     const bool same = row.assigned && row.seat.whose == row.before->whose && row.seat.uses == row.before->uses;
@@ -213,7 +213,7 @@ void InputRows::buildBefore(Row& row, QVBoxLayout& column) {
     });
 }
 
-/// A device that is not used shows one line: it names the button that is pressed, so which of several it is.
+/// Shows an unused device as one line that names the pressed button, so that the operator can tell devices apart.
 void InputRows::buildButtons(Row& row, QVBoxLayout& column) {
     const auto& buttons = row.seat.device.buttons;
     if (!row.there || !row.trouble.isEmpty()) return;
@@ -287,14 +287,14 @@ constexpr QChar kFieldEnd('\t');
 
 QString keyOf(const QString& place) { return "pilot/inputs/" + place; }
 
-/// A device's identity, its person and what each button does: "046d:c216 17\tparticipant\t3 1\t1 0".
+/// Returns a device's identity, its person and the use of each button: "046d:c216 17\tparticipant\t3 1\t1 0".
 QString lineOf(const SeatedDevice& seat) {
     QStringList fields{qtext(seat.device.identity), qtext(std::string(nameOf(seat.whose)))};
     for (const auto& use : seat.uses) fields << QString("%1 %2").arg(int(use.does)).arg(use.answer);
     return fields.join(kFieldEnd);
 }
 
-/// Nothing where the text is not such a line.
+/// Returns nothing if the text is not a button's use as lineOf() writes it.
 std::optional<ButtonUse> useFrom(const QString& text) {
     const auto numbers = text.split(' ');
     if (numbers.size() != 2) return std::nullopt;

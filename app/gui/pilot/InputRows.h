@@ -1,10 +1,10 @@
-// InputRows.h - rows of a form: the game pads and foot switches that are plugged in, whom each is assigned to, and what
-// each of its buttons does. A button that is pressed lights up, so the operator sees that it works and which it is.
+// InputRows.h - form rows for the connected game pads and foot switches: the person each is assigned to, and what each
+// button does. A pressed button lights up, so the operator sees that it works and which one it is.
 //
-// A device keeps the use that it had in the last session of the same study, if its serial number tells it from others;
-// without a serial number the use is only offered, since it may be another of its model.
+// A device keeps its use from the last session of the same study if its serial number identifies it. Without a serial
+// number that use is only offered, since the device may be another of the same model.
 //
-// While the rows are shown, devices are looked for and opened, but never those of a running session.
+// While the rows are shown, they search for devices and open them, except those of a running session.
 #pragma once
 
 #include <QComboBox>
@@ -27,14 +27,14 @@ class InputRows final : public QWidget {
     Q_OBJECT
 public:
     explicit InputRows(QWidget* parent = nullptr);
-    /// Null: there are none.
+    /// Null means that there are no devices.
     void setDevices(std::shared_ptr<const ButtonDevices> devices);
     [[nodiscard]] const std::shared_ptr<const ButtonDevices>& devices() const { return open_.devices(); }
-    /// The study's id, or kRehearsals. What was chosen before is forgotten.
+    /// Sets the study's id, or kRehearsals, and forgets what was chosen before.
     void setPlace(const QString& place);
-    /// The devices that are assigned to a person and do something.
+    /// Returns the devices that are assigned to a person and have at least one button in use.
     [[nodiscard]] std::vector<SeatedDevice> seats() const;
-    /// Why a session cannot begin with these, a sentence; empty where it can.
+    /// Returns a sentence that says why a session cannot begin with these devices; empty if it can.
     [[nodiscard]] QString missing() const;
 
 signals:
@@ -49,8 +49,8 @@ private:
         SeatedDevice seat;
         bool assigned = false;
         bool there = true;
-        std::optional<SeatedDevice> before{};  ///< how this device, or one of its model, was seated in the last session
-        QString trouble;                       ///< why it cannot be opened
+        std::optional<SeatedDevice> before{};  ///< use of this device, or of one of its model, in the last session
+        QString trouble;                       ///< why the device cannot be opened
         QWidget* widget = nullptr;
         std::vector<QLabel*> lamps{};
     };
@@ -68,19 +68,19 @@ private:
     OpenButtons open_;
     SideWork looker_;
     QTimer looking_;
-    bool looks_ = false;  ///< looker_ is at it
+    bool looks_ = false;  ///< looker_ is searching now
     QString place_;
     std::vector<Row> rows_;
     QLabel* none_;
     QVBoxLayout* column_;
 };
 
-/// Remembers whose the game pads and foot switches were in the last session of a study, and what their buttons did. It
-/// stands in the user's settings, by the devices' identities; nothing of a person is kept. `place`: the study's id, or
-/// kRehearsals. What was remembered of it before is forgotten.
+/// Remembers who used which game pad or foot switch in the last session of a study, and what the buttons did. The
+/// user's settings store this under the devices' identities, with nothing about a person. `place`: the study's id, or
+/// kRehearsals. Replaces what was remembered for `place` before.
 void rememberInputs(const QString& place, const std::vector<SeatedDevice>& seats);
-/// How this device was seated; nothing where it was not used there, or has other buttons by now. A device without a
-/// serial number (ButtonDeviceInfo::hasSerial) is taken for any other of its model.
+/// Returns the remembered use of this device; nothing if it was not used there, or if its buttons have changed since. A
+/// device without a serial number (ButtonDeviceInfo::hasSerial) is treated as any other of its model.
 [[nodiscard]] std::optional<SeatedDevice> rememberedInput(const QString& place, const ButtonDeviceInfo& device);
 
 inline constexpr const char* kRehearsals = "rehearsals";

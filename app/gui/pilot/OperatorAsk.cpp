@@ -13,10 +13,10 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kAskStripe = 5;  // pixels of amber at the left: the session waits
-constexpr int kInRow = 6;      // choices
+constexpr int kAskStripe = 5;  // width in pixels of the amber stripe at the left: the session is waiting
+constexpr int kInRow = 6;      // number of choices placed in one row
 
-/// Keys that stop count there as the participant's (StopKeys.h).
+/// On the participant's window, keys that stop are recorded as the participant's (StopKeys.h).
 bool onTheirScreen(const QWidget& widget) { return widget.window()->property("stopsAs") == "participant"; }
 
 }  // namespace
@@ -67,7 +67,7 @@ void OperatorAsk::close() {
     hide();
     if (body_ == nullptr) return;
     body_->hide();
-    body_->deleteLater();  // perhaps from its own button's click
+    body_->deleteLater();  // perhaps called from a click on one of its own buttons
     body_ = nullptr;
 }
 

@@ -1,6 +1,6 @@
 // OperatorAsk.h - what a pilot session asks the operator: a checklist item, a skin score, an electrode's lot.
 //
-// Amber at the left, as every question that a run waits for. The buttons take a press of their own: the second half of
+// Amber at the left, like every question that a run waits for. Each button needs a press of its own: the second half of
 // a double click answers nothing.
 #pragma once
 
@@ -18,7 +18,7 @@ public:
     void ask(const PilotPrompt& prompt, quint64 id);
     void close();
     [[nodiscard]] bool open() const { return body_ != nullptr; }
-    /// A button of the operator's pad: presses the choice of this number, from 1, as a click does.
+    /// Handles a button of the operator's pad: presses choice number `choice`, from 1, as a click would.
     void press(int choice);
 
 signals:

@@ -15,8 +15,8 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kOperatorPad = 16, kLow = 420;  // below this height the plot gives way to question and notes
-constexpr double kTrial_s = 9;                // seconds that one trial of the test takes, as the design counts it
+constexpr int kOperatorPad = 16, kLow = 420;  // height in pixels; below it the plot is hidden
+constexpr double kTrial_s = 9;                // time of one test trial in seconds, as the study design assumes
 
 QString phaseName(const std::string& phase) {
     if (phase == "ascending") return QObject::tr("Rising levels");
@@ -27,7 +27,7 @@ QString phaseName(const std::string& phase) {
     return titled(qtext(phase));
 }
 
-/// "Test, block 2 of 5, trial 27 of 90".
+/// Returns, for example, "Test, block 2 of 5, trial 27 of 90".
 QString whereText(const PilotScreen& screen) {
     QStringList words{phaseName(screen.phase)};
     if (screen.phase.empty()) words = QStringList(QObject::tr("Preparing"));
@@ -73,7 +73,7 @@ OperatorPage::OperatorPage(QWidget* parent)
         pageButton(tr("&Give them the keys"), {}, tr("Brings the participant’s window to the front."), obstacle_);
     connect(keys, &QPushButton::clicked, this, &OperatorPage::keysWanted);
     row->addWidget(keys);
-    // The line comes and goes with the keys, often when a button below it is about to be pressed: its room is kept.
+    // The line appears and disappears with the keys; its space is kept so that the buttons below do not move.
     auto kept = obstacle_->sizePolicy();
     kept.setRetainSizeWhenHidden(true);
     obstacle_->setSizePolicy(kept);
@@ -82,7 +82,7 @@ OperatorPage::OperatorPage(QWidget* parent)
     addAll(*column, {obstacle_, ask_});
     column->addSpacing(kOperatorPad / 2);
     column->addWidget(trend_, 100);
-    column->addStretch(1);  // the room of a trend that is not there
+    column->addStretch(1);  // fills the space when the trend is hidden
     column->addSpacing(kOperatorPad / 2);
     column->addWidget(notes_);
     all->addLayout(column, 1);
@@ -224,7 +224,7 @@ void OperatorPage::closeQuestion(quint64 id) {
 }
 
 void OperatorPage::refresh(const Telemetry& telemetry) {
-    // A reading of a train tells what was given, and its absence that nothing was.
+    // A reading shows that a train was given, and no reading shows that none was, so a blind operator sees no point.
     if (!blind_ && screen_.phase == "test" && theirs_) trend_->note(screen_.trial, telemetry.impedance_ohm);
     const double gone = double(phaseSince_.nsecsElapsed()) * 1e-9;
     if (theirs_) {
@@ -269,7 +269,7 @@ void OperatorPage::setProgress(const QString& what, int done, int total) {
     counts_->setText(tr("Nothing is asked of you. Each answer is on disk before the next presentation."));
 }
 
-/// A massager has no impedance.
+/// Hides the trend for a massager, which has no impedance.
 void OperatorPage::showTrend() { trend_->setVisible(!vibrates_ && height() > scaledPx(kLow)); }
 
 }  // namespace tacto::gui

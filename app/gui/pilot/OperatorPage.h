@@ -1,6 +1,6 @@
 // OperatorPage.h - the operator's side of a session: phase and time left, impedance, notes, break and abort, and the
-// questions that are the operator's. It knows no condition, level, interval or answer, and so shows none; what a
-// session says besides is shown only where the operator is not blind or may know it.
+// operator's questions. The page is not told the condition, level, interval or answer, so it cannot show them. Other
+// session messages appear only if the operator is not blind or may know them.
 #pragma once
 
 #include <QElapsedTimer>
@@ -25,16 +25,16 @@ public:
     explicit OperatorPage(QWidget* parent = nullptr);
     void begin(const PilotStart& start);
     void show(const PilotScreen& screen);
-    /// Asks either of the two people.
+    /// Shows a question to the participant or the operator.
     void ask(const PilotPrompt& prompt, quint64 id);
     void closeQuestion(quint64 id);
     void refresh(const Telemetry& telemetry);
-    /// Sets the reason why the next presentation cannot start; empty for none.
+    /// Sets the reason why the next presentation cannot start; empty if there is none.
     void setObstacle(const QString& why);
     void setBreakDue(bool due);
-    /// Progress of a session whose screens are not shown: a virtual participant's.
+    /// Shows the progress of a session with a virtual participant, which has no screens.
     void setProgress(const QString& what, int done, int total);
-    /// The present part of the session, as it heads the page.
+    /// Returns the heading: the present part of the session.
     [[nodiscard]] QString where() const { return where_->text(); }
     [[nodiscard]] OperatorAsk& question() { return *ask_; }
     [[nodiscard]] SessionNotes& notes() { return *notes_; }
@@ -44,7 +44,7 @@ signals:
     void breakAfterTrialWanted(bool due);
     void breakNowWanted();
     void abortWanted();
-    void keysWanted();  ///< asks for the keys of the participant's window
+    void keysWanted();  ///< asks for the keyboard focus to go to the participant's window
 
 private:
     [[nodiscard]] QWidget* buildBar();
@@ -69,10 +69,10 @@ private:
     QWidget* sure_ = nullptr;
     QPushButton* reallyAbort_ = nullptr;
     PilotScreen screen_;
-    QString asked_;  ///< the step that a question of its phase began
+    QString asked_;  ///< the step in which a question of the phase was asked
     bool blind_ = true;
     bool breakDue_ = false;
-    bool vibrates_ = false;  ///< a massager delivers
+    bool vibrates_ = false;  ///< true if a massager delivers
     int answered_ = 0, repeated_ = 0;
     int seenTrial_ = 0, seenBlock_ = 0;
     std::optional<PilotPrompt> theirs_;  ///< the question at the participant's screen

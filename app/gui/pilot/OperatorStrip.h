@@ -1,5 +1,5 @@
 // OperatorStrip.h - the operator's page on a single screen: a strip at the lower edge of the participant's window,
-// behind F2. While it is open no presentation starts.
+// opened by F2. While the strip is open no presentation starts.
 #pragma once
 
 #include <QFrame>
@@ -22,7 +22,7 @@ public:
 
 signals:
     void breakWanted(bool due);
-    void stopWanted();  ///< the moment the press goes down
+    void stopWanted();  ///< emitted when the press goes down
     void abortWanted();
     void closeWanted();
 

@@ -23,7 +23,7 @@ void ParticipantDesk::leave() noexcept {
     cancel();
     const std::scoped_lock lock(stopMutex_);
     listens_ = false;
-    stop = nullptr;  // else the next screen would listen again
+    stop = nullptr;  // otherwise the next show() would listen again
     holding_ = false;
 }
 
@@ -57,7 +57,7 @@ Result<PilotAnswer> ParticipantDesk::ask(const PilotPrompt& prompt) {
     shownAt_.reset();
     participants_.reset();
     operators_.reset();
-    if (!theirs) shownAt_ = std::chrono::steady_clock::now();  // the operator's own window is there
+    if (!theirs) shownAt_ = std::chrono::steady_clock::now();  // the operator's window is already visible
     emit asked(prompt, id_);
     const auto look = std::chrono::duration_cast<SteadyTime::duration>(kWaitingLook);
     for (auto next = std::chrono::steady_clock::now() + look; !broken() && !answered();) {
@@ -104,7 +104,7 @@ void ParticipantDesk::cancel() noexcept {
 
 std::optional<Hindrance> ParticipantDesk::hindrance() const {
     const std::scoped_lock lock(mutex_);
-    if (cancelled_) return {};  // the next question says so
+    if (cancelled_) return {};  // the next question reports the cancellation
     if (break_) return Hindrance{true, breakWhy_};
     if (!obstacle_.isEmpty()) return Hindrance{false, obstacle_.toStdString()};
     return {};
@@ -217,7 +217,7 @@ void ParticipantDesk::notePressed() {
 
 bool ParticipantDesk::letGoWasBounce() {
     const int button = letGo_.exchange(kNoButton);
-    if (button == kNoButton) return false;  // a key, the mouse, a finger
+    if (button == kNoButton) return false;  // a key, the mouse or a finger, none of which bounces
     std::unique_lock lock(mutex_);
     const bool bounce = changed_.wait_for(lock, kBounces, [&] { return downAgain_ && cameUp_ == button; });
     downAgain_ = false;
@@ -233,11 +233,11 @@ bool ParticipantDesk::testsStopOf(PromptTo whose) const {
 
 bool ParticipantDesk::stopBy(const char* by) {
     {
-        // Held until the end of the press: the screen that follows it clears `stopped_`, not one before.
+        // Locked until the end of the press, so that only the screen after it clears `stopped_`.
         const std::scoped_lock whole(stopMutex_);
         if (!listens_) return false;
         stop(by);
-        heldButton_ = kNoButton;  // the output is off already: letting go does not stop it again
+        heldButton_ = kNoButton;  // the output is already off: letting go does not stop it again
         const std::scoped_lock lock(mutex_);
         stopped_ = true;
     }

@@ -1,10 +1,10 @@
-// ParticipantDesk.h - where a pilot session's thread and the windows of its two people meet: the session asks and
-// waits, a window answers, a stop ends the wait.
+// ParticipantDesk.h - connects a pilot session's thread with the windows of participant and operator: the session asks
+// and waits, a window answers, and a stop ends the wait.
 //
-// A response time runs from the moment at which a window says that the targets are on the screen to the moment of the
-// press (ConfirmButton.h).
+// A response time runs from the moment a window reports the targets on the screen to the moment of the press
+// (ConfirmButton.h).
 //
-// Thread-safety: the calls of PilotParticipant as it says; the others on the GUI thread, which also gets the signals.
+// Thread-safety: PilotParticipant's calls as documented there; others, and the signals, on the GUI thread.
 #pragma once
 
 #include <QObject>
@@ -21,8 +21,8 @@
 
 namespace tacto::gui {
 
-/// A contact that comes back sooner has bounced: switches bounce for up to 6 ms, a pad reports every 1 to 10 ms, and a
-/// finger that lets go and presses again takes over 40 ms (resources/design/pilot.md, section 5).
+/// A contact that closes again within this time has bounced. Switches bounce for up to 6 ms, a pad reports every 1 to
+/// 10 ms, and a finger that lets go and presses again takes over 40 ms (pilot.md, section 5).
 inline constexpr std::chrono::milliseconds kBounces{20};
 
 inline constexpr const char* kOperatorsBreak = "the operator wants a break now";
@@ -32,8 +32,8 @@ class ParticipantDesk final : public QObject, public PilotParticipant {
 public:
     explicit ParticipantDesk(QObject* parent = nullptr);
 
-    /// Called before a session with its clock, which says when targets appear; on a virtual clock, or without any, they
-    /// appear at once. Any thread, while no session has the desk.
+    /// Call this before a session, with the session's clock, which says when targets appear; on a virtual clock, or
+    /// without a clock, they appear at once. Any thread, while no session uses the desk.
     void begin(std::shared_ptr<const Clock> clock);
 
     void show(const PilotScreen& screen) override;
@@ -48,34 +48,34 @@ public:
     [[nodiscard]] bool hasScreen() const noexcept override;
     [[nodiscard]] bool answersInRealTime() const noexcept override { return true; }
 
-    /// Sets what stands in the way of a presentation, half a sentence; empty: nothing.
+    /// Sets what prevents a presentation, as half a sentence; empty if nothing does.
     void setObstacle(const QString& why);
-    /// The operator wants a break: no presentation starts until they end it, and the output is off. `why` stands in the
-    /// record.
+    /// Sets whether the operator wants a break. Until the operator ends it, no presentation starts and the output is
+    /// off. The record contains `why`.
     void setBreak(bool wanted, const std::string& why = kOperatorsBreak);
     [[nodiscard]] bool breakWanted() const;
-    /// The screen is gone: a question that waits for it ends with Device, and so does the next.
+    /// Sets whether the participant's screen exists. Without it, the waiting question and the next one end with Device.
     void setScreenThere(bool there);
-    /// The targets of question `id` are on the participant's screen since `at`.
+    /// Reports that the targets of question `id` have been on the participant's screen since `at`.
     void targetsShown(quint64 id, SteadyTime at);
-    /// Nothing happens where `id` is not open any longer, or where that person has answered already.
+    /// Does nothing if question `id` is no longer open, or if that person has already answered.
     void answerAsParticipant(quint64 id, PilotAnswer answer, SteadyTime pressed);
     void answerAsOperator(quint64 id, PilotAnswer answer);
-    /// A press before the targets; `key` is what it would have been, or empty.
+    /// Reports a press before the targets appear; `key` is the answer that it would have given, or empty.
     void noteEarly(const std::string& key);
-    /// `button`: the code of the held one; none for a key, the mouse or a finger. False where that button has come up
-    /// meanwhile, which its device tells sooner than the window hears of it: then nothing is held.
+    /// `button`: the code of the held button; none for a key, the mouse or a finger. Returns false, and holds nothing,
+    /// if the button has already come up, since the device reports a release before the window hears of the press.
     bool setHolding(bool holding, std::optional<int> button = std::nullopt);
-    /// The button of that code came up. True where it was what is held, which ends that. Any thread.
+    /// Reports that button `button` came up. Returns true if it was the held button, and ends the hold. Any thread.
     [[nodiscard]] bool letGoOf(int button) noexcept;
-    /// A button that holds went down or came up, also one that is not what is held; before letGoOf(). Any thread.
+    /// Reports that any hold button went down or came up, even if not the held one; call before letGoOf(). Any thread.
     void noteHoldButton(int button, bool down, SteadyTime at);
-    /// Someone pressed a STOP too: a release just before was not a bounce. Any thread.
+    /// Reports that someone pressed STOP too: a release just before was not a bounce. Any thread.
     void notePressed();
-    /// Output off, and the question that waits ends with Stopped; where none waits, the next one, unless the session
-    /// shows something before. False where no session listens. Any thread.
+    /// Turns the output off and ends the waiting question with Stopped. If none waits, the next question ends so,
+    /// unless the session shows a screen before it. Returns false if no session listens. Any thread.
     bool stopBy(const char* by);
-    /// Whether the open question waits for that person's STOP: a test of it, which ends no session.
+    /// True if the open question asks that person to test STOP; this test does not end the session.
     [[nodiscard]] bool testsStopOf(PromptTo whose) const;
 
 signals:
@@ -83,7 +83,7 @@ signals:
     void asked(const tacto::PilotPrompt& prompt, quint64 id);
     void closed(quint64 id);  ///< answered, out of time, stopped or cancelled
     void obstacleChanged(const QString& why);
-    void bounced();  ///< the press that was taken for a stop is none
+    void bounced();  ///< the release that was taken for a stop was only a bounce
 
 private:
     [[nodiscard]] bool answered() const;
@@ -91,7 +91,7 @@ private:
 
     mutable std::mutex mutex_;
     std::condition_variable changed_;
-    // Guarded:
+    // Guarded by mutex_:
     std::shared_ptr<const Clock> clock_;
     std::optional<PilotPrompt> open_;
     quint64 id_ = 0;
@@ -102,19 +102,19 @@ private:
     bool break_ = false;
     std::string breakWhy_;
     bool cancelled_ = false;
-    bool stopped_ = false;  ///< a person stopped it; that ends one question
+    bool stopped_ = false;  ///< a person pressed stop; this ends one question
     bool there_ = true;
-    std::set<int> down_;         ///< buttons that hold, as their devices say
-    std::optional<int> cameUp_;  ///< the button that holds that came up last
+    std::set<int> down_;         ///< hold buttons that are down, as reported by their devices
+    std::optional<int> cameUp_;  ///< the hold button that was released last
     SteadyTime cameUpAt_{};
     bool downAgain_ = false;  ///< the button went down again within kBounces
 
-    std::mutex stopMutex_;  // held for moments: while `stop` is called, and to end
+    std::mutex stopMutex_;  // held briefly: while `stop` is called, and when a session ends
     bool listens_ = false;  // guarded by stopMutex_
     static constexpr int kNoButton = -1;
     std::atomic<bool> holding_{false};
-    std::atomic<int> heldButton_{kNoButton};  ///< the button that is held, until it comes up or a stop comes
-    std::atomic<int> letGo_{kNoButton};       ///< the button that was held last and has come up
+    std::atomic<int> heldButton_{kNoButton};  ///< the held button, until it is released or a stop comes
+    std::atomic<int> letGo_{kNoButton};       ///< the held button that was released last
 };
 
 }  // namespace tacto::gui

@@ -15,11 +15,11 @@ namespace tacto::gui {
 
 namespace {
 
-// The picture's lengths, at 1440 x 900.
+// Lengths in the design's picture of 1440 x 900 pixels.
 constexpr double kWide = 1440, kHigh = 900;
 constexpr double kMargin = 64, kTop = 48, kStopLeft = 968, kStopTop = 120, kStopBottom = 112, kColumn = 776;
 constexpr double kHead_px = 20, kTitle_px = 37, kWords_px = 28, kStop_px = 92, kSmall_px = 14, kGap = 24;
-constexpr double kLargeText = 1.4;  // times the usual
+constexpr double kLargeText = 1.4;  // factor over the usual text size
 
 QFont withPixels(int px, QFont::Weight weight = QFont::Normal) {
     auto font = textFont(TextSize::Body, weight);
@@ -37,7 +37,7 @@ QString phaseTitle(const std::string& phase) {
     return {};
 }
 
-/// A pad's button stands in a circle beside the key.
+/// Returns how to answer by touch and key and, if the pad has buttons (shown in a circle), by button.
 QString howToAnswer(const ParticipantView& view) {
     const bool one = targetCount(*view.asked) == 1;
     const bool buttons = !view.buttons.isEmpty();
@@ -125,7 +125,7 @@ void ParticipantFace::openStrip(bool open) {
     if (strip_ == nullptr) return;
     strip_->setVisible(open);
     if (open) strip_->raise();
-    arrange();  // arranged even where it is open already: it may ask something that needs more room
+    arrange();  // needed even if the strip is already open: its new question may need more room
 }
 
 void ParticipantFace::say(const QString& title, const QString& below) {
@@ -144,7 +144,7 @@ void ParticipantFace::put(const QString& title, const QString& below) {
     arrange();
 }
 
-/// The words and the field of the present question.
+/// Shows the words and the field of the present question.
 void ParticipantFace::show(const ParticipantView& view) {
     asked_ = view.asked;
     const auto& screen = view.screen;
@@ -217,14 +217,14 @@ void ParticipantFace::show(const ParticipantView& view) {
     }
 }
 
-/// The picture's lengths at the size of the window.
+/// The design's lengths, scaled to the size of the window.
 struct ParticipantFace::Picture {
-    double scale;  ///< the picture's scale
-    double text;   ///< the text's scale
+    double scale;  ///< scale of lengths
+    double text;   ///< scale of text
     int margin, column;
     int stopLeft, stopTop, right;
-    int bottom;  ///< above the strip
-    int least;   ///< a target's side
+    int bottom;  ///< lower edge of the free area, above the strip
+    int least;   ///< smallest side of a target
 
     [[nodiscard]] int px(double designed) const { return int(std::lround(designed * scale)); }
     [[nodiscard]] int type(double designed) const { return int(designed * text); }
@@ -245,10 +245,10 @@ ParticipantFace::Picture ParticipantFace::picture() const {
     return at;
 }
 
-/// From the top comes the question; from the bottom the time bar and the held target. The other targets have the rest.
+/// The question is placed from the top, the time bar and the held target from the bottom; other targets get the rest.
 void ParticipantFace::arrange() {
     const auto at = picture();
-    if (stripOpen()) strip_->setGeometry(0, at.bottom, width(), height() - at.bottom);  // as high as what it asks needs
+    if (stripOpen()) strip_->setGeometry(0, at.bottom, width(), height() - at.bottom);  // as high as its question needs
     placeHead(at);
     stopTarget_->setGeometry(at.stopLeft, at.stopTop, at.right - at.stopLeft,
                              at.bottom - at.px(kStopBottom) - at.stopTop);
@@ -269,7 +269,7 @@ void ParticipantFace::arrange() {
     placeEnds(at, std::min(fieldTop + rows * pixelsOf(60, *this) + rows * at.px(kGap), fieldBottom));
 }
 
-/// Shows how far the session is, and the note at the right.
+/// Shows the progress of the session, and the note at the right.
 void ParticipantFace::placeHead(const Picture& at) {
     const auto head = withPixels(at.type(kHead_px));
     const QFontMetrics metrics(head);
@@ -303,10 +303,10 @@ int ParticipantFace::rowsOfTargets() const {
     return (count + columns - 1) / columns;
 }
 
-/// Returns where the targets begin. They need `wanted` pixels and come first: the second line is left out, then the
-/// question gets smaller.
+/// Returns the top of the targets, which need `wanted` pixels and have priority: if space is short, the second line is
+/// left out first, then the question gets smaller.
 int ParticipantFace::placeQuestion(const Picture& at, int fieldBottom, int wanted) {
-    bool hasBelow = at.text < kLargeText * at.scale;  // with large text the targets get their room first
+    bool hasBelow = at.text < kLargeText * at.scale;  // with large text the targets have priority over the second line
     for (int title_px = at.type(kTitle_px);;) {
         title_->setFont(withPixels(title_px, QFont::Bold));
         const int titleHigh = title_->heightForWidth(at.column);

@@ -1,8 +1,8 @@
-// ParticipantFace.h - what stands on the participant's screen, and where: progress, the question, the answers, STOP,
-// the time to answer. It shows what it is given and knows nothing else.
+// ParticipantFace.h - contents and layout of the participant's screen: progress, the question, the answers, STOP and
+// the time to answer. The face shows only what it is given.
 //
-// At 1440 x 900 it looks like the design's picture. In other sizes the targets get their 20 mm first: the second line
-// is left out, then the question gets smaller; STOP keeps its place.
+// At 1440 x 900 the screen looks like the design's picture. At other sizes targets keep at least 20 mm if possible: the
+// second line is left out first, then the question gets smaller. STOP keeps its place.
 #pragma once
 
 #include <QLabel>
@@ -21,21 +21,21 @@ class ParticipantField;
 class ParticipantStop;
 class ShareBars;
 
-/// Answered by STOP, and by nothing else.
+/// True if only STOP answers the prompt.
 [[nodiscard]] bool isStopTestPrompt(const PilotPrompt& prompt);
 
-/// "Presentation", for the operator.
+/// Returns the state's name for the operator, such as "Presentation".
 [[nodiscard]] QString screenWords(ScreenState state);
 
 struct ParticipantView {
     const PilotScreen& screen;
-    std::optional<PilotPrompt> asked;  ///< the question, with its targets as they stand
+    std::optional<PilotPrompt> asked;  ///< the question, with its targets in the order shown
     const AnswerKeys& keys;
     QString holdKey;
-    QStringList buttons{};  ///< the buttons that answer it, one for each target; or none
+    QStringList buttons{};  ///< the buttons that answer the question, one for each target; empty if none do
     QString holdButton{};
     bool stopped = false;
-    bool pause = false;  ///< the operator's break
+    bool pause = false;  ///< true during the operator's break
 };
 
 class ParticipantFace final : public QWidget {
@@ -43,20 +43,20 @@ class ParticipantFace final : public QWidget {
 public:
     ParticipantFace(std::function<void()> stop, QWidget* parent);
     void show(const ParticipantView& view);
-    /// Words alone, and no question.
+    /// Shows words alone, without a question.
     void say(const QString& title, const QString& below);
     void setNote(const QString& note);
     void setStopButtons(const QStringList& buttons);
     void setStopsLeft(int left);
     void setTimeLeft(double share);
-    /// The strip lies at the lower edge while it is open. Takes the widget.
+    /// Sets the strip, which covers the lower edge while open. Takes ownership of the widget.
     void setStrip(QWidget* strip);
     [[nodiscard]] bool hasStrip() const { return strip_ != nullptr; }
     [[nodiscard]] bool stripOpen() const;
     void openStrip(bool open);
     [[nodiscard]] QString title() const;
     [[nodiscard]] ParticipantField& field() { return *field_; }
-    /// The target that is held while levels rise: there from the question on until it is hidden.
+    /// Returns the target that is held while levels rise; visible from the question until it is hidden.
     [[nodiscard]] AnswerTarget& hold() { return *hold_; }
     [[nodiscard]] QLineEdit& line() { return *line_; }
 
@@ -88,12 +88,12 @@ private:
     QWidget* strip_ = nullptr;
 };
 
-/// Bars that fill: the blocks of a test side by side, the time to answer, the time of a phase.
+/// Progress bars for the blocks of a test (side by side), the time to answer, or the time of a phase.
 class ShareBars final : public QWidget {
     Q_OBJECT
 public:
     explicit ShareBars(QWidget* parent);
-    /// One bar each, 0 to 1.
+    /// Sets one bar for each share, 0 to 1.
     void setShares(const std::vector<double>& shares);
     [[nodiscard]] const std::vector<double>& shares() const { return shares_; }
 
@@ -104,8 +104,8 @@ private:
     std::vector<double> shares_;
 };
 
-/// How full the bar of each block is: finished blocks are full, the present one by its trials so far. `trial` counts
-/// all `trials` from 1; all blocks have the same length.
+/// Returns how full each block's bar is: finished blocks are full, the present one is filled by its trials so far.
+/// `trial` runs from 1 to `trials` over all blocks; all blocks have the same length.
 [[nodiscard]] std::vector<double> blockShares(int block, int blocks, int trial, int trials);
 
 }  // namespace tacto::gui

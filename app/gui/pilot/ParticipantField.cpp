@@ -16,7 +16,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr double kInch_mm = 25.4, kUsualDpi = 96;
-constexpr int kLowRow = 54, kFullRow = 100;  // "nothing" and "not sure"; the others
+constexpr int kLowRow = 54, kFullRow = 100;  // kLowRow: the row of "nothing" and "not sure"
 constexpr int kTallestTarget_mm = 60;
 
 }  // namespace
@@ -45,7 +45,7 @@ ParticipantField::ParticipantField(QWidget* parent) : QWidget(parent) {}
 void ParticipantField::drop() {
     for (auto* target : targets_) {
         target->hide();
-        target->deleteLater();  // its own press may have caused this
+        target->deleteLater();  // perhaps called from a press on this target
     }
     targets_.clear();
 }
@@ -119,7 +119,7 @@ void ParticipantField::setChosen(int target, bool chosen) { targets_.at(std::siz
 
 bool ParticipantField::chosen(int target) const { return targets_.at(std::size_t(target))->isChecked(); }
 
-/// Targets of 20 mm at least; where they are a condition's they fill the field, and "nothing" and "not sure" are lower.
+/// Targets are at least 20 mm. Targets for conditions fill the field; "nothing" and "not sure" are lower.
 void ParticipantField::arrange() {
     if (content_ != Content::Targets || targets_.empty()) return;
     const int count = int(targets_.size());
@@ -141,7 +141,7 @@ void ParticipantField::arrange() {
     alignWords();
 }
 
-/// A target in smaller letters than the others would be chosen less.
+/// Uses one letter size for all targets: one with smaller letters would be chosen less often.
 void ParticipantField::alignWords() {
     if (content_ != Content::Targets || layout() == nullptr) return;
     layout()->activate();

@@ -1,7 +1,7 @@
 // ParticipantField.h - the middle of the participant's screen: a dot, a name, the two intervals of a detection trial,
-// or the targets of a question, always at the same place.
+// or the targets of a question, always in the same place.
 //
-// Targets of a question are at least kTarget_mm wide and high, unless the screen has no room for them.
+// Targets of a question are at least kTarget_mm wide and high, if the screen has room.
 #pragma once
 
 #include <QWidget>
@@ -16,12 +16,12 @@ namespace tacto::gui {
 
 constexpr double kTarget_mm = 20;
 
-/// Logical pixels of a length on this screen; of 96 to an inch where the screen does not say its size.
+/// Converts a length to logical pixels on this screen; assumes 96 per inch if the screen does not give its size.
 [[nodiscard]] int pixelsOf(double mm, const QWidget& on);
 
-/// The icons beside a condition's words; none for a condition of another name.
+/// Returns the icons next to a condition's words; none for an unknown condition.
 [[nodiscard]] QStringList iconsOf(const std::string& key);
-/// The number of columns in which so many targets stand, unless they are a scale.
+/// Returns the number of columns for this number of targets, if they are not a scale.
 [[nodiscard]] int fieldColumns(int count);
 
 class ParticipantField final : public QWidget {
@@ -31,22 +31,22 @@ public:
     void clear();
     void showDot();
     void showWord(const QString& word, const QStringList& icons);
-    /// The intervals of a detection trial, where the targets "first" and "second" will stand; `passing` is filled: 1,
-    /// 2, or 0 for neither.
+    /// Shows the two intervals of a detection trial at the places of the targets "first" and "second". `passing` says
+    /// which one is filled: 1, 2, or 0 for neither.
     void showIntervals(int passing);
-    /// `buttons`: of a pad, written on the targets; fewer than these, or none.
+    /// `buttons`: pad buttons written on the targets; the list may be shorter than the targets, or empty.
     void showTargets(const PilotPrompt& prompt, const AnswerKeys& keys, const QStringList& buttons = {});
-    /// Pixels of words, keys, and between targets.
+    /// Sets the sizes in pixels of words and keys, and the gap between targets.
     void setType(int words_px, int key_px, int gap_px);
-    /// Chosen of Several.
+    /// Marks whether a target of a Several prompt is chosen.
     void setChosen(int target, bool chosen);
     [[nodiscard]] bool chosen(int target) const;
-    /// Targets of the prompt that is shown, in the order of its keys; with Several the last is "done".
+    /// Returns the targets of the prompt shown, in the order of its keys; for Several the last is "done".
     [[nodiscard]] const std::vector<AnswerTarget*>& targets() const { return targets_; }
 
 signals:
     void chosenAt(int target, tacto::gui::SteadyTime at);
-    void missed();  ///< a press beside every target
+    void missed();  ///< a press outside every target
 
 protected:
     void resizeEvent(QResizeEvent* event) override;

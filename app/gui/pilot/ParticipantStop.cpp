@@ -15,7 +15,7 @@ namespace {
 constexpr double kStopRadius = 8;
 constexpr int kMinFoot_px = 11;
 
-/// The largest size, up to `px`, at which `words` are no wider than `room`.
+/// Returns the font in the largest size, up to `px`, at which `words` fit the width `room`.
 QFont fitted(const QString& words, QFont font, int px, int room) {
     font.setPixelSize(std::max(1, px));
     while (font.pixelSize() > 8 && QFontMetrics(font).horizontalAdvance(words) > room)
@@ -31,7 +31,7 @@ ParticipantStop::ParticipantStop(std::function<void()> stop, QWidget* parent)
     setText(tr("STOP"));
     sayIt();
     setFocusPolicy(Qt::NoFocus);
-    setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Expanding);  // in a row it grows to the row's height
+    setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Expanding);  // in a row the button is as high as the row
     setAttribute(Qt::WA_AcceptTouchEvents);
 }
 
@@ -85,7 +85,7 @@ bool ParticipantStop::event(QEvent* event) {
     return QAbstractButton::event(event);
 }
 
-void ParticipantStop::mousePressEvent(QMouseEvent* /*event*/) { press(); }  // any button
+void ParticipantStop::mousePressEvent(QMouseEvent* /*event*/) { press(); }  // any mouse button stops
 
 void ParticipantStop::paintEvent(QPaintEvent* /*event*/) {
     const auto plain = stateStyle(InterlockState::Faulted).ground;

@@ -12,13 +12,13 @@ class ParticipantStop final : public QAbstractButton {
     Q_OBJECT
 public:
     ParticipantStop(std::function<void()> stop, QWidget* parent);
-    /// Pixels of the word, which shrinks where there is no room, of the lines below it, and of those at the foot.
+    /// Sets the sizes in pixels of the word STOP, which shrinks if space is short, and of all lines below it.
     void setType(int word_px, int lines_px);
-    /// Buttons of a pad, or a pedal, that stop as the keys do: see ButtonLabels::stops.
+    /// Sets the pad buttons or the pedal that stop as the keys do: see ButtonLabels::stops.
     void setButtons(const QStringList& buttons);
-    /// How many stops the participant has left before the session ends.
+    /// Sets how many stops the participant has left before the session ends.
     void setLeft(int left);
-    /// Makes it the operator's on the participant's screen, whose keys are the participant's.
+    /// Makes this the operator's STOP on the participant's screen; the stop keys there stay the participant's.
     void setOperators();
 
 protected:
@@ -27,7 +27,7 @@ protected:
     void paintEvent(QPaintEvent* event) override;
 
 private:
-    /// All that the picture depends on: size, ratio of pixels, ground, and the words with their sizes.
+    /// Everything the picture depends on: size, pixel ratio, background, and the words with their sizes.
     using Looks = std::tuple<QSize, double, QRgb, QString, int, int>;
     void press();
     void sayIt();
@@ -38,7 +38,7 @@ private:
     bool operators_ = false;
     int word_px_ = 92;
     int lines_px_ = 20;
-    QPixmap drawn_;  // kept for the same pixels in each paint: Qt does not always draw the edges of large letters alike
+    QPixmap drawn_;  // kept so that each paint is the same: Qt does not always draw the edges of large letters alike
     Looks drawnFor_{};
 };
 

@@ -20,17 +20,17 @@ namespace {
 
 constexpr int kTick_ms = 100;
 constexpr int kHoldKey = Qt::Key_H, kHoldKeyLeft = Qt::Key_G;
-constexpr int kFirstButton = 0x4000'0000;    // above each Qt::Key
-constexpr const char* kDone = "done";        // the target that ends Several
-constexpr const char* kStopsAs = "stopsAs";  // StopKeys looks for it
+constexpr int kFirstButton = 0x4000'0000;    // above every Qt::Key value
+constexpr const char* kDone = "done";        // the target that ends a Several question
+constexpr const char* kStopsAs = "stopsAs";  // property that StopKeys reads
 
-/// Whether a key is still down though its window heard that it came up. X repeats a held key as pairs of a release and
-/// a press. Qt marks a pair as repeated only where both wait for it at once; otherwise it hands on a release of a key
-/// that is still held. Letting go is a STOP, so the server, which has just sent `released`, is asked: a round trip on
-/// this computer. False on any other platform, where repeats are marked. A key that was pressed again before its
-/// release is heard counts as held: its next one is heard.
+/// True if a key is still down although its window received a release. X repeats a held key as pairs of release and
+/// press. Qt marks a pair as a repeat only if both wait in the queue at once; otherwise Qt reports a release of a key
+/// that is still held. Letting go is a STOP, so we ask the X server about the key (a round trip on this computer).
+/// Returns false on other platforms, which mark repeats. A key pressed again before this release is handled counts as
+/// held; its next release is handled.
 bool isStillDown(const QKeyEvent& released) {
-    // The offscreen platform has the interface too, and no server behind it.
+    // The offscreen platform offers this interface too, but has no server.
     const auto* x11 = qGuiApp->nativeInterface<QNativeInterface::QX11Application>();
     auto* server = x11 != nullptr && QGuiApplication::platformName() == "xcb" ? x11->connection() : nullptr;
     if (server == nullptr) return false;
@@ -150,7 +150,7 @@ void ParticipantWindow::showScreen(const PilotScreen& screen) {
     asking_ = false;
     if (screen.state == ScreenState::Rest) face_->hold().hide();
     showState();
-    repaint();  // the session says when it changes, not the next frame
+    repaint();  // drawn now: the session decides the moment of a change, not the next frame
     emit changed();
 }
 
@@ -204,7 +204,7 @@ void ParticipantWindow::showState() {
 
 int ParticipantWindow::holdKey() const { return set_ == KeySet::LeftHand ? kHoldKeyLeft : kHoldKey; }
 
-/// Answered by STOP, and by nothing else.
+/// True if only STOP answers the question.
 bool ParticipantWindow::isStopTest() const { return isStopTestPrompt(prompt_); }
 
 void ParticipantWindow::choose(int target, SteadyTime at) {
@@ -267,7 +267,7 @@ void ParticipantWindow::noteEarly(std::optional<int> target) {
     desk_.noteEarly(known ? prompt_.targets[std::size_t(*target)].key : std::string());
 }
 
-/// Whether a press answers the question: it is not early, and not held from before.
+/// True if a press answers the question: the targets are shown, and the key was not held from before.
 bool ParticipantWindow::takesPress(int code, SteadyTime at, bool repeated, std::optional<int> would) {
     const bool held = pressed_.isHeld(code, at, repeated);
     if (!asking_) {
@@ -293,13 +293,13 @@ void ParticipantWindow::moveButton(int code, const ButtonUse& use, bool down, St
     switch (use.does) {
         case ButtonUse::Does::Nothing:
             return;
-        case ButtonUse::Does::Stop:  // the device's thread has stopped already (SessionInputs.h)
+        case ButtonUse::Does::Stop:  // the device's thread has already stopped the output (SessionInputs.h)
             return noteStop();
         case ButtonUse::Does::Hold:
             if (face_->hold().isHidden()) return;
             heldKey_ = key;
             heldAt_ = at;
-            // Held once its contact has settled: what bounces until then lets nothing go.
+            // The hold begins after its contact has settled: bounces until then do not let go.
             QTimer::singleShot(kBounces, Qt::PreciseTimer, this, [this, key, at] {
                 if (heldKey_ == key && heldAt_ == at) pressHold();
             });
@@ -347,7 +347,7 @@ void ParticipantWindow::paintEvent(QPaintEvent* event) {
     QWidget::paintEvent(event);
     painted_ = true;
     if (!asking_) return;
-    // The first time that the window system lets this window be seen: the targets are on the screen once it returns.
+    // First exposure of this window: the targets are on the screen once this call returns.
     QMetaObject::invokeMethod(
         this,
         [this, id = id_] {
@@ -356,7 +356,7 @@ void ParticipantWindow::paintEvent(QPaintEvent* event) {
         Qt::QueuedConnection);
 }
 
-/// Finds what stands in the way of a presentation.
+/// Sets what prevents a presentation now.
 void ParticipantWindow::judge() {
     QString why;
     const int least = pixelsOf(kTarget_mm, *this);

@@ -1,12 +1,11 @@
-// ParticipantWindow.h - the participant's screen: what is asked, the answers as large targets with their keys, how far
-// the session is, and their own STOP.
+// ParticipantWindow.h - the participant's screen: the question, the answers as large targets with their keys, the
+// progress of the session, and the participant's own STOP.
 //
-// It is given nothing that depends on a condition but the names of familiarisation and feedback: its pixels are the
-// same for every condition in every phase, and when they change is the session's. Keys count here only, so what the
-// operator types in a window of their own answers nothing. A press before the targets is reported and no answer; a key
-// that is still held from before is none either. Buttons of a pad that is theirs go through the same door, whichever
-// window has the keys. Without the keys, or while the operator's strip lies over it, the
-// desk learns what is in the way, and no presentation starts.
+// The window is told nothing about a condition except its name in familiarisation and feedback: the pixels are the same
+// for every condition in every phase, and the session decides when they change. Only keys typed in this window answer;
+// keys typed in the operator's window do not. A press before the targets appear is reported, but is no answer; nor is a
+// key held from before. Buttons of the participant's pad follow the same rules, whichever window has the focus. While
+// this window lacks the focus or the operator's strip covers it, the desk is told so, and no presentation starts.
 #pragma once
 
 #include <QElapsedTimer>
@@ -30,39 +29,39 @@ public:
     ParticipantWindow(ParticipantDesk& desk, std::function<void(const char* by)> stop, QWidget* parent = nullptr);
 
     void setKeys(KeySet set) { set_ = set; }
-    /// A button of theirs went down or came up; `code` is the same for the same button. A question is answered by
-    /// buttons only where they reach each of its targets: see setButtonAnswers().
+    /// Handles a press or release of one of the participant's buttons; each button has its own `code`. Buttons answer a
+    /// question only if they reach every target: see setButtonAnswers().
     void moveButton(int code, const ButtonUse& use, bool down, SteadyTime at);
     void setButtonAnswers(int reached) { buttons_.reached = reached; }
-    /// Written on the targets of questions that buttons answer, on what is held, and on STOP.
+    /// Sets the labels for targets that buttons answer, for the held target and for STOP.
     void setButtonLabels(const ButtonLabels& labels);
-    /// Half a sentence: a device of either person is unplugged, so no presentation starts; empty: all are there.
+    /// Sets half a sentence that says which device is unplugged, so that no presentation starts; empty if none is.
     void setInputGone(const QString& why);
     /// Shows a note at the upper right: "rehearsal · simulated".
     void setNote(const QString& note);
-    /// Full screen there, on top, with the keys.
+    /// Shows the window full screen on `screen`, on top and with the keyboard focus.
     void showOn(QScreen& screen);
     void takeKeys();
     /// Sets the operator's strip for a single screen; it takes the lower edge while it is open. Takes the widget.
     void setStrip(QWidget* strip);
     [[nodiscard]] bool stripOpen() const;
     void openStrip(bool open);
-    /// A stop of the output by anyone: the targets go at once.
+    /// Removes the targets at once after anyone has stopped the output.
     void noteStop();
-    /// How many of the participant's stops are left before the session ends; said where they press it.
+    /// Shows next to STOP how many of the participant's stops are left before the session ends.
     void setStopsLeft(int left);
-    /// The operator's break: what the screen says between two trials meanwhile.
+    /// Shows or hides the notice of the operator's break between two trials.
     void showBreak(bool on);
     [[nodiscard]] const ParticipantField& field() const;
     [[nodiscard]] QString title() const;
-    /// Targets of a question are on the screen and wait for an answer.
+    /// True if the targets of a question are on the screen and wait for an answer.
     [[nodiscard]] bool asking() const { return asking_ && shown_; }
-    /// "Answer", for the operator: what this screen shows.
+    /// Returns what this screen shows, for the operator, such as "Answer".
     [[nodiscard]] QString says() const;
 
 signals:
     void changed();      ///< the text has changed
-    void closeWanted();  ///< the session pauses with its output off, and the window stays
+    void closeWanted();  ///< asks to close: the session pauses with its output off, and the window stays
 
 protected:
     void closeEvent(QCloseEvent* event) override;
@@ -83,7 +82,7 @@ private:
     [[nodiscard]] int holdKey() const;
     void choose(int target, SteadyTime at);
     [[nodiscard]] bool takesPress(int code, SteadyTime at, bool repeated, std::optional<int> would);
-    /// Of Several.
+    /// Returns the keys of the targets chosen in a Several question.
     [[nodiscard]] std::vector<std::string> chosenKeys() const;
     void give(PilotAnswer answer, SteadyTime at);
     void pressHold();
@@ -98,20 +97,20 @@ private:
     const std::function<void(const char*)> stop_;
     KeySet set_ = KeySet::Figures;
     PilotScreen screen_;
-    PilotPrompt prompt_;  ///< the last one
+    PilotPrompt prompt_;  ///< the last prompt
     AnswerKeys keys_;
     quint64 id_ = 0;
     bool asking_ = false;
-    bool shown_ = false;  ///< the question's targets are on the screen: a press before is not an answer
+    bool shown_ = false;  ///< true if the question's targets are on the screen; an earlier press is no answer
     bool stopped_ = false;
     bool break_ = false;
     bool painted_ = false;
-    int heldKey_ = 0;  ///< or button
+    int heldKey_ = 0;  ///< the key or button that is held; 0 if none
     SteadyTime heldAt_{};
     AnswerButtons buttons_;
     QString inputGone_;
     EarlierPresses pressed_;
-    QElapsedTimer since_;  // the targets were shown
+    QElapsedTimer since_;  // runs from the moment the targets were shown
     QTimer ticking_;
 
     ParticipantFace* face_;

@@ -12,10 +12,10 @@ namespace {
 
 constexpr std::array kPhases{QT_TRANSLATE_NOOP("PhaseBar", "get ready"), QT_TRANSLATE_NOOP("PhaseBar", "trains"),
                              QT_TRANSLATE_NOOP("PhaseBar", "answer"), QT_TRANSLATE_NOOP("PhaseBar", "rest")};
-constexpr std::array kParts{0.127, 0.311, 0.408, 0.154};  // shares of the width, as the picture has them
+constexpr std::array kParts{0.127, 0.311, 0.408, 0.154};  // shares of the width, as in the design's picture
 constexpr int kPhaseHigh = 32, kBelow = 10, kShareHigh = 6, kBetween = 8, kPad = 12;
 
-/// The phases' shares of `room`; one too narrow for its words takes from those that have more than theirs.
+/// Returns the widths of the phases in `room`; a phase too narrow for its words takes space from wider ones.
 std::array<double, kParts.size()> widthsIn(double room) {
     const QFontMetricsF metrics(textFont(TextSize::Body, QFont::DemiBold));
     std::array<double, kParts.size()> widths{}, spare{};

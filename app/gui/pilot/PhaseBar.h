@@ -1,4 +1,4 @@
-// PhaseBar.h - where a trial is: get ready, trains, answer, rest; the one under way filled, with the time left of it.
+// PhaseBar.h - the phase of a trial: get ready, trains, answer or rest; the present one is filled, with its time left.
 #pragma once
 
 #include <QWidget>
@@ -11,7 +11,7 @@ class PhaseBar final : public QWidget {
 public:
     enum Phase { kNone = -1, kGetReady, kTrains, kAnswer, kRest };
     explicit PhaseBar(QWidget* parent = nullptr);
-    /// `share`: how much of it is gone, 0 to 1; nothing where it has no end of its own.
+    /// `share`: the elapsed part of the phase, 0 to 1; nothing if the phase has no fixed end.
     void setPhase(Phase phase, std::optional<double> left_s = {}, std::optional<double> share = {});
     [[nodiscard]] Phase phase() const { return phase_; }
     [[nodiscard]] QSize sizeHint() const override;

@@ -25,7 +25,7 @@ QString textIn(const nlohmann::json& record, const std::string& path) {
     return at.is_string() ? qtext(at.get_ref<const std::string&>()) : QString();
 }
 
-/// Whether the result comes from a massager, whose levels are strengths.
+/// True if the result comes from a massager, which has strengths as its levels.
 bool isMassager(const nlohmann::json& results) {
     return textIn(results, "modality") == qtext(nameOf(Modality::Massager));
 }
@@ -45,12 +45,12 @@ QString rangeWords(const nlohmann::json& range) {
     return words;
 }
 
-/// An estimate at the edge of what was considered may lie anywhere beyond it.
+/// Returns ", or beyond" if the estimate lies at the edge of the tested range: the true value may lie beyond it.
 QString orBeyond(const nlohmann::json& results, const char* atEdge) {
     return memberAt(results, atEdge) == true ? QObject::tr(", or beyond") : QString();
 }
 
-/// The people and devices that the figures rest on, where that is not a person on real devices.
+/// Names the people and devices behind the figures, unless they are a person and real devices.
 QString basisWords(const RunResult& result) {
     if (memberAt(result.outcome.results, "participant").is_object()) {
         switch (basisIn(result.outcome.results)) {
@@ -65,7 +65,7 @@ QString basisWords(const RunResult& result) {
     return result.simulated ? QObject::tr("Simulated. ") : QString();
 }
 
-/// The headline of a session that measured thresholds only.
+/// Returns the headline of a session that measured only thresholds.
 QString thresholdSentence(const nlohmann::json& results) {
     auto who = textIn(results, "participant.code");
     if (who.isEmpty()) who = QObject::tr("The participant");

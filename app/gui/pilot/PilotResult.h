@@ -1,5 +1,5 @@
-// PilotResult.h - what a pilot session came to: the sentence every result begins with, the confusion matrix, blocks,
-// what was predicted, and what comes next.
+// PilotResult.h - shows the result of a pilot session: the headline sentence, the confusion matrix, blocks, the
+// predictions, and the possible next steps.
 //
 // Thread-safety: the GUI thread; resultSentence() is a pure function.
 #pragma once
@@ -15,25 +15,25 @@
 
 namespace tacto::gui {
 
-/// The headline in the results of pilot-identification: "P-7K3M told the four apart in 68 of 80 trials (85 %, 95 %
-/// interval 76 to 91 %, chance 25 %) between 4.0 and 6.5 mA, 14 to 22 V at 3.4 kΩ."; a sentence of its own for
-/// pilot-thresholds; empty for results of another kind.
+/// Returns the headline from the results of pilot-identification: "P-7K3M told the four apart in 68 of 80 trials (85 %,
+/// 95 % interval 76 to 91 %, chance 25 %) between 4.0 and 6.5 mA, 14 to 22 V at 3.4 kΩ."; for pilot-thresholds a
+/// sentence built from its results; empty for any other results.
 [[nodiscard]] QString resultSentence(const nlohmann::json& results);
 
 class PilotResult final : public QWidget {
     Q_OBJECT
 public:
     explicit PilotResult(QWidget* parent = nullptr);
-    /// `folder`: of the study. `ofStudy`: it leads back there, where an interrupted session is offered for
-    /// continuation.
+    /// `folder`: the study's folder. `ofStudy`: the page leads back to the study, which offers to continue an
+    /// interrupted session.
     void show(const RunResult& result, const QString& folder, bool ofStudy = false);
-    /// A sentence below the result.
+    /// Shows a sentence below the result.
     void say(const QString& what);
 
 signals:
-    void anotherWanted();  ///< a new rehearsal
+    void anotherWanted();  ///< asks for a new rehearsal
     void backWanted();
-    void goOnWanted();  ///< the unfinished session
+    void goOnWanted();  ///< asks to continue the unfinished session
     void folderWanted(const QString& folder);
 
 private:

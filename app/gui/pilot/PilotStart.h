@@ -1,4 +1,4 @@
-// PilotStart.h - what a session in the window is begun with.
+// PilotStart.h - the settings with which a pilot session begins in the window.
 //
 // Thread-safety: values.
 #pragma once
@@ -22,29 +22,29 @@ namespace tacto::gui {
 struct PilotStart {
     QString folder;                            ///< the study's folder
     QString title;                             ///< the study's title, or the name of a rehearsal's folder
-    std::shared_ptr<const Secret> passphrase;  ///< null: a rehearsal
+    std::shared_ptr<const Secret> passphrase;  ///< null for a rehearsal
     std::string participant = "virtual:1";     ///< a code, or virtual:SEED
     std::vector<DeviceUri> devices{{"sim", "", {}}};
-    bool massager = false;      ///< delivers, in place of electrodes
-    QString who;                ///< for the operator: "P-7K3D", "virtual, seed 1"
-    bool person = false;        ///< someone sits at the participant's window; else a virtual participant answers
-    bool confirmsCode = false;  ///< they are asked first whether this code is theirs
+    bool massager = false;      ///< a massager delivers, in place of electrodes
+    QString who;                ///< the participant's name for the operator: "P-7K3D", "virtual, seed 1"
+    bool person = false;        ///< a person sits at the participant's window; otherwise a virtual participant answers
+    bool confirmsCode = false;  ///< the person is first asked to confirm the code
     bool rehearsal = true;
-    std::vector<ExclusionAnswer> exclusions{};  ///< a person's
+    std::vector<ExclusionAnswer> exclusions{};  ///< a person's answers
     std::string protocol = "pilot-identification";
-    std::string method = "quest";    ///< of detection
+    std::string method = "quest";    ///< method to find the detection threshold
     std::string unfinished{};        ///< what to do with an interrupted session: "resume" or "end"; empty: none exists
-    std::uint64_t seed = 1;          ///< for the plan and the order, and for a rehearsal's virtual participant
-    std::string modality = "study";  ///< for a new rehearsal: "electrodes" or "massager"; "study": as the study says
-    std::optional<int> blocks{};     ///< blocks of a rehearsal's test; nothing: as many as the study has
-    bool realTime = false;           ///< a virtual participant's session lasts as long as a person's
+    std::uint64_t seed = 1;          ///< seed of the plan and the order, and of a rehearsal's virtual participant
+    std::string modality = "study";  ///< for a new rehearsal: "electrodes" or "massager"; "study": the study's own
+    std::optional<int> blocks{};     ///< blocks of a rehearsal's test; nothing: as many as in the study
+    bool realTime = false;           ///< a session with a virtual participant takes as long as with a person
     bool blind = true;
     KeySet keys = KeySet::Figures;
     std::vector<SeatedDevice> inputs{};              ///< game pads and foot switches, each assigned to one person
-    std::shared_ptr<const ButtonDevices> buttons{};  ///< opens them; null where there are none
+    std::shared_ptr<const ButtonDevices> buttons{};  ///< opens them; null if there are none
 
-    QString inputsOf{};                      ///< where their assignment is remembered (InputRows.h)
-    std::optional<MarkerAddress> markers{};  ///< nothing: none are sent
+    QString inputsOf{};                      ///< place for which their use is remembered (InputRows.h)
+    std::optional<MarkerAddress> markers{};  ///< nothing: no markers are sent
 
     [[nodiscard]] bool simulated() const {
         return std::ranges::all_of(devices, [](const DeviceUri& uri) { return uri.scheme == "sim"; });

@@ -138,7 +138,7 @@ void PilotWorkspace::connectResult() {
     });
 }
 
-/// The steps stand beside a session and what begins it; a study's lists have the room to themselves.
+/// The session's path is shown with a session and with its result; a study's lists get the full width.
 void PilotWorkspace::showPage(Page page) {
     if (page == kHome || page == kStart) {
         path_->clear();
@@ -149,7 +149,7 @@ void PilotWorkspace::showPage(Page page) {
 }
 
 void PilotWorkspace::showBeside(Page page) {
-    // Large text in a small window: the session's own page comes first, then the path.
+    // If large text leaves little room, the session's own page has priority, then the path, then the side column.
     const auto* shown = pages_->widget(page);
     const int room = (parentWidget() != nullptr ? parentWidget() : this)->width() - shown->minimumSizeHint().width();
     const bool ofASession = page == kSession || (page == kOutcome && !reopened_);
@@ -174,7 +174,7 @@ void PilotWorkspace::prepareStart(const QString& code) {
 }
 
 void PilotWorkspace::showRecorded(const RunResult& result) {
-    if (running()) return;  // the session's own page stays
+    if (running()) return;  // the page of the running session stays
     ofStudy_ = reopened_ = true;
     result_->show(result, study_.folder(), ofStudy_);
     showPage(kOutcome);
@@ -199,11 +199,11 @@ void PilotWorkspace::beginOfStudy() {
     start.folder = study_.folder();
     start.passphrase = study_.passphrase();
     start_->say({});
-    study_.lend();  // the session opens it by itself
+    study_.lend();  // the session opens the study itself
     if (const auto trouble = session_->begin(start, start_->screens()); !trouble.isEmpty()) sayWhereItBegan(trouble);
 }
 
-/// Nothing has begun: the page on which it was to begin says why.
+/// Shows why no session began, on the page where it was to begin.
 void PilotWorkspace::sayWhereItBegan(const QString& why) {
     if (ofStudy_) {
         study_.takeBack();

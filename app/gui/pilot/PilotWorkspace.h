@@ -1,5 +1,5 @@
-// PilotWorkspace.h - the workspace of those who run pilot sessions: a rehearsal or a study, a session with its two
-// windows, its result.
+// PilotWorkspace.h - the workspace for pilot sessions: choosing a rehearsal or a study, running a session with its two
+// windows, and viewing its result.
 #pragma once
 
 #include <QFrame>
@@ -26,20 +26,20 @@ class PilotWorkspace final : public QWidget {
 public:
     explicit PilotWorkspace(BenchController& controller, QWidget* parent = nullptr);
     ~PilotWorkspace() override;
-    /// Sets the devices that both pages offer; null: there are none.
+    /// Sets the devices that both start pages offer; null if there are none.
     void setButtonDevices(const std::shared_ptr<const ButtonDevices>& devices);
     void refresh(const Telemetry& telemetry) { session_->refresh(telemetry); }
     [[nodiscard]] bool running() const { return session_->running(); }
-    /// Whether conditions, levels and trains are hidden from the operator now, in the whole window.
+    /// True if conditions, levels and trains are now hidden from the operator in the whole window.
     [[nodiscard]] bool blind() const { return running() && session_->start().blind; }
-    /// The safety bar's words in a blind session: "Participant’s STOP: not pressed", and what else there is to say.
+    /// Returns the safety bar's words for a blind session: "Participant’s STOP: not pressed", and further facts if any.
     [[nodiscard]] QString stopWords() const;
-    /// Pause and Resume of the safety bar: a break at once, and its end.
+    /// Handles Pause and Resume of the safety bar: begins a break at once, or ends the break.
     void pauseSession(bool pause) { pause ? session_->breakNow() : session_->wantBreak(false); }
     [[nodiscard]] bool sessionPaused() const { return session_->breakWanted(); }
-    /// Hides the path of the session.
+    /// Hides or shows the path of the session.
     void showPlotOnly(bool only);
-    /// A stop by the participant's keys; false where no session of a person runs.
+    /// Stops by the participant's keys; returns false if no session with a person is running.
     bool stopAsParticipant(const char* by) { return session_->stopAsParticipant(by); }
     /// Null while no session runs.
     [[nodiscard]] ParticipantWindow* participantWindow() const { return session_->window(); }
@@ -63,8 +63,8 @@ private:
 
     OpenStudy study_;
     bool plotOnly_ = false;
-    bool ofStudy_ = false;   ///< the running session, or the one whose result is shown
-    bool reopened_ = false;  ///< the result that is shown was read from its record
+    bool ofStudy_ = false;   ///< true if the running session, or the session of the result shown, belongs to a study
+    bool reopened_ = false;  ///< true if the result shown was read from its record
     SessionPath* path_;
     PageStack* pages_;
     TabbedPage* home_ = nullptr;

@@ -87,7 +87,7 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     look();
 }
 
-/// The fields: where it lies and what was interrupted there, who answers, and how fast, what is run, and on what.
+/// Returns the fields: folder, interrupted session, who answers and how fast, what to run, and the devices.
 std::vector<FormField> RehearsalPage::fields() const {
     std::vector<FormField> all{
         ownField(tr("Folder"), folder_),

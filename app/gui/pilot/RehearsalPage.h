@@ -1,5 +1,5 @@
-// RehearsalPage.h - what a rehearsal needs before it begins: where its study lies, who answers, what is run, and how
-// both people sit. An interrupted rehearsal is offered for continuation.
+// RehearsalPage.h - form to begin a rehearsal: the study's folder, who answers, what to run, and screens, keys and
+// devices for both people. Offers to continue an interrupted rehearsal.
 #pragma once
 
 #include <QLabel>
@@ -25,9 +25,9 @@ public:
     void setButtonDevices(std::shared_ptr<const ButtonDevices> devices) {
         seats_->inputs().setDevices(std::move(devices));
     }
-    /// A sentence in the way; empty for none.
+    /// Shows a sentence that says why no session can begin; empty if there is none.
     void say(const QString& what);
-    /// Looks again whether a session can be resumed.
+    /// Checks again whether a session can be resumed.
     void look();
     /// Starts over in a new folder.
     void renew();
@@ -37,16 +37,16 @@ signals:
 
 private:
     [[nodiscard]] std::vector<FormField> fields() const;
-    [[nodiscard]] bool person() const;   ///< answers
-    [[nodiscard]] bool ownPace() const;  ///< the session's
+    [[nodiscard]] bool person() const;   ///< a person answers
+    [[nodiscard]] bool ownPace() const;  ///< the session runs as fast as a person's
     void judge();
 
     QLabel* title_;
     FieldForm* form_ = nullptr;
     FolderRow* folder_;
     UnfinishedOffer* offer_;
-    std::optional<Modality> modality_;  ///< the modality of a rehearsal that exists already
-    QString seen_;                      ///< the seed that was looked for
+    std::optional<Modality> modality_;  ///< the modality of a rehearsal that already exists
+    QString seen_;                      ///< the seed of the last check
     std::unique_ptr<SeatRows> seats_;
     TroubleLine* trouble_;
     QPushButton* begin_ = nullptr;

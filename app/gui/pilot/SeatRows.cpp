@@ -19,7 +19,7 @@ constexpr const char* kWholeSession = "pilot-identification";
 
 QString rememberedMarkers() { return QSettings().value(kMarkersKey, kNoMarkers).toString(); }
 
-/// Nothing where no markers are wanted.
+/// Returns nothing if no markers are wanted.
 std::optional<Result<MarkerAddress>> markersFrom(const FieldForm& form) {
     const auto text = form.text("markers");
     if (text.isEmpty() || text == kNoMarkers) return std::nullopt;
@@ -141,7 +141,7 @@ ScreenChoice::ScreenChoice(QWidget* parent) : QComboBox(parent) {
     });
 }
 
-/// The remembered one; else one that is not the operator's; else the only one.
+/// Chooses the remembered screen; otherwise a screen that is not the operator's; otherwise the only screen.
 void ScreenChoice::fill() {
     const auto before = currentIndex() >= 0 ? chosenName() : QSettings().value(kScreenKey).toString();
     clear();

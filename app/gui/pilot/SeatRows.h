@@ -1,4 +1,4 @@
-// SeatRows.h - fields of the forms before a session: what it runs, and how its two people sit.
+// SeatRows.h - form fields before a session: what to run, and screens, keys and devices for participant and operator.
 #pragma once
 
 #include <QComboBox>
@@ -14,55 +14,55 @@ class QScreen;
 
 namespace tacto::gui {
 
-/// The procedure of a session, and how it finds the level that is just felt.
+/// Returns the fields for the protocol, and for the method that finds the detection threshold.
 [[nodiscard]] std::vector<FormField> procedureFields();
-/// Shows the settings of an interrupted session that goes on.
+/// Shows the settings of the interrupted session if that session is to continue.
 void followOffer(FieldForm& form, const UnfinishedOffer& offer);
-/// False where it finds thresholds alone.
+/// False if the session finds only thresholds.
 [[nodiscard]] bool isWholeSession(const FieldForm& form);
 
-/// Chooses the participant's screen: by its name, remembered, and watched. On a single screen the participant's window
-/// covers the operator's.
+/// Chooses the participant's screen by name, remembers it and notices when it goes. On a single screen the
+/// participant's window covers the operator's.
 class ScreenChoice final : public QComboBox {
     Q_OBJECT
 public:
     explicit ScreenChoice(QWidget* parent = nullptr);
-    /// The chosen one; null when it is gone.
+    /// Returns the chosen screen; null if it is gone.
     [[nodiscard]] QScreen* chosen() const;
-    /// The chosen one; where it is gone another is chosen, as at first. Null without any screen.
+    /// Returns the chosen screen; if it is gone, chooses another as fill() does. Null without any screen.
     [[nodiscard]] QScreen* seat();
     [[nodiscard]] QString chosenName() const { return currentData().toString(); }
-    /// Whether there is just one screen, so that the operator's window has none of its own.
+    /// True if there is only one screen, so that both windows share it.
     [[nodiscard]] static bool isOnly();
 
 signals:
-    void lost(const QString& name);  ///< the chosen one
+    void lost(const QString& name);  ///< the chosen screen is gone
     void back(const QString& name);
 
 private:
     void fill();
 };
 
-/// The participant's screen and keys, the game pads and foot switches of both, markers, what the operator sees.
+/// Fields for the participant's screen and keys, both people's game pads and foot switches, markers and blindness.
 class SeatRows {
 public:
-    /// fields() are to be shown in `form`, which takes what they hold, before anything else is called.
+    /// Show fields() in `form`, which takes the widgets, before any other call.
     explicit SeatRows(FieldForm& form);
     [[nodiscard]] std::vector<FormField> fields() const;
-    /// Called once they are shown.
+    /// Call this once the fields are shown.
     void connectFields();
     [[nodiscard]] ScreenChoice& screens() const { return *screen_; }
     [[nodiscard]] InputRows& inputs() const { return *inputs_; }
     void writeTo(PilotStart& start) const;
-    /// Why a session cannot begin with the form as it is, a sentence; empty where it can.
+    /// Returns a sentence that says why a session cannot begin with these settings; empty if it can.
     [[nodiscard]] QString missing(bool person) const;
-    /// Recalls what is remembered of `place` (InputRows.h), and the markers' port: earlier choices are forgotten.
+    /// Restores what is remembered for `place` (InputRows.h), and the markers' port; forgets earlier choices.
     void recall(const QString& place);
-    /// Screen, keys and buttons are a person's. `realTime`: of a virtual participant's session.
+    /// Shows screen, keys and buttons for a person only. `realTime`: a virtual participant takes a person's time.
     void showFor(bool person, bool realTime = false);
-    /// A blind study's sessions are blind: that is part of its approval.
+    /// Sets whether the study is blind. Its sessions are then always blind: that is part of its approval.
     void setBlind(bool study);
-    /// The explanation of these, to be placed below the form.
+    /// Returns the explanation of these fields, to be placed below the form.
     [[nodiscard]] QLabel* about() const { return about_; }
 
 private:

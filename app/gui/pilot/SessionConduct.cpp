@@ -20,7 +20,7 @@ namespace {
 constexpr const char* kScreenWent = "the participant's screen went";
 constexpr const char* kScreenClosed = "the participant's screen was closed";
 
-/// The run that a pilot session is, with the profile, the limits and the notes of the day as they are now.
+/// Returns the run for a pilot session, with the present profile, limits and notes of the day.
 Result<RunOrder> pilotOrder(const PilotStart& start, BenchController& controller) {
     auto source = ProtocolLibrary().find(start.protocol);
     if (!source) return failure(source);
@@ -67,7 +67,7 @@ SessionConduct::SessionConduct(BenchController& controller, OperatorPage& page, 
 
 SessionConduct::~SessionConduct() {
     inputs_.end();
-    desk_.leave();  // answers what asker_ waits for
+    desk_.leave();  // gives asker_ the answer that it waits for
 }
 
 void SessionConduct::connectPage() {
@@ -91,7 +91,7 @@ void SessionConduct::connectInputs() {
                 if (window_) window_->moveButton(code, use, down, at);
             });
     connect(&inputs_, &SessionInputs::operatorPressed, this, [this](const ButtonUse& use) {
-        if (use.does != ButtonUse::Does::Answer) return;  // STOP: atOnce()
+        if (use.does != ButtonUse::Does::Answer) return;  // atOnce() handles STOP
         const bool atStrip = strip_ != nullptr && strip_->question().open();
         (atStrip ? strip_->question() : page_.question()).press(use.answer);
     });
@@ -106,7 +106,7 @@ void SessionConduct::connectInputs() {
     });
 }
 
-/// What the devices' threads do at once: the output goes off, whatever the window's thread does meanwhile.
+/// Returns the callbacks for the devices' threads, which switch the output off without waiting for the window's thread.
 InputsAtOnce SessionConduct::atOnce() {
     const auto participant = [this](const char* by) {
         const auto stop = switchOff(by);
@@ -129,7 +129,7 @@ InputsAtOnce SessionConduct::atOnce() {
         if (confirming_) return;
         desk_.setBreak(true, which);
         if (!desk_.stopBy(kOperatorPauses)) controller_.stop(kOperatorPauses);
-        desk_.setHolding(false);  // this is no stop by the participant
+        desk_.setHolding(false);  // a release now is not a stop by the participant
     };
     return all;
 }
@@ -200,7 +200,7 @@ void SessionConduct::openWindow() {
     if (auto* screen = screens_->chosen()) window_->showOn(*screen);
 }
 
-/// Asked before anything else, on the participant's own screen: until then no study is opened and nothing is made.
+/// Asks the participant to confirm the code before any study is opened and before anything is created.
 void SessionConduct::confirmCode() {
     confirming_ = true;
     desk_.begin(nullptr);
@@ -247,7 +247,7 @@ void SessionConduct::run() {
     run_ = controller_.runPilot(order_, seats, mark_);
 }
 
-/// The output first. A person's session then asks for the reason, which is a row, and ends.
+/// Switches the output off first. A person's session then asks for the reason, which it records, and ends.
 void SessionConduct::abort() {
     if (confirming_ || !start_.person || !desk_.stopBy(kOperatorAborts)) controller_.stop(kOperatorAborts);
     if (confirming_) desk_.cancel();
@@ -279,7 +279,7 @@ std::optional<HeardStop> SessionConduct::switchOff(const char* by) {
     return HeardStop{true, true};
 }
 
-/// Shows it in the windows.
+/// Shows the stop in the windows.
 void SessionConduct::noteStop(const HeardStop& stop) {
     if (window_) window_->noteStop();
     if (!stop.tested) ++participantStops_;
@@ -300,7 +300,7 @@ void SessionConduct::ask(const PilotPrompt& prompt, quint64 id) {
     if (strip_ != nullptr) strip_->setWhere(page_.where());
     emit asked(prompt);
     if (prompt.to == PromptTo::Participant) return;
-    // On a single screen the question comes up where the operator can reach it.
+    // On a single screen the question appears in the strip, where the operator can reach it.
     if (window_ && window_->isVisible() && ScreenChoice::isOnly() && strip_ != nullptr) {
         strip_->question().ask(prompt, id);
         window_->openStrip(true);
@@ -311,7 +311,7 @@ void SessionConduct::ask(const PilotPrompt& prompt, quint64 id) {
 
 void SessionConduct::refresh(const Telemetry& telemetry) {
     if (!running_) return;
-    const auto feed = controller_.takeRunFeed();  // trials are dropped, as they name conditions
+    const auto feed = controller_.takeRunFeed();  // trials are discarded, as they name conditions
     if (feed.progress && !start_.person)
         emit progressed(qtext(feed.progress->label), int(feed.progress->done), int(feed.progress->total));
     page_.refresh(telemetry);
@@ -333,7 +333,7 @@ void SessionConduct::setBreak(bool due, const std::string& why) {
     if (!due) giveKeys();
 }
 
-/// The break is wanted before the output goes: the session finds it when it asks why.
+/// The break is set before the output goes off, so that the session finds the reason for the stop.
 void SessionConduct::breakNow() {
     wantBreak(true);
     desk_.stopBy(kOperatorPauses);
@@ -349,12 +349,12 @@ void SessionConduct::giveKeys() {
     if (window_) window_->takeKeys();
 }
 
-/// A session that has begun pauses and continues once the window is seated again; a session that has not begun ends.
+/// A session that has begun pauses, and continues once the window is shown again; a session that has not begun ends.
 void SessionConduct::pauseFor(const char* why) {
     if (!running_ || !start_.person) return;
     if (!desk_.stopBy(why)) controller_.stop(why);
-    if (confirming_) desk_.cancel();  // nothing has begun
-    desk_.setHolding(false);          // letting go now is not a stop by the participant
+    if (confirming_) desk_.cancel();  // the session has not begun
+    desk_.setHolding(false);          // a release now is not a stop by the participant
     if (window_) window_->noteStop();
 }
 
@@ -362,7 +362,7 @@ void SessionConduct::screenLost(const QString& name) {
     if (!running_ || !start_.person) return;
     pauseFor(kScreenWent);
     desk_.setScreenThere(false);
-    if (window_) window_->hide();  // the participant's window would lie over the operator's
+    if (window_) window_->hide();  // otherwise the participant's window would cover the operator's
     page_.setObstacle(tr("the participant’s screen “%1” is gone").arg(name));
 }
 
@@ -384,7 +384,7 @@ void SessionConduct::leaveSeats() {
     strip_ = nullptr;
     if (!window_) return;
     window_->hide();
-    window_.release()->deleteLater();  // its own press may be the one that is heard
+    window_.release()->deleteLater();  // perhaps called from a press in this window
 }
 
 void SessionConduct::refuse(const QString& why) {
@@ -395,7 +395,7 @@ void SessionConduct::refuse(const QString& why) {
 }
 
 void SessionConduct::finish(const std::shared_ptr<const FinishedRun>& run) {
-    if (!running_ || confirming_ || run->number != run_) return;  // another page's
+    if (!running_ || confirming_ || run->number != run_) return;  // a run of another page
     const auto& outcome = run->result.outcome;
     if (outcome.error && run->result.session.empty()) return refuse(sentence(*outcome.error));
     leaveSeats();
@@ -408,7 +408,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kOnePress{100};
 
-/// An operator who aborts or closes the window, or a screen that goes, has tested no STOP.
+/// False if the operator aborts, or a window closes or a screen goes: these do not test a STOP.
 bool isPressOfStop(std::string_view by) {
     return by.starts_with("operator (") && by != kOperatorAborts && by != "operator (signal)";
 }
@@ -433,16 +433,16 @@ std::optional<HeardStop> SessionStops::participantPressed(const char* by) {
     HeardStop stop;
     stop.tested = desk_.testsStopOf(PromptTo::Participant) || desk_.testsStopOf(PromptTo::Operator);
     stop.heard = desk_.stopBy(by);
-    if (!stop.heard) controller_.stop(by);  // the session has not begun, or is over
+    if (!stop.heard) controller_.stop(by);  // the session has not begun or is over
     return stop;
 }
 
 bool SessionStops::isTested(const char* by) {
     if (std::string_view(by).ends_with(kStillHeld)) return heldTested_.load();
     if (!isPressOfStop(by)) return false;
-    // The press tested a STOP, which has switched off already, and a question comes next.
+    // This press has already tested a STOP and switched off; only its repeats come here, while a question is next.
     if (std::chrono::steady_clock::now() - testedAt_.load() < kOnePress) return true;
-    // In the test of the participant's STOP this press is of the wrong one: it asks again, and stops no session.
+    // During either STOP test this press is the operator's STOP: the test asks again if it was the wrong one.
     const bool tests = desk_.testsStopOf(PromptTo::Operator) || desk_.testsStopOf(PromptTo::Participant);
     heldTested_ = tests && desk_.stopBy(by);
     if (heldTested_) testedAt_ = std::chrono::steady_clock::now();

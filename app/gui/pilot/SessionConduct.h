@@ -1,13 +1,12 @@
-// SessionConduct.h - a pilot session while it runs in the window: the question for the code, the participant's window
-// and the operator's strip in it, stops, breaks, notes, and its end.
+// SessionConduct.h - runs a pilot session in the window: confirms the code, shows the participant's window and the
+// operator's strip, handles stops, breaks and notes, and ends the session.
 //
-// The participant's window is a window of its own, full screen on the screen that was chosen; where there is one screen
-// only, the operator's page is a strip in it, behind F2. A screen that goes, or a
-// participant's window that is closed, switches the output off and pauses the session until the window is seated again.
-// A game pad or foot switch that is unplugged switches the output off and begins a break of the operator's.
-// An abort switches the output off and then asks the operator for the reason.
+// The participant's window is shown full screen on the chosen screen. If there is only one screen, the operator's page
+// is a strip in that window, opened by F2. If the screen goes or the participant's window is closed, the output goes
+// off and the session pauses until the window is shown again. Unplugging a game pad or foot switch switches the output
+// off and begins an operator's break. An abort switches the output off and then asks the operator for the reason.
 //
-// Thread-safety: the GUI thread. What a pad's or a foot switch's STOP switches off goes from its own thread.
+// Thread-safety: the GUI thread. The STOP of a pad or foot switch switches the output off on the device's own thread.
 #pragma once
 
 #include <QObject>
@@ -25,36 +24,36 @@
 
 namespace tacto::gui {
 
-/// A press of STOP in a person's session: a stop, the test of one, or a press that is heard again. StopKeys hears one
+/// A press of STOP in a person's session: a stop, a test of STOP, or the same press heard again. StopKeys may hear a
 /// press several times, and a contact bounces.
 struct HeardStop {
-    bool heard = false;   ///< a session has heard it
-    bool tested = false;  ///< a press that tested one of the two STOPs, and does not stop the session
+    bool heard = false;   ///< a session received the stop
+    bool tested = false;  ///< the press tested one of the two STOPs, and does not stop the session
 };
 
 class SessionStops {
 public:
-    /// `desk` and `controller` outlive it.
+    /// `desk` and `controller` must outlive this.
     SessionStops(ParticipantDesk& desk, BenchController& controller) : desk_(desk), controller_(controller) {}
 
     void begin();
-    /// Switches off and says what it was; nothing where one press is heard again.
+    /// Switches the output off and says what the press was; nothing if the same press is heard again.
     [[nodiscard]] std::optional<HeardStop> participantPressed(const char* by);
-    /// Whether this is another press, not the last one heard again: output needs their "go on" to be on again.
+    /// True if this is a new press, not the last one heard again: the participant had to say "go on" between the two.
     [[nodiscard]] bool isAnotherPress(const char* by);
-    /// By then a press is over; the repainting after it may have taken longer.
+    /// Notes that the stop has been shown: the repainting may have taken longer than the press.
     void shown() { stoppedAt_ = std::chrono::steady_clock::now(); }
-    /// Whether a stop from elsewhere, the operator's, is a test of their STOP: it switches the output off, no more.
+    /// True if the operator's stop is a test of their STOP, which only switches the output off.
     [[nodiscard]] bool isTested(const char* by);
-    /// The operator answered: a key that is still held by now stops what comes next.
+    /// Notes that the operator answered: a STOP key still held from now on stops the session again.
     void answered() { heldTested_ = false; }
 
 private:
     ParticipantDesk& desk_;
     BenchController& controller_;
     std::atomic<SteadyTime> stoppedAt_{};  ///< when the participant stopped
-    std::atomic<SteadyTime> testedAt_{};   ///< the operator's STOP
-    std::atomic<bool> heldTested_{false};  ///< the tested STOP is one of their keys that may be held still
+    std::atomic<SteadyTime> testedAt_{};   ///< when the operator's STOP was tested
+    std::atomic<bool> heldTested_{false};  ///< the tested STOP is a key that the operator may still hold
 };
 
 class OperatorAsk;
@@ -67,7 +66,7 @@ class SessionNotes;
 class SessionConduct final : public QObject {
     Q_OBJECT
 public:
-    /// All that is given here outlives it.
+    /// All arguments must outlive this.
     SessionConduct(BenchController& controller, OperatorPage& page, QObject* parent = nullptr);
     ~SessionConduct() override;
 
@@ -77,21 +76,21 @@ public:
     [[nodiscard]] bool running() const { return running_; }
     [[nodiscard]] const PilotStart& start() const { return start_; }
     [[nodiscard]] const PilotScreen& screen() const { return screen_; }
-    /// Counts the stops in all parts of the session.
+    /// Returns the number of stops in all parts of the session.
     [[nodiscard]] int participantStops() const { return participantStops_; }
     [[nodiscard]] int faults() const { return faults_; }
-    /// Null while no person sits at one.
+    /// Null while no person uses a participant's window.
     [[nodiscard]] ParticipantWindow* window() const { return window_.get(); }
-    /// The screen that shows the participant's window.
+    /// Returns the name of the screen that shows the participant's window.
     [[nodiscard]] QString screenName() const;
 
     void refresh(const Telemetry& telemetry);
-    /// A stop by the participant's keys; false where no session of a person runs.
+    /// Stops by the participant's keys; returns false if no session with a person is running.
     bool stopAsParticipant(const char* by);
-    /// Asks for a break from the next trial on, until it is not wanted any longer.
+    /// Sets whether a break is wanted from the next trial on.
     void wantBreak(bool due);
     [[nodiscard]] bool breakWanted() const { return desk_.breakWanted(); }
-    /// The trial under way is void: it is repeated after the break.
+    /// Begins a break at once and voids the present trial, which is repeated after the break.
     void breakNow();
 
 signals:
@@ -99,14 +98,14 @@ signals:
     void screenChanged(const tacto::PilotScreen& screen);
     void asked(const tacto::PilotPrompt& prompt);
     void changed();                                             ///< stops, faults, what the participant's window shows
-    void attentionWanted();                                     ///< the operator is asked something
-    void progressed(const QString& what, int done, int total);  ///< how far a virtual participant has come
-    void refused(const QString& why);                           ///< nothing was begun
+    void attentionWanted();                                     ///< stops, faults or the participant's screen changed
+    void progressed(const QString& what, int done, int total);  ///< progress of a virtual participant
+    void refused(const QString& why);                           ///< no session was begun
     void ended(std::shared_ptr<const tacto::gui::FinishedRun> run);
     void runningChanged();
 
 private:
-    /// A stop by the participant of a person's session: the output first, and that alone. Any thread.
+    /// Handles a stop by the participant in a person's session: only switches the output off. Any thread.
     std::optional<HeardStop> switchOff(const char* by);
     void connectPage();
     void connectDesk(OperatorAsk& question, SessionNotes& notes);
@@ -138,19 +137,19 @@ private:
     ParticipantDesk desk_;
     SessionInputs inputs_;
     std::unique_ptr<ParticipantWindow> window_;
-    OperatorStrip* strip_ = nullptr;  ///< the window's, while it is there
+    OperatorStrip* strip_ = nullptr;  ///< the strip in the window, while there is one
     ScreenChoice* screens_ = nullptr;
     PilotStart start_;
     RunOrder order_;
     StopMark mark_{};
     SideWork asker_;                       ///< waits for the answer to the code
-    std::atomic<bool> confirming_{false};  ///< the code is asked for
+    std::atomic<bool> confirming_{false};  ///< the code is being confirmed
     bool codeConfirmed_ = false;
     bool running_ = false;
     std::uint64_t run_ = 0;
     bool seenFault_ = false;
     SessionStops stops_;
-    quint64 screenPrompt_ = 0;  ///< the question that the participant's window is seated again for
+    quint64 screenPrompt_ = 0;  ///< the question for which the participant's window is shown again
     int participantStops_ = 0, faults_ = 0;
     PilotScreen screen_;
 };

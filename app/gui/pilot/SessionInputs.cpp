@@ -8,7 +8,7 @@
 namespace tacto::gui {
 
 namespace {
-constexpr int kButtonsOfOne = 1000;  // codes of a device's buttons
+constexpr int kButtonsOfOne = 1000;  // number of codes for the buttons of one device
 
 QString unpluggedText(const SeatedDevice& seat) {
     const auto name = qtext(seat.device.name);
@@ -16,7 +16,7 @@ QString unpluggedText(const SeatedDevice& seat) {
                                                : SessionInputs::tr("the operator's %1 is unplugged").arg(name);
 }
 
-/// Tells `atOnce` what a device of that seat does, on its own thread.
+/// Returns a listener that calls `atOnce` on the device's own thread.
 ButtonListener listenerOf(const SeatedDevice& seat, int firstCode, const InputsAtOnce& atOnce) {
     ButtonListener listener;
     listener.moved = [seat, firstCode, atOnce](const ButtonPress& press) {
@@ -124,7 +124,7 @@ Result<void> OpenButtons::open(const ButtonDeviceInfo& info, const ButtonListene
     if (open_.contains(info.identity)) return {};
     if (!devices_) return fail(ErrorCode::NotFound, "{} ({}) is not plugged in any more.", info.name, info.identity);
     const auto number = ++number_;
-    // Called on the device's thread: what it says is handed over, and nobody waits for it.
+    // Called on the device's thread: passes the event to the window's thread without waiting.
     ButtonListener listener;
     listener.moved = [this, number, identity = info.identity, first = atOnce.moved](const ButtonPress& press) {
         if (first) first(press);

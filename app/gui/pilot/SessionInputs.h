@@ -1,8 +1,8 @@
-// SessionInputs.h - the game pads and foot switches of a session: each press goes to the one person whom its device is
-// assigned to, and one that is unplugged is told.
+// SessionInputs.h - the game pads and foot switches of a session: passes each press to the one person to whom the
+// device is assigned, and reports an unplugged device.
 //
-// No other device is open, so none answers. The output is switched off on the device's own thread, which waits neither
-// for the window's thread nor for its painting. The signals follow, for what the windows show.
+// Only the assigned devices are open, so no other device can answer. The output is switched off on the device's own
+// thread, which does not wait for the window's thread or its painting. Signals to update the windows follow.
 #pragma once
 
 #include <QObject>
@@ -18,19 +18,18 @@
 
 namespace tacto::gui {
 
-/// Game pads and foot switches that are open, and what they say, brought to the window's thread.
-/// A press is told once, with the moment at which its report came. What must not wait for the window's thread is told
-/// on the device's as well, before.
+/// Open game pads and foot switches, with their events passed to the window's thread. A press is reported once, with
+/// the time at which it arrived. Urgent events are first reported on the device's own thread.
 class OpenButtons final : public QObject {
     Q_OBJECT
 public:
     explicit OpenButtons(QObject* parent = nullptr);
     ~OpenButtons() override;
-    /// Sets where devices are opened from now on; null: there are none.
+    /// Sets the source from which devices are opened from now on; null if there are none.
     void setDevices(std::shared_ptr<const ButtonDevices> devices);
     [[nodiscard]] const std::shared_ptr<const ButtonDevices>& devices() const { return devices_; }
-    /// `atOnce` is called on the device's own thread, before the signals are, and not after close().
-    /// Errors: as ButtonDevices::open(). One that is open stays so.
+    /// `atOnce` is called on the device's own thread before the signals, and not after close(). Errors: as
+    /// ButtonDevices::open(). A device that is already open stays open.
     [[nodiscard]] Result<void> open(const ButtonDeviceInfo& info, const ButtonListener& atOnce = {});
     /// Closes all devices, or the one with this identity.
     void close();
@@ -42,21 +41,21 @@ signals:
 
 private:
     struct Open {
-        quint64 number = 0;  ///< late messages come from an earlier number of this identity
+        quint64 number = 0;  ///< messages with an earlier number are outdated
         std::unique_ptr<ButtonDevice> device;
     };
     [[nodiscard]] bool isOpen(const std::string& identity, quint64 number) const;
     std::shared_ptr<const ButtonDevices> devices_;
     quint64 number_ = 0;
-    std::map<std::string, Open> open_;  ///< by identity
+    std::map<std::string, Open> open_;  ///< by device identity
 };
 
-/// Called on a device's own thread, each before the signal of the same event; none may block. `code` as in
+/// Callbacks on a device's own thread, each called before the signal of the same event; none may block. `code` as in
 /// SessionInputs::participantMoved.
 struct InputsAtOnce {
     std::function<void(PromptTo whose)> stop;  ///< called when that person's STOP went down
-    std::function<void(int code)> letGo;       ///< a button of the participant's that holds came up
-    /// A button of the participant's that holds came up, after letGo, or went down.
+    std::function<void(int code)> letGo;       ///< called when one of the participant's hold buttons came up
+    /// Called when one of the participant's hold buttons went down, or came up (then after letGo).
     std::function<void(int code, bool down, SteadyTime at)> heldMoved;
     std::function<void(const std::string& which)> lost;  ///< an assigned device was unplugged, as gone() says it
 };
@@ -65,22 +64,22 @@ class SessionInputs final : public QObject {
     Q_OBJECT
 public:
     explicit SessionInputs(QObject* parent = nullptr);
-    /// Opens all, or none; why not, a sentence. A device that is given twice is refused: it is one person's.
+    /// Opens all devices or none; returns a sentence that says why not. Refuses a device that is given twice.
     [[nodiscard]] QString begin(const std::shared_ptr<const ButtonDevices>& devices,
                                 const std::vector<SeatedDevice>& seats, const InputsAtOnce& atOnce);
-    /// `atOnce` is not called any more once this returns.
+    /// Closes all devices; `atOnce` is not called after this returns.
     void end();
     [[nodiscard]] ButtonLabels labels() const { return labelsOf(seats_); }
-    /// How many answers, from 1, the participant's devices reach.
+    /// Returns the largest n for which the participant's devices can give all answers 1 to n.
     [[nodiscard]] int participantAnswers() const;
-    /// Which devices are unplugged, half a sentence; empty for none.
+    /// Returns half a sentence that names the unplugged devices; empty if there are none.
     [[nodiscard]] QString gone() const;
 
 signals:
-    /// `code`: the same for the same button. Also of what `atOnce` was told.
+    /// `code` identifies the button. Emitted also for events that `atOnce` has already reported.
     void participantMoved(int code, const tacto::gui::ButtonUse& use, bool down, tacto::gui::SteadyTime at);
     void operatorPressed(const tacto::gui::ButtonUse& use);  ///< likewise
-    void lost();                                             ///< an assigned device was unplugged: gone() names it
+    void lost();                                             ///< also if `atOnce` has reported the event
     void back();
 
 private:

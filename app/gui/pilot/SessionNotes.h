@@ -1,4 +1,4 @@
-// SessionNotes.h - the operator's notes during a pilot session, each with its time; Enter keeps one. Newest first.
+// SessionNotes.h - the operator's notes during a pilot session, each with its time, newest first; Enter saves a note.
 #pragma once
 
 #include <QLineEdit>
@@ -13,14 +13,14 @@ class SessionNotes final : public QWidget {
 public:
     explicit SessionNotes(QWidget* parent = nullptr);
     void clear();
-    /// Shows a note that was kept.
+    /// Shows a note that was saved.
     void add(const QString& note);
     [[nodiscard]] int count() const { return count_; }
 
 signals:
-    /// Keep it; empty for a mark without a word.
+    /// Asks to save the note; empty for a mark without text.
     void noted(const QString& note);
-    void typingEnded();  ///< the keys may go back to the participant
+    void typingEnded();  ///< the keyboard focus may go back to the participant
 
 private:
     void keep();

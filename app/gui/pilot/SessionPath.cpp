@@ -16,11 +16,11 @@ namespace {
 constexpr int kPilotPath = 240, kPathPad = 16;
 
 enum PilotStep { kChecklist, kStopTest, kSkin, kThresholds, kTraining, kTest, kRatings, kAfter, kSteps };
-constexpr std::array<int, 3> kTested = {kTraining, kTest, kRatings};  // what a session of thresholds alone lacks
+constexpr std::array<int, 3> kTested = {kTraining, kTest, kRatings};  // steps that a thresholds-only session leaves out
 
 using State = StepList::State;
 
-/// Where a phase stands on the path, or a question of the operator outside the phases; `now`: the step so far.
+/// Returns the step of a phase, or of an operator's question outside the phases; `now` is the step so far.
 std::optional<int> stepOf(const std::string& name, int now) {
     if (name == "checklist" || name == "code") return kChecklist;
     if (name == "stop-test") return kStopTest;
@@ -57,7 +57,7 @@ QString titleOf(int step, bool massager) {
     }
 }
 
-// The design's minutes at which each step begins, with the usual blocks; the end of the session is the last.
+// The minute at which each step begins in the design, with the usual blocks; the last number is the session's end.
 constexpr double kBegins_min[kSteps + 1] = {0, 4, 6, 12, 23, 30, 58, 62, 66};
 
 }  // namespace
@@ -155,7 +155,7 @@ void SessionPath::reachFor(const std::string& name) {
     if (const auto step = stepOf(name, step_); step && *step > step_) reach(*step);
 }
 
-/// Everything before is done; -1: nothing has begun.
+/// Marks all steps before `step` as done; -1: nothing has begun.
 void SessionPath::reach(int step) {
     step_ = std::max(0, step);
     for (int i = 0; i < kSteps; ++i) {
@@ -166,7 +166,7 @@ void SessionPath::reach(int step) {
         if (now == State::ToDo) steps_->setNote(i, {});
         if (now == State::UnderWay && before != now) steps_->setNote(i, QTime::currentTime().toString("HH:mm"));
     }
-    steps_->setShown(std::min(step_, kSteps - 1));  // all are done once the session has ended
+    steps_->setShown(std::min(step_, kSteps - 1));  // after the session's end all steps are done
     const bool shown = step >= 0 && counts_;
     leftWord_->setVisible(shown);
     left_->setVisible(shown);

@@ -1,4 +1,4 @@
-// SessionPath.h - the steps of a pilot session at the left, with how each stands, and the time that is left.
+// SessionPath.h - the steps of a pilot session, at the left of the page, with the state of each and the time left.
 #pragma once
 
 #include <QLabel>
@@ -11,13 +11,13 @@ namespace tacto::gui {
 
 class StepList;
 
-inline constexpr int kUsualBlocks = 5;  // blocks in the test
+inline constexpr int kUsualBlocks = 5;  // usual number of blocks in the test
 
-/// The step that the question named `prompt` begins where the phase does not tell it: before the first trains, and
+/// Returns the step that begins with the question `prompt`, if the phase does not tell: before the first trains and
 /// after the test. Empty for any other question. `massager`: there are no electrodes.
 [[nodiscard]] QString stepAsked(const std::string& prompt, const std::string& phase, bool massager);
 
-/// NoRange: this participant felt no range of levels to test, so the session ended after its thresholds.
+/// NoRange: the participant felt no range of levels to test, so the session ended after its thresholds.
 enum class SessionEnd { Complete, NoRange, BrokenOff };
 
 class SessionPath final : public QWidget {
@@ -25,16 +25,16 @@ class SessionPath final : public QWidget {
 public:
     explicit SessionPath(QWidget* parent = nullptr);
     void setTitle(const QString& title, const QString& below);
-    /// `blocks` in the test, 0: thresholds alone; `counts`: the time left is for people; `massager`: there are no
-    /// electrodes.
+    /// `blocks`: number in the test, 0 for thresholds alone; `counts`: show the time left, which holds for people only;
+    /// `massager`: there are no electrodes.
     void begin(int blocks, bool counts, bool massager);
     void show(const PilotScreen& screen);
     void asked(const PilotPrompt& prompt);
-    /// The test is under way, though its screens are not shown.
+    /// Marks the test as under way, for a session without screens.
     void reachTest();
-    /// Nothing is under way any longer.
+    /// Marks the session as ended; no step is under way any more.
     void end(SessionEnd how);
-    /// Nothing has begun.
+    /// Resets to the state before a session.
     void clear();
     using QWidget::show;
 

@@ -1,4 +1,4 @@
-// SessionSide.h - what stands beside a session: who takes part, what their screen shows, and the stops.
+// SessionSide.h - the column next to a session's page: who takes part, the participant's screen, and the stops.
 #pragma once
 
 #include <QFrame>
@@ -28,7 +28,7 @@ private:
     FactsCard* stops_;
 };
 
-/// Facts beside each other: a title with its icon, and rows of a name and a value.
+/// A card of facts: a title with an icon, and rows of a name and a value.
 class FactsCard final : public QFrame {
     Q_OBJECT
 public:
@@ -39,7 +39,7 @@ public:
     };
     FactsCard(const QString& title, const QString& iconName, QWidget* parent = nullptr);
     void setFacts(const std::vector<Fact>& facts);
-    /// Below the title, in place of rows or above them. Takes the widget.
+    /// Shows a picture below the title, above the rows if there are any. Takes ownership of the widget.
     void setPicture(QWidget* picture);
     void setWords(const QString& words);
 
@@ -53,8 +53,8 @@ private:
     std::vector<Fact> facts_;
 };
 
-/// A small picture of the participant's screen at this moment: where targets are, or the dot. The same drawing for
-/// every condition.
+/// A small picture of the participant's screen at this moment: the places of the targets, or the dot. It is the same
+/// for every condition.
 class TheirScreen final : public QWidget {
     Q_OBJECT
 public:

@@ -36,11 +36,11 @@ SessionStartPage::SessionStartPage(const DeviceWatch& watch, QWidget* parent)
         wrapPlain(*label);
     }
     addAll(*column, {head_, about_, offer_});
-    // Tab goes from what is made first to what is made later: devices and seats, the checklist, then the buttons.
+    // Tab follows the order of creation: devices and screens first, then the checklist, then the buttons.
     auto* form = buildForm(*inside, watch);
     buildChecklist();
     begin_ = pageButton(tr("Begin the session"), "beginSession", {}, this);
-    // The checklist stands beside the rest where there is room.
+    // The checklist is placed to the right of the form if there is room.
     auto* body = new TurningRow([] { return scaledPx(kTwoColumns); });
     body->setSpacing(scaledPx(32));
     body->addLayout(form, 1);
@@ -62,7 +62,7 @@ SessionStartPage::SessionStartPage(const DeviceWatch& watch, QWidget* parent)
     connect(offer_, &UnfinishedOffer::changed, this, &SessionStartPage::judge);
 }
 
-/// The form: what is run, on which devices, and how both people sit.
+/// Builds the form: what to run, the devices, and screens and keys for both people.
 QLayout* SessionStartPage::buildForm(QWidget& parent, const DeviceWatch& watch) {
     form_ = new FieldForm(&parent, FieldForm::Labels::Beside);
     devices_ = new DeviceRows(*form_, watch);

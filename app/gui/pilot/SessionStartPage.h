@@ -1,5 +1,5 @@
-// SessionStartPage.h - a session of a participant of a study before it begins: what was interrupted, what is run, how
-// both people sit, and the exclusion checklist. A virtual participant has none: it answers no to each.
+// SessionStartPage.h - page before a study participant's session: an interrupted session, what to run, both people's
+// screens and devices, and the exclusion checklist. A virtual participant sees none and answers no to each item.
 #pragma once
 
 #include <QBoxLayout>
@@ -25,17 +25,17 @@ class UnfinishedOffer;
 class SessionStartPage final : public QWidget {
     Q_OBJECT
 public:
-    /// `watch` outlives it: what is plugged in.
+    /// `watch`, which lists the connected devices, must outlive this page.
     explicit SessionStartPage(const DeviceWatch& watch, QWidget* parent = nullptr);
-    /// Afresh for a session of `participant`.
+    /// Resets the page for a session with `participant`.
     void prepare(const Study& study, const Participant& participant);
-    /// All of it but the study's folder and passphrase.
+    /// Returns all settings except the study's folder and passphrase.
     [[nodiscard]] PilotStart start() const;
     [[nodiscard]] ScreenChoice& screens() const { return seats_->screens(); }
     void setButtonDevices(std::shared_ptr<const ButtonDevices> devices) {
         seats_->inputs().setDevices(std::move(devices));
     }
-    /// A sentence in the way; empty for none.
+    /// Shows a sentence that says why no session can begin; empty if there is none.
     void say(const QString& what);
 
 signals:
@@ -49,7 +49,7 @@ private:
 
     std::string code_;
     QString title_;  ///< the study's title
-    QString study_;  ///< its id
+    QString study_;  ///< the study's id
     bool virtual_ = false;
     bool rehearsal_ = false;
     bool massager_ = false;
@@ -65,14 +65,13 @@ private:
     QPushButton* begin_ = nullptr;
 };
 
-/// The questions of the exclusion checklist, each answered by yes or no. No answer is
-/// preselected.
+/// The questions of the exclusion checklist, each answered by yes or no. No answer is preselected.
 class ExclusionChecklist final : public QWidget {
     Q_OBJECT
 public:
     explicit ExclusionChecklist(QWidget* parent = nullptr);
     void clear();
-    /// The questions that are answered, in order.
+    /// Returns the answers given so far, in order.
     [[nodiscard]] std::vector<ExclusionAnswer> answers() const;
     [[nodiscard]] bool whole() const { return answers().size() == groups_.size(); }
 
@@ -81,7 +80,7 @@ signals:
 
 private:
     enum Answer { kNo, kYes };
-    std::vector<QButtonGroup*> groups_;  ///< as exclusionItems()
+    std::vector<QButtonGroup*> groups_;  ///< in the order of exclusionItems()
 };
 
 }  // namespace tacto::gui

@@ -11,7 +11,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kOfferStripe = 5;  // pixels of amber at the left: something waits for an answer
+constexpr int kOfferStripe = 5;  // width in pixels of the amber stripe at the left: an answer is needed
 
 }  // namespace
 
@@ -99,7 +99,7 @@ void UnfinishedOffer::offer(const std::optional<Unfinished>& unfinished) {
     emit changed();
 }
 
-/// All lines of the sentence, in a page that scrolls too.
+/// Makes room for all lines of the sentence, even on a page that scrolls.
 void UnfinishedOffer::fit() { says_->setMinimumHeight(std::max(0, says_->heightForWidth(says_->width()))); }
 
 std::string UnfinishedOffer::chosen() const {

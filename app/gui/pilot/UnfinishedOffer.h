@@ -1,7 +1,7 @@
-// UnfinishedOffer.h - offers to go on with an interrupted session, or to end it and begin another. Neither is
+// UnfinishedOffer.h - offers to continue an interrupted session, or to end it and begin another. Neither is
 // preselected.
 //
-// Thread-safety: the GUI thread; unfinishedOf() is as Study.
+// Thread-safety: the GUI thread; unfinishedOf() as the class Study.
 #pragma once
 
 #include <QDateTime>
@@ -17,27 +17,27 @@ namespace tacto::gui {
 struct Unfinished {
     int number = 0;
     std::string protocol;
-    int answered = 0;  ///< answers on disk
+    int answered = 0;  ///< number of answers on disk
     QDateTime brokenOff;
-    bool mayGoOn = true;    ///< it was not too long ago to go on
-    bool complete = false;  ///< the program was ended before the study knew: nothing is left to ask
-    QString trouble{};      ///< why it cannot be resumed, where its record cannot be read or was changed
+    bool mayGoOn = true;    ///< true if the session was interrupted recently enough to continue
+    bool complete = false;  ///< the session was completed, but the study does not know: nothing is left to ask
+    QString trouble{};      ///< why it cannot be resumed: its record cannot be read or was changed
     bool operator==(const Unfinished&) const = default;
 };
-/// The participant's unfinished session; nothing without one. Errors: Unsupported without the study's key.
+/// Returns the participant's unfinished session; nothing if there is none. Errors: Unsupported without the study's key.
 [[nodiscard]] Result<std::optional<Unfinished>> unfinishedOf(const Study& study, const Participant& participant);
 
 class UnfinishedOffer final : public QFrame {
     Q_OBJECT
 public:
     explicit UnfinishedOffer(QWidget* parent = nullptr);
-    /// Hides itself where there is nothing to offer.
+    /// Shows the offer; hides itself if there is nothing to offer.
     void offer(const std::optional<Unfinished>& unfinished);
     [[nodiscard]] bool asks() const { return offered_.has_value(); }
-    /// "resume" or "end", as the protocol's setting; empty where nothing is offered or chosen.
+    /// Returns "resume" or "end", the protocol's setting; empty if nothing is offered or chosen.
     [[nodiscard]] std::string chosen() const;
     [[nodiscard]] bool goesOn() const { return chosen() == "resume"; }
-    /// Whether a session can begin: nothing is offered, or a choice is made.
+    /// True if a session can begin: nothing is offered, or a choice has been made.
     [[nodiscard]] bool isSettled() const { return !asks() || !chosen().empty(); }
     [[nodiscard]] const std::optional<Unfinished>& offered() const { return offered_; }
 
