@@ -25,7 +25,7 @@ class ParticipantField;
 class ParticipantWindow final : public QWidget {
     Q_OBJECT
 public:
-    /// `stop` is called first thing, on a press of the target and when a held key is let go. `desk` outlives it.
+    /// Calls `stop` before all else when the target is pressed or a held key is released. `desk` must outlive this.
     ParticipantWindow(ParticipantDesk& desk, std::function<void(const char* by)> stop, QWidget* parent = nullptr);
 
     void setKeys(KeySet set) { set_ = set; }
@@ -42,7 +42,7 @@ public:
     /// Shows the window full screen on `screen`, on top and with the keyboard focus.
     void showOn(QScreen& screen);
     void takeKeys();
-    /// Sets the operator's strip for a single screen; it takes the lower edge while it is open. Takes the widget.
+    /// Sets the operator's strip for a single screen; while open it covers the lower edge. Takes ownership.
     void setStrip(QWidget* strip);
     [[nodiscard]] bool stripOpen() const;
     void openStrip(bool open);

@@ -31,7 +31,7 @@ std::optional<Modality> modalityIn(const QString& folder) {
     return study && study->isRehearsal() ? std::optional(study->settings().modality) : std::nullopt;
 }
 
-/// The interrupted session of that virtual participant in the rehearsal there.
+/// Returns the interrupted session of a virtual participant in the rehearsal in `folder`.
 std::optional<Unfinished> unfinishedIn(const QString& folder, const std::string& participant) {
     if (folder.isEmpty() || !Study::isThere(folder.toStdString())) return std::nullopt;
     const auto study = Study::open(folder.toStdString(), nullptr, Study::Access::Read);

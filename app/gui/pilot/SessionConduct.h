@@ -70,8 +70,8 @@ public:
     SessionConduct(BenchController& controller, OperatorPage& page, QObject* parent = nullptr);
     ~SessionConduct() override;
 
-    /// Returns one sentence that says why it cannot begin; empty where it begins. begun() comes from within; ended() or
-    /// refused() follows. `screens` says where the participant's window is, as long as it runs.
+    /// Returns a sentence that says why the session cannot begin; empty if it begins. begun() is emitted during this
+    /// call; ended() or refused() follows. `screens` gives the participant's screen while the session runs.
     [[nodiscard]] QString begin(const PilotStart& start, ScreenChoice& screens);
     [[nodiscard]] bool running() const { return running_; }
     [[nodiscard]] const PilotStart& start() const { return start_; }

@@ -57,7 +57,7 @@ struct InputsAtOnce {
     std::function<void(int code)> letGo;       ///< called when one of the participant's hold buttons came up
     /// Called when one of the participant's hold buttons went down, or came up (then after letGo).
     std::function<void(int code, bool down, SteadyTime at)> heldMoved;
-    std::function<void(const std::string& which)> lost;  ///< an assigned device was unplugged, as gone() says it
+    std::function<void(const std::string& which)> lost;  ///< an assigned device was unplugged; `which` as gone()
 };
 
 class SessionInputs final : public QObject {

@@ -1,4 +1,4 @@
-// AskedRun.h - a run that the operator asked for and has not confirmed: the first of the two steps that start output.
+// AskedRun.h - a run that the operator has asked for but not yet confirmed: the first of two steps to start output.
 #pragma once
 
 #include <QElapsedTimer>
@@ -18,14 +18,14 @@ public:
     }
     void withdraw() { order_.reset(); }
     [[nodiscard]] bool waits() const { return order_.has_value(); }
-    /// The order, while it waits.
+    /// Returns the order; call this only while the run waits.
     [[nodiscard]] const RunOrder& order() const { return *order_; }
-    /// The first step is void after a stop, and does not wait forever.
+    /// True if the first step no longer holds: the output was stopped since, or too much time has passed.
     [[nodiscard]] bool isVoid(const BenchController& controller) const {
         return controller.stoppedSince(at_) || since_.nsecsElapsed() > Interlock::kConfirmWithin.count();
     }
-    /// Starts it on `controller`, unless a stop came since it was asked for. Returns the run's number. Only while it
-    /// waits.
+    /// Starts the run on `controller`, unless the output was stopped since the run was asked for. Returns the run's
+    /// number. Call this only while the run waits.
     std::uint64_t start(BenchController& controller) {
         return controller.run(*std::exchange(order_, std::nullopt), at_);
     }

@@ -12,8 +12,8 @@
 namespace tacto::gui {
 
 namespace {
-constexpr std::size_t kPoints = 2000;                        // more than there are pixels; extremes kept
-constexpr double kVoltageReach = 1.15, kCurrentReach = 1.6;  // multiples of what is shown
+constexpr std::size_t kPoints = 2000;                        // more points than pixels; extremes are kept
+constexpr double kVoltageReach = 1.15, kCurrentReach = 1.6;  // axis range divided by the range of the data
 constexpr int kMargin = 15, kMarginAbove = 6;
 }  // namespace
 
@@ -71,7 +71,7 @@ void CaptureStrip::show(const std::shared_ptr<const Capture>& capture, const QSt
         graph->setData(x, y, true);
         graph->rescaleKeyAxis();
         graph->rescaleValueAxis();
-        // On a resistance both traces have one shape: the current is drawn smaller, so that neither hides the other.
+        // On a resistor both traces have the same shape: the current is drawn smaller, so that both stay visible.
         graph->valueAxis()->scaleRange(graph == current_ ? kCurrentReach : kVoltageReach);
     }
     colour();
@@ -92,19 +92,19 @@ void CaptureStrip::colour() {
 }
 
 void CaptureStrip::thinTicks() {
-    constexpr int kMaxTicks = 5, kApart = 3;  // a readable span may become half as large again
+    constexpr int kMaxTicks = 5, kApart = 3;  // rounding to a readable tick step may change it by half
     const QFontMetrics metrics(xAxis->tickLabelFont());
     const int digits = metrics.horizontalAdvance(QString::number(xAxis->range().upper, 'f', 0));
     const int widest = std::max(metrics.horizontalAdvance("−00000"), digits);
     xAxis->ticker()->setTickCount(std::clamp(width() / (kApart * widest), 1, kMaxTicks));
-    // Above and below the frame stand title, digits and the axis' name.
+    // Title, digits and axis name need room above and below the frame.
     const int frame = height() - 3 * metrics.height();
     const int up = std::clamp(2 * frame / (3 * metrics.height()), 1, kMaxTicks);
     for (auto* axis : {yAxis, yAxis2}) axis->ticker()->setTickCount(up);
 }
 
 void CaptureStrip::resizeEvent(QResizeEvent* event) {
-    thinTicks();  // must come before it draws
+    thinTicks();  // must run before the base class draws
     QCustomPlot::resizeEvent(event);
 }
 

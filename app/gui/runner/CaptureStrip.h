@@ -1,4 +1,4 @@
-// CaptureStrip.h - the last captured waveform, small: voltage and current over time.
+// CaptureStrip.h - a small plot of the last captured waveform: voltage and current over time.
 #pragma once
 
 #include <filesystem>
@@ -16,10 +16,10 @@ class CaptureStrip final : public QCustomPlot {
     Q_OBJECT
 public:
     explicit CaptureStrip(QWidget* parent = nullptr);
-    /// Null empties it. What it is, where that is not the last capture, stands above it.
+    /// Shows the capture; null empties the plot. `title` is shown above it; empty for the last capture.
     void show(const std::shared_ptr<const Capture>& capture, const QString& title = {});
     [[nodiscard]] QString title() const { return title_->text(); }
-    /// Whether no trace is drawn.
+    /// True if no trace is drawn.
     [[nodiscard]] bool empty() const { return empty_->visible(); }
 
 protected:
@@ -27,7 +27,7 @@ protected:
 
 private:
     void colour();
-    /// Leaves out numbers that have no room.
+    /// Uses fewer axis numbers if space is short.
     void thinTicks();
     QCPGraph* voltage_ = nullptr;
     QCPGraph* current_ = nullptr;
@@ -36,13 +36,13 @@ private:
     QCPTextElement* title_ = nullptr;
 };
 
-// Which train of a safety check's session shows what a limit was judged by on one of its loads.
+// Functions that find the train of a safety check's session that shows how a limit was judged on one load.
 
-/// The highest finite magnitude of the first channel in `unit` ("V", "A"); negative without one.
+/// Returns the highest finite magnitude of the first channel in `unit` ("V", "A"); negative without such a channel.
 [[nodiscard]] double peakIn(const Capture& capture, std::string_view unit);
 
-/// The capture with the highest peak among the commands on `load` ("500 ohm"): of voltage for a limit in volts, else of
-/// current, and of voltage again where no current was measured. Null where none was captured on that load.
+/// Returns the capture with the highest peak among the commands on `load` ("500 ohm"): the peak voltage for a limit in
+/// volts, otherwise the peak current, or voltage if no current was measured. Null if nothing was captured on that load.
 /// Errors: as SessionReader.
 [[nodiscard]] Result<std::shared_ptr<const Capture>> strongestOn(const std::filesystem::path& session,
                                                                  const std::string& load, bool ofVoltage);

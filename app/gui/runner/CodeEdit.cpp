@@ -65,7 +65,7 @@ void CodeEdit::paintNumbers(QPaintEvent* event, QWidget& margin) {
 }
 
 void CodeEdit::mark(int line) {
-    marked_ = std::min(line, blockCount());  // engines report a missing brace behind the end
+    marked_ = std::min(line, blockCount());  // engines report a missing brace after the last line
     showMarks();
     margin_->update();
     if (line <= 0) return;
@@ -137,7 +137,7 @@ void ScriptHighlighter::highlightBlock(const QString& text) {
             setFormat(int(match.capturedStart()), int(match.capturedLength()), rule.format);
         }
     }
-    // Comments win over all else; block state 1: inside /* */.
+    // Comment colour overrides all others; block state 1 means inside /* */.
     static const QRegularExpression line(R"(^([^"'`]|"[^"]*"|'[^']*'|`[^`]*`)*?//)");
     if (const auto match = line.match(text); match.hasMatch() && previousBlockState() != 1) {
         const int start = int(match.capturedEnd()) - 2;

@@ -1,4 +1,4 @@
-// CodeEdit.h - a script as text, with line numbers, one line marked, and the words that were searched.
+// CodeEdit.h - a script's text with line numbers, one marked line, and marks on searched words.
 #pragma once
 
 #include <QPlainTextEdit>
@@ -8,14 +8,14 @@
 
 namespace tacto::gui {
 
-// Colours of a protocol script: JavaScript's words, strings, comments, numbers, and the host's
-// own objects.
+// Colours a protocol script: JavaScript keywords, strings, comments, numbers, and the objects that the program
+// provides.
 
 class ScriptHighlighter final : public QSyntaxHighlighter {
     Q_OBJECT
 public:
     explicit ScriptHighlighter(QTextDocument* document);
-    /// Takes the new colours after a change of theme.
+    /// Updates the colours after a change of theme.
     void recolour();
 
 protected:
@@ -34,7 +34,7 @@ class CodeEdit final : public QPlainTextEdit {
     Q_OBJECT
 public:
     explicit CodeEdit(QWidget* parent = nullptr);
-    /// Marks a line, from 1, and goes there; 0 takes the mark away.
+    /// Marks a line, counted from 1, and goes there; 0 removes the mark.
     void mark(int line);
     [[nodiscard]] int marked() const { return marked_; }
     /// Marks every occurrence of these words, ignoring case; empty removes the marks. Returns how many there are.

@@ -22,7 +22,7 @@ namespace {
 constexpr int kGap = 8, kBetween = 16;
 constexpr int kMinWave = 140;
 
-/// A record for each output, with its value on each load: values of one output stand in a row.
+/// One row for each output, with the output's value on each load.
 struct OutputsByLoad {
     nlohmann::json rows = nlohmann::json::array();
     std::vector<std::string> loads;
@@ -82,7 +82,7 @@ DisclosedPanel::DisclosedPanel(QWidget* parent)
     area_->viewport()->setAutoFillBackground(false);
     area_->widget()->setAutoFillBackground(false);
     setTextSize(*table_, TextSize::Small);
-    table_->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);  // all of it in sight where there is room
+    table_->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);  // the whole table is visible if there is room
     column->addWidget(area_, 1);
     column->addStretch();
     layout_->addWidget(outputs_);
@@ -115,7 +115,7 @@ void DisclosedPanel::take(const std::shared_ptr<const Capture>& capture) {
     const double amps = peakIn(*capture, "A");
     const QString unit = amps >= 0 ? "A" : "V";
     const double peak = amps >= 0 ? amps : peakIn(*capture, "V");
-    // An output with a current counts more than all without: a check judges what a load lets through.
+    // An output with a measured current replaces any without: a check judges the current through the load.
     if (!(peak > strongest_) && !(unit == "A" && unit_ == "V")) return;
     if (unit == "V" && unit_ == "A") return;
     strongest_ = peak;

@@ -1,5 +1,5 @@
-// DisclosedPanel.h - what belongs to the limits x loads of a safety check: the waveform of the strongest output that
-// the run captured, or of a chosen cell, and beside or below it the outputs that a document asks to disclose.
+// DisclosedPanel.h - the panel next to the matrix of limits and loads of a safety check: the waveform of the strongest
+// captured output or of a chosen cell, and the outputs that a document asks to disclose.
 #pragma once
 
 #include <QBoxLayout>
@@ -23,17 +23,17 @@ public:
     explicit DisclosedPanel(QWidget* parent = nullptr);
     /// Empties the panel before a run.
     void clear();
-    /// Keeps the capture with the highest peak, of current where it is measured, else of voltage.
+    /// Keeps the capture with the highest peak: of current if measured, otherwise of voltage.
     void take(const std::shared_ptr<const Capture>& capture);
-    /// `disclosed` as in the results of load-safety, a column for each load; anything else shows none.
+    /// `disclosed`: as in the results of load-safety, with one column per load; any other value shows nothing.
     void show(const nlohmann::json& disclosed);
     using QWidget::show;
-    /// The outputs beside the tracing, below it, or nowhere where there is no room for both.
+    /// Shows the outputs beside the tracing, below it, or not at all if there is no room for both.
     enum class Outputs { Beside, Below, Nowhere };
     void showOutputs(Outputs outputs);
-    /// The height from which a tracing can be read.
+    /// Returns the smallest height at which a tracing is readable.
     [[nodiscard]] int leastHeight() const;
-    /// Replaces the strongest output by the tracing, under `title`.
+    /// Shows this tracing, under `title`, instead of the strongest output.
     void showTracing(const std::shared_ptr<const Capture>& capture, const QString& title);
     [[nodiscard]] CaptureStrip& tracing() const { return *wave_; }
 

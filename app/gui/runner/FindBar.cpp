@@ -57,7 +57,7 @@ void FindBar::close() {
     code_.setFocus();
 }
 
-/// Searches while the words are typed: the first match from where the present one begins.
+/// Searches while the user types: finds the first match from the start of the present one.
 void FindBar::search() {
     auto cursor = code_.textCursor();
     cursor.setPosition(cursor.selectionStart());

@@ -1,6 +1,6 @@
-// FindBar.h - finds words in a script: every match is marked, one is current, and the search goes round at the ends.
+// FindBar.h - finds words in a script: all matches are marked, one is current, and the search wraps around at the ends.
 //
-// Case does not matter. Ctrl+F opens it with the selected text; F3 and Return search on, with Shift backwards.
+// Case is ignored. Ctrl+F opens the bar with the selected text; F3 and Return go on, with Shift backwards.
 #pragma once
 
 #include <QLabel>
@@ -15,11 +15,11 @@ namespace tacto::gui {
 class FindBar final : public QWidget {
     Q_OBJECT
 public:
-    /// Hidden until open(). `code` outlives it.
+    /// Hidden until open(). `code` must outlive this.
     FindBar(CodeEdit& code, QWidget* parent);
     void begin();
     void close();
-    /// Goes to the next match from the cursor, or to the one before.
+    /// Goes to the next match after the cursor, or to the previous one.
     void go(bool forward);
 
 protected:

@@ -21,10 +21,10 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kCellVerdict = Qt::UserRole;    // "pass", ...; none where nothing is asked
+constexpr int kCellVerdict = Qt::UserRole;    // "pass", ...; none if not judged
 constexpr int kCellShare = Qt::UserRole + 1;  // "23 %"
-constexpr int kCellNear = Qt::UserRole + 2;   // 80 % or more of the limit used
-constexpr int kLineNote = Qt::UserRole;       // below a limit's title
+constexpr int kCellNear = Qt::UserRole + 2;   // true if 80 % or more of the limit is used
+constexpr int kLineNote = Qt::UserRole;       // the text below a limit's title
 constexpr int kLineUnit = Qt::UserRole + 3;   // the limit's unit
 constexpr int kRow = 36, kHighRow = 44, kIconSize = 14, kPad = 8, kHeaderPad = 5;
 constexpr int kLimitChars = 30, kLoadChars = 9;
@@ -33,7 +33,7 @@ QString wordsOf(const json& value) {
     return value.is_string() ? visible(QString::fromStdString(value.get<std::string>())) : QString();
 }
 
-/// Draws the limit's title, and below it the limit, its owner and its verdict.
+/// Draws the limit's title, and below it the value, owner and verdict of the limit.
 class LimitDelegate final : public QStyledItemDelegate {
 public:
     using QStyledItemDelegate::QStyledItemDelegate;
@@ -74,7 +74,7 @@ CellStyle styleOf(const QString& verdict, bool isNear) {
 
 bool isAsked(const QString& verdict) { return !verdict.isEmpty() && verdict != "not applicable"; }
 
-/// Wide enough for the largest share with its sign; else the header has the sign.
+/// True if the cell has room for the largest share with its per cent sign; if not, the header shows the sign.
 bool isRoomy(int cellWidth) {
     const QFontMetrics metrics(textFont(TextSize::Small, QFont::DemiBold));
     return cellWidth >= scaledPx(kIconSize) + kPad + metrics.horizontalAdvance("100\u202f%") + 4;
@@ -84,10 +84,10 @@ QString bareShare(const QModelIndex& index) { return index.data(kCellShare).toSt
 
 QFontMetrics cellMetrics() { return QFontMetrics(textFont(TextSize::Small, QFont::DemiBold)); }
 
-/// Shape and share beside each other.
+/// Returns the width of shape and share side by side.
 int besideWidth(const QString& share) { return scaledPx(kIconSize) + 4 + cellMetrics().horizontalAdvance(share); }
 
-/// The header in two lines where it is too long for a column: "100", and "kΩ" below it.
+/// Returns the header, split into two lines if too long for its column: "100", and "kΩ" below it.
 QString headerText(const QString& load, int columnWidth) {
     auto text = load;
     const QFontMetrics metrics(textFont(TextSize::Small));
@@ -95,7 +95,7 @@ QString headerText(const QString& load, int columnWidth) {
     return text.replace(' ', '\n').replace(QChar(0x00a0), '\n');
 }
 
-/// The least width of a header in two lines.
+/// Returns the smallest header width, with headers in two lines.
 int leastHeaderWidth(const QStringList& loads) {
     const QFontMetrics metrics(textFont(TextSize::Small));
     int widest = 0;
@@ -108,7 +108,7 @@ int leastHeaderWidth(const QStringList& loads) {
 class CellDelegate final : public QStyledItemDelegate {
 public:
     using QStyledItemDelegate::QStyledItemDelegate;
-    /// The least that it can be painted in: the share below the shape.
+    /// Returns the smallest size in which the cell can be painted: the share below the shape.
     [[nodiscard]] QSize sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const override {
         const auto metrics = cellMetrics();
         const int share = metrics.horizontalAdvance(bareShare(index)) + 4;
@@ -131,7 +131,7 @@ public:
         const int pad = room ? kPad / 2 : 1;
         const auto text = room ? index.data(kCellShare).toString() : bareShare(index);
         const bool below = asked && besideWidth(text) > option.rect.width();
-        // The two lines together stand in the middle.
+        // Shape and share together are centred vertically.
         const int high = painter->fontMetrics().height();
         const auto lines = below ? cell.adjusted(0, std::max(0, (cell.height() - size - high) / 2), 0, 0) : cell;
         if (asked) {
@@ -144,7 +144,7 @@ public:
             below ? QRect(lines.left(), lines.top() + size, lines.width(), high) : cell.adjusted(0, 0, -pad, 0);
         const int where = int(asked && !below ? Qt::AlignRight : Qt::AlignHCenter) | Qt::AlignVCenter;
         if (verdict == "not evaluated") {
-            // Words keep their contrast on the hatch.
+            // The words get a plain background so that they stay readable on the hatch.
             const auto words = painter->fontMetrics().boundingRect(place, where, text);
             painter->fillRect(words.adjusted(-2, 0, 2, 0), style.ground);
         }
@@ -282,7 +282,7 @@ void LimitMatrixView::setFillsHeight(bool fills) {
     if (std::exchange(fillsHeight_, fills) != fills) fitColumns();
 }
 
-/// Where there is no room for all rows, those in sight fill it: none is cut at the lower edge.
+/// If not all rows fit, whole rows fill the height, so that none is cut at the lower edge.
 void LimitMatrixView::fitRows() {
     const int room = height() - heightOf(0), least = scaledPx(kRow);
     const int inSight = std::clamp(room / least, 1, std::max(1, rowCount()));
@@ -297,19 +297,19 @@ void LimitMatrixView::fitRows() {
 void LimitMatrixView::fitColumns() {
     horizontalHeader()->setFixedHeight(2 * QFontMetrics(textFont(TextSize::Small)).height() + kPad);
     fitRows();
-    setMaximumHeight(fillsHeight_ ? QWIDGETSIZE_MAX : heightOf(rowCount()));  // the tracing gets the rest below
+    setMaximumHeight(fillsHeight_ ? QWIDGETSIZE_MAX : heightOf(rowCount()));  // leaves the rest to the tracing
     if (columnCount() < 2) return;
     auto* header = horizontalHeader();
     const int loads = columnCount() - 1;
     const int chars = fontMetrics().averageCharWidth();
-    // Loads share what the limits leave, and are never wider than their words want.
+    // Load columns share the width left by the limits column, and are never wider than their headings need.
     const int least = chars * kLoadChars / 2;
     int first = std::min(chars * kLimitChars * 2, std::max(chars * kLimitChars, viewport()->width() / 4));
     const int words = leastHeaderWidth(headings_);
     if ((viewport()->width() - first) / loads < words)
         first = std::max(chars * kLimitChars * 2 / 3, viewport()->width() - words * loads);
     const int each = std::clamp((viewport()->width() - first) / loads, std::max(least, words), chars * kLoadChars * 2);
-    // In the narrowest places a limit's words are elided, and the loads scroll.
+    // If space is very short, limit titles are elided and the load columns scroll.
     const bool scrolls = first + each * loads > viewport()->width();
     if (scrolls) first = std::max(chars * kLimitChars / 2, viewport()->width() - each * loads);
     header->setSectionResizeMode(0, scrolls ? QHeaderView::Fixed : QHeaderView::Stretch);

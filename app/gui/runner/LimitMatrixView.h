@@ -1,6 +1,6 @@
-// LimitMatrixView.h - limits x loads: every limit once, the nearest to its limit first, and on each load how much of it
-// is used, uncertainty included. A cell has colour, shape and share; what was not evaluated is hatched. A chosen cell
-// drives the tracing.
+// LimitMatrixView.h - table of limits and loads. Limits closest to being reached come first; each cell shows the share
+// of the limit used on that load, uncertainty included, by colour, shape and number. Cells not evaluated are hatched.
+// Choosing a cell shows its tracing.
 #pragma once
 
 #include <QTableWidget>
@@ -15,7 +15,7 @@ class QPainter;
 
 namespace tacto::gui {
 
-/// A cell's fill and hatch, and the shape of its verdict in the middle of `place`; "–" where nothing is judged.
+/// Paints a cell's background and hatch, or a verdict's shape centred in `place` ("–" if nothing is judged).
 void paintCellGround(QPainter& painter, const QRect& cell, const QString& verdict, bool isNear);
 void paintCellShape(QPainter& painter, const QRect& place, const QString& verdict, bool isNear, int size);
 
@@ -23,21 +23,20 @@ class LimitMatrixView final : public QTableWidget {
     Q_OBJECT
 public:
     explicit LimitMatrixView(QWidget* parent = nullptr);
-    /// `matrix` as toJson(LimitMatrix); anything else empties it.
+    /// `matrix`: as from toJson(LimitMatrix); any other value empties the table.
     void show(const nlohmann::json& matrix);
     [[nodiscard]] bool empty() const { return rowCount() == 0; }
-    /// Its picture shows all limits, those too that are scrolled out of sight.
+    /// Returns a picture of all limits, including those scrolled out of sight.
     [[nodiscard]] Still picture(PictureCaption caption) const;
-    /// The height of the header and of that many limits.
+    /// Returns the height of the header and this number of limits.
     [[nodiscard]] int heightOf(int rows) const;
-    /// The rows share all the height that is given; else the view is no higher than they need.
+    /// True: the rows share the full height; false: the view is only as high as they need.
     void setFillsHeight(bool fills);
-    static constexpr int kHinted = 6;  ///< a page that hints at more would be higher than its window
+    static constexpr int kHinted = 6;  ///< most rows in the size hint, to keep the page inside its window
     [[nodiscard]] QSize sizeHint() const override { return {QTableWidget::sizeHint().width(), heightOf(kHinted)}; }
 
 signals:
-    /// A cell of a load was chosen by mouse or arrow key. `load` as the results name it ("500 ohm"), `unit` the
-    /// limit's.
+    /// A load's cell was chosen by mouse or arrow key. `load` as in the results ("500 ohm"), `unit` of the limit.
     void chosen(const QString& limit, const QString& load, const QString& unit);
 
 protected:
@@ -50,12 +49,12 @@ private:
     void choose(int row, int column);
     nlohmann::json shown_;
     bool fillsHeight_ = false;
-    std::vector<QString> loads_;     // the loads as people write them
-    std::vector<QString> loadKeys_;  // the loads as the results name them
-    QStringList headings_;           // the columns' headings, each in one line
+    std::vector<QString> loads_;     // the loads as displayed
+    std::vector<QString> loadKeys_;  // the loads as named in the results
+    QStringList headings_;           // the column headings, each in one line
 };
 
-// The legend beside the limits and loads: each kind of cell with its shape and words.
+// The legend for the limits and loads: each type of cell with its shape and words.
 
 class CellLegend final : public QWidget {
     Q_OBJECT

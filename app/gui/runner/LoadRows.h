@@ -1,4 +1,4 @@
-// LoadRows.h - the loads of a safety check as rows that turn to verdicts while they are measured.
+// LoadRows.h - table of a safety check's loads; each row shows its verdict once measured.
 #pragma once
 
 #include <QTableWidget>
@@ -10,14 +10,13 @@ class LoadRows final : public QTableWidget {
     Q_OBJECT
 public:
     explicit LoadRows(QWidget* parent = nullptr);
-    /// The bench set, all of it still to be done.
+    /// Lists the loads of the bench set, all still to be measured.
     void begin();
-    /// A command that was measured (type "command") or what a load has come to (type "load", with its verdict); any
-    /// other trial is passed over.
+    /// Adds a measured command (type "command") or the verdict of a load (type "load"); ignores any other trial.
     void add(const nlohmann::json& trial);
-    /// Takes the run's results, whose verdicts are the last word; null for none. Loads that were not reached say so.
+    /// Shows the final verdicts from the run's results; null for no results. Loads that were not reached say so.
     void end(const nlohmann::json& results);
-    /// "✔ pass", as it stands there; empty for a load ("500 ohm") that is not listed.
+    /// Returns the verdict as shown, such as "✔ pass"; empty for a load ("500 ohm") that is not listed.
     [[nodiscard]] QString verdictOf(const QString& load) const;
 
 private:

@@ -81,7 +81,7 @@ NextStepBar::NextStepBar(QWidget* parent) : QWidget(parent) {
 }
 
 void NextStepBar::show(const std::vector<NextStep>& steps) {
-    // Deleted later: one of them may have been clicked.
+    // Deleted later, since one of these buttons may be handling its click.
     for (const auto& each : buttons_) each.button->hide(), each.button->deleteLater();
     buttons_.clear();
     for (const auto step : steps) {
@@ -100,7 +100,7 @@ void NextStepBar::show(const std::vector<NextStep>& steps) {
     tabInPlace(*this);
 }
 
-/// The widths of the buttons follow the style and the size of text.
+/// Measures the buttons, as style and text size change their widths.
 void NextStepBar::measure() {
     for (auto& each : buttons_) {
         each.button->setIcon({});

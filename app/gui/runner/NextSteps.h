@@ -1,4 +1,4 @@
-// NextSteps.h - what comes after a result: one step that leads on, and others that make sense.
+// NextSteps.h - the steps offered after a result: one recommended step, and other sensible ones.
 //
 // Thread-safety: the GUI thread; nextStepsAfter() is pure.
 #pragma once
@@ -13,21 +13,21 @@
 namespace tacto::gui {
 
 enum class NextStep {
-    UseProfile,     ///< the profile that the run made comes into force
-    Check,          ///< the stored calibration is checked, at a few levels
-    Calibrate,      ///< in full
-    SafetyCheck,    ///< its workspace
-    Live,           ///< its workspace
-    Sign,           ///< the report, to be signed
-    Session,        ///< everything that was recorded
+    UseProfile,     ///< use the profile that the run made
+    Check,          ///< check the stored calibration at a few levels
+    Calibrate,      ///< calibrate fully
+    SafetyCheck,    ///< open the safety check workspace
+    Live,           ///< open the Live workspace
+    Sign,           ///< sign the report
+    Session,        ///< view the whole recorded session
     ChangeSettings  ///< change the settings and run again
 };
 
-/// The first step leads on from here. Leaves out steps that would need a session where the run left none.
+/// Returns the steps, the recommended one first. Leaves out steps that need a session if the run left none.
 [[nodiscard]] std::vector<NextStep> nextStepsAfter(const FinishedRun& run);
 
-/// Buttons in a row, the first one filled. Where the row is too narrow for their icons they have none, and stand
-/// closer; where it is too narrow for that they stand in several rows.
+/// Buttons in a row, the first one filled. If the row is too narrow, the buttons lose their icons and move closer; if
+/// still too narrow, they wrap to several rows.
 class NextStepBar final : public QWidget {
     Q_OBJECT
 public:
@@ -43,13 +43,13 @@ private:
     struct Button {
         QPushButton* button;
         QIcon icon;
-        int bare, whole;  ///< widths without and with it
+        int bare, whole;  ///< widths without and with the icon
     };
     void measure();
-    /// The width with all buttons in one row.
+    /// Returns the width with all buttons in one row.
     [[nodiscard]] int across(int Button::*width, int apart) const;
     void fit();
-    /// Each button's place in rows of the present width. Returns their height.
+    /// Places each button in rows of the present width. Returns the height of the rows.
     int flow(const std::function<void(const Button&, const QRect&)>& place = {}) const;
     std::vector<Button> buttons_;
 };

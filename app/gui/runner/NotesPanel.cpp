@@ -34,7 +34,7 @@ NotesPanel::NotesPanel(DayNotes& day, QWidget* parent) : QGroupBox(tr("For the r
     onEvent(*this, QEvent::Show, [this] { load(); });
 }
 
-/// A note that still stands here from another day is not entered along with it.
+/// Clears the other fields if they still show notes from another day.
 void NotesPanel::takeUp(const QLineEdit& edited) {
     if (!day_.asked()) {
         for (const auto& field : fields_) {
@@ -48,7 +48,7 @@ void NotesPanel::load() {
     const auto now = day_.notes();
     for (const auto& [edit, text] : fields_) {
         const auto stored = QString::fromStdString(now.*text);
-        // Never changes the field in which someone types: a blank at the end would be lost.
+        // A field is not changed while the user types in it: a trailing blank would be lost.
         if (edit->text().simplified() != stored) edit->setText(stored);
     }
 }

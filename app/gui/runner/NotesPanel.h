@@ -1,5 +1,5 @@
-// NotesPanel.h - what the report says beside the measurements: operator, sample, reviewer, ambient conditions. Every
-// such panel shows and changes the same notes of the day.
+// NotesPanel.h - form for the report's notes: operator, sample, reviewer, ambient conditions. All such panels show and
+// change the same notes of the day.
 #pragma once
 
 #include <QGroupBox>
@@ -13,7 +13,7 @@ namespace tacto::gui {
 class NotesPanel final : public QGroupBox {
     Q_OBJECT
 public:
-    /// `day` outlives the panel.
+    /// `day` must outlive the panel.
     explicit NotesPanel(DayNotes& day, QWidget* parent = nullptr);
     [[nodiscard]] RunNotes notes() const;
 

@@ -19,9 +19,9 @@ namespace tacto::gui {
 namespace {
 
 constexpr int kPageSide = 16, kPageTop = 8;
-constexpr int kFormWidth = 400;         // fields are read from label to value
-constexpr int kMinScrolledHeight = 96;  // a field and its title
-constexpr int kColumnsFromChars = 88;   // two columns from this width on
+constexpr int kFormWidth = 400;         // pixels; wide enough for a label and its value
+constexpr int kMinScrolledHeight = 96;  // pixels for one field and its title
+constexpr int kColumnsFromChars = 88;   // width in characters from which there are two columns
 
 enum PageIndex { kWiringPage, kReferencePage, kSettingsPage, kRunPage, kSignPage };
 
@@ -50,7 +50,7 @@ QScrollArea* dressed(QScrollArea* area) {
     return area;
 }
 
-/// Scrolls up and down only.
+/// Returns a scroll area that scrolls vertically only.
 QScrollArea* scrolling(QWidget* part, QWidget* parent) { return dressed(scrollingRows(part, parent)); }
 
 QVBoxLayout* pageLayout(QWidget* page, const QString& title, const QString& about) {
@@ -63,11 +63,11 @@ QVBoxLayout* pageLayout(QWidget* page, const QString& title, const QString& abou
     return column;
 }
 
-/// The part in a column no wider than a form is read well.
+/// Returns `part` in a column that is no wider than a form needs.
 QWidget* formColumn(QWidget* part) {
     auto* body = new QWidget;
     auto* column = columnIn(*body, -1, {0, 0, 12, 0});
-    auto* bounded = new QHBoxLayout;  // alone in a column it would be as high as its words at a width that it has not
+    auto* bounded = new QHBoxLayout;  // in a column of its own, its height would be computed for a wrong width
     bounded->addWidget(part, 1);
     bounded->addStretch();
     column->addLayout(bounded);
@@ -92,7 +92,7 @@ ProcedurePages::ProcedurePages(DayNotes& day, QWidget* parent) : PageStack(paren
     showStep(kSettings);
 }
 
-/// Beside each other the second part has the more of the width, one below the other the first of the height.
+/// Side by side, the second part gets more of the width; stacked, the first part gets more of the height.
 QBoxLayout* ProcedurePages::turning() {
     auto* row = new TurningRow([this] { return fontMetrics().averageCharWidth() * kColumnsFromChars - 2 * kPageSide; });
     row->setSpacing(kPageSide);
@@ -150,7 +150,7 @@ void ProcedurePages::offer(const ProtocolDeclaration& declaration) {
     form_->show(declaration);
     const bool drives = declaration.needs.contains(Role::Stimulator);
     drawing_->setVisible(drives && declaration.needs.contains(Role::Oscilloscope));
-    worst_->setVisible(drives);  // without a drive nothing is judged
+    worst_->setVisible(drives);  // without a stimulator nothing is judged
 }
 
 void ProcedurePages::showStep(Step step) {

@@ -1,4 +1,4 @@
-// ProcedurePages.h - a page for each step of a procedure: wiring, known reference, settings, run and result, report.
+// ProcedurePages.h - one page for each step of a procedure: wiring, known reference, settings, run and result, report.
 #pragma once
 
 #include <QBoxLayout>
@@ -17,17 +17,17 @@ class WiringPage;
 class WiringPanel;
 class WorstPage;
 
-/// The steps in their order. Run and result are one page, without and with the verdict.
+/// The steps in order. Run and Result share one page, without and with the verdict.
 enum Step { kWiring, kReference, kSettings, kRun, kResult, kSign };
 
 class ProcedurePages final : public PageStack {
     Q_OBJECT
 public:
     explicit ProcedurePages(DayNotes& day, QWidget* parent = nullptr);
-    /// The fields and pages of this protocol.
+    /// Shows the fields and pages of this protocol.
     void offer(const ProtocolDeclaration& declaration);
     void showStep(Step step);
-    /// A running protocol has its settings.
+    /// Sets whether the settings can be changed; while a protocol runs they cannot.
     void setChangeable(bool changeable);
 
     [[nodiscard]] WiringPanel& wiring() noexcept { return *wiring_; }

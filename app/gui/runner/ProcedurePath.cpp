@@ -19,7 +19,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr int kPathWidth = 240, kPathPad = 16;
-constexpr int kMaxRoomDivisor = 3;  // a column takes no more than one part of so many
+constexpr int kMaxRoomDivisor = 3;  // the column takes at most 1/kMaxRoomDivisor of the width
 
 }  // namespace
 
@@ -54,8 +54,8 @@ void ProcedurePath::layDown() {
     addPadded(panel_);
 }
 
-/// Head, steps and controls in a line, or in two where that is too long; a head with a chooser has a line of its own.
-/// Below them what is in the way.
+/// Places head, steps and controls in one line, or in two if too long; a head with a chooser has its own line. The
+/// obstacle to a run is shown below.
 void ProcedurePath::layAcross() {
     setMinimumWidth(0);
     setMaximumWidth(QWIDGETSIZE_MAX);
@@ -156,7 +156,7 @@ void ProcedurePath::showLegend(bool legend) {
     fitLegend();
 }
 
-/// The legend stands between the steps and the Run button, in no layout, so that it never makes the page higher.
+/// Places the legend between the steps and the Run button, in no layout, so that the page does not grow higher.
 void ProcedurePath::fitLegend() {
     const int top = steps_->geometry().bottom() + 1 + kPathPad / 2, high = legend_->sizeHint().height();
     const bool fits = !across_ && panel_->geometry().top() - top >= high;
@@ -164,10 +164,10 @@ void ProcedurePath::fitLegend() {
     legend_->setVisible(legendWanted_ && fits);
 }
 
-/// Words that wrap make a row higher than its layout's least height: the page scrolls then, and nothing is cut.
+/// Wrapped text may need more height than the layout's minimum: the page then scrolls, and nothing is cut.
 bool ProcedurePath::event(QEvent* event) {
     const bool done = QWidget::event(event);
-    const auto* parts = layout();  // none while it is turned
+    const auto* parts = layout();  // none while the layout changes
     if (parts != nullptr && (event->type() == QEvent::LayoutRequest || event->type() == QEvent::Resize))
         setMinimumHeight(across_ ? wholeHeightAt(*parts, width()) : leastHeightAt(*parts, width()));
     if (event->type() == QEvent::LayoutRequest || event->type() == QEvent::Resize) fitLegend();

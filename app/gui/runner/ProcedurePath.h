@@ -1,5 +1,5 @@
-// ProcedurePath.h - the column at the left of a procedure: what it is, its steps and how each stands, and what runs it.
-// Where a column would take too much of the room (large text, a small window) it is a row on top.
+// ProcedurePath.h - the column at the left of a procedure: its title, its steps with their states, and the controls to
+// run it. If a column would take too much space (large text, a small window), this is a row at the top.
 #pragma once
 
 #include <QWidget>
@@ -18,22 +18,22 @@ class StepList;
 class ProcedurePath final : public QWidget {
     Q_OBJECT
 public:
-    /// `chooses`: the procedure is chosen here; else it is a fixed one.
+    /// `chooses`: the operator chooses the procedure here; otherwise it is fixed.
     ProcedurePath(bool chooses, QWidget* parent);
     [[nodiscard]] ProtocolHead& head() noexcept { return *head_; }
     [[nodiscard]] StepList& steps() noexcept { return *steps_; }
     [[nodiscard]] RunPanel& panel() noexcept { return *panel_; }
 
-    /// A row where a column would take more than a third of `room`, its owner's width. Returns whether it is one.
+    /// Becomes a row if a column would take over a third of `room`, the owner's width. Returns true for a row.
     bool fit(int room);
-    /// Another procedure was read, of which nothing has run.
+    /// Resets for a newly read procedure that has not run.
     void showNoRun(bool hasReference);
-    /// The steps before the run. A tick says that a step was seen, or that the run used it.
+    /// Shows the steps before the run. A tick means that a step was seen, or that the run used its settings.
     void showSetup(FieldForm& form, const QString& devices, bool declared, bool begun, const std::set<Step>& seen);
     void showRun();
-    /// The result can be gone to. `early`: the run was stopped or failed.
+    /// Makes the result reachable. `early`: the run was stopped or failed.
     void showEnd(bool early, std::optional<Seconds> benchTime);
-    /// Shows how to read the limits and loads, where there is room below the steps.
+    /// Shows how to read the limits and loads, if there is room below the steps.
     void showLegend(bool legend);
 
 protected:

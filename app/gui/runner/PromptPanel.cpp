@@ -15,7 +15,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr int kDrawingChars = 70;
-constexpr int kStripe = 5;  // pixels of amber at the left: the run waits for a person
+constexpr int kStripe = 5;  // width in pixels of the amber stripe at the left: the run waits for a person
 
 QString accepted(const OperatorQuestion& question) {
     const auto unit = QString::fromStdString(question.unit);
@@ -49,7 +49,7 @@ void PromptPanel::ask(const OperatorQuestion& question) {
     first_ = nullptr;
     auto* column = columnIn(*body_);
     auto* says = makeLabel(QString::fromStdString(question.text), {.name = "question"}, body_);
-    says->setTextFormat(Qt::PlainText);  // a script's words: no picture is fetched for them
+    says->setTextFormat(Qt::PlainText);  // a script's words stay plain text, so no picture is loaded for them
     says->setWordWrap(true);
     setTextSize(*says, TextSize::Body, true);
     column->addWidget(says);
@@ -73,13 +73,13 @@ void PromptPanel::ask(const OperatorQuestion& question) {
 void PromptPanel::close() {
     hide();
     if (body_ == nullptr) return;
-    body_->deleteLater();  // perhaps from its own button's click
+    body_->deleteLater();  // perhaps called from a click on its own button
     body_->hide();
     body_ = nullptr;
     trouble_ = nullptr;
 }
 
-/// The ground is white in both themes: it is a drawing on paper.
+/// The background is white in both themes, as the drawing is made for paper.
 QWidget* PromptPanel::buildDrawing(const OperatorQuestion& question) {
     if (question.drawing.empty()) return nullptr;
     const auto file = drawingFile(question.drawing);
@@ -110,7 +110,7 @@ QWidget* PromptPanel::buildChoices(const OperatorQuestion& question) {
         if (first_ == nullptr) first_ = button;
     };
     if (!question.confirms.empty()) {
-        // This button must not have the focus: a key that is held down must not arm.
+        // This button must not get the focus, so that a held key cannot arm the output.
         add(tr("Arm output"), QString::fromStdString(question.confirms),
             tr("Confirms exactly what the sentence says."));
         first_->setObjectName("confirmArming");

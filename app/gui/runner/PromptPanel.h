@@ -1,5 +1,5 @@
-// PromptPanel.h - a protocol's question to the operator, in the workspace and not above it: everything else, STOP
-// first, stays within reach.
+// PromptPanel.h - shows a protocol's question to the operator inside the workspace, so that everything else, above all
+// STOP, stays within reach.
 #pragma once
 
 #include <QFrame>
@@ -15,7 +15,7 @@ class PromptPanel final : public QFrame {
     Q_OBJECT
 public:
     explicit PromptPanel(WindowOperator& controller, QWidget* parent = nullptr);
-    /// Shows the question until close(); an answer that does not fit is refused below it.
+    /// Shows the question until close(); an invalid answer is refused with a message below.
     void ask(const OperatorQuestion& question);
     void close();
     [[nodiscard]] bool open() const { return body_ != nullptr; }
@@ -29,10 +29,10 @@ private:
     [[nodiscard]] QWidget* buildEntry(const OperatorQuestion& question);
     void answer(const QString& text);
     WindowOperator& controller_;
-    std::uint64_t asked_ = 0;  // the question that is shown
+    std::uint64_t asked_ = 0;  // the number of the question shown
     QVBoxLayout* layout_;
     QWidget* body_ = nullptr;
-    QWidget* first_ = nullptr;  // takes the focus
+    QWidget* first_ = nullptr;  // the widget that gets the focus
     TroubleLine* trouble_ = nullptr;
 };
 

@@ -11,8 +11,8 @@
 namespace tacto::gui {
 
 namespace {
-constexpr int kBelow = 4, kBeside = 12;  // between its parts
-constexpr int kLineChars = 8;            // the least width of the title beside them
+constexpr int kBelow = 4, kBeside = 12;  // gaps between the parts
+constexpr int kLineChars = 8;            // least width of the title in characters
 }  // namespace
 
 ProtocolHead::ProtocolHead(bool chooses, QWidget* parent)
@@ -59,7 +59,7 @@ void ProtocolHead::setAcross(bool across) {
     layout_->setDirection(across ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
     layout_->setSpacing(across ? kBeside : kBelow);
     layout_->setStretchFactor(line_, across ? 1 : 0);
-    if (chooser_ != nullptr) {  // as wide as its words beside the title, and as wide as the column in a column
+    if (chooser_ != nullptr) {  // in a row as wide as its words, in a column as wide as the column
         chooser_->setSizeAdjustPolicy(across ? QComboBox::AdjustToContents
                                              : QComboBox::AdjustToMinimumContentsLengthWithIcon);
         chooser_->setSizePolicy(across ? QSizePolicy::Minimum : QSizePolicy::Preferred, QSizePolicy::Fixed);
@@ -68,7 +68,7 @@ void ProtocolHead::setAcross(bool across) {
 }
 
 void ProtocolHead::showWords() {
-    title_->setVisible(!across_ && chooser_ == nullptr);  // the chooser names it then
+    title_->setVisible(!across_ && chooser_ == nullptr);  // if there is a chooser, it shows the title
     purpose_->setVisible(!across_ && !purpose_->text().isEmpty());
     line_->setText(title_->text());
     line_->setToolTip(
@@ -76,7 +76,7 @@ void ProtocolHead::showWords() {
     fitLine();
 }
 
-/// Where it would be a few letters the title goes: rail and tab say what this is.
+/// Hides the title if only a few letters would fit: the side rail and the tab show the same name.
 void ProtocolHead::fitLine() {
     int taken = buttons_->sizeHint().width() + kBeside;
     if (chooser_ != nullptr) taken += chooser_->sizeHint().width() + kBeside;

@@ -1,5 +1,5 @@
-// ProtocolHead.h - which protocol this is: its title and purpose, the way to its script, and a chooser where the
-// operator chooses among all of them. In a row it has one line, without the purpose.
+// ProtocolHead.h - shows which protocol this is: title and purpose, a link to its script, and a chooser if the operator
+// can choose any protocol. In a row it takes one line and leaves out the purpose.
 #pragma once
 
 #include <QComboBox>
@@ -13,8 +13,8 @@ class ProtocolHead final : public QWidget {
     Q_OBJECT
 public:
     explicit ProtocolHead(bool chooses, QWidget* parent = nullptr);
-    /// Lists every protocol, shipped and the lab's own, and chooses `select`, else the first: chosen() follows. Returns
-    /// whether there is any.
+    /// Lists all protocols, shipped and the lab's own, and chooses `select`, or else the first; chosen() is emitted.
+    /// Returns false if there are no protocols.
     [[nodiscard]] bool fill(const QString& select);
     [[nodiscard]] bool chooses() const { return chooser_ != nullptr; }
     void setChangeable(bool changeable);
@@ -34,7 +34,7 @@ private:
     QBoxLayout* layout_;
     QLabel* title_;
     QLabel* purpose_;
-    QLabel* line_;  ///< the title, where there is one line for it
+    QLabel* line_;  ///< the title, if it has one line
     QHBoxLayout* buttons_;
     bool across_ = false;
 };

@@ -57,12 +57,12 @@ ProtocolWorkspace::ProtocolWorkspace(BenchController& controller, const QString&
     arrange();
     connectPath();
     connectPages();
-    // Wherever the focus is: of the workspaces in a window one is visible.
+    // Works wherever the focus is, since only one workspace of a window is visible.
     auto* runs = new QShortcut(Qt::Key_F5, this, nullptr, nullptr, Qt::WindowShortcut);
     connect(runs, &QShortcut::activated, this, &ProtocolWorkspace::runAsked);
     connect(&controller_, &BenchController::finished, this, &ProtocolWorkspace::ended);
     connect(&controller_, &BenchController::changed, this, [this] {
-        if (asked_.waits()) withdraw();  // the answer held for the profile and the bench as they were when asked
+        if (asked_.waits()) withdraw();  // the answer was valid only for the earlier profile and bench
         previewLater_.start();
         const auto open = controller_.open();
         showBench();
@@ -97,7 +97,7 @@ void ProtocolWorkspace::showPlotOnly(bool only) {
 void ProtocolWorkspace::showPath() {
     const bool shown = !plotOnly_ || panel_->speaks();
     if (shown == !path_->isHidden()) return;
-    // The keys do not pass on to a field of text: there Space would not stop.
+    // Moves the focus here, so that it does not pass to a text field, in which Space would not stop the output.
     const bool hadFocus = path_->isAncestorOf(QApplication::focusWidget());
     path_->setVisible(shown);
     edge_->setVisible(shown);
@@ -148,7 +148,7 @@ void ProtocolWorkspace::choose(const QString& nameOrPath) {
 
 void ProtocolWorkspace::declared(const ProtocolSource& source, const Result<ProtocolDeclaration>& declaration) {
     if (source.name != source_.name || running_) return;
-    // The form is rebuilt: a field that had the focus gets it again, or no key reaches the workspace.
+    // The form is rebuilt: if a field had the focus, a field gets it again, so that keys still reach the workspace.
     const bool wasInForm = pages_->form().isAncestorOf(QApplication::focusWidget());
     last_.reset();
     pages_->sign().clear();
@@ -165,7 +165,7 @@ void ProtocolWorkspace::declared(const ProtocolSource& source, const Result<Prot
         pages_->offer(*declaration_);
     }
     path_->showNoRun(pages_->form().hasReference());
-    // A step before the run that was chosen while the script was read stays; a result is another protocol's.
+    // Keeps a step before the run if it was chosen while the script was read; a result belongs to the old protocol.
     const auto chosen = Step(steps_->shown());
     const bool stays = !seen_.empty() && (chosen == kWiring || (chosen == kReference && pages_->form().hasReference()));
     const auto step = stays ? chosen : kSettings;
@@ -210,14 +210,14 @@ void ProtocolWorkspace::showSetup() {
                      seen_);
 }
 
-/// The question was about other settings, or another profile.
+/// Withdraws the question, as settings or profile have changed since.
 void ProtocolWorkspace::withdraw() {
     asked_.withdraw();
     panel_->withdrawQuestion();
 }
 
-/// A run whose strongest command the gate refuses would end there, with nothing to show for it; so would a run whose
-/// verdict needs an answer that is missing.
+/// A run would end without any result if the safety gate refuses its strongest command, or if an answer that the
+/// verdict needs is missing.
 void ProtocolWorkspace::setObstacle(const QString& why, bool byProfile) {
     obstacle_ = why;
     byProfile_ = byProfile;
@@ -256,7 +256,7 @@ void ProtocolWorkspace::runAsked() {
         return;
     }
     if (controller_.day().asksFirst()) return panel_->say(DayNotes::wantedText());
-    preview();  // previews these settings, not earlier ones
+    preview();  // judges the present settings, not earlier ones
     if (!obstacle_.isEmpty()) {
         if (const auto part = pages_->form().goToRefused()) showStep(*part ? kReference : kSettings);
         return;
@@ -271,7 +271,7 @@ void ProtocolWorkspace::runAsked() {
                          .arg(QString::fromStdString(declaredLoad(asked_.order().settings.parameters))));
 }
 
-/// True also while another run is just ending: what it still says is not this page's.
+/// True also while another run is just ending; its last messages are not for this page.
 bool ProtocolWorkspace::anotherRuns() const {
     return controller_.activity() != Activity::Closed && controller_.activity() != Activity::Live;
 }
@@ -303,7 +303,7 @@ void ProtocolWorkspace::refresh() {
 }
 
 void ProtocolWorkspace::ended(const std::shared_ptr<const FinishedRun>& run) {
-    if (!running_ || run->number != run_) return;  // another page's
+    if (!running_ || run->number != run_) return;  // a run of another page
     refresh();
     running_ = false;
     last_ = run;
@@ -317,7 +317,7 @@ void ProtocolWorkspace::ended(const std::shared_ptr<const FinishedRun>& run) {
     steps_->setNote(kResult, pages_->views().word());
     showStep(kResult);
     showButtons();
-    if (watched) steps_->focusShown();  // the progress had the keys, and is gone
+    if (watched) steps_->focusShown();  // the progress bar had the focus, and is hidden now
     if (!error) return;
     if (run->result.session.empty())
         panel_->say(withOutput(inThePast(sentence(*error)), tr("The output was switched off.")));
@@ -325,7 +325,7 @@ void ProtocolWorkspace::ended(const std::shared_ptr<const FinishedRun>& run) {
         editor_->showError(run->result.outcome.line, QString::fromStdString(error->message));
 }
 
-/// Offered where the run that closed it ended.
+/// Offers to open the bench again after the run that closed it.
 void ProtocolWorkspace::showBench() {
     const auto activity = controller_.activity();
     panel_->setBench(activity == Activity::Live, last_ && activity == Activity::Closed && controller_.closedByRun());
@@ -356,7 +356,7 @@ void ProtocolWorkspace::goOn(NextStep next) {
     }
 }
 
-/// The bench checks it as any other: a profile that it cannot have is refused, and failed() says why.
+/// The bench checks this profile like any other: it refuses an unsuitable one, and failed() says why.
 void ProtocolWorkspace::useProfile() {
     const auto& made = memberAt(last_->result.outcome.results, "profile.profile");
     const auto profile = parseProfile(dumpJson(made), "the profile of this result");
@@ -393,7 +393,7 @@ void ProtocolWorkspace::edit(const ProtocolSource& source, int line, const QStri
 }
 
 void ProtocolWorkspace::saved(const QString& path) {
-    if (running_) return;  // the next choice reads it
+    if (running_) return;  // the file is read at the next choice
     const auto name = QFileInfo(path).completeBaseName();
     if (head_->chooses() || name == fixed_) fillChooser(name);
 }

@@ -1,7 +1,7 @@
-// ProtocolWorkspace.h - runs a protocol, as a path: wiring, known reference, settings, run, result, report. The steps
-// stand at the left with their state, each has a page, and one button starts.
+// ProtocolWorkspace.h - runs a protocol in steps: wiring, known reference, settings, run, result, report. The steps
+// with their states are at the left, each has a page, and one button starts the run.
 //
-// With a name it is that protocol's workspace; without one the operator chooses among all of them.
+// With a name this is the workspace of that protocol; without one the operator chooses among all protocols.
 #pragma once
 
 #include <QBoxLayout>
@@ -28,36 +28,36 @@ class ProtocolWorkspace final : public QWidget {
     Q_OBJECT
 public:
     ProtocolWorkspace(BenchController& controller, const QString& protocol, QWidget* parent = nullptr);
-    /// Thirty times a second: what its run says.
+    /// Shows the news of the run; called thirty times a second.
     void refresh();
     [[nodiscard]] bool running() const { return running_; }
-    /// Whether a protocol was read, none runs here, and nothing is in the way of its run.
+    /// True if a protocol has been read, none runs here, and nothing prevents a run.
     [[nodiscard]] bool ready() const { return declaration_.has_value() && !running_ && obstacle_.isEmpty(); }
-    /// Whether a script is being read: its form is not there yet.
+    /// True while a script is being read: its form does not exist yet.
     [[nodiscard]] bool reads() const { return reading_.busy(); }
-    /// Sets a parameter of the form, by the name that the script has for it; one that it has not is left alone.
+    /// Sets a parameter of the form by its name in the script; does nothing if there is none of that name.
     void set(const std::string& parameter, const QString& text);
-    /// The editor, where it holds changes that are not saved; null otherwise.
+    /// Returns the editor if it has unsaved changes; otherwise null.
     [[nodiscard]] ScriptEditor* unsavedScript() const;
-    /// Hides the path, unless something in it stands in the way of a run, or is asked.
+    /// Hides the path, unless the path shows an obstacle to a run, or a question.
     void showPlotOnly(bool only);
-    /// The widget that chooses the plot of a calibration: RunViews::plotKind().
+    /// Returns the widget that chooses the plot of a calibration: RunViews::plotKind().
     [[nodiscard]] QWidget& plotKind();
-    /// Does what the Run button does.
+    /// Does the same as the Run button.
     void runAsked();
-    /// Does what a click on the step does.
+    /// Does the same as a click on the step.
     void goTo(Step step);
 
 signals:
-    /// The answer of ready() may be another one.
+    /// The result of ready() may have changed.
     void readyChanged();
-    /// A protocol was read, and the form shows its parameters as the script has them.
+    /// A protocol has been read, and the form shows its parameters with the script's values.
     void declaredAnew();
-    /// A running protocol asks a question that must be seen here.
+    /// A running protocol asks a question, so this workspace must be shown.
     void attentionWanted();
     /// The newest train of the running protocol.
     void captured(std::shared_ptr<const tacto::Capture> capture);
-    /// Asks another part of the window to do it.
+    /// The following signals ask another part of the window for an action.
     void profileChangeWanted();
     void sessionWanted(const QString& path);
     void safetyCheckWanted();
@@ -91,29 +91,29 @@ private:
     [[nodiscard]] Result<RunOrder> order();
 
     BenchController& controller_;
-    const QString fixed_;  ///< the one protocol, or empty
+    const QString fixed_;  ///< name of the one protocol, or empty to choose
     ProtocolSource source_;
     std::optional<ProtocolDeclaration> declaration_;
-    QString obstacle_;        // why it may not run: a limit that it would break, or a question without an answer
-    bool byProfile_ = false;  // whether another profile would remove the obstacle
+    QString obstacle_;        // why a run is not allowed: a limit would be exceeded, or an answer is missing
+    bool byProfile_ = false;  // true if another profile would remove the obstacle
     AskedRun asked_;          // waits for the second step
     std::shared_ptr<const FinishedRun> last_;
     bool running_ = false;
     std::set<Step> seen_;  // the steps seen since this protocol was chosen
     bool plotOnly_ = false;
-    std::uint64_t run_ = 0;  ///< its number
+    std::uint64_t run_ = 0;  ///< number of the run
 
     QBoxLayout* layout_;
     QFrame* edge_ = nullptr;  // the line between the path and the page
     ProcedurePath* path_ = nullptr;
-    ProtocolHead* head_ = nullptr;  // head, steps and panel are the path's
+    ProtocolHead* head_ = nullptr;  // head, steps and panel belong to path_
     StepList* steps_ = nullptr;
     RunPanel* panel_ = nullptr;
     PromptPanel* prompt_ = nullptr;
     ProcedurePages* pages_ = nullptr;
     ScriptEditor* editor_ = nullptr;
     QTimer previewLater_;
-    ScriptReading reading_;  // Last: its thread ends first
+    ScriptReading reading_;  // declared last: its thread ends first
 };
 
 }  // namespace tacto::gui

@@ -12,7 +12,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kDamaged = 1;  // tactoscope-report's exit code: written, but the session was altered
+constexpr int kDamaged = 1;  // tactoscope-report's exit code for: written, but the session was altered
 
 }  // namespace
 
@@ -46,7 +46,7 @@ void ReportMaker::cancel() {
     if (process_.state() == QProcess::NotRunning) return;
     cancelled_ = true;
     process_.kill();
-    process_.waitForFinished(1000);  // waits a moment; failed() comes from here
+    process_.waitForFinished(1000);  // waits briefly; ended() emits failed() during this call
 }
 
 void ReportMaker::next() {
@@ -64,7 +64,7 @@ void ReportMaker::start(const QStringList& words, const Secret* passphrase) {
     std::array<int, 2> ends{-1, -1};
     const bool piped = passphrase != nullptr && ::pipe2(ends.data(), O_CLOEXEC) == 0;
     if (piped) {
-        // A pipe holds more than a passphrase has: nothing waits. QProcess::write() would keep a copy.
+        // The pipe is larger than any passphrase, so nothing blocks. QProcess::write() would keep a copy.
         const auto bytes = passphrase->bytes();
         const bool whole = ::write(ends[1], bytes.data(), bytes.size()) == ssize_t(bytes.size());
         ::close(ends[1]);

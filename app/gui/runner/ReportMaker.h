@@ -1,6 +1,6 @@
-// ReportMaker.h - draws reports in a child process, so that the window never stalls and a crash there takes nothing
-// with it: `tactoscope-report SESSION --out FILE`, a program beside this one. It gets the passphrase of a
-// sealed study through a pipe, from locked memory.
+// ReportMaker.h - draws reports in a child process, so that the window never stalls and survives a crash:
+// `tactoscope-report SESSION --out FILE`, a program in the same folder. For a sealed study the child gets the
+// passphrase through a pipe, from locked memory.
 #pragma once
 
 #include <QObject>
@@ -16,17 +16,17 @@ class ReportMaker final : public QObject {
     Q_OBJECT
 public:
     explicit ReportMaker(QObject* parent = nullptr);
-    ~ReportMaker() override;  ///< ends what is being made
-    /// Queued after what is being made. `out` ends in .pdf or .html. done() or failed() follows for each.
+    ~ReportMaker() override;  ///< ends the present report
+    /// Adds a report to the queue. `out` ends in .pdf or .html. Each report ends with done() or failed().
     void make(const QString& session, const QString& out);
     struct Order {
-        QString record, out;  ///< a session, or a study's folder
-        QStringList more{};   ///< further words of the command
+        QString record, out;  ///< session or study folder
+        QStringList more{};   ///< additional command-line arguments
         std::shared_ptr<const Secret> passphrase{};
-        QString assurance{};  ///< said with what fails: "The session is complete."
+        QString assurance{};  ///< added to an error message: "The session is complete."
     };
     void make(const Order& order);
-    /// Ends what is being made, with failed(), and forgets the queue. Nothing half-written stays.
+    /// Ends the present report, with failed(), and empties the queue. No half-written file remains.
     void cancel();
     [[nodiscard]] bool busy() const { return process_.state() != QProcess::NotRunning || !queue_.isEmpty(); }
 
@@ -41,9 +41,9 @@ private:
     void start(const QStringList& words, const Secret* passphrase);
     QList<Order> queue_;
     QString out_;
-    int writer_ = 0;  ///< the process that writes it
+    int writer_ = 0;  ///< the process that writes out_
     QString assurance_;
-    bool cancelled_ = false;  // the person cancelled it, and needs no error
+    bool cancelled_ = false;  // true if the user cancelled, so that no error is shown
 };
 
 }  // namespace tacto::gui

@@ -10,11 +10,11 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kDots_perInch = 300;  // for pictures of the pages that go to the printer
+constexpr int kDots_perInch = 300;  // resolution of the page pictures for the printer
 constexpr double kPoints_perInch = 72;
 
 struct Range {
-    int first = 0, last = 0;  // from 0
+    int first = 0, last = 0;  // counted from 0
 };
 
 Range rangeOf(const QPrinter& printer, int pages) {
@@ -22,7 +22,7 @@ Range rangeOf(const QPrinter& printer, int pages) {
     return {std::min(printer.fromPage(), pages) - 1, std::clamp(printer.toPage(), printer.fromPage(), pages) - 1};
 }
 
-/// The page as large as the paper takes it without changing its shape.
+/// Returns the page's rectangle: as large as the paper allows without changing its shape.
 QRectF onPaper(const QSizeF& page, const QRectF& paper) {
     const auto size = page.scaled(paper.size(), Qt::KeepAspectRatio);
     return {QPointF((paper.width() - size.width()) / 2, (paper.height() - size.height()) / 2), size};
@@ -53,14 +53,14 @@ void ReportPrinter::print(const QString& pdf, const std::shared_ptr<QPrinter>& p
             this, [this, what] { emit said(what); }, Qt::QueuedConnection);
     };
     const auto draw = [pdf, printer, tell, givenUp = givenUp_] {
-        QPdfDocument document;  // this thread's own
+        QPdfDocument document;  // used by this thread only
         document.load(pdf);
         if (document.pageCount() == 0) {
             tell(tr("%1 cannot be read, so nothing was printed.").arg(pdf));
             return 0;
         }
         printer->setResolution(kDots_perInch);
-        printer->setFullPage(true);  // the report has margins of its own
+        printer->setFullPage(true);  // the report has its own margins
         QPainter painter;
         if (!painter.begin(printer.get())) {
             tell(tr("%1 takes no pages, so nothing was printed. Choose another printer.")

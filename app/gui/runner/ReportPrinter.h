@@ -1,6 +1,6 @@
-// ReportPrinter.h - prints a report on one of the computer's printers. Its pages are drawn on a thread of their own:
-// each takes a tenth of a second, and STOP does not wait for it. Qt's print dialog is not used because it opens modal
-// ones.
+// ReportPrinter.h - prints a report on one of the computer's printers. The pages are drawn on a separate thread: each
+// takes a tenth of a second, and STOP must not wait for that. Qt's print dialog is not used because it opens modal
+// dialogs.
 #pragma once
 
 #include <QMenu>
@@ -16,16 +16,16 @@ class ReportPrinter final : public QObject {
     Q_OBJECT
 public:
     explicit ReportPrinter(QObject* parent = nullptr);
-    ~ReportPrinter() override;  ///< gives up the pages that are not drawn yet, and waits for the present one
-    /// Adds an entry for each printer, which prints all pages there; or a sentence that there is none.
+    ~ReportPrinter() override;  ///< drops pages not drawn yet, and waits for the present one
+    /// Adds a menu entry for each printer, which prints all pages; or one that says there is no printer.
     void offer(QMenu& menu, const QString& pdf);
-    /// The pages that `printer` is set to, of the report in `pdf`. After what is being printed.
+    /// Prints the pages chosen in `printer` of the report in `pdf`, after any present print job.
     void print(const QString& pdf, const std::shared_ptr<QPrinter>& printer);
 
 signals:
-    /// How far it is, that it is done, or why not: a sentence.
+    /// Tells the progress, the end or the failure of a print job, in a sentence.
     void said(const QString& what);
-    /// Nothing more comes; `pages` went to the printer.
+    /// The print job is over; `pages` is the number of pages sent to the printer.
     void ended(int pages);
 
 private:

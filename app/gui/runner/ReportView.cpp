@@ -96,13 +96,13 @@ QWidget* ReportView::buildZoom(QWidget* parent) {
     return holder;
 }
 
-/// Zooms from the width that it has now.
+/// Zooms from the present width.
 void ReportView::zoom(double factor) {
     double now = view_->zoomFactor();
     if (view_->zoomMode() == QPdfView::ZoomMode::FitToWidth) {
         const auto margins = view_->documentMargins();
         const double points = document_->pagePointSize(0).width();
-        const double dots = view_->screen()->logicalDotsPerInch() / 72;  // dots in a point at factor 1
+        const double dots = view_->screen()->logicalDotsPerInch() / 72;  // dots per point at factor 1
         if (points > 0) now = (view_->viewport()->width() - margins.left() - margins.right()) / (points * dots);
     }
     view_->setZoomMode(QPdfView::ZoomMode::Custom);

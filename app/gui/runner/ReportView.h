@@ -1,4 +1,4 @@
-// ReportView.h - a report's pages, with zoom and print; the desktop's viewer is one button away.
+// ReportView.h - shows a report's pages, with zoom and print, and a button for the desktop's viewer.
 #pragma once
 
 #include <QDialog>
@@ -16,17 +16,17 @@ class ReportPrinter;
 class ReportView final : public QWidget {
     Q_OBJECT
 public:
-    /// `empty` is said while there is no report.
+    /// `empty` is the text shown while there is no report.
     explicit ReportView(const QString& empty, QWidget* parent = nullptr);
-    /// A report that is written. It is read when it is looked at: a long one takes a moment.
+    /// Shows a written report. The file is read when it becomes visible, as a long report takes a moment.
     void show(const QString& pdf);
     void clear();
     [[nodiscard]] const QString& report() const { return report_; }
-    /// The last line of buttons below the pages: what is added stands at its end.
+    /// Returns the last row of buttons below the pages; further buttons are added at its end.
     [[nodiscard]] QHBoxLayout& row() { return *row_; }
 
 signals:
-    /// How far the printer is, or why the pages cannot be shown: a sentence.
+    /// Tells in a sentence how far printing is, or why the pages cannot be shown.
     void said(const QString& what);
     void unreadable(const QString& why);
 
@@ -40,21 +40,21 @@ private:
     QLabel* empty_;
     QPdfDocument* document_;
     QPdfView* view_;
-    QHBoxLayout* row_ = nullptr;  ///< a line of its own where the buttons have no room beside it
-    QWidget* zoom_ = nullptr;     ///< its buttons
+    QHBoxLayout* row_ = nullptr;  ///< a second line if the buttons need one
+    QWidget* zoom_ = nullptr;     ///< holds the zoom buttons
     QPushButton* print_ = nullptr;
     QPushButton* elsewhere_ = nullptr;
     ReportPrinter* printer_;
-    QString report_;  ///< empty: none
+    QString report_;  ///< empty if there is none
 };
 
-// A report that is written, in a window of the program: zoom, print, and the desktop's viewer.
+// A written report in a window of its own: zoom, print, and the desktop's viewer.
 
 class ReportWindow final : public QDialog {
     Q_OBJECT
 public:
-    /// Shows the report below the safety bar of the window of `asking`. One that is open already shows what is written
-    /// there now.
+    /// Shows the report below the safety bar of the window that contains `asking`. If a window for this report is
+    /// already open, it is reloaded.
     static void showReport(QWidget& asking, const QString& pdf);
 
 private:

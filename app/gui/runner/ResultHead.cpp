@@ -16,7 +16,7 @@ namespace tacto::gui {
 
 namespace {
 
-/// A script's error, with its place in the script at the end: "The load is open. (check.js:12)".
+/// Returns a script's error with the place in the script at the end: "The load is open. (check.js:12)".
 QString whyAndWhere(const QString& error, const QString& meaning) {
     static const QRegularExpression place(R"(^(?:\S*/)?([^/\s]+\.js:\d+): )");
     const auto found = place.match(error);
@@ -25,10 +25,10 @@ QString whyAndWhere(const QString& error, const QString& meaning) {
 }
 
 constexpr int kBesideBlock = 16;
-constexpr int kMaxBlocks = 3;  // height of the reasons: more scroll
-constexpr int kReadable = 36;  // characters in a line of reasons; with less room they stand below the verdict
+constexpr int kMaxBlocks = 3;  // the largest height of the reasons; beyond it they scroll
+constexpr int kReadable = 36;  // characters per line of reasons; with less room the reasons go below the verdict
 
-/// A script's words: one line each, as plain text.
+/// Returns a label for a script's words, in plain text, one per line.
 QLabel* wordsLabel(const char* name, QWidget* parent) {
     auto* label = makeLabel({}, {.name = name, .wraps = true, .plain = true, .selectable = true}, parent);
     return label;
@@ -42,7 +42,7 @@ ResultHead::ResultHead(QWidget* parent) : QWidget(parent) {
     row->setSpacing(kBesideBlock);
     verdict_ = new VerdictBlock(this);
     row->addWidget(verdict_, 0, Qt::AlignTop);
-    // Laid out whole up to a few lines; of more the rest scrolls, and the plot keeps its room.
+    // Shown in full up to a few lines; beyond that it scrolls, so that the plot keeps its room.
     area_ = new ScrollingPage(this);
     area_->setObjectName("verdictReasons");
     auto* page = new QWidget(area_->viewport());
@@ -58,7 +58,7 @@ ResultHead::ResultHead(QWidget* parent) : QWidget(parent) {
     addAll(*column, {why_, more_});
     column->addStretch();
     area_->hold(page);
-    for (auto* ground : {page, area_->viewport()}) ground->setAutoFillBackground(false);  // the workspace's own
+    for (auto* ground : {page, area_->viewport()}) ground->setAutoFillBackground(false);  // as the workspace
     row->addWidget(area_, 1, Qt::AlignTop);
     row->addWidget(toScript_, 0, Qt::AlignTop);
     clear();
@@ -88,7 +88,7 @@ void ResultHead::show(const FinishedRun& run) {
         const bool saysSo = error_.contains(tr("The output "));
         why << whyAndWhere(error_, saysSo ? QString() : tr(" The output was switched off."));
     }
-    // A run that was stopped gives its error as its reason too.
+    // The error of a stopped run is also among its reasons; it is shown once.
     for (const auto& reason : outcome.reasons) {
         if (!outcome.error || reason != outcome.error->message) why << withOhmSigns(qtext(reason));
     }
@@ -126,7 +126,7 @@ void ResultHead::giveRoom() {
     area_->setFixedHeight(needed > most ? wholeLines(wide, most) : std::max(needed, below ? 1 : block));
 }
 
-/// The largest part of that height that cuts no line.
+/// Returns the largest height up to `most` that cuts no line.
 int ResultHead::wholeLines(int wide, int most) const {
     const int strong = why_->fontMetrics().lineSpacing(), plain = more_->fontMetrics().lineSpacing();
     const int first = why_->heightForWidth(wide);

@@ -1,4 +1,4 @@
-// ResultHead.h - how a run ended: the verdict in a word, then why, then what it rests on.
+// ResultHead.h - shows how a run ended: the verdict in one word, the reasons, and the basis.
 #pragma once
 
 #include <QLabel>
@@ -17,11 +17,11 @@ public:
     explicit ResultHead(QWidget* parent = nullptr);
     void clear();
     void show(const FinishedRun& run);
-    /// "PASS", as it stands there.
+    /// Returns the word as shown, such as "PASS".
     [[nodiscard]] QString word() const { return word_; }
-    /// The reasons for the verdict and what it rests on, a line each.
+    /// Returns the reasons for the verdict and its basis, one per line.
     [[nodiscard]] QStringList reasons() const { return (why_->text() + '\n' + more_->text()).split('\n'); }
-    /// Whether reasons may be much higher than the verdict's word: in a low window the plot below needs the room.
+    /// Sets whether reasons may be much higher than the verdict; in a low window the plot below needs the room.
     void setRoomy(bool roomy);
 
 signals:

@@ -56,7 +56,7 @@ void ResultTables::add(const ResultTable& table, const json& results) {
             break;
         case Shape::Limits:
         case Shape::Across:
-            break;  // LimitMatrixView has them
+            break;  // LimitMatrixView shows these
     }
 }
 

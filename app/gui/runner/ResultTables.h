@@ -1,4 +1,4 @@
-// ResultTables.h - the numbers that a protocol's verdict was given, as the tables of their kind
+// ResultTables.h - shows the numbers behind a protocol's verdict in the tables for that kind of result
 // (core/results/ResultTable.h).
 #pragma once
 
@@ -14,7 +14,7 @@ class ResultTables final : public QWidget {
     Q_OBJECT
 public:
     explicit ResultTables(QWidget* parent = nullptr);
-    /// Replaces what is shown.
+    /// Replaces the tables shown.
     void show(const nlohmann::json& results);
     [[nodiscard]] bool empty() const { return body_ == nullptr; }
 

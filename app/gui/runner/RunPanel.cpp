@@ -43,7 +43,7 @@ void TimeLeft::note(const ScriptProgress& progress, bool paused, double now_s) {
 std::optional<double> TimeLeft::seconds() const {
     if (done_ <= firstDone_ || total_ <= done_) return std::nullopt;
     const double perStep = workedAtStep_s_ / double(done_ - firstDone_);
-    // The step under way has had some of its time.
+    // Part of the time for the present step has already passed.
     return std::max(0.0, perStep * double(total_ - done_) - (worked_s_ - workedAtStep_s_));
 }
 
@@ -64,7 +64,7 @@ RunPanel::RunPanel(QWidget* parent)
     bar_->setToolTip(
         tr("STOP, Esc and Shift+F5 switch the output off and end the run; what was recorded so far is kept. "
            "Pause in the safety bar holds it."));
-    bar_->setFocusPolicy(Qt::StrongFocus);  // during a run it has the keys, so that Space stops and types nowhere
+    bar_->setFocusPolicy(Qt::StrongFocus);  // has the focus during a run, so that Space stops and is not typed anywhere
     bar_->setRange(0, 1);
     bar_->setValue(0);
     layout_->addWidget(bar_);
@@ -140,13 +140,13 @@ void RunPanel::setAcross(bool across) {
     showButtons();
 }
 
-/// There is room for one of them in a line.
+/// In a row, one line has room for either the progress or the time left.
 void RunPanel::sayHowFar(const QString& format, const QString& left) {
     howLong_ = left;
     sayLeft();
     bar_->setFormat(across_ && running_ ? tr("%1 · %2").arg(format, left) : format);
     const int needed = bar_->fontMetrics().horizontalAdvance(bar_->format() + "00");
-    bar_->setMinimumWidth(across_ ? std::max(needed, bar_->minimumWidth()) : 0);  // the width of the bar does not jump
+    bar_->setMinimumWidth(across_ ? std::max(needed, bar_->minimumWidth()) : 0);  // the bar does not shrink
 }
 
 void RunPanel::sayLeft() {
@@ -174,7 +174,7 @@ void RunPanel::setReady(bool ready, const QString& obstacle, bool byProfile) {
     changeProfile_->setVisible(byProfile && !obstacle.isEmpty());
     if (!ready_) question_->hide();
     obstacle_->say(obstacle);
-    // A script's words are not markup.
+    // A script's words must not be read as markup.
     run_->setToolTip(!obstacle.isEmpty()
                          ? (Qt::mightBeRichText(obstacle) ? obstacle.toHtmlEscaped() : obstacle)
                          : tr("Opens the devices, arms on the declared load and runs (F5). Esc stops. A bench that is "

@@ -1,5 +1,5 @@
-// RunPanel.h - the button that runs a protocol, the progress of the run with its time left, and what prevents a run.
-// Pause and STOP stand in the safety bar alone.
+// RunPanel.h - the button that runs a protocol, the progress and time left of the run, and what prevents a run. Pause
+// and STOP are only in the safety bar.
 #pragma once
 
 #include <QBoxLayout>
@@ -15,49 +15,49 @@
 
 namespace tacto::gui {
 
-/// Time left from what the steps so far took: pauses and what came before the first step do not count.
+/// Estimates the time left from the steps done so far, without pauses and the time before the first step.
 class TimeLeft {
 public:
     void begin() { *this = {}; }
-    /// `now_s`: seconds since the run began. Starts over when another list of steps begins.
+    /// `now_s`: seconds since the run began. Starts again when another list of steps begins.
     void note(const ScriptProgress& progress, bool paused, double now_s);
-    /// Nothing before the first step is through, or when no step is to come.
+    /// Returns nothing before the first step is done, or if no step is left.
     [[nodiscard]] std::optional<double> seconds() const;
 
 private:
     std::string label_;
     std::size_t firstDone_ = 0, done_ = 0, total_ = 0;
     double seenAt_s_ = -1;
-    double worked_s_ = 0;        // seconds of work since the first report of this list, without pauses
-    double workedAtStep_s_ = 0;  // when the newest step was through
+    double worked_s_ = 0;        // work in seconds since this list's first report, without pauses
+    double workedAtStep_s_ = 0;  // worked_s_ at the end of the newest step
 };
 
 class RunPanel final : public QWidget {
     Q_OBJECT
 public:
     explicit RunPanel(QWidget* parent = nullptr);
-    /// Whether there is something to run. `obstacle`: the sentence that says why it may not run; empty: it may. Where
-    /// the profile is in the way, it can be changed from here.
+    /// Sets whether there is a protocol to run. `obstacle`: a sentence that says why it may not run; empty if it may.
+    /// `byProfile`: the profile is the obstacle, and a button to change it is shown.
     void setReady(bool ready, const QString& obstacle = {}, bool byProfile = false);
-    /// Run is the leading button; once a result is shown another one leads, and Run stays for running again.
+    /// Sets whether Run is the highlighted button; beside a result another button is highlighted.
     void setLeading(bool leading);
-    /// A sentence in the way of the run; empty for none. `line` of the script that it is about; 0 for none.
+    /// Shows a sentence about what prevents the run; empty for none. `line`: its line in the script; 0 for none.
     void say(const QString& what, int line = 0);
-    /// The second deliberate step before a run on hardware: confirmed() follows, or nothing.
+    /// Asks for the second step, which confirms a run on hardware; confirmed() follows if the operator agrees.
     void askToArm(const QString& what);
     void withdrawQuestion();
     void begin();
-    /// Called at each refresh while a run is on. `progress` may be null: nothing new. `waiting`: for an answer.
+    /// Called at each refresh during a run. `progress`: null if nothing is new. `waiting`: the run awaits an answer.
     void show(const ScriptProgress* progress, bool paused, bool waiting);
-    /// `benchTime`: the time of a simulated bench, which is its own.
+    /// `benchTime`: the time that passed on a simulated bench, which has its own clock.
     void end(bool early, std::optional<Seconds> benchTime = {});
-    /// A run closes the bench that is open; afterwards it can be opened again.
+    /// Sets whether a bench is open, which a run would close, and whether a run closed it, so it can be opened again.
     void setBench(bool open, bool closedByRun);
-    /// Puts the controls into one line, for a path that is a row; the owner then places words().
+    /// Puts the controls in one line, for a path shown as a row; the owner then places words().
     void setAcross(bool across);
-    /// The obstacle, the question, and the buttons that belong to them.
+    /// Returns the widget with the obstacle, the question and their buttons.
     [[nodiscard]] QWidget& words() noexcept { return *words_; }
-    /// Whether words() has something to say.
+    /// True if words() shows anything.
     [[nodiscard]] bool speaks() const;
 
 signals:
@@ -84,7 +84,7 @@ private:
     QWidget* question_;
     QLabel* questionText_ = nullptr;
     QPushButton* arm_ = nullptr;
-    QPushButton* back_ = nullptr;  // goes back from the question, and takes the focus
+    QPushButton* back_ = nullptr;  // cancels the question, and has the focus
     QPushButton* run_;
     QProgressBar* bar_;
     QLabel* left_;
@@ -92,7 +92,7 @@ private:
     TimeLeft timeLeft_;
     ScriptProgress progress_;
     QString said_;
-    QString howLong_;  // left, or taken
+    QString howLong_;  // time left or time taken, as text
     bool benchOpen_ = false;
     int line_ = 0;
     bool ready_ = false;

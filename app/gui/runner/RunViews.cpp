@@ -22,12 +22,12 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kLogLines = 5000;           // shown; all of them are in the session
-constexpr int kBesideChars = 115;         // the waveform stands beside the plot from this width on
-constexpr int kDisclosedFromChars = 120;  // the outputs stand beside the tracing from this width on
-constexpr int kTracedFromChars = 165;     // from this width on the tracing stands beside the limits
-constexpr double kTracingShare = 0.18;    // share of the height below the limits, which keep 80 % of the column
-constexpr int kRoomyLines = 34;           // with fewer lines of height, the bar below is as low as its buttons allow
+constexpr int kLogLines = 5000;           // lines shown; the session keeps all lines
+constexpr int kBesideChars = 115;         // width in characters from which the waveform is beside the plot
+constexpr int kDisclosedFromChars = 120;  // width from which the outputs are beside the tracing
+constexpr int kTracedFromChars = 165;     // width from which the tracing is beside the limits
+constexpr double kTracingShare = 0.18;    // the tracing's least share of the height; the limits get the rest
+constexpr int kRoomyLines = 34;           // with less height, the bar below is as low as its buttons
 constexpr int kPageGap = 4, kViewSide = 16, kViewTop = 4, kBarPad = 12, kBarPadLow = 4;
 
 TrialPlane::Features featuresOf(RunViews::Plot plot) {
@@ -65,7 +65,7 @@ RunViews::RunViews(QWidget* parent) : QWidget(parent) {
     views_->addWidget(log_);
     body_->addWidget(views_, 1);
     column->addWidget(buildBar());
-    onEvent(*views_, QEvent::Resize, [this] { arrange(); });  // their room is known once they are laid out
+    onEvent(*views_, QEvent::Resize, [this] { arrange(); });  // their size is known only after layout
     showResult(false);
     showPlot(Plot::Trials);
     onEvent(*this, QEvent::Resize, [this] { arrange(); });
@@ -138,7 +138,7 @@ QWidget* RunViews::buildBar() {
     return holder;
 }
 
-/// The tools of Touch and the oscilloscope; a calibration has them beside its title, where its plot is chosen.
+/// Adds the tools of Touch and the oscilloscope. A calibration shows them next to its title and plot chooser.
 void RunViews::addPictureTools(QBoxLayout& row) {
     toolRow_ = new QWidget(viewRow_);
     auto* tools = new ToolRow(toolRow_);
@@ -211,8 +211,8 @@ void RunViews::showResult(bool result) {
     arrange();
 }
 
-/// Where the limits keep most of the page, the tracing stands beside them in a wide window, below them in a high one,
-/// else in its own view.
+/// Places the tracing of a judged run: beside the limits in a wide window, below them in a high one, otherwise in its
+/// own view.
 void RunViews::placeTracing(bool judged) {
     disclosed_->setVisible(judged);
     if (!judged) return;
@@ -236,8 +236,8 @@ void RunViews::placeTracing(bool judged) {
     judged_->setSizes({all - part, part});
 }
 
-/// One main plot. The waveform stands beside it where there is room, else it is a view of its own; a calibration wants
-/// the whole width. Nowhere in a run without an oscilloscope. A safety check that was judged has its tracing instead.
+/// Shows one main plot. The waveform is beside the plot if there is room, otherwise in its own view (always for a
+/// calibration), and hidden without an oscilloscope. A judged safety check shows its tracing instead.
 void RunViews::arrange() {
     const bool tall = height() >= fontMetrics().height() * kRoomyLines;
     const int pad = tall ? kBarPad : kBarPadLow;
@@ -326,7 +326,7 @@ void RunViews::trace(const QString& limit, const QString& load, const QString& u
         QString trouble;
     };
     const bool ofVoltage = unit == "V";
-    reading_.drop();  // drops the reading of a cell that was chosen before
+    reading_.drop();  // drops the pending result for an earlier cell
     reading_.start(
         this,
         [session = session_, load, ofVoltage]() -> Found {

@@ -1,5 +1,5 @@
-// RunViews.h - what a run shows: its main plot while it runs; at its end the verdict above the plot, the tables and the
-// log behind it, and the next steps below.
+// RunViews.h - the views of a run: its main plot while it runs; afterwards the verdict above the plot, further views
+// with tables and log, and the next steps below.
 #pragma once
 
 #include <QButtonGroup>
@@ -37,22 +37,22 @@ public:
 
     explicit RunViews(QWidget* parent = nullptr);
     void showPlot(Plot plot);
-    /// Shows or hides the result's head and what comes next.
+    /// Shows or hides the verdict and the next steps.
     void showResult(bool result);
     void showView(View view);
 
-    /// Empty, for a run of the protocol of that title with these parameters.
+    /// Empties the views for a run of the protocol with this title and these parameters.
     void begin(Plot plot, const QString& title, const nlohmann::json& parameters);
-    /// The devices of the run, for its pictures and watermarks.
+    /// Sets the devices of the run, for the captions and watermarks of its pictures.
     void setDevices(const std::vector<SessionDevice>& devices, bool simulated);
     void take(const RunFeed& feed);
-    /// Results may have any shape: the sentence says where they lack the shape that a view shows; else it is empty.
+    /// Shows the results, which may have any shape. Returns a sentence if a view cannot show them; otherwise empty.
     [[nodiscard]] QString end(const FinishedRun& run);
-    /// "PASS"; empty before the end.
+    /// Returns the verdict, such as "PASS"; empty before the end.
     [[nodiscard]] QString word() const;
-    /// Whether limits were judged on loads.
+    /// True if limits were judged on loads.
     [[nodiscard]] bool showsLimits() const;
-    /// The widget that chooses the plot of a calibration: CalibrationView::plotKind().
+    /// Returns the widget that chooses the plot of a calibration: CalibrationView::plotKind().
     [[nodiscard]] QWidget& plotKind();
 
 signals:
@@ -65,40 +65,40 @@ private:
     [[nodiscard]] QWidget* buildBar();
     void addPictureTools(QBoxLayout& row);
     [[nodiscard]] PictureCaption caption() const;
-    /// The view that is a picture; none of tables and words.
+    /// Returns the view shown if it is a picture; null for tables and text.
     [[nodiscard]] QWidget* pictured() const;
     [[nodiscard]] Still picture() const;
     void showPictureTools();
     void arrange();
-    /// Where the tracing of a safety check stands.
+    /// Position of a safety check's tracing.
     enum class Tracing { Beside, Below, OwnView };
     void placeTracing(bool judged);
-    /// The strongest train on the load of a cell, in the tracing.
+    /// Shows the strongest train on the load of a cell as the tracing.
     void trace(const QString& limit, const QString& load, const QString& unit);
 
     Plot plot_ = Plot::Trials;
     QString title_;                  // the protocol's title
-    QString devices_;                // their names
-    bool simulated_ = false;         // whether the devices are simulated
-    QDateTime ended_;                // invalid while it runs
-    std::filesystem::path session_;  // the session of the run that ended
+    QString devices_;                // the names of the devices
+    bool simulated_ = false;         // true if the devices are simulated
+    QDateTime ended_;                // invalid while the run goes on
+    std::filesystem::path session_;  // the session of the run that has ended
     bool showsResult_ = false;
     QVBoxLayout* body_ = nullptr;  // head and views, above the bar
     ResultHead* head_ = nullptr;
     QStackedWidget* views_ = nullptr;
     QBoxLayout* plots_ = nullptr;
     TrialPlane* plane_ = nullptr;
-    LoadRows* loads_ = nullptr;            // takes the plane's place where a protocol measures loads
+    LoadRows* loads_ = nullptr;            // replaces the plane if a protocol measures loads
     QSplitter* judged_ = nullptr;          // the limits and their results
-    LimitMatrixView* matrix_ = nullptr;    // limits by loads,
-    DisclosedPanel* disclosed_ = nullptr;  // outputs to disclose, beside or below the limits where there is room
+    LimitMatrixView* matrix_ = nullptr;    // the limits for each load
+    DisclosedPanel* disclosed_ = nullptr;  // outputs to disclose, beside or below the limits
     Tracing tracing_ = Tracing::Below;
-    CalibrationView* calibration_ = nullptr;  // takes the place of all this where a protocol calibrates
+    CalibrationView* calibration_ = nullptr;  // replaces all of these for a calibration protocol
     QLabel* none_ = nullptr;
     CaptureStrip* wave_ = nullptr;
     ResultTables* tables_ = nullptr;
     QPlainTextEdit* log_ = nullptr;
-    QBoxLayout* bar_ = nullptr;  // the next steps, and the choice of a view
+    QBoxLayout* bar_ = nullptr;  // the next steps and the view chooser
     NextStepBar* next_ = nullptr;
     QWidget* viewRow_ = nullptr;
     QWidget* toolRow_ = nullptr;

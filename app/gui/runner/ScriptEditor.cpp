@@ -35,7 +35,7 @@ function run(p) {
 }
 )js";
 
-constexpr int kCheckAfter_ms = 600;  // without a key press
+constexpr int kCheckAfter_ms = 600;  // time since the last key press
 constexpr int kUpdateDelay_ms = 100;
 
 }  // namespace
@@ -231,7 +231,7 @@ void ScriptEditor::checked(const Result<ProtocolDeclaration>& declaration) {
         return;
     }
     const auto why = QString::fromStdString(declaration.error().message);
-    // The user may be typing: the mark comes, the cursor stays.
+    // The user may be typing: the line is marked, but the cursor stays.
     const auto cursor = code_->textCursor();
     showError(lineOf(why), why);
     if (code_->hasFocus()) code_->setTextCursor(cursor);
@@ -294,7 +294,7 @@ void ScriptEditor::saveAndLeave(std::function<void()> then) {
     save();
 }
 
-/// Drops the action that was to follow the saving.
+/// Forgets the action that was to follow saving.
 void ScriptEditor::stay() {
     runWhenSaved_ = leaveWhenSaved_ = false;
     left_ = {};
@@ -307,8 +307,8 @@ void ScriptEditor::look() {
     if (!find_->isVisible()) look_.stop();
 }
 
-/// Esc stops the output, wherever the focus is. It closes the search only when there was nothing to stop, so that a
-/// stop does not lose the operator's place.
+/// Esc stops the output, wherever the focus is. Esc closes the search only if there was nothing to stop, so that a stop
+/// does not lose the operator's place in the text.
 void ScriptEditor::keyPressEvent(QKeyEvent* event) {
     if (event->key() != Qt::Key_Escape || !find_->isVisible()) return QDialog::keyPressEvent(event);
     if (!std::exchange(wasLive_, false)) find_->close();

@@ -1,9 +1,9 @@
-// ScriptEditor.h - the lab's own protocols: write, check, save, run; the host's reference beside it.
+// ScriptEditor.h - writes, checks, saves and runs the lab's own protocols; the scripting reference is next to the text.
 //
-// A shipped protocol opens read-only, to be saved as a copy of the lab's own. Closing does not lose unsaved text: the
-// editor asks, in place.
+// A shipped protocol opens read-only and can be saved as the lab's own copy. Closing does not lose unsaved text: the
+// editor asks first, inside its window.
 //
-// Thread-safety: the GUI thread; a check runs on a thread of its own.
+// Thread-safety: the GUI thread; scripts are checked on a separate thread.
 #pragma once
 
 #include <QDialog>
@@ -24,14 +24,14 @@
 
 namespace tacto::gui {
 
-// Reads what a script declares, beside the window: a script's top level may take up to a second.
+// Reads a script's declaration on a separate thread, since a script's top level may take up to a second.
 
 class ScriptReading final : public QObject {
 public:
     using Done = std::function<void(const ProtocolSource&, const Result<ProtocolDeclaration>&)>;
-    /// `done` is called with every answer.
+    /// `done` is called with the answer of each reading.
     explicit ScriptReading(Done done) : done_(std::move(done)) {}
-    /// A source given while another is being read waits; only the newest waits, and only its answer comes.
+    /// Reads a source. If another is being read, only the newest source waits, and only its answer is reported.
     void read(const ProtocolSource& source);
     [[nodiscard]] bool busy() const { return busy_; }
 
@@ -43,36 +43,36 @@ private:
     SideWork reading_;
 };
 
-/// The line that a script's error names ("file:line: reason"), 0 for none.
+/// Returns the line named in a script's error ("file:line: reason"); 0 for none.
 [[nodiscard]] int lineOf(const QString& error);
 
 class ScriptEditor final : public QDialog {
     Q_OBJECT
 public:
-    /// `controller` outlives it.
+    /// `controller` must outlive this.
     explicit ScriptEditor(const BenchController& controller, QWidget* parent = nullptr);
-    /// Opens the script; a source without text is a new one, from a template. What is unsaved stays, and a sentence
-    /// says so.
+    /// Opens the script; a source without text becomes a new script from a template. Unsaved text stays open instead,
+    /// and a sentence says so.
     void edit(const ProtocolSource& source);
-    /// Marks the line and says why.
+    /// Marks the line and shows the reason.
     void showError(int line, const QString& why);
     [[nodiscard]] CodeEdit& code() { return *code_; }
     [[nodiscard]] bool unsaved() const { return code_->document()->isModified(); }
-    /// "bend", "new": the script's name.
+    /// Returns the script's name: "bend", "new".
     [[nodiscard]] QString scriptName() const;
-    /// Saves and closes; asks for a name where the script has none, in place. `then` is called once it is saved, and
-    /// forgotten when the operator goes back to the text or the file cannot be written.
+    /// Saves and closes; if the script has no name, asks for one first. `then` is called after saving, but not if the
+    /// operator returns to the text or the file cannot be written.
     void saveAndLeave(std::function<void()> then = {});
     /// Closes without saving.
     void leave();
 
 signals:
     void saved(const QString& path);
-    /// Saved, and wanted in the workspace's form.
+    /// The script is saved, and its form is wanted in the workspace.
     void runRequested(const QString& path);
 
 public slots:
-    void reject() override;  ///< Esc and the window's cross: asks first where something is unsaved
+    void reject() override;  ///< Esc or the window's close button: asks first if text is unsaved
 
 protected:
     void keyPressEvent(QKeyEvent* event) override;
@@ -95,17 +95,17 @@ private:
     CodeEdit* code_;
     FindBar* find_ = nullptr;
     QLabel* message_;
-    QWidget* naming_ = nullptr;  // "save as": a name
+    QWidget* naming_ = nullptr;  // the "save as" row, with a name
     QLineEdit* name_ = nullptr;
-    QWidget* leaving_ = nullptr;  // "not saved"
+    QWidget* leaving_ = nullptr;  // the "not saved" row
     QPushButton* save_ = nullptr;
     QTimer later_;
-    QTimer look_;           // at the output, while the search is open
-    bool wasLive_ = false;  // at the last look: by the time Esc comes here, it has stopped the output
+    QTimer look_;           // checks for output while the search is open
+    bool wasLive_ = false;  // output was on at the last check: Esc stops it before the key comes here
     bool runWhenSaved_ = false;
     bool leaveWhenSaved_ = false;
-    std::function<void()> left_;  // saveAndLeave()'s
-    ScriptReading reading_;       // Last: its thread ends first
+    std::function<void()> left_;  // the action given to saveAndLeave()
+    ScriptReading reading_;       // declared last: its thread ends first
 };
 
 }  // namespace tacto::gui

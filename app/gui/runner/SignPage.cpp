@@ -13,7 +13,7 @@ namespace tacto::gui {
 
 namespace {
 constexpr int kNotesWidth = 260, kBesideWords = 16;
-constexpr int kLowestView = 240;  // below the words
+constexpr int kLowestView = 240;  // least height of the view below the words
 }  // namespace
 
 SignPage::SignPage(QWidget* parent) : QWidget(parent), maker_(this) {
@@ -110,7 +110,7 @@ void SignPage::addStateTo(QHBoxLayout& row) {
     drawing_->setRange(0, 0);
     drawing_->setTextVisible(false);
     drawing_->setAccessibleName(tr("Drawing the report"));
-    // Where there is little room this text is short: a report that is being drawn must not make the page wider.
+    // If space is short this text is elided: drawing a report must not make the page wider.
     drawing_->setMinimumWidth(fontMetrics().averageCharWidth() * 4);
     drawing_->setMaximumWidth(fontMetrics().averageCharWidth() * 14);
     cancel_ = pageButton(tr("Cancel the report"), {},
@@ -162,7 +162,7 @@ void SignPage::clear() {
 void SignPage::show(const FinishedRun& run) {
     clear();
     const auto session = QString::fromStdString(run.result.session.string());
-    if (session.isEmpty()) return;  // the session never began
+    if (session.isEmpty()) return;  // the session did not begin
     showNotes(&run.order.notes);
     if (!run.pdf.empty()) maker_.make(session, QString::fromStdString(run.pdf.string()));
     if (!run.html.empty()) maker_.make(session, QString::fromStdString(run.html.string()));

@@ -1,7 +1,7 @@
-// SignPage.h - the report, to be signed: what signing is, who and what this report names, and its pages.
+// SignPage.h - page for signing the report: what a signature means, who and what the report names, and its pages.
 //
-// A signature is by hand, on paper or in the PDF; the program keeps names and draws the lines. It counts as done once
-// the report was printed or opened from here.
+// A signature is made by hand, on paper or in the PDF; the program stores the names and draws the lines. The step is
+// shown as done once the report has been printed or opened from here.
 #pragma once
 
 #include <QHBoxLayout>
@@ -22,25 +22,25 @@ class SignPage final : public QWidget {
     Q_OBJECT
 public:
     explicit SignPage(QWidget* parent = nullptr);
-    /// Clears the page before a run: there is no report, and none is being drawn any longer.
+    /// Clears the page before a run and ends the drawing of any report.
     void clear();
-    /// Has the reports of the run drawn.
+    /// Starts drawing the reports of the run.
     void show(const FinishedRun& run);
-    /// Whether it is signed, as far as the program sees it; before that, how far the report is. For the step.
+    /// Returns a note for the step: signed, as far as the program can tell, or how far the report is.
     [[nodiscard]] QString note() const;
-    /// The report of this run was printed or opened from here.
+    /// True if the report of this run was printed or opened from here.
     [[nodiscard]] bool taken() const noexcept { return taken_; }
-    /// A report that is written already.
+    /// Shows a report that has already been written.
     void showReport(const QString& pdf);
 
 signals:
     void stateChanged();
-    void settingsWanted();  ///< the names are entered there, before the run
+    void settingsWanted();  ///< the names are entered in the settings, before the run
 
 private:
     [[nodiscard]] QWidget* buildWords();
     void fitWords(bool beside);
-    /// "Written…", "Drawing…", or why there is no report.
+    /// Returns "Written…", "Drawing…", or why there is no report.
     [[nodiscard]] QString state() const;
     void addStateTo(QHBoxLayout& row);
     void showNotes(const RunNotes* notes);
@@ -50,14 +50,14 @@ private:
     QWidget* words_ = nullptr;
     QWidget* named_ = nullptr;
     ReportView* view_;
-    bool beside_ = true;  ///< words and report
+    bool beside_ = true;  ///< words beside the report, not above it
     QPushButton* cancel_ = nullptr;
     QProgressBar* drawing_ = nullptr;
     QLabel* says_ = nullptr;
     ReportMaker maker_;
     bool taken_ = false;
     QString fault_;    // why the first failed report failed
-    QString printed_;  // how far the printer is; empty: nothing was printed
+    QString printed_;  // printing progress; empty: nothing was printed
 };
 
 }  // namespace tacto::gui

@@ -58,7 +58,7 @@ void StepButton::setAcross(bool across, bool named) {
 int StepButton::widthAcross(bool named) const {
     const int dot = scaledPx(kAcrossDot);
     if (!named) return 2 * scaledPx(kAloneSide) + dot;
-    const QFontMetrics name(textFont(TextSize::Body, QFont::DemiBold));  // bold, as the step that is shown
+    const QFontMetrics name(textFont(TextSize::Body, QFont::DemiBold));  // bold, like the name of the current step
     return 2 * scaledPx(kAcrossSide) + dot + scaledPx(kAcrossGap) + name.horizontalAdvance(text()) + 1;
 }
 
@@ -92,7 +92,7 @@ QSize StepButton::sizeHint() const {
     return {scaledPx(kStepWidth), std::max(scaledPx(low_ ? kStepLow : kStepHeight), words + 8)};
 }
 
-/// ✔ done, a disc under way, ⚠ needs attention, a ring to do. In a row disc and ring have the step's number.
+/// Paints the state: ✔ done, disc under way, ⚠ attention, ring to do. In a row, disc and ring hold the number.
 void StepButton::paintShape(QPainter& painter, const QPoint& centre) const {
     const auto& c = colours();
     const int size = scaledPx(kShape);
@@ -154,7 +154,7 @@ void StepButton::paintDown(QPainter& painter) const {
     const bool two = !low_ && !note_.isEmpty();
     const int top = (height() - above.height() - (two ? below.height() : 0)) / 2;
     const QPoint shape(scaledPx(kShapeLeft), top + above.height() / 2);
-    // The path from the step before, and to the next.
+    // Lines to the previous and the next step.
     painter.setPen(QPen(c.line, 2));
     const int half = scaledPx(kShape) / 2 + 3;
     if (place_ != Place::First) painter.drawLine(shape.x(), 0, shape.x(), shape.y() - half);

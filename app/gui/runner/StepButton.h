@@ -1,5 +1,5 @@
-// StepButton.h - one step of a procedure: the shape of its state, its name, and a word on how it stands. In a row it
-// has a number, and its name where there is room.
+// StepButton.h - one step of a procedure: a shape for its state, its name, and a short note. In a row the step has a
+// number, and its name if there is room.
 #pragma once
 
 #include <QAbstractButton>
@@ -19,11 +19,11 @@ public:
     [[nodiscard]] StepList::State state() const { return state_; }
     void setNote(const QString& note);
     void setOutOfReach(const QString& why);
-    /// Leaves out the note, where the window is low.
+    /// Leaves out the note if the window is low.
     void setLow(bool low);
-    /// Beside the others in place of below them; `named`: with its name.
+    /// Sets whether steps are side by side instead of stacked; `named`: the button shows its name.
     void setAcross(bool across, bool named);
-    /// The width in a row, with the name or with the shape alone.
+    /// Returns the width in a row, with the name or with the shape alone.
     [[nodiscard]] int widthAcross(bool named) const;
     [[nodiscard]] QSize sizeHint() const override;
     [[nodiscard]] QSize minimumSizeHint() const override { return sizeHint(); }

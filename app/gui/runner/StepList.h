@@ -1,7 +1,6 @@
-// StepList.h - a procedure is a path: its steps below each other, each to do, under way, done or ended early by its
-// shape, with a word on how it stands. A click goes to a step that was reached. Where there is little room they stand
-// in a row, numbered; in a narrow one only the step that is shown has its name, in the
-// narrowest none.
+// StepList.h - the steps of a procedure in a column; a shape shows whether each is to do, under way, done or ended
+// early, and a note says more. A click opens a step that has been reached. If space is short the steps form a numbered
+// row: in a narrow row only the current step shows its name, in the narrowest none does.
 #pragma once
 
 #include <QBoxLayout>
@@ -20,19 +19,19 @@ public:
     explicit StepList(const QStringList& steps, QWidget* parent = nullptr);
     void setState(int step, State state);
     [[nodiscard]] State state(int step) const;
-    /// "sim:", "3 of 8", "PASS"; empty for nothing.
+    /// Sets a short note such as "sim:", "3 of 8", "PASS"; empty for none.
     void setNote(int step, const QString& note);
-    /// `why`: the sentence that says why a click does not go there; empty: it does. Such a step does not look like a
-    /// button.
+    /// `why`: a sentence that says why the step cannot be opened; empty if it can. A step out of reach does not look
+    /// like a button.
     void setOutOfReach(int step, const QString& why);
     void setName(int step, const QString& name);
-    /// A procedure may lack a step.
+    /// Shows or hides a step, as some procedures lack one.
     void setStepVisible(int step, bool visible);
     /// Sets the step whose page is shown.
     void setShown(int step);
     [[nodiscard]] int shown() const { return shown_; }
     void focusShown();
-    /// Fits the steps again when the window's height changes: in a low window they have no notes.
+    /// Fits the steps to the window's height: in a low window they have no notes.
     void fit();
     void setAcross(bool across);
     [[nodiscard]] QSize sizeHint() const override;
@@ -43,7 +42,7 @@ signals:
 
 private:
     enum class Names { None, OfShown, All };
-    /// The width of all steps in a row.
+    /// Returns the width of all steps in a row.
     [[nodiscard]] int widthAcross(Names names) const;
     [[nodiscard]] bool named(std::size_t step, Names names) const;
     void placeAcross();

@@ -8,8 +8,8 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr double kPoint = 8;  // pixels
-// With these, title and frame are as far apart as in a CaptureStrip, whose legend has an empty line between them.
+constexpr double kPoint = 8;  // point size in pixels
+// With these rows, title and frame are as far apart as in a CaptureStrip, which has an empty legend line there.
 constexpr int kBetweenRows = 1, kAboveFrame = 3, kAroundFrame = 15;
 
 }  // namespace
@@ -112,7 +112,7 @@ void TrialPlane::add(const nlohmann::json& trial) {
 }
 
 void TrialPlane::fit() {
-    // Trains keep the encoder's whole range in view; slides have no range of their own.
+    // Trains always show the encoder's whole range; slides have no fixed range.
     const bool trains = features_ == Features::Trains;
     QCPRange x(0, trains ? 2.2 : 0), y(0, trains ? 44 : 0);
     for (const auto& [name, graph] : conditions_) {
@@ -193,7 +193,7 @@ void TrialPlane::nameClusters() {
     if (legend->visible() == (!all && !conditions_.empty())) return;
     legend->setVisible(!all && !conditions_.empty());
     fitLegend(*this);
-    replot(QCustomPlot::rpQueuedReplot);  // the row to draw is another one now
+    replot(QCustomPlot::rpQueuedReplot);  // the number of rows to draw has changed
 }
 
 }  // namespace tacto::gui

@@ -111,7 +111,7 @@ QWidget* WiringPanel::buildOutput() {
     return holder;
 }
 
-/// Names the oscilloscope in place of the one that is named already.
+/// Replaces the oscilloscope in the list of devices.
 void WiringPanel::useOscilloscope(const QString& address) {
     QStringList all{address};
     const auto before = devicesOf(devices());

@@ -1,4 +1,4 @@
-// WiringPanel.h - which devices a run opens, its seed, its clock, and where its files go.
+// WiringPanel.h - form for the devices that a run opens, its seed, its clock and its output folder.
 #pragma once
 
 #include <QCheckBox>
@@ -16,11 +16,11 @@ class WiringPanel final : public QWidget {
     Q_OBJECT
 public:
     explicit WiringPanel(QWidget* parent = nullptr);
-    /// Says which devices the protocol needs.
+    /// Shows which devices the protocol needs.
     void show(const ProtocolDeclaration& declaration);
-    /// Devices, seed, clock and output of `order`. Errors: InvalidArgument for a text that names no device.
+    /// Fills in devices, seed, clock and output of `order`. Errors: InvalidArgument for text that names no device.
     [[nodiscard]] Result<void> fill(RunOrder& order) const;
-    /// "sim:", as written.
+    /// Returns the devices as typed, such as "sim:".
     [[nodiscard]] QString devices() const { return devices_->text().trimmed(); }
 
 signals:
@@ -40,7 +40,7 @@ private:
     QLineEdit* out_ = nullptr;
 };
 
-/// "recording:/a b sim:" as its devices: a blank ends one where the next scheme begins.
+/// Splits "recording:/a b sim:" into devices; a blank ends a device only if a scheme follows.
 [[nodiscard]] Result<std::vector<DeviceUri>> devicesOf(const QString& text);
 
 }  // namespace tacto::gui

@@ -42,7 +42,7 @@ WorstPage::WorstPage(QWidget* parent)
     setTabOrder(findChild<QPushButton*>("readLimits"), worst_);
 }
 
-/// Words that wrap make a page higher than its layout's least height: what is around it scrolls then.
+/// Wrapped text may need more height than the layout's minimum: the surrounding page then scrolls.
 bool WorstPage::event(QEvent* event) {
     const bool done = QWidget::event(event);
     if (event->type() == QEvent::LayoutRequest || event->type() == QEvent::Resize)
@@ -111,7 +111,7 @@ QString WorstPage::judge(const BenchController& controller, const Result<Protoco
                  isNumber && words.endsWith(" ohm") ? settingText(ohms, "ohm") : loadText(words));
     says_->setText(worst->refused.isEmpty() ? tr("%1 Nothing exceeds a limit that can be evaluated.").arg(strongest)
                                             : tr("⚠ %1 %2").arg(strongest, worst->refused));
-    // Without a load of its own the protocol is judged by its script, load by load.
+    // A protocol without a load parameter is judged by its script, load by load.
     const bool judged = drives && settings->parameters.contains("load") && !worst->refused.isEmpty();
     return judged ? tr("%1 Choose another load or profile. The output stays off.").arg(worst->refused) : QString();
 }

@@ -1,5 +1,5 @@
-// WorstPage.h - the strongest command of the profile, judged against every limit before a run; the limits of one
-// set alone where it is chosen, and each to be read with its source.
+// WorstPage.h - judges the profile's strongest command against every limit before a run; the limits can be filtered by
+// set, and each can be read with its source.
 #pragma once
 
 #include <QComboBox>
@@ -21,8 +21,8 @@ class WorstPage final : public QWidget {
     Q_OBJECT
 public:
     explicit WorstPage(QWidget* parent);
-    /// Judges these settings. Returns why a run of them would be refused; empty where nothing is in its way. `drives`:
-    /// the protocol needs a stimulator.
+    /// Judges these settings. Returns why a run would be refused; empty if nothing prevents it. `drives`: the protocol
+    /// needs a stimulator.
     [[nodiscard]] QString judge(const BenchController& controller, const Result<ProtocolSettings>& settings,
                                 bool drives);
 
@@ -41,15 +41,15 @@ private:
     QLabel* says_;
 };
 
-// The strongest command of a profile before anything is armed: every limit with the value that it would be held
-// against, worst case over 80 to 120 % of the declared load.
+// The strongest command of a profile, judged before anything is armed: each limit with the value compared with it, as
+// the worst case over 80 to 120 % of the declared load.
 
 struct WorstCase {
     std::vector<ExposureRow> rows;
-    QString refused;  ///< the limit that would be broken, in words; empty when none is
+    QString refused;  ///< the limit that would be exceeded, in words; empty if none
 };
 
-/// The preview (core/bench/CommandPreview.h) of the profile's largest amplitude at its shortest interval.
+/// Returns the preview (core/bench/CommandPreview.h) of the profile's largest amplitude at its shortest interval.
 /// Errors: as parseLoad() and previewOf().
 [[nodiscard]] Result<WorstCase> worstCase(const Profile& profile, const std::vector<LimitSet>& limits,
                                           const std::string& load);
