@@ -16,9 +16,9 @@ QString part(double value, const QString& low, const QString& middle, const QStr
     return value < 1.0 / 3 ? low : value > 2.0 / 3 ? high : middle;
 }
 
-constexpr double kNear = 0.25;  // share of the plane's sides
+constexpr double kNear = 0.25;  // largest distance, as a share of the plane's sides
 
-/// "near rough-high · "; empty where no condition is near.
+/// Returns "near rough-high · " for the nearest condition; empty if none is near.
 QString nearText(const std::vector<Condition>& conditions, double roughness, double pressure) {
     const Condition* nearest = nullptr;
     double least = kNear;
@@ -94,7 +94,7 @@ HealthWords healthWords(const Telemetry& telemetry, bool hasSensor, std::uint64_
         words << QObject::tr("⚠ Old: the newest sample is %1 old and drives no train").arg(quantityText(age, "s", 2));
         health.stale = true;
     } else if (telemetry.finger == FingerStanding::Stale) {
-        // At the start no frame has come; a stamp ahead of time says nothing of how old the samples are.
+        // At the start no frame has arrived; a time stamp in the future does not tell the age of the samples.
         health.stale = age < 0;
         words << (health.stale ? QObject::tr("⚠ Ahead of time: the samples drive no train")
                                : QObject::tr("Samples come, and none is judged yet"));

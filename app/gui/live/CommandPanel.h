@@ -1,4 +1,4 @@
-// CommandPanel.h - what the fingertip feels now, in words, and what became of its trains.
+// CommandPanel.h - shows in words what the fingertip feels now, and what became of its trains.
 #pragma once
 
 #include <QLabel>
@@ -13,8 +13,8 @@ class CommandPanel final : public QWidget {
     Q_OBJECT
 public:
     explicit CommandPanel(QWidget* parent = nullptr);
-    /// `stale`: the fingertip's samples are old, and what it felt last is not what it feels. One of `conditions` is
-    /// named where the point is near it.
+    /// `stale`: the fingertip's samples are old, so what it felt last may no longer hold. Names one of `conditions` if
+    /// the point is near it.
     void show(const Telemetry& telemetry, bool stale, const std::vector<Condition>& conditions);
 
 private:
@@ -24,8 +24,8 @@ private:
     QLabel* refusal_;
 };
 
-/// The fingertip's state in words: is it fresh, what was lost, and the flags of R; `stale` marks what is not to be
-/// trusted.
+/// The fingertip's state in words: how fresh the samples are, how many were lost, and the flags of R (roughness).
+/// `stale` marks values that must not be trusted.
 struct HealthWords {
     QString text;
     bool stale = false;

@@ -16,7 +16,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr int kSteps = 100;            // a slider's steps from 0 to 1
-constexpr int kAnswerWithin_ms = 400;  // the bench takes a command at its next step; slowed time stretches that
+constexpr int kAnswerWithin_ms = 400;  // the bench takes a command at its next step, which comes later in slowed time
 
 }  // namespace
 
@@ -76,12 +76,12 @@ void DrivePanel::addIndex(QGridLayout& grid, Index& index, const char* objectNam
     index.box->setObjectName(objectName);
     index.box->setRange(0, 1);
     index.box->setDecimals(2);
-    index.box->setButtonSymbols(QAbstractSpinBox::NoButtons);  // the slider is beside it
+    index.box->setButtonSymbols(QAbstractSpinBox::NoButtons);  // the slider next to the box replaces its buttons
     index.box->setAlignment(Qt::AlignRight);
     index.box->setSingleStep(0.01);
     index.box->setToolTip(tip);
     index.box->setAccessibleName(name);
-    index.box->setKeyboardTracking(false);  // a number is a number once it is written
+    index.box->setKeyboardTracking(false);  // a number takes effect only once typed in full
     auto* text = new QLabel(label, this);
     text->setBuddy(index.box);
     const int row = grid.isEmpty() ? 0 : grid.rowCount();
@@ -130,7 +130,7 @@ void DrivePanel::begin() {
     asked_.reset();
     last_ = DriveSource::Off;
     off_->setChecked(true);
-    // Another bench starts anew: what was set by hand belongs to the one before.
+    // With another bench everything starts anew: values set by hand belonged to the previous bench.
     if (const auto bench = controller_.tap(); bench != bench_.lock() || !bench) {
         bench_ = bench;
         was_.reset();
@@ -144,7 +144,7 @@ void DrivePanel::showHand() {
         if (const double hand = controller_.hand().*index->its; index->box->value() != hand) showIndex(*index, hand);
 }
 
-/// Shows the index without asking anything of the bench.
+/// Shows the index without sending a command to the bench.
 void DrivePanel::showIndex(const Index& index, double value) {
     const QSignalBlocker quietSlider(index.slider), quietBox(index.box);
     index.slider->setValue(int(std::lround(value * kSteps)));
@@ -155,12 +155,12 @@ DriveSource DrivePanel::chosen() const {
     return byHand_->isChecked() ? DriveSource::Manual : finger_->isChecked() ? DriveSource::Sensor : DriveSource::Off;
 }
 
-/// "By hand" begins with what was set by hand. Only if a fingertip has a train due now does it continue that train, so
-/// that nothing jumps.
+/// "By hand" begins with the last values set by hand. If a train from the fingertip is being delivered now, it
+/// continues with that train instead, so that the output does not jump.
 void DrivePanel::choose() {
     const auto now = controller_.telemetry();
     const bool delivers = now.state == InterlockState::Armed || now.state == InterlockState::Delivering;
-    const bool wasFinger = last_ == DriveSource::Sensor;  // the last asked source, where the bench has not answered
+    const bool wasFinger = last_ == DriveSource::Sensor;  // the last source asked for, if the bench has not answered
     const bool takesOver =
         wasFinger && now.driving == DriveSource::Sensor && delivers && !now.paused && std::isfinite(now.amplitude_v);
     if (byHand_->isChecked() && now.driving != DriveSource::Manual && !takesOver) showHand();
@@ -180,7 +180,7 @@ void DrivePanel::follow(DriveSource driving) {
     }
     last_ = driving;
     if (driving == chosen()) return;
-    // setChecked() clicks nothing: the bench is not asked again.
+    // setChecked() emits no click, so no command is sent to the bench.
     (driving == DriveSource::Manual ? byHand_ : driving == DriveSource::Sensor ? finger_ : off_)->setChecked(true);
 }
 
@@ -207,7 +207,7 @@ QString DrivePanel::offWords() const {
     return tr("%1 By hand asks for %2.").arg(nothing, trainText(first->amplitude.value(), first->interval.count()));
 }
 
-/// "Was by hand, R 0.40, P 0.60."
+/// Returns, for example, "Was by hand, R 0.40, P 0.60."
 QString DrivePanel::wasWords() const {
     const auto who = was_->source == DriveSource::Sensor ? tr("Was the fingertip") : tr("Was by hand");
     if (!std::isfinite(was_->roughness) || !std::isfinite(was_->pressure)) return who + '.';
@@ -253,8 +253,8 @@ QString DrivePanel::words(const Telemetry& telemetry) const {
     return tr("No train is due.");
 }
 
-/// While the fingertip drives, the sliders show what it feels and cannot be moved; while nothing drives, they show what
-/// "By hand" would begin with.
+/// While the fingertip drives, the sliders show its values and cannot be moved; while nothing drives, they show the
+/// values with which "By hand" would begin.
 void DrivePanel::followFinger(const Telemetry& telemetry) {
     const bool finger = finger_->isChecked() && controller_.activity() == Activity::Live;
     for (const auto& [index, value] : {std::pair(&roughness_, telemetry.roughness), {&pressure_, telemetry.pressure}}) {
@@ -272,7 +272,7 @@ void DrivePanel::refresh(const Telemetry& telemetry) {
                              .value_or(DriveCommand{telemetry.driving, telemetry.roughness, telemetry.pressure});
         const bool known = std::isfinite(now.roughness) && std::isfinite(now.pressure);
         const bool another = !was_ || was_->source != telemetry.driving;
-        if (telemetry.driving != DriveSource::Off && (known || another)) was_ = now;  // what is still known about it
+        if (telemetry.driving != DriveSource::Off && (known || another)) was_ = now;  // what is still known of it
     }
     followFinger(telemetry);
     const auto output = outputText(telemetry);

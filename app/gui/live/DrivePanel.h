@@ -1,9 +1,9 @@
 // DrivePanel.h - what drives the output: nothing, two sliders, or the fingertip.
 //
-// What is chosen here is what the bench does: the bench turns driving off with every stop, disarm and fault, and the
-// panel follows it. Only a person's hand on a control asks anything of the bench. "By hand" begins with what was set by
-// hand on this bench, at first R = 0 and P = 0; it continues with the fingertip's values only while those are
-// delivered. When the bench has turned driving off, the panel says what drove it, and starts nothing by itself.
+// The choice shown is the bench's actual state: the bench turns driving off with every stop, disarm and fault, and the
+// panel follows. Only a person's action sends a command to the bench. "By hand" begins with the last values set by hand
+// on this bench (at first R = 0 and P = 0), or with the fingertip's values while those are delivered. When the bench
+// has turned driving off, the panel says what drove the output, and starts nothing by itself.
 #pragma once
 
 #include <QButtonGroup>
@@ -24,16 +24,16 @@ class DrivePanel final : public QWidget {
     Q_OBJECT
 public:
     explicit DrivePanel(BenchController& controller, QWidget* parent = nullptr);
-    /// Begins with another bench, or with none.
+    /// Starts anew for another bench, or for none.
     void begin();
     void refresh(const Telemetry& telemetry);
     [[nodiscard]] DriveSource chosen() const;
-    /// "39.1 V every 770 ms", "Off".
+    /// Returns the output, such as "39.1 V every 770 ms", or "Off".
     [[nodiscard]] QString headline() const { return output_->text(); }
 
 protected:
-    /// Arrows go from source to source without choosing: on the way from off to the fingertip nothing drives by hand.
-    /// Return chooses.
+    /// Arrow keys move between the sources without choosing, so that nothing drives by hand on the way from off to the
+    /// fingertip. Return chooses.
     bool eventFilter(QObject* watched, QEvent* event) override;
 
 private:
@@ -53,7 +53,7 @@ private:
     [[nodiscard]] QString trainText(double amplitude_v, double interval_s) const;
     [[nodiscard]] QString offWords() const;
     [[nodiscard]] QString wasWords() const;
-    [[nodiscard]] bool vibrates() const;  ///< a massager in place of the electrodes
+    [[nodiscard]] bool vibrates() const;  ///< a massager replaces the electrodes
     [[nodiscard]] QString words(const Telemetry& telemetry) const;
     void followFinger(const Telemetry& telemetry);
 
@@ -63,13 +63,13 @@ private:
     QPushButton* byHand_;
     QPushButton* finger_;
     Index roughness_{.its = &DriveCommand::roughness}, pressure_{.its = &DriveCommand::pressure};
-    std::weak_ptr<BenchTap> bench_;  // the bench on which they were set
+    std::weak_ptr<BenchTap> bench_;  // the bench on which the values were set
     QLabel* output_;
     QLabel* says_;
-    std::optional<DriveSource> asked_;  // the source that the bench was asked for and has not answered yet
+    std::optional<DriveSource> asked_;  // the source asked for, until the bench answers
     QElapsedTimer askedAt_;
-    std::optional<DriveCommand> was_;      // drove last on this bench
-    DriveSource last_ = DriveSource::Off;  // asked last, or what the bench turned to after that
+    std::optional<DriveCommand> was_;      // what drove last on this bench
+    DriveSource last_ = DriveSource::Off;  // asked for last, or set by the bench since
 };
 
 }  // namespace tacto::gui

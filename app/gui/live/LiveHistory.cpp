@@ -7,9 +7,9 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr std::size_t kFrames = 8192;           // a minute at 62.5 Hz, and room for faster settings
-constexpr std::size_t kCommands = 4096;         // a minute at 60 looks a second
-constexpr double kCommandStep_s = 60.0 / 4096;  // slowed time is looked at oftener
+constexpr std::size_t kFrames = 8192;           // a minute at 62.5 Hz, with room for faster settings
+constexpr std::size_t kCommands = 4096;         // a minute at 60 updates per second
+constexpr double kCommandStep_s = 60.0 / 4096;  // least time between commands; slowed time brings more updates
 constexpr double kOtherClock_s = 1;
 
 }  // namespace
@@ -36,7 +36,7 @@ std::array<Series::Piece, 2> Series::pieces(std::size_t first, std::size_t end) 
     std::array<Piece, 2> found;
     if (first >= end) return found;
     const std::size_t from = at(first), n = end - first;
-    const std::size_t before = std::min(n, times_.size() - from);  // up to where the ring turns over
+    const std::size_t before = std::min(n, times_.size() - from);  // up to the end of the ring
     found[0] = {times_.data() + from, values_.data() + from * channels_, before};
     if (n > before) found[1] = {times_.data(), values_.data(), n - before};
     return found;
@@ -77,7 +77,7 @@ void LiveHistory::begin(const std::vector<StreamInfo>& streams) {
 void LiveHistory::take(BenchTap& tap, const Telemetry& telemetry, QTime clock) {
     now_s_ = toSeconds(telemetry.at);
     while (const auto sample = tap.samples.pop()) {
-        if (sample->stream >= samples_.size()) continue;  // a sample of a bench that was opened since
+        if (sample->stream >= samples_.size()) continue;  // a sample for a bench opened meanwhile
         samples_[sample->stream].push(sample->t_s, {sample->values.data(), sample->channels});
     }
     while (const auto frame = tap.frames.pop()) {

@@ -1,9 +1,9 @@
-// LiveHistory.h - the last minute of what the bench showed: samples, roughness frames, the encoder's command, trains,
-// the operator's marks. What the live plots draw.
+// LiveHistory.h - the last minute of a bench, as drawn by the live plots: samples, roughness frames, the encoder's
+// command, trains, and the operator's marks.
 //
-// Bounded: each series is a ring of fixed size that forgets its oldest. Times are the session's, in seconds.
+// Bounded: each series is a ring of fixed size that overwrites its oldest samples. Times are session times in seconds.
 //
-// Thread-safety: the GUI thread; the one reader of the bench's tap.
+// Thread-safety: the GUI thread; this is the only reader of the bench's tap.
 #pragma once
 
 #include <QTime>
@@ -27,20 +27,20 @@ namespace tacto::gui {
 class Series {
 public:
     Series(std::size_t channels, std::size_t capacity);
-    /// A stamp that is not later than the newest is left out (two values cannot stand at one time); one more than a
-    /// second before it is another clock, and starts over.
+    /// Adds a sample. Ignores one that is not later than the newest; a time more than a second before the newest comes
+    /// from another clock, and the series starts over.
     void push(double t_s, std::span<const float> values);
     void clear() noexcept { count_ = head_ = 0; }
     [[nodiscard]] bool empty() const noexcept { return count_ == 0; }
     [[nodiscard]] std::size_t size() const noexcept { return count_; }
     [[nodiscard]] std::size_t channels() const noexcept { return channels_; }
     [[nodiscard]] std::size_t capacity() const noexcept { return times_.size(); }
-    /// `i` < size(), 0 the oldest; NaN where the sensor sent none.
+    /// `i` < size(), 0 is the oldest; NaN if the sensor sent no value.
     [[nodiscard]] double time(std::size_t i) const noexcept { return times_[at(i)]; }
     [[nodiscard]] float value(std::size_t i, std::size_t channel) const noexcept {
         return values_[at(i) * channels_ + channel];
     }
-    /// Samples that lie one after the other in memory: `values` has channels() for each time.
+    /// Samples stored one after the other in memory: `values` has channels() entries for each time.
     struct Piece {
         const double* times = nullptr;
         const float* values = nullptr;
@@ -50,7 +50,7 @@ public:
     [[nodiscard]] std::array<Piece, 2> pieces(std::size_t first, std::size_t end) const noexcept;
     /// Time of the newest; not to be asked of an empty one.
     [[nodiscard]] double newest() const noexcept { return time(count_ - 1); }
-    /// The first sample at or after `t_s`; size() when all are earlier.
+    /// Returns the index of the first sample at or after `t_s`; size() if all are earlier.
     [[nodiscard]] std::size_t firstFrom(double t_s) const noexcept;
 
 private:
@@ -61,48 +61,48 @@ private:
     std::size_t channels_;
     std::vector<double> times_;
     std::vector<float> values_;
-    std::size_t head_ = 0;  // where the next goes
+    std::size_t head_ = 0;  // where the next sample goes
     std::size_t count_ = 0;
 };
 
 class LiveHistory {
 public:
     static constexpr double kKept_s = 60;
-    static constexpr std::size_t kMaxMarks = 64;    ///< the newest marks in the kept time
+    static constexpr std::size_t kMaxMarks = 64;    ///< the newest marks within kKept_s
     static constexpr std::size_t kMaxTrains = 512;  ///< the newest trains
-    /// Columns of frames(): R, P, h, v; contact and sliding are 0 or 1.
+    /// Columns of frames(): R (roughness), P (pressure), h, v; contact and sliding are 0 or 1.
     enum Column : std::size_t { kRoughness, kPressure, kSpectral, kSpatial, kContact, kSliding, kColumns };
-    /// Columns of commands(): what the encoder asked for, and |Z| at that time; NaN while it asked for nothing.
+    /// Columns of commands(): what the encoder asked for, and |Z| at that time; NaN if it asked for nothing.
     enum Command : std::size_t { kAmplitude_v, kInterval_s, kImpedance_ohm, kCommandColumns };
 
     LiveHistory();
-    /// Forgets everything, as another bench is open. `streams` as its sensor names them.
+    /// Forgets everything, since another bench is open. `streams`: as named by the bench's sensor.
     void begin(const std::vector<StreamInfo>& streams);
-    /// Takes what came since the last call; `clock`: the time of day.
+    /// Takes all data since the last call; `clock`: the time of day.
     void take(BenchTap& tap, const Telemetry& telemetry, QTime clock = QTime::currentTime());
 
     [[nodiscard]] const std::vector<StreamInfo>& streams() const noexcept { return streams_; }
-    /// Null when the sensor has no such stream.
+    /// Returns null if the sensor has no such stream.
     [[nodiscard]] const Series* samples(StreamKind kind) const noexcept;
     [[nodiscard]] const StreamInfo* info(StreamKind kind) const noexcept;
     [[nodiscard]] const Series& frames() const noexcept { return frames_; }
     [[nodiscard]] const Series& commands() const noexcept { return commands_; }
-    /// Oldest first, impedance checks included.
+    /// The trains, oldest first, including impedance checks.
     [[nodiscard]] const std::deque<TrainReport>& trains() const noexcept { return trains_; }
-    /// The operator's marks, in the order in which they were made.
+    /// The operator's marks, in the order of their creation.
     [[nodiscard]] const std::vector<PlotMark>& marks() const noexcept { return marks_; }
     void addMark(PlotMark mark);
-    /// Time of the bench at the last take().
+    /// Returns the bench's time at the last take().
     [[nodiscard]] double now_s() const noexcept { return now_s_; }
-    /// The last fault; nothing without one since begin(). Nothing is delivered from `at_s` to `until_s`.
+    /// The last fault since begin(), if any. Nothing is delivered from `at_s` to `until_s`.
     struct Fault {
         double at_s = 0;
-        double until_s = std::numeric_limits<double>::infinity();  ///< its reset
+        double until_s = std::numeric_limits<double>::infinity();  ///< time of the fault's reset
         FixedText<200> why;
-        QTime clock;  ///< the clock as it was seen
+        QTime clock;  ///< time of day at which the fault was seen
     };
     [[nodiscard]] const std::optional<Fault>& fault() const noexcept { return fault_; }
-    /// Samples left out of the picture because the window looked too rarely; the recording has them.
+    /// Returns how many samples are missing from the plots because the window read too rarely; the recording has them.
     [[nodiscard]] std::uint64_t missed() const noexcept { return missed_; }
 
 private:
@@ -111,7 +111,7 @@ private:
     Series frames_;
     Series commands_;
     std::deque<TrainReport> trains_;
-    std::vector<PlotMark> marks_;  // kMaxMarks at most
+    std::vector<PlotMark> marks_;  // at most kMaxMarks
     double now_s_ = 0;
     std::uint64_t missed_ = 0;
     std::optional<Fault> fault_;

@@ -31,11 +31,11 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kSideEvery_ms = 90;                 // numbers ten times a second are as fast as one reads
-constexpr int kPlaneEvery_ms = 30;                // smooth to the eye; the strips follow every picture
-constexpr int kReadingEvery_ms = 100;             // captures that are measured for the trains' strip
-constexpr int kStripChars = 32;                   // the least width of the strips
-constexpr std::size_t kLongestReading = 100'000;  // samples; a longer one belongs to the oscilloscope workspace
+constexpr int kSideEvery_ms = 90;                 // ten numbers a second are as many as one can read
+constexpr int kPlaneEvery_ms = 30;                // looks smooth; the strips are drawn with every picture
+constexpr int kReadingEvery_ms = 100;             // interval at which captures are measured for the train strip
+constexpr int kStripChars = 32;                   // least width of the strips in characters
+constexpr std::size_t kLongestReading = 100'000;  // samples; longer captures are left to the oscilloscope workspace
 
 bool isSimulated(const OpenBench& bench, Role role) {
     return std::any_of(bench.about.devices.begin(), bench.about.devices.end(),
@@ -47,10 +47,10 @@ bool isReplay(const OpenBench& bench) {
                        [](const auto& device) { return device.uri.starts_with("recording:"); });
 }
 
-/// A column that scrolls only where its parts do not fit at their least height: words that wrap would ask for more.
+/// A column that scrolls only if its parts do not fit at their least height, which wrapped text would exceed.
 class LeastColumn final : public QWidget {
 public:
-    /// `follow`: called when its parts need another room.
+    /// `follow`: called when the parts need a different size.
     LeastColumn(std::function<void()> follow, QWidget* parent) : QWidget(parent), follow_(std::move(follow)) {}
     [[nodiscard]] int heightForWidth(int width) const override { return layout()->totalMinimumHeightForWidth(width); }
 
@@ -80,7 +80,7 @@ LiveWorkspace::LiveWorkspace(BenchController& controller, QWidget* parent) : QWi
     layout->insertWidget(0, tools_);
     connect(&controller_, &BenchController::changed, this, &LiveWorkspace::begin);
     connect(&controller_, &BenchController::captured, this, [this](const std::shared_ptr<const Capture>& capture) {
-        if (capture && !capture->untriggered) readCapture(*capture);  // a capture that shows a train, not just a signal
+        if (capture && !capture->untriggered) readCapture(*capture);  // the capture was triggered, so it shows a train
     });
     connect(&controller_, &BenchController::marked, this, [this](double at_s, const QString& word) {
         history_.addMark({at_s, word.toStdString()});
@@ -161,8 +161,8 @@ void LiveWorkspace::fillSide() {
     for (auto* ground : {side, side_->viewport()}) ground->setAutoFillBackground(false);
 }
 
-/// Beside the strips where there is room, by what is in sight: a page that scrolls is as wide as its parts ask for.
-/// There it scrolls from top to bottom by itself; below them the page does, and it stands there whole.
+/// Puts the side column next to the strips if the visible width allows; there the column scrolls by itself. Otherwise
+/// the column is below the strips at full height, and the page scrolls.
 void LiveWorkspace::fit() {
     const auto* side = side_->widget();
     const int narrowest = side->minimumSizeHint().width() + side_->verticalScrollBar()->sizeHint().width();
@@ -173,7 +173,7 @@ void LiveWorkspace::fit() {
     const bool beside = room >= strips_->minimumWidth() + split_->handleWidth() + narrowest;
     split_->setOrientation(beside ? Qt::Horizontal : Qt::Vertical);
     side_->setMinimumHeight(beside ? 0 : std::max(0, side->heightForWidth(room)));
-    freeze_->setText(beside ? tr("Free&ze") : QString());  // where a word has no room, the icon and the tip say it
+    freeze_->setText(beside ? tr("Free&ze") : QString());  // if the word does not fit, only icon and tool tip are left
 }
 
 void LiveWorkspace::buildTools() {
@@ -217,7 +217,7 @@ PictureCaption LiveWorkspace::caption() const {
     caption.date = pictureDate(strips_->takenAt());
     if (open) caption.lines << deviceNames(open->about.devices);
     caption.lines << strips_->scalesText() << strips_->readingsText();
-    if (!strips_->frozen()) caption.lines << health_->text();  // the health as it is now
+    if (!strips_->frozen()) caption.lines << health_->text();  // the present health; a frozen picture has none
     return caption;
 }
 
@@ -241,14 +241,14 @@ void LiveWorkspace::addViewTools(ToolRow& row) {
     };
     connect(strips_, &StripPlots::viewChanged, this, enable);
     enable();
-    auto* key = new QShortcut(QKeySequence::Undo, strips_);  // wherever the focus is, as after Freeze
+    auto* key = new QShortcut(QKeySequence::Undo, strips_);  // works wherever the focus is, for example after Freeze
     connect(key, &QShortcut::activated, strips_, &StripPlots::undoZoom);
 }
 
 void LiveWorkspace::begin() {
     const auto open = controller_.open();
     tools_->setEnabled(open != nullptr);
-    if (!open) health_->clear();  // nothing is fresh, and nothing is missing
+    if (!open) health_->clear();  // without a bench there is no health to report
     stack_->setCurrentIndex(open ? kBench : controller_.activity() == Activity::Opening ? kOpening : kEmpty);
     const bool touch = open && isSimulated(*open, Role::Sensor), source = open && isSimulated(*open, Role::Stimulator);
     if (controller_.tap() != tap_) {
@@ -281,7 +281,7 @@ void LiveWorkspace::refresh(const Telemetry& telemetry, bool visible) {
     if (isDue(sinceSide_, kSideEvery_ms)) showSide(telemetry);
 }
 
-/// The telemetry with R and P as set by hand, while the hand drives.
+/// Returns the telemetry with R and P as set by hand, if the hand drives.
 Telemetry LiveWorkspace::asDriven(Telemetry telemetry) const {
     if (const auto ordered = orderedByHand(controller_, telemetry)) {
         telemetry.roughness = ordered->roughness;
@@ -320,7 +320,7 @@ void LiveWorkspace::showSide(const Telemetry& telemetry) {
 void LiveWorkspace::showPlotOnly(bool only) {
     plotOnly_ = only;
     side_->setVisible(!only);
-    sinceSide_.invalidate();  // says at the next picture whether the samples are old
+    sinceSide_.invalidate();  // so that the next picture says whether samples are old
     if (!only) staleLine_->hide();
 }
 
@@ -364,7 +364,7 @@ void LiveWorkspace::openSimulated() {
 }
 
 bool LiveWorkspace::openRecording(const QString& path) {
-    // Reading it may take a while, on the controller's thread; here only whether there is something to read.
+    // Reading may take a while and runs on the controller's thread; here we only check that the file exists.
     const std::filesystem::path file = path.toStdString();
     std::error_code error;
     if (!std::filesystem::exists(std::filesystem::is_directory(file, error) ? file / "recording.json" : file, error)) {
@@ -395,7 +395,7 @@ void LiveWorkspace::replayAgain() {
     LiveOrder order;
     order.seed = open->about.seed;
     order.speed = rig_->speed();
-    std::set<std::string> seen;  // devices seen already: one "sim:" stands for several
+    std::set<std::string> seen;  // devices already added: one "sim:" stands for several
     for (const auto& device : open->about.devices) {
         const auto uri = DeviceUri::parse(device.uri);
         if (uri && seen.insert(device.uri).second) order.uris.push_back(*uri);

@@ -1,4 +1,4 @@
-// LiveWorkspace.h - what the finger feels and what the skin would get, now.
+// LiveWorkspace.h - workspace that shows what the finger feels and what the skin would get, live.
 #pragma once
 
 #include <QComboBox>
@@ -29,16 +29,16 @@ class LiveWorkspace final : public QWidget {
     Q_OBJECT
 public:
     explicit LiveWorkspace(BenchController& controller, QWidget* parent = nullptr);
-    /// Thirty to sixty times a second. Takes what came either way; draws when `visible`.
+    /// Called 30 to 60 times a second. Takes new data in any case, but draws only if `visible`.
     void refresh(const Telemetry& telemetry, bool visible);
-    /// A folder with recording.json, or such a file, replayed into the simulated stimulator. False, and
-    /// When it is not a recording, refusedRecording() says why.
+    /// Replays a recording (its folder or its recording.json) into the simulated stimulator. Returns false if it is not
+    /// a recording; refusedRecording() then says why.
     bool openRecording(const QString& path);
-    /// Opens the encoding profile's editor, which is its own owner, at the field `key` of a profile's file.
+    /// Opens the encoding profile's editor, which deletes itself when closed, at the field `key` of a profile file.
     void editProfile(const QString& key = {});
-    /// The row of tools above the plots; a page of tabs may take it into its own row.
+    /// Returns the row of tools above the plots; a page with tabs may move it into its own row.
     [[nodiscard]] QWidget* tools() { return tools_; }
-    /// The strips alone; a line above them says when the sensor's samples are old.
+    /// Shows the strips alone; a line above them warns if the sensor's samples are old.
     void showPlotOnly(bool only);
     [[nodiscard]] const LiveHistory& history() const { return history_; }
     [[nodiscard]] const StripPlots& plots() const { return *strips_; }
@@ -47,7 +47,7 @@ signals:
     void refusedRecording(const QString& why);
     /// Asks to mark this moment in the recording.
     void markWanted();
-    /// The plots without what is around them, or back.
+    /// Asks to hide or show everything around the plots.
     void plotOnlyWanted();
 
 private:
@@ -74,7 +74,7 @@ private:
     BenchController& controller_;
     LiveHistory history_;
     std::shared_ptr<BenchTap> tap_;
-    std::optional<double> pendingSpeed_;  // the speed that was ordered here for a bench that is not open yet
+    std::optional<double> pendingSpeed_;  // the speed ordered for a bench that is not open yet
     QStackedWidget* stack_;
     StripPlots* strips_ = nullptr;
     TaxelMap* taxels_ = nullptr;
@@ -85,12 +85,12 @@ private:
     QPushButton* freeze_ = nullptr;
     QWidget* tools_ = nullptr;
     ElidedLabel* health_ = nullptr;
-    ElidedLabel* staleLine_ = nullptr;  // where the tools with health_ are hidden
+    ElidedLabel* staleLine_ = nullptr;  // shown if the tools, with health_, are hidden
     QSplitter* split_ = nullptr;
     QScrollArea* side_ = nullptr;
     bool plotOnly_ = false;
     QElapsedTimer sinceReading_, sincePlane_, sinceSide_;
-    std::vector<float> newest_;  // reused
+    std::vector<float> newest_;  // buffer, reused
 };
 
 }  // namespace tacto::gui

@@ -17,7 +17,7 @@ namespace {
 constexpr int kPollInterval_ms = 100;
 const std::string kSource = "profile";
 
-/// The core's sentence without the name of its source, which here is always the form.
+/// Returns the core's message without the name of its source, which is always the form here.
 QString refusalOf(const Error& error) {
     auto text = QString::fromStdString(error.message);
     const auto prefix = QString::fromStdString(kSource + ": ");

@@ -1,6 +1,6 @@
 // ProfileEditor.h - the profile as a form with its mapping drawn: edit, check, apply, open, save.
 //
-// A wrong value is refused in the core's own sentence, beside its field, and is never applied; nothing is clamped.
+// A wrong value is refused in the core's own words next to its field, and is never applied; no value is clamped.
 #pragma once
 
 #include <QDialog>
@@ -22,11 +22,11 @@ class ProfileEditor final : public QDialog {
 public:
     /// Deletes itself when closed.
     explicit ProfileEditor(BenchController& controller, QWidget* parent = nullptr);
-    /// Begins at the field `key`, as a profile's file names it.
+    /// Opens the field `key`, as named in a profile file.
     void goTo(const QString& key);
-    /// The sentence that refuses what the form holds; empty when it is sound.
+    /// Returns the sentence that refuses the form's values; empty if they are valid.
     [[nodiscard]] QString trouble() const { return trouble_; }
-    /// A profile file into the form; what is wrong with it is said, and the form stays.
+    /// Reads a profile file into the form; if the file is wrong, says why and keeps the form.
     void openFile(const QString& path);
     void saveFile(const QString& path);
 
@@ -46,7 +46,7 @@ private:
     void chooseTarget();
 
     BenchController& controller_;
-    nlohmann::json document_;  ///< the document with which the form began; keeps what the form does not show
+    nlohmann::json document_;  ///< the document loaded; keeps fields that the form does not show
     QLineEdit* name_;
     ProfileTabs* tabs_;
     QLabel* says_;

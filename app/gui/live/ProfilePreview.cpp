@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kPoints = 101;
 constexpr std::size_t kWavePoints = 2000;
-constexpr double kRounding = 1e-9;  // an imbalance below this is arithmetic, not charge
+constexpr double kRounding = 1e-9;  // an imbalance below this is a rounding error, not charge
 
 QCPAxisRect* cell(QCustomPlot& plot, int row, const QString& y) {
     auto* axes = new QCPAxisRect(&plot);
@@ -96,7 +96,7 @@ void ProfilePreview::showPulse() {
     const double duration = train.pulseDuration().count();
     const double margin = 0.15 * duration;
     const double step = (duration + 2 * margin) / double(kWavePoints);
-    // Draws one pulse of the train: the next would begin beyond the picture, or within it and say something else.
+    // Draws one pulse only: the next would lie outside the picture, or inside it and mislead.
     auto single = train;
     single.pulses = 1;
     std::vector<double> level(kWavePoints);

@@ -1,5 +1,5 @@
-// ProfilePreview.h - an encoding profile as pictures: roughness to amplitude, pressure to interval, where touch stands
-// on both now, and one pulse.
+// ProfilePreview.h - an encoding profile as plots: roughness to amplitude and pressure to interval, each with the
+// present touch, and one pulse.
 #pragma once
 
 #include <optional>
@@ -13,15 +13,15 @@ class ProfilePreview final : public QCustomPlot {
     Q_OBJECT
 public:
     explicit ProfilePreview(QWidget* parent = nullptr);
-    /// A profile that passed validate(); charge is shown for `smallestLoad` until an impedance is measured.
+    /// `profile` must have passed validate(); charge is shown for `smallestLoad` until an impedance is measured.
     void show(const EncodingProfile& profile, Ohms smallestLoad);
-    /// The point of touch; NaN where nothing touches.
+    /// Sets the point of the present touch; NaN if nothing is touched.
     void setPoint(double roughness, double pressure);
     /// Sets the measured impedance; NaN: not measured.
     void setImpedance(double ohm);
-    /// The pulse in numbers at the largest amplitude: charge per phase, imbalance, duration.
+    /// Returns the numbers of a pulse at the largest amplitude: charge per phase, imbalance, duration.
     [[nodiscard]] QString facts() const;
-    /// The command that is marked on the curves.
+    /// Returns the command marked on the curves.
     [[nodiscard]] std::optional<QPointF> marked() const;
 
 private:

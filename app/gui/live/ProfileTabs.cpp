@@ -241,7 +241,7 @@ QString ProfileField::range() const {
                 : numbers.openHigh ? QObject::tr("%1 to below %2")
                                    : QObject::tr("%1 to %2"))
                    .arg(from, to);
-    // After a word the unit stands apart; after a number no line may break before it.
+    // A blank separates the unit from a word; a non-breaking space separates it from a number.
     if (!numbers.unit.empty()) text += (text.back().isDigit() ? QChar(0x202f) : QChar(' ')) + qtext(numbers.unit);
     return stored->mayBeNull ? QObject::tr("%1, or empty").arg(text) : text;
 }

@@ -1,4 +1,4 @@
-// ProfileTabs.h - the fields of a profile on tabs, each with its range and, beside it, why it is refused.
+// ProfileTabs.h - a profile's fields on tabs, each with its range and, if refused, the reason next to it.
 #pragma once
 
 #include <QString>
@@ -17,31 +17,31 @@ enum class ProfileTab { Encoding, Pulse, Touch, Load };
 inline constexpr int kProfileTabs = 4;
 [[nodiscard]] QString titleOf(ProfileTab tab);
 
-/// A field as people read it: its place in the form, its label, and what it does. Units, ranges and choices come from
-/// the core's table (profileFields() of core/bench/Profile.h), which alone judges.
+/// A field as shown to people: its place in the form, its label, and its effect. Units, ranges and choices come from
+/// the core's table (profileFields() of core/bench/Profile.h), which alone decides what is valid.
 struct ProfileField {
     ProfileTab tab;
     const char* key;
     const char* label;
     const char* tip;
-    std::vector<const char*> words{};   ///< the file's words in their order, put for people; empty for a number
-    const char* accepts = nullptr;      ///< shown in place of the range
-    const char* needs = nullptr;        ///< key of the choice that gives it meaning...
-    const char* needsValue = nullptr;   ///< ...when it is this, or with '!' in front when it is not
-    const FieldInfo* stored = nullptr;  ///< the field of the core
+    std::vector<const char*> words{};   ///< the file's words, in order, phrased for people; empty for a number
+    const char* accepts = nullptr;      ///< text shown instead of the range
+    const char* needs = nullptr;        ///< the field has effect only if the choice with this key...
+    const char* needsValue = nullptr;   ///< ...has this value, or with a leading '!' any other value
+    const FieldInfo* stored = nullptr;  ///< the field's entry in the core's table
 
-    [[nodiscard]] const char* section() const noexcept;  ///< its section in the profile's file
+    [[nodiscard]] const char* section() const noexcept;  ///< its section in the profile file
     [[nodiscard]] bool isChoice() const noexcept { return !stored->words.empty(); }
-    /// "0.01 to 500 V".
+    /// Returns, for example, "0.01 to 500 V".
     [[nodiscard]] QString range() const;
 };
 
 [[nodiscard]] const std::vector<ProfileField>& profileForm();
-/// The field that a refusal is about, which is the one that it names first. Null when it names none.
+/// Returns the field that a refusal names first; null if it names none.
 [[nodiscard]] const ProfileField* fieldIn(const QString& refusal);
-/// A refusal of the core with the form's names in place of the file's keys: "“Smallest amplitude” 45 V is not below …".
+/// Replaces the file's keys in a refusal by the form's names: "“Smallest amplitude” 45 V is not below …".
 [[nodiscard]] QString inFormWords(QString refusal);
-/// Translated.
+/// Returns the translated text.
 [[nodiscard]] QString profileWords(const char* text);
 
 class ProfileTabs final : public QTabWidget {
@@ -53,15 +53,15 @@ public:
     };
 
     explicit ProfileTabs(QWidget* parent = nullptr);
-    /// Shows the values of `document`, a whole profile as toJson() writes it.
+    /// Shows the values of `document`, a whole profile as written by toJson().
     void fill(const nlohmann::json& document);
-    /// Writes what the fields hold into `document`, up to the first that does not hold a number; returns that one.
+    /// Writes the fields into `document`, up to the first without a valid number; returns that field.
     [[nodiscard]] std::optional<Refusal> read(nlohmann::json& document) const;
-    /// Shows `refusal` beside `field` and on its tab, and no other; null: none. Disables the fields that have no
-    /// meaning with what is chosen now, except the refused one.
+    /// Shows `refusal` next to `field` and marks its tab, clearing all other refusals; null: none. Disables fields that
+    /// have no effect with the present choices, except `field`.
     void mark(const ProfileField* field, const QString& refusal);
 
-    /// The tab of the field `key` is shown, and the field has the focus. `key` as in a profile's file.
+    /// Shows the tab of the field `key` (as in a profile file) and gives the field the focus.
     void goTo(const QString& key);
 
 signals:

@@ -27,7 +27,7 @@ QWidget* RigPanel::buildSurfaces() {
     auto* fields = layoutIn<QGridLayout>(*group, -1, {});
     material_ = new QComboBox(group);
     material_->setObjectName("surface");
-    material_->addItem(tr("nothing (lifted)"), "");  // see begin() for what the finger does by itself
+    material_->addItem(tr("nothing (lifted)"), "");  // begin() adds the finger's own strokes
     for (const auto* name : kMaterials) material_->addItem(name, name);
     material_->setToolTip(tr("The surface under the sliding finger, from smooth to rough."));
     const auto spin = [&](double low, double high, double step, int decimals, double value, const QString& unit) {
@@ -92,7 +92,7 @@ void RigPanel::begin(double speed, bool recording) {
     paceLabel_->setText(recording ? tr("Replay spee&d") : tr("Ti&me runs at"));
     again_->setVisible(false);
     const QSignalBlocker quietMaterial(material_), quietPace(paceBox_), quietSpeed(speed_), quietForce(force_);
-    // Until the user chooses, the finger does what its device was opened with; that cannot be chosen again.
+    // Until the user chooses, the finger moves as its device was opened; that cannot be chosen again later.
     if (material_->itemData(0).isValid()) material_->insertItem(0, tr("its own strokes"));
     material_->setCurrentIndex(0);
     speed_->setValue(50);

@@ -1,4 +1,4 @@
-// RigPanel.h - what the simulated finger touches, where the bench can do that by itself, and how fast its time runs.
+// RigPanel.h - sets what the simulated finger touches, if the bench can simulate touch, and the speed of its time.
 #pragma once
 
 #include <QComboBox>
@@ -15,7 +15,7 @@ class RigPanel final : public QWidget {
     Q_OBJECT
 public:
     explicit RigPanel(BenchController& controller, QWidget* parent = nullptr);
-    /// Begins with another bench, or with none. `speed` is what its time runs at; `recording` whether one is replayed.
+    /// Starts anew for another bench, or for none. `speed`: its time's speed; `recording`: true if one is replayed.
     void begin(double speed, bool recording);
     void refresh(const Telemetry& telemetry);
     [[nodiscard]] double speed() const { return paceBox_->currentData().toDouble(); }

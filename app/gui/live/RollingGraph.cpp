@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kDash_px = 5;
 
-/// The pixel that a place lies in: floor(), without the call that it is on plain x86-64. Far outside stays outside.
+/// Returns the pixel at `place`, like floor() but without a function call on plain x86-64. Limits far-off places.
 int columnAt(double place) {
     constexpr int kMaxPixel = 1 << 20;
     return static_cast<int>(std::clamp(place, -double(kMaxPixel), double(kMaxPixel)) + kMaxPixel) - kMaxPixel;
@@ -77,7 +77,7 @@ void RollingGraph::draw(QCPPainter* painter) {
         } else {
             flush();
             if (begun && x > column + 1) {
-                // Few samples: a line across the columns between.
+                // With few samples, a line crosses the columns between two samples.
                 if (isDash(t))
                     lines_.append(
                         QLineF(column + 0.5, y0 + perUnit * double(last), x + 0.5, y0 + perUnit * double(value)));
@@ -108,7 +108,7 @@ void RollingGraph::draw(QCPPainter* painter) {
     painter->drawRects(bars_);
 }
 
-/// One pixel wide from level to level; columns of the same height become one bar.
+/// Adds a bar one pixel wide between two levels; equal neighbours are joined into one bar.
 void RollingGraph::addBar(int column, double from, double to) {
     const int top = columnAt(std::min(from, to)), bottom = columnAt(std::max(from, to));
     if (!bars_.isEmpty()) {

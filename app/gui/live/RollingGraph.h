@@ -1,8 +1,8 @@
-// RollingGraph.h - one channel of a Series as a trace: per pixel column the smallest and largest value, drawn as
-// one-pixel verticals in one call, without antialiasing; a line where samples are few. NaN and missing samples leave a
-// gap: what was not measured is not drawn.
+// RollingGraph.h - draws one channel of a Series as a trace: in each pixel column a vertical line from the smallest to
+// the largest value, all in one call and without antialiasing, and a joining line if samples are few. NaN and missing
+// samples leave a gap: values that were not measured are not drawn.
 //
-// Thread-safety: the GUI thread; the series outlives the graph or is taken away with show(nullptr, 0).
+// Thread-safety: the GUI thread; the series must outlive the graph or be removed with show(nullptr, 0).
 #pragma once
 
 #include <qcustomplot.h>
@@ -15,17 +15,17 @@ class RollingGraph final : public QCPAbstractPlottable {
     Q_OBJECT
 public:
     RollingGraph(QCPAxis* keyAxis, QCPAxis* valueAxis);
-    /// Samples further apart than `gap_s` are not joined.
+    /// Draws a channel; samples further apart than `gap_s` are not joined.
     void show(const Series* series, std::size_t channel, double gap_s = 1e9);
-    /// Values are drawn times this: an axis in kPa of samples in Pa.
+    /// Sets the factor for drawn values, for example for samples in Pa on an axis in kPa.
     void setScale(double scale) { scale_ = scale; }
-    /// A dashed trace, for one that shares its strip with a solid one. The dashes move with the data.
+    /// Draws the trace dashed, if it shares its strip with a solid one. The dashes move with the data.
     void setDashed(bool dashed) { dashed_ = dashed; }
-    /// Smallest and largest value in the time; nothing without a value.
+    /// Returns the smallest and largest value within `time`; nothing if there is no value.
     [[nodiscard]] std::optional<QCPRange> extent(const QCPRange& time) const;
 
     double selectTest(const QPointF&, bool, QVariant* = nullptr) const override { return -1; }
-    // The strips say what their axes show.
+    // The strips set their axis ranges themselves.
     QCPRange getKeyRange(bool& found, QCP::SignDomain) const override { return getValueRange(found, {}, {}); }
     QCPRange getValueRange(bool& found, QCP::SignDomain, const QCPRange&) const override {
         found = false;
@@ -43,8 +43,8 @@ private:
     double gap_s_ = 1e9;
     double scale_ = 1;
     bool dashed_ = false;
-    QVector<QLineF> lines_;  // reused
-    QVector<QRect> bars_;    // reused
+    QVector<QLineF> lines_;  // buffer, reused
+    QVector<QRect> bars_;    // buffer, reused
 };
 
 }  // namespace tacto::gui

@@ -12,11 +12,11 @@ namespace {
 constexpr double kWindow_s = 0.064;
 constexpr double kHop_s = 0.032;
 constexpr double kLow_hz = 5, kHigh_hz = 1000;
-constexpr double kFloor_db = -70, kRoof_db = 10;  // in dB of 1 (m/s²)²/Hz: below is sensor noise, above a tap
+constexpr double kFloor_db = -70, kRoof_db = 10;  // in dB of 1 (m/s²)²/Hz: below is sensor noise, above are taps
 constexpr std::int64_t kColumns = static_cast<std::int64_t>(LiveHistory::kKept_s / kHop_s);
 
-/// Perceptually even, the same to every kind of colour vision, readable in grey: dark blue to yellow (points of the
-/// viridis family, as figures have them).
+/// Returns an even colour scale from dark blue to yellow that works for all kinds of colour vision and in grey (points
+/// of the viridis family, as in the figures).
 QCPColorGradient gradient() {
     QCPColorGradient g;
     g.clearColorStops();
@@ -37,7 +37,7 @@ Spectrogram::Spectrogram(QCPAxisRect& axes)
     map_->setGradient(gradient());
     map_->setDataRange(QCPRange(kFloor_db, kRoof_db));
     map_->setInterpolate(false);
-    map_->setTightBoundary(false);  // a cell stands around its time and frequency
+    map_->setTightBoundary(false);  // a cell is centred on its time and frequency
 }
 
 void Spectrogram::begin(const StreamInfo* stream) {
@@ -66,7 +66,7 @@ void Spectrogram::begin(const StreamInfo* stream) {
 
 void Spectrogram::transformNew(const Series& series) {
     if (series.size() < length_) return;
-    const double half = 0.5 / rate_hz_;  // stamps are rounded: the nearest sample, not the next
+    const double half = 0.5 / rate_hz_;  // time stamps are rounded, so the nearest sample is taken
     const auto columnAtOrAfter = [&](double t) {
         return static_cast<Index>(std::ceil((t - half - base_s_) / kHop_s - 1e-9));
     };
@@ -76,7 +76,7 @@ void Spectrogram::transformNew(const Series& series) {
         const double start = base_s_ + double(next_) * kHop_s;
         const auto first = series.firstFrom(start - half);
         if (first + length_ > series.size()) return;
-        if (series.time(first) > start + kHop_s) {  // samples are missing: on behind the gap
+        if (series.time(first) > start + kHop_s) {  // samples are missing: go on after the gap
             next_ = columnAtOrAfter(series.time(first));
             continue;
         }
@@ -128,7 +128,7 @@ void Spectrogram::update(const Series& series, const QCPRange& window, int colum
     if (!transform_ || rows_ == 0) return;
     transformNew(series);
     if (std::isnan(base_s_)) return;
-    // Columns stand on the transform's own grid, so that none flickers while the window moves over it.
+    // Columns stay on the transform's own grid, so that they do not flicker while the window moves.
     const double centre0 = base_s_ + kWindow_s / 2;
     const auto wanted = static_cast<Index>(window.size() / kHop_s) + 2;
     const Index stride = std::max<Index>(1, (wanted + columns - 1) / std::max(1, columns));
@@ -149,7 +149,7 @@ void Spectrogram::update(const Series& series, const QCPRange& window, int colum
         }
     }
     if (absolute_ || most < -200) return;
-    // Counts have no scale of their own: the loudest of the window is the roof.
+    // Counts have no absolute scale: the loudest value in the window sets the top.
     const double roof = 10 * std::ceil(double(most) / 10);
     map_->setDataRange(QCPRange(roof - (kRoof_db - kFloor_db), roof));
 }

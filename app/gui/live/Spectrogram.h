@@ -1,7 +1,7 @@
-// Spectrogram.h - the acceleration's short-time Fourier transform over time: 64 ms Hann windows every 32 ms, their mean
-// taken out (gravity), axes summed, 5 Hz to 1 kHz, power density in dB.
+// Spectrogram.h - short-time Fourier transform of the acceleration over time: 64 ms Hann windows every 32 ms with their
+// mean (gravity) removed, axes summed, 5 Hz to 1 kHz, power density in dB.
 //
-// Bounded: a ring of the columns of a minute; nothing is allocated after begin() but for a longer window.
+// Bounded: a ring of one minute of columns; after begin() memory is allocated only for a longer window.
 #pragma once
 
 #include <cstdint>
@@ -17,28 +17,28 @@ namespace tacto::gui {
 class Spectrogram {
 public:
     explicit Spectrogram(QCPAxisRect& axes);
-    /// Begins another stream, or none (null): forgets everything.
+    /// Starts another stream, or none (null), and forgets everything.
     void begin(const StreamInfo* stream);
-    /// Transforms what is new, and lays the picture over `window`, at most `columns` wide.
+    /// Transforms new samples, and scales the picture to `window`, at most `columns` wide.
     void update(const Series& series, const QCPRange& window, int columns);
-    /// Upper end of the picture, Hz; 0 without a stream.
+    /// Upper end of the picture in Hz; 0 without a stream.
     [[nodiscard]] double top_hz() const noexcept { return top_hz_; }
-    /// Windows transformed since begin().
+    /// Number of windows transformed since begin().
     [[nodiscard]] std::int64_t transformed() const noexcept { return transformed_; }
-    /// The values of the darkest and the brightest colour.
+    /// Returns the values of the darkest and the brightest colour.
     [[nodiscard]] QString scaleText() const;
-    /// Power density at a place of the picture, dB; NaN outside of it.
+    /// Returns the power density at a place in the picture in dB; NaN outside the picture.
     [[nodiscard]] double densityAt_db(double t_s, double hz) const noexcept;
 
 private:
-    using Index = std::int64_t;  // a column's number: its window begins at base_s_ + index · hop
+    using Index = std::int64_t;  // number of a column; its window begins at base_s_ + index · hop
     void transformNew(const Series& series);
     void keep(Index column, bool whole);
     [[nodiscard]] const float* kept(Index column) const noexcept;
 
     QCPColorMap* map_;
     std::unique_ptr<PowerSpectrum> transform_;
-    bool absolute_ = false;  // in m/s²: the same colour always stands for the same number
+    bool absolute_ = false;  // in m/s²: a colour always means the same value
     double rate_hz_ = 0;
     double top_hz_ = 0;
     std::size_t axes_ = 0;
@@ -48,9 +48,9 @@ private:
     double base_s_ = 0;
     Index next_ = 0;
     std::int64_t transformed_ = 0;
-    std::vector<float> db_;      // the ring: kColumns × rows_
-    std::vector<Index> holds_;   // the column that stands in each slot; -1: none
-    std::vector<double> input_;  // axes_ × length_
+    std::vector<float> db_;      // ring of kColumns × rows_
+    std::vector<Index> holds_;   // the column held in each slot; -1: none
+    std::vector<double> input_;  // size axes_ × length_
     std::vector<const double*> axisInput_;
 };
 

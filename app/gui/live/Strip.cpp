@@ -14,11 +14,11 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr double kAroundNothing = 0.5;  // half an axis on which all values are one
-constexpr double kUnderZero = 0.06;     // share of the height below zero, so that a trace at zero is seen
-constexpr double kRoomBelow = 0.1;      // share of the height: an axis from zero has less than that below it
+constexpr double kAroundNothing = 0.5;  // half the span of an axis if all values are equal
+constexpr double kUnderZero = 0.06;     // share of the height below zero, so that a trace at zero is visible
+constexpr double kRoomBelow = 0.1;      // share of the height; an axis from zero has less room below
 
-/// The next of 1, 2, 5 times a power of ten at or above `value`.
+/// Returns the smallest of 1, 2, 5 times a power of ten that is at least `value`.
 double stepAbove(double value) {
     if (!(value > 0)) return 1;
     const double decade = std::pow(10, std::floor(std::log10(value)));
@@ -54,7 +54,7 @@ void placeAcross(QCPItemPosition& position, QCPAxisRect& axes) {
 
 Strip::Strip(QCustomPlot& plot, int row, const QString& title, const StripAxis& axis)
     : axes_(new QCPAxisRect(&plot)), title_(title), axis_(axis), ticker_(new StripTicker(axis.ticks)) {
-    plot.plotLayout()->addElement(row, 0, axes_);  // added before its items: they look for it there
+    plot.plotLayout()->addElement(row, 0, axes_);  // must precede its items, which look for it in the layout
     axes_->setMinimumSize(50, 24);
     axes_->setRangeDrag(Qt::Horizontal);
     axes_->setRangeZoom(Qt::Horizontal);
@@ -93,7 +93,7 @@ void Strip::layOut() {
     for (const auto side : {QCPAxis::atTop, QCPAxis::atRight}) axes_->axis(side)->setVisible(present_);
     axes_->setSizeConstraintRect(QCPLayoutElement::scrOuterRect);
     const int line = caption_->lineHeight();
-    const int below = time().tickLabels() ? 2 : 0;  // lines: the numbers and what they count
+    const int below = time().tickLabels() ? 2 : 0;  // number of lines: the tick numbers and the axis title
     axes_->setMinimumMargins(present_ ? QMargins(4, line + 2, 8, 2) : QMargins());
     axes_->setMinimumSize(present_ ? 50 : 0, present_ ? line * (3 + below) : 0);
     axes_->setMaximumSize(QWIDGETSIZE_MAX, present_ ? QWIDGETSIZE_MAX : 1);
@@ -121,7 +121,7 @@ void Strip::markFault(double at_s) {
 }
 
 void Strip::thinTicks() {
-    constexpr double kLines = 1.15;  // the distance from number to number, in lines
+    constexpr double kLines = 1.15;  // distance between tick numbers, in lines
     const int room = static_cast<int>(axes_->height() / (kLines * QFontMetrics(values().tickLabelFont()).height()));
     ticker_->setRoom(room);
     values().setTickLabels(room > 0);
@@ -163,14 +163,14 @@ void Strip::hatch(const Series* series, double now_s) {
 
 namespace {
 constexpr double kBefore_px = 2, kBetween_px = 14, kSample_px = 18, kToSample_px = 5, kUnder_px = 2;
-constexpr double kNear_px = 8, kShort_px = 12;  // between keys, and the length of a sample, where room is short
-constexpr int kKeysFrom = 132;                  // so that they stand below each other; a longer title moves its own
+constexpr double kNear_px = 8, kShort_px = 12;  // gap between keys and length of a sample, if short of room
+constexpr int kKeysFrom = 132;                  // aligns the keys of all strips; a longer title moves its own keys
 }  // namespace
 
 StripCaption::StripCaption(QCPAxisRect& below) : QCPAbstractItem(below.parentPlot()), below_(below) {
     setLayer("legend");
     setClipAxisRect(&below);
-    setClipToAxisRect(false);  // the text stands above the strip, clear of its trace
+    setClipToAxisRect(false);  // the text is above the strip, clear of its trace
 }
 
 void StripCaption::dress() {
@@ -224,7 +224,7 @@ void StripCaption::write(QCPPainter& painter, const Words& words, const QFont& f
     const QFontMetricsF metrics(font);
     const double top = below_.top() - kUnder_px - metrics.height();
     painter.setFont(font);
-    // Files are drawn at other resolutions than what was laid out.
+    // Files are drawn at another resolution than the prepared text.
     if (painter.modes().testFlag(QCPPainter::pmVectorized))
         painter.drawText(QPointF(x, top + metrics.ascent()), words.text.text());
     else
@@ -243,7 +243,7 @@ double StripCaption::endOf(const Setting& setting) const {
     return end - setting.between;
 }
 
-/// The widest that leaves no key out.
+/// Returns the widest setting that leaves out no key.
 StripCaption::Setting StripCaption::settingFor(double title, double until) const {
     const double aligned = std::max(below_.left() + double(scaledPx(kKeysFrom)), title + kBetween_px);
     const Setting all[] = {{aligned, kSample_px, kBetween_px, false},
@@ -258,7 +258,7 @@ void StripCaption::draw(QCPPainter* painter) {
     const auto& c = colours();
     const double middle = below_.top() - kUnder_px - QFontMetricsF(font_).height() / 2;
     const double title = below_.left() + kBefore_px;
-    // A value that would lie over the title is left out.
+    // A value that would overlap the title is left out.
     const double end = below_.left() + below_.width();
     const bool hasValue = end - value_.width >= title + title_.width + kBetween_px;
     const double right = hasValue ? end - value_.width : end;
@@ -270,7 +270,7 @@ void StripCaption::draw(QCPPainter* painter) {
         if (each.words.text.text().isEmpty()) continue;
         const auto& words = wordsOf(each, setting.brief);
         const double until = x + setting.sample + kToSample_px + words.width;
-        if (until > right - kNear_px) break;  // there is no room for it beside the value
+        if (until > right - kNear_px) break;  // no room next to the value
         painter->setPen(each.line);
         painter->drawLine(QPointF(x, middle), QPointF(x + setting.sample, middle));
         if (!each.mark.isNone()) {

@@ -1,5 +1,5 @@
-// Strip.h - one strip of the live plots: its axes, caption and watermark, the hatch where no samples come any more, and
-// a value axis that steps instead of breathing.
+// Strip.h - one strip of the live plots: axes, caption and watermark, a hatch if samples stop coming, and a value axis
+// that changes its range in steps instead of all the time.
 #pragma once
 
 #include <QStaticText>
@@ -12,25 +12,25 @@
 
 namespace tacto::gui {
 
-/// The line above a strip: what it shows and in which unit, a key for each thing drawn in it, and at the right the
-/// newest value. Laid out when a word changes, not for every picture: shaping these few words sixty times a second cost
-/// more than drawing the traces they name.
+/// The line above a strip: its title and unit, a key for each trace, and at the right the newest value. The text is
+/// laid out only when a word changes: doing so for every picture, sixty times a second, cost more than drawing the
+/// traces.
 class StripCaption final : public QCPAbstractItem {
     Q_OBJECT
 public:
-    /// Owned by the plot of `below`, as every item is.
+    /// Owned by the plot of `below`, like every item.
     explicit StripCaption(QCPAxisRect& below);
-    /// Draws in the current theme and text size.
+    /// Applies the current theme and text size.
     void dress();
     [[nodiscard]] int lineHeight() const;
 
     void setTitle(const QString& text);
-    /// Digits have equal widths, so that the value does not jump. A value that describes the picture is drawn fainter.
+    /// Digits have equal widths, so that the value does not jump. A value that describes the picture is drawn in grey.
     void setValue(const QString& text, bool describes = false);
     [[nodiscard]] QString value() const { return value_.text.text(); }
-    /// An empty key takes no room. `brief` stands for it where there is no room for all keys.
+    /// Sets a key; an empty key takes no room. `brief` replaces `text` if there is no room for all keys.
     void setKey(std::size_t index, const QString& text, const QString& brief = {});
-    /// Draws a sample beside the key: a piece of the line, and the mark in its middle.
+    /// Sets the sample next to the key: a piece of the line, with the mark in its middle.
     void setSample(std::size_t index, const QPen& line, const QCPScatterStyle& mark = QCPScatterStyle::ssNone);
 
     double selectTest(const QPointF&, bool, QVariant* = nullptr) const override { return -1; }
@@ -48,7 +48,7 @@ private:
         QPen line{Qt::NoPen};
         QCPScatterStyle mark{QCPScatterStyle::ssNone};
     };
-    /// The spacing of the keys: where they begin, and how much each part gets.
+    /// The spacing of the keys: where the keys begin, and the length of each part.
     struct Setting {
         double from, sample, between;
         bool brief;
@@ -72,19 +72,19 @@ private:
 
 /// The fixed properties of the value axis.
 struct StripAxis {
-    double least = 0;  ///< the smallest span that it shows
+    double least = 0;  ///< smallest span shown
     bool fromZero = false;
-    int ticks = 3;        ///< at most
-    bool filled = false;  ///< filled by what it shows: its watermark is an outline in front
+    int ticks = 3;        ///< most ticks
+    bool filled = false;  ///< the strip is filled with its picture, so its watermark is an outline on top
 };
 
-/// The range that `wanted` needs in whole steps; the one `before` stays as long as it fits and is not too wide.
+/// Returns a range in whole steps that contains `wanted`; keeps `before` while it fits and is not too wide.
 [[nodiscard]] QCPRange steadyRange(const QCPRange& before, const QCPRange& wanted);
 
-/// `position` is at a time of the strip, and at a share of its height from the top.
+/// Sets `position` to be given by a time of the strip, and by a share of the strip's height from the top.
 void placeAcross(QCPItemPosition& position, QCPAxisRect& axes);
 
-/// Steps of 1, 2, 5, with as many numbers as fit: those of a low strip do not overlap.
+/// Ticks in steps of 1, 2, 5, with as many numbers as fit, so that numbers in a low strip do not overlap.
 class StripTicker final : public QCPAxisTicker {
 public:
     explicit StripTicker(int most) : most_(most) {}
@@ -101,7 +101,7 @@ private:
 
 class Strip {
 public:
-    /// Takes `row` of the plot's layout; the plot owns what is made here.
+    /// Takes `row` of the plot's layout; the plot owns everything created here.
     Strip(QCustomPlot& plot, int row, const QString& title, const StripAxis& axis);
 
     [[nodiscard]] QCPAxisRect& axes() const { return *axes_; }
@@ -113,22 +113,22 @@ public:
     [[nodiscard]] bool present() const { return present_; }
     void setSimulated(bool simulated) { simulated_ = simulated; }
     void setFromZero(bool fromZero) { axis_.fromZero = fromZero; }
-    /// "Force (N) 0 to 2": what the value axis shows; one from zero has a little room below it.
+    /// Returns the range of the value axis, such as "Force (N) 0 to 2"; an axis from zero has a little room below.
     [[nodiscard]] QString scaleText() const;
     void setUnit(const QString& unit) { unit_ = unit; }
     [[nodiscard]] const QString& unit() const { return unit_; }
 
-    /// Takes its room, or none where it is not present.
+    /// Takes up space only if the strip is present.
     void layOut();
-    /// Draws in the current theme and text size.
+    /// Applies the current theme and text size.
     void dress();
-    /// A line at the instant of a fault; NaN: none.
+    /// Draws a line at the time of a fault; NaN: none.
     void markFault(double at_s);
-    /// Leaves out numbers at the value axis that have no room.
+    /// Leaves out value axis numbers for which there is no room.
     void thinTicks();
-    /// The value axis, to what the graphs show of `time`.
+    /// Fits the value axis to the graphs' values within `time`.
     void fit(std::span<RollingGraph* const> graphs, const QCPRange& time);
-    /// Hatched from the last sample on, where that is too old.
+    /// Hatches the strip from the last sample on, if that sample is too old.
     void hatch(const Series* series, double now_s);
     [[nodiscard]] bool stale() const { return present_ && hatch_->visible(); }
 

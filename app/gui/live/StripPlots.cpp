@@ -15,19 +15,19 @@ namespace {
 /// The strips from top to bottom.
 enum StripIndex : std::size_t { kAcceleration, kForce, kTaxels, kSpectrum, kIndices, kTrains, kStripCount };
 
-/// The stream that a strip of samples shows; the spectrum shows the acceleration's.
+/// Returns the stream shown in a strip of samples; the spectrum uses the acceleration stream.
 constexpr StreamKind streamOf(StripIndex strip) noexcept {
     return strip == kForce ? StreamKind::Force : strip == kTaxels ? StreamKind::Taxels : StreamKind::Acceleration;
 }
 
 constexpr std::size_t kMaxTaxels = TapSample::kMaxChannels;
-constexpr double kGapSteps = 2.5;  // steps of a stream: beyond them a sample is missing
+constexpr double kGapSteps = 2.5;  // sample steps; after a longer time a sample is missing
 constexpr double kFrameGap_s = 0.1;
-constexpr int kTextEvery = 4;  // pictures: as fast as one reads
-// The share of the height that each strip gets.
+constexpr int kTextEvery = 4;  // text is updated every fourth picture, as fast as one can read
+// Relative heights of the strips.
 constexpr double kHeights[] = {1.1, 0.6, 0.6, 1.1, 0.9, 1.7};
 
-/// Ticks in seconds before an instant: they stand still while the traces move.
+/// Ticks in seconds before now, which stand still while the traces move.
 class AgoTicker final : public QCPAxisTicker {
 protected:
     QString getTickLabel(double tick, const QLocale& locale, QChar format, int precision) override {
@@ -58,7 +58,7 @@ StripPlots::StripPlots(const LiveHistory& history, QWidget* parent) : QCustomPlo
     connect(this, &QCustomPlot::mouseDoubleClick, this, &StripPlots::fit);
     setNotAntialiasedElements(QCP::aeAll);
     setNoAntialiasingOnDrag(true);
-    layer("overlay")->setMode(QCPLayer::lmLogical);  // nothing lies above: one buffer less to clear and to blend
+    layer("overlay")->setMode(QCPLayer::lmLogical);  // nothing lies above: this saves a buffer
     auto* unused = axisRect();
     const std::tuple<QString, StripAxis> kinds[kStripCount] = {
         {tr("Acceleration"), {1, false, 3}},  {tr("Force"), {0.5, true, 2}}, {tr("Taxels"), {0, false, 3}},
@@ -119,7 +119,7 @@ void StripPlots::begin(bool simulatedTouch, bool simulatedSource, const QString&
     strips_[kSpectrum].setUnit("Hz");
     strips_[kIndices].setPresent(!history_.streams().empty());
     strips_[kTrains].setUnit(commandUnit);
-    strips_[kTaxels].setFromZero(strips_[kTaxels].unit() == "kPa");  // counts stand anywhere
+    strips_[kTaxels].setFromZero(strips_[kTaxels].unit() == "kPa");  // counts may have any offset
     attach();
     dress();
 }
@@ -142,7 +142,7 @@ void StripPlots::attach() {
     pressure_->show(&shown().frames(), LiveHistory::kPressure, kFrameGap_s);
 }
 
-/// Draws in the current theme and text size.
+/// Applies the current theme and text size.
 void StripPlots::dress() {
     const auto& c = colours();
     stylePlot(*this);
@@ -200,7 +200,7 @@ void StripPlots::rememberView() {
     if (frozen_ && (views_.empty() || views_.back() != shownTime())) views_.push_back(shownTime());
 }
 
-/// A click that moved nothing is not a view of its own.
+/// A click that did not move the view is not an undo step.
 bool StripPlots::canUndo() const {
     return frozen_ && std::ranges::any_of(views_, [this](const QCPRange& view) { return view != shownTime(); });
 }
@@ -224,7 +224,7 @@ const Strip& StripPlots::stripOf(StreamKind kind) const {
 
 void StripPlots::redraw() {
     if (frozen_) return;
-    // In whole pixels, so that a column keeps its samples while it moves, and the trace does not shimmer.
+    // Moves in whole pixels, so that each column keeps its samples and the trace does not shimmer.
     const double pixel = window_s_ / std::max(1, strips_.back().axes().width());
     const double now = std::floor(history_.now_s() / pixel) * pixel;
     ticker_->setTickOrigin(now);
@@ -258,8 +258,8 @@ void StripPlots::shareTime(const QCPRange& time) {
     if (frozen_) emit viewChanged();
 }
 
-/// Marks the instant in every lane; in the trains' lane also the time of day and the cause, on the side where there is
-/// room, and that the output is off, where the shade has no room for these words.
+/// Marks the fault's time in every strip. The trains' strip also shows, on the side with more room, the time of day and
+/// the cause, and that the output is off if the shade has no room for these words.
 void StripPlots::markFault(const QCPRange& time) {
     const auto& fault = shown().fault();
     const bool seen = fault && time.contains(fault->at_s);
@@ -287,7 +287,7 @@ void StripPlots::write() {
     for (std::size_t i = 0; i < 3; ++i)
         strips_[kAcceleration].caption().setKey(i, acceleration_[i]->visible() ? axes[int(i)] : QString());
     const auto* force = shown().samples(StreamKind::Force);
-    // One form for all values: digits that do not jump.
+    // All values use one format, so that their digits do not jump.
     strips_[kForce].caption().setValue(
         quantityText(double(newest(force, 0)), strips_[kForce].unit(), ColumnFormat{0, 2}));
     const auto* taxels = shown().samples(StreamKind::Taxels);

@@ -1,9 +1,8 @@
-// StripPlots.h - everything over one time axis: acceleration, force, taxels, spectrum, R and P, the encoded train and
-// its measurement. A strip whose stream the sensor does not have is left out.
+// StripPlots.h - the live plots over one time axis: acceleration, force, taxels, spectrum, R and P, the encoded train
+// and its measurement. A strip is left out if the sensor lacks its stream.
 //
-// Where a stream has stopped, its strip is hatched from the last sample on; where samples are missing the trace is
-// broken. A fault is a line at its instant in every strip. A frozen picture is drawn from a copy: it can be looked at
-// for as long as one likes.
+// If a stream has stopped, its strip is hatched from the last sample on; missing samples break the trace. A fault is a
+// line at its time in every strip. A frozen picture is drawn from a copy, so it can be viewed for any length of time.
 #pragma once
 
 #include <deque>
@@ -23,39 +22,39 @@ class StripPlots final : public QCustomPlot {
     Q_OBJECT
 public:
     explicit StripPlots(const LiveHistory& history, QWidget* parent = nullptr);
-    /// Begins with another bench. What is simulated has the watermark: a recording's touch has none, but the trains it
-    /// makes may have it. `commandUnit` is the source's own, V or mA.
+    /// Starts anew for another bench. Simulated data has a watermark: a recording's touch has none, but its trains may
+    /// have one. `commandUnit`: the stimulator's unit, V or mA.
     void begin(bool simulatedTouch, bool simulatedSource, const QString& commandUnit);
     void setWindow(double seconds);
     [[nodiscard]] double window() const { return window_s_; }
-    /// The picture stands still and can be dragged and zoomed in time; the bench keeps running.
+    /// Freezes the picture, which can then be dragged and zoomed in time; the bench keeps running.
     void setFrozen(bool frozen);
     [[nodiscard]] bool frozen() const { return frozen_ != nullptr; }
-    /// A frozen picture: all of it again, or the view before the last drag or zoom.
+    /// In a frozen picture: shows all of it again, or (undoZoom) the view before the last drag or zoom.
     void fit();
     void undoZoom();
     [[nodiscard]] bool canUndo() const;
-    /// An amplitude that the oscilloscope measured, in the source's unit.
+    /// Adds an amplitude measured by the oscilloscope, in the stimulator's unit.
     void addScopeReading(double t_s, double amplitude);
     void redraw();
-    /// "last 10 s · Force (N) 0 to 2 · …", and "Force 1.00 N · …": what is shown, as a line each.
+    /// Return the text of what is shown: "last 10 s · Force (N) 0 to 2 · …", and "Force 1.00 N · …", each in one line.
     [[nodiscard]] QString scalesText() const;
     [[nodiscard]] QString readingsText() const;
-    /// When a frozen picture was frozen, else now.
+    /// Returns the time at which the picture was frozen; otherwise the present time.
     [[nodiscard]] QDateTime takenAt() const;
 
     [[nodiscard]] QCPRange shownTime() const;
-    /// True when the strip of this kind is there, and when it is hatched as stale.
+    /// True if the strip of this kind is present, and if it is hatched because its samples are old.
     [[nodiscard]] bool has(StreamKind kind) const { return stripOf(kind).present(); }
     [[nodiscard]] bool stale(StreamKind kind) const { return stripOf(kind).stale(); }
     [[nodiscard]] const Spectrogram& spectrogram() const { return *spectrogram_; }
     [[nodiscard]] const TrainGraphs& trains() const { return *trains_; }
     [[nodiscard]] const MarkLines& marks() const { return marks_; }
-    /// The text at the instant of a fault; empty where none is seen.
+    /// Returns the text at a fault's time; empty if no fault is visible.
     [[nodiscard]] QString faultSaid() const { return fault_->visible() ? fault_->text() : QString(); }
 
 signals:
-    /// Another part of a frozen picture is shown, or it is not frozen any longer.
+    /// Another part of a frozen picture is shown, or the picture is no longer frozen.
     void viewChanged();
 
 private:
@@ -70,10 +69,10 @@ private:
     void shareTime(const QCPRange& range);
 
     const LiveHistory& history_;
-    std::unique_ptr<LiveHistory> frozen_;  // the history as it was when the picture was frozen
+    std::unique_ptr<LiveHistory> frozen_;  // copy of the history from the moment of freezing
     QDateTime frozenAt_;
     QCPRange whole_;               // the whole range of the axis
-    std::vector<QCPRange> views_;  // before each drag and zoom of it, the latest last
+    std::vector<QCPRange> views_;  // the views before each drag and zoom, latest last
     double window_s_ = 10;
     bool sharing_ = false;
     int frame_ = 0;
@@ -85,7 +84,7 @@ private:
     std::unique_ptr<Spectrogram> spectrogram_;
     std::unique_ptr<TrainGraphs> trains_;
     MarkLines marks_{*this};
-    QCPItemText* fault_ = nullptr;  // why there is a fault; owned by the plot
+    QCPItemText* fault_ = nullptr;  // the cause of a fault; owned by the plot
 };
 
 }  // namespace tacto::gui

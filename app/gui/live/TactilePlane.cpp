@@ -11,14 +11,14 @@ namespace tacto::gui {
 namespace {
 
 constexpr double kTrail_s = 3;
-constexpr double kHighest = 1.25;                  // the largest height, as a multiple of its width
-constexpr double kNowSize = 21;                    // pixels across
-constexpr double kBesideR = 0.36, kBesideP = 0.3;  // around the square, at least
+constexpr double kHighest = 1.25;                  // largest height divided by width
+constexpr double kNowSize = 21;                    // diameter in pixels
+constexpr double kBesideR = 0.36, kBesideP = 0.3;  // least margins around the square
 constexpr int kAroundName = 8, kBelowName = 6;     // pixels
 
-/// A ring with a dot in its middle, six across as QCustomPlot wants it: what it stands on is seen through it.
+/// A ring with a dot in its centre, six units wide as QCustomPlot expects; what lies below it stays visible.
 QPainterPath target() {
-    QPainterPath path;  // filled between its edges
+    QPainterPath path;  // filled between the outlines
     for (const double radius : {3.0, 2.45, 0.85}) path.addEllipse(QPointF(), radius, radius);
     return path;
 }
@@ -29,7 +29,7 @@ TactilePlane::TactilePlane(QWidget* parent) : QCustomPlot(parent) {
     setAccessibleName(tr("Tactile plane"));
     setToolTip(tr("Roughness R across, pressure P up. The marks are the four conditions; the dot is now."));
     setNotAntialiasedElements(QCP::aeNone);
-    layer("overlay")->setMode(QCPLayer::lmLogical);  // nothing lies above: one buffer less to clear and to blend
+    layer("overlay")->setMode(QCPLayer::lmLogical);  // nothing lies above: this saves a buffer
     addPlotMenu(*this, "tactile-plane");
     connect(this, &QCustomPlot::afterLayout, this, &TactilePlane::makeRoomForNames);
     yAxis->setLabel(tr("Pressure P"));
@@ -43,24 +43,24 @@ TactilePlane::TactilePlane(QWidget* parent) : QCustomPlot(parent) {
     now_ = addGraph();
     now_->setLineStyle(QCPGraph::lsNone);
     addLayer("now", layer("main"));
-    now_->setLayer("now");  // seen also where it stands on a condition
+    now_->setLayer("now");  // stays visible on top of a condition
     setOrigin(false, true);
     colour();
     onLookChange(*this, [this] { colour(); });
 }
 
-/// The plane is never much higher than wide: both of its axes run from 0 to 1.
+/// Keeps the plane from growing much higher than wide, as both axes run from 0 to 1.
 void TactilePlane::resizeEvent(QResizeEvent* event) {
-    // First: while it is being shown, a height that is bounded here tells of no further resizing.
+    // Must come first: while the plane is first shown, a later limit would cause no further resize event.
     setMaximumHeight(std::max(minimumHeight(), int(width() * kHighest)));
     QCustomPlot::resizeEvent(event);
 }
 
-/// The names of the conditions have room outside the square; the point moves inside it.
+/// The names of the conditions are placed outside the square, in which the point moves.
 void TactilePlane::makeRoomForNames() {
     const QFontMetrics words(textFont(TextSize::Small));
     double besideR = kBesideR, besideP = kBesideP;
-    // The room that the axis needs on both sides of 0 to 1, for `share` of it to lie beyond a point at `at`.
+    // The room the axis needs on each side of 0 to 1, so that `share` of the axis lies beyond a point at `at`.
     const auto beyond = [](double share, double at) {
         return (share - std::min(at, 1 - at)) / std::max(0.1, 1 - 2 * share);
     };
@@ -131,7 +131,7 @@ void TactilePlane::show(const Series& frames, double now_s, double roughness, do
     for (auto i = byHand ? frames.size() : frames.firstFrom(now_s - kTrail_s); i < frames.size(); ++i) {
         const float R = frames.value(i, LiveHistory::kRoughness), P = frames.value(i, LiveHistory::kPressure);
         if (std::isnan(R) && r_.isEmpty()) continue;
-        // NaN breaks the line where nothing was felt.
+        // NaN breaks the line while nothing was felt.
         t_ << frames.time(i);
         r_ << double(std::isnan(P) ? P : R);
         p_ << double(std::isnan(R) ? R : P);

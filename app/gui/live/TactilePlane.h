@@ -1,4 +1,4 @@
-// TactilePlane.h - roughness by pressure: where the finger is now, where it came from, and the four conditions.
+// TactilePlane.h - plot of roughness against pressure: the finger's present point, its trail, and the four conditions.
 #pragma once
 
 #include <qcustomplot.h>
@@ -13,12 +13,12 @@ class TactilePlane final : public QCustomPlot {
 public:
     explicit TactilePlane(QWidget* parent = nullptr);
     void setConditions(const std::vector<Condition>& conditions);
-    /// `calibrated`: R's scale was measured on this rig.
+    /// `calibrated`: the scale of R was measured on this rig.
     void setOrigin(bool simulated, bool calibrated);
-    /// The point of now, and the fingertip's trail of the last three seconds; NaN: nothing is felt. By hand there is
-    /// no trail: the point is not the fingertip's.
+    /// Shows the present point, and the fingertip's trail of the last three seconds; NaN: nothing is felt. If driven by
+    /// hand there is no trail, as the point is not the fingertip's.
     void show(const Series& frames, double now_s, double roughness, double pressure, bool byHand);
-    /// Where the point is; nothing when it is not drawn.
+    /// Returns the position of the point; nothing if it is not drawn.
     [[nodiscard]] std::optional<QPointF> point() const;
     [[nodiscard]] QSize sizeHint() const override;
 
@@ -34,7 +34,7 @@ private:
     QCPCurve* trail_ = nullptr;
     QCPGraph* now_ = nullptr;
     QCPItemText* watermark_ = nullptr;
-    QVector<double> t_, r_, p_;  // reused
+    QVector<double> t_, r_, p_;  // buffers, reused
 };
 
 }  // namespace tacto::gui

@@ -12,7 +12,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr int kCellPad = 5, kCellHigh = 32, kCellsApart = 4;
-constexpr double kFull = 0.55;  // share of the pressure's colour in a full cell: the number on it stays the text's
+constexpr double kFull = 0.55;  // share of the pressure colour in a full cell, low enough to keep numbers readable
 
 }  // namespace
 
@@ -95,7 +95,7 @@ void TaxelMap::paintEvent(QPaintEvent*) {
     const int top = captionHeight();
     const double h = double(height() - top + kCellsApart) / rows - kCellsApart;
     const auto cellOf = [&](std::size_t i) {
-        // The outer edges of the cells are those of the widget.
+        // The outermost cells end at the edges of the widget.
         const int column = int(i) % columns, row = int(i) / columns;
         return QRectF(column * (w + kCellsApart), top + row * (h + kCellsApart), w, h);
     };
@@ -105,7 +105,7 @@ void TaxelMap::paintEvent(QPaintEvent*) {
     for (std::size_t i = 0; i < values_.size(); ++i) {
         const float value = values_[i];
         const double share = most_ > 0 && std::isfinite(value) ? std::clamp(double(value / most_), 0.0, 1.0) : 0;
-        // The colours run from the ground to the pressure colour, in even steps of lightness in both themes.
+        // The colours run from the background to the pressure colour, in even steps of lightness in both themes.
         const QColor from = palette().color(QPalette::Midlight), to = c.voltage;
         const auto mix = [&](int a, int b) { return int(a + (b - a) * share * kFull); };
         grounds.emplace_back(mix(from.red(), to.red()), mix(from.green(), to.green()), mix(from.blue(), to.blue()));
@@ -123,7 +123,7 @@ void TaxelMap::paintEvent(QPaintEvent*) {
         const float value = values_[i];
         const auto& ground = grounds[i];
         painter.setPen(contrast(ground, c.base) > contrast(ground, c.text) ? c.base : c.text);
-        // The number stands with its unit, or alone where that does not fit; the tool tip has the unit.
+        // The number has its unit if both fit; otherwise only the tool tip shows the unit.
         const bool counts = unit_ == "count" && std::isfinite(value);
         const auto number = counts ? QString::number(std::lround(value)) : quantityText(double(value), unit_, 2);
         const auto width = painter.fontMetrics().horizontalAdvance(number);

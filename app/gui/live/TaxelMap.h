@@ -1,4 +1,4 @@
-// TaxelMap.h - the taxels as a small pressure map: a cell each, bluer is more, the value written in.
+// TaxelMap.h - the taxels as a small pressure map: one cell each, bluer for more pressure, with the value inside.
 #pragma once
 
 #include <QWidget>
@@ -13,12 +13,12 @@ public:
     explicit TaxelMap(QWidget* parent = nullptr);
     /// Newest values above rest, in `unit`; NaN is drawn as absent. The scale grows to the largest ever seen.
     void show(std::span<const float> values, const QString& unit);
-    /// The values are old: hatched over.
+    /// Hatches the map if its values are old.
     void setStale(bool stale);
     [[nodiscard]] bool stale() const { return stale_; }
     void setSimulated(bool simulated);
     void clear();
-    /// Cells across and down for `n` taxels: two rows for eight, as on the fingertip; else about square.
+    /// Returns the columns and rows for `n` taxels: two rows for eight, as on the fingertip; otherwise about square.
     [[nodiscard]] static QSize gridFor(std::size_t n);
     [[nodiscard]] const std::vector<float>& values() const { return values_; }
     [[nodiscard]] QSize sizeHint() const override;
@@ -30,9 +30,9 @@ protected:
 private:
     static constexpr std::size_t kUsualTaxels = 8;
     [[nodiscard]] QSize roomFor(int cellHeight) const;
-    [[nodiscard]] int captionHeight() const;  ///< height of the line that says what is simulated
+    [[nodiscard]] int captionHeight() const;  ///< height of the line that marks a simulation
     std::vector<float> values_;
-    std::vector<float> rest_;  ///< the least seen of each: what it reads with nothing on it
+    std::vector<float> rest_;  ///< each taxel's smallest value seen, taken as its value without load
     QString unit_;
     float most_ = 0;
     bool stale_ = false;

@@ -9,7 +9,7 @@ namespace tacto::gui {
 
 namespace {
 
-/// A train that was due so shortly before a fault was seen was cut by that fault: its line says so.
+/// If a train was due this shortly before a fault, the fault has cut the train, and its line says so.
 constexpr double kFaultTakes_s = 0.25;
 constexpr int kAroundWords = 8;  // pixels
 
@@ -87,7 +87,7 @@ void TrainGraphs::drawCommand(const LiveHistory& history, const QCPRange& time) 
     for (std::size_t i = first; i < commands.size() && commands.time(i) <= time.upper; ++i) {
         const double volts = double(commands.value(i, LiveHistory::kAmplitude_v));
         const double value = milliamps ? 1e3 * volts / double(commands.value(i, LiveHistory::kImpedance_ohm)) : volts;
-        // A step line needs its corners only.
+        // A step line needs points only at its corners.
         if (!value_.isEmpty() && (value == value_.back() || (std::isnan(value) && std::isnan(value_.back())))) continue;
         at_ << commands.time(i);
         value_ << value;
@@ -160,7 +160,7 @@ void TrainGraphs::caption() const {
     auto& keys = strip_.caption();
     keys.setKey(0, QObject::tr("commanded"), QObject::tr("asked"));
     keys.setKey(1, QObject::tr("delivered"), QObject::tr("given"));
-    // Failures come before confirmations: the last ones are left out where even the brief words have no room.
+    // Failures come before confirmations, since the last keys are left out if there is no room.
     keys.setKey(2, failedAt_.isEmpty() ? QString() : QObject::tr("not delivered"), QObject::tr("not given"));
     keys.setKey(3, measuredAt_.isEmpty() ? QString() : QObject::tr("read back"), QObject::tr("read"));
     keys.setKey(4, scoped_->data()->isEmpty() ? QString() : QObject::tr("oscilloscope"), QObject::tr("scope"));

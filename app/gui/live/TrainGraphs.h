@@ -1,6 +1,6 @@
-// TrainGraphs.h - what is drawn of the trains: the command as a line, each train as delivered, what the source read
-// back and the oscilloscope measured of it, and those that were not delivered. While a fault holds the output off, the
-// ground is shaded and says so, and what was asked for is not drawn.
+// TrainGraphs.h - draws the trains: the command as a line, each train as delivered, its values as read back and as
+// measured by the oscilloscope, and trains not delivered. While a fault holds the output off, the background is shaded
+// with a notice, and the command is not drawn.
 #pragma once
 
 #include <deque>
@@ -14,28 +14,28 @@ namespace tacto::gui {
 
 class TrainGraphs {
 public:
-    /// Draws into `strip`, which outlives this.
+    /// Draws into `strip`, which must outlive this.
     explicit TrainGraphs(Strip& strip);
-    /// Begins another bench: the oscilloscope has measured nothing.
+    /// Starts anew for another bench, without oscilloscope readings.
     void begin();
-    /// An amplitude that the oscilloscope measured, in the source's unit.
+    /// Adds an amplitude measured by the oscilloscope, in the stimulator's unit.
     void addScopeReading(double t_s, double amplitude);
-    /// Draws in the strip's unit: volts, or the milliamps that they become through the impedance of the time.
+    /// Draws in the strip's unit: volts, or milliamps computed with the impedance at each time.
     void draw(const LiveHistory& history, const QCPRange& time);
-    /// Takes the colours of the current theme.
+    /// Applies the colours of the current theme.
     void colour();
     void caption() const;
 
-    /// Amplitudes of the trains that are drawn, as delivered.
+    /// Returns the amplitudes of the trains drawn as delivered.
     [[nodiscard]] std::vector<double> shownTrains() const;
-    /// Corners of the command's line, and the oscilloscope's readings within the window; in the source's unit.
+    /// Return the corners of the command's line, and the oscilloscope's readings shown, in the stimulator's unit.
     [[nodiscard]] std::vector<double> shownCommand() const;
     [[nodiscard]] std::vector<double> scopeReadings() const;
-    /// Onsets of the trains drawn as not delivered.
+    /// Returns the onsets of the trains drawn as not delivered.
     [[nodiscard]] QVector<double> shownFailures() const { return failedAt_; }
-    /// The shaded time without output, in seconds; nothing where no fault is in sight.
+    /// Returns the shaded time without output in seconds; nothing if no fault is visible.
     [[nodiscard]] std::optional<QCPRange> shownOff() const;
-    /// Whether the words stand in what is shaded: they have room there.
+    /// True if the shaded area has room for its words.
     [[nodiscard]] bool saysOff() const { return offSays_->visible(); }
 
 private:
@@ -53,7 +53,7 @@ private:
     QCPItemText* offSays_ = nullptr;
     static constexpr std::size_t kReadings = 256;
     std::deque<QCPGraphData> readings_;                                                 // the oscilloscope's newest
-    QVector<double> at_, value_, measuredAt_, measuredValue_, failedAt_, failedValue_;  // reused
+    QVector<double> at_, value_, measuredAt_, measuredValue_, failedAt_, failedValue_;  // buffers, reused
 };
 
 }  // namespace tacto::gui

@@ -12,7 +12,7 @@ Background::Background(QObject* parent) : QObject(parent) {
     });
     connect(&newest_, &QFutureWatcherBase::finished, this, [this] {
         const auto then = std::exchange(then_, nullptr);
-        const auto result = newest_.result();  // before a slot may start other work
+        const auto result = newest_.result();  // copied before a slot may start other work
         emit busyChanged(false);
         then(result);
     });
@@ -29,7 +29,7 @@ void Background::start(Work work, std::function<void(Result<void>)> then) {
     then_ = std::move(then);
     const auto promise = std::make_shared<QPromise<Result<void>>>();
     promise->start();
-    newest_.setFuture(promise->future());  // forgets the one before it
+    newest_.setFuture(promise->future());  // drops the previous result
     emit busyChanged(true);
     thread_.start([promise, work = std::move(work), cancelled = cancelled_] {
         promise->addResult(work({cancelled, [&](int done, int total) {

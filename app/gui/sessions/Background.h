@@ -1,6 +1,6 @@
-// Background.h - one long piece of work beside the window: progress, cancel, and its end signalled on the GUI thread.
+// Background.h - runs one long task on a thread, with progress and cancel; its end is signalled on the GUI thread.
 //
-// Thread-safety: the GUI thread; the work itself runs on a thread of its own and must not touch widgets.
+// Thread-safety: the GUI thread; the work runs on a separate thread and must not touch widgets.
 #pragma once
 
 #include <QFutureWatcher>
@@ -16,7 +16,7 @@
 
 namespace tacto::gui {
 
-/// The questions and messages that the work may have while it runs.
+/// How running work learns that it was cancelled and reports its progress.
 struct WorkPort {
     std::shared_ptr<std::atomic<bool>> cancelled;
     std::function<void(int done, int total)> progress;
@@ -29,10 +29,10 @@ public:
     using Work = std::function<Result<void>(const WorkPort&)>;
     explicit Background(QObject* parent = nullptr);
     ~Background() override;  ///< cancels and waits
-    /// Cancels earlier work and begins when that has ended, without making the caller wait. `then` gets the result,
-    /// unless other work was started meanwhile.
+    /// Cancels earlier work and begins once that has ended, without making the caller wait. `then` gets the result,
+    /// unless other work is started first.
     void start(Work work, std::function<void(Result<void>)> then);
-    /// Does work that makes a value: `then` gets Result<Value>.
+    /// Runs work that produces a value: `then` gets Result<Value>.
     template <class Make, class Then>
     void take(Make make, Then then) {
         using Value = typename std::invoke_result_t<Make&, const WorkPort&>::value_type;
@@ -59,7 +59,7 @@ private:
     std::shared_ptr<std::atomic<bool>> cancelled_;
     std::function<void(Result<void>)> then_;
     QFutureWatcher<Result<void>> newest_;
-    QThreadPool thread_;  // one: two exports into one folder never meet
+    QThreadPool thread_;  // one thread, so that two exports into one folder never run at once
 };
 
 }  // namespace tacto::gui

@@ -21,7 +21,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kPlotChars = 30;  // the width of a plot that can be read
+constexpr int kPlotChars = 30;  // width in characters at which a plot is readable
 
 double feature(const SessionTrial& trial, const char* key) {
     const auto at = trial.measured.find(key);
@@ -75,7 +75,7 @@ CompareWindow::CompareWindow(std::shared_ptr<const ReadSession> first, std::shar
     addPlotMenu(*plane_, "trials");
     putLegendAbove(*plane_);
     wrapLegend(*plane_);
-    plane_->setMinimumWidth(fontMetrics().averageCharWidth() * kPlotChars);  // the legend wraps within this width
+    plane_->setMinimumWidth(fontMetrics().averageCharWidth() * kPlotChars);  // the width within which the legend wraps
     plane_->xAxis->setLabel(tr("Interval (s)"));
     plane_->yAxis->setLabel(tr("Amplitude (V)"));
     tabs->addTab(plane_, tr("&Trials"));
@@ -158,7 +158,7 @@ void CompareWindow::drawTrials() {
     plane_->yAxis->scaleRange(1.2);
 }
 
-/// Takes the current theme and size of text, as does all that is coloured below.
+/// Applies the current theme and text size, also to everything coloured below.
 void CompareWindow::colour() {
     colourTrials();
     colourStreams();
@@ -257,7 +257,7 @@ void CompareWindow::overlay(const SampleBlock& a, const SampleBlock& b, const Dr
     streams_->replot();
 }
 
-/// Marks of both sessions, each from the first sample of its stream, as the traces are.
+/// Draws the marks of both sessions; like the traces, each counts from the first sample of its stream.
 void CompareWindow::drawMarks() {
     std::vector<PlotMark> marks;
     for (std::size_t s = 0; s < 2 && streams_->graphCount() > 0; ++s) {

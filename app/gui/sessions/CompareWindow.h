@@ -1,5 +1,5 @@
-// CompareWindow.h - two sessions over each other: trials in one plane, a stream of both with its difference, and what
-// differs in what was used and found, in sentences.
+// CompareWindow.h - compares two sessions: their trials in one plane, a stream of both with its difference, and
+// sentences that say how settings and results differ.
 #pragma once
 
 #include <QComboBox>
@@ -18,11 +18,11 @@ class CompareWindow final : public QDialog {
     Q_OBJECT
 public:
     CompareWindow(std::shared_ptr<const ReadSession> first, std::shared_ptr<const ReadSession> second, QWidget* parent);
-    /// The operator's marks of both over the stream that is drawn.
+    /// Returns the operator's marks of both sessions on the stream drawn.
     [[nodiscard]] const MarkLines& marks() const { return *marks_; }
 
 private:
-    /// The trials of a condition of one of both.
+    /// The trials of one condition in one of the two sessions.
     struct Trials {
         QCPGraph* graph = nullptr;
         QString condition;
@@ -35,7 +35,7 @@ private:
     void colour();
     void colourTrials();
     void colourStreams();
-    /// A column of a stream that both have, and what its axis says before the prefix is known.
+    /// A column of a stream that both sessions have, and its axis title without the unit prefix.
     struct Drawn {
         SessionStream stream;
         std::size_t column = 0;
@@ -46,11 +46,11 @@ private:
     std::shared_ptr<const ReadSession> sessions_[2];
     QCustomPlot* plane_;
     std::vector<Trials> trials_;
-    QCPItemText* noTrials_ = nullptr;  ///< says so; null where there are some
+    QCPItemText* noTrials_ = nullptr;  ///< says that there are no trials; null if there are some
     QCustomPlot* streams_;
     QComboBox* stream_;
     std::vector<Drawn> drawn_;          // in the order of stream_
-    std::array<double, 2> begins_s_{};  // when the streams that are drawn begin, each on its own time base
+    std::array<double, 2> begins_s_{};  // start times of the streams drawn, each on its own time base
     std::unique_ptr<MarkLines> marks_;
     Background background_;
 };

@@ -13,12 +13,12 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kMaxNamedAlone = 4;  // conditions that are named one by one
-constexpr int kMaxPerPart = 120;   // sentences: more are not read
+constexpr int kMaxNamedAlone = 4;  // up to this many, conditions are named one by one
+constexpr int kMaxPerPart = 120;   // most sentences per part; nobody reads more
 
 QString tr(const char* text) { return QObject::tr(text); }
 
-/// Both numbers, with as many digits as tell them apart, but at least four.
+/// Returns both numbers with as many digits as needed to tell them apart, at least four.
 std::pair<QString, QString> apart(double first, double second, const QString& unit) {
     for (int digits = 4; digits < 8; ++digits) {
         const std::pair both{quantityText(first, unit, digits), quantityText(second, unit, digits)};
@@ -55,7 +55,7 @@ public:
 private:
     void add(const QString& sentence) { all_ << Difference{about_, sentence}; }
 
-    /// Keeps no more than can be read from each part.
+    /// Shortens each part to as many sentences as people read.
     void keep(int found) {
         const auto shorten = [&](int from, int to) {
             const int left = to - from - kMaxPerPart;
@@ -68,7 +68,7 @@ private:
         shorten(0, found);
     }
 
-    /// `sentence` takes the second's text, then the first's.
+    /// `sentence` takes the second session's text, then the first's.
     void texts(const QString& sentence, const QString& first, const QString& second) {
         const auto shown = [](const QString& text) { return text.isEmpty() ? tr("not recorded") : text; };
         if (first != second) add(sentence.arg(shown(second), shown(first)));
@@ -151,7 +151,7 @@ private:
               tr("%1 conditions of the first are not in the second."));
     }
 
-    /// Conditions that only one has: each by its name where they are few.
+    /// Adds conditions that only one session has: by name if they are few.
     void alone(const std::map<std::string, Means>& of, const std::map<std::string, Means>& other, const QString& each,
                const QString& together) {
         QStringList sentences;
@@ -172,7 +172,7 @@ private:
                          std::map<std::string, Leaf>& into) {
         int index = 0;
         for (const auto& [key, value] : at.items()) {
-            if (key == "trials" || key == "people") continue;  // single trials and people say nothing here
+            if (key == "trials" || key == "people") continue;  // single trials and people are not compared
             if (at.is_array() && !value.is_object()) continue;
             const auto column = columnName(qtext(key));
             const auto own = at.is_array() ? textOr(value, "name") : std::string();

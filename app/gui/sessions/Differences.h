@@ -1,5 +1,5 @@
-// Differences.h - what differs between two sessions, in sentences with numbers: "The second delivered 40.2 V where the
-// first delivered 39.8 V."
+// Differences.h - says in sentences with numbers how two sessions differ: "The second delivered 40.2 V where the first
+// delivered 39.8 V."
 //
 // Thread-safety: pure function.
 #pragma once
@@ -16,7 +16,7 @@ struct Difference {
     About about = About::Found;
     QString sentence;
 };
-/// Differences in what was found come first, then in what was used. Empty where nothing differs.
+/// Returns differences in the results first, then in the settings. Empty if nothing differs.
 [[nodiscard]] QList<Difference> differencesOf(const ReadSession& first, const ReadSession& second);
 
 }  // namespace tacto::gui

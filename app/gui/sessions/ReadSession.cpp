@@ -13,7 +13,7 @@ namespace tacto::gui {
 
 namespace {
 
-/// The report's figures are the script's: one that cannot be drawn is passed over.
+/// Report figures come from a script; a figure that cannot be drawn is ignored.
 void takeItem(const nlohmann::json& item, const SessionReader& reader, ReadSession& session) {
     const auto kind = textOr(item, "kind");
     if (kind == "about") {

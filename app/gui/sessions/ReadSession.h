@@ -1,6 +1,6 @@
-// ReadSession.h - a session read for looking at: everything but the samples, and what its picture is made of.
+// ReadSession.h - a session read for viewing: everything except the samples, and the data for its picture.
 //
-// Thread-safety: values; readSession() is pure but for the file, and runs beside the window.
+// Thread-safety: values; readSession() only reads the file, and runs on another thread.
 #pragma once
 
 #include <QString>
@@ -18,11 +18,11 @@
 
 namespace tacto::gui {
 
-/// The data to draw for a session without trials and figures: what the fingertip felt and what was delivered.
+/// The data drawn for a session without trials and figures: what the fingertip felt and what was delivered.
 struct SessionCourse {
     std::vector<double> frame_s, roughness, pressure;
     std::vector<double> train_s, amplitude;
-    QString unit;  ///< the amplitudes' unit, "V" or "mA"
+    QString unit;  ///< unit of the amplitudes, "V" or "mA"
     [[nodiscard]] bool empty() const { return frame_s.empty() && train_s.empty(); }
 };
 
@@ -30,9 +30,9 @@ struct ReadSession {
     std::filesystem::path path;
     SessionAbout about;
     SessionLabels labels;
-    QString fixed;  ///< why the labels cannot be changed, a sentence; empty when they can
+    QString fixed;  ///< a sentence that says why the labels cannot be changed; empty if they can
     bool closed = false;
-    bool elsewhere = false;  ///< another program is recording it
+    bool elsewhere = false;  ///< another program is recording this session
     std::string head;
     Instant length{0};
     std::vector<std::string> marks;  ///< the marks from sessionMarks()
@@ -42,18 +42,18 @@ struct ReadSession {
     std::vector<SessionRow> log;
     std::vector<SessionStreamInfo> streams;
     std::vector<SessionCaptureInfo> captures;
-    std::map<std::string, nlohmann::json> settings;  ///< values by name: "label", "unit", or words shown for a choice
-    std::optional<Figure> figure;                    ///< the first of its report that is not a plane of trials
+    std::map<std::string, nlohmann::json> settings;  ///< by name: "label", "unit", or a choice's displayed words
+    std::optional<Figure> figure;                    ///< the report's first figure that is not a plane of trials
     QString caption;                                 ///< the figure's caption
-    bool planeOfTrials = false;                      ///< draws the trials' amplitude over their interval
-    SessionCourse course;                            ///< filled in where there is no figure and no plane
-    std::uint64_t trains = 0;                        ///< delivered, impedance checks apart
-    double most = 0;                                 ///< largest amplitude, in `unit`
+    bool planeOfTrials = false;                      ///< draw the trials' amplitude against their interval
+    SessionCourse course;                            ///< filled only without figure and plane
+    std::uint64_t trains = 0;                        ///< trains delivered, without impedance checks
+    double most = 0;                                 ///< largest amplitude in `unit`
     QString unit;
 };
 /// Errors: as SessionReader.
 [[nodiscard]] Result<ReadSession> readSession(const std::filesystem::path& path);
-/// The operator's marks on the session's time base, in its order.
+/// Returns the operator's marks in order, on the session's time base.
 [[nodiscard]] std::vector<PlotMark> operatorMarks(const ReadSession& session);
 
 }  // namespace tacto::gui

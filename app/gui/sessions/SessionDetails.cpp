@@ -26,7 +26,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kPlotLines = 10;  // lines of text: the height of a plot that can be read
+constexpr int kPlotLines = 10;  // height of a readable plot in lines of text
 constexpr int kMinStreams = 2;  // rows
 
 QTableWidget* makeTable(QWidget* parent, const QString& name) {
@@ -48,7 +48,7 @@ void fill(QTableWidget& table, const std::vector<ResultColumn>& columns, const j
     fitRecordTable(table);
 }
 
-/// A setting in words: a list one after the other, a record as "rows 3, columns 4". Never JSON.
+/// Returns a setting in words: a list in sequence, a record as "rows 3, columns 4". Never JSON.
 QString settingWords(const json& value, const QString& unit) {
     if (value.is_number()) return settingText(value.get<double>(), unit);
     if (value.is_boolean()) return value.get<bool>() ? SessionDetails::tr("yes") : SessionDetails::tr("no");
@@ -63,13 +63,13 @@ QString settingWords(const json& value, const QString& unit) {
     return parts.isEmpty() ? QString("–") : parts.join(", ");
 }
 
-/// The words that the list of sessions has.
+/// Returns the words used in the list of sessions.
 QString beganWords(const std::string& wallStart) {
     const auto began = QDateTime::fromString(qtext(wallStart), Qt::ISODate).toLocalTime();
     return began.isValid() ? beganText(began) : QString("–");
 }
 
-/// For each unit, the prefix that suits all its columns: they share an axis.
+/// Returns for each unit the prefix that suits all its columns, which share an axis.
 std::map<QString, AxisUnit> axisUnitsOf(const SessionStream& stream, const SampleBlock& samples) {
     std::map<QString, Reach> reached;
     const auto columns = stream.columns.size();
@@ -82,7 +82,7 @@ std::map<QString, AxisUnit> axisUnitsOf(const SessionStream& stream, const Sampl
     return units;
 }
 
-/// The quantity of the columns in the stream's own unit; its name stands above, among the streams.
+/// Returns the quantity of the columns in the stream's own unit; the list of streams above shows its name.
 QString quantityOf(const SessionStream& stream) { return qtext(stream.unit.empty() ? stream.name : stream.kind); }
 
 std::string shownUnitText(const std::string& unit) { return unit.empty() ? std::string("–") : writtenUnit(unit); }
@@ -118,7 +118,7 @@ SessionDetails::SessionDetails(const ShippedLimits& limits, QWidget* parent) : Q
     watermark_ = addWatermark(*plot_->axisRect(), WatermarkPlace::InFront);
     watermark_->setVisible(false);
     marks_ = std::make_unique<MarkLines>(*plot_);
-    // Dragged and zoomed: a mark's word goes with its moment.
+    // After a drag or zoom, each mark's word moves with its time.
     connect(plot_->xAxis, qOverload<const QCPRange&>(&QCPAxis::rangeChanged), this, &SessionDetails::drawMarks);
     colour();
     addAll(*split_, {streams_, plot_});
@@ -139,16 +139,16 @@ SessionDetails::SessionDetails(const ShippedLimits& limits, QWidget* parent) : Q
             emit streamChosen(session_->streams[std::size_t(row)].id);
     });
     connect(this, &QTabWidget::currentChanged, this, [this] {
-        fitStreams();  // a page that was not shown yet had no height
+        fitStreams();  // a page not shown before had no height
         chooseStream();
     });
     say(tr("Choose a session at the left."));
 }
 
-/// Shows all of them where there is room, judged by what is in sight: see fitPanes() of the workspace.
+/// Shows all tabs if the visible width allows: see fitPanes() of the workspace.
 void SessionDetails::fitTabs() { tabBar()->setUsesScrollButtons(widthInSight(*this) < tabBar()->sizeHint().width()); }
 
-/// Takes theme and size of text.
+/// Applies theme and text size.
 void SessionDetails::fitLook() {
     fitTabs();
     for (auto* table : {trials_, streams_, captures_}) fitRecordTable(*table);
@@ -159,7 +159,7 @@ void SessionDetails::fitLook() {
     plot_->replot(QCustomPlot::rpQueuedReplot);
 }
 
-/// Shows all streams where they leave the plot the larger part, else as many as fit into half of it.
+/// Shows all streams if they leave the plot the larger part; otherwise as many as fit into half the height.
 void SessionDetails::fitStreams() {
     const int row = streams_->verticalHeader()->defaultSectionSize();
     const int head = streams_->horizontalHeader()->height() + 2 * streams_->frameWidth();
@@ -186,7 +186,7 @@ void SessionDetails::say(const QString& why) {
     setCurrentIndex(0);
 }
 
-/// Chooses the first if none is chosen, once the page is looked at: reading one takes time.
+/// Chooses the first stream if none is chosen, but only once the page is visible, as reading takes time.
 void SessionDetails::chooseStream() {
     if (currentWidget() == split_ && streams_->rowCount() > 0 && streams_->currentRow() < 0)
         streams_->setCurrentCell(0, 0);
@@ -227,7 +227,7 @@ QString SessionDetails::aboutHtml() const {
         const bool known = declared != session_->settings.end();
         const auto column = columnName(qtext(key));
         const auto unit = known ? qtext(textOr(declared->second, "unit")) : column.unit;
-        const auto shown = known ? qtext(textOr(declared->second, "shown")) : QString();  // a choice's words
+        const auto shown = known ? qtext(textOr(declared->second, "shown")) : QString();  // words of a choice
         row(known ? qtext(textOr(declared->second, "label")) : column.title,
             shown.isEmpty() ? settingWords(value, unit) : shown);
     }
@@ -280,7 +280,7 @@ void SessionDetails::show(std::shared_ptr<const ReadSession> session) {
     for (const auto& column : {ResultColumn{"Amplitude", "measured.amplitude_v", As::Number, "V"},
                                ResultColumn{"Interval", "measured.interval_s", As::Number, "s"},
                                ResultColumn{"Width", "measured.width_s", As::Number, "s"}}) {
-        // A procedure that measures none of it has no column of dashes.
+        // A quantity that no trial measured gets no column.
         if (std::ranges::any_of(trials, [&](const json& trial) { return memberAt(trial, column.at).is_number(); }))
             ofTrials.push_back(column);
     }
@@ -303,7 +303,7 @@ void SessionDetails::show(std::shared_ptr<const ReadSession> session) {
          captures);
     if (captures_->rowCount() > 0) captures_->setCurrentCell(0, 0);
     fitStreams();
-    // Waits until the reader of the session has ended: it reads one thing at a time.
+    // Waits until the session's reader has finished: it reads one thing at a time.
     QTimer::singleShot(0, this, [this, again] {
         if (again >= 0 && again < streams_->rowCount()) streams_->setCurrentCell(again, 0);
         chooseStream();
@@ -316,7 +316,7 @@ std::optional<std::int64_t> SessionDetails::chosenCapture() const {
     return session_->captures[std::size_t(row)].seq;
 }
 
-/// Columns of one unit share an axis: the first unit's at the left, each further one's at the right.
+/// Returns the axis for a unit: the first unit has the left axis, each further unit one at the right.
 QCPAxis& SessionDetails::axisFor(const QString& unit) {
     for (const auto& [of, axis] : axes_)
         if (of == unit) return *axis;
@@ -335,7 +335,7 @@ void SessionDetails::removeAxes() {
     axes_.clear();
     plot_->yAxis->setLabel({});
     plot_->yAxis2->setLabel({});
-    plot_->yAxis2->setTicks(false);  // an edge of the frame
+    plot_->yAxis2->setTicks(false);  // only an edge of the frame
     plot_->yAxis2->setTickLabels(false);
 }
 

@@ -1,6 +1,6 @@
 // SessionDetails.h - one session: its overview, trials, streams, captures, and about.
 //
-// Thread-safety: the GUI thread; what is shown was read beside it.
+// Thread-safety: the GUI thread; the data shown was read on another thread.
 #pragma once
 
 #include <QSplitter>
@@ -20,15 +20,15 @@ class SessionOverview;
 class SessionDetails final : public QTabWidget {
     Q_OBJECT
 public:
-    /// `limits`, for the titles of limit sets, outlive it.
+    /// `limits`, which give the titles of limit sets, must outlive this.
     explicit SessionDetails(const ShippedLimits& limits, QWidget* parent = nullptr);
     void show(std::shared_ptr<const ReadSession> session);
     void say(const QString& why);
-    /// The capture of the chosen row; nothing without one.
+    /// Returns the capture of the chosen row; nothing if none is chosen.
     [[nodiscard]] std::optional<std::int64_t> chosenCapture() const;
-    /// Draws the samples of a stream, read beside the window.
+    /// Draws the samples of a stream, which were read on another thread.
     void showStream(const SessionStreamInfo& info, const SampleBlock& samples);
-    /// The operator's marks over the stream that is drawn.
+    /// Returns the operator's marks on the stream drawn.
     [[nodiscard]] const MarkLines& marks() const { return *marks_; }
 
 signals:
@@ -56,12 +56,12 @@ private:
     SessionOverview* overview_;
     QTextBrowser* about_;
     QTableWidget* trials_;
-    QSplitter* split_;          ///< the streams above the chosen one
-    bool splitByHand_ = false;  ///< the user dragged their heights
+    QSplitter* split_;          ///< the streams, above the chosen stream's plot
+    bool splitByHand_ = false;  ///< true once the user has dragged their heights
     QTableWidget* streams_;
     QCustomPlot* plot_;
     QCPItemText* watermark_ = nullptr;
-    std::vector<std::pair<QString, QCPAxis*>> axes_;  // axes of the units that are drawn; owned by the plot
+    std::vector<std::pair<QString, QCPAxis*>> axes_;  // axes of the units drawn; owned by the plot
     std::unique_ptr<MarkLines> marks_;
     QTableWidget* captures_;
 };
