@@ -214,7 +214,7 @@ void CompareWindow::drawStream() {
         });
 }
 
-/// Draws both from their own beginning, and the difference below them, where the second has a sample at the same time.
+/// Draws each stream from its own beginning, and below them the difference at the times that both have.
 void CompareWindow::overlay(const SampleBlock& a, const SampleBlock& b, const Drawn& drawn) {
     streams_->clearGraphs();
     const auto shown = [&](std::vector<double> t, const std::vector<double>& values, const QString& name) {

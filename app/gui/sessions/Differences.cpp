@@ -167,7 +167,7 @@ private:
         QString unit;
         nlohmann::json value;
     };
-    /// Every plain value below `at` by its place, named as in tables; lists of plain numbers are curves, left out.
+    /// Collects every plain value below `at` by place, with its name in tables; leaves out lists of numbers.
     static void leavesOf(const nlohmann::json& at, const std::string& place, const QString& name,
                          std::map<std::string, Leaf>& into) {
         int index = 0;

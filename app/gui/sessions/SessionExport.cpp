@@ -18,8 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-/// A new folder, made in a folder of its own beside the target: nothing that was there before is touched, and an unkept
-/// folder is removed.
+/// A new folder, made inside a temporary folder next to the target: existing files are not touched, and the folder is
+/// removed unless kept.
 class Draft {
 public:
     explicit Draft(fs::path target)
@@ -41,18 +41,18 @@ public:
     }
     [[nodiscard]] Result<void> keep() {
         std::error_code error, ignored;
-        // A rename would take the place of a folder that came in the meantime: one of our own, and empty, is ready.
+        // A rename would replace an empty folder made meanwhile by others, so we create our own empty target first.
         if (!fs::create_directory(target_, error)) {
             if (error) return fail(ErrorCode::Io, "{} could not be written: {}", target_.string(), error.message());
             return isThere();
         }
         fs::rename(path_, target_, error);
         if (!error) return {};
-        fs::remove(target_, ignored);  // stays when something is in it
+        fs::remove(target_, ignored);  // remains if it is not empty
         return fail(ErrorCode::Io, "{} could not be written: {}", target_.string(), error.message());
     }
 
-    /// About the folder that was asked for, which the operator knows.
+    /// Returns the error with the path of the folder that the operator asked for.
     [[nodiscard]] Error asked(Error error) const {
         const auto drawn = path_.string();
         if (const auto at = error.message.find(drawn); !drawn.empty() && at != std::string::npos)
@@ -65,7 +65,7 @@ private:
         return fail(ErrorCode::InvalidArgument, "{} exists already; a new folder is expected", target_.string());
     }
     fs::path target_, path_;
-    QTemporaryDir holder_;  ///< removed with what is still in it
+    QTemporaryDir holder_;  ///< removed with its remaining contents
 };
 
 class TextFile {
@@ -93,7 +93,7 @@ private:
     fmt::memory_buffer text_;
 };
 
-/// Empty where absent; all digits that a double has.
+/// Empty if the value is missing; otherwise all digits of a double.
 std::string cell(double value) { return std::isfinite(value) ? fmt::format("{:.17g}", value) : std::string(); }
 
 std::string quoted(const std::string& text) {
@@ -149,7 +149,7 @@ Result<void> writeTrials(const SessionReader& reader, const fs::path& path) {
     return file.close();
 }
 
-/// Writes the marks that every file of the export must be read with.
+/// Writes the marks that qualify every file of the export.
 Result<void> writeMarks(const SessionReader& reader, const fs::path& path) {
     const auto marks = sessionMarks(reader);
     if (!marks) return failure(marks);
@@ -238,7 +238,7 @@ Result<void> writeRecording(const SessionReader& reader, const fs::path& session
     return file.close();
 }
 
-/// Lets `write` fill a folder that takes the place of `folder`.
+/// Lets `write` fill a draft that then becomes `folder`.
 template <class Write>
 Result<void> exportTo(const fs::path& session, const fs::path& folder, Write&& write) {
     const auto reader = SessionReader::open(session);

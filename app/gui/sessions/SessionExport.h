@@ -1,10 +1,10 @@
-// SessionExport.h - a session as files that other programs read: CSV per stream, trials, events, captures; and its
+// SessionExport.h - exports a session for other programs: CSV files of streams, trials, events and captures; or its
 // sensor streams as a recording that can be replayed.
 //
-// Written into a new folder beside the target and renamed at the end: a cancelled or failed export leaves nothing, and
-// none touches what was there before.
+// Files are written into a new folder next to the target, which is renamed at the end: a cancelled or failed export
+// leaves nothing behind, and no export changes existing files.
 //
-// Thread-safety: pure but for the files; runs beside the window.
+// Thread-safety: no shared state except the files; runs on another thread.
 #pragma once
 
 #include <filesystem>
@@ -13,11 +13,11 @@
 
 namespace tacto::gui {
 
-/// Errors: as SessionReader; Io; Stopped when cancelled; InvalidArgument when `folder` is there already.
+/// Errors: as SessionReader; Io; Stopped if cancelled; InvalidArgument if `folder` already exists.
 [[nodiscard]] Result<void> exportCsv(const std::filesystem::path& session, const std::filesystem::path& folder,
                                      const WorkPort& port);
 
-/// recording.json and its CSV files. Errors: the same; NotFound for a session without sensor streams.
+/// Writes recording.json and its CSV files. Errors: the same; NotFound for a session without sensor streams.
 [[nodiscard]] Result<void> exportRecording(const std::filesystem::path& session, const std::filesystem::path& folder,
                                            const WorkPort& port);
 

@@ -18,18 +18,18 @@ namespace tacto::gui {
 namespace {
 
 constexpr int kRow = 32;
-constexpr int kMinRows = 4;  // rows in sight, the titles' row included
+constexpr int kMinRows = 4;  // visible rows, including the header
 constexpr int kListIcon = 16;
 constexpr int kSeenAfter_ms = 150;
-constexpr int kMeasuredRows = 60;  // rows looked at to choose the widths of columns
-constexpr int kRoomyChars = 88;    // from this width on all columns are shown
-constexpr int kWordyChars = 84;    // from this width on the search says where it searches
+constexpr int kMeasuredRows = 60;  // number of rows measured to choose the column widths
+constexpr int kRoomyChars = 88;    // width from which all columns are shown
+constexpr int kWordyChars = 84;    // width from which the search field says what it searches
 constexpr int kGap = 8, kSide = 16;
-constexpr int kEdge = 2;  // lines of the sheet around a table that has no place yet
+constexpr int kEdge = 2;  // width of the frame lines around a table that is not laid out yet
 constexpr int kChosenBar = 4;
-constexpr int kLead = 9;  // where search and titles begin, counted with the shape's own edges
+constexpr int kLead = 9;  // left edge of search and titles, including the shape's edges
 
-/// The chosen row has a bar at its left edge.
+/// Draws a bar at the left edge of the chosen row.
 class VerdictDelegate final : public QStyledItemDelegate {
 public:
     using QStyledItemDelegate::QStyledItemDelegate;
@@ -42,7 +42,7 @@ public:
         QRect lead(option.rect.topLeft(), QSize(kLead, option.rect.height()));
         if (chosen) painter->fillRect(lead, colours().selection);
         lead.setTop(lead.bottom());
-        painter->fillRect(lead, colours().grid);  // the row's line
+        painter->fillRect(lead, colours().grid);  // the line between rows
         if (chosen) painter->fillRect(bar, colours().primary);
     }
     [[nodiscard]] QSize sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const override {
@@ -125,7 +125,7 @@ void SessionList::buildTable() {
     table_->setItemDelegateForColumn(SessionModel::kVerdict, new VerdictDelegate(table_));
     setTextSize(*table_->horizontalHeader(), TextSize::Small);
     table_->setWordWrap(false);
-    table_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);  // the last column takes the rest and elides
+    table_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);  // the last column takes the rest and elides its text
     makeReadOnly(*table_);
     table_->setSelectionBehavior(QAbstractItemView::SelectRows);
     table_->setSelectionMode(QAbstractItemView::ExtendedSelection);
@@ -148,7 +148,7 @@ void SessionList::buildTable() {
         grow();
         model_->recolour();
     });
-    // The widths may be others once the header has its text's size.
+    // The widths may change once the header's text size is set.
     connect(
         table_->horizontalScrollBar(), &QScrollBar::rangeChanged, this,
         [this] {
@@ -156,7 +156,7 @@ void SessionList::buildTable() {
             if (scrolls && !table_->isColumnHidden(SessionModel::kSample)) fitColumns();
         },
         Qt::QueuedConnection);
-    afterLookChange(*this, [this] { fitColumns(); });  // called when the header has its text's size
+    afterLookChange(*this, [this] { fitColumns(); });  // called once the header has its text size
 }
 
 void SessionList::rescan(const std::filesystem::path& recording) {
@@ -195,11 +195,11 @@ void SessionList::take(std::vector<SessionEntry> entries) {
     if (!wanted_.empty()) chosen = {wanted_};
     arranging_ = true;
     model_->setEntries(std::move(entries), recording_);
-    if (asked && model_->rowOf(wanted_) < 0) {  // a search must not hide what was asked for
+    if (asked && model_->rowOf(wanted_) < 0) {  // a search must not hide the session asked for
         for (auto* box : {ending_, age_}) box->setCurrentIndex(0);
         search_->clear();
     }
-    arranging_ = true;  // filter() ends it
+    arranging_ = true;  // filter() sets it to false
     choose(chosen);
     arranging_ = false;
     wanted_.clear();
@@ -214,21 +214,21 @@ void SessionList::fitColumns() {
     for (int each = 0; each < SessionModel::kNote; ++each) table_->resizeColumnToContents(each);
     auto* header = table_->horizontalHeader();
     const int note = std::max(header->minimumSectionSize(), header->sectionSizeHint(SessionModel::kNote));
-    header->resizeSection(SessionModel::kNote, note);  // Qt stretches it, but makes it no smaller than it was
+    header->resizeSection(SessionModel::kNote, note);  // Qt stretches this column but never makes it narrower
     const auto least = [&] { return header->length() - header->sectionSize(SessionModel::kNote) + note; };
-    // The table may have its own size later.
+    // The table may get its own size later.
     const int bar = table_->verticalScrollBar()->sizeHint().width();
     const bool placed = table_->isVisible() && table_->width() == width();
     const int room = !placed ? width() - bar - 2 * table_->frameWidth() - kEdge
                              : table_->viewport()->width() - (table_->verticalScrollBar()->isVisible() ? 0 : bar);
     table_->setColumnHidden(SessionModel::kSample, least() > room);
     table_->setColumnHidden(SessionModel::kNote, least() > room);
-    // The last that is left gives way, as it does where it stretches: Qt stretches it, but makes it no smaller.
+    // The last visible column becomes narrower, since Qt stretches it but never makes it narrower.
     if (const int over = header->length() - room; over > 0 && table_->isColumnHidden(SessionModel::kNote))
         table_->setColumnWidth(SessionModel::kProcedure, header->sectionSize(SessionModel::kProcedure) - over);
 }
 
-/// All that a display of the chosen sessions depends on, except the labels: they are changed there.
+/// Returns everything on which the display of the chosen sessions depends, except the labels, which are edited there.
 std::vector<std::pair<std::filesystem::path, SessionSummary>> SessionList::chosenNow() const {
     std::vector<std::pair<std::filesystem::path, SessionSummary>> now;
     for (const auto* entry : selected()) {
@@ -260,7 +260,7 @@ void SessionList::confirm(const std::filesystem::path& file) {
     confirmSeen();
 }
 
-/// Checks the listed sessions themselves, as an index may remember them wrongly.
+/// Reads the visible sessions themselves, since the index may be out of date.
 void SessionList::confirmSeen() {
     const int first = table_->rowAt(0);
     if (first < 0) return;
@@ -296,7 +296,7 @@ void SessionList::filter() {
     const auto chosen = chosenPaths();
     arranging_ = true;
     model_->setFilter(wanted);
-    choose(chosen);  // an unseen session is not acted on
+    choose(chosen);  // a session that is not shown cannot be acted on
     arranging_ = false;
     say();
     if (chosenPaths() != chosen) emit selectionChanged();

@@ -1,8 +1,8 @@
-// SessionList.h - the sessions that were recorded, as a table: read beside the window, searched, sorted and chosen.
+// SessionList.h - table of the recorded sessions: read on another thread, searched, sorted and chosen.
 //
-// Listed from an index of what was read before (core/session/SessionIndex.h). What is seen of the list, and what is
-// chosen, is then read from the sessions themselves, which have the last word. A session that cannot be read is listed
-// with the reason.
+// The list comes from an index of sessions read before (core/session/SessionIndex.h). The sessions that are visible or
+// chosen are then read from their own files, which override the index. A session that cannot be read is listed with the
+// reason.
 #pragma once
 
 #include <QComboBox>
@@ -21,15 +21,15 @@ class SessionList final : public QWidget {
     Q_OBJECT
 public:
     explicit SessionList(QWidget* parent);
-    /// Lists the sessions folder again. `recording` is the session that is being written.
+    /// Lists the sessions folder again. `recording` is the session being written.
     void rescan(const std::filesystem::path& recording);
-    /// A session of another place is listed too, and chosen, once it is read.
+    /// Lists a session from another folder too, and chooses it once read.
     void add(const std::filesystem::path& file);
-    /// Reads this one again, from the session.
+    /// Reads this session again from its file.
     void confirm(const std::filesystem::path& file);
-    /// The selected sessions, in the table's order.
+    /// Returns the selected sessions, in the table's order.
     [[nodiscard]] std::vector<const SessionEntry*> selected() const;
-    /// The chosen session; null for none or several.
+    /// Returns the chosen session; null if none or several are chosen.
     [[nodiscard]] const SessionEntry* current() const;
     [[nodiscard]] const Background& scan() const noexcept { return scan_; }
 
@@ -51,11 +51,11 @@ private:
     const SessionIndex index_;
     SessionModel* model_;
     std::set<std::filesystem::path> others_;
-    std::set<std::filesystem::path> confirmed_;  ///< read from the session since they were listed
-    std::filesystem::path wanted_;               ///< to choose once it is listed
-    std::filesystem::path recording_;            ///< being written
-    std::filesystem::path shownRecording_;       ///< as the rows show it
-    bool arranging_ = false;                     ///< the selection changes with the rows, not by the user
+    std::set<std::filesystem::path> confirmed_;  ///< read from their files since they were listed
+    std::filesystem::path wanted_;               ///< the session to choose once it is listed
+    std::filesystem::path recording_;            ///< the session being written
+    std::filesystem::path shownRecording_;       ///< the recording session shown in the rows
+    bool arranging_ = false;                     ///< the selection is changed by the program, not by the user
     Background scan_, confirm_;
     QTimer seen_;
     QLineEdit* search_ = nullptr;

@@ -129,7 +129,7 @@ QVariant SessionModel::data(const QModelIndex& index, int role) const {
         case Qt::DisplayRole:
             return text(shown, index.column());
         case Qt::ToolTipRole:
-            // A cell may be too narrow for what it says.
+            // A cell may be too narrow for its text.
             return QString(text(shown, index.column()) + "\n" + about(shown)).trimmed();
         case Qt::TextAlignmentRole:
             return index.column() == kLength ? int(Qt::AlignRight | Qt::AlignVCenter)

@@ -1,5 +1,5 @@
-// SessionModel.h - the sessions as rows of a table: those that a search and a choice of verdict and age let through, in
-// the order of a column. Thousands of rows cost what is seen of them.
+// SessionModel.h - the sessions as table rows: only those that match the search, verdict and age, sorted by a column.
+// Only visible rows cost time, so that thousands are possible.
 #pragma once
 
 #include <QAbstractTableModel>
@@ -13,10 +13,10 @@
 
 namespace tacto::gui {
 
-/// A session file as a line of a list: what is known about it at a glance, or why it cannot be read.
+/// A session file as a list entry: the main facts about the session, or why it cannot be read.
 struct SessionEntry {
     explicit SessionEntry(ListedSession listed);
-    /// Whether both say the same of the same session.
+    /// True if both entries say the same about the same session.
     [[nodiscard]] bool sameAs(const SessionEntry& other) const {
         return path == other.path && bytes == other.bytes && summary == other.summary && problem == other.problem &&
                elsewhere == other.elsewhere;
@@ -25,23 +25,23 @@ struct SessionEntry {
     std::filesystem::path path;
     SessionSummary summary;
     QDateTime began;
-    qint64 began_ms = 0;  ///< the same moment, in ms since 1970, for sorting
+    qint64 began_ms = 0;  ///< the same time in ms since 1970, for sorting
     qint64 bytes = 0;
-    bool elsewhere;    ///< another program is recording it
-    QString problem;   ///< why it cannot be read; empty when it can
-    QString searched;  ///< everything a search looks at, in lower case
+    bool elsewhere;    ///< another program is recording this session
+    QString problem;   ///< why it cannot be read; empty if it can
+    QString searched;  ///< all text that a search looks at, in lower case
 };
 
-/// *.tacto of a folder, newest first by name of the file; folders inside are looked into once.
+/// Lists the *.tacto files of a folder, newest first by file name; also looks one level into folders inside.
 [[nodiscard]] std::vector<std::filesystem::path> sessionFiles(const std::filesystem::path& folder);
 
-/// The cache of sessions read earlier, for all windows of this user: in the folder of caches.
+/// Returns the cache of sessions read earlier, shared by all windows of this user, in the cache folder.
 [[nodiscard]] SessionIndex userSessionIndex();
 
-/// Chooses which sessions are shown.
+/// Selects which sessions are shown.
 struct SessionFilter {
-    QString words;                    ///< words that must all be found
-    QString ending;                   ///< the word of the column Verdict; empty: any
+    QString words;                    ///< words that must all occur
+    QString ending;                   ///< text of the column Verdict; empty: any
     std::optional<int> withinDays{};  ///< 0: today
     [[nodiscard]] bool empty() const { return words.trimmed().isEmpty() && ending.isEmpty() && !withinDays; }
 };
@@ -56,12 +56,12 @@ public:
     /// Replaces the session of the same path in its row, without filtering or sorting again.
     void replace(SessionEntry entry);
     void setFilter(const SessionFilter& filter);
-    /// Verdicts take their colours from the theme.
+    /// Updates the verdict colours from the theme.
     void recolour();
 
     [[nodiscard]] const std::vector<SessionEntry>& entries() const { return entries_; }
     [[nodiscard]] const SessionEntry& entry(int row) const { return entries_[rows_[std::size_t(row)]]; }
-    /// -1 where it is not shown.
+    /// Returns the row of a session; -1 if not shown.
     [[nodiscard]] int rowOf(const std::filesystem::path& path) const;
 
     [[nodiscard]] int rowCount(const QModelIndex& parent = {}) const override;
@@ -76,7 +76,7 @@ private:
     [[nodiscard]] QString text(const SessionEntry& entry, int column) const;
     [[nodiscard]] QString about(const SessionEntry& entry) const;
     std::vector<SessionEntry> entries_;
-    std::vector<std::size_t> rows_;  // into entries_
+    std::vector<std::size_t> rows_;  // indices into entries_
     std::filesystem::path recording_;
     SessionFilter filter_;
     int column_ = kBegan;

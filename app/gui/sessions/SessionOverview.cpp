@@ -21,11 +21,11 @@ namespace {
 constexpr int kGrid = 8;
 constexpr int kHeadIcon = 32;
 constexpr int kShownMoments = 500;
-constexpr int kMinMoments = 3;  // lines
-constexpr int kMinNote = 16;    // characters
+constexpr int kMinMoments = 3;  // number of lines
+constexpr int kMinNote = 16;    // number of characters
 constexpr int kWhyLines = 2;
-constexpr int kLowPage = 560;      // on a page lower than this the reason is one line
-constexpr double kWrapped = 0.85;  // share of a line's width that is used where words wrap
+constexpr int kLowPage = 560;      // height below which the reason takes one line
+constexpr double kWrapped = 0.85;  // used share of a line's width when words wrap
 
 SessionEntry entryOf(const ReadSession& session) {
     ListedSession listed;
@@ -59,7 +59,7 @@ SessionOverview::SessionOverview(QWidget* parent)
     split->addWidget(buildHappened());
     split->setStretchFactor(0, 3);
     split->setStretchFactor(1, 2);
-    split->setSizes({10'000, 1});  // the plot takes the room
+    split->setSizes({10'000, 1});  // the plot takes the remaining space
     column->addWidget(split, 1);
     say(tr("Choose a session at the left."));
     onEvent(*this, QEvent::Resize, [this] {
@@ -124,7 +124,7 @@ QWidget* SessionOverview::buildFields() {
         grid->addWidget(label(one->accessibleName()), 0, at);
         grid->addWidget(one, 1, at++);
     }
-    // Beside the note, so that it takes no room from the plot. A long sentence leaves the note some words.
+    // Next to the note, so that it takes no space from the plot. A long sentence leaves some room for the note.
     saved_ = makeLabel<ElidedLabel>({}, {.name = "labelsSaved"}, fields);
     saved_->hide();
     setTextSize(*saved_, TextSize::Small);
@@ -181,7 +181,7 @@ void SessionOverview::showHead() {
     why_->setToolTip(why.join('\n'));
 }
 
-/// The plot below keeps its room, however long the reason is; the tool tip has the whole reason.
+/// Elides a long reason, so that the plot below keeps its space; the tool tip shows the whole reason.
 void SessionOverview::fitWhy() {
     const bool low = height() < scaledPx(kLowPage);
     const int room = low ? why_->width() - 4 : int(kWhyLines * kWrapped * why_->width());
@@ -205,7 +205,7 @@ void SessionOverview::showFields() {
     saySaved(session_->fixed, false);
 }
 
-/// A field that has this already is left alone, with its cursor.
+/// A field that already has this text is left unchanged, with its cursor.
 void SessionOverview::showLabels(const SessionLabels& labels) {
     QStringList tags;
     for (const auto& tag : labels.tags) tags << qtext(tag);
@@ -235,7 +235,7 @@ void SessionOverview::save() {
     const auto labels = entered();
     if (labels == kept_) return;
     const auto before = std::exchange(kept_, labels);
-    refused_.clear();  // tries again what was refused
+    refused_.clear();  // the next save tries refused edits again
     ++pending_;
     saySaved(tr("Saving…"), false);
     saves_.start(
@@ -254,7 +254,7 @@ void SessionOverview::saved(const SessionLabels& before, const SessionLabels& ed
         takeEdit(edited, before, kept_);  // the next Return tries again
         refused_ = sentence(done.error());
     } else if (pending_ == 0) {
-        auto shown = entered();  // takes over changes from elsewhere, but keeps what is being typed
+        auto shown = entered();  // accepts changes from elsewhere, but keeps what is being typed
         takeEdit(kept_, *done, shown);
         takeEdit(kept_, entered(), shown);
         kept_ = *done;
@@ -262,7 +262,7 @@ void SessionOverview::saved(const SessionLabels& before, const SessionLabels& ed
     }
     if (!refused_.isEmpty())
         saySaved(refused_, true);
-    else if (pending_ == 0)  // else an edit that followed is still being saved, and the label says so
+    else if (pending_ == 0)  // otherwise a later edit is still being saved, and the label says so
         saySaved(tr("Kept in the session."), false);
 }
 
@@ -291,7 +291,7 @@ void SessionOverview::showHappened() {
     happened_->setHtml(html);
 }
 
-/// The window closes, or another page comes: what was typed is kept.
+/// Saves what was typed when the window closes or another page opens.
 void SessionOverview::hideEvent(QHideEvent* event) {
     save();
     QWidget::hideEvent(event);

@@ -1,10 +1,10 @@
-// SessionOverview.h - the chosen session at a glance: how it ended and why, who and what, to be edited in place, its
-// main plot, and what happened in it.
+// SessionOverview.h - overview of the chosen session: its result and reason, its labels (which can be edited here), its
+// main plot, and a list of events.
 //
-// An edit is kept in the session when the field is left or Return is pressed; what the session refuses is said, and
-// stays in the field.
+// An edit is saved in the session when the field is left or Return is pressed; if the session refuses an edit, the
+// reason is shown and the text stays in the field.
 //
-// Thread-safety: the GUI thread; saving happens beside it.
+// Thread-safety: the GUI thread; saving runs on another thread.
 #pragma once
 
 #include <QLabel>
@@ -23,7 +23,7 @@ class SessionOverview final : public QWidget {
     Q_OBJECT
 public:
     explicit SessionOverview(QWidget* parent = nullptr);
-    /// Keeps what was edited of the one before.
+    /// Shows another session, after saving the edits of the previous one.
     void show(std::shared_ptr<const ReadSession> session);
     void say(const QString& why);
 
@@ -51,16 +51,16 @@ private:
     [[nodiscard]] SessionLabels entered() const;
 
     std::shared_ptr<const ReadSession> session_;
-    SessionLabels kept_;  ///< the labels in the session, or on their way into it
-    QString refused_;     ///< why an edit that still stands in the fields is not in the session
-    int pending_ = 0;     ///< edits of this session on their way
-    SideWork saves_;      ///< edits follow each other; its end waits: what was typed is kept
+    SessionLabels kept_;  ///< the labels in the session, or being saved to it
+    QString refused_;     ///< why an edit still in the fields is not in the session
+    int pending_ = 0;     ///< number of edits of this session being saved
+    SideWork saves_;      ///< saves edits one after the other; waits for them at the end, so that none is lost
     QWidget* content_;
     QLabel* nothing_;
     QLabel* icon_ = nullptr;
     QLabel* title_ = nullptr;
     QLabel* why_ = nullptr;
-    QString whole_;  ///< the text of why_, before it is elided
+    QString whole_;  ///< the full text of why_, before eliding
     QLineEdit* operator_ = nullptr;
     QLineEdit* sample_ = nullptr;
     QLineEdit* tags_ = nullptr;

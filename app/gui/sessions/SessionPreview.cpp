@@ -15,7 +15,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr std::size_t kCurvePoints = 4000;
-constexpr int kMinLines = 10;  // lines of text: the height of a plot that can be read
+constexpr int kMinLines = 10;  // height of a readable plot in lines of text
 
 bool inThePlane(const SessionTrial& trial) {
     return std::isfinite(numberOr(trial.measured, "amplitude_v")) &&
@@ -51,7 +51,7 @@ void SheetView::paintEvent(QPaintEvent* /*event*/) {
     QCPPainter painter(this);
     painter.setRenderHint(QPainter::Antialiasing);
     const QRectF paper(0, 0, size.width() * scale, size.height() * scale);
-    painter.fillRect(paper, Qt::white);  // white, as in print
+    painter.fillRect(paper, Qt::white);  // white paper, as in print
     painter.scale(scale, scale);
     sheet_->paint(painter);
 }
@@ -78,7 +78,7 @@ SessionPreview::SessionPreview(QWidget* parent)
     addPlotMenu(*course_, "session");
     watermark_ = addWatermark(*course_->axisRect());
     marks_ = std::make_unique<MarkLines>(*course_);
-    // Dragged and zoomed: a mark's word goes with its moment.
+    // After a drag or zoom, each mark's word moves with its time.
     connect(course_->xAxis, qOverload<const QCPRange&>(&QCPAxis::rangeChanged), this, &SessionPreview::drawMarks);
     for (auto* page : std::initializer_list<QWidget*>{nothing_, plane_, sheet_, course_}) stack_->addWidget(page);
     clear();

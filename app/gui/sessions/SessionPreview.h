@@ -1,5 +1,5 @@
-// SessionPreview.h - the main plot of a session: its trials in the plane, else the first figure of its report, else
-// what was felt and delivered over time, with the operator's marks.
+// SessionPreview.h - the main plot of a session: its trials in the plane; without trials the first figure of its
+// report; otherwise what was felt and delivered over time, with the operator's marks.
 #pragma once
 
 #include <QLabel>
@@ -15,11 +15,11 @@ namespace tacto::gui {
 
 class TrialPlane;
 
-/// Values over time, thinned to what can be seen.
+/// Adds values over time, thinned to what is visible.
 QCPGraph* addCurve(QCustomPlot& plot, QCPAxis* values, const std::vector<double>& t, const std::vector<double>& y,
                    const QString& name);
 
-/// A sheet of the report, as large as there is room for.
+/// A sheet of the report, as large as space allows.
 class SheetView final : public QWidget {
     Q_OBJECT
 public:
@@ -40,9 +40,9 @@ public:
     explicit SessionPreview(QWidget* parent = nullptr);
     void show(const ReadSession& session);
     void clear();
-    /// "Trials in the plane", a figure's caption, ...; empty while nothing is shown.
+    /// Returns the title, such as "Trials in the plane" or a figure's caption; empty if nothing is shown.
     [[nodiscard]] QString title() const { return title_->text(); }
-    /// The operator's marks over time, as they are drawn now.
+    /// Returns the operator's marks over time, as drawn now.
     [[nodiscard]] const MarkLines& marks() const { return *marks_; }
 
 private:

@@ -16,11 +16,11 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kShortValues = 60;  // characters that may follow an event's own words
+constexpr int kShortValues = 60;  // most characters of values after an event's own text
 
 QString words(const char* text) { return QObject::tr(text); }
 
-/// The words for the kinds of events; other kinds are their own words.
+/// The words for known kinds of events; other kinds are shown by their own name.
 const std::map<std::string, const char*>& titles() {
     static const std::map<std::string, const char*> all{
         {"fault", QT_TR_NOOP("Fault")},
@@ -43,7 +43,7 @@ const std::map<std::string, const char*>& titles() {
     return all;
 }
 
-/// "Encoding: A max, interval ratio per train; roughness: surfaces" of "encoding.A_max_v" and so on.
+/// Returns "Encoding: A max, interval ratio per train; roughness: surfaces" for "encoding.A_max_v" and so on.
 QString fieldNames(const std::vector<std::string>& places) {
     std::vector<std::pair<QString, QStringList>> sections;
     const auto within = [](const QString& title) {
@@ -72,7 +72,7 @@ QString scalarText(const nlohmann::json& value, const QString& unit) {
     return QString("–");
 }
 
-/// "Net charge 1.20 µC, Load 1 kΩ": the plain values of a body, named as in tables. Lists of words are joined.
+/// Returns "Net charge 1.20 µC, Load 1 kΩ": the plain values of a body, named as in tables. Joins lists of words.
 QString fieldsText(const nlohmann::json& body) {
     QStringList parts;
     for (const auto& [key, value] : body.items()) {
@@ -89,7 +89,7 @@ QString fieldsText(const nlohmann::json& body) {
     return parts.join(", ");
 }
 
-/// The numbers of a body that has words of its own too.
+/// Returns the numbers of a body that also has text.
 nlohmann::json numbersOf(const nlohmann::json& body) {
     auto numbers = nlohmann::json::object();
     for (const auto& [key, value] : body.items())
@@ -97,7 +97,7 @@ nlohmann::json numbersOf(const nlohmann::json& body) {
     return numbers;
 }
 
-/// The event's own words.
+/// Returns the event's own text.
 QString ownWords(const nlohmann::json& body) {
     for (const char* key : {"text", "message", "reason", "why"})
         if (const auto own = textOr(body, key); !own.empty()) return qtext(own);
@@ -118,7 +118,7 @@ QString marksSentence(const nlohmann::json& body) {
                            : QObject::tr("The bench was closed. %1").arg(flags.join(' '));
 }
 
-/// "11:02:10" where the session's time is the day's, "0:12.3" on a virtual clock.
+/// Returns "11:02:10" if the session has a time of day, "0:12.3" on a virtual clock.
 QString momentText(const ReadSession& session, Instant at) {
     const auto& about = session.about;
     const auto start = QDateTime::fromString(qtext(about.wallStart), Qt::ISODate);

@@ -1,6 +1,6 @@
-// SessionWords.h - a session in words: its name, when it was, how it ended, what happened in it.
+// SessionWords.h - describes a session in words: its name, when it took place, how it ended, what happened in it.
 //
-// Thread-safety: pure functions; endingOf() the GUI thread, for the theme's colours.
+// Thread-safety: pure functions; endingOf() on the GUI thread, for the theme's colours.
 #pragma once
 
 #include <QColor>
@@ -13,35 +13,35 @@
 
 namespace tacto::gui {
 
-/// "Today 11:02", "Yesterday 16:20", "20 Nov 14:05"; in another year the date alone.
+/// Returns "Today 11:02", "Yesterday 16:20", "20 Nov 14:05"; in another year only the date.
 [[nodiscard]] QString beganText(const QDateTime& began);
-/// "1 trial", "25 trials".
+/// Returns "1 trial", "25 trials".
 [[nodiscard]] QString trialsText(std::size_t count);
-/// "1 kΩ, 10.0 V" of "1 kohm, 10.0 V": loads and conditions as people write them.
+/// Returns "1 kΩ, 10.0 V" for "1 kohm, 10.0 V": loads and conditions as people write them.
 [[nodiscard]] QString conditionText(const std::string& condition);
 
-/// The end of a session as a word, an icon and its colour.
+/// The end of a session as a word, an icon and a colour.
 struct SessionEnding {
     QString word;
     QString icon;
     QColor colour;
 };
-/// `recording`: of the session that is being written.
+/// `recording`: this session is being written now.
 [[nodiscard]] SessionEnding endingOf(const SessionEntry& entry, bool recording);
 
-/// A line of what happened.
+/// One line in the list of events.
 struct SessionMoment {
     double at_s = 0;  ///< time on the session's time base
-    QString when;     ///< time of day; on a virtual clock the time since the beginning
+    QString when;     ///< time of day; on a virtual clock the time since the start
     QString text;     ///< a sentence
     bool mark = false;
 };
-/// What happened, in order, from the beginning to the end; what follows itself stands once, with its count.
+/// Returns the events in order, from start to end; equal events in sequence become one line with their count.
 [[nodiscard]] QList<SessionMoment> whatHappened(const ReadSession& session);
-/// One event as a sentence: no ids, no JSON.
+/// Returns one event as a sentence: no ids, no JSON.
 [[nodiscard]] QString eventSentence(const SessionRow& event);
 
-/// A column of a stream for reading, "Pressure" of "pressure_pa", and its unit: its own, or the stream's.
+/// Return a stream column's readable name ("Pressure" for "pressure_pa"), and its unit: its own, or the stream's.
 [[nodiscard]] QString columnTitle(const SessionStream& stream, std::size_t column);
 [[nodiscard]] QString columnUnit(const SessionStream& stream, std::size_t column);
 

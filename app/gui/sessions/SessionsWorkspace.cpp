@@ -22,7 +22,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kPanesFrom = 820;  // pixels for both of them beside each other
+constexpr int kPanesFrom = 820;  // width in pixels from which both panes are side by side
 constexpr int kListMargin = 16, kAroundActions = 12;
 
 bool holdsTouch(const ReadSession& session) {
@@ -83,15 +83,15 @@ SessionsWorkspace::SessionsWorkspace(BenchController& controller, QWidget* paren
     onEvent(*this, QEvent::Show, [this] { rescan(); });
 }
 
-/// Fitted to what is in sight: a page that scrolls is as wide as its parts ask for. Where the panes have no room beside
-/// each other, the session stands below the list.
+/// Fits the panes to the visible width, since a page that scrolls is as wide as its parts ask for. If the panes do not
+/// fit side by side, the session is placed below the list.
 void SessionsWorkspace::fitPanes() {
     const int room = widthInSight(*this);
     actions_.dress(room);
     split_->setOrientation(room < scaledPx(kPanesFrom) ? Qt::Vertical : Qt::Horizontal);
 }
 
-/// A pane of the page: what it shows, and below it what can be done with that.
+/// Lays out a pane: its content, and below it the buttons for that content.
 void SessionsWorkspace::layOut(QWidget& pane, QWidget& shown, QWidget& actions) {
     auto* column = columnIn(pane, 0);
     column->addWidget(&shown, 1);
@@ -141,7 +141,7 @@ QWidget* SessionsWorkspace::buildSessionActions() {
 QWidget* SessionsWorkspace::buildNews() {
     auto* holder = new QWidget(this);
     auto* below = new QHBoxLayout(holder);
-    below->setContentsMargins(kListMargin, 0, kListMargin, 0);  // without news no height
+    below->setContentsMargins(kListMargin, 0, kListMargin, 0);  // takes no height while there is no message
     says_ = makeLabel({}, {.name = "sessionsSay", .wraps = true}, holder);
     says_->setContentsMargins(0, 0, 0, kListMargin / 2);
     says_->hide();
@@ -267,7 +267,7 @@ void SessionsWorkspace::askExport() {
                           .wants = FileQuestion::Wants::NewFile,
                           .folder = qtext(entry->path.parent_path().string()),
                           .name = qtext(entry->path.stem().string()) + "-csv"};
-    // Keeps this session, even if another is selected when the folder is chosen.
+    // Keeps this session, even if another is selected by the time the folder is chosen.
     const auto session = entry->path;
     askForFile(*this, question, [this, session](const QString& folder) { exportSession(session, folder); });
 }
@@ -339,7 +339,7 @@ void SessionsWorkspace::dropEvent(QDropEvent* event) {
 }
 
 namespace {
-constexpr int kWordsFrom = 1020;  // pixels for both panes
+constexpr int kWordsFrom = 1020;  // width in pixels for both panes
 }
 
 QPushButton* ActionButtons::add(QBoxLayout& row, const char* iconName, const QString& text, const QString& tip,

@@ -1,7 +1,6 @@
-// SessionsWorkspace.h - everything that was recorded: find, look into, say what it is, replay, compare, report, export,
-// verify.
+// SessionsWorkspace.h - workspace for recorded sessions: find, view, label, replay, compare, report, export, verify.
 //
-// Reading and writing happen beside the window.
+// Reading and writing run on another thread.
 #pragma once
 
 #include <QBoxLayout>
@@ -21,17 +20,17 @@
 
 namespace tacto::gui {
 
-/// Buttons for what can be done with a session: each says why it cannot act, and where there is little room they are
-/// icons, so that the panes beside each other fit.
+/// Buttons for actions on a session: each says why it cannot act, and if space is short the buttons show only icons, so
+/// that both panes fit side by side.
 class ActionButtons {
 public:
-    /// Adds a button to `row`, which owns it as a child of its widget.
+    /// Adds a button to `row`; the row's widget owns the button.
     QPushButton* add(QBoxLayout& row, const char* iconName, const QString& text, const QString& tip,
                      std::function<void()> act);
-    /// Enabled with an empty `refusal`, else disabled with it as the tool tip.
+    /// Enables the button if `refusal` is empty; otherwise disables it, with `refusal` as its tool tip.
     void offer(QPushButton* button, const QString& refusal);
     void offerAll(const QString& refusal);
-    /// Words or icons, by the room for the panes in pixels: call again when that or the size of text changes.
+    /// Shows words or icons, by the width of the panes in pixels: call again after a change of width or text size.
     void dress(int room);
 
 private:
@@ -49,7 +48,7 @@ class SessionsWorkspace final : public QWidget {
     Q_OBJECT
 public:
     explicit SessionsWorkspace(BenchController& controller, QWidget* parent = nullptr);
-    /// Lists a session of another place too, and chooses it. False when there is no such file.
+    /// Lists a session from another folder too, and chooses it. Returns false if there is no such file.
     bool openSession(const QString& path);
     void rescan();
     /// Writes the chosen session's CSV files into a new folder.
