@@ -41,7 +41,7 @@ CalibrateWorkspace::CalibrateWorkspace(BenchController& controller, CalibrationB
     connect(&controller_, &BenchController::changed, this, &CalibrateWorkspace::showReady);
     connect(&controller_, &BenchController::finished, this, &CalibrateWorkspace::showReady);
     connect(runner_, &ProtocolWorkspace::readyChanged, this, &CalibrateWorkspace::showReady);
-    // A calibration is made to be kept: here the form says so from the start.
+    // A calibration is normally stored, so the form proposes storing it.
     connect(runner_, &ProtocolWorkspace::declaredAnew, this, [this] {
         runner_->set("store", "true");
         showReady();
@@ -60,7 +60,7 @@ QWidget* CalibrateWorkspace::buildStored(QWidget* in) {
     return stored;
 }
 
-/// A run is started where its settings stand, by its own button.
+/// Opens the settings; the operator then starts the run with the button there.
 void CalibrateWorkspace::prepare(const QString& mode) {
     tabs_->setCurrentIndex(kGuided);
     runner_->set("mode", mode);

@@ -19,14 +19,14 @@ class CalibrateWorkspace final : public QWidget {
 public:
     CalibrateWorkspace(BenchController& controller, CalibrationBook& book, QWidget* parent = nullptr);
     [[nodiscard]] ProtocolWorkspace& runner() noexcept { return *runner_; }
-    /// The calibrations of the stimulator and of the sensor.
+    /// Returns the workspaces that calibrate the stimulator and the sensor.
     [[nodiscard]] std::array<ProtocolWorkspace*, 2> runners() const noexcept { return {runner_, sensor_}; }
     /// Hides the row of tabs; their keys still work.
     void showPlotOnly(bool only);
 
 private:
     enum Tab { kGuided, kFingertip, kOverTime };
-    /// The standing of the stored calibration, and the calibrations before it.
+    /// Builds the page with the state of the stored calibration and with earlier calibrations.
     [[nodiscard]] QWidget* buildStored(QWidget* in);
     void prepare(const QString& mode);
     void showReady();

@@ -56,7 +56,7 @@ std::vector<StimulatorId> CalibrationBook::known() const {
     if (const auto open = connected()) add(*open);
     if (last_) add(*last_);
     for (const auto& device : controller_.watch().devices()) {
-        // A simulated one has its serial number only once it is opened.
+        // A simulated device has a serial number only after it is opened.
         if (device.role == Role::Stimulator && !device.simulated)
             add({device.serial, device.name, {}, device.simulated});
     }
@@ -115,7 +115,7 @@ QString standingText(const CalibrationStanding& standing) {
                        : QObject::tr("calibrated %1 ago, until %2").arg(daysText(standing.age_d), until);
         }
         case CalibrationState::Expired:
-            // A calibration dated in the future does not count either.
+            // A calibration dated in the future is not valid either.
             return standing.left_d >= 0 ? QObject::tr("not calibrated")
                                         : QObject::tr("calibration expired %1 ago").arg(daysText(-standing.left_d));
         case CalibrationState::Unreadable:

@@ -1,8 +1,8 @@
-// CalibrationBook.h - what the store of calibrations says about a stimulator, for the window.
+// CalibrationBook.h - gives the window the contents of the calibration store for each stimulator.
 //
-// The file is small: it is read when another stimulator is opened, when a run has ended, and on read(). How a
-// calibration stands is judged by today's date (UTC) each time it is asked for, so that one which runs out overnight
-// does. The judgement is the store's own (CalibrationStore::valid).
+// The small file is read when another stimulator is opened, after each run, and on read(). Validity is judged with
+// today's date (UTC) at each request, so that a calibration that expires overnight is noticed. The rules are the
+// store's own (CalibrationStore::valid).
 #pragma once
 
 #include <QObject>
@@ -14,11 +14,11 @@
 
 namespace tacto::gui {
 
-/// A stimulator as far as its calibration goes.
+/// What identifies a stimulator for its calibration.
 struct StimulatorId {
-    std::string serial;  ///< empty: it reports none, and cannot be calibrated
+    std::string serial;  ///< empty: it has none, and cannot be calibrated
     std::string name;
-    std::string unit;  ///< "V" or "mA"; empty: not known before it is opened
+    std::string unit;  ///< "V" or "mA"; empty: unknown before it is opened
     bool simulated = false;
     bool operator==(const StimulatorId&) const = default;
 };
@@ -27,17 +27,17 @@ enum class CalibrationState {
     Valid,
     Never,
     Expired,
-    OfSimulation,  ///< the device is real and its calibration was made on a simulated bench
+    OfSimulation,  ///< the device is real, but its calibration was made on a simulated bench
     NoSerial,
     Unreadable,  ///< the store is damaged or cannot be read
 };
 
 struct CalibrationStanding {
     CalibrationState state = CalibrationState::Never;
-    std::optional<StoredCalibration> newest;  ///< whatever its date
-    int age_d = 0;                            ///< the newest entry's age
-    int left_d = 0;                           ///< whole days on which it still counts, after today; below 0: expired
-    QString why;                              ///< a sentence where it does not count
+    std::optional<StoredCalibration> newest;  ///< the newest entry, whatever its date
+    int age_d = 0;                            ///< age of the newest entry in days
+    int left_d = 0;                           ///< days of validity left after today; below 0: expired
+    QString why;                              ///< a sentence that says why it is not valid
 };
 
 class CalibrationBook final : public QObject {
@@ -45,14 +45,14 @@ class CalibrationBook final : public QObject {
 public:
     explicit CalibrationBook(BenchController& controller, QObject* parent = nullptr);
 
-    /// The stimulator of the open bench.
+    /// Returns the stimulator of the open bench.
     [[nodiscard]] std::optional<StimulatorId> connected() const;
-    /// The last one that was open, now or before.
+    /// Returns the stimulator that was opened last; it may be closed now.
     [[nodiscard]] const std::optional<StimulatorId>& last() const { return last_; }
-    /// The stimulators that are or were open, are plugged in (hardware) or are in the store, in this order, each once.
+    /// Returns all stimulators that are or were open, are connected (hardware) or are stored; in this order, each once.
     [[nodiscard]] std::vector<StimulatorId> known() const;
     [[nodiscard]] CalibrationStanding standing(const StimulatorId& stimulator) const;
-    /// All calibrations of a serial, the newest first.
+    /// Returns all calibrations for a serial number, newest first.
     [[nodiscard]] std::vector<StoredCalibration> history(const std::string& serial) const;
     /// Reads the file again.
     void read();
@@ -68,9 +68,9 @@ private:
     QString fault_;  ///< why store_ is empty
 };
 
-/// "calibrated 12 d ago, until 2027-03-01", "not calibrated", "calibration expired 3 d ago".
+/// Returns "calibrated 12 d ago, until 2027-03-01", "not calibrated", "calibration expired 3 d ago".
 [[nodiscard]] QString standingText(const CalibrationStanding& standing);
-/// What that means for the output, and what to do.
+/// Returns the effect of that state on the output, and what to do.
 [[nodiscard]] QString standingTip(const CalibrationStanding& standing);
 
 }  // namespace tacto::gui

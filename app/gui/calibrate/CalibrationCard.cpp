@@ -18,7 +18,7 @@ QString nameOf(const StimulatorId& one) {
     return one.serial.empty() ? name : QString("%1 · %2").arg(name, QString::fromStdString(one.serial));
 }
 
-/// "oscilloscope X (serial), its own calibration due 2027-03-01".
+/// Returns, for example, "oscilloscope X (serial), its own calibration due 2027-03-01".
 QString instrumentText(const CalibrationInstrument& one) {
     const auto due = !one.due ? QObject::tr("its own due date was not stated")
                      : *one.due < utcToday()
@@ -39,7 +39,7 @@ QString factsOf(const StoredCalibration& c) {
                                              : QObject::tr(" plus %1").arg(quantityText(c.amplitude.offset, unit, 2)),
                       within(c.amplitude), settingText(c.amplitude.lowest, unit),
                       settingText(c.amplitude.highest, unit));
-    QStringList times;  // their lines are in the table
+    QStringList times;  // the table shows their fitted lines
     for (const auto& time : kStoredTimes) {
         const auto title = QString::fromUtf8(time.words.data(), qsizetype(time.words.size()));
         if (const auto& line = c.*time.line) times << QString("%1 ± %2").arg(title, within(*line));
@@ -100,7 +100,7 @@ CalibrationCard::CalibrationCard(CalibrationBook& book, QWidget* parent) : QFram
     fill();
     afterLookChange(*this, [this] { colour(); });
     onEvent(*this, QEvent::Show, [this] {
-        book_.read();  // the command line may have added one
+        book_.read();  // the command line may have added a calibration
     });
 }
 
@@ -111,7 +111,7 @@ std::optional<StimulatorId> CalibrationCard::shown() const {
 }
 
 void CalibrationCard::fill() {
-    // An opened file comes to the front; else the operator's choice stays.
+    // A stimulator just opened is shown; otherwise the operator's choice stays.
     auto wanted = shown();
     if (book_.last() != lastOpen_ || !wanted) wanted = book_.last();
     lastOpen_ = book_.last();
@@ -167,7 +167,7 @@ void CalibrationCard::setReady(bool ready) {
 }
 
 void CalibrationCard::colour() {
-    // This is set by a sheet: a label's own palette is lost when the theme's sheet changes.
+    // Set by a style sheet, since a label loses its own palette when the theme's sheet changes.
     const auto& ink = counts_ ? colours().passText : warns_ ? colours().amberText : colours().text;
     const auto sheet = QString("QLabel { color: %1; }").arg(ink.name());
     if (word_->styleSheet() != sheet) word_->setStyleSheet(sheet);

@@ -1,5 +1,5 @@
-// CalibrationCard.h - does the calibration of a stimulator count today? In a word and a shape, then what it says, then
-// what to do.
+// CalibrationCard.h - shows whether a stimulator's calibration is valid today: a word and a shape, then the
+// calibration's values, then what to do.
 #pragma once
 
 #include <QComboBox>
@@ -15,9 +15,9 @@ class CalibrationCard final : public QFrame {
     Q_OBJECT
 public:
     explicit CalibrationCard(CalibrationBook& book, QWidget* parent = nullptr);
-    /// The stimulator that is shown; nothing where none is known.
+    /// Returns the stimulator shown; nothing if none is known.
     [[nodiscard]] std::optional<StimulatorId> shown() const;
-    /// While a run goes on, or nothing can run, no run can be started.
+    /// Sets whether a run can be started: not during a run, or if nothing can run.
     void setReady(bool ready);
 
 signals:

@@ -25,7 +25,7 @@ QString instrumentsOf(const StoredCalibration& c) {
     return all.isEmpty() ? QString("–") : all.join("; ");
 }
 
-/// The times, which the trend draws: "Interval × 1.0000 + 1.0 µs, ± 0.0060 %".
+/// Returns the fitted lines of the times, as in the trend: "Interval × 1.0000 + 1.0 µs, ± 0.0060 %".
 QString timesText(const StoredCalibration& c) {
     QStringList all;
     for (const auto& time : kStoredTimes) {
@@ -56,7 +56,7 @@ CalibrationHistory::CalibrationHistory(QWidget* parent) : QWidget(parent) {
     table_->setSelectionBehavior(QAbstractItemView::SelectRows);
     table_->setAlternatingRowColors(true);
     table_->setWordWrap(false);
-    table_->horizontalHeader()->setStretchLastSection(true);  // elided; the tool tip has all of it
+    table_->horizontalHeader()->setStretchLastSection(true);  // elided; the tool tip shows the full text
     table_->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
     table_->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
     column->addWidget(table_, 2);
@@ -76,7 +76,7 @@ void CalibrationHistory::list(const CalibrationBook& book, const std::optional<S
     trend_->setVisible(!all.empty());
     trend_->show({all.rbegin(), all.rend()});
     table_->setRowCount(int(all.size()));
-    std::set<std::string> newer;  // units that a newer one was met of
+    std::set<std::string> newer;  // units for which a newer calibration was listed
     for (int row = 0; row < int(all.size()); ++row) {
         const auto& c = all[std::size_t(row)];
         const auto unit = QString::fromStdString(c.unit);
@@ -108,7 +108,7 @@ void CalibrationHistory::list(const CalibrationBook& book, const std::optional<S
 }
 
 void CalibrationHistory::fitColumns() {
-    setTextSize(*table_, TextSize::Small);  // eight columns in a small window
+    setTextSize(*table_, TextSize::Small);  // makes eight columns fit a small window
     setTextSize(*table_->horizontalHeader(), TextSize::Small);
     for (int column = 0; column < kInstruments; ++column) table_->resizeColumnToContents(column);
 }

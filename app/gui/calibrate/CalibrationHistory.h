@@ -1,5 +1,5 @@
-// CalibrationHistory.h - every calibration of a stimulator: how it changed over time, and a list, the newest first:
-// which one counts, which were superseded.
+// CalibrationHistory.h - all calibrations of a stimulator: their change over time, and a list, newest first, that shows
+// which is valid and which were superseded.
 #pragma once
 
 #include <QLabel>
@@ -16,7 +16,7 @@ class CalibrationHistory final : public QWidget {
     Q_OBJECT
 public:
     explicit CalibrationHistory(QWidget* parent = nullptr);
-    /// `of`: nothing where no stimulator is known.
+    /// `stimulator`: nothing if none is known.
     void list(const CalibrationBook& book, const std::optional<StimulatorId>& stimulator);
 
 private:

@@ -14,7 +14,7 @@ namespace {
 constexpr double kMargin = 0.06;
 constexpr int kTicks = 5;
 constexpr int kEdge = 4, kEdgeAbove = 1;         // pixels around the axes
-constexpr int kBelowTicks = 2, kBelowTitle = 0;  // around the title below: a small window has few to spare
+constexpr int kBelowTicks = 2, kBelowTitle = 0;  // around the title below; small, to fit a small window
 constexpr int kMinChars = 24;
 constexpr int kMinLines = 10;
 constexpr int kLegendColumns = 2;
@@ -86,7 +86,7 @@ void CalibrationPlot::build() {
                                           : tr("Each reading appears here\nagainst its command."));
 }
 
-/// The legend lies in the corner that the band leaves: a level at the left edge has the smallest tolerance.
+/// The legend is in the corner that the band leaves free: levels at the left edge have the smallest tolerance.
 void CalibrationPlot::addLegend() {
     axisRect()->insetLayout()->setInsetAlignment(0, Qt::AlignTop | Qt::AlignLeft);
     legend->setFillOrder(QCPLayoutGrid::foColumnsFirst);
@@ -223,7 +223,7 @@ void CalibrationPlot::nameNearest(const CalibrationReadings& of, const AxisUnit&
                               .arg(settingText(use->commanded, of.unit),
                                    uncertainText(use->error, use->expanded, of.unit),
                                    settingText(use->tolerance, of.unit), limitShareText(100 * use->share())));
-    // Below the frame, on the side where there is room.
+    // Placed below the frame, on the side with more room.
     const bool left = at < xAxis->range().center();
     const auto side = left ? Qt::AlignLeft : Qt::AlignRight;
     nearestText_->setPositionAlignment(side | Qt::AlignBottom);
@@ -234,7 +234,7 @@ void CalibrationPlot::nameNearest(const CalibrationReadings& of, const AxisUnit&
     nearestTitle_->setPositionAlignment(side | Qt::AlignBottom);
     nearestTitle_->position->setParentAnchor(left ? nearestText_->topLeft : nearestText_->topRight);
     nearestTitle_->setVisible(true);
-    // A frame that reaches down to the words needs no line to them.
+    // If the frame reaches down to the words, no line to them is needed.
     nearestLead_->setVisible((yAxis->range().upper + band) / yAxis->range().size() < kLeadFrom);
 }
 

@@ -1,6 +1,6 @@
-// CalibrationPlot.h - a calibration's readings over their commands: as measured, with the fitted line; or as errors,
-// in the tolerance band, with each level's mean and its uncertainty, and the level nearest to its tolerance named.
-// Upward and downward sweeps look different; readings that stand out are marked and kept.
+// CalibrationPlot.h - plot of a calibration's readings against their commands: as measured, with the fitted line; or as
+// errors within the tolerance band, with each level's mean and uncertainty, and the name of the level nearest its
+// tolerance. Upward and downward sweeps look different; outliers are marked and kept.
 #pragma once
 
 #include <qcustomplot.h>
@@ -26,12 +26,12 @@ public:
     [[nodiscard]] int drawnMarked() const { return marked_->dataCount(); }
     [[nodiscard]] int drawnMeans() const { return means_->dataCount(); }
     [[nodiscard]] bool hasBand() const { return bandTop_->dataCount() > 0; }
-    /// Where the band begins and ends, in the unit of the axis.
+    /// Returns the range that the band covers, in the unit of the axis.
     [[nodiscard]] QCPRange bandReach() const {
         return {bandTop_->data()->at(0)->key, bandTop_->data()->at(bandTop_->dataCount() - 1)->key};
     }
     [[nodiscard]] bool hasLine() const { return line_->dataCount() > 0; }
-    /// "10 V: …", below its title; empty before the result.
+    /// Returns the text below the nearest level's title, such as "10 V: …"; empty before the result.
     [[nodiscard]] QString nearestShown() const { return nearestText_->visible() ? nearestText_->text() : QString(); }
 
 private:

@@ -13,7 +13,7 @@ namespace tacto::gui {
 
 namespace {
 
-/// A source whose current follows a measured load is programmed to a slightly different one each time.
+/// Largest relative difference of equal currents: if the current follows a measured load, it varies each time.
 constexpr double kSameCurrent = 0.02;
 constexpr double kSameCommand = 1e-9;
 
@@ -30,7 +30,7 @@ void CalibrationReadings::judge() {
     options.sameLevel = unit == "mA" ? kSameCurrent : kSameCommand;
     options.resolution = resolution;
     auto found = fitCalibration(readings, options);
-    if (!found) return;  // one level so far: there is no line yet
+    if (!found) return;  // with only one level there is no line yet
     readings = found->readings;
     fit = std::move(*found);
 }
@@ -100,7 +100,7 @@ std::optional<CalibrationReadings> readingsFrom(const std::string& quantity, con
         level.meanDown = numberOr(row, "mean_down");
         fit.levels.push_back(level);
         out.uncertainty.push_back(numberOr(row, "expanded_uncertainty"));
-        // A session of an earlier version has the mean's error alone.
+        // Sessions of earlier versions have only the mean's error.
         const bool worst = row.contains("worst_error");
         const ToleranceUse use{level.commanded, numberOr(row, worst ? "worst_error" : "error"),
                                numberOr(row, worst ? "worst_expanded_uncertainty" : "expanded_uncertainty"),

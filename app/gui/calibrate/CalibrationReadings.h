@@ -1,8 +1,7 @@
-// CalibrationReadings.h - the readings of one calibrated quantity while they come, and what can be said about them so
-// far.
+// CalibrationReadings.h - the readings of one calibrated quantity as they arrive, with a fit of the readings so far.
 //
-// A reading comes as the protocol records it: record.trial("amplitude up", {commanded, amplitude, ...}). Which of them
-// stand out is found with fitCalibration(), again after each; the protocol's own result has the last word.
+// A reading has the form in which the protocol records it: record.trial("amplitude up", {commanded, amplitude, ...}).
+// After each reading, fitCalibration() marks outliers anew; the protocol's own result replaces these marks.
 //
 // Thread-safety: value type.
 #pragma once
@@ -17,11 +16,11 @@
 
 namespace tacto::gui {
 
-/// How much of its tolerance a level uses: the error of the worse direction and its U together.
+/// The share of its tolerance that a level uses: the larger error of both directions plus its expanded uncertainty U.
 struct ToleranceUse {
     double commanded = 0;
     double error = 0;
-    double expanded = 0;   ///< U, 95 %
+    double expanded = 0;   ///< expanded uncertainty U (95 %)
     double tolerance = 0;  ///< ±
     [[nodiscard]] double share() const { return (std::abs(error) + expanded) / tolerance; }
 };
@@ -30,34 +29,34 @@ struct ToleranceUse {
 struct CalibrationReadings {
     std::string quantity;
     QString unit;                              ///< "V", "mA" or "s"
-    double tolerance_pct = 0;                  ///< share of the command at each level; 0: none known
-    std::vector<CalibrationReading> readings;  ///< in the order in which they came, outliers marked
-    std::optional<Calibration> fit;            ///< nothing before two levels were met
-    double gainExpanded = NAN;                 ///< U of fit->gain; not a number before the result
-    double offsetExpanded = NAN;               ///< U of fit->offset
+    double tolerance_pct = 0;                  ///< tolerance in % of the command at each level; 0: unknown
+    std::vector<CalibrationReading> readings;  ///< in order of arrival, outliers marked
+    std::optional<Calibration> fit;            ///< nothing before two levels were measured
+    double gainExpanded = NAN;                 ///< U (95 %) of fit->gain; NaN before the result
+    double offsetExpanded = NAN;               ///< U (95 %) of fit->offset
     std::vector<double> uncertainty;           ///< U of each of fit->levels; empty before the result
     double resolution = 0;                     ///< the instrument's step, in `unit`
-    std::vector<ToleranceUse> used;            ///< levels that were judged; empty before the result
+    std::vector<ToleranceUse> used;            ///< levels judged; empty before the result
     QString verdict;                           ///< "pass", ...; empty before the result
 
-    /// Fits again.
+    /// Fits the readings again.
     void judge();
-    /// The level nearest to its tolerance, or furthest beyond it. Null before the result.
+    /// Returns the level nearest its tolerance, or furthest beyond it. Null before the result.
     [[nodiscard]] const ToleranceUse* nearest() const;
 };
 
-/// The quantity that a trial, as record.trial() was given it, is a reading of; empty for another trial.
+/// Returns the quantity that a trial passed to record.trial() measures; empty if the trial is no reading.
 [[nodiscard]] std::string calibratedQuantity(const nlohmann::json& trial);
-/// The reading in such a trial.
+/// Returns the reading in such a trial.
 [[nodiscard]] CalibrationReading readingFrom(const nlohmann::json& trial);
-/// Unit of such a trial's reading: amplitude's is stated, the others are times.
+/// Returns the unit of such a trial's reading: stated for amplitudes, seconds for times.
 [[nodiscard]] QString unitFrom(const nlohmann::json& trial);
-/// The tolerance that the protocol's parameters state for a quantity, in %; 0 for none.
+/// Returns the tolerance in % that the protocol's parameters give for a quantity; 0 for none.
 [[nodiscard]] double toleranceOf(const std::string& quantity, const nlohmann::json& parameters);
-/// The readings and levels of a protocol's result for one quantity. Nothing where it is not one that was judged.
+/// Returns the readings and levels for one quantity from a protocol's result; nothing if that quantity was not judged.
 [[nodiscard]] std::optional<CalibrationReadings> readingsFrom(const std::string& quantity, const nlohmann::json& found);
 
-/// "Amplitude", "Interval", "Phase width", "Inter-phase gap".
+/// Returns "Amplitude", "Interval", "Phase width", "Inter-phase gap".
 [[nodiscard]] QString quantityTitle(const std::string& quantity);
 
 }  // namespace tacto::gui

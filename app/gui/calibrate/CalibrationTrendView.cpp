@@ -12,10 +12,10 @@ namespace tacto::gui {
 namespace {
 
 constexpr int kLaneTicks = 3;
-constexpr double kPad = 0.15;  // share of a lane's span, above and below
+constexpr double kPad = 0.15;  // margin above and below, as a share of a lane's span
 constexpr double kDay_s = 86400;
-constexpr int kDayPadding = 12;  // days, where there is one calibration only
-constexpr int kMaxJumps = 2;     // jumps told in words; the plot marks all
+constexpr int kDayPadding = 12;  // days around a single calibration
+constexpr int kMaxJumps = 2;     // most jumps described in words; the plot marks all
 constexpr int kMinLines = 16;
 
 double secondsOf(CalibrationDate day) {
@@ -118,7 +118,7 @@ void CalibrationTrendView::show(std::vector<StoredCalibration> stored) {
     draw();
 }
 
-/// Each unit that was calibrated has its own quantities; the newest's come first.
+/// Each calibrated unit has its own quantities; those of the newest calibration come first.
 void CalibrationTrendView::fillChooser() {
     const auto before = quantity_->currentData();
     const QSignalBlocker quiet(quantity_);
@@ -182,7 +182,7 @@ void CalibrationTrendView::drawLane(LaneOf which, const std::vector<TrendJump>& 
         low = std::min(low, valueOf(point) - bar);
         high = std::max(high, valueOf(point) + bar);
     }
-    if (which == kULane) low = 0;  // a share of 0 would be perfect
+    if (which == kULane) low = 0;  // for U the axis starts at 0, the ideal value
     const bool known = low <= high;
     const auto axis = which == kOffsetLane ? axisUnit(known ? std::max(std::abs(low), std::abs(high)) : 1, unit())
                       : which == kULane    ? AxisUnit{1, "%"}
@@ -207,7 +207,7 @@ void CalibrationTrendView::drawLane(LaneOf which, const std::vector<TrendJump>& 
         if (!jumped) continue;
         lane.jumps->addData(secondsOf(a.made), valueOf(a) * axis.factor);
         lane.jumps->addData(secondsOf(b.made), valueOf(b) * axis.factor);
-        lane.jumps->addData((secondsOf(b.made)) + 1, std::nan(""));  // a gap before the next one
+        lane.jumps->addData((secondsOf(b.made)) + 1, std::nan(""));  // a gap before the next jump
     }
     const double span = known && high > low ? high - low : known && low != 0 ? std::abs(low) * 0.1 : 1;
     const double from = known ? low - (which == kULane ? 0 : kPad * span) : 0;
@@ -216,7 +216,7 @@ void CalibrationTrendView::drawLane(LaneOf which, const std::vector<TrendJump>& 
     lane.axes->axis(QCPAxis::atLeft)->setLabel(labels[which]);
 }
 
-/// One axis of days for all lanes: from the first calibration to the day on which the newest is due, or today.
+/// Draws one axis of days for all lanes: from the first calibration to the newest one's due date, or to today.
 void CalibrationTrendView::drawDays() {
     const double first = secondsOf(points_.front().made), due = secondsOf(due_), now = secondsOf(utcToday());
     const double last = std::max({due, now, secondsOf(points_.back().made)});
@@ -232,7 +232,7 @@ void CalibrationTrendView::drawDays() {
     todayWord_->setText(tr("today"));
     dueWord_->position->setCoords(due, -0.04);
     todayWord_->position->setCoords(now, -0.04);
-    // Two words at one place cannot be read: the day that is due wins.
+    // If both words would overlap, only the due date is shown.
     const double perWord = (last - first + 2 * pad) * 0.16;
     todayWord_->setVisible(std::abs(due - now) > perWord);
 }

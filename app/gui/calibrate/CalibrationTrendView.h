@@ -1,5 +1,5 @@
-// CalibrationTrendView.h - how a stimulator changed from calibration to calibration: gain, offset and U over the days,
-// with error bars, the day on which the newest is due, and in words what moved by more than its uncertainty.
+// CalibrationTrendView.h - changes of a stimulator between calibrations: gain, offset and expanded uncertainty U over
+// the days, with error bars, the newest one's due date, and a sentence for each change larger than its uncertainty.
 #pragma once
 
 #include <QComboBox>
@@ -17,9 +17,9 @@ class CalibrationTrendView final : public QWidget {
     Q_OBJECT
 public:
     explicit CalibrationTrendView(QWidget* parent = nullptr);
-    /// All calibrations that were stored of one stimulator, in their order.
+    /// Shows all stored calibrations of one stimulator, in their order.
     void show(std::vector<StoredCalibration> stored);
-    /// Points of the quantity that is shown.
+    /// Returns the points of the quantity shown.
     [[nodiscard]] const std::vector<TrendPoint>& points() const { return points_; }
 
 private:

@@ -17,10 +17,10 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr double kPlotShare = 0.82;  // the plot's share of the height: with the page's edges 80 % of their column
-constexpr int kCardFrom = 104;       // the width from which a card has room beside others
+constexpr double kPlotShare = 0.82;  // the plot's share of the height
+constexpr int kCardFrom = 104;       // width that a card needs to stand next to others
 constexpr int kCardsApart = 8, kCardsBelow = 0;
-constexpr int kToolHigh = 24;  // the line of the title is no higher: a small window's plot wants the rest
+constexpr int kToolHigh = 24;  // least height of the title line, so that a small window's plot gets the rest
 
 }  // namespace
 
@@ -65,7 +65,7 @@ QWidget* CalibrationView::buildHead() {
            "reading against its command, with the fitted line."));
     row->addWidget(kind_);
     addTools(*row);
-    kind_->hide();  // hidden until the plot is there
+    kind_->hide();  // hidden until there is a plot
     return head;
 }
 
@@ -157,7 +157,7 @@ void CalibrationView::end(const nlohmann::json& results) {
     if (!all_.empty()) choose(follow_ ? nearest() : shown_);
 }
 
-/// The quantity that uses most of its tolerance: the verdict's first reason is about it.
+/// Returns the index of the quantity that uses most of its tolerance: the verdict's first reason is about it.
 int CalibrationView::nearest() const {
     const auto share = [](const CalibrationReadings& one) {
         const auto* use = one.nearest();
@@ -218,7 +218,7 @@ QString CalibrationView::quantityShown() const {
     return shown_ < 0 ? QString() : quantityTitle(all_[std::size_t(shown_)].quantity);
 }
 
-/// The cards stand in rows where one has no room for them, and are as low as the plot's share wants it.
+/// Places the cards in several rows if one row is too narrow, and makes them low enough for the plot's share.
 void CalibrationView::arrange() {
     using Shape = ToleranceCard::Shape;
     if (cards_.empty()) return;
@@ -239,7 +239,7 @@ void CalibrationView::arrange() {
     }
 }
 
-/// Shares it evenly, or by the words where they fit in no other way: a verdict keeps its word.
+/// Shares the width evenly, or by the cards' texts if these do not fit otherwise, so that verdicts keep their word.
 void CalibrationView::shareWidth(int columns) {
     const int count = int(cards_.size());
     std::vector<int> wanted(std::size_t(count), 0);

@@ -1,5 +1,5 @@
-// CalibrationView.h - a calibration while it runs and at its end: one plot, the errors in their tolerance band (or the
-// readings against their commands), and a card for each quantity that says how much of its tolerance it uses.
+// CalibrationView.h - a calibration during and after its run: one plot of the errors in their tolerance band (or of
+// readings against commands), and for each quantity a card that shows how much of its tolerance is used.
 #pragma once
 
 #include <QComboBox>
@@ -22,24 +22,24 @@ class CalibrationView final : public QWidget {
     Q_OBJECT
 public:
     explicit CalibrationView(QWidget* parent = nullptr);
-    /// `parameters`: of the protocol; its tolerances are drawn.
+    /// `parameters`: the protocol's; their tolerances are drawn.
     void begin(const nlohmann::json& parameters);
-    /// Adds a reading, as record.trial() was given it; skips a trial that is no reading.
+    /// Adds a reading passed to record.trial(); ignores a trial that is not a reading.
     void add(const nlohmann::json& trial);
-    /// Draws what came since.
+    /// Draws the readings added since the last call.
     void draw();
-    /// Takes the run's results, whose marks and uncertainties are the last word. What they leave out stays as it came.
+    /// Takes over the marks and uncertainties of the run's results; keeps the values that the results leave out.
     void end(const nlohmann::json& results);
     void setSimulated(bool simulated);
     [[nodiscard]] std::size_t readings() const;
     [[nodiscard]] QString quantityShown() const;
     /// Residuals or measured, in the line above the plot; or wherever its owner puts it: it is visible with the plot.
     [[nodiscard]] QComboBox& plotKind() noexcept { return *kind_; }
-    /// Pictures of a plot say `caption`, and then what stands above the plot.
+    /// Sets the caption of plot pictures, to which the text above the plot is added.
     void captionPicturesBy(const std::function<PictureCaption()>& caption);
 
 signals:
-    /// The plot without what is around it, or back.
+    /// Asks to hide or show everything around the plot.
     void plotOnlyWanted();
 
 protected:
@@ -58,10 +58,10 @@ private:
     void say();
     nlohmann::json parameters_;
     std::vector<CalibrationReadings> all_;
-    std::vector<ToleranceCard*> cards_;  // as all_
+    std::vector<ToleranceCard*> cards_;  // in the order of all_
     int shown_ = -1;
     bool dirty_ = false;
-    bool follow_ = true;  // the plot goes with the run until the operator chooses a card
+    bool follow_ = true;  // the plot follows the run until the operator chooses a card
     QWidget* head_ = nullptr;
     QLabel* title_ = nullptr;
     QLabel* says_ = nullptr;

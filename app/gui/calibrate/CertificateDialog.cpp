@@ -15,7 +15,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kWide = 1020;  // all columns
+constexpr int kWide = 1020;  // width in pixels for all columns
 
 }  // namespace
 
@@ -50,7 +50,7 @@ CertificateDialog::CertificateDialog(BenchController& controller, QWidget* paren
     auto* frame = new QVBoxLayout(this);
     frame->addWidget(page, 1);
     says_ = makeLabel({}, {.name = "certificateSays", .wraps = true, .selectable = true}, this);
-    frame->addWidget(says_);  // in sight, as the button that it speaks of
+    frame->addWidget(says_);  // always visible, like the button to which it refers
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
     enter_ = buttons->addButton(tr("&Enter certificate"), QDialogButtonBox::ActionRole);
     enter_->setObjectName("enterCertificate");
@@ -72,14 +72,14 @@ CertificateDialog::CertificateDialog(BenchController& controller, QWidget* paren
     }
     list();
     judge();
-    // As high as all of it, where the screen is: below that the page scrolls.
+    // High enough for the whole page, if the screen allows; otherwise the page scrolls.
     resize(scaledPx(kWide), sizeHint().height() - page->sizeHint().height() + wholeHeightAt(*column, scaledPx(kWide)));
     onEvent(*this, QEvent::Resize, [this] { table_->fitColumns(); });
 }
 
 void CertificateDialog::changeEvent(QEvent* event) {
     QDialog::changeEvent(event);
-    if (event->type() == QEvent::PaletteChange && enter_ != nullptr) list();  // greyed in the new theme's grey
+    if (event->type() == QEvent::PaletteChange && enter_ != nullptr) list();  // applies the new theme's grey
 }
 
 void CertificateDialog::buildForm(QVBoxLayout& column) {
@@ -114,7 +114,7 @@ void CertificateDialog::buildForm(QVBoxLayout& column) {
 
 std::string CertificateDialog::text(std::string_view field) const {
     const std::string name(field);
-    return (names_->text(name) + figures_->text(name)).toStdString();  // it stands in one of them
+    return (names_->text(name) + figures_->text(name)).toStdString();  // the field is in one of the two forms
 }
 
 Result<Certificate> CertificateDialog::written() const {
@@ -163,7 +163,7 @@ void CertificateDialog::enter() {
     if (!store) return says_->setText(sentence(store.error()));
     if (const auto added = store->add(*certificate, utcToday()); !added) return says_->setText(sentence(added.error()));
     list();
-    names_->set("number", {});  // the next one has another number
+    names_->set("number", {});  // the next certificate has another number
     says_->setText(tr("Certificate %1 is entered.").arg(qtext(certificate->number)));
 }
 
@@ -185,7 +185,7 @@ void CertificateDialog::withdraw() {
     asksWithdraw_ = false;
     auto store = CertificateStore::open(certificateFile());
     if (!store) return says_->setText(sentence(store.error()));
-    const auto certificate = store->all().at(std::size_t(index)).certificate;  // lines are only ever added
+    const auto certificate = store->all().at(std::size_t(index)).certificate;  // valid, since entries are never removed
     if (const auto done = store->withdraw(certificate.number, certificate.serial, utcToday()); !done)
         return says_->setText(sentence(done.error()));
     list();
@@ -221,10 +221,10 @@ enum CertificateColumn {
     kCertificateColumns = kFirstU + 4
 };
 
-/// These columns go first where there is no room for all; the tool tip of a row tells all of it.
+/// These columns are hidden first if there is no room for all; a row's tool tip shows everything.
 constexpr std::array kDroppedFirst{int(kLab),    kFirstU + 3, kFirstU + 2, int(kDate),
                                    int(kDevice), kFirstU + 1, int(kFirstU)};
-constexpr int kMaxRows = 8;  // rows in sight; the rest scrolls
+constexpr int kMaxRows = 8;  // most visible rows; the rest scrolls
 constexpr int kIndexRole = Qt::UserRole;
 constexpr int kStandsRole = Qt::UserRole + 1;  // not withdrawn
 
@@ -267,7 +267,7 @@ CertificateTable::CertificateTable(QWidget* parent) : QTableWidget(0, kCertifica
     setTextSize(*horizontalHeader(), TextSize::Small);
     // Two lines: a title and its unit.
     horizontalHeader()->setMinimumHeight(2 * QFontMetrics(textFont(TextSize::Small)).lineSpacing() + scaledPx(8));
-    // The list is as high as its rows, but no higher than a few.
+    // The table is as high as its rows, up to a few rows.
     setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Maximum);
     setMaximumHeight(kMaxRows * verticalHeader()->defaultSectionSize());
@@ -277,12 +277,12 @@ CertificateTable::CertificateTable(QWidget* parent) : QTableWidget(0, kCertifica
     setAlternatingRowColors(true);
     setWordWrap(false);
     setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
-    horizontalHeader()->setStretchLastSection(true);  // the lines of the table reach its edge
+    horizontalHeader()->setStretchLastSection(true);  // the lines of the table reach its right edge
 }
 
 void CertificateTable::show(const CertificateStore& store, CalibrationDate today) {
     setRowCount(0);
-    for (std::size_t i = store.all().size(); i-- > 0;) {  // the newest entry first
+    for (std::size_t i = store.all().size(); i-- > 0;) {  // newest entry first
         const auto& [certificate, entered, withdrawn] = store.all()[i];
         const auto state = store.state(i, today);
         QStringList cells{markOf(state) + qtext(nameOf(state)),
@@ -304,8 +304,8 @@ void CertificateTable::show(const CertificateStore& store, CalibrationDate today
         for (int column = 0; column < kCertificateColumns; ++column) {
             auto* item = new QTableWidgetItem(cells[column]);
             item->setTextAlignment(alignmentOf(column));
-            // An unused certificate is greyed, and its state says so in words. This is the window's grey: under the
-            // program's style sheet a table's palette has another.
+            // An unused certificate is grey, and its state says so in words. The window's grey is used, as under the
+            // program's style sheet a table's palette has a different one.
             if (state != CertificateState::Counts)
                 item->setForeground(window()->palette().brush(QPalette::PlaceholderText));
             item->setToolTip(whole.join('\n'));
@@ -320,7 +320,7 @@ void CertificateTable::show(const CertificateStore& store, CalibrationDate today
 
 void CertificateTable::fitColumns() {
     for (int column = 0; column < kCertificateColumns; ++column) setColumnHidden(column, false);
-    horizontalHeader()->setStretchLastSection(false);  // a stretched one would be as wide as the rest
+    horizontalHeader()->setStretchLastSection(false);  // a stretched column would take all the remaining width
     resizeColumnsToContents();
     for (const int column : kDroppedFirst) {
         if (horizontalHeader()->length() <= viewport()->width()) break;

@@ -1,8 +1,8 @@
-// CertificateDialog.h - the calibration certificates of the lab's oscilloscopes: which one is in use, which expired,
-// and a form to enter another.
+// CertificateDialog.h - the calibration certificates of the lab's oscilloscopes: which is in use, which has expired,
+// and a form for a new one.
 //
-// Entries are checked while they are typed, by the store's own rules, and can be withdrawn but not changed. An open
-// bench keeps the values with which it was opened.
+// Entries are checked during typing by the store's own rules, and can be withdrawn but not changed. An open bench keeps
+// the values with which it was opened.
 #pragma once
 
 #include <QDialog>
@@ -17,28 +17,27 @@
 
 namespace tacto::gui {
 
-// Every certificate that was entered, the newest first, and how each stands today: a row each, and
-// as many columns as there is room for.
+// Table of all certificates entered, newest first, with their state today: one row each, with as many columns as fit.
 
-/// "U gain (%)", as the form names it too.
+/// Returns, for example, "U gain (%)"; the form uses the same title.
 [[nodiscard]] QString figureTitle(const CertificateFigure& figure);
 
 class CertificateTable final : public QTableWidget {
 public:
     explicit CertificateTable(QWidget* parent);
     void show(const CertificateStore& store, CalibrationDate today);
-    /// Hides columns until the others have room; a row's tool tip tells all of them.
+    /// Hides columns until the others fit; a row's tool tip shows all of them.
     void fitColumns();
-    /// Index into the store of the row that is chosen; -1: none, or it is withdrawn.
+    /// Returns the chosen row's index in the store; -1 if none is chosen or the certificate is withdrawn.
     [[nodiscard]] int chosen() const;
-    /// Empty: none.
+    /// Returns the number of the chosen certificate; empty if there is none.
     [[nodiscard]] QString chosenNumber() const;
 };
 
 class CertificateDialog final : public QDialog {
     Q_OBJECT
 public:
-    /// Proposes the oscilloscope that is open on `controller`.
+    /// Proposes the oscilloscope open on `controller`.
     explicit CertificateDialog(BenchController& controller, QWidget* parent);
 
 protected:
@@ -46,9 +45,9 @@ protected:
 
 private:
     void buildForm(QVBoxLayout& column);
-    /// As it stands in the form.
+    /// Returns the text of a field in the form.
     [[nodiscard]] std::string text(std::string_view field) const;
-    /// As written in the form. Errors: InvalidArgument, one sentence.
+    /// Returns the certificate entered in the form. Errors: InvalidArgument, one sentence.
     [[nodiscard]] Result<Certificate> written() const;
     void judge();
     void enter();
@@ -56,7 +55,7 @@ private:
     void nameWithdraw();
     void list();
 
-    FieldForm* names_ = nullptr;  // whose certificate, and its days
+    FieldForm* names_ = nullptr;  // instrument and dates of the certificate
     FieldForm* figures_ = nullptr;
     QLabel* empty_;
     CertificateTable* table_ = nullptr;

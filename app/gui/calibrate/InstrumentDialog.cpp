@@ -12,7 +12,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kInstrumentChars = 64;  // wide
+constexpr int kInstrumentChars = 64;  // width in characters
 
 QString kindTitle(InstrumentKind kind) {
     switch (kind) {
@@ -26,7 +26,7 @@ QString kindTitle(InstrumentKind kind) {
     return QObject::tr("Probe");
 }
 
-/// "R100 (until 2027-03-01)", "⚠ R100 (certificate expired 2026-10-01)".
+/// Returns "R100 (until 2027-03-01)", "⚠ R100 (certificate expired 2026-10-01)".
 QString presetText(const InstrumentPreset& preset) {
     const auto name = qtext(preset.name);
     if (!preset.due) return QObject::tr("%1 (data sheet)").arg(name);

@@ -1,6 +1,6 @@
 // InstrumentDialog.h - the laboratory's oscilloscopes, shunts and probes: saved once by name, chosen in place.
 //
-// The choices make up the address of the oscilloscope. An instrument whose certificate expired says so and its figures
+// The choices form the address of the oscilloscope. An instrument with an expired certificate is marked, and its values
 // are left out: unknown is not zero (hazard H9).
 #pragma once
 
@@ -19,7 +19,7 @@ public:
     explicit InstrumentDialog(QWidget* parent);
 
 signals:
-    /// The address of the chosen oscilloscope, with what is stated of it, its shunt and its probe.
+    /// The address of the chosen oscilloscope, with the values stated for it, its shunt and its probe.
     void chosen(const QString& address);
 
 private:
@@ -29,14 +29,14 @@ private:
     void compose();
     [[nodiscard]] ChosenInstruments picked() const;
     [[nodiscard]] InstrumentKind formKind() const;
-    /// The instrument as written in the form. Errors: InvalidArgument, one sentence.
+    /// Returns the instrument entered in the form. Errors: InvalidArgument, one sentence.
     [[nodiscard]] Result<InstrumentPreset> written() const;
     void judge();
     void save();
     void remove();
 
     std::vector<InstrumentPreset> all_;
-    FieldForm* choice_ = nullptr;  // a field for each kind, by its word
+    FieldForm* choice_ = nullptr;  // one field for each kind of instrument
     QLabel* address_ = nullptr;
     QLabel* said_ = nullptr;
     QPushButton* use_ = nullptr;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kCardWidth = 176, kNarrowCard = 64, kCardPad = 12, kCardTop = 9, kCardBar = 7, kCardIcon = 14;
 constexpr int kLowPad = 4, kLowBar = 4;
-constexpr int kOneLineFrom = 320;  // where and tolerance stand beside each other from this width on
+constexpr int kOneLineFrom = 320;  // width from which place and tolerance are on one line
 constexpr double kNearTolerance = 0.8;
 
 }  // namespace
@@ -99,7 +99,7 @@ void ToleranceCard::paintEvent(QPaintEvent* /*event*/) {
     shape_ == Shape::Large ? paintLarge(painter) : paintLines(painter);
 }
 
-/// Title, share and verdict beside each other, the bar below them, then where it is.
+/// Paints title, share and verdict on one line, the bar below, then the place of the largest share.
 void ToleranceCard::paintLines(QPainter& painter) const {
     auto line = rect().adjusted(kCardPad, kLowPad, -kCardPad, -kLowPad);
     const QFontMetrics body(textFont(TextSize::Body, QFont::DemiBold));
@@ -161,8 +161,8 @@ void ToleranceCard::paintLarge(QPainter& painter) const {
     }
 }
 
-/// Stands at the right of `head`. Returns the width that it takes: the word is drawn only where it leaves `wanted` to
-/// what stands left (wordedWidth()), since the verdict above and the tool tip have the word too.
+/// Paints the verdict at the right of `head` and returns its width. The word is painted only if it leaves the width
+/// `wanted` for the text at the left (wordedWidth()); otherwise the verdict above and the tool tip show the word.
 int ToleranceCard::paintVerdict(QPainter& painter, const QRect& head, int wanted) const {
     if (verdict_.isEmpty()) return 0;
     const auto style = verdictStyle(verdict_);

@@ -1,5 +1,5 @@
-// ToleranceCard.h - one calibrated quantity as a card: its verdict, how much of its tolerance is used, and where. A
-// click chooses what the plot shows.
+// ToleranceCard.h - one calibrated quantity as a card: its verdict, how much of its tolerance is used, and at which
+// level. A click shows the quantity in the plot.
 #pragma once
 
 #include <QAbstractButton>
@@ -13,12 +13,12 @@ class ToleranceCard final : public QAbstractButton {
 public:
     explicit ToleranceCard(const QString& title, QWidget* parent = nullptr);
     void show(const CalibrationReadings& of);
-    /// What it says as there is room for it: all of it large; the same in two lines; one line, while the reasons of the
-    /// verdict and the tool tip say the rest.
+    /// How much the card shows: everything in large type; the same in two lines; or one line, with the rest in the
+    /// verdict's reasons and the tool tip.
     enum class Shape { Large, TwoLines, OneLine };
     void setShape(Shape shape);
     [[nodiscard]] int heightOf(Shape shape) const;
-    /// The width from which a line has title, share, and the verdict as shape and word.
+    /// Returns the least width at which a line fits title, share, and verdict as shape and word.
     [[nodiscard]] int wordedWidth() const;
     [[nodiscard]] QSize sizeHint() const override;
     [[nodiscard]] QSize minimumSizeHint() const override;

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kDrawingChars = 60, kMinDrawingChars = 42;  // the drawing's width, and the least at which words read well
 
-/// The drawing of a report in the theme's colours and the window's type.
+/// Returns the report's drawing in the theme's colours and the window's font.
 QByteArray inTheme(QByteArray svg) {
     const auto& c = colours();
     const auto replace = [&svg](const char* onPaper, const char* before, const QColor& here) {
@@ -30,7 +30,7 @@ QByteArray inTheme(QByteArray svg) {
     return svg.replace("DejaVu Sans", QApplication::font().family().toUtf8());
 }
 
-/// A drawing as wide as its place lets it be.
+/// A drawing as wide as its place allows.
 class WiringDrawing final : public QLabel {
 public:
     WiringDrawing(const QByteArray& svg, QWidget* parent) : QLabel(parent), renderer_(inTheme(svg)) {
@@ -80,7 +80,7 @@ WiringPage::WiringPage(QWidget* parent) : QScrollArea(parent) {
     const auto file = drawingFile("wiring");
     if (file) {
         QFile svg(QString::fromStdString(file->string()));
-        static_cast<void>(svg.open(QIODevice::ReadOnly));  // the file is there: see drawingFile()
+        static_cast<void>(svg.open(QIODevice::ReadOnly));  // the file exists: see drawingFile()
         auto* drawing = new WiringDrawing(svg.readAll(), page);
         nameWidget(
             *drawing, "wiringDrawing",
@@ -92,7 +92,7 @@ WiringPage::WiringPage(QWidget* parent) : QScrollArea(parent) {
     }
     column->addStretch();
     setWidget(page);
-    for (auto* ground : {page, viewport()}) ground->setAutoFillBackground(false);  // the workspace's own
+    for (auto* ground : {page, viewport()}) ground->setAutoFillBackground(false);  // shows the workspace's background
 }
 
 }  // namespace tacto::gui

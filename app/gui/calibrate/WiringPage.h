@@ -1,5 +1,5 @@
-// WiringPage.h - how a stimulator, a load and an oscilloscope are connected: the drawing that the protocols' questions
-// show, to be looked at before anything is run.
+// WiringPage.h - shows how to connect a stimulator, a load and an oscilloscope, before any run; the drawing is the one
+// in the protocols' questions.
 #pragma once
 
 #include <QScrollArea>
