@@ -12,9 +12,9 @@ namespace tacto::gui {
 
 namespace {
 
-/// The outcome of a session, read again from its files with the study's key: verdict, reasons and results as the
-/// session recorded them, and whether it was simulated; the rest is empty. Errors: kGateRefused for a session that is
-/// not complete; NotFound where its files hold no result; as Study::part().
+/// Returns a session's outcome, read from its files with the study's key: verdict, reasons and results as recorded, and
+/// whether the session was simulated; all else is empty. Errors: kGateRefused for a session that is not complete;
+/// NotFound if its files hold no result; as Study::part().
 Result<RunResult> recordedResult(const Study& study, const StudySession& session) {
     if (session.state != StudySessionState::Complete)
         return fail(kGateRefused, "session {} is {}; only a complete one has a result", session.number,
@@ -24,7 +24,7 @@ Result<RunResult> recordedResult(const Study& study, const StudySession& session
     for (const auto& part : session.parts) {
         const auto file = study.part(part.file);
         if (!file) return failure(file);
-        if (!*file) continue;  // booked, but never begun
+        if (!*file) continue;  // planned, but never begun
         auto verdicts = (*file)->verdicts();
         if (!verdicts) return failure(verdicts);
         const auto& about = (*file)->about();
@@ -99,7 +99,7 @@ void OpenStudy::create(const QString& folder, const StudySettings& settings, std
 void OpenStudy::giveUpOpening() {
     if (!busy()) return;
     close();
-    // Behind it, and in its place: what it opens is forgotten unseen.
+    // This empty work replaces the opening under way, so that its result is dropped.
     work_.start([](const WorkPort&) { return Result<void>(); }, [this](const Result<void>&) { emit changed(); });
 }
 

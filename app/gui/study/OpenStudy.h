@@ -1,7 +1,7 @@
-// OpenStudy.h - the study that the window has open: opened and made beside the window, since a passphrase takes a
-// second, changed at once, and lent to a session while that runs.
+// OpenStudy.h - the study open in the window. Opening and creating run on another thread, since a passphrase takes a
+// second to check; changes are made at once; a running session borrows the study.
 //
-// While it is open no other program changes it. The passphrase lies in locked memory, and in no setting.
+// While it is open, no other program can change it. The passphrase is only in locked memory, never in a setting.
 #pragma once
 
 #include <QObject>
@@ -23,35 +23,35 @@ class OpenStudy final : public QObject {
 public:
     explicit OpenStudy(QObject* parent = nullptr, Study::Surroundings around = {});
 
-    /// Null where none is open, or while it is lent, opened or exported.
+    /// Null if no study is open, or while the study is lent, being opened or exported.
     [[nodiscard]] Study* study() noexcept { return busy() || !study_ ? nullptr : &*study_; }
     [[nodiscard]] bool busy() const { return work_.busy(); }
     [[nodiscard]] QString folder() const { return folder_; }
     [[nodiscard]] const std::shared_ptr<const Secret>& passphrase() const noexcept { return passphrase_; }
 
-    /// The study's title, and whether it needs a passphrase. Errors: as Study::open().
+    /// The study's title, and whether it needs a passphrase. look() errors: as Study::open().
     struct Look {
         QString title;
         bool sealed = true;
     };
     [[nodiscard]] Result<Look> look(const QString& folder) const;
-    /// `passphrase` null: a rehearsal. opened() or refused() follows.
+    /// Opens a study; `passphrase` is null for a rehearsal. opened() or refused() follows.
     void open(const QString& folder, std::shared_ptr<const Secret> passphrase);
     void create(const QString& folder, const StudySettings& settings, std::shared_ptr<const Secret> passphrase);
-    /// Gives up an opening that is under way: neither opened() nor refused() follows.
+    /// Cancels an opening under way: neither opened() nor refused() follows.
     void giveUpOpening();
     void close();
-    /// Lends it to a session, which opens it by itself; takeBack() opens it again.
+    /// Lends the study to a session, which opens the folder itself; takeBack() opens the study here again.
     void lend();
     void takeBack();
-    /// exported() or refused() follows.
+    /// Exports the study; exported() or refused() follows.
     void exportBids(const QString& place, const BidsWith& with = {});
-    /// Reads the result of session `id`, beside the window. resultRead() or refused() follows.
+    /// Reads the result of session `id` on another thread. resultRead() or refused() follows.
     void readResult(const QString& id);
-    /// The profile that its sessions are run with: an approval is for it. The shipped one until it is set.
+    /// Sets the profile for the study's sessions, to which the approval refers. Until then the shipped profile is used.
     void setProfile(std::function<Profile()> profile) { profile_ = std::move(profile); }
     [[nodiscard]] Profile profile() const;
-    /// Call after a change through study(): emits the change.
+    /// Call this after a change through study(); emits changed().
     void noteChange() { emit changed(); }
 
 signals:
@@ -70,7 +70,7 @@ private:
     QString folder_;
     std::shared_ptr<const Secret> passphrase_;
     std::optional<Study> study_;
-    Background work_;  // stands last, so that it ends before what it works on
+    Background work_;  // declared last, so that it ends before the data it uses
 };
 
 }  // namespace tacto::gui

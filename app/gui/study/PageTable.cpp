@@ -31,7 +31,7 @@ int PageTable::chosenRow() const {
     return rows.isEmpty() ? -1 : rows.front().row();
 }
 
-/// Lays out in the style and size of text that it has where it stands.
+/// Lays out the table in its present style and text size.
 void PageTable::layOut() {
     if (columnCount() == 0) return;
     ensurePolished();

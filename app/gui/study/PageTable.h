@@ -1,5 +1,5 @@
-// PageTable.h - a table of records on a page: all rows in sight, no wider than the page has room for, laid out again
-// when the page or the size of text changes.
+// PageTable.h - a table of records on a page: shows all rows, no wider than the page, and laid out again when the page
+// or the text size changes.
 #pragma once
 
 #include "app/gui/theme/RecordColumns.h"
@@ -8,11 +8,11 @@ namespace tacto::gui {
 
 class PageTable final : public QTableWidget {
 public:
-    /// `pad`: from an edge of the page to the table. `chosen`: rows can be chosen, one at a time.
+    /// `pad`: from an edge of the page to the table. `chosen`: true if one row at a time can be selected.
     PageTable(const char* name, const QString& title, QWidget& page, int pad, bool chosen);
-    /// Replaces what it shows.
+    /// Replaces the contents.
     void show(const std::vector<ResultColumn>& columns, const nlohmann::json& records);
-    /// -1 for none.
+    /// -1 if no row is chosen.
     [[nodiscard]] int chosenRow() const;
 
 protected:

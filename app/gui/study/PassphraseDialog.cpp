@@ -155,7 +155,7 @@ void PassphraseEdit::showDots() {
 }
 
 bool PassphraseEdit::event(QEvent* event) {
-    // A letter is text here and no shortcut.
+    // A letter is text here, not a shortcut.
     if (event->type() == QEvent::ShortcutOverride && !static_cast<QKeyEvent*>(event)->text().isEmpty()) {
         const auto* key = static_cast<QKeyEvent*>(event);
         if (key->key() != Qt::Key_Escape && !(key->modifiers() & (Qt::ControlModifier | Qt::AltModifier)))
@@ -192,7 +192,7 @@ void PassphraseEdit::inputMethodEvent(QInputMethodEvent* event) {
     event->accept();
 }
 
-/// A click gives it the keys, and does nothing else: the end is the only place in it.
+/// A click only sets the focus: the cursor always stays at the end.
 void PassphraseEdit::mousePressEvent(QMouseEvent* event) {
     setFocus(Qt::MouseFocusReason);
     event->accept();

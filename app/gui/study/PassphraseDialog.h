@@ -1,5 +1,5 @@
-// PassphraseDialog.h - asks for a study's passphrase: once to open it, twice for a new one. It stays until its owner
-// closes it, so a wrong passphrase is typed again in place.
+// PassphraseDialog.h - asks for a study's passphrase: once to open a study, twice for a new one. The dialog stays until
+// its owner closes it, so that a wrong passphrase can be typed again.
 #pragma once
 
 #include <QDialog>
@@ -12,16 +12,16 @@
 
 namespace tacto::gui {
 
-/// A line in which a passphrase is typed. It lies in locked memory (Secret.h); the line itself holds
-/// dots, so that no copy of it is in the text, in the undo list or with a screen reader.
-/// A paste is taken, since password stores hand over that way; what the clipboard holds is not this line's to wipe.
+/// An input line for a passphrase. The passphrase is in locked memory (Secret.h); the line itself holds only dots, so
+/// that no copy gets into its text, its undo list or a screen reader. Pasting is allowed, since password managers need
+/// it; the clipboard is not wiped here.
 class PassphraseEdit final : public QLineEdit {
     Q_OBJECT
 public:
     static constexpr std::size_t kMaxBytes = 1024;
     explicit PassphraseEdit(QWidget* parent = nullptr);
     [[nodiscard]] bool isEmpty() const noexcept { return size_ == 0; }
-    /// A copy of what was typed.
+    /// Returns a copy of what was typed.
     [[nodiscard]] Secret typed() const;
     [[nodiscard]] bool equals(const PassphraseEdit& other) const noexcept;
     void wipe();
@@ -49,15 +49,15 @@ class PassphraseDialog final : public QDialog {
 public:
     enum class Purpose { Open, New };
     PassphraseDialog(Purpose purpose, const QString& study, QWidget* parent);
-    /// The typed passphrase; null before.
+    /// Returns the passphrase once it was typed; null before.
     [[nodiscard]] std::shared_ptr<const Secret> passphrase() const { return passphrase_; }
-    /// The study did not open: says so, wiped, and asks again.
+    /// Says that the study did not open, wipes the passphrase and asks again.
     void refuse(const QString& why);
-    /// Cancel. A study that is being made is made, so not meanwhile.
+    /// Handles Cancel. A new study cannot be cancelled while it is being created.
     void reject() override;
 
 signals:
-    /// While the passphrase is tried, which takes a second, only Cancel can be pressed.
+    /// The passphrase is being tried, which takes a second; meanwhile only Cancel can be pressed.
     void given();
     void givenUp();  ///< cancelled while a study is being opened
 

@@ -25,12 +25,12 @@ constexpr int kMaxEnrolSeed = 1'000'000;
 
 QString tr(const char* text) { return QObject::tr(text); }
 
-/// Heading, explanation, what is asked, a line for what went wrong, and Cancel beside the button that acts.
+/// A dialog with heading, explanation, questions, a line for errors, and Cancel next to the button that acts.
 class StudyDialog final : public QDialog {
 public:
     using Act = std::function<Result<void>(Study& study)>;
 
-    /// `name`: the dialog is "nameDialog", the line "nameTrouble". Without `explains` there is no explanation.
+    /// The object names are `name` + "Dialog" and `name` + "Trouble". If `explains` is empty there is no explanation.
     StudyDialog(OpenStudy& study, const QString& name, const QString& title, const QString& explains, QWidget* parent)
         : QDialog(parent),
           study_(study),
@@ -56,7 +56,7 @@ public:
         column_->addWidget(form_);
         return form_;
     }
-    /// Takes `page` where it may need more room than the screen has.
+    /// Adds `page` in a scroll area, for content that may be higher than the screen.
     void scroll(QWidget* page) {
         auto* scrolling = new ScrollingPage(this);
         scrolling->hold(page);
@@ -65,8 +65,8 @@ public:
         scrolls_ = true;
         resize(scaledPx(kDialogWide) + 80, kDialogHigh);
     }
-    /// Adds the line and the buttons, none of which is the default. `nothing`: what is said once the study is closed.
-    /// Where `act` succeeds, the dialog tells the others and closes.
+    /// Adds the error line and the buttons, none of them default. `nothing`: the text shown if the study is closed. If
+    /// `act` succeeds, the dialog announces the change and closes.
     void finish(QPushButton* button, const char* name, const QString& nothing, Act act) {
         if (!scrolls_) column_->addStretch(1);  // keeps the questions together below the heading
         column_->addWidget(trouble_);
@@ -79,7 +79,7 @@ public:
         connect(button, &QPushButton::clicked, this, [this, nothing, act = std::move(act)] { take(nothing, act); });
         growWithContent(*this);
     }
-    /// `byReturn`: it is the default.
+    /// `byReturn`: the button is the default.
     void finish(const QString& button, const char* name, const QString& nothing, Act act, bool byReturn = false) {
         auto* primary = new QPushButton(button, this);
         makePrimary(*primary);
@@ -87,10 +87,10 @@ public:
         primary->setDefault(byReturn);
     }
     [[nodiscard]] OpenStudy& opened() const { return study_; }
-    /// The study as it was when the dialog was opened; null without one.
+    /// Returns the study if it is open; null otherwise.
     [[nodiscard]] const Study* study() const { return study_.study(); }
     void clearTrouble() { trouble_->say({}); }
-    /// A success of `act` leaves it open.
+    /// Keeps the dialog open after `act` succeeds.
     void stayOpen() { stays_ = true; }
     void nameCancel(const QString& word) { cancel_->setText(word); }
 
@@ -115,12 +115,12 @@ private:
     bool stays_ = false;
 };
 
-/// "3  severe": a score with its word of ScoreWords.h.
+/// Returns "3  severe": a score with its word from ScoreWords.h.
 QString scoreChoice(std::span<const char* const> words, int score, int from = 1) {
     return QString("%1  %2").arg(score).arg(QCoreApplication::translate("Score", words[std::size_t(score - from)]));
 }
 
-/// A score that has to be chosen: `words` say what its numbers mean. Without it `needed`.
+/// A field for a score that must be chosen; `words` describe the scores. `needed`: what to say if none is chosen.
 FormField scoreField(const char* name, const QString& label, std::span<const char* const> words, const QString& needed,
                      int from = 1) {
     std::vector<std::pair<QString, QString>> choices{{"", tr("to be chosen")}};
@@ -131,7 +131,7 @@ FormField scoreField(const char* name, const QString& label, std::span<const cha
     return field;
 }
 
-/// The sessions of a study, "session"; first chosen is the last one of `code`, else the last of all.
+/// The field "session" with all sessions of a study; selects the last one of `code`, or else the last of all.
 FormField sessionField(const Study* study, const QString& code) {
     std::vector<std::pair<QString, QString>> choices;
     QString chosen, last;
@@ -161,14 +161,14 @@ FormField aboutField(const char* name, const QString& label, std::span<const std
                        tr("Only where the approval asks for it. It is sealed, and exported only on request."));
 }
 
-/// Side effects since the session, and whether they are related to it.
+/// Side effects since the session, each with its relation to the session.
 struct SideEffectRows {
     struct Item {
         QComboBox* severity;
         QComboBox* relation;
     };
     QWidget* grid = new QWidget;
-    std::vector<Item> items{};  ///< as kSideEffects
+    std::vector<Item> items{};  ///< in the order of kSideEffects
 
     SideEffectRows() {
         auto* cells = layoutIn<QGridLayout>(*grid, -1, {});
@@ -441,7 +441,7 @@ QDialog* goBackDialog(OpenStudy& study, QWidget* parent) {
                           : asks->study()->lossOfGoingBack();
     asks->say(loss ? sentence(Error{ErrorCode::Stopped, loss->sentence()}) : sentence(loss.error()), "goBackLoss");
     const auto word = loss ? qtext(loss->word()) : QString();
-    PassphraseEdit* passphrase = nullptr;  // a rehearsal has none
+    PassphraseEdit* passphrase = nullptr;  // null for a rehearsal
     std::vector<FormField> fields;
     if (study.passphrase()) {
         passphrase = new PassphraseEdit(asks);

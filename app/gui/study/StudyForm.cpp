@@ -123,7 +123,7 @@ nlohmann::json& memberOf(nlohmann::json& record, std::string_view key) {
     return dot == std::string_view::npos ? outer : outer[std::string(key.substr(dot + 1))];
 }
 
-/// The settings with which the form begins. A study whose approval names no procedure names one with its amendment.
+/// Returns the settings shown first. If the study's approval names no procedure, the amendment must name one.
 StudySettings shownIn(const std::optional<StudySettings>& amended) {
     auto settings = amended.value_or(StudySettings{});
     if (!settings.procedure) settings.procedure.emplace();
@@ -131,7 +131,7 @@ StudySettings shownIn(const std::optional<StudySettings>& amended) {
     return settings;
 }
 
-/// The standard encoding, or both. What a study `held` before is among them as it is.
+/// Returns the choices of encoding: standard, or both. If the study `held` other encodings, they are added unchanged.
 std::vector<std::pair<std::string, std::string>> encodingChoices(const std::string& held) {
     const auto word = [](const char* text) { return translated(text).toStdString(); };
     std::vector<std::pair<std::string, std::string>> all{
@@ -187,7 +187,7 @@ const std::vector<StudyFormField>& studyForm() {
 }
 
 StudyForm::StudyForm(QWidget* parent) : QWidget(parent) {
-    // Has one column where two have no room for their words.
+    // One column if two are too narrow for their words.
     auto* both = new TurningRow([] { return scaledPx(kTwoFormColumns) + 1; }, this);
     both->setContentsMargins(0, 0, 0, 0);
     both->setSpacing(scaledPx(32));

@@ -1,8 +1,8 @@
-// StudyForm.h - the settings of a study, new or to be amended, as people read them: where each stands in the form, its
-// label, what it does.
+// StudyForm.h - form for the settings of a new study or of an amendment: the place, label and explanation of each
+// field.
 //
 // Units, ranges, words and defaults come from the core's table (studyFields() of core/study/StudySettings.h), which
-// alone judges.
+// alone decides what is valid.
 #pragma once
 
 #include <QBoxLayout>
@@ -23,8 +23,8 @@ struct StudyFormField {
     std::string_view key;  ///< "electrode.area_cm2" for a member of a record
     const char* label;
     const char* tip;
-    const char* needed = nullptr;      ///< what stays unknown without it; null: its default will do
-    std::vector<const char*> words{};  ///< the file's words in their order, put for people; empty: as they are
+    const char* needed = nullptr;      ///< what is unknown without a value; null: the default is used
+    std::vector<const char*> words{};  ///< the file's words, in order, phrased for people; empty: as they are
 };
 [[nodiscard]] const std::vector<StudyFormField>& studyForm();
 
@@ -32,13 +32,13 @@ class StudyForm final : public QWidget {
     Q_OBJECT
 public:
     explicit StudyForm(QWidget* parent = nullptr);
-    /// The form's settings, with what the approval says of this program and of `profile`, which its sessions are run
-    /// with. Errors: of the first field that is refused or missing; the form goes there.
+    /// Returns the form's settings, with the approval's facts about this program and about `profile`, with which the
+    /// sessions are run. Errors: of the first refused or missing field, which gets the focus.
     [[nodiscard]] Result<StudySettings> read(const Profile& profile);
     /// Writes into a field, as if it were typed.
     void set(const std::string& key, const QString& text);
     void clear();
-    /// Begins an amendment: fields hold `settings`, and the reference is the amendment's, which is still to be entered.
+    /// Begins an amendment: shows `settings`; the amendment's own reference is still to be entered.
     void amend(const StudySettings& settings);
 
 signals:

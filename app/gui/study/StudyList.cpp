@@ -144,7 +144,7 @@ QWidget* StudyList::buildParticipants() {
     return holder;
 }
 
-/// The actions for the participant who is chosen in the table.
+/// Builds the buttons for the participant selected in the table.
 QWidget* StudyList::buildOfOne() {
     auto* holder = new QWidget(this);
     auto* row = rowIn(*holder, 8);
@@ -303,7 +303,7 @@ void StudyList::makeReport(const QString& title, const QString& name, const QStr
     });
 }
 
-/// A report that names people is noted before it is written; the committee's names none.
+/// Records in the study that a report will be written, if it names people; the committee's report does not.
 bool StudyList::noteReport(const QString& out, const QStringList& more) {
     if (more.contains("committee")) return true;
     auto* study = study_.study();
@@ -358,7 +358,7 @@ std::string localText(std::chrono::sys_seconds at) {
     return QDateTime::fromSecsSinceEpoch(at.time_since_epoch().count()).toString("yyyy-MM-dd HH:mm").toStdString();
 }
 
-/// {code, number, protocol, state, answered, begun}.
+/// Returns the rows: {code, number, protocol, state, answered, begun}.
 json sessionRows(const std::vector<StudySession>& sessions) {
     auto rows = json::array();
     for (const auto& one : sessions)

@@ -1,5 +1,5 @@
-// StudyList.h - an open study on one page: its approval, its participants and sessions with their states in words, and
-// what can be done with each. Every change has a dialog of its own.
+// StudyList.h - page for an open study: its approval, its participants and sessions with their states in words, and the
+// actions on each. Every change has its own dialog.
 #pragma once
 
 #include <QLabel>
@@ -23,13 +23,13 @@ class StudySessions;
 class StudyList final : public QWidget {
     Q_OBJECT
 public:
-    /// `study` outlives it.
+    /// `study` must outlive this.
     explicit StudyList(OpenStudy& study, QWidget* parent = nullptr);
-    /// A sentence in the way; empty for none.
+    /// Shows a sentence about a problem; empty for none.
     void say(const QString& what, bool trouble = true);
-    /// Says why no session can begin; says nothing where one can.
+    /// Shows why no session can begin; shows nothing if one can.
     void sayWhatHinders();
-    /// Empty where none is.
+    /// Returns the chosen participant's code; empty if none is chosen.
     [[nodiscard]] QString chosen() const;
 
 signals:
@@ -39,7 +39,7 @@ private:
     [[nodiscard]] QWidget* buildParticipants();
     [[nodiscard]] QWidget* buildOfOne();
     [[nodiscard]] QWidget* buildFoot();
-    /// Into its menu; what was said before is taken back.
+    /// Adds an action to the button's menu; triggering it clears the previous message.
     QAction* addAction(QPushButton& to, const QString& text, const char* name, std::function<void()> act);
     void refresh();
     void showTables(const Study& study);
@@ -59,21 +59,21 @@ private:
     PageTable* participants_;
     QLabel* withdrawn_;
     StudySessions* sessions_;
-    std::vector<QPushButton*> ofOne_;  ///< need a participant
-    std::vector<QPushButton*> all_;    ///< need the study
-    QAction* goBack_ = nullptr;        ///< shown where the ledger is not the newest known
+    std::vector<QPushButton*> ofOne_;  ///< buttons that need a participant
+    std::vector<QPushButton*> all_;    ///< buttons that need the study
+    QAction* goBack_ = nullptr;        ///< shown if the ledger is older than the newest known
     QWidget* ofOneRow_ = nullptr;
 };
 
-/// The sessions of a study as a table, and the way to the result of one that is complete.
+/// The sessions of a study as a table, with a button that shows the result of a complete session.
 class StudySessions final : public QWidget {
     Q_OBJECT
 public:
-    /// The table is as wide as `page` has room for.
+    /// The table is as wide as `page` allows.
     explicit StudySessions(QWidget& page);
-    /// Hidden where there are none.
+    /// Shows the sessions; hides the table if there are none.
     void show(const Study& study);
-    /// False while the study is not there to be read.
+    /// Set to false while the study cannot be read.
     void setReadable(bool readable);
     using QWidget::show;
 
@@ -82,10 +82,10 @@ signals:
 
 private:
     void judge();
-    /// Null where none is chosen.
+    /// Returns the chosen session; null if none is chosen.
     [[nodiscard]] const StudySession* chosen() const;
-    std::vector<StudySession> sessions_;  ///< the sessions in the order of the rows
-    std::string id_;                      ///< the chosen one's id
+    std::vector<StudySession> sessions_;  ///< in the order of the rows
+    std::string id_;                      ///< id of the chosen session
     bool readable_ = false;
     PageTable* table_;
     QPushButton* result_ = nullptr;

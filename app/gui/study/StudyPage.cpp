@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kFormWide = 900;
 
-/// The dialog closes once the study is open, and asks again where it is refused.
+/// Returns a dialog that closes once the study is open, and asks again if the passphrase is refused.
 PassphraseDialog* asksFor(OpenStudy& study, PassphraseDialog::Purpose purpose, const QString& title, QWidget* parent) {
     auto* asks = new PassphraseDialog(purpose, title, parent);
     QObject::connect(&study, &OpenStudy::opened, asks, &QDialog::accept);

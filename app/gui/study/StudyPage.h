@@ -1,4 +1,4 @@
-// StudyPage.h - studies in the Pilot workspace: one is opened or made, then listed.
+// StudyPage.h - page for studies in the Pilot workspace: opens or creates a study, then lists its contents.
 #pragma once
 
 #include <QLabel>
@@ -22,9 +22,9 @@ class StudyList;
 class StudyPage final : public QWidget {
     Q_OBJECT
 public:
-    /// `study` outlives it.
+    /// `study` must outlive this.
     explicit StudyPage(OpenStudy& study, QWidget* parent = nullptr);
-    /// Asks for its passphrase where it has one.
+    /// Opens a study; asks for its passphrase if there is one.
     void open(const QString& folder);
     [[nodiscard]] StudyList& list() { return *list_; }
 
@@ -44,13 +44,13 @@ private:
     QPointer<PassphraseDialog> asks_;
 };
 
-/// The page with all that a new study needs: its folder, its settings, and then a passphrase.
+/// The page to create a study: its folder, its settings, and then a passphrase.
 class NewStudyPage final : public QWidget {
     Q_OBJECT
 public:
-    /// `study` outlives it.
+    /// `study` must outlive this.
     explicit NewStudyPage(OpenStudy& study, QWidget* parent = nullptr);
-    /// Empties the page, as for a new study.
+    /// Empties the page for a new study.
     void clear();
 
 signals:
