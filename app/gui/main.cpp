@@ -33,8 +33,8 @@ int main(int argc, char** argv) {
     if (const auto refused = tacto::refusedStart(argc, argv))
         return answer({"tactoscope: " + tacto::gui::qtext(*refused), 3});
     if (const auto none = tacto::gui::DisplayWatch::noneIsNamed(arguments)) return answer({*none, 3});
-    QLocale::setDefault(QLocale::c());  // numbers are written alike everywhere
-    tacto::SignalStop stops;            // made before any other thread
+    QLocale::setDefault(QLocale::c());  // numbers are written the same way in every country
+    tacto::SignalStop stops;            // created before any other thread
     std::optional<tacto::gui::DisplayWatch> watch(std::in_place);
     QApplication application(argc, argv);
     watch.reset();

@@ -9,7 +9,7 @@
 
 namespace tacto::gui {
 
-// Sockets are looked at so often; plugging in takes longer than milliseconds.
+// Interval between checks for connected devices; plugging in takes longer than milliseconds.
 constexpr std::chrono::milliseconds kWatchInterval(1000);
 
 BenchController::BenchController(MakeRegistry makeRegistry, QObject* parent, std::function<QDate()> today)
@@ -40,7 +40,7 @@ Result<bool> BenchController::allVirtual(const std::vector<DeviceUri>& uris) con
 }
 
 void BenchController::stop(const char* by) noexcept {
-    stops_->raise();  // first, even with nothing to switch off: see StopCounter.h
+    stops_->raise();  // first, even if there is nothing to switch off: see StopCounter.h
     published_.stop(by);
 }
 
@@ -77,10 +77,10 @@ void BenchController::close() {
 
 void BenchController::arm(const ArmRequest& request, StopMark asked) {
     order(asked, [this, request](Bench& bench) -> Result<void> {
-        if (bench.telemetry().paused) bench.disarm();  // so that resuming lets no train out
-        bench.resume();                                // a pause from before this arming is over
+        if (bench.telemetry().paused) bench.disarm();  // so that resuming releases no train
+        bench.resume();                                // ends a pause that began before this arming
         const auto armed = bench.arm(request);
-        if (!armed) bench.disarm();                                                   // also what was armed earlier
+        if (!armed) bench.disarm();                                                   // also ends an earlier arming
         if (auto again = live_->repeatCapture(); !again) scopeFailed(again.error());  // arming may have used it
         if (!armed) return armed;
         tell([this] { emit this->armed(); });
@@ -91,7 +91,7 @@ void BenchController::arm(const ArmRequest& request, StopMark asked) {
 void BenchController::checkImpedance(const ArmRequest& request, StopMark asked) {
     order(asked, [this, request](Bench& bench) -> Result<void> {
         if (bench.telemetry().paused) bench.disarm();
-        bench.resume();  // a pause from before this check is over
+        bench.resume();  // ends a pause that began before this check
         const auto found = bench.checkImpedance(request);
         if (auto again = live_->repeatCapture(); !again) scopeFailed(again.error());  // the check may have used it
         if (!found) return failure(found);
@@ -110,7 +110,7 @@ void BenchController::drive(DriveSource source, double roughness, double pressur
     lastDrive_ = {source, roughness, pressure};
     if (source == DriveSource::Off) {
         thread_.post([this] {
-            if (live_) static_cast<void>(live_->bench().drive(DriveSource::Off));  // refused for nothing
+            if (live_) static_cast<void>(live_->bench().drive(DriveSource::Off));  // if refused, nothing drives anyway
         });
         return;
     }
@@ -158,7 +158,7 @@ void BenchController::fitLoad(const std::string& load) {
         if (!live_ || !live_->bench().devices().load) return;
         live_->bench().disarm();
         if (auto done = live_->bench().devices().load->fitLoad(load); !done) return report(done.error());
-        // A record of the load before is neither shown nor waited for.
+        // A capture of the previous load is neither shown nor waited for.
         if (auto again = live_->repeatCapture(); !again) return scopeFailed(again.error());
         tell([this, name = QString::fromStdString(load)] { emit loadFitted(name); });
     });
@@ -177,7 +177,7 @@ void BenchController::stopScope() {
     });
 }
 
-/// Hands the order to the bench's thread. From now on no other run can begin beside it.
+/// Hands the order to the bench's thread. From now on no other run can begin.
 RunOrder BenchController::begun(const RunOrder& order, StopMark asked) {
     if (activity_ == Activity::Live) closedByRun_ = lastLive_;
     profile_ = order.profile;
@@ -191,7 +191,7 @@ RunOrder BenchController::begun(const RunOrder& order, StopMark asked) {
     return marked;
 }
 
-/// A run as it is started and ended, and its state meanwhile.
+/// A prepared run: how to start and end it, and what it owns meanwhile.
 struct BenchController::Prepared {
     std::shared_ptr<void> owner;
     ProtocolRun* run = nullptr;
@@ -303,7 +303,7 @@ void BenchController::openOnThread(const LiveOrder& order, StopMark asked) {
     auto live =
         DrivenBench::open(registry, order, {limits_, stops_, asked, [beat = heartbeat_] { return beat->runs(); }});
     if (!live) return give_up(live.error());
-    published_.publish(&(*live)->bench());  // from here on a stop reaches it
+    published_.publish(&(*live)->bench());  // from here on a stop reaches this bench
     if (stops_->movedSince(asked)) {
         published_.publish(nullptr);
         live->reset();
@@ -348,9 +348,9 @@ void BenchController::runOnThread(const RunOrder& order, std::uint64_t number, c
         return end();
     }
     auto& run = *prepared->run;
-    published_.publish(&run.bench());                // from here on a stop reaches it
-    published_.forgetStops();                        // earlier stops are for start() to see: the order is older than it
-    const auto bench = describeBench(run.opened());  // asks the devices: not beside the script that uses them
+    published_.publish(&run.bench());                // from here on a stop reaches this bench
+    published_.forgetStops();                        // the order is newer than these; start() checks them
+    const auto bench = describeBench(run.opened());  // asks the devices now, before the script uses them
     RunRequest hooks;
     hooks.operatorDesk = &operator_;
     feed_.listen(hooks);
@@ -360,8 +360,8 @@ void BenchController::runOnThread(const RunOrder& order, std::uint64_t number, c
         *prepared = {};
         return end();
     }
-    // A stop between start and publishing has switched off the bench, and has not reached the script. One that the
-    // script asked for itself, as a pilot session's stop test does, ends nothing.
+    // A stop between start and publishing has switched off the bench but has not reached the script, so we pass it on.
+    // A stop that the script asked for itself, such as the stop test of a pilot session, ends nothing.
     if (const auto by = published_.publish(run.bench(), *run.script())) run.script()->stop(by->c_str());
     become(Activity::Running, bench, tap);
     const auto clock = run.opened().clock;
@@ -373,7 +373,7 @@ void BenchController::runOnThread(const RunOrder& order, std::uint64_t number, c
     finished->result = prepared->finish();
     finished->html = run.files().report(".html");
     finished->pdf = run.files().report(".pdf");
-    *prepared = {};  // released before its end is signalled: a study that it held can be opened then
+    *prepared = {};  // released before the end is signalled, so that a study held by the run can be opened then
     end();
 }
 

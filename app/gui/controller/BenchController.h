@@ -1,15 +1,15 @@
-// BenchController.h - the window's one way to the bench: opens it, drives it, runs protocols on it, and lets displays
-// look.
+// BenchController.h - the window's only access to the bench: opens and drives the bench, runs protocols on it, and
+// provides data for displays.
 //
-// The bench lives on a thread of its own; nothing here blocks the window. Calls are carried out in order on that
-// thread; failed() reports what fails. stop() goes straight to the outputs, past every queue, and ends everything
-// that was asked for before it, whether it waits, opens devices or runs: what may start output is carried out only if
-// no stop came since it was asked for.
+// The bench lives on its own thread; no call blocks the window. Calls are carried out in order on that thread; failed()
+// reports failures. stop() switches the outputs off directly, bypassing every queue, and ends everything requested
+// before it, whether waiting, opening devices or running: an action that may start output is carried out only if no
+// stop came after its request.
 //
-// A bench of simulated devices and recordings runs on the virtual clock, moved by that thread at `speed` times real
-// time; one with hardware runs on the steady clock. Every opened bench records to a session file.
+// A bench of simulated devices and recordings runs on the virtual clock, which that thread moves at `speed` times real
+// time; a bench with hardware runs on the steady clock. Every open bench records to a session file.
 //
-// Thread-safety: the GUI thread, but for stop(), which any thread may call.
+// Thread-safety: the GUI thread, except stop(), which any thread may call.
 #pragma once
 
 #include <QObject>
@@ -37,163 +37,163 @@ class DrivenBench;
 enum class Activity {
     Closed,  ///< no bench
     Opening,
-    Live,     ///< a bench is open for looking and driving by hand
-    Running,  ///< a protocol has it
+    Live,     ///< a bench is open for viewing and for driving by hand
+    Running,  ///< a protocol uses the bench
     Closing,
 };
 
-/// The end of a stop's `by` where the operator's key is held: it was pressed before.
+/// Suffix of a stop's `by` if the operator's key was pressed earlier and is still held.
 inline constexpr const char* kStillHeld = ", held)";
 
-/// A pilot session and its two people.
+/// A pilot session's study and the two people who take part.
 struct PilotSeats {
     std::filesystem::path study;
-    std::shared_ptr<const Secret> passphrase = {};  ///< null: a rehearsal has none
-    /// Answers for both people; outlives the run. Null: the virtual participant does.
+    std::shared_ptr<const Secret> passphrase = {};  ///< null for a rehearsal
+    /// Answers for both people; must outlive the run. Null: the virtual participant answers.
     PilotParticipant* people = nullptr;
     bool codeConfirmed = false;
     std::vector<ExclusionAnswer> exclusions = {};
-    std::optional<MarkerAddress> markers = {};  ///< nothing: none are sent
-    /// Called on the bench's thread, before anything is asked, with the session's clock and the number of the
-    /// participant's stops in earlier parts. May be empty.
+    std::optional<MarkerAddress> markers = {};  ///< nothing: no markers are sent
+    /// Called on the bench's thread before any question, with the session's clock and the number of the participant's
+    /// stops in earlier parts. May be empty.
     std::function<void(std::shared_ptr<const Clock> clock, int stops)> begun = {};
-    /// Whether the session took a stop as its own, which then ends no script: a test of the operator's STOP. The output
-    /// is off when it returns true. Any thread; may be empty.
+    /// Returns true, with the output off, if the session handled a stop itself as a test of the operator's STOP; such a
+    /// stop ends no script. Any thread; may be empty.
     std::function<bool(const char* by)> takesStop = {};
 };
 
-/// A run's end, with the reports that were written about it.
+/// The end of a run, with the reports written about it.
 struct FinishedRun {
     std::uint64_t number = 0;  ///< the number that run() returned
     RunOrder order;
     RunResult result;
-    std::filesystem::path html, pdf;        ///< empty when not written
-    std::optional<Seconds> benchTime = {};  ///< how long it took on the virtual clock; nothing on the steady one
+    std::filesystem::path html, pdf;        ///< empty if not written
+    std::optional<Seconds> benchTime = {};  ///< duration on the virtual clock; nothing on the steady clock
 };
 
 class BenchController final : public QObject {
     Q_OBJECT
 public:
     using MakeRegistry = std::function<Registry()>;
-    /// `today` as of DayNotes.
+    /// `today`: as for DayNotes.
     explicit BenchController(MakeRegistry makeRegistry, QObject* parent = nullptr, std::function<QDate()> today = {});
-    ~BenchController() override;  ///< outputs off, bench closed, thread joined
+    ~BenchController() override;  ///< switches outputs off, closes the bench, joins the thread
 
     [[nodiscard]] Activity activity() const noexcept { return activity_; }
     /// Null while Closed or Opening.
     [[nodiscard]] std::shared_ptr<const OpenBench> open() const { return open_; }
-    /// Disconnected without a bench.
+    /// Disconnected if there is no bench.
     [[nodiscard]] Telemetry telemetry() const { return published_.telemetry(); }
-    /// The open device's own report in that role: losses, clock drift. Nothing where it has none.
+    /// Returns the open device's own report in that role: losses, clock drift. Nothing if the device has none.
     [[nodiscard]] std::optional<DeviceReport> deviceReport(Role role) const { return published_.deviceReport(role); }
-    /// The samples, frames and trains of the open bench. Null without one; one reader, LiveHistory.
+    /// Returns the samples, frames and trains of the open bench; null if none. Only LiveHistory may read the tap.
     [[nodiscard]] std::shared_ptr<BenchTap> tap() const { return tap_; }
-    /// The profile in force: of the open bench, else the one of the last order or the shipped one.
+    /// Returns the profile in force: the open bench's, otherwise that of the last order, or the shipped one.
     [[nodiscard]] const Profile& profile() const noexcept { return profile_; }
     [[nodiscard]] const ShippedLimits& limits() const noexcept { return limits_; }
-    /// Who works here today, and on which sample: stands in every session that begins.
+    /// Returns who works here today and on which sample; written into every session that begins.
     [[nodiscard]] DayNotes& day() noexcept { return day_; }
-    /// A run of that script, with the profile, the limits and the notes of the day as they are now.
+    /// Returns a run of that script, with the present profile, limits and notes of the day.
     [[nodiscard]] RunOrder orderOf(ProtocolSource script, ProtocolDeclaration declaration,
                                    ProtocolSettings settings) const;
     /// Watches which devices are present.
     [[nodiscard]] DeviceWatch& watch() noexcept { return watch_; }
-    /// Whether these are simulated devices and recordings only: nothing that can put out a current.
-    /// Errors: as Registry::allVirtual().
+    /// Returns true if all devices are simulated or recordings, which cannot put out a current. Errors: as
+    /// Registry::allVirtual().
     [[nodiscard]] Result<bool> allVirtual(const std::vector<DeviceUri>& uris) const;
 
-    /// Opens nothing on a new day before its notes were asked for: DayNotes::asksFirst().
+    /// Opens nothing on a new day until its notes have been asked for: DayNotes::asksFirst().
     void openLive(const LiveOrder& order);
     void close();
-    /// The bench that a run closed, with nothing opened or closed since: openAgain() opens the same devices.
+    /// True if a run closed the bench and nothing was opened or closed since: openAgain() opens the same devices.
     [[nodiscard]] bool closedByRun() const noexcept { return closedByRun_.has_value(); }
     void openAgain();
-    /// The text that the operator reads and confirms before this load is armed: `request.confirmed`. Empty: no bench.
+    /// Returns the text that the operator confirms before this load is armed (`request.confirmed`). Empty: no bench.
     [[nodiscard]] std::string confirmationOf(const Load& load) const;
-    /// The window takes two deliberate steps; `request.operatorConfirmed` says they were taken. Whatever fails leaves
-    /// the bench disarmed.
+    /// Arms the bench. The window takes two deliberate steps; `request.operatorConfirmed` says that both were taken.
+    /// After any failure the bench is disarmed.
     void arm(const ArmRequest& request, StopMark asked);
     void arm(const ArmRequest& request) { arm(request, mark()); }
-    /// The impedance check by itself, confirmed as arming is; it always ends disarmed. checked() reports what it found.
+    /// Only checks the impedance, confirmed like arming; always ends disarmed. checked() reports the result.
     void checkImpedance(const ArmRequest& request, StopMark asked);
     void checkImpedance(const ArmRequest& request) { checkImpedance(request, mark()); }
-    /// Disarms at once, ahead of what waits to be done; ends a running protocol.
+    /// Disarms at once, ahead of all waiting tasks; ends a running protocol.
     void disarm();
-    /// A mark for an order of two steps: taken at the first, so that a stop before the second voids it.
+    /// Returns a mark, taken at the first of an order's two steps: a stop before the second step voids the order.
     [[nodiscard]] StopMark mark() const noexcept { return stops_->mark(); }
     [[nodiscard]] bool stoppedSince(StopMark asked) const noexcept { return stops_->movedSince(asked); }
-    /// Outputs off before this returns; any thread. Ends a running protocol too, and the opening of devices as soon as
-    /// the driver that is at work returns.
+    /// Switches the outputs off before it returns; any thread. Also ends a running protocol, and ends the opening of
+    /// devices as soon as the present driver call returns.
     void stop(const char* by) noexcept;
     void pause() { published_.pause(); }
     void resume() { published_.resume(); }
-    /// The output is held back; of a protocol: it waits, or will at its next step.
+    /// True if the output is held back; a protocol then waits, or will at its next step.
     [[nodiscard]] bool paused() const { return published_.paused(); }
-    /// Marks the moment `at` of the session that is being recorded with a word, past every queue and without waiting
-    /// for the disk; no output is touched. False where nothing is recorded.
+    /// Marks the time `at` of the session being recorded with a word, bypassing every queue and without waiting for the
+    /// disk; touches no output. Returns false if nothing is recorded.
     [[nodiscard]] bool markMoment(Instant at, const QString& word);
     void resetFault();
     void drive(DriveSource source, double roughness = 0, double pressure = 0);
-    /// The drive that was last ordered here; telemetry says whether the bench still follows it.
+    /// Returns the drive last ordered here; telemetry says whether the bench still follows that order.
     [[nodiscard]] const DriveCommand& lastDrive() const noexcept { return lastDrive_; }
-    /// The command that "By hand" would ask for, as a person last set it on this bench; its source is ignored, and it
-    /// orders nothing.
+    /// Sets the command that "By hand" would ask for, as last set by a person on this bench. The source in `hand` is
+    /// ignored, and nothing is ordered.
     void setHand(const DriveCommand& hand) { hand_ = hand; }
     [[nodiscard]] const DriveCommand& hand() const noexcept { return hand_; }
     void setProfile(const Profile& profile);
     void setSpeed(double speed);
-    /// Puts a surface under a simulated finger; an empty material lifts it.
+    /// Puts a surface under a simulated finger; an empty material lifts the finger.
     void present(const std::string& material, double speed_mm_s, double force_n);
-    /// The output is off first. loadFitted() says that the load is there; every capture after it is of that load.
+    /// Switches the output off, then fits the load. After loadFitted() every capture shows that load.
     void fitLoad(const std::string& load);
-    /// From now on captures come by captured(), one per trigger, until stopScope() or scopeStopped(). `single`: one,
-    /// then none. `untriggeredAfter`: one also whenever no trigger has come for that long (where open()->untriggered).
+    /// Starts captures: captured() reports one per trigger, until stopScope() or scopeStopped(). `single`: one only.
+    /// `untriggeredAfter`: also captures whenever no trigger comes for that long (if open()->untriggered).
     void runScope(const ScopeSettings& settings, bool single, std::optional<Seconds> untriggeredAfter = {});
     void stopScope();
 
-    /// Closes a live bench and runs a protocol on one of its own. finished() reports every kind of end, in one step
-    /// with the change to Closed: no run can begin between the two. Returns the run's number, which no other run of
-    /// this controller has.
+    /// Closes a live bench and runs a protocol on a bench of its own. finished() reports every kind of end together
+    /// with the change to Closed: no run can begin between the two. Returns the run's number, unique in this
+    /// controller.
     std::uint64_t run(const RunOrder& order, StopMark asked);
     std::uint64_t run(const RunOrder& order) { return run(order, mark()); }
-    /// Runs a session of a study, as runProtocol() runs a protocol.
+    /// Runs a session of a study, like run() for a protocol.
     std::uint64_t runPilot(const RunOrder& order, const PilotSeats& seats, StopMark asked);
     [[nodiscard]] RunFeed takeRunFeed() { return feed_.take(); }
     [[nodiscard]] WindowOperator& windowOperator() noexcept { return operator_; }
 
 signals:
-    void changed();                    ///< activity, open bench or profile
-    void failed(const QString& what);  ///< a sentence: what happened; the output is off or unchanged
+    void changed();                    ///< activity, open bench or profile changed
+    void failed(const QString& what);  ///< a sentence that says what happened; the output is off or unchanged
     void armed();
-    void checked(double impedance_ohm);  ///< the electrodes' impedance; NaN where the source does not measure it
+    void checked(double impedance_ohm);  ///< the electrodes' impedance; NaN if the stimulator does not measure it
     void marked(double at_s, const QString& word);
-    /// The finger slides over another surface, for the window or a script. An empty material: it is lifted.
+    /// The window or a script put another surface under the finger. Empty material: the finger is lifted.
     void presented(const QString& material, double speed_mm_s, double force_n);
     void captured(std::shared_ptr<const tacto::Capture> capture);
     void loadFitted(const QString& load);
-    /// The oscilloscope failed or refused its settings: no capture comes until runScope(). Half a sentence. The output
-    /// is not affected. failed() reports it as well.
+    /// The oscilloscope failed or refused its settings: no capture comes until runScope(). `why`: half a sentence. The
+    /// output is not affected. failed() reports it too.
     void scopeStopped(const QString& why);
     void finished(std::shared_ptr<const tacto::gui::FinishedRun> run);
 
 private:
-    /// Carried out on the live bench unless a stop comes first; what fails is reported. For all that may start output.
+    /// Carries out `task` on the live bench unless a stop comes first; reports failures. For all that may start output.
     void order(std::function<Result<void>(Bench&)> task) { order(mark(), std::move(task)); }
     void order(StopMark asked, std::function<Result<void>(Bench&)> task);
     void tell(std::function<void()> onWindow);
     void report(const Error& error);
-    /// Returns whether there is a bench that wants to be served again.
+    /// Returns true if a bench is open that needs to be served again.
     bool serveLive();
     void serveScope();
     void scopeFailed(const Error& error);
     void openOnThread(const LiveOrder& order, StopMark asked);
     void closeOnThread();
-    /// A run that was prepared: of a protocol by itself, or of a study's session.
+    /// A prepared run of a protocol or of a study's session.
     struct Prepared;
     using Prepare = std::function<Result<Prepared>(Registry& registry, std::shared_ptr<BenchTap> tap)>;
     [[nodiscard]] RunOrder begun(const RunOrder& order, StopMark asked);
     void runOnThread(const RunOrder& order, std::uint64_t number, const Prepare& prepare);
-    /// `why`: said in the same turn of the window, so that neither is seen without the other.
+    /// `why`: emitted by failed() in the same event, so that no one sees one change without the other.
     void become(Activity activity, std::shared_ptr<const OpenBench> open, std::shared_ptr<BenchTap> tap,
                 const std::optional<Error>& why = std::nullopt);
 
@@ -203,24 +203,24 @@ private:
     DeviceWatch watch_;
     DayNotes day_;
 
-    // The window's:
+    // Used by the GUI thread only:
     Activity activity_ = Activity::Closed;
     std::shared_ptr<const OpenBench> open_;
     std::shared_ptr<BenchTap> tap_;
     Profile profile_;
     DriveCommand lastDrive_, hand_;
-    std::uint64_t lastRun_ = 0;             ///< the number of that run
+    std::uint64_t lastRun_ = 0;             ///< the number of the last run
     std::optional<LiveOrder> lastLive_;     ///< the order for the open bench
     std::optional<LiveOrder> closedByRun_;  ///< see closedByRun()
     ShippedLimits limits_;
 
-    // One for this controller and all its benches.
+    // One counter for this controller and all its benches.
     const std::shared_ptr<StopCounter> stops_ = std::make_shared<StopCounter>();
     PublishedBench published_;
 
     RunFeedCollector feed_;
     std::atomic<double> speed_{1};
-    std::unique_ptr<DrivenBench> live_;  // the thread's
+    std::unique_ptr<DrivenBench> live_;  // used by the bench's thread only
     TaskThread thread_;                  // last: starts when all else is ready
 };
 

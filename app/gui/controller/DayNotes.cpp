@@ -6,7 +6,7 @@ namespace tacto::gui {
 
 namespace {
 
-// Two groups of settings: the day that counts, and the last one before it.
+// Two groups of settings: the newest day with notes, and the day with notes before it.
 constexpr const char* kDay = "day";
 constexpr const char* kDayBefore = "dayBefore";
 

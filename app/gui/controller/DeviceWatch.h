@@ -1,4 +1,4 @@
-// DeviceWatch.h - what is plugged in, looked at from a thread of its own, so that a slow port never holds up the
+// DeviceWatch.h - checks which devices are connected, on a separate thread, so that a slow port never delays the
 // window.
 #pragma once
 
@@ -16,13 +16,13 @@ namespace tacto::gui {
 class DeviceWatch final : public QObject {
     Q_OBJECT
 public:
-    /// Looks at once, then every `period`.
+    /// Checks at once, then every `period`.
     DeviceWatch(std::function<Registry()> makeRegistry, std::chrono::milliseconds period, QObject* parent = nullptr);
     ~DeviceWatch() override;
 
-    /// The devices at the last look; empty before the first look is over.
+    /// Returns the devices at the last check; empty before the first check is done.
     [[nodiscard]] const std::vector<DeviceIdentity>& devices() const noexcept { return devices_; }
-    /// Looks again now.
+    /// Checks again now.
     void look();
 
 signals:
@@ -36,7 +36,7 @@ private:
     std::condition_variable woken_;
     bool lookNow_ = false;   // guarded by mutex_
     bool quitting_ = false;  // guarded by mutex_
-    std::thread thread_;     // Last: starts when all else is ready
+    std::thread thread_;     // last: starts when all else is ready
 };
 
 }  // namespace tacto::gui

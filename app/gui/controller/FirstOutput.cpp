@@ -31,7 +31,7 @@ std::optional<Command> firstByHand(const BenchController& controller, const Tele
 std::optional<ComingTrain> comingTrain(const BenchController& controller, const Telemetry& telemetry) {
     const auto open = controller.open();
     if (controller.activity() != Activity::Live || !open || !open->source) return std::nullopt;
-    if (telemetry.state != InterlockState::Armed) return std::nullopt;  // the first train makes it Delivering
+    if (telemetry.state != InterlockState::Armed) return std::nullopt;  // after the first train: Delivering
     const bool off = telemetry.driving == DriveSource::Off;
     const auto first = off ? wouldByHand(controller) : firstByHand(controller, telemetry);
     if (!first) return std::nullopt;

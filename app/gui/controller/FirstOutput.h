@@ -1,5 +1,5 @@
-// FirstOutput.h - the output that follows first once the bench is armed: the arm dialog names it, the oscilloscope
-// draws it.
+// FirstOutput.h - the first output after the bench is armed: named in the arm dialog and drawn by the oscilloscope
+// view.
 #pragma once
 
 #include <optional>
@@ -9,26 +9,25 @@
 
 namespace tacto::gui {
 
-/// The drive ordered by hand, while it drives: until the output is armed the bench tells about the fingertip alone.
+/// Returns the drive ordered by hand while it drives; until armed, the bench's telemetry covers only the fingertip.
 [[nodiscard]] std::optional<DriveCommand> orderedByHand(const BenchController& controller, const Telemetry& telemetry);
 
-/// The first command of the drive by hand. Nothing while something else drives or nothing does, and where nothing can
-/// be delivered.
+/// Returns the first command of the drive by hand. Nothing if the hand does not drive, or if nothing can be delivered.
 [[nodiscard]] std::optional<Command> firstByHand(const BenchController& controller, const Telemetry& telemetry);
 
-/// What "By hand" would ask for first, no matter what drives now. Nothing where nothing can be delivered.
+/// Returns the first command of "By hand", whatever drives now. Nothing if nothing can be delivered.
 [[nodiscard]] std::optional<Command> wouldByHand(const BenchController& controller);
 
-/// A train that was not delivered yet.
+/// A train that has not been delivered yet.
 struct ComingTrain {
     PulseTrain train;                     ///< in volts
-    std::optional<double> impedance_ohm;  ///< |Z| that it meets; nothing: not measured
+    std::optional<double> impedance_ohm;  ///< |Z| of the load; nothing: not measured
     bool asked = false;                   ///< the operator asked for this next; else it comes once "By hand" is chosen
     bool operator==(const ComingTrain&) const = default;
 };
 
-/// The train of firstByHand(), or of wouldByHand() while nothing drives, while the output is armed and has not yet
-/// delivered one. Nothing in any other state, for a massager, and where a run has the bench.
+/// Returns the train of firstByHand(), or of wouldByHand() while nothing drives, if the output is armed but has not
+/// delivered a train. Nothing in any other state, for a massager, and during a run.
 [[nodiscard]] std::optional<ComingTrain> comingTrain(const BenchController& controller, const Telemetry& telemetry);
 
 }  // namespace tacto::gui

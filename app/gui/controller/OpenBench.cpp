@@ -23,7 +23,7 @@ std::shared_ptr<const OpenBench> describeBench(const OpenedBench& opened) {
 
 namespace {
 
-constexpr Seconds kLongestTurn{0.25};  // the most bench time at once: stop and commands come between two turns
+constexpr Seconds kLongestTurn{0.25};  // most bench time per turn, as stops and commands are handled between turns
 
 }  // namespace
 

@@ -1,6 +1,6 @@
-// RunFeed.h - what a running protocol says, kept for the window until it looks.
+// RunFeed.h - messages of a running protocol, stored until the window reads them.
 //
-// Thread-safety: RunFeedCollector any thread.
+// Thread-safety: RunFeedCollector may be used by any thread.
 #pragma once
 
 #include <memory>
@@ -13,17 +13,17 @@
 
 namespace tacto::gui {
 
-/// What came since the window last looked.
+/// The messages since the window last read them.
 struct RunFeed {
     std::optional<ScriptProgress> progress;
     std::vector<std::string> log;
-    std::vector<nlohmann::json> trials;  ///< as record.trial() was given them, with condition and trial
-    std::vector<std::shared_ptr<const Capture>> captures;  ///< the newest few
+    std::vector<nlohmann::json> trials;  ///< as passed to record.trial(), with condition and trial
+    std::vector<std::shared_ptr<const Capture>> captures;  ///< only the newest few
 };
 
 class RunFeedCollector {
 public:
-    /// Listens to the run that `request` starts; outlives it.
+    /// Listens to the run started by `request`; must outlive that run.
     void listen(RunRequest& request);
     [[nodiscard]] RunFeed take();
 

@@ -1,7 +1,7 @@
-// SideWork.h - work that the window does not wait for: one piece after the other on a thread of its own; each reports
-// its end on the GUI thread.
+// SideWork.h - work for which the window does not wait: tasks run one after the other on a separate thread, and each
+// reports its end on the GUI thread.
 //
-// An owner that is the `context` of its work keeps it as a member: it is waited for before the owner is gone.
+// An owner that is the `context` of its work keeps this as a member, so that its destructor waits for the work.
 //
 // Thread-safety: the GUI thread; the work itself must not touch widgets.
 #pragma once
@@ -23,7 +23,7 @@ public:
     SideWork(const SideWork&) = delete;
     SideWork& operator=(const SideWork&) = delete;
 
-    /// `then` gets what `work` returns on the thread of `context`, unless that is gone by then.
+    /// `then` gets the result of `work` on the thread of `context`, unless `context` is gone by then.
     template <class Work, class Then>
     void start(QObject* context, Work work, Then then) {
         using Value = std::invoke_result_t<Work&>;
@@ -39,7 +39,7 @@ public:
     void start(Work work) {
         thread_.start(std::move(work));
     }
-    /// Drops the work that has not begun; its `then` is never called.
+    /// Drops tasks that have not begun; their `then` is never called.
     void drop() { thread_.clear(); }
 
 private:

@@ -1,6 +1,6 @@
-// TaskThread.h - the bench's thread, and a watch on whether the window's thread still runs.
+// TaskThread.h - the bench's thread, and a watch on whether the window's thread still responds.
 //
-// Thread-safety: post() and runs() any thread; the rest their owner.
+// Thread-safety: post() and runs() any thread; all else the owner's thread.
 #pragma once
 
 #include <QObject>
@@ -15,17 +15,17 @@
 
 namespace tacto::gui {
 
-/// A thread that carries out tasks in the order in which they were posted, and something of its own between them.
+/// A thread that runs tasks in the order of their posting, and a function of its own between them.
 class TaskThread {
 public:
-    /// Carries out `turn` after each task, and every few milliseconds as long as it returns true; `end` at the end.
+    /// Calls `turn` after each task, and every few milliseconds while it returns true; calls `end` at the end.
     TaskThread(std::function<bool()> turn, std::function<void()> end);
     ~TaskThread() { quit(); }
     TaskThread(const TaskThread&) = delete;
     TaskThread& operator=(const TaskThread&) = delete;
 
     void post(std::function<void()> task);
-    /// Waits for the task at work; those behind it are dropped.
+    /// Waits for the present task; drops all tasks after it.
     void quit();
 
 private:
@@ -38,13 +38,13 @@ private:
     std::thread thread_;                       // last: starts when all else is ready
 };
 
-/// Watches whether the window's thread still runs: a window that hangs shows no STOP and hears no Esc, so that the
-/// output is then unattended (hazard H2).
+/// Checks whether the window's thread still responds: a window that hangs shows no STOP and does not receive Esc, so
+/// that the output is unattended (hazard H2).
 class WindowHeartbeat final : public QObject {
     Q_OBJECT
 public:
     static constexpr std::chrono::milliseconds kBeat{100};
-    static constexpr std::chrono::milliseconds kHangs{1000};  ///< without a beat for that long
+    static constexpr std::chrono::milliseconds kHangs{1000};  ///< time without a beat after which the window hangs
     WindowHeartbeat();
     [[nodiscard]] bool runs() const noexcept;
 

@@ -15,7 +15,7 @@ Result<nlohmann::json> WindowOperator::ask(const OperatorQuestion& question) {
     open_->id = ++lastId_;
     answer_.reset();
     refused_ = false;
-    emit asked(*open_);  // queued: the window lives on another thread
+    emit asked(*open_);  // queued: the window runs on another thread
     const auto ended = [this] { return answer_ || refused_ || cancelled_; };
     constexpr std::chrono::milliseconds kPollInterval{100};
     while (!changed_.wait_for(lock, kPollInterval, ended)) {

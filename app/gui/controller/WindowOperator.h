@@ -1,4 +1,4 @@
-// WindowOperator.h - puts a protocol's questions to the person at the window.
+// WindowOperator.h - shows a protocol's questions to the operator in the window.
 //
 // Thread-safety: ask() on the script's thread; cancel() any thread; answer(), refuse() and the signals on the GUI
 // thread.
@@ -16,13 +16,13 @@ class WindowOperator final : public QObject, public Operator {
     Q_OBJECT
 public:
     [[nodiscard]] Seconds unwatchedFor() const override { return Seconds(2); }
-    /// Answers given in advance (by name) are used before the operator is asked.
+    /// Sets answers given in advance, by name; they are used before the operator is asked.
     void prepare(std::map<std::string, std::string> answers);
     [[nodiscard]] Result<nlohmann::json> ask(const OperatorQuestion& question) override;
     void cancel() noexcept override;
 
-    /// The answer to the question `id`, checked against it; one to a question that is no longer open does nothing.
-    /// Errors: InvalidArgument: the question stays open.
+    /// Answers question `id` after checking the text; does nothing if that question is no longer open. Errors:
+    /// InvalidArgument: the question stays open.
     [[nodiscard]] Result<void> answer(std::uint64_t id, const std::string& text);
     void refuse();
 

@@ -59,7 +59,7 @@ DrivePanel::DrivePanel(BenchController& controller, QWidget* parent) : QWidget(p
     setTone(*says_, Tone::Quiet);
     setTextSize(*says_, TextSize::Small);
     says_->setMinimumHeight(2 *
-                            QFontMetrics(textFont(TextSize::Small)).lineSpacing());  // nothing moves while it drives
+                            QFontMetrics(textFont(TextSize::Small)).lineSpacing());  // keeps room for two lines
     layout->addWidget(says_);
     begin();
 }
@@ -198,7 +198,7 @@ QString DrivePanel::trainText(double amplitude_v, double interval_s) const {
     return tr("%1 every %2").arg(quantityText(amplitude_v, "V", 3), every);
 }
 
-/// The words for what a click on "By hand" would ask for.
+/// Says what a click on "By hand" would ask for.
 QString DrivePanel::offWords() const {
     const auto nothing = was_ ? wasWords() : tr("Nothing drives the output.");
     if (controller_.activity() != Activity::Live) return nothing;

@@ -46,9 +46,9 @@ public:
         const float* values = nullptr;
         std::size_t size = 0;
     };
-    /// The samples from `first` up to `end` <= size(): in two pieces where the ring turns over, for who reads many.
+    /// Returns the samples from `first` up to `end` <= size(): two pieces if they pass the ring's end.
     [[nodiscard]] std::array<Piece, 2> pieces(std::size_t first, std::size_t end) const noexcept;
-    /// Time of the newest; not to be asked of an empty one.
+    /// Returns the time of the newest sample; the series must not be empty.
     [[nodiscard]] double newest() const noexcept { return time(count_ - 1); }
     /// Returns the index of the first sample at or after `t_s`; size() if all are earlier.
     [[nodiscard]] std::size_t firstFrom(double t_s) const noexcept;

@@ -1,4 +1,4 @@
-// ProfileEditor.h - the profile as a form with its mapping drawn: edit, check, apply, open, save.
+// ProfileEditor.h - the encoding profile as a form with a drawing of the mapping: edit, check, apply, open, save.
 //
 // A wrong value is refused in the core's own words next to its field, and is never applied; no value is clamped.
 #pragma once

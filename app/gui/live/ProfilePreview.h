@@ -34,7 +34,7 @@ private:
     double smallestLoad_ohm_ = 0;
     double impedance_ohm_;
     double roughness_, pressure_;
-    double fluxFirst_Vs_ = 0, fluxSecond_Vs_ = 0;  // the phases' fluxes, signed; over a resistance they are charges
+    double fluxFirst_Vs_ = 0, fluxSecond_Vs_ = 0;  // signed fluxes of the phases; over a resistance they are charges
     QCPAxisRect* amplitude_;
     QCPAxisRect* interval_;
     QCPAxisRect* pulse_;

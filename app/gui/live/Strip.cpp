@@ -74,7 +74,7 @@ Strip::Strip(QCustomPlot& plot, int row, const QString& title, const StripAxis& 
     fault_ = new QCPItemLine(&plot);
     for (auto* end : {fault_->start, fault_->end}) placeAcross(*end, *axes_);
     fault_->setClipAxisRect(axes_);
-    fault_->setLayer("axes");  // the fault's line lies over what the fault ended
+    fault_->setLayer("axes");  // draws the fault's line over the traces that the fault ended
     fault_->setVisible(false);
     caption_ = new StripCaption(*axes_);
 }
@@ -145,7 +145,7 @@ void Strip::fit(std::span<RollingGraph* const> graphs, const QCPRange& shown) {
     if (axis_.fromZero) all.expand(0);
     const double room =
         std::max({0.06 * all.size(), (axis_.least - all.size()) / 2, all.size() > 0 ? 1e-9 : kAroundNothing});
-    const bool up = axis_.fromZero && all.lower > -0.05 * all.upper;  // noise about zero is not a sign
+    const bool up = axis_.fromZero && all.lower > -0.05 * all.upper;  // noise around zero counts as zero
     all = up ? QCPRange(0, all.upper + room) : QCPRange(all.lower - room, all.upper + room);
     auto range = steadyRange(up ? QCPRange(0, values().range().upper) : values().range(), all);
     if (up) range.lower = -kUnderZero * range.upper;

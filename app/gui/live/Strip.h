@@ -25,7 +25,7 @@ public:
     [[nodiscard]] int lineHeight() const;
 
     void setTitle(const QString& text);
-    /// Digits have equal widths, so that the value does not jump. A value that describes the picture is drawn in grey.
+    /// Digits have equal widths, so that the value does not jump. A value that describes the picture is less prominent.
     void setValue(const QString& text, bool describes = false);
     [[nodiscard]] QString value() const { return value_.text.text(); }
     /// Sets a key; an empty key takes no room. `brief` replaces `text` if there is no room for all keys.

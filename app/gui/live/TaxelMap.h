@@ -11,7 +11,7 @@ class TaxelMap final : public QWidget {
     Q_OBJECT
 public:
     explicit TaxelMap(QWidget* parent = nullptr);
-    /// Newest values above rest, in `unit`; NaN is drawn as absent. The scale grows to the largest ever seen.
+    /// Shows the newest values above rest, in `unit`; NaN is left blank. The scale grows to the largest value seen.
     void show(std::span<const float> values, const QString& unit);
     /// Hatches the map if its values are old.
     void setStale(bool stale);

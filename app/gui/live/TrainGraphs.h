@@ -52,7 +52,7 @@ private:
     QCPItemRect* off_ = nullptr;
     QCPItemText* offSays_ = nullptr;
     static constexpr std::size_t kReadings = 256;
-    std::deque<QCPGraphData> readings_;                                                 // the oscilloscope's newest
+    std::deque<QCPGraphData> readings_;                                                 // newest oscilloscope readings
     QVector<double> at_, value_, measuredAt_, measuredValue_, failedAt_, failedValue_;  // buffers, reused
 };
 
