@@ -1,9 +1,9 @@
-// BuiltWindow.h - bin/tactoscope as a person starts it for the first time, with an empty home, on this X server; and
-// that person's hand and eyes, with the time that they take.
+// BuiltWindow.h - starts bin/tactoscope on this X server as a first-time user would, with an empty home, and plays that
+// user's hands and eyes, counting the time a person would take.
 //
-// The window itself says where to click and what is written, through the plugin of Whereabouts.cpp.
+// Whereabouts.cpp, a plugin in the program, tells where to click and which text is shown.
 //
-// Thread-safety: the thread of the test.
+// Thread-safety: the test's thread.
 #pragma once
 
 #include <QProcess>
@@ -12,12 +12,12 @@
 
 namespace tacto::test {
 
-/// The time that a person takes beside the machine: reading, pointing, typing.
+/// Adds up the time that a person needs for reading, pointing and typing.
 class PersonsTime {
 public:
     static constexpr double kWordsPerSecond = 4;
-    static constexpr double kPoint_s = 1.1;  ///< moves the mouse to a target and clicks (Card, Moran and Newell)
-    static constexpr double kKey_s = 0.3;    ///< finds a key and presses it
+    static constexpr double kPoint_s = 1.1;  ///< time to move the mouse to a target and click (Card, Moran and Newell)
+    static constexpr double kKey_s = 0.3;    ///< time to find a key and press it
     void reads(const QString& text);
     void points() { spent_s_ += kPoint_s; }
     void types(qsizetype keys) { spent_s_ += double(keys) * kKey_s; }
@@ -34,21 +34,21 @@ public:
     BuiltWindow(const BuiltWindow&) = delete;
     BuiltWindow& operator=(const BuiltWindow&) = delete;
 
-    /// False where no window comes.
+    /// Starts the program; returns false if no window appears.
     [[nodiscard]] bool start();
-    /// The answer to a question of Whereabouts.cpp; empty if none comes in 5 s.
+    /// Returns the answer to a question of Whereabouts.cpp; empty if none comes in 5 s.
     [[nodiscard]] QString ask(const QString& question);
-    /// The text in the widget of that name, with plain spaces.
+    /// Returns the text of the widget with that name, with plain spaces.
     [[nodiscard]] QString text(const QString& name) { return ask("text " + name).replace(QChar(0x202f), ' '); }
     [[nodiscard]] bool stands(const QString& name) { return !ask("where " + name).isEmpty(); }
-    /// Clicks where it stands; false where it does not.
+    /// Clicks on the widget with that name; returns false if it is not visible.
     [[nodiscard]] bool clickOn(const QString& name);
-    /// Keys as xdotool names them.
+    /// Presses keys, named as for xdotool.
     [[nodiscard]] bool press(const QStringList& keys);
     [[nodiscard]] bool enter(const QString& text);
-    /// Gives the keyboard to the main window, as a window manager does after a click.
+    /// Gives the main window the keyboard focus, as a window manager does after a click.
     [[nodiscard]] bool focus();
-    /// The program's own end by Ctrl+Q, without an error.
+    /// Ends the program with Ctrl+Q; returns true if it ended without an error.
     [[nodiscard]] bool leaves();
     [[nodiscard]] QString home() const { return home_.path(); }
 
@@ -57,7 +57,7 @@ public:
 private:
     QTemporaryDir home_;
     QProcess program_;
-    QString window_;  // the window's number in the X server
+    QString window_;  // the window's number on the X server
 };
 
 }  // namespace tacto::test

@@ -1,5 +1,5 @@
-// Hand.h - a hand at the mouse and the keyboard of a real X server (xdotool): its events go through the server and Qt's
-// platform plugin, past blocked windows, open popups and the focus.
+// Hand.h - acts as a hand at mouse and keyboard of a real X server (xdotool): the events pass through the server and
+// Qt's platform plugin, and so meet blocked windows, open popups and the focus.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -13,10 +13,10 @@
 
 namespace tacto::test {
 
-/// A key as the X server sends it, to whatever has the focus there.
+/// Sends a key through the X server to the window with the focus.
 inline void type(const QString& keys) { ASSERT_EQ(QProcess::execute("xdotool", {"key", "--clearmodifiers", keys}), 0); }
 
-/// Moves to a place on the screen, in logical pixels, and clicks.
+/// Moves the mouse to a place on the screen, in logical pixels, and clicks.
 inline void clickAt(const QPoint& global, const QString& button = "1") {
     const double scale = QGuiApplication::primaryScreen()->devicePixelRatio();
     ASSERT_EQ(QProcess::execute("xdotool", {"mousemove", QString::number(int(global.x() * scale)),
@@ -28,13 +28,13 @@ inline void clickOn(const QWidget& widget, const QString& button = "1") {
     clickAt(widget.mapToGlobal(widget.rect().center()), button);
 }
 
-/// Gives the server's focus to the window, as a window manager does after a click.
+/// Gives the window the server's focus, as a window manager does after a click.
 inline void focus(const QWidget& window) {
     ASSERT_EQ(QProcess::execute("xdotool", {"windowfocus", QString::number(window.window()->winId())}), 0);
     letLive(20);
 }
 
-/// The whole screen, as a PNG in $TACTO_SHOTS.
+/// Saves a picture of the whole screen as PNG in $TACTO_SHOTS.
 inline void picture(const QString& name) {
     letLive(150);
     const auto file = QString("%1/%2%3.png")

@@ -1,7 +1,7 @@
-// The window fits the screen that it is opened on, and STOP and the safety bar are on it: at the first start, and when
-// it was left on a larger screen.
+// The window fits the screen on which it opens and shows STOP and the safety bar: at the first start, and after it was
+// last used on a larger screen.
 //
-// Needs a display of its own (see in-xvfb); skipped elsewhere.
+// Needs its own display (see in-xvfb); skipped elsewhere.
 #include <QApplication>
 #include <QSettings>
 #include <QTabWidget>
@@ -26,7 +26,7 @@ protected:
     void expectAllOnScreen(gui::MainWindow& window, const char* when) {
         window.show();
         ASSERT_IN_TIME(QTest::qWaitForWindowExposed(&window));
-        letLive(100);  // docks take their sizes one turn later
+        letLive(100);  // docks get their sizes one event later
         const auto screen = QGuiApplication::primaryScreen()->availableGeometry();
         const auto isOn = [&](const QWidget& widget) {
             const QRect place(widget.mapToGlobal(QPoint(0, 0)), widget.size());
@@ -124,7 +124,7 @@ TEST_F(Screen, DISABLED_AWindowManagersFrameIsOnItToo) {
     manager.start("openbox", {"--sm-disable"});
     ASSERT_TRUE(manager.waitForStarted()) << "openbox is not installed";
     const auto framed = [](const QWidget& widget) { return widget.frameGeometry() != widget.geometry(); };
-    ASSERT_IN_TIME(comesTrue([&] {  // waits until it frames what is shown
+    ASSERT_IN_TIME(comesTrue([&] {  // waits until the window manager frames new windows
         QWidget first;
         first.show();
         return QTest::qWaitForWindowExposed(&first) && comesTrue([&] { return framed(first); }, 500);
@@ -150,7 +150,7 @@ TEST_F(Screen, DISABLED_ItGetsSmallerThanALaptopsScreen) {
     gui::MainWindow window(simulatedRegistry);
     window.show();
     ASSERT_IN_TIME(QTest::qWaitForWindowExposed(&window));
-    // 1920 x 1080 at 200 % is 960 x 540; the title bar and a panel take their part.
+    // 1920 x 1080 at 200 % is 960 x 540; the title bar and a desktop panel take some of that.
     window.resize(940, 480);
     letLive(50);
     EXPECT_LE(window.width(), 940);

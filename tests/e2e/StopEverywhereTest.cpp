@@ -1,6 +1,6 @@
 // STOP, Esc and Pause stop the output behind every dialog and popup of the program, with a real mouse and keyboard.
 //
-// Needs a display of its own (see in-xvfb); skipped elsewhere.
+// Needs its own display (see in-xvfb); skipped elsewhere.
 #include <QAction>
 #include <QApplication>
 #include <QComboBox>
@@ -43,11 +43,11 @@
 namespace tacto::test {
 namespace {
 
-constexpr int kTries = 4;            // tries where the machine was late while a dialog opened
-constexpr int kStopLimit_ms = 2000;  // long enough for a loaded machine; the time taken is recorded
+constexpr int kTries = 4;            // repeats if the machine was late while a dialog opened
+constexpr int kStopLimit_ms = 2000;  // long enough for a loaded machine; the actual time is recorded
 constexpr const char* kPassphrase = "correct horse 4711";
 
-/// For each file of app/gui, by its stem, how often it calls the two functions that open dialogs.
+/// Returns, for each file of app/gui (by its stem), how often it calls the two functions that open dialogs.
 std::map<std::string, int> placesThatOpenDialogs() {
     static const QRegularExpression call("\\b(openDialog|askForFile)\\(");
     std::map<std::string, int> calls;
@@ -61,10 +61,10 @@ std::map<std::string, int> placesThatOpenDialogs() {
     return calls;
 }
 
-/// Dialogs that share a place, by the name of their opening: each but the first of them.
+/// Openings that call openDialog() or askForFile() at the same place as an opening listed earlier.
 constexpr std::string_view kShareAPlace[] = {"Study: exportWithAbout", "Folder of a new study",
                                              "Definitions and limits"};
-/// Places that no opening here tries, by their file and their question.
+/// Places that this test leaves out: the file, and the similar dialog that is tested instead.
 constexpr std::pair<const char*, const char*> kTriedByAnother[] = {
     {"CloseQuestion", "whether a run is to end: the same box as for a script that is not saved"},
     {"StudyList", "whether to go back to an older ledger: the same frame as for a participant who leaves"}};
@@ -72,7 +72,7 @@ constexpr std::pair<const char*, const char*> kTriedByAnother[] = {
 struct Opening {
     std::string name;
     std::function<void()> open;
-    std::string in = {};  ///< stem of the file that calls openDialog() or askForFile(); empty: it opens without them
+    std::string in = {};  ///< stem of the file that calls openDialog() or askForFile(); empty if it opens without these
 };
 
 class StopEverywhere : public testing::Test {
@@ -86,7 +86,7 @@ protected:
         stop = window.findChild<gui::SafetyBar*>()->findChild<QPushButton*>("stopButton");
         makeStudy();
         openBench();
-        openBench();  // two sessions, to be compared
+        openBench();  // the second session, to be compared with the first
     }
     ~StopEverywhere() override { window.close(); }
 
@@ -106,7 +106,7 @@ protected:
             return window.controller().activity() == gui::Activity::Live && window.controller().open() != before;
         }));
     }
-    /// The output is off because this machine was late for the control loop, the window or the disk, as it should be.
+    /// True if the output is off because the control loop, the window or the disk was late, as designed.
     [[nodiscard]] bool wasLate() {
         const std::string_view why = window.controller().telemetry().reason.view();
         return why.find("was silent for more than") != why.npos || why.find("did not look after it") != why.npos ||
@@ -123,7 +123,7 @@ protected:
         window.controller().drive(DriveSource::Manual, 0.5, 1);
         ASSERT_IN_TIME(comesTrue([&] { return state() == InterlockState::Delivering; }));
     }
-    /// Whatever the hand does must end the output.
+    /// Expects that the action `hand` ends the output.
     void expectStop(const std::string& what, const std::function<void()>& hand) {
         ASSERT_TRUE(isLive()) << what << ": opening it stopped the output";
         QElapsedTimer since;
@@ -183,7 +183,7 @@ protected:
         table->setSelectionMode(QAbstractItemView::MultiSelection);
         for (int row = 0; row < sessions; ++row) table->selectRow(row);
     }
-    /// "Save as…" of the plot that is shown.
+    /// Opens "Save as…" of the visible plot.
     void savePlot() {
         page(0, 0);
         for (auto* plot : window.findChildren<QCustomPlot*>()) {
@@ -230,7 +230,7 @@ protected:
         ASSERT_TRUE(made) << made.error().message;
         ASSERT_TRUE(made->enrol(Participant()));
     }
-    /// A new study's form, filled in.
+    /// Fills in the form of a new study.
     gui::NewStudyPage& newStudy() {
         auto& pilot = studies();
         pilot.findChild<QPushButton*>("newStudyWanted")->click();
@@ -244,7 +244,7 @@ protected:
         made.findChild<QLineEdit*>("newStudyFolder")->setText(QString::fromStdString((folder.path() / "new").string()));
         return made;
     }
-    /// The study is open from here on; its first participant is selected.
+    /// Opens the study and selects its first participant.
     void openStudy() {
         auto& pilot = studies();
         const auto lists = [&pilot]() -> QTableWidget* {
@@ -262,7 +262,7 @@ protected:
         lists()->selectRow(0);
     }
 
-    /// Every place of the program that opens a dialog.
+    /// Returns every place in the program that opens a dialog.
     [[nodiscard]] std::vector<Opening> dialogs() {
         const auto menu = [this](const char* name, const char* entry, const char* in) {
             return Opening{entry, [this, name, entry] { trigger(name, entry); }, in};
@@ -297,7 +297,7 @@ protected:
             menu("Bench", "Oscilloscope certificates…", "Menus"),
             menu("Bench", "Operator and sample…", "MainWindow"),
             {"Save the plot", [this] { savePlot(); }, "PlotPicture"},
-            {"Arm",  // opened while there is nothing to stop
+            {"Arm",  // opened while the output is off
              [this] {
                  window.controller().disarm();
                  window.askToArm();
@@ -400,7 +400,7 @@ protected:
             ofParticipant("pageOfOne"),
             ofParticipant("leaveOne"),
             ofParticipant("withdrawOne"),
-            {"Close",  // asked with the output off, so that the rest stops it again
+            {"Close",  // opened with the output off; deliver() turns it on again
              [this] {
                  window.controller().disarm();
                  page(6);
@@ -449,7 +449,7 @@ protected:
 };
 
 TEST_F(StopEverywhere, DISABLED_BehindEveryDialog) {
-    // After a click on the window that the dialog blocks, that window has the focus; else the dialog has it.
+    // After a click on the window that the dialog blocks, that window has the focus; otherwise the dialog does.
     const std::pair<const char*, std::function<void()>> hands[] = {
         {"a click on STOP", [this] { clickOn(*stop); }},
         {"Esc in the window",
@@ -497,7 +497,7 @@ TEST_F(StopEverywhere, DISABLED_BehindEveryMenuAndList) {
             SCOPED_TRACE(popup.name);
             for (const bool byKey : {false, true}) {
                 ASSERT_NO_FATAL_FAILURE(deliver());
-                // Done by a timer: a tool button waits inside its press until its menu is closed.
+                // Done by a timer, since a tool button's press returns only after its menu is closed.
                 bool done = false;
                 QTimer look;
                 QObject::connect(&look, &QTimer::timeout, [&] {
@@ -551,7 +551,7 @@ TEST_F(StopEverywhere, DISABLED_BehindEveryMenuAndList) {
     RecordProperty("slowest_ms", int(slowest_ms));
 }
 
-/// A dock that is dropped on STOP, as a hand drops it, or put there by any means.
+/// A floating dock that a hand drops on STOP, or that is put there in another way.
 TEST_F(StopEverywhere, DISABLED_UnderADockThatFloats) {
     page(0, 0);
     window.findChild<gui::DockColumn*>()->setCollapsed(false);
@@ -574,7 +574,7 @@ TEST_F(StopEverywhere, DISABLED_UnderADockThatFloats) {
                 window.move(window.pos() + QPoint(tries, 3 * tries));
             } else if (tries % 3 == 1) {
                 dock->move(to);
-            } else {  // finds it by its header
+            } else {  // grabs the dock by its header
                 const double scale = QGuiApplication::primaryScreen()->devicePixelRatio();
                 const auto at = [&](const QPoint& point) {
                     return QStringList{"mousemove", QString::number(int(point.x() * scale)),
@@ -601,7 +601,7 @@ TEST_F(StopEverywhere, DISABLED_UnderADockThatFloats) {
     }
 }
 
-/// Whatever window of the program lies on STOP, a press within STOP's rectangle is STOP's alone.
+/// Whichever window of the program covers STOP, a press within STOP's rectangle goes to STOP alone.
 TEST_F(StopEverywhere, DISABLED_UnderAnotherWindowOfTheProgram) {
     std::mt19937 random(4711);
     const auto tryOn = [&](QWidget& cover, const char* what) {
@@ -635,7 +635,7 @@ TEST_F(StopEverywhere, DISABLED_UnderAnotherWindowOfTheProgram) {
         cover->show();
         expectStop("a popup", [this] { clickOn(*stop); });
     }
-    // The button stands in the window itself.
+    // The button is a child of the window itself.
     auto* child = new QPushButton("By hand", &window);
     child->setGeometry(QRect(stop->mapTo(&window, QPoint()), stop->size()));
     child->show();
@@ -648,7 +648,7 @@ TEST_F(StopEverywhere, DISABLED_UnderAnotherWindowOfTheProgram) {
     delete child;
 }
 
-/// Qt takes every key while it drags, and for itself.
+/// During a drag, Qt takes every key for itself.
 TEST_F(StopEverywhere, DISABLED_WhileTextIsDragged) {
     for (const char* key : {"Escape", "Pause"}) {
         ASSERT_NO_FATAL_FAILURE(deliver());
@@ -667,8 +667,8 @@ TEST_F(StopEverywhere, DISABLED_WhileTextIsDragged) {
         ASSERT_EQ(QProcess::execute("xdotool", at(0) + QStringList{"mousedown", "1"}), 0);
         letLive(50);
         expectStop(key, [&] {
-            // During a drag only the key is pressed: a wait there would delete the window that the key closes, to which
-            // the drag must still return.
+            // During a drag only the key is pressed: waiting there would delete the window that the key closes,
+            // although the drag must still return to that window.
             QTimer::singleShot(300, [key] { type(key); });
             for (const int by : {10, 20, 40}) {
                 QProcess::execute("xdotool", at(by));
@@ -681,7 +681,7 @@ TEST_F(StopEverywhere, DISABLED_WhileTextIsDragged) {
     }
 }
 
-/// A box that Qt, or a library, opens with a local event loop.
+/// A box that Qt or a library opens with a local event loop.
 TEST_F(StopEverywhere, DISABLED_BehindABoxThatALibraryOpensModally) {
     ASSERT_NO_FATAL_FAILURE(deliver());
     bool stopped = false;

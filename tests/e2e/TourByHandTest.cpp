@@ -1,8 +1,8 @@
-// From a first start to a measured pulse and a verdict in five minutes: the built program with an empty home, its tour
-// followed by mouse and keyboard at the control that each step frames. The machine's part is measured; the person's is
-// counted: four words a second of all that there is to read, 1.1 s for each target that is pointed at, 0.3 s a key.
+// From a first start to a measured pulse and a verdict in five minutes: the built program with an empty home follows
+// its tour by mouse and keyboard, at the control that each step frames. The machine's time is measured; the person's is
+// computed: four words a second for all text, 1.1 s for each target pointed at, 0.3 s for each key.
 //
-// Needs a display of its own (see in-xvfb); skipped elsewhere.
+// Needs its own display (see in-xvfb); skipped elsewhere.
 #include <QElapsedTimer>
 #include <QRegularExpression>
 #include <QSettings>
@@ -21,8 +21,8 @@ namespace {
 using testing::HasSubstr;
 
 constexpr double kFiveMinutes_s = 300;
-constexpr double kPersonsShare_s = 210;  // the person's share at most: the rest is for the machine
-constexpr int kSlack_px = 40;            // between the middle of a control and the middle of its framed part
+constexpr double kPersonsShare_s = 210;  // most time for the person: the rest is for the machine
+constexpr int kSlack_px = 40;            // largest distance between the centres of a control and of its frame
 
 class TourByHand : public testing::Test {
 protected:
@@ -35,7 +35,7 @@ protected:
         const auto at = built.ask("where " + name).split(' ');
         return at.size() == 2 ? QPoint(at[0].toInt(), at[1].toInt()) : QPoint(-1, -1);
     }
-    /// Whether the tour frames the widget with this name.
+    /// True if the tour frames the widget with this name.
     [[nodiscard]] bool frames(const QString& name) {
         return comesTrue([&] {
             const auto control = middleOf(name), frame = middleOf("tourFrame");
@@ -48,7 +48,7 @@ protected:
         built.person.reads(step + " " + built.text("tourText"));
         return true;
     }
-    /// Clicks once the frame stands still.
+    /// Clicks in the frame once it no longer moves.
     [[nodiscard]] bool clickOnTheFrame() {
         QPoint before(-1, -1);
         const bool still = comesTrue([&] {
@@ -57,7 +57,7 @@ protected:
         });
         return still && built.clickOn("tourFrame");
     }
-    /// A click that goes to another place: the frame moves on.
+    /// Clicks in the frame and waits until the frame moves to another place.
     [[nodiscard]] bool followTheFrame() {
         const auto from = middleOf("tourFrame");
         return clickOnTheFrame() && comesTrue([&] {
@@ -66,7 +66,7 @@ protected:
                });
     }
     [[nodiscard]] QString state() { return built.text("interlockState"); }
-    /// The figure behind a reading in the measurements, in volts; NaN where it is not there.
+    /// Returns the amplitude shown in the measurements, in volts; NaN if there is none.
     [[nodiscard]] double amplitude_V() {
         static const QRegularExpression figure(R"(Amplitude \| ([\d.]+) V)");
         const auto found = figure.match(built.text("measurementDock"));
@@ -106,7 +106,7 @@ TEST_F(TourByHand, DISABLED_LeadsToAMeasuredPulseAndAVerdictInFiveMinutes) {
     ASSERT_IN_TIME(frames("armOutput")) << "the second step stands in a window of its own";
     EXPECT_EQ(state(), "DISARMED") << "the first step arms nothing";
     built.person.reads(built.text("Arm the output"));
-    letLive(1000);  // the second step is deaf at first, and a person reads meanwhile
+    letLive(1000);  // the second step ignores early clicks, and a person reads meanwhile
     ASSERT_IN_TIME(clickOnTheFrame());
     ASSERT_IN_TIME(comesTrue([&] { return state() == "ARMED"; })) << built.text("Arm the output").toStdString();
 
@@ -116,7 +116,7 @@ TEST_F(TourByHand, DISABLED_LeadsToAMeasuredPulseAndAVerdictInFiveMinutes) {
     ASSERT_IN_TIME(clickOnTheFrame());
 
     ASSERT_IN_TIME(comesTo("See a measured pulse"));
-    // Drives by hand: the roughest and firmest, 40 V every half second.
+    // Drives by hand with the highest roughness and pressure: 40 V every half second.
     ASSERT_TRUE(built.clickOn("driveByHand"));
     for (const auto* field : {"driveRoughness", "drivePressure"}) {
         ASSERT_TRUE(built.clickOn(field) && built.focus());

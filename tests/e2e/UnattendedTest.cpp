@@ -1,8 +1,8 @@
-// Output pauses where the operator cannot see STOP and reach it: minimised, on another desktop, behind a lock screen or
-// a blank one, under another program's windows, and while another program holds keyboard and mouse; and it resumes by
-// hand only. With a window manager, a bus, and another client of the X server.
+// Output pauses if the operator cannot see or reach STOP: window minimised, on another desktop, behind a lock or blank
+// screen, under another program's windows, or while another program grabs keyboard and mouse. Only the operator resumes
+// it. Runs with a window manager, a bus, and another client of the X server.
 //
-// Needs a display of its own and a bus (see in-xvfb, dbus-run-session); skipped elsewhere.
+// Needs its own display and a bus (see in-xvfb, dbus-run-session); skipped elsewhere.
 #include <QDBusConnection>
 #include <QDBusMessage>
 #include <QDBusObjectPath>
@@ -34,8 +34,8 @@ void x(const QStringList& arguments) {
     ASSERT_EQ(QProcess::execute("xdotool", arguments), 0) << arguments.join(' ').toStdString();
 }
 
-/// Another client of the server, with windows of its own; it takes keyboard and mouse as a lock program without D-Bus
-/// and many menus do.
+/// Another client of the server, with its own windows; it grabs keyboard and mouse, like a lock program without D-Bus
+/// and like many menus.
 class OtherClient {
 public:
     OtherClient() : to_(xcb_connect(nullptr, nullptr)) {
@@ -55,7 +55,7 @@ public:
         std::free(keys);
         return both;
     }
-    /// A window on top of all, past the window manager; `seen`: else it takes presses and shows nothing.
+    /// Opens a window above all others, bypassing the window manager; if not `seen`, it takes presses but is invisible.
     void cover(const QRect& at, bool seen = true) {
         const auto window = xcb_generate_id(to_);
         const std::uint32_t values[] = {1, XCB_EVENT_MASK_BUTTON_PRESS};
@@ -72,7 +72,7 @@ public:
         covers_.clear();
         settle();
     }
-    /// The keys alone, as a launcher does.
+    /// Grabs only the keyboard, as a launcher does.
     void takeKeys() {
         std::free(xcb_grab_keyboard_reply(
             to_, xcb_grab_keyboard(to_, 1, root_, XCB_CURRENT_TIME, XCB_GRAB_MODE_ASYNC, XCB_GRAB_MODE_ASYNC),
@@ -89,7 +89,7 @@ public:
     }
 
 private:
-    /// Waits until the server has done all that it was asked.
+    /// Waits until the server has carried out all requests.
     void settle() { std::free(xcb_get_input_focus_reply(to_, xcb_get_input_focus(to_), nullptr)); }
 
     xcb_connection_t* to_;
@@ -97,7 +97,7 @@ private:
     std::vector<xcb_window_t> covers_;
 };
 
-/// Plays logind for one session, on the bus that this test calls the system's.
+/// Plays logind for one session, on the bus that this test uses as the system bus.
 class FakeLogind final : public QDBusVirtualObject {
 public:
     FakeLogind() : bus_(QDBusConnection::connectToBus(qEnvironmentVariable("DBUS_SYSTEM_BUS_ADDRESS"), "logind")) {
@@ -141,7 +141,7 @@ protected:
         manager_.start("openbox", {"--sm-disable"});
         EXPECT_TRUE(manager_.waitForStarted()) << "openbox is not installed";
         const auto framed = [](const QWidget& widget) { return widget.frameGeometry() != widget.geometry(); };
-        EXPECT_IN_TIME(comesTrue([&] {  // waits until it frames what is shown
+        EXPECT_IN_TIME(comesTrue([&] {  // waits until the window manager frames new windows
             QWidget first;
             first.show();
             return QTest::qWaitForWindowExposed(&first, 1000) && comesTrue([&] { return framed(first); }, 500);
@@ -151,7 +151,7 @@ protected:
         window.resize(1200, 760);
         window.show();
         EXPECT_IN_TIME(QTest::qWaitForWindowExposed(&window));
-        letLive(300);  // the window manager has framed it
+        letLive(300);  // time for the window manager to frame the window
         gui::LiveOrder order;
         order.uris.push_back(*DeviceUri::parse("sim:"));
         order.profile = window.controller().profile();
@@ -261,7 +261,7 @@ protected:
         ASSERT_IN_TIME(comesTrue([this] { return held(); }, kPauseLimit_ms)) << nameOf(now().state);
         slowest_ms = std::max(slowest_ms, int(since.elapsed()));
         EXPECT_TRUE(notice().contains(absence.says)) << notice().toStdString();
-        letLive(500);  // a train that was under way ends
+        letLive(500);  // time for a running train to end
         const auto trains = now().trainsDelivered;
         letLive(400);
         EXPECT_EQ(now().trainsDelivered, trains) << "nothing is delivered";
@@ -306,7 +306,7 @@ TEST_F(Unattended, DISABLED_WhateverDrivesItPauses) {
     ASSERT_NO_FATAL_FAILURE(expectPause(all.back(), DriveSource::Off));
 }
 
-/// The operator is there all the time: a glance elsewhere, a menu of this window, a drag of its divider.
+/// The operator is present, so output goes on: a glance elsewhere, a menu of this window, a drag of its divider.
 TEST_F(Unattended, DISABLED_WhoIsThereIsNotPaused) {
     ASSERT_NO_FATAL_FAILURE(arm());
     ASSERT_NO_FATAL_FAILURE(drive(DriveSource::Manual));
@@ -329,13 +329,13 @@ TEST_F(Unattended, DISABLED_WhoIsThereIsNotPaused) {
     window.controller().stop("the test");
 }
 
-/// No press is lost to the question who holds keyboard and mouse.
+/// No press of STOP is lost while the program checks who holds keyboard and mouse.
 TEST_F(Unattended, DISABLED_EveryPressOfStopArrives) {
     auto* stop = window.findChild<QPushButton*>("stopButton");
     int presses = 0;
     QObject::connect(stop, &QPushButton::pressed, [&] { ++presses; });
     ASSERT_NO_FATAL_FAILURE(arm());
-    window.controller().pause();  // so that it is asked, and STOP ends nothing that this waits for
+    window.controller().pause();  // makes the program check, while STOP ends nothing that this test waits for
     const auto at = stop->mapToGlobal(stop->rect().center());
     constexpr int kPresses = 200;
     QProcess hand;
@@ -345,8 +345,8 @@ TEST_F(Unattended, DISABLED_EveryPressOfStopArrives) {
     EXPECT_IN_TIME(comesTrue([&] { return presses == kPresses; })) << presses << " of " << kPresses;
 }
 
-/// Windows of another program anywhere about STOP: whether it is covered, by how much of it is free. Nearly half is
-/// left out: the program tries places, and does not measure.
+/// The program knows if another program's window covers STOP, judged by how much of STOP is free. Values near one half
+/// are not tested: the program samples points and does not measure.
 TEST_F(Unattended, DISABLED_WhatLiesOverStopIsKnown) {
     const gui::DisplaySight sight;
     const auto* stop = window.findChild<QPushButton*>("stopButton");
@@ -378,7 +378,7 @@ TEST_F(Unattended, DISABLED_WhatLiesOverStopIsKnown) {
     }
     EXPECT_GT(covered, 20);
     EXPECT_GT(free, 20);
-    // The window's own dialogs do not count: a press there is STOP's.
+    // The program's own dialogs do not cover STOP: a press there goes to STOP.
     QWidget own(&window, Qt::Dialog);
     own.setGeometry(part.adjusted(-40, -40, 40, 40));
     own.show();
@@ -387,7 +387,7 @@ TEST_F(Unattended, DISABLED_WhatLiesOverStopIsKnown) {
     EXPECT_FALSE(sight.isCovered(*stop));
 }
 
-/// A window of another program over STOP: a small STOP comes by itself, stops, and goes when STOP is free.
+/// If another program's window covers STOP, a small STOP appears by itself, works, and disappears once STOP is free.
 TEST_F(Unattended, DISABLED_ASmallStopStandsInWhereAnotherWindowLiesOverStop) {
     RecordProperty("hazard", "H2,H12");
     const auto small = [] {
@@ -418,7 +418,7 @@ TEST_F(Unattended, DISABLED_ASmallStopStandsInWhereAnotherWindowLiesOverStop) {
     other.uncover();
     EXPECT_IN_TIME(comesTrue([&] { return small() == nullptr; }));
     window.controller().stop("the test");
-    // A small STOP that the operator wants stays.
+    // A small STOP that the operator has opened stays.
     window.findChild<QAction*>("smallStopShown")->trigger();
     ASSERT_NO_FATAL_FAILURE(arm());
     other.cover(over);
@@ -429,7 +429,7 @@ TEST_F(Unattended, DISABLED_ASmallStopStandsInWhereAnotherWindowLiesOverStop) {
     window.controller().stop("the test");
 }
 
-/// While another window lies on STOP the title says the state, and a small STOP stays above it.
+/// While another window covers STOP, the title shows the state, and a small STOP stays above that window.
 TEST_F(Unattended, DISABLED_TheTitleSaysTheStateAndASmallStopStaysAbove) {
     RecordProperty("hazard", "H12");
     const auto title = [this] {

@@ -1,8 +1,7 @@
-// Whereabouts.cpp - a plugin that Qt loads into the built program for a journey (QT_QPA_GENERIC_PLUGINS): it answers
-// where a widget stands, so that a click finds it wherever the layout has put it, and what is written there. It clicks
-// and types nothing itself.
+// a plugin that Qt loads into the built program for an end-to-end test (QT_QPA_GENERIC_PLUGINS). It tells where a
+// widget is, so that a click finds it in any layout, and which text the widget shows. It does not click or type.
 //
-// A question is the file "ask" in the folder of its specification, the answer the file "answer":
+// A question is the file "ask" in the folder given to the plugin, the answer is the file "answer":
 //   where NAME   "X Y", the middle in real pixels of the visible and enabled widget with this text, name or accessible
 //                name, or of a window with this title; of "tab NAME" the current tab of a tab bar. Where several have
 //                that name, one that no other window covers
@@ -10,7 +9,7 @@
 //                " | " between them
 //   popup        "X Y" of the menu or list that is open
 //   focus        the name of the widget that has the focus
-// Empty where there is none.
+// The answer is empty if nothing matches.
 #include <QAbstractButton>
 #include <QApplication>
 #include <QFile>
