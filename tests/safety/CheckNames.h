@@ -1,5 +1,5 @@
-// CheckNames.h - the table of every check that has a case in GateCases. A check that is added to Rules.h and not
-// to this table does not build.
+// CheckNames.h - the table of all checks that have a case in GateCases. A check added to Rules.h but not to this table
+// fails to compile.
 //
 // Thread-safety: constant.
 #pragma once

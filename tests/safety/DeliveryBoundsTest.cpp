@@ -7,7 +7,7 @@
 namespace tacto {
 namespace {
 
-/// Expects the bounds of a quantity that is programmed to 10, and of one that is programmed to 0.
+/// Expects the bounds of a quantity programmed to 10, and the bounds at 0.
 void expectBounds(const QuantityBounds& bounds, double least, double most) {
     EXPECT_NEAR(bounds.least(10), least, 1e-12);
     EXPECT_NEAR(bounds.most(10), most, 1e-12);
@@ -28,7 +28,7 @@ TEST(DeliveryBounds, AreTheStatedAccuracyWithoutACalibration) {
 
 TEST(DeliveryBounds, AreTheLineItsUncertaintyAndItsResidualWhereACalibrationHolds) {
     RecordProperty("hazard", "H1");
-    // 10 V programmed: 10.9 by the line, ± 1 % and ± 0.05.
+    // Programmed to 10 V: the line gives 10.9 V, ± 1 % and ± 0.05 V.
     const CalibrationLine strong{1.1, -0.1, 5, 40, Spread{0.01, 0.05}};
     expectBounds({strong, true, {}}, 10, 10.9 * 1.01 + 0.05);
     const CalibrationLine weak{0.9, 0, 5, 40, Spread{0.01, 0.05}};
@@ -48,8 +48,8 @@ TEST(DeliveryBounds, AreTheWiderOfBothWhereAnOldCalibrationIsLeftAside) {
 
 TEST(DeliveryBounds, ACalibrationIsNeverNarrowerThanItself) {
     RecordProperty("hazard", "H1");
-    // Whatever the line, the most that may come out with its U is at least what the uncalibrated source would be judged
-    // with at that U.
+    // For any line: the largest value that may come out, including its uncertainty U, is at least the value that an
+    // uncalibrated source with that U would be judged by.
     for (const double gain : {0.85, 0.99993, 1.0, 1.15}) {
         for (const double u : {0.0, 0.008, 0.05}) {
             const CalibrationLine line{gain, 0, 5, 40, Spread{u, 0}};

@@ -1,6 +1,6 @@
-// Dice.h - draws for tests of chance, the same from one seed with any library.
+// Dice.h - random draws for tests, identical for the same seed with any standard library.
 //
-// Thread-safety: a value of the test's own thread.
+// Thread-safety: a value in the test's own thread.
 #pragma once
 
 #include <cmath>

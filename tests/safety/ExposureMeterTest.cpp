@@ -24,7 +24,7 @@ TEST(ExposureMeter, SumsWhatCanShareAWindow) {
     ExposureMeter meter;
     for (int k = 0; k < 10; ++k) meter.book(bookedAt(500ms * k));
     EXPECT_EQ(meter.couldShare(Seconds(5), 4600ms).trains, 10U);
-    // The first train has ended at 0.11 s at the latest: from 5.11 s on no 5 s hold it and a new one.
+    // The first train has ended by 0.11 s at the latest: from 5.11 s on no 5 s window holds both it and a new train.
     EXPECT_EQ(meter.couldShare(Seconds(5), 5109ms).trains, 10U);
     EXPECT_EQ(meter.couldShare(Seconds(5), 5110ms).trains, 9U);
     EXPECT_EQ(meter.couldShare(Seconds(1), 4600ms).trains, 3U);
@@ -67,7 +67,7 @@ TEST(ExposureMeter, AFullMeterSaysSoAndGoesRoundWhenTimePasses) {
         meter.book(bookedAt(1s * k));
     }
     EXPECT_FALSE(meter.canBook());
-    meter.forget(6110ms);  // The trains of 0 and 1 s are gone
+    meter.forget(6110ms);  // the trains of 0 s and 1 s are gone
     EXPECT_EQ(meter.size(), 2U);
     meter.book(bookedAt(6200ms, 5e-6));
     EXPECT_NEAR(meter.booked(Seconds(5), 6300ms).overRange.currentSquared_A2s, 7e-6, 1e-12);

@@ -82,7 +82,7 @@ void addConfigureCases(std::vector<GateCase>& cases) {
         }),
         "out of order");
     add(BadCalibration, bench([](auto& s) { s.calibration = StimulatorCalibration{{1, kNaN, 10, 40}}; }), "offset");
-    // The calibration is not applied, so it may be far off; but an interval without length would empty the meter.
+    // The calibration is not applied, so it may be far off; but an interval of length zero would empty the meter.
     add(BadCalibration, bench([](auto& s) {
             s.calibration = StimulatorCalibration{{1, 0, 10, 40}, CalibrationLine{1, -0.6, 0.5, 10}};
         }),
@@ -105,7 +105,7 @@ void addConfigureCases(std::vector<GateCase>& cases) {
     add(PersonMonophasicCheck, person([](auto& s) { s.check.shape = PulseShape::Monophasic; }), "monophasic check");
 }
 
-/// Requests that approve() must refuse for their form, beside the same request without the fault.
+/// Requests that approve() must refuse for their form, each compared with the same request without the fault.
 void addRequestCases(std::vector<GateCase>& cases) {
     const auto add = [&cases](Check check, auto spoilSource, auto spoil, std::string words) {
         cases.push_back({check, "approve: " + words, [spoilSource, spoil, words] {
@@ -208,7 +208,7 @@ void addStateCases(std::vector<GateCase>& cases) {
         setup.calibration = StimulatorCalibration{exactLine(1.15, 0, 5, 40)};
         return fine && refuses(Rig(setup).ask(volts(10)), ErrorCode::LimitExceeded, "11.5");
     });
-    // 40 V into 1 kohm, 0.4 ms each 0.5 s: 1.13 mA RMS.
+    // 40 V into 1 kohm, 0.4 ms every 0.5 s: 1.13 mA RMS.
     const auto refusedOnly = [](Quantity quantity, double limit, KnownLines known, const std::string& value) {
         GateSetup setup = benchSetup();
         setup.load = LoadRange::around(Load::resistor(Ohms(1000)), 1, 1);
@@ -225,7 +225,7 @@ void addStateCases(std::vector<GateCase>& cases) {
         return refusedOnly(Quantity::PhaseCharge, 8.5, StimulatorCalibration{known, {}, times(1.05, 5), {}}, "8.6");
     });
     add(MoreThanProgrammed, "a gap that comes out shorter than programmed", [=] {
-        // Told 100 us, the capacitor empties before the second phase.
+        // With a gap of 100 us, the capacitor would be empty before the second phase.
         GateSetup setup = benchSetup(Load::skin(Ohms(500), Ohms(20'000), Nanofarads(50)));
         setup.limits = {limitsOf({rowFor(Quantity::PeakCurrent, 102.5)})};
         PulseTrain train = volts(40);
@@ -254,7 +254,7 @@ void addStateCases(std::vector<GateCase>& cases) {
         setup.source.accuracy.rate = Spread{0.05, 0};
         return fine && refuses(Rig(setup).ask(train, 0.5), ErrorCode::InvalidArgument, "of 0.48 s as 0.505263 s");
     });
-    // Each quantity's spread alone makes the difference, whether from an applied calibration, an old one or the source.
+    // Only one quantity's spread makes the difference, whether from an applied calibration, an old one or the source.
     for (const auto part : {0, 1, 2, 3}) {
         static constexpr std::array kNames{"amplitude", "phase width", "gap", "interval"};
         const auto spoilt = [part](auto spread) {
@@ -298,7 +298,7 @@ void addStateCases(std::vector<GateCase>& cases) {
     add(Uncertainty, "a stated inaccuracy of the rate", [=] {
         GateSetup setup = benchSetup();
         PulseTrain train = volts(10);
-        train.pulses = 120;  // at 100 Hz this is longer than a second, which holds more pulses if the clock is fast
+        train.pulses = 120;  // at 100 Hz longer than a second, which holds more pulses if the clock is fast
         const auto exact = worstExposure(train, Seconds(2), setup.load, setup.source, kNaN);
         setup.limits = {limitsOf({rowFor(Quantity::RmsCurrent1s, exact.at(Quantity::RmsCurrent1s) * 1.01)})};
         const bool fine = Rig(setup).ask(train, 2).has_value();
@@ -324,7 +324,7 @@ void addStateCases(std::vector<GateCase>& cases) {
             setup.source.deadMan = Seconds(deadMan_s);
             setup.source.accuracy.rate = ofRate;
             PulseTrain train = volts(1);
-            train.pulses = pulses;  // at 100 Hz: the 201st begins after 2 s
+            train.pulses = pulses;  // at 100 Hz: the 201st pulse begins after 2 s
             return Rig(setup).ask(train, 4);
         };
         constexpr std::string_view kWords = "no dead-man switch";
@@ -344,7 +344,7 @@ void addStateCases(std::vector<GateCase>& cases) {
         setup.source.accuracy.rate = Spread{0.01, 0};
         return fine && wider && refuses(Rig(setup).ask(train), ErrorCode::InvalidArgument, "period of 497.5");
     });
-    // 40 V into 100 ohm: four trains fill 5 s.
+    // 40 V into 100 ohm: four trains exhaust the limit over 5 s.
     const auto fills = [](SafetyGate& gate, VirtualClock& clock) {
         GateSetup setup = benchSetup(Load::resistor(Ohms(100)));
         setup.limits = limitSets();
@@ -536,7 +536,7 @@ void addStateCases(std::vector<GateCase>& cases) {
     });
 }
 
-/// A monophasic train into the RC load: no quantity of it is zero.
+/// A monophasic train into the RC load: none of its quantities is zero.
 GateSetup limitSetup() {
     GateSetup setup = benchSetup(benchRcLoad());
     setup.electrodeArea = SquareCentimetres(2);
@@ -548,8 +548,8 @@ PulseTrain limitTrain() {
     return train;
 }
 
-/// For each quantity, just above its limit is refused and just below approved: by a row and by a ceiling, for the
-/// request alone and with what came before it.
+/// For each quantity: a value just above its limit is refused, one just below is approved. The limit is a row or a
+/// ceiling; the request is judged alone and with earlier trains.
 void addLimitCases(std::vector<GateCase>& cases) {
     for (std::size_t k = 0; k < kQuantityCount; ++k) {
         const auto q = static_cast<Quantity>(k);
@@ -565,7 +565,7 @@ void addLimitCases(std::vector<GateCase>& cases) {
             };
             const std::string by = std::string(keyOf(q)) + (ceiling ? " by a ceiling" : " by a limit");
             cases.push_back({limitCheck(ceiling ? RequestCeiling : RequestLimit, q), by, [q, limited] {
-                                 // Twice a second: over windows the steady state exceeds what one train does.
+                                 // Twice a second: over a window, the steady state exceeds one train alone.
                                  const GateSetup setup = limitSetup();
                                  const double value =
                                      worstExposure(limitTrain(), Seconds(0.25), setup.load, setup.source, 2).at(q);
@@ -579,7 +579,7 @@ void addLimitCases(std::vector<GateCase>& cases) {
                 {limitCheck(ceiling ? MeterCeiling : MeterLimit, q), by + " after another train", [q, limited] {
                      const GateSetup setup = limitSetup();
                      const double one = worstExposure(limitTrain(), Seconds(6), setup.load, setup.source, 2).at(q);
-                     Rig rig(limited(one * 1.2));  // Two trains: √2 in an RMS, 2 in a mean
+                     Rig rig(limited(one * 1.2));  // two trains: a factor √2 in an RMS, 2 in a mean
                      const bool first = rig.ask(limitTrain(), 6).has_value();
                      rig.wait(0.2);
                      const bool second = refuses(rig.ask(limitTrain(), 6), ErrorCode::LimitExceeded, "before it");

@@ -1,7 +1,7 @@
-// GateCases.h - one directed case per check of the gate, the interlock, the heartbeat and the train's read-back:
-// something that this check alone refuses.
+// GateCases.h - one directed case for each check of the gate, the interlock, the heartbeat and the train's read-back:
+// an input that only this check refuses.
 //
-// The product's gate must hold every case; with a check taken away (GateMutationTest) its case must fail.
+// The product's gate must satisfy every case; if a check is removed (GateMutationTest), its case must fail.
 //
 // Thread-safety: the test's own thread.
 #pragma once
@@ -15,13 +15,13 @@ namespace tacto::test {
 struct GateCase {
     int check;  ///< gate::Check, or limitCheck()
     std::string name;
-    std::function<bool()> holds;  ///< true when the gate refused as it must, and permitted what it may
+    std::function<bool()> holds;  ///< true if the gate refused what it must, and permitted what it may
 };
 
-/// Cases of the interlock, the heartbeat, accepted levels and what a train reads back: InterlockCases.cpp.
+/// Adds cases of the interlock, the heartbeat, accepted levels and a train's read-back: InterlockCases.cpp.
 void addInterlockCases(std::vector<GateCase>& cases);
 
-/// Every check of Rules.h, at least once.
+/// Returns at least one case for every check of Rules.h.
 [[nodiscard]] std::vector<GateCase> gateCases();
 
 }  // namespace tacto::test

@@ -1,4 +1,4 @@
-// GateFixtures.h - setups that the gate's tests start from: complete and valid, each test spoils one thing.
+// GateFixtures.h - setups from which the gate's tests start: complete and valid; each test spoils one thing.
 //
 // Thread-safety: the test's own thread.
 #pragma once
@@ -28,10 +28,10 @@ inline LimitRow rowFor(Quantity quantity, double max, LimitAction action = Limit
     return row;
 }
 
-/// Refuses nothing that a test asks for.
+/// Returns limits that refuse nothing in these tests.
 inline LimitSet lenient() { return limitsOf({rowFor(Quantity::PeakVoltage, 1e6)}, "lenient"); }
 
-/// Both deliver exactly the programmed value, so that limits can be met to the last digit.
+/// Voltage and current sources that deliver exactly the programmed value, so that limits can be met to the last digit.
 inline SourceTraits voltageSource() {
     SourceTraits source;
     source.accuracy = StatedAccuracy::exact();
@@ -58,7 +58,7 @@ inline GateSetup benchSetup(Load load = Load::resistor(Ohms(1000))) {
     return setup;
 }
 
-/// A line of a calibration that knows what comes out to the last digit.
+/// Returns a calibration line without uncertainty.
 inline CalibrationLine exactLine(double gain, double offset, double lowest, double highest) {
     return {gain, offset, lowest, highest, Spread{}};
 }
@@ -81,7 +81,7 @@ inline GateSetup personSetup() {
     return setup;
 }
 
-/// A person at a massager, which has no source, calibration or electrodes.
+/// A setup for a person at a massager, which has no source, calibration or electrodes.
 inline GateSetup vibrationSetup() {
     GateSetup setup;
     setup.mode = OutputMode::Person;
@@ -95,7 +95,7 @@ inline GateSetup vibrationSetup() {
     return setup;
 }
 
-/// 200 µs + 200 µs, 100 µs apart, once.
+/// A single pulse: 200 µs + 200 µs, 100 µs apart.
 inline PulseTrain volts(double v) {
     PulseTrain train;
     train.amplitude = Volts(v);
@@ -107,7 +107,7 @@ inline PulseTrain milliamps(double mA) {
     return train;
 }
 
-/// A gate on a clock that the test moves.
+/// A gate with a clock that the test moves.
 struct Rig {
     VirtualClock clock;
     SafetyGate gate{clock};
@@ -121,7 +121,7 @@ struct Rig {
     void wait(double seconds) { clock.advanceTo(clock.now() + toInstant(seconds)); }
 };
 
-/// Whether `result` is this refusal, and says so.
+/// True if `result` is an error with this code and these words.
 template <class T>
 [[nodiscard]] bool refuses(const Result<T>& result, ErrorCode code, std::string_view words) {
     return !result && result.error().code == code && result.error().message.find(words) != std::string::npos;

@@ -1,4 +1,4 @@
-// Each rule of the gate, taken out of force in turn, must make its case fail: every rule is tested (H1). Linked with
+// With each rule of the gate disabled in turn, the rule's case must fail: every rule is tested (H1). Linked with
 // tacto_safety_mutable, the same sources with removable rules; never with the product's library.
 #include <algorithm>
 #include <fstream>
@@ -54,7 +54,7 @@ TEST(GateMutation, EveryCheckTakenAwayIsNoticed) {
     RecordProperty("checks", static_cast<int>(checks.size()));
 }
 
-/// The named rule whose entry in a table begins in `line`; empty without one.
+/// Returns the rule whose table entry begins in `line`; empty if there is none.
 std::string_view ruleBegunIn(const std::string& line) {
     const auto brace = line.find_first_not_of(' ');
     if (brace == std::string::npos || line[brace] != '{') return {};
@@ -64,12 +64,12 @@ std::string_view ruleBegunIn(const std::string& line) {
     return named != kCheckNames.end() ? named->name : std::string_view();
 }
 
-/// Every refusal in the files that decide stands in the entry of a rule, is worded by a function that only words, or
-/// says on the line before why it cannot.
+/// Every refusal in the deciding files is in a rule's entry, or in a function that only writes the message, or the line
+/// before it says why neither applies.
 TEST(GateMutation, EveryRefusalHasItsRule) {
     RecordProperty("hazard", "H1");
     int refusals = 0;
-    std::map<std::string_view, std::string> rules;  // where each rule stands
+    std::map<std::string_view, std::string> rules;  // the place of each rule
     for (const char* name :
          {"AcceptedLevels.cpp", "SetupRules.cpp", "TrainRules.cpp", "LimitRules.cpp", "Interlock.cpp", "SafetyGate.cpp",
           "TrainCheck.cpp", "DeliveryBounds.cpp", "Heartbeat.h"}) {
@@ -80,7 +80,7 @@ TEST(GateMutation, EveryRefusalHasItsRule) {
         for (std::size_t at = 0; at < lines.size(); ++at) {
             const auto& line = lines[at];
             const auto says = [&line](const char* words) { return line.find(words) != std::string::npos; };
-            // With two rules of one name, one could be wrong and the other would hide it from the mutation.
+            // If two rules shared a name, a wrong one could be hidden from the mutation test by the other.
             if (const auto rule = ruleBegunIn(line); !rule.empty()) {
                 const auto [first, isNew] = rules.try_emplace(rule, fmt::format("{}:{}", name, at + 1));
                 EXPECT_TRUE(isNew) << name << ':' << at + 1 << ": " << rule << " is a rule already, " << first->second;
@@ -90,7 +90,7 @@ TEST(GateMutation, EveryRefusalHasItsRule) {
                                  says("beyond(") || says("refused(") || says("failure(") ||
                                  says("finding = TrainFinding::") ||
                                  (name == std::string("Heartbeat.h") && says("return false;") && !says("firstBroken("));
-            // What a table refused is passed on.
+            // Lines that only pass on the refusal of a table need no rule.
             if (!refuses || says("return failure(kept)") || says("return failure(sound)") ||
                 says("finding = TrainFinding::Ok;"))
                 continue;

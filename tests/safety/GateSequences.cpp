@@ -13,7 +13,7 @@ namespace tacto::test {
 
 namespace {
 
-/// The computer's time, which advances with the clock.
+/// The computer's time, which follows the test's clock.
 struct ComputerTime final : SystemTime {
     explicit ComputerTime(const Clock& ofTest) : clock(ofTest) {}
     [[nodiscard]] Instant sinceBoot() const noexcept override { return std::chrono::hours(1) + clock.now(); }
@@ -22,11 +22,11 @@ struct ComputerTime final : SystemTime {
     const Clock& clock;
 };
 
-/// A stimulator with its record, and the program that drives it until the next one does.
+/// A stimulator with its record, and the program that drives the stimulator until the next program does.
 class Unit {
 public:
     explicit Unit(const Clock& clock) : clock_(clock), time_(clock) { reopen(); }
-    /// The program ends and another begins.
+    /// Ends the program and starts another.
     void reopen() {
         gate_.reset();
         record_.reset();
@@ -67,7 +67,7 @@ public:
 private:
     [[nodiscard]] SafetyGate& gate() const noexcept { return unit_.gate(); }
 
-    /// Nothing approved so far may come out any longer.
+    /// Checks that no approval given so far is still valid.
     void voidPending(const char* after) {
         for (const Pending& p : pending_) {
             if (gate().isCurrent(p.approval)) violation(fmt::format("an approval is current after {}", after));
@@ -78,7 +78,7 @@ private:
     void configure() {
         GateSetup setup;
         Allowed allowed;
-        // A third of the setups leave room for one kind of limit, so that it is met before the others.
+        // A third of the setups relax all limits except one kind, so that this kind is met first.
         theme_ = dice_.chance(0.35) ? static_cast<Near>(dice_.pick(static_cast<int>(kKinds))) : Near::Count;
         allowed.person = theme_ == Near::Count ? dice_.chance(0.2) : theme_ == Near::Level;
         source_ = SourceTraits{};
@@ -102,13 +102,13 @@ private:
         if (capacitive) {
             nominal = {dice_.decade(80, 2000), dice_.decade(1000, 50'000), dice_.decade(5e-9, 2e-6)};
             load = Load::skin(Ohms(nominal.rs), Ohms(nominal.rp), Nanofarads(nominal.c * 1e9));
-            // R_p that falls with intensity. What |Z| such a load has for a current, the referee does not know.
+            // R_p falls with intensity; the referee cannot predict |Z| of such a load for a current source.
             if (!current && dice_.chance(0.25)) halving_ = dice_.decade(5, 100);
         }
         load.halvingVoltage = Volts(halving_);
         setup.load = LoadRange::declared(load);
         nominal_ = nominal;
-        // The truth lies in the range, often at an end of it; a bench's may drift within it and lose contact.
+        // The true load is in the range, often at one end; a bench load may drift within the range and lose contact.
         scale_ = dice_.chance(0.4) ? 0.8 : dice_.chance(0.5) ? 1.2 : dice_.between(0.8, 1.2);
         drifts_ = !allowed.person && dice_.chance(0.2) ? 0.05 : 0;
         loses_ = !capacitive && dice_.chance(0.1) ? 0.3 : 0;
@@ -150,7 +150,7 @@ private:
         const bool unsure = dice_.chance(0.4);
         const auto doubt = [&](double most) -> std::optional<Spread> {
             if (!unsure) return Spread{};
-            if (dice_.chance(0.3)) return std::nullopt;  // 5 %
+            if (dice_.chance(0.3)) return std::nullopt;  // unknown: 5 %
             return Spread{dice_.chance(0.4) ? 0 : dice_.between(0, 0.03),
                           dice_.chance(0.5) ? 0 : dice_.between(0, most)};
         };
@@ -159,7 +159,7 @@ private:
         device_ = {truly(known_.amplitude, ofAmplitude, 1), truly(known_.width, ofWidth, 1e6),
                    truly(known_.gap, ofGap, 1e6), truly(known_.rate, ofRate, 1)};
         setup.source.accuracy = {ofAmplitude, ofWidth, ofGap, ofInterval, ofRate};
-        // Known in any case where it is off by more than is stated; sometimes it no longer holds.
+        // A calibration is known whenever the device is off by more than stated; sometimes it is out of date.
         if (allowed.person || !known_.none() || pace_ != 1) {
             const auto time = [](const Flaw& flaw, const std::optional<Spread>& spread) {
                 return CalibrationLine{flaw.gain, flaw.offset * 1e-6, 50e-6, 0.5, spread};
@@ -186,7 +186,7 @@ private:
         });
         body_.fit(nominal_.times(scale_));
         readAs_ = 1;
-        last_ = PulseTrain{};  // the check, whose timing is this
+        last_ = PulseTrain{};  // the check pulse, which has this timing
         setUnit(last_);
         if (allowed.person && configured_) measure();
     }
@@ -235,12 +235,12 @@ private:
         if (done.has_value() != good) violation("an impedance reading was judged wrongly");
         measuredAt_ = good ? now() : -100;
         measured_ = reading;
-        // 0.7 to 1.3 of the reading is what the gate may rely on: a body outside it is another hazard (H3).
+        // The gate relies on 0.7 to 1.3 times the reading: a body outside this range is another hazard (H3).
         if (!(truth >= 0.7 * reading && truth <= 1.3 * reading)) measuredAt_ = -100;
         if (!good) voidPending("a bad impedance reading");
     }
 
-    /// What a bench's device reads of its load after the last train: the truth, more or less.
+    /// The load that a bench's device reads after the last train: the true value with some error.
     void measureLoad() {
         if (siValue(last_.amplitude) == 0) return;
         IndependentBody declared, real;
@@ -253,9 +253,9 @@ private:
         if (!done) voidPending("a bad reading of the load");
     }
 
-    /// Sends one small pulse, as arming and an old reading ask for it.
+    /// Sends one small pulse, as needed for arming or after an old reading.
     void check() {
-        // A person's |Z| is in the range by then, or the check is what finds that it is not.
+        // Skipped for a person without a valid |Z| reading.
         if (allowed_.person && measuredAt_ < 0) return;
         auto approved = gate().approveCheck(clock_.now());
         note([&] { return fmt::format("{:.6f} check: {}", now(), approved ? "ok" : approved.error().message); });
@@ -266,8 +266,8 @@ private:
         if (dice_.chance(0.9)) deliverPending();
     }
 
-    /// A massager's vibration: refused for a person at electrodes, else judged by its numbers; void after a stop as
-    /// everything else.
+    /// A massager's vibration: refused for a person at electrodes, otherwise judged by its numbers; void after a stop
+    /// like everything else.
     void burst() {
         const VibrationBurst wanted{dice_.chance(0.1) ? kNaN : dice_.between(-0.2, 1.2),
                                     Seconds(dice_.chance(0.1) ? kInf : dice_.between(-0.2, 1.2))};
@@ -284,7 +284,7 @@ private:
         voidPending("a stop");
     }
 
-    /// The program ends, perhaps with approvals in the device's hands, and another takes the unit over.
+    /// Ends the program, perhaps while the device holds approvals; another program takes over the unit.
     void reopen() {
         const auto before = std::move(pending_);
         pending_.clear();
@@ -366,7 +366,7 @@ private:
                               : how < 0.7 ? dice_.between(0.9, 1.1)
                                           : dice_.unit() * 2;
         setAmplitude(train, aim * factor);
-        // Often faster than the interval that was promised: then the meter must notice.
+        // Often faster than the promised interval, which the meter must notice.
         const double pace = campaign || dice_.chance(0.4) ? interval : std::max(shortest, interval * dice_.unit());
         for (int k = 0; k < repeats && total_.violation.empty(); ++k) {
             if (!ask(train, interval) && k + 1 < repeats && dice_.chance(0.7)) break;
@@ -378,13 +378,13 @@ private:
         }
     }
 
-    /// Delivers the most that the gate approves, but for 0.05 %: what it counts too little may be little.
+    /// Delivers the largest amplitude that the gate approves, within 0.05 %, to find even small underestimates.
     void edge(PulseTrain train, double interval) {
         constexpr std::array kSteps{0.03, 0.004, 0.0005};
         double amplitude = 1.3 * aimed(train, interval);
         for (const double step : kSteps) {
             pending_.clear();
-            wait(12);  // waits until no window holds what was approved
+            wait(12);  // long enough that no window holds an earlier approval
             bool approved = false;
             for (int tries = 0; tries < 40 && !approved; ++tries) {
                 amplitude *= 1 - step;
@@ -417,7 +417,7 @@ private:
         return true;
     }
 
-    /// What the load is while `train` is delivered. R_p falls by the most that one pulse puts across it from rest.
+    /// Returns the load while `train` is delivered. R_p falls with the largest voltage of one pulse across R_p.
     [[nodiscard]] Body bodyUnder(PulseTrain train) const {
         Body body = nominal_.times(scale_);
         if (halving_ == 0) return body;
@@ -429,12 +429,12 @@ private:
         return body;
     }
 
-    /// The device thread: asks the gate, then delivers.
+    /// Acts as the device's thread: asks the gate, then delivers.
     void deliverPending() {
         if (pending_.empty()) return;
         Pending next = std::move(pending_.front());
         pending_.pop_front();
-        // A device still busy with its last train waits for its end.
+        // A device still busy with its last train waits for that train's end.
         if (now() < busyUntil_) clock_.advanceTo(toInstant(busyUntil_) + Instant(1));
         if (!gate().isCurrent(next.approval)) return;
         if (now() > next.granted + 0.1 + 1e-9) violation("an approval older than 100 ms is still current");
@@ -463,7 +463,7 @@ private:
         }
     }
 
-    /// A request with one thing wrong must be refused, whatever the rest of it.
+    /// Expects that a request with one fault is refused, whatever the rest of it.
     void garbage() {
         PulseTrain train = randomTrain();
         setAmplitude(train, aimed(train, train.duration().count() * 4) * 0.5);
@@ -521,18 +521,18 @@ private:
         ApprovedTrain approval;
         double granted;
         double interval;
-        double readAs;  // the load, when it was approved: by that |Z| it was a command
+        double readAs;  // readAs_ at the time of approval
         bool isCheck;
     };
 
     Unit& unit_;
-    double drifts_ = 0;   // how far the load itself moves from train to train
-    double loses_ = 0;    // how often a train finds no contact
-    double halving_ = 0;  // V at which the load's R_p has fallen to half; 0: it does not
-    double pace_ = 1;     // True time over the computer's
-    double scale_ = 1;    // where the truth lies in the permitted range
+    double drifts_ = 0;   // how far the load may change from train to train
+    double loses_ = 0;    // probability that a train finds no contact
+    double halving_ = 0;  // voltage at which the load's R_p has fallen to half; 0: R_p is constant
+    double pace_ = 1;     // true time divided by the computer's time
+    double scale_ = 1;    // true load divided by the nominal load
     bool configured_ = false;
-    PulseTrain last_;  // approved
+    PulseTrain last_;  // the last train approved
     std::deque<Pending> pending_;
     double busyUntil_ = 0;
     int delivered_ = 0;
@@ -540,7 +540,7 @@ private:
 }  // namespace
 
 namespace {
-/// Runs from the beginning to the first violation; shows the last trains with a trace where that is wanted.
+/// Runs sequences up to the first violation; with `traced` the message includes the last trains.
 std::uint64_t run(std::uint64_t seed, std::uint64_t count, bool traced, SequenceCount& total) {
     VirtualClock clock;
     Unit unit(clock);
@@ -557,7 +557,7 @@ std::uint64_t run(std::uint64_t seed, std::uint64_t count, bool traced, Sequence
 void runSequences(std::uint64_t seed, std::uint64_t count, SequenceCount& total) {
     const auto done = run(seed, count, false, total);
     if (total.violation.empty()) return;
-    // A trace of every sequence would take longer than the sequences do.
+    // Tracing every sequence would take longer than the sequences themselves.
     SequenceCount again;
     run(seed, done, true, again);
     total.violation =

@@ -1,4 +1,4 @@
-// H1: no command sequence, however made, delivers above a limit.
+// H1: no sequence of commands delivers above a limit.
 #include <cstdlib>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -10,8 +10,8 @@
 namespace tacto::test {
 
 namespace {
-/// A million before a change lands; the sanitizers look for other things than rare sequences.
-/// TACTOSCOPE_H1_SEQUENCES overrides.
+/// A million before a change is merged; fewer with sanitizers, which look for other faults than rare sequences.
+/// TACTOSCOPE_H1_SEQUENCES overrides the number.
 std::uint64_t wantedSequences() {
     if (const char* text = std::getenv("TACTOSCOPE_H1_SEQUENCES")) return std::strtoull(text, nullptr, 10);
 #ifdef TACTOSCOPE_SANITIZED
@@ -59,7 +59,7 @@ TEST(GateSequences, NeverDeliverAboveALimit) {
     EXPECT_GE(fraction(total.delivering), 0.30);
     EXPECT_GE(fraction(total.close), 0.10);
     EXPECT_GE(fraction(total.edges), 0.01);
-    // Every kind of limit was approached; otherwise its check was not really tried.
+    // Every kind of limit must have been approached; otherwise its check was not really tried.
     for (std::size_t k = 0; k < total.near.size(); ++k)
         EXPECT_GT(total.near[k], total.sequences / 5000) << "kind " << k;
 }

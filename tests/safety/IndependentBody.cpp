@@ -13,7 +13,7 @@ constexpr std::array<double, 5> kNode{0.0, -0.5384693101056831, 0.53846931010568
 constexpr std::array<double, 5> kWeight{0.5688888888888889, 0.4786286704993665, 0.4786286704993665, 0.2369268850561891,
                                         0.2369268850561891};
 
-/// ∫ of f over [0, length], panels growing away from the transient at 0.
+/// Integrates f over [0, length], with panels that grow with the distance from the transient at 0.
 template <class F>
 void integrate(double length, double tau, F&& f) {
     double from = 0;
@@ -46,7 +46,7 @@ IndependentBody::Flow IndependentBody::linear(Mode mode, double level, double le
         if (i != 0) power_.push_back({begin, length, i * i * rs, 0, 1});
         return flow;
     }
-    // C dVc/dt = i - Vc/Rp with i = (V - Vc)/Rs from a voltage, given from a current, 0 when floating.
+    // C dVc/dt = i - Vc/Rp. A voltage source gives i = (V - Vc)/Rs, a current source a fixed i; i = 0 if floating.
     const double conductance = 1 / rp + (mode == Mode::Voltage ? 1 / rs : 0);
     const double drive = mode == Mode::Voltage ? level / rs : mode == Mode::Current ? level : 0;
     const double tau = c / conductance;
@@ -82,7 +82,7 @@ IndependentBody::Flow IndependentBody::stretch(Mode mode, double level, double l
     if (mode != Mode::Current || level == 0) return linear(mode, level, length);
     const double side = level > 0 ? 1 : -1;
     const auto [rs, rp, c] = body_;
-    // Finds when the voltage reaches compliance. It only grows on the level's side.
+    // Finds the time at which the voltage reaches compliance. The voltage only grows in the direction of `level`.
     double reach = length;
     if (c <= 0) {
         reach = std::abs(level) * rs > compliance ? 0 : length;
@@ -123,7 +123,7 @@ PulseFacts IndependentBody::deliver(const PulseTrain& train, const Drain& drain,
     const Mode drive = current ? Mode::Current : Mode::Voltage;
     const Mode idle = drain.highImpedance ? Mode::Floating : Mode::Voltage;
 
-    // Since the last train the source has been idle; current since then belongs to that train and was counted there.
+    // The source has been idle since the last train; current since then belongs to that train and was counted there.
     if (lastRest_ >= 0 && start > lastRest_)
         linear(lastFloating_ ? Mode::Floating : Mode::Voltage, 0, start - lastRest_);
 
@@ -161,7 +161,7 @@ PulseFacts IndependentBody::deliver(const PulseTrain& train, const Drain& drain,
 }
 
 double IndependentBody::worst(double window, double Stretch::*what) const {
-    // The record is in time order. The window's start slides over every stretch; `sum` holds those wholly inside.
+    // The record is in time order. The window's start moves over every stretch; `sum` holds the stretches fully inside.
     double worst = 0;
     double sum = 0;
     std::size_t next = 0;
@@ -173,7 +173,7 @@ double IndependentBody::worst(double window, double Stretch::*what) const {
             partial = record_[next].*what * (end - record_[next].start) / record_[next].length;
         }
         if (end > newest_) worst = std::max(worst, sum + partial);
-        if (next == record_.size()) break;  // Later starts see less
+        if (next == record_.size()) break;  // later starts cover less
         if (next > first) {
             sum -= record_[first].*what;
         } else {
@@ -189,7 +189,7 @@ double IndependentBody::Power::until(double t) const {
 }
 
 double IndependentBody::worstEnergy(double window) const {
-    std::vector<double> before{0};  // energy of the pieces before each
+    std::vector<double> before{0};  // energy of all pieces before each piece
     for (const auto& piece : power_) before.push_back(before.back() + piece.until(piece.length));
     const auto until = [&](double time) {
         const auto after = std::upper_bound(power_.begin(), power_.end(), time,
@@ -198,7 +198,7 @@ double IndependentBody::worstEnergy(double window) const {
         const auto k = static_cast<std::size_t>(after - power_.begin()) - 1;
         return before[k] + power_[k].until(time - power_[k].start);
     };
-    // Windows with one end where the power begins, ends or turns. One between may hold a little more, never much.
+    // Tries windows with one end where the power begins, ends or turns. Windows in between may hold slightly more.
     double worst = 0;
     const auto look = [&](double edge) {
         if (edge + window > newest_) worst = std::max(worst, until(edge + window) - until(edge));

@@ -1,7 +1,7 @@
-// IndependentBody.h - a second opinion on exposure, for judging the gate: what a delivered train really does to a load.
+// IndependentBody.h - an independent calculation of exposure that judges the gate: what a train really does to a load.
 //
-// Written from science.md alone. It shares no arithmetic with core/electrode or core/safety: currents are stepped from
-// event to event, integrals are Gauss-Legendre sums, and windows slide over the record of what was delivered.
+// Written from science.md alone. Shares no arithmetic with core/electrode or core/safety: currents are computed from
+// event to event, integrals are Gauss-Legendre sums, and windows slide over the record of deliveries.
 //
 // Thread-safety: the test's own thread.
 #pragma once
@@ -12,7 +12,7 @@
 
 namespace tacto::test {
 
-/// Rs + (Rp parallel C); C = 0 is a plain resistor Rs. SI units.
+/// Rs + (Rp parallel to C); C = 0 means a plain resistor Rs. SI units.
 struct Body {
     double rs = 1000;
     double rp = 0;
@@ -20,20 +20,20 @@ struct Body {
     [[nodiscard]] Body times(double factor) const { return {rs * factor, rp * factor, c / factor}; }
 };
 
-/// The source between phases and at its end of range.
+/// The source's behaviour between phases and at the end of its range.
 struct Drain {
     bool highImpedance = false;
-    double compliance = 1e9;  ///< compliance of a current source
+    double compliance = 1e9;  ///< largest voltage of a current source
 };
 
-/// What flowed during one stretch.
+/// The flow during one stretch of time.
 struct Stretch {
     double start = 0;
     double length = 0;
     double i2 = 0;      ///< A²s
     double energy = 0;  ///< J
     double charge = 0;  ///< C
-    double pulse = 0;   ///< start of the pulse that it belongs to
+    double pulse = 0;   ///< start of the pulse to which the stretch belongs
 };
 
 struct PulseFacts {
@@ -42,31 +42,31 @@ struct PulseFacts {
 
 class IndependentBody {
 public:
-    /// A capacitor that follows upon another keeps its voltage, which is the worse; a resistor holds none.
+    /// Connects a body. A capacitor keeps the previous one's voltage, which is the worse case; a resistor holds none.
     void fit(const Body& body) {
         body_ = body;
         if (body.c <= 0) vc_ = 0;
     }
     [[nodiscard]] const Body& body() const { return body_; }
-    /// Delivers a train at `start` seconds; facts are the largest of any of its pulses.
+    /// Delivers a train at `start` seconds; returns the largest values of any of its pulses.
     PulseFacts deliver(const PulseTrain& train, const Drain& drain, double start);
-    /// The most of i² in any window of `window` s that reaches into the newest train.
+    /// Returns the largest integral of i² over any window of `window` s that includes part of the newest train.
     [[nodiscard]] double worstI2(double window) const { return worst(window, &Stretch::i2); }
-    /// The worst for energy, part of which a charged capacitor gives back. Looks at windows that begin or end where the
-    /// power begins, ends or turns.
+    /// Returns the largest energy over such windows; a charged capacitor gives part of it back. Only tries windows that
+    /// begin or end where the power begins, ends or turns.
     [[nodiscard]] double worstEnergy(double window) const;
-    /// The net energy of everything that is kept.
+    /// Returns the net energy of everything in the record.
     [[nodiscard]] double netEnergy() const;
-    /// The most that the capacitor ever held, J.
+    /// Returns the largest energy ever stored in the capacitor, in J.
     [[nodiscard]] double mostStored() const { return mostStored_; }
-    /// |sum of charge| of the pulses begun in the 5 s before the newest, that one included.
+    /// Returns |sum of charge| of the pulses begun in the 5 s before the newest pulse, including the newest.
     [[nodiscard]] double charge5s() const;
     void forget() {
         record_.clear();
         power_.clear();
         vc_ = 0;
     }
-    /// |V / I| at the end of the leading phase, from rest.
+    /// Returns |V / I| at the end of the leading phase, from rest.
     [[nodiscard]] double magnitude(const PulseTrain& train) const;
 
 private:
@@ -74,7 +74,7 @@ private:
     /// v·i = steady + fading·exp(-t / tau) during one stretch.
     struct Power {
         double start = 0, length = 0, steady = 0, fading = 0, tau = 0;
-        [[nodiscard]] double until(double t) const;  // ∫ over its first t
+        [[nodiscard]] double until(double t) const;  // integral over the first t seconds
     };
     struct Flow {
         double i2 = 0, energy = 0, charge = 0, peakV = 0, peakI = 0, endV = 0, endI = 0;
@@ -85,12 +85,12 @@ private:
 
     Body body_;
     double vc_ = 0;
-    double lastRest_ = -1;  // since when nobody has touched the capacitor
+    double lastRest_ = -1;  // time since which the capacitor was left alone
     bool lastFloating_ = false;
-    double newest_ = 0;  // Start of the newest train
+    double newest_ = 0;  // start of the newest train
     std::vector<Stretch> record_;
-    std::vector<Power> power_;  // the power where it is not 0, in time order
-    double at_ = 0;             // the position of linear()
+    std::vector<Power> power_;  // the power while not 0, in time order
+    double at_ = 0;             // present time of linear()
     double mostStored_ = 0;
 };
 

@@ -30,7 +30,7 @@ ArmingEvidence evidence() {
     return e;
 }
 
-/// Arms one interlock with good evidence, and another with one thing spoilt.
+/// True if an interlock arms with good evidence, but another refuses with these words when one thing is spoilt.
 bool refusesToArm(std::string_view words, const std::function<void(ArmingEvidence&)>& spoil, Instant at = 0s) {
     const auto armed = [at](const ArmingEvidence& given) -> Result<void> {
         Interlock lock;
@@ -55,7 +55,7 @@ TrainReadBack goodStatus() {
     status.imbalanceUncertainty = 0.001;
     return status;
 }
-/// What is found of a train that ended at 1 s, looked at 10 ms later or at `now`.
+/// Returns the finding for a train that ended at 1 s, judged 10 ms later or at `now`.
 TrainFinding found(const std::function<void(TrainReadBack&)>& spoil, Instant now = 1s + 10ms) {
     TrainReadBack status = goodStatus();
     spoil(status);

@@ -23,7 +23,7 @@ ArmingEvidence goodEvidence(Instant at = 0s) {
     return e;
 }
 
-/// Brings a new interlock into a state by the legal way.
+/// Brings a new interlock into a state by legal transitions.
 void bringTo(Interlock& lock, State state) {
     if (state == State::Disconnected) return;
     ASSERT_TRUE(lock.connect());
@@ -217,7 +217,7 @@ TEST(Interlock, ArmingNeedsAllOfItsEvidence) {
     refused([](auto& e) { e.impedance = Ohms(std::numeric_limits<double>::infinity()); }, "inf ohm");
     refused([](auto&) {}, "at most 5 s", 5s + 1ns);
     refused([](auto& e) { e.impedanceAt = 1s; }, "at most 5 s");
-    // A measured impedance is judged, whatever was declared.
+    // A measured impedance is judged, whatever load was declared.
     refused(
         [](auto& e) {
             e.readsBack = false;

@@ -10,19 +10,19 @@
 namespace tacto::test {
 
 namespace {
-/// A person connected, measured and ready.
+/// A setup with a connected person, measured and ready.
 struct Person : Rig {
     Person() : Rig(personSetup()) { measure(2000); }
     void measure(double ohm) { EXPECT_TRUE(gate.updateImpedance(Ohms(ohm), clock.now())); }
     bool may(double mA) { return ask(milliamps(mA)).has_value(); }
-    /// The peak voltage of what was approved, into the largest load that it is judged at.
+    /// Returns the peak voltage of the approved train, into the largest load used for judging.
     double peak_v() {
         std::vector<ExposureRow> rows;
         gate.exposure(rows);
         const auto row = std::ranges::find(rows, Quantity::PeakVoltage, &ExposureRow::quantity);
         return row != rows.end() ? row->value : kNaN;
     }
-    /// Up by steps, each accepted.
+    /// Raises the level in steps, accepting each.
     void rampTo(double mA) {
         for (double level = 0.5; level < mA + 0.25; level += 0.5) {
             ASSERT_TRUE(may(level)) << level;
@@ -35,7 +35,7 @@ struct Person : Rig {
 TEST(PersonMode, NeedsEverythingThatIsKnownOfAPerson) {
     RecordProperty("hazard", "H4");
     EXPECT_TRUE(Rig(personSetup()).configured);
-    // GateCases.cpp has each by itself. Volts never reach a person's current source:
+    // GateCases.cpp has a case for each. A person's current source never accepts volts:
     Person rig;
     EXPECT_FALSE(rig.ask(volts(1)));
 }
@@ -46,7 +46,7 @@ TEST(PersonMode, JudgesWithTheMeasuredImpedance) {
     EXPECT_NEAR(rig.peak_v(), 0.5 * 2.6, 1e-9) << "into the measured 2 kΩ and 30 % more";
     rig.rampTo(4.5);
     // 4.5 mA · 9000 Ω is 40.5 V.
-    for (const double ohm : {4000, 8000, 8800}) rig.measure(ohm);  // at most twice the reading before
+    for (const double ohm : {4000, 8000, 8800}) rig.measure(ohm);  // at most twice the previous reading
     EXPECT_TRUE(rig.may(4.5));
     rig.measure(9000);
     EXPECT_THAT(rig.ask(milliamps(4.5)), refusedSaying("commanded voltage"));
@@ -134,7 +134,7 @@ TEST(PersonMode, NothingExceedsTheDiscomfortLimitAfterwards) {
     EXPECT_TRUE(rig.may(2.5));
     ASSERT_TRUE(rig.gate.reportDiscomfort(Milliamps(4)));
     EXPECT_FALSE(rig.may(2.6)) << "a later, higher report does not raise it";
-    // Configuring again for the same participant does not help either.
+    // Configuring again for the same participant does not raise it either.
     ASSERT_TRUE(rig.gate.configure(personSetup()));
     rig.measure(2000);
     EXPECT_FALSE(rig.may(2.6));

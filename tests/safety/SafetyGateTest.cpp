@@ -38,7 +38,7 @@ TEST(SafetyGate, ApprovesThePapersRoughHighFrom500OhmUpAndRefusesItAt100) {
     const auto refused = rig.ask(volts(40), 0.5);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, ErrorCode::LimitExceeded);
-    // Quantity, value, the nominal figure, limit and source.
+    // The message gives quantity, value, nominal value, limit and source.
     EXPECT_EQ(refused.error().message.rfind(
                   "RMS current over 5 s would be 14.14 mA in the worst case (11.31 mA into 100 ohm); "
                   "less than 10 mA is allowed (Project's design paper, reference not on record; ",
@@ -49,8 +49,8 @@ TEST(SafetyGate, ApprovesThePapersRoughHighFrom500OhmUpAndRefusesItAt100) {
 
 TEST(SafetyGate, ACalibrationDoesNotTakeItsOwnUncertaintyOut) {
     RecordProperty("hazard", "H1");
-    // 40 V every 0.5 s into 141.4 ohm makes 10.002 mA RMS at the low end of the load range. A good calibration,
-    // programmed a little less for it, with U = 0.8 %, does not know that it makes less.
+    // 40 V every 0.5 s into 141.4 ohm gives 10.002 mA RMS at the low end of the load range. With a good calibration the
+    // programmed value is slightly less, but U = 0.8 % leaves open whether less comes out.
     GateSetup setup = shippedSetup(141.4);
     setup.source.amplitudeStep = 0.05;
     EXPECT_FALSE(Rig(setup).ask(volts(40), 0.5));
@@ -63,17 +63,17 @@ TEST(SafetyGate, ACalibrationDoesNotTakeItsOwnUncertaintyOut) {
     ASSERT_TRUE(calibrated.configured) << calibrated.configured.error().message;
     PulseTrain programmed = programmedFor(volts(40), setup.calibration);
     programmed.amplitude = Volts(40);
-    programmed.phaseWidth = Micros(199);  // rounded toward zero, as a device with steps of 1 us makes it
+    programmed.phaseWidth = Micros(199);  // rounded toward zero, as by a device with steps of 1 us
     programmed.interPhaseGap = Micros(99);
     EXPECT_THAT(calibrated.ask(programmed, programmedFor(Seconds(0.5), setup.calibration).count()),
                 refusedSaying("RMS current over 5 s"));
-    // Taken as exact it would be accepted, at 199 us and a hair less than 40 V.
+    // If the calibration were exact, 199 us and just under 40 V would be accepted.
     GateSetup exact = setup;
     exact.calibration->amplitude.spread = Spread{};
     for (auto* line : {&*exact.calibration->interval, &*exact.calibration->phaseWidth, &*exact.calibration->gap})
         line->spread = Spread{};
     EXPECT_TRUE(Rig(exact).ask(programmed, 0.5)) << "what was accepted before";
-    // A calibration with an unknown uncertainty is judged with 5 %, like a stimulator that is not calibrated.
+    // A calibration with unknown uncertainty is judged with 5 %, like an uncalibrated stimulator.
     for (auto* line : {&*setup.calibration->interval, &*setup.calibration->phaseWidth, &*setup.calibration->gap})
         line->spread.reset();
     setup.calibration->amplitude.spread.reset();
@@ -115,7 +115,7 @@ TEST(SafetyGate, APersonsLevelsAreComparedWithoutTheirCommonUncertainty) {
 }
 
 TEST(SafetyGate, KeepsTheStreamOfConditionsGoing) {
-    // Twelve seconds of rough-high, as the live loop asks: the meter must not stop what the steady state allows.
+    // Twelve seconds of rough-high, as in the live loop: the meter must not stop what the steady state allows.
     Rig rig(shippedSetup(500));
     for (int k = 0; k < 24; ++k) {
         ASSERT_TRUE(rig.ask(volts(40), 0.5)) << k;
@@ -125,7 +125,7 @@ TEST(SafetyGate, KeepsTheStreamOfConditionsGoing) {
 
 TEST(SafetyGate, WhatAFloatingSourceLeftIsStillThereForTheNextSource) {
     RecordProperty("hazard", "H1");
-    // 20 kohm empty 1 uF in 20 ms; a source that holds 0 V would in 0.3 ms. When it was connected is unknown.
+    // 20 kohm discharge 1 uF in 20 ms; a source that holds 0 V would do so in 0.3 ms. Earlier charge is unknown.
     GateSetup floating = benchSetup(Load::skin(Ohms(300), Ohms(20'000), Nanofarads(1000)));
     floating.source.gap = GapState::HighImpedance;
     Rig rig(floating);
@@ -154,7 +154,7 @@ TEST(SafetyGate, VoltageLimitIsExact) {
 }
 
 TEST(SafetyGate, CurrentMadeFromFortyVoltsIsApproved) {
-    // I = A / |Z| and back must not miss "at most 40 V" by its last bits, for any |Z|.
+    // The result of I = A / |Z|, converted back, must not exceed "at most 40 V" by rounding, for any |Z|.
     for (double ohm = 700; ohm < 9000; ohm *= 1.0137) {
         GateSetup setup = shippedSetup(ohm);
         setup.source = currentSource();
@@ -224,14 +224,14 @@ TEST(SafetyGate, DecimalStepsAreOnTheGrid) {
 
 TEST(SafetyGate, BurstsAddUpAcrossDifferentTrains) {
     RecordProperty("hazard", "H1");
-    // Into 100 Ω at one train in 10 s rough-high is fine; asked for again and again it must end before 10 mA.
+    // With one train in 10 s, rough-high into 100 Ω is allowed; repeated requests must be refused before 10 mA.
     Rig rig(shippedSetup(100));
     int approved = 0;
     while (approved < 100 && rig.ask(volts(40), 10)) {
         ++approved;
         rig.wait(0.02);
     }
-    // One train puts (0.5 A)² · 0.4 ms = 1e-4 A²s into the load range's low end; 5 s hold less than 5e-4 A²s.
+    // One train gives (0.5 A)² · 0.4 ms = 1e-4 A²s at the load range's low end; 5 s may hold less than 5e-4 A²s.
     EXPECT_EQ(approved, 4);
     rig.wait(5.2);
     EXPECT_TRUE(rig.ask(volts(40), 10));
@@ -256,7 +256,7 @@ TEST(SafetyGate, NoGateHonoursAnothersApproval) {
     EXPECT_FALSE(two.gate.isCurrent(*approved));
 }
 
-/// The operator presses STOP whenever the gate asks what time it is: in the middle of every approval.
+/// A clock that triggers STOP whenever the gate asks for the time, that is, in the middle of every approval.
 class StoppingClock final : public Clock {
 public:
     [[nodiscard]] Instant now() const noexcept override {
@@ -333,7 +333,7 @@ TEST(SafetyGate, PowerDensityIsRefusedOnceTheAreaIsKnown) {
     GateSetup setup = shippedSetup(500);
     setup.electrodeArea = SquareCentimetres(0.01);
     Rig rig(setup);
-    // 40 V into 400 Ω: 4 W for 0.4 ms twice a second is 3.2 mW, 0.32 W/cm².
+    // 40 V into 400 Ω: 4 W for 0.4 ms twice a second gives 3.2 mW, 0.32 W/cm².
     EXPECT_THAT(rig.ask(volts(40), 0.5), refusedSaying("power density over 1 s would be 0.32 W/cm2"));
 }
 
@@ -347,7 +347,7 @@ TEST(SafetyGate, FrequencyBandsFollowTheLowestRepetition) {
     PulseTrain train = volts(10);  // 25 mA into 400 Ω
     train.rate = Hertz(500);
     Rig rig(setup);
-    // At 2 ms: 25 mA · √(0.4/2) = 11.2 mA, allowed above 400 Hz. At 2.6 ms (385 Hz): 9.8 mA is under 10.
+    // Every 2 ms: 25 mA · √(0.4/2) = 11.2 mA, allowed above 400 Hz. Every 2.6 ms (385 Hz): 9.8 mA is below 10 mA.
     EXPECT_TRUE(rig.ask(train, 0.002));
     rig.wait(6);
     train.amplitude = Volts(11);
@@ -366,7 +366,7 @@ TEST(SafetyGate, ExposureShowsTheLastFiveSeconds) {
         return r.quantity == Quantity::RmsCurrent5s && r.set.view() == "paper";
     });
     ASSERT_NE(row, rows.end());
-    // At load_min, 400 Ω, 100 mA for 0.4 ms; the first of the ten trains began just 5 s ago and no longer counts.
+    // At load_min, 400 Ω: 100 mA for 0.4 ms; the first of ten trains began exactly 5 s ago, outside the window.
     EXPECT_NEAR(row->value, std::sqrt(9 * 0.1 * 0.1 * 4e-4 / 5) * 1e3, 1e-6);
     EXPECT_TRUE(row->within);
     EXPECT_EQ(row->unit, "mA");

@@ -1,7 +1,7 @@
-// SequenceReferee.h - what a random sequence aims with, and who judges it (see GateSequences.h).
+// SequenceReferee.h - chooses the random trains of a sequence and judges what was delivered (see GateSequences.h).
 //
-// The referee holds every limit as a number of its own and reads exposure from IndependentBody; nothing here asks the
-// gate whether something was allowed.
+// The referee has its own number for every limit and takes exposure from IndependentBody; it never asks the gate
+// whether something was allowed.
 //
 // Thread-safety: the test's own thread.
 #pragma once
@@ -23,19 +23,19 @@ namespace tacto::test {
 
 inline constexpr double kInf = std::numeric_limits<double>::infinity();
 inline constexpr std::size_t kKinds = static_cast<std::size_t>(Near::Count);
-inline constexpr double kSlack = 1 + 2e-6;  // The error of the referee's quadrature
+inline constexpr double kSlack = 1 + 2e-6;  // error of the referee's quadrature
 
-/// The referee's own view of what is allowed now.
+/// What is allowed now, from the referee's own rules.
 struct Allowed {
     double area = kNaN;                              // cm²
-    double peakI = kInf, charge = kInf, net = kInf;  // Ceilings, SI
+    double peakI = kInf, charge = kInf, net = kInf;  // ceilings, SI units
     double energy = kInf, rms1 = kInf, dc = kInf;
     bool person = false;
     double step = 0, discomfort = kInf;  // A
-    double low = 0, high = kInf;         // Ω, of a person
+    double low = 0, high = kInf;         // Ω, for a person
 };
 
-/// A device that does not deliver what it is told, but on a line of its own.
+/// The linear error of a device that does not deliver exactly what it is told.
 struct Flaw {
     double gain = 1, offset = 0;
     [[nodiscard]] double outOf(double told) const { return told == 0 ? 0 : std::max(0.0, gain * told + offset); }
@@ -63,7 +63,7 @@ public:
         : clock_(clock), dice_(dice), total_(total), traced_(traced) {}
 
 protected:
-    /// The trace, then what was violated: of a long text, the end is seen.
+    /// Appends what was violated to the trace: of a long text, the end is visible.
     void violation(const std::string& what) {
         if (total_.violation.empty()) total_.violation = trace_ + what;
     }
@@ -99,7 +99,7 @@ protected:
         train.amplitude = current ? Amplitude(Milliamps(own)) : Amplitude(Volts(own));
     }
 
-    /// Amplitudes at which each kind of limit is about met, from one train of amplitude 1 at both ends of the range.
+    /// Amplitudes that about reach each kind of limit, from one train of amplitude 1 at both ends of the load range.
     using Aims = std::array<double, kKinds>;
     Aims aimsOf(PulseTrain train, double interval) {
         const bool current = source_.drive == Drive::Current;
@@ -108,7 +108,7 @@ protected:
         const double period = 1 / train.rate.value();
         const double count5 = std::min(std::ceil(5 / interval) * train.pulses, std::ceil(5 / period)) / train.pulses;
         const double count1 = std::min(std::ceil(1 / interval) * train.pulses, std::ceil(1 / period)) / train.pulses;
-        // Two pulses tell enough about the others: this aims, it does not judge.
+        // Two pulses are enough here: this only chooses amplitudes, it does not judge.
         const double more = train.pulses > 2 ? train.pulses / 2.0 : 1;
         train.pulses = std::min(train.pulses, 2);
         Aims aims;
@@ -158,7 +158,7 @@ protected:
         return probe.magnitude(train);
     }
 
-    /// Looks for a train with a tightest limit of one kind, so that the rarer kinds are tried, too.
+    /// Looks for a train for which one kind of limit is the tightest, so that rarer kinds are tried too.
     void search(Near kind, PulseTrain& train, double& interval) {
         for (int tries = 0; tries < 6; ++tries) {
             train = randomTrain();
@@ -166,7 +166,7 @@ protected:
             const bool slow = kind == Near::Rms5s || kind == Near::Rms500 || kind == Near::Dc;
             const bool windowed = slow || kind == Near::Rms1s || kind == Near::Power;
             if (windowed && dice_.chance(0.5)) {  // one train longer than the window
-                if (kind == Near::Rms500) {       // only a source that hardly rests gets there
+                if (kind == Near::Rms500) {       // only a source that hardly pauses reaches this limit
                     train.shape = PulseShape::SymmetricBiphasic;
                     train.interPhaseGap = Micros(0);
                     train.phaseWidth = Micros(std::round(dice_.between(20'000, 100'000)));
@@ -176,8 +176,8 @@ protected:
                 const double window = slow ? 5 : 1;
                 const double pulses = (slow ? 5.2 : 1.1) / period;
                 if (pulses < 200) train.pulses = std::max(1, static_cast<int>(pulses));
-                // Periods that come out as filling the window leave no room in which a bound of whole pulses could
-                // hide.
+                // If the periods exactly fill the window, a bound that counts whole pulses has no room to hide an
+                // error.
                 const double whole = std::floor(window / period);
                 fills_ = whole >= 1 && pulses < 200 && dice_.chance(0.3);
                 if (fills_) {
@@ -251,19 +251,19 @@ protected:
     SourceTraits source_;
     Body nominal_;
     Allowed allowed_;
-    IndependentBody body_, at500_;  // What is connected, and a 500 Ω resistor beside it
-    Near theme_ = Near::Count;      // None
-    Miscalibration known_;          // What is known of that which the device makes of what it is told
-    Miscalibration device_;         // What it really makes of it
-    bool calibrated_ = false;       // What is known holds, and trains are told by it
+    IndependentBody body_, at500_;  // the connected body, and a 500 Ω resistor for comparison
+    Near theme_ = Near::Count;      // Near::Count: none
+    Miscalibration known_;          // the device's known errors
+    Miscalibration device_;         // the device's true errors
+    bool calibrated_ = false;       // the known errors apply, and trains are programmed with them
     bool close_ = false;
-    bool fills_ = false;      // The train that was searched for: its periods fill a window
+    bool fills_ = false;      // the chosen train's periods fill a window
     double slowest_ = 0;      // Longest interval delivered, s
-    double readAs_ = 1;       // |Z| of a bench load as told to the gate, to that which was declared
+    double readAs_ = 1;       // a bench load's |Z| as told to the gate, divided by the declared |Z|
     double measured_ = 1000;  // A person's |Z| as told to the gate, Ω
     double measuredAt_ = -100;
     double accepted_ = 0;    // A
-    double seriesLast_ = 0;  // A, of this ascending series
+    double seriesLast_ = 0;  // A, in this ascending series
     bool ascending_ = false;
     std::optional<PulseTrain> seriesOf_;
     std::string trace_;

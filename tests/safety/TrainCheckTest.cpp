@@ -39,7 +39,7 @@ TEST(TrainCheck, OpenAndShortStopBeforeTheNextTrain) {
         EXPECT_TRUE(judge(status, mode).stops());
         status.electrode = ElectrodeReading::Short;
         EXPECT_EQ(judge(status, mode).finding, TrainFinding::Short);
-        // This holds also when it is read while the train still runs.
+        // The same holds if it is read while the train still runs.
         status.at = kEnd - 1ms;
         status.delivering = true;
         EXPECT_TRUE(judge(status, mode).stops());

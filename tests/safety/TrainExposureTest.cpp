@@ -27,7 +27,7 @@ TrainExposure into(double ohm, const PulseTrain& train, double interval) {
 }  // namespace
 
 TEST(TrainExposure, RoughHighInto500OhmIsThePublishedFigure) {
-    // 40 V into 500 Ω is 80 mA for 0.4 ms, ten times in 5 s.
+    // 40 V into 500 Ω gives 80 mA for 0.4 ms, ten times in 5 s.
     const auto e = into(500, volts(40), 0.5);
     EXPECT_NEAR(e.at(Quantity::RmsCurrent5s), std::sqrt(10 * 0.08 * 0.08 * 4e-4 / 5) * 1e3, 1e-9);
     EXPECT_NEAR(e.at(Quantity::RmsCurrentTrain), 16, 1e-9);
@@ -54,12 +54,12 @@ TEST(TrainExposure, DensitiesFollowTheArea) {
 }
 
 TEST(TrainExposure, WorstSlidingWindowHoldsWholeTrains) {
-    // 0.4 s: 5 s hold 12.5 intervals, a window can touch 13 trains.
+    // Interval 0.4 s: 5 s hold 12.5 intervals, and a window can touch 13 trains.
     EXPECT_NEAR(into(500, volts(40), 0.4).at(Quantity::RmsCurrent5s), std::sqrt(13 * 0.08 * 0.08 * 4e-4 / 5) * 1e3,
                 1e-9);
-    // 7 s hold never more than one train.
+    // Interval 7 s: 5 s never hold more than one train.
     EXPECT_NEAR(into(500, volts(40), 7).at(Quantity::RmsCurrent5s), std::sqrt(0.08 * 0.08 * 4e-4 / 5) * 1e3, 1e-9);
-    // 100 pulses at 10 Hz last 10 s: 50 of them are in any 5 s, 10 in a second.
+    // 100 pulses at 10 Hz last 10 s: any 5 s hold 50 of them, any second 10.
     PulseTrain train = volts(40);
     train.pulses = 100;
     train.rate = Hertz(10);
@@ -72,7 +72,7 @@ TEST(TrainExposure, RcLoadPeaksAsScienceMdSays) {
     SourceTraits source = voltageSource();
     PulseTrain train = volts(40);
     const Load rc = benchRcLoad();
-    // A high-impedance gap keeps the capacitor charged; held at zero it is discharged (tests/reference/loads.py).
+    // A high-impedance gap keeps the capacitor charged; a gap held at zero discharges it (tests/reference/loads.py).
     const auto& scipy = figuresOf("loads").at("bench_load_40_v");
     source.gap = GapState::HighImpedance;
     EXPECT_NEAR(exposureOf(train, Seconds(0.5), rc, source, kNaN).at(Quantity::PeakCurrent),
@@ -90,7 +90,7 @@ TEST(TrainExposure, HighImpedanceGapLeaves58PercentOfAPhase) {
     SourceTraits source = voltageSource();
     source.gap = GapState::HighImpedance;
     const auto e = exposureOf(volts(40), Seconds(0.5), benchRcLoad(), source, kNaN);
-    // Against the leading phase's charge, which the second phase exceeds.
+    // Relative to the leading phase's charge, which the second phase exceeds.
     IndependentBody body;
     body.fit({200, 10'000, 50e-9});
     PulseTrain leading = volts(40);
@@ -99,7 +99,7 @@ TEST(TrainExposure, HighImpedanceGapLeaves58PercentOfAPhase) {
     EXPECT_NEAR(e.at(Quantity::NetCharge) / phase, -figuresOf("loads").at("bench_load_net_charge").get<double>(), 0.01);
 }
 
-// Against the model that shares no arithmetic: all shapes, sources and gaps, into the RC load, from rest.
+// Compared with the independent model: all shapes, sources and gaps, into the RC load, from rest.
 TEST(TrainExposure, AgreesWithTheIndependentModel) {
     RecordProperty("hazard", "H1");
     for (const auto shape : {PulseShape::SymmetricBiphasic, PulseShape::AsymmetricBiphasic, PulseShape::Monophasic}) {
@@ -111,7 +111,7 @@ TEST(TrainExposure, AgreesWithTheIndependentModel) {
                     PulseTrain train = current ? milliamps(3) : volts(30);
                     train.shape = shape;
                     train.pulses = pulses;
-                    train.rate = Hertz(380);  // 2.6 ms: the RC load (0.5 ms) keeps a little between pulses
+                    train.rate = Hertz(380);  // 2.6 ms: the RC load (0.5 ms) keeps a little charge between pulses
                     const auto e = exposureOf(train, Seconds(1), benchRcLoad(), source, 1);
                     IndependentBody body;
                     body.fit({200, 10'000, 50e-9});
@@ -124,8 +124,8 @@ TEST(TrainExposure, AgreesWithTheIndependentModel) {
                     EXPECT_NEAR(e.at(Quantity::PulseEnergy) / (facts.energy * 1e3), 1, 1e-6) << where;
                     EXPECT_NEAR(e.at(Quantity::RmsCurrent5s) / (std::sqrt(body.worstI2(100) * 5 / 5) * 1e3), 1, 1e-6)
                         << where;
-                    // The whole train ends discharged: what it took is heat, and a window may end with the capacitor
-                    // full.
+                    // After the whole train the load is discharged: the energy it took is heat; but a window may end
+                    // with the capacitor full.
                     EXPECT_NEAR(e.at(Quantity::PowerDensity) / (body.netEnergy() + body.mostStored()), 1, 1e-6)
                         << where;
                     EXPECT_LE(body.worstEnergy(1), e.at(Quantity::PowerDensity)) << where;
@@ -137,8 +137,8 @@ TEST(TrainExposure, AgreesWithTheIndependentModel) {
     }
 }
 
-// Found by random sequences: the second phase takes back part of what the first stored, and a second that ends between
-// them holds 5 % more than as many whole pulses.
+// Found by random sequences: the second phase takes back part of the energy stored by the first, so a window of a
+// second that ends between the phases holds 5 % more than the same number of whole pulses.
 TEST(TrainExposure, ASecondMayEndWithTheCapacitorFull) {
     RecordProperty("hazard", "H1");
     SourceTraits source = currentSource();
@@ -164,7 +164,7 @@ TEST(TrainExposure, ASecondMayEndWithTheCapacitorFull) {
     EXPECT_LE(e.at(Quantity::PowerDensity), 1.05 * worst) << "and not much more than that";
 }
 
-/// Draws any shape, with phases of 20 us to `widest`.
+/// Draws a pulse of any shape, with phases of 20 us to `widest`.
 void drawPulse(PulseTrain& train, Dice& dice, Micros widest) {
     train.shape = std::array{PulseShape::SymmetricBiphasic, PulseShape::Monophasic,
                              PulseShape::AsymmetricBiphasic}[static_cast<std::size_t>(3 * dice.unit())];
@@ -173,12 +173,12 @@ void drawPulse(PulseTrain& train, Dice& dice, Micros widest) {
     train.interPhaseGap = Micros(dice.chance(0.3) ? 0 : 200 * dice.unit());
 }
 
-/// A second of a train that lasts longer, at 1 V or 1 mA, into the body, and what is booked of it.
+/// A train longer than a second, at 1 V or 1 mA, with the body that receives it, and what the gate books for it.
 struct LongTrain {
     Body body;
     PulseTrain train;
     SourceTraits source;
-    /// A train with a current in so many of the cases, and a capacitance in that range, F; its form is left open.
+    /// Draws a case: a current source with probability `currents`, a capacitance (F) in this range; no train yet.
     static LongTrain drawn(Dice& dice, double currents, std::array<double, 2> capacitance) {
         const bool current = dice.chance(currents);
         const double rs = dice.decade(80, 2000), rp = dice.decade(1000, 50'000);
@@ -202,8 +202,8 @@ struct LongTrain {
     }
 };
 
-// The first pulse is from rest and its second phase takes the most, the later ones' leading phases do: a second that
-// begins within the first pulse and ends within the ninth holds more than eight times the largest of them.
+// In the first pulse, which starts from rest, the second phase takes the most; in later pulses the leading phase does.
+// A second that begins within the first pulse and ends within the ninth holds more than eight times the largest pulse.
 TEST(TrainExposure, ASecondMayBeginAndEndWithinAPulse) {
     RecordProperty("hazard", "H1");
     LongTrain late{{200, 48'000, 1.75e-6}, volts(1), voltageSource()};
@@ -211,7 +211,7 @@ TEST(TrainExposure, ASecondMayBeginAndEndWithinAPulse) {
     late.train.phaseWidth = Micros(220);
     late.train.interPhaseGap = Micros(0);
     late.train.pulses = 11;
-    late.train.rate = Hertz(7.999999);  // eight periods are a second and a little
+    late.train.rate = Hertz(7.999999);  // eight periods are slightly more than a second
     double most = 0;
     for (int only = 1; only <= 9; ++only) {
         IndependentBody truth;
@@ -245,7 +245,7 @@ TEST(TrainExposure, NoSecondOfALongTrainHoldsMoreThanIsBooked) {
         if (!validate(some.train)) continue;
         const TrainSums booked = some.booked();
         const IndependentBody truth = some.delivered();
-        // The error of the other model's quadrature.
+        // The quadrature error of the other model.
         constexpr double kSlack = 1 + 2e-6;
         ASSERT_LE(truth.worstI2(1), booked.currentSquared_A2s * kSlack) << k;
         ASSERT_LE(truth.worstEnergy(1), (booked.dissipated_J + booked.stored_J) * kSlack) << k;
@@ -254,17 +254,17 @@ TEST(TrainExposure, NoSecondOfALongTrainHoldsMoreThanIsBooked) {
     EXPECT_GT(close, 10'000) << "a bound that refuses too much, or nothing was tried";
 }
 
-/// A voltage or current during one stretch: steady + fading exp(-t / tau).
+/// A voltage or current during one stretch: steady + fading · exp(-t / tau).
 struct Fading {
     double steady = 0, fading = 0;
-    /// The integral of its square over the first `t`.
+    /// Returns the integral of the square over the first `t` seconds.
     [[nodiscard]] double squares(double t, double tau) const {
         const double gone = -std::expm1(-t / tau), twice = -std::expm1(-2 * t / tau);
         return steady * steady * t + 2 * steady * fading * tau * gone + fading * fading * tau / 2 * twice;
     }
 };
 
-/// What long trains put on their body, one per `interval`, by closed forms, up to any moment.
+/// The effect of long trains, one per `interval`, on their body, by closed forms, up to any time.
 class Course {
 public:
     explicit Course(const LongTrain& of, int trains = 1, double interval = 0) : body_(of.body) {
@@ -287,7 +287,7 @@ public:
     struct Sums {
         double amps = 0, volts = 0, heat = 0;
     };
-    /// The most of any window that begins at one of so many moments of each stretch, or ends with one.
+    /// Returns the largest value of any window that begins or ends at one of `moments` times in each stretch.
     [[nodiscard]] Sums worst(double window, int moments) const {
         Sums worst;
         const double last = stretches_.back().begin + stretches_.back().length;
@@ -346,10 +346,10 @@ private:
 };
 
 // A second that begins late in a phase of one pulse and ends early in the same phase of another holds more than whole
-// parts do: voltage and heat change sign, or fall and rise, within a phase.
+// phases do: voltage and heat change sign, or fall and rise, within a phase.
 TEST(TrainExposure, NoSecondThatCutsAPhaseHoldsMoreThanIsBooked) {
     RecordProperty("hazard", "H1");
-    // One pulse a second: 2.5 % more than the largest of any phase together.
+    // One pulse a second: 2.5 % more than the sum of the largest value of each phase.
     LongTrain slow{{200, 6000, 38e-6}, milliamps(1), currentSource()};
     slow.source.gap = GapState::HoldsZero;
     slow.source.compliance = Volts(1e9);
@@ -379,8 +379,8 @@ TEST(TrainExposure, NoSecondThatCutsAPhaseHoldsMoreThanIsBooked) {
     }
 }
 
-// The second train finds what the first left, so a second that begins in the first train and ends in the ninth holds
-// more than eight of either: what previews and tables show is an upper bound, too (H9).
+// The second train starts with the charge left by the first, so a second that begins in the first train and ends in the
+// ninth holds more than eight of either: the values in previews and tables are upper bounds, too (H9).
 TEST(TrainExposure, ASecondOfRepeatedTrainsHoldsNoMoreThanIsShown) {
     RecordProperty("hazard", "H9");
     const Body body{200, 48'000, 1.75e-6};
@@ -406,7 +406,7 @@ TEST(TrainExposure, ASecondOfRepeatedTrainsHoldsNoMoreThanIsShown) {
     }
 }
 
-/// Repeated trains of up to 20 pulses, mostly with an interval that a window does not hold a whole number of times.
+/// Repeated trains of up to 20 pulses; mostly, a window does not hold a whole number of their intervals.
 struct Repeated {
     LongTrain each;
     double interval;
@@ -428,8 +428,8 @@ struct Repeated {
     }
 };
 
-// science.md section 7: into a resistor the worst position of a window exactly, but that a pulse which its edge parts
-// counts as if its phases followed each other.
+// science.md section 7: into a resistor, the worst position of a window is exact, except that a pulse cut by the
+// window's edge is treated as if its phases followed each other without a gap.
 TEST(TrainExposure, IntoAResistorTheWorstPositionOfAWindowIsExact) {
     RecordProperty("hazard", "H1");
     Dice dice(20261133);
@@ -441,7 +441,7 @@ TEST(TrainExposure, IntoAResistorTheWorstPositionOfAWindowIsExact) {
         const Course truth(some.each, some.trains / 2, some.interval);  // all trains are alike
         const Load load = Load::resistor(Ohms(some.each.body.rs));
         const auto shown = exposureOf(some.each.train, Seconds(some.interval), load, some.each.source, 1);
-        const auto single = truth.worst(some.each.train.pulseDuration().count(), 1);  // holds a pulse
+        const auto single = truth.worst(some.each.train.pulseDuration().count(), 1);  // the value of one pulse
         for (const double window : {1.0, 5.0}) {
             const auto worst = truth.worst(window, 1);
             const auto rms = shown.at(window == 1 ? Quantity::RmsCurrent1s : Quantity::RmsCurrent5s);
@@ -460,13 +460,13 @@ TEST(TrainExposure, IntoAResistorTheWorstPositionOfAWindowIsExact) {
     EXPECT_GT(exact, 20 * parted) << "a gap that a window's edge falls into is rare";
 }
 
-// Into a load with a capacitor it is a bound: never less, and more by what one pulse holds at most, which the window's
-// edge may part; and where the load keeps charge from train to train, each counts as the largest.
+// Into a load with a capacitor the value is a bound: never too low, and too high by at most one pulse, which the
+// window's edge may cut; if the load keeps charge between trains, each train is taken as the largest.
 TEST(TrainExposure, IntoACapacitorTheWorstPositionOfAWindowIsAnUpperBound) {
     RecordProperty("hazard", "H1");
     Dice dice(20261134);
     const int count = trials<int>({.local = 40, .ci = 300, .campaign = 10'000});
-    constexpr double kRounding = 1e-7;  // error of a course of a thousand stretches, where a charging spike begins
+    constexpr double kRounding = 1e-7;  // error of a course of a thousand stretches, at the start of a charging spike
     int far = 0;
     for (int k = 0; k < count; ++k) {
         const Repeated some = Repeated::drawn(dice, {5e-9, 2e-6});
@@ -489,7 +489,7 @@ TEST(TrainExposure, IntoACapacitorTheWorstPositionOfAWindowIsAnUpperBound) {
     EXPECT_LE(far, 0.05 * count) << "a bound that refuses too much";
 }
 
-// Two seconds of pulses every 4.9 s: 5 s hold one train and a few pulses of the next, not two trains.
+// Trains of two seconds every 4.9 s: 5 s hold one train and a few pulses of the next, not two trains.
 TEST(TrainExposure, AWindowThatOnlyTouchesATrainDoesNotHoldIt) {
     PulseTrain train = volts(40);
     train.pulses = 20;
@@ -500,7 +500,7 @@ TEST(TrainExposure, AWindowThatOnlyTouchesATrainDoesNotHoldIt) {
     EXPECT_NEAR(e.at(Quantity::RmsCurrent1s), std::sqrt(10 * pulse) * 1e3, 1e-9);
     EXPECT_NEAR(into(500, train, 2.5).at(Quantity::RmsCurrent5s), std::sqrt(40 * pulse / 5) * 1e3, 1e-9);
     EXPECT_NEAR(into(500, train, 2.4).at(Quantity::RmsCurrent5s), std::sqrt((40 + 2) * pulse / 5) * 1e3, 1e-9);
-    // 100 µs of the next train's first pulse, half of its first phase.
+    // The window includes 100 µs of the next train's first pulse, half of its first phase.
     EXPECT_NEAR(into(500, volts(40), 4.9999).at(Quantity::RmsCurrent5s), std::sqrt(1.25 * pulse / 5) * 1e3, 1e-9);
 }
 
@@ -518,7 +518,7 @@ TEST(TrainExposure, ChargeLeftBehindIsCarriedIntoTheSteadyState) {
     for (int k = 0; k < 200; ++k) body.deliver(train, {true, 1e9}, 0.5 * k);
     PulseTrain reversed = train;
     reversed.polarity = Polarity::Negative;
-    // What 200 trains left makes the reversed train peak higher; the gate carries that voltage.
+    // The charge left by 200 trains makes the reversed train peak higher; the gate takes that voltage into account.
     const double peak = body.deliver(reversed, {true, 1e9}, 100).peakI * 1e3;
     EXPECT_GT(peak, 1.2 * e.at(Quantity::PeakCurrent));
     EXPECT_GT(exposureOf(reversed, Seconds(0.5), slow, source, kNaN, {e.residual_V}).at(Quantity::PeakCurrent), peak);
@@ -530,7 +530,7 @@ TEST(TrainExposure, VoltageOfACurrentSourceIsCappedByCompliance) {
     const auto e = exposureOf(milliamps(20), Seconds(1), Load::resistor(Ohms(10'000)), source, kNaN);
     EXPECT_NEAR(e.at(Quantity::PeakVoltage), 80, 1e-12);
     EXPECT_NEAR(e.at(Quantity::CommandVoltage), 200, 1e-9) << "the command is judged uncapped";
-    // Phases that clip on a charged load no longer balance: net charge must not read zero.
+    // Phases that clip on a charged load are not balanced: net charge must not read zero.
     const auto rc =
         exposureOf(milliamps(20), Seconds(1), Load::skin(Ohms(1000), Ohms(50'000), Nanofarads(20)), source, kNaN);
     EXPECT_GE(rc.at(Quantity::NetCharge), rc.at(Quantity::PhaseCharge));
@@ -663,8 +663,8 @@ TEST(ExposureTable, TheImpedanceIsThatOfAPulseOfAnyHeight) {
     }
 }
 
-/// What trains of `range` really put into a second, one per `interval`, at the phase width, gap and rate that lie
-/// `share` of the way from its sparsest to its densest; mA.
+/// Returns the RMS over 1 s in mA of trains of `range`, one per `interval`. Phase width, gap and rate lie at `share` of
+/// the way from the sparsest to the densest train.
 double deliveredRms1s(const TrainRange& range, double share, Seconds interval, const Body& body) {
     PulseTrain train = range.densest;
     const auto between = [share](Micros a, Micros b) { return Micros(a.count() + share * (b.count() - a.count())); };
@@ -677,8 +677,8 @@ double deliveredRms1s(const TrainRange& range, double share, Seconds interval, c
     return std::sqrt(into.worstI2(1)) * 1e3;
 }
 
-// Found by random sequences (seed 15015339447500123333): 28 us in pulses 29.7 us apart, of which ± 4 % may come out. A
-// longer phase adds charge, and takes away the rest in which it would flow back: the most lies between.
+// Found by random sequences (seed 15015339447500123333): phases of 28 us, pulses 29.7 us apart, ± 4 %. A longer phase
+// adds charge but shortens the rest in which charge flows back, so the worst width lies in between.
 TEST(TrainExposure, ThePhaseWidthThatIsWorstMayLieBetweenItsBounds) {
     RecordProperty("hazard", "H1");
     PulseTrain train = milliamps(2.0391);
@@ -703,7 +703,7 @@ TEST(TrainExposure, ThePhaseWidthThatIsWorstMayLieBetweenItsBounds) {
     EXPECT_LE(rms1s(range), 1.35 * most) << "a bound that refuses too much";
 }
 
-// With skin and a stimulator that states nothing (± 5 %), the bound costs nothing there.
+// With skin and a stimulator of unstated accuracy (± 5 %), the bound over the range is close.
 TEST(TrainExposure, TheBoundOverARangeIsCloseWhereTheLoadRestsBetweenPulses) {
     RecordProperty("hazard", "H1");
     const Body body{500, 10'000, 50e-9};
@@ -769,8 +769,8 @@ TEST(TrainExposure, IntoAResistorTheDensestTrainIsTheWorst) {
     }
 }
 
-// Found by climbing: width, gap and rate are 5 % off at most, and the net charges, all of one sign, are largest at a
-// width between its bounds.
+// Found by an uphill search: width, gap and rate are off by at most 5 %, and the net charges, all of one sign, are
+// largest at a width between its bounds.
 TEST(TrainExposure, TheChargeOver5sMayBeLargestBetweenTheBounds) {
     RecordProperty("hazard", "H1");
     GateSetup setup;
@@ -793,7 +793,7 @@ TEST(TrainExposure, TheChargeOver5sMayBeLargestBetweenTheBounds) {
     EXPECT_LE(judged, 1.02 * truth);
 }
 
-// A capacitor that hardly leaks: what a phase charges it towards is ten thousand times what it holds in the end.
+// A capacitor that hardly leaks: a phase charges it towards ten thousand times the voltage finally reached.
 TEST(TrainExposure, OfALoadThatHardlyLeaksTheBoundIsKnown) {
     RecordProperty("hazard", "H1");
     GateSetup setup;
@@ -813,8 +813,8 @@ TEST(TrainExposure, OfALoadThatHardlyLeaksTheBoundIsKnown) {
     EXPECT_GT(judged.at(Quantity::RmsCurrent1s), 0);
 }
 
-// Wherever phase width, gap and rate lie between their bounds. The charge over 5 s is that of the other model: a bound
-// of it that adds up magnitudes may be larger between the ends, the charge itself is not.
+// For any phase width, gap and rate between their bounds. The charge over 5 s is the other model's: a bound that adds
+// magnitudes may be larger between the ends, but the charge itself is not.
 TEST(TrainExposure, NothingThatMayComeOutGivesMoreThanIsJudged) {
     RecordProperty("hazard", "H1");
     Dice dice(20261201);
@@ -856,7 +856,7 @@ TEST(TrainExposure, NothingThatMayComeOutGivesMoreThanIsJudged) {
     EXPECT_GT(close, 14 * count) << "a bound that refuses too much";
 }
 
-// A clock that is fast puts more pulses into a second, and leaves less rest in which the charge of one flows back.
+// A fast clock puts more pulses into a second, and leaves less rest in which their charge flows back.
 TEST(TrainExposure, NoTrainOfARangeOfRatesHoldsMoreThanIsBooked) {
     RecordProperty("hazard", "H1");
     Dice dice(20261129);
@@ -876,7 +876,7 @@ TEST(TrainExposure, NoTrainOfARangeOfRatesHoldsMoreThanIsBooked) {
         for (const double share : {0.0, dice.unit(), 1.0}) {
             some.train.rate = range.sparsest.rate + share * (range.densest.rate - range.sparsest.rate);
             const IndependentBody truth = some.delivered();
-            constexpr double kSlack = 1 + 2e-6;  // the other model's quadrature
+            constexpr double kSlack = 1 + 2e-6;  // quadrature error of the other model
             ASSERT_LE(truth.worstI2(1), booked.currentSquared_A2s * kSlack) << k;
             ASSERT_LE(truth.worstEnergy(1), (booked.dissipated_J + booked.stored_J) * kSlack) << k;
             close += truth.worstI2(1) > 0.99 * booked.currentSquared_A2s ? 1 : 0;

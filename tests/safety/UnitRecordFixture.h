@@ -1,5 +1,5 @@
-// UnitRecordFixture.h - programs that drive one unit, each with a clock and a gate of its own, and the record between
-// them.
+// UnitRecordFixture.h - programs that drive one unit, each with its own clock and gate, and the record that these
+// programs share.
 //
 // Thread-safety: the test's own thread.
 #pragma once
@@ -16,7 +16,7 @@ namespace tacto::test {
 
 inline constexpr const char* kUnit = "sciencemode 1234";
 
-/// The computer's time, as the test moves it.
+/// The computer's time, set by the test.
 struct FakeTime final : SystemTime {
     [[nodiscard]] Instant sinceBoot() const noexcept override { return now; }
     [[nodiscard]] std::string boot() const override { return id; }
@@ -26,7 +26,7 @@ struct FakeTime final : SystemTime {
     std::chrono::sys_seconds walls = SystemTime::real().wall();
 };
 
-/// 40 V into 100 ohm: 1e-4 A²s a train at the low end of the load range, so that 5 s hold four.
+/// 40 V into 100 ohm: 1e-4 A²s per train at the low end of the load range, so that the limit allows four in 5 s.
 inline GateSetup strongSetup() {
     GateSetup setup = benchSetup(Load::resistor(Ohms(100)));
     setup.limits = limitSets();
@@ -35,7 +35,7 @@ inline GateSetup strongSetup() {
 
 class UnitRecordFile : public testing::Test {
 protected:
-    /// A program that drives the unit: its own clock and gate.
+    /// A program that drives the unit, with its own clock and gate.
     struct Run {
         Run(const UnitRecordFile& test, const GateSetup& setup) : time(test.time_) {
             auto opened = UnitRecord::open(test.folders(), kUnit, clock, test.time_);
@@ -58,7 +58,7 @@ protected:
         SafetyGate gate{clock};
     };
     std::unique_ptr<Run> run() { return std::make_unique<Run>(*this, strongSetup()); }
-    /// How many of the strong trains are approved at once.
+    /// Returns how many of the strong trains are approved in a row.
     static int approvedAtOnce(Run& running) {
         int approved = 0;
         while (approved < 100 && running.ask()) ++approved;
@@ -74,7 +74,7 @@ protected:
     }
 
     [[nodiscard]] UnitFolders folders() const { return {folder_.path(), claims_.path()}; }
-    /// Empties them as a start of the computer does.
+    /// Empties the claims, as a start of the computer does.
     void emptyClaims() const {
         for (const auto& claim : std::filesystem::directory_iterator(claims_.path())) std::filesystem::remove(claim);
     }

@@ -23,7 +23,7 @@ TEST_F(UnitRecordFile, FourRunsInARowKeepTheLimitTogether) {
             if (one->ask()) delivered.push_back(time_.now);
             one->pass(0.05);
         }
-        time_.now += toInstant(0.3);  // time passes until the next program runs
+        time_.now += toInstant(0.3);  // time between two programs
     }
     double worst_mA = 0;
     for (const Instant first : delivered) {
@@ -46,7 +46,7 @@ TEST_F(UnitRecordFile, ABenchThatIsOpenedAgainStartsFromWhatWasDelivered) {
     EXPECT_THAT(second->ask(), refusedSaying("with the 4 trains before it"));
     second->pass(5.2);
     EXPECT_EQ(approvedAtOnce(*second), 4);
-    // Another unit has had nothing.
+    // Another unit has received nothing.
     VirtualClock clock;
     auto other = accepted(UnitRecord::open(folders(), "sciencemode 1235", clock, time_));
     ExposureMeter meter;
@@ -57,7 +57,7 @@ TEST_F(UnitRecordFile, ABenchThatIsOpenedAgainStartsFromWhatWasDelivered) {
 TEST_F(UnitRecordFile, AComputerThatSleptKnowsWhenItDelivered) {
     RecordProperty("hazard", "H1");
     auto first = run();
-    time_.now += std::chrono::hours(2);  // the program's clock stands still meanwhile
+    time_.now += std::chrono::hours(2);  // the program's clock does not advance meanwhile
     EXPECT_EQ(approvedAtOnce(*first), 4);
     first.reset();
     EXPECT_EQ(approvedAtOnce(*run()), 0) << "two hours of sleep do not make a train of just now an old one";
@@ -94,7 +94,7 @@ TEST_F(UnitRecordFile, AProgramThatIsKilledAfterAnApprovalHasBookedIt) {
         for (int k = 0; k < 4; ++k) {
             if (!gate.approve({volts(40), Seconds(10), clock.now()})) ::_exit(2);
         }
-        ::raise(SIGKILL);  // killed before any of them was delivered
+        ::raise(SIGKILL);  // killed before any train was delivered
     }
     int status = 0;
     ASSERT_EQ(::waitpid(child, &status, 0), child);
@@ -129,7 +129,7 @@ TEST_F(UnitRecordFile, AUnitWhosePastIsNotKnownRests) {
         return std::filesystem::file_size(file());
     };
     const auto size = soundOne();
-    spoil(size / 2);  // spoils a slot that was never written
+    spoil(size / 2);  // damages a slot that was never written
     expectRest("incomplete");
     soundOne();
     spoil(16);
@@ -140,7 +140,7 @@ TEST_F(UnitRecordFile, AUnitWhosePastIsNotKnownRests) {
     soundOne();
     time_.now -= std::chrono::minutes(10);
     expectRest("not come");
-    // It is ended and begun again while it rests: the rest continues.
+    // The program ends and starts again during the rest, which continues.
     soundOne();
     spoil(16);
     (void)run();
@@ -266,7 +266,7 @@ TEST_F(UnitRecordFile, AFaultStaysWithTheUnitUntilItIsReset) {
         EXPECT_EQ(interlock.state(), InterlockState::Disarmed) << "the unit was opened: it is not lost";
     }
     EXPECT_FALSE(run()->record->fault());
-    // A record that cannot tell does not say that all is well.
+    // A damaged record must not report that all is well.
     run()->record->keepFault(FaultCause::NetCharge, "net charge");
     std::filesystem::resize_file(file(), 400);
     const auto unsure = run();
@@ -275,7 +275,7 @@ TEST_F(UnitRecordFile, AFaultStaysWithTheUnitUntilItIsReset) {
     EXPECT_THAT(std::string(fault->reason.view()), HasSubstr("is not known"));
 }
 
-// Which program may drive a unit, and which of its records knows its past: several programs, accounts, data folders and
+// Which program may drive a unit, and which record knows the unit's past: several programs, accounts, data folders and
 // copies.
 
 using testing::HasSubstr;
@@ -296,7 +296,7 @@ TEST_F(UnitClaim, OneUnitIsDrivenByOneProgram) {
 TEST_F(UnitClaim, OnlyTheLastRecordOfAUnitOnThisComputerKnowsItsPast) {
     RecordProperty("hazard", "H1");
     const ScratchDir other;
-    // The records of two accounts or data folders, which have both existed for long.
+    // The records of two accounts or data folders that have both existed for a long time.
     const auto drive = [&](const std::filesystem::path& records, std::size_t expected, const char* why) {
         const VirtualClock clock;
         SafetyGate gate(clock);

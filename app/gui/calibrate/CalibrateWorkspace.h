@@ -1,5 +1,5 @@
-// CalibrateWorkspace.h - the stimulator's calibration: the guided run, or a check of what is stored; the fingertip
-// sensor's; how the stored one stands today, and what was stored before. The runs are ProtocolWorkspace's.
+// CalibrateWorkspace.h - the stimulator's guided calibration or a check of the stored one, the fingertip sensor's
+// calibration, the stored calibration's state today, and earlier ones. ProtocolWorkspace does the runs.
 #pragma once
 
 #include <QWidget>
@@ -21,7 +21,7 @@ public:
     [[nodiscard]] ProtocolWorkspace& runner() noexcept { return *runner_; }
     /// Returns the workspaces that calibrate the stimulator and the sensor.
     [[nodiscard]] std::array<ProtocolWorkspace*, 2> runners() const noexcept { return {runner_, sensor_}; }
-    /// Hides the row of tabs; their keys still work.
+    /// Hides the row of tabs; their keyboard shortcuts still work.
     void showPlotOnly(bool only);
 
 private:

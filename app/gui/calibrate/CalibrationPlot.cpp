@@ -18,8 +18,8 @@ constexpr int kBelowTicks = 2, kBelowTitle = 0;  // around the title below; smal
 constexpr int kMinChars = 24;
 constexpr int kMinLines = 10;
 constexpr int kLegendColumns = 2;
-constexpr double kAside = 0.006;   // share of the range: readings going up stand left of their level, those down right
-constexpr double kNearest = 0.02;  // share of the range: half the width of the frame around the nearest level
+constexpr double kAside = 0.006;   // share of the range: upward readings left of their level, downward right
+constexpr double kNearest = 0.02;  // share of the range: half the width of the frame
 constexpr double kNearestBottom = 0.98,
                  kLeadFrom = 0.8;  // share of the frame's height, from above: its words, and their line
 
@@ -40,7 +40,7 @@ CalibrationPlot::CalibrationPlot(Kind kind, QWidget* parent) : QCustomPlot(paren
                            "went. A cross marks an outlier, which is kept."));
     build();
     addPlotMenu(*this, errors ? "calibration-errors" : "calibration");
-    // Stated, or the legend in one row would say how narrow the window may become.
+    // Set here, since otherwise the one-row legend would limit how narrow the window can become.
     setMinimumSize(fontMetrics().averageCharWidth() * kMinChars, fontMetrics().height() * kMinLines);
     clear();
     onLookChange(*this, [this] {

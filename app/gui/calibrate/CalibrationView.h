@@ -33,7 +33,7 @@ public:
     void setSimulated(bool simulated);
     [[nodiscard]] std::size_t readings() const;
     [[nodiscard]] QString quantityShown() const;
-    /// Residuals or measured, in the line above the plot; or wherever its owner puts it: it is visible with the plot.
+    /// Returns the widget that chooses residuals or measured values; visible with the plot, wherever its owner puts it.
     [[nodiscard]] QComboBox& plotKind() noexcept { return *kind_; }
     /// Sets the caption of plot pictures, to which the text above the plot is added.
     void captionPicturesBy(const std::function<PictureCaption()>& caption);

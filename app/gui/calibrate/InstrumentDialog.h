@@ -1,4 +1,4 @@
-// InstrumentDialog.h - the laboratory's oscilloscopes, shunts and probes: saved once by name, chosen in place.
+// InstrumentDialog.h - the laboratory's oscilloscopes, shunts and probes: saved once by name, then chosen.
 //
 // The choices form the address of the oscilloscope. An instrument with an expired certificate is marked, and its values
 // are left out: unknown is not zero (hazard H9).

@@ -15,7 +15,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kDrawingChars = 60, kMinDrawingChars = 42;  // the drawing's width, and the least at which words read well
+constexpr int kDrawingChars = 60, kMinDrawingChars = 42;  // the drawing's usual and least readable width
 
 /// Returns the report's drawing in the theme's colours and the window's font.
 QByteArray inTheme(QByteArray svg) {

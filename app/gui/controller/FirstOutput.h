@@ -22,7 +22,7 @@ namespace tacto::gui {
 struct ComingTrain {
     PulseTrain train;                     ///< in volts
     std::optional<double> impedance_ohm;  ///< |Z| of the load; nothing: not measured
-    bool asked = false;                   ///< the operator asked for this next; else it comes once "By hand" is chosen
+    bool asked = false;                   ///< the operator asked for it; otherwise it comes once "By hand" is chosen
     bool operator==(const ComingTrain&) const = default;
 };
 

@@ -35,7 +35,7 @@ public:
     /// Returns the form's settings, with the approval's facts about this program and about `profile`, with which the
     /// sessions are run. Errors: of the first refused or missing field, which gets the focus.
     [[nodiscard]] Result<StudySettings> read(const Profile& profile);
-    /// Writes into a field, as if it were typed.
+    /// Sets a field as if typed.
     void set(const std::string& key, const QString& text);
     void clear();
     /// Begins an amendment: shows `settings`; the amendment's own reference is still to be entered.

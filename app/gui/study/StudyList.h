@@ -15,7 +15,7 @@
 
 namespace tacto::gui {
 
-/// The rows as RecordColumns.h shows them: {code, who, group, state, consent, sessions}; without those who withdrew.
+/// Returns the rows as in RecordColumns.h: {code, who, group, state, consent, sessions}; no withdrawn participants.
 [[nodiscard]] nlohmann::json participantRows(const Study& study);
 class PageTable;
 class StudySessions;
