@@ -1,4 +1,4 @@
-// BenchFixture.h - a whole bench on simulated devices, named by their URIs.
+// BenchFixture.h - a whole bench of simulated devices, named by their URIs.
 //
 // Thread-safety: the test's own thread; the bench has its own rules.
 #pragma once
@@ -20,7 +20,7 @@ namespace tacto::test {
 
 class BenchFixture : public testing::Test {
 protected:
-    /// Opens `uris` on a virtual clock (a steady one when `realTime`). Fills every role of `needed` with sim:.
+    /// Opens `uris` on a virtual clock, or on a steady one if `realTime`. Uses sim: for roles of `needed` left open.
     void open(std::vector<std::string> uris, std::set<Role> needed = {Role::Stimulator, Role::Oscilloscope},
               bool realTime = false, const std::string& load = "1 kohm") {
         bench_.reset();
@@ -60,7 +60,7 @@ protected:
     [[nodiscard]] Result<void> arm(const std::string& load = "1 kohm") {
         return bench_->arm(ArmRequest{load, true, true});
     }
-    /// Drives by hand at R and P.
+    /// Arms and drives by hand at roughness R and pressure P.
     [[nodiscard]] Result<void> armAndDrive(double R, double P, const std::string& load = "1 kohm") {
         if (auto armed = arm(load); !armed) return armed;
         return bench_->drive(DriveSource::Manual, R, P);
@@ -74,9 +74,9 @@ protected:
     bool calibrationHolds_ = true;
     std::optional<std::chrono::sys_days> calibratedUntil_;
     std::chrono::sys_days (*today_)() = nullptr;
-    std::optional<PersonSetup> person_;  ///< makes it a bench for a person
-    bool looksReal_ = false;             ///< the next opened device is taken for a real one
-    /// Stands between the bench and the next opened stimulator.
+    std::optional<PersonSetup> person_;  ///< if set, the bench is for a person
+    bool looksReal_ = false;             ///< the next opened device is treated as a real one
+    /// Wraps the next opened stimulator.
     std::function<std::unique_ptr<Stimulator>(std::unique_ptr<Stimulator>)> wrap_;
     std::function<std::unique_ptr<TactileSensor>(std::unique_ptr<TactileSensor>)> wrapSensor_;
     std::shared_ptr<Clock> clock_;

@@ -1,4 +1,4 @@
-// The whole bench on the virtual clock and the simulated devices.
+// Tests of the whole bench on the virtual clock with simulated devices.
 #include <map>
 
 #include "core/measure/PulseMeasurement.h"
@@ -55,7 +55,7 @@ TEST_F(BenchTest, ShowsTheSignalUntriggeredWhenNoTriggerComes) {
     EXPECT_TRUE(quiet->front().untriggered);
     EXPECT_NEAR(quiet->back().start_s - quiet->front().start_s, 0.31, 0.03) << "again after another wait";
 
-    // With trains every half second, longer waits are never over.
+    // Trains come every half second, so a longer wait for an untriggered capture never ends.
     ASSERT_TRUE(armAndDrive(1, 1));
     ASSERT_TRUE(bench_->wait(Seconds(1)));
     ASSERT_TRUE(bench_->requestCaptures(3, ScopeSettings{}, Seconds(0.8)));
@@ -144,7 +144,7 @@ TEST_F(BenchTest, ASilentControlLoopIsLatenessAndNoFaultOfADevice) {
 
 TEST_F(BenchTest, AnOverLimitTrainIsRefusedWithItsLimitAndNeverDelivered) {
     RecordProperty("hazard", "H1");
-    // 40 V every 0.5 s is 11.3 mA RMS into 100 ohm; the paper allows less than 10 mA.
+    // 40 V every 0.5 s gives 11.3 mA RMS into 100 ohm; the paper allows less than 10 mA.
     open({"sim:stimulator?load=100ohm"}, {Role::Stimulator}, false, "100 ohm");
     ASSERT_TRUE(armAndDrive(1, 1, "100 ohm"));
     EXPECT_THAT(bench_->wait(Seconds(3)), refused(ErrorCode::LimitExceeded, "RMS"));
@@ -190,7 +190,7 @@ TEST_F(BenchTest, ASourceThatDriftsAboveItsCommandStopsOutput) {
     EXPECT_LT(bench_->clock().now(), 13s) << "2 % a second: 20 % after ten";
     EXPECT_EQ(state(), InterlockState::Faulted);
 
-    // An operator who resets without looking arms nothing: the drift is still there.
+    // An operator who resets without looking cannot arm: the drift is still there.
     ASSERT_TRUE(bench_->resetFault());
     const auto delivered = bench_->telemetry().trainsDelivered;
     EXPECT_THAT(arm(), refusedSaying("must be within 20 %"));
@@ -226,7 +226,7 @@ TEST_F(BenchTest, TheFingerDrivesTheStimulator) {
     EXPECT_TRUE(seen.contact || seen.contactFrames > 0);
 }
 
-/// From a moment on, some channels of a stream repeat what they said some samples before, under running stamps.
+/// From a given time on, some channels of a stream repeat earlier samples, while their time stamps go on.
 class HangingFinger final : public TactileSensor {
 public:
     struct Hang {
@@ -284,7 +284,7 @@ TEST_F(BenchTest, AFingertipThatHangsInPartDrivesNothing) {
     }
 }
 
-/// From a moment on, the first channel of a stream says so much more than it measured.
+/// From a given time on, adds `more` to the first channel of a stream.
 class KnockedFinger final : public TactileSensor {
 public:
     KnockedFinger(std::unique_ptr<TactileSensor> inner, std::size_t stream, double more, double from_s)
@@ -315,7 +315,7 @@ TEST_F(BenchTest, WhatNoFingertipGivesIsTheSameForTheBenchAsForItsFeatures) {
         double more;
         FingerStanding standing;
     };
-    // 5000 m/s2, 10 MPa and 200 N (science.md section 1): an impact stays a reading.
+    // The limits are 5000 m/s2, 10 MPa and 200 N (science.md section 1): an impact is still a valid reading.
     for (const auto& [stream, more, standing] :
          {Knock{0, 3000, FingerStanding::Fresh}, Knock{0, 6000, FingerStanding::Implausible},
           Knock{1, 2e7, FingerStanding::Implausible}, Knock{2, 250, FingerStanding::Implausible}}) {
@@ -336,7 +336,7 @@ TEST_F(BenchTest, StaleCorruptOrMissingSensorDataDriveNothing) {
         ASSERT_TRUE(bench_->drive(DriveSource::Sensor));
         ASSERT_TRUE(bench_->wait(Seconds(2.9))) << fault;
         ASSERT_GT(bench_->telemetry().trainsDelivered, 0U) << fault;
-        // 100 ms of age, the window that is still whole, and no more.
+        // Delivery may go on for 100 ms of age and one whole window, not longer.
         const auto settled = bench_->wait(Seconds(0.5));
         const auto delivered = bench_->telemetry().trainsDelivered;
         const auto waited = bench_->wait(Seconds(5));
@@ -419,7 +419,7 @@ TEST_F(BenchTest, ACurrentSourceGetsCurrentFromTheMeasuredImpedance) {
 
 TEST_F(BenchTest, ACaptureCarriesWhatItsOwnTrainWasTold) {
     RecordProperty("hazard", "H9");
-    profile_.encoding.amplitudeSlew_V_per_s = 20;  // every train is programmed to another amplitude
+    profile_.encoding.amplitudeSlew_V_per_s = 20;  // so that every train has another amplitude
     open({});
     ASSERT_TRUE(armAndDrive(0, 1));
     ASSERT_TRUE(bench_->wait(Seconds(1)));
@@ -455,7 +455,7 @@ TEST_F(BenchTest, RecordsStreamsFramesTrainsAndEvents) {
     const auto path = scratch.path() / "live.tacto";
     clock_ = std::make_shared<VirtualClock>();
     {
-        // The session needs the bench's clock; open() makes it, so the session is made on one of its own first.
+        // The session needs a clock before open() creates the bench's, so the session gets its own clock first.
         const VirtualClock sessionClock;
         auto session = accepted(SessionWriter::create(path, SessionAbout{}, sessionClock));
         session_ = session.get();
@@ -483,7 +483,7 @@ TEST_F(BenchTest, RecordsStreamsFramesTrainsAndEvents) {
 
 TEST_F(BenchTest, ACurrentSourceDeliversTheLargestCommandHoweverItsLoadReads) {
     RecordProperty("hazard", "H4");
-    // I = 40 V / |Z|, and |Z| reads 0.2 % more or less each time: the command stays 40 V. The load is within its 20 %.
+    // I = 40 V / |Z|, and |Z| varies by 0.2 % between readings: the command stays 40 V. The load is within its 20 %.
     for (const char* load : {"0.95 kohm", "1 kohm", "1.1 kohm"}) {
         open({fmt::format("sim:stimulator?mode=current&load={}", load)}, {Role::Stimulator, Role::Oscilloscope}, false,
              "1 kohm");

@@ -1,4 +1,4 @@
-// A bench that knows its stimulator's calibration delivers what is asked, and says so in the session.
+// A bench with a calibrated stimulator delivers what is asked, and the session records the calibration.
 #include <random>
 
 #include "core/measure/PulseMeasurement.h"
@@ -15,7 +15,7 @@ using test::refusedSaying;
 
 class CalibratedBenchTest : public test::BenchFixture {
 protected:
-    /// The amplitude of the trains at full roughness and pressure, across the load.
+    /// Returns the amplitude across the load of the trains at full roughness and pressure.
     [[nodiscard]] double deliveredAtFull() {
         const auto captures = bench_->capture(3, ScopeSettings{});
         if (!captures) {
@@ -46,8 +46,8 @@ TEST_F(CalibratedBenchTest, TellsAWeakStimulatorMoreAndStaysWithinTheCommand) {
 
 TEST_F(CalibratedBenchTest, PhaseGapAndIntervalComeOutAsTheProfileSays) {
     RecordProperty("hazard", "H1");
-    // Each phase is 0.97 times as long as programmed plus 4.2 us, each gap 6.4 us short; the computer's clock is 0.4 %
-    // slow. Thus 201 us and 106 us, which the device's step of 1 us allows, give 200 and 100.
+    // Each phase is 0.97 times as long as programmed plus 4.2 us, each gap 6.4 us too short; the computer's clock is
+    // 0.4 % slow. So 201 us and 106 us, which the device's step of 1 us allows, give 200 us and 100 us.
     const std::vector<std::string> off{"sim:stimulator?widthgain=0.97&widtherror=4.233us&gaperror=-6.398us",
                                        "sim:oscilloscope?timebase=1.004"};
     const auto measured = [&] {
@@ -72,7 +72,7 @@ TEST_F(CalibratedBenchTest, PhaseGapAndIntervalComeOutAsTheProfileSays) {
     EXPECT_NEAR(programmed.interval_s.mean, 0.5, 5e-6);
     EXPECT_NEAR(bench_->telemetry().interval_s, 0.5, 1e-12) << "the command is what is wanted";
 
-    // Left aside, all of them are.
+    // Without the calibration, all values are off.
     bench_->disarm();
     ASSERT_TRUE(bench_->useCalibration(false));
     ASSERT_TRUE(armAndDrive(1, 1));
@@ -80,7 +80,7 @@ TEST_F(CalibratedBenchTest, PhaseGapAndIntervalComeOutAsTheProfileSays) {
     EXPECT_NEAR(measureTrains(captures, "voltage")->gap_s.mean, 93.602e-6 * 1.004, 0.3e-6);
 }
 
-/// With calibrations drawn at random, the output is at most half a step short, and never more than the limit.
+/// With random calibrations, the output is at most half a step too low, and never above the limit.
 TEST_F(CalibratedBenchTest, ACorrectionGoesToTheNearestStep) {
     RecordProperty("hazard", "H1");
     std::mt19937 draw(13);
@@ -108,7 +108,7 @@ TEST_F(CalibratedBenchTest, ACorrectionGoesToTheNearestStep) {
         const double ohm = current ? seen.impedance_ohm : 1;
         const double step = current ? 0.5e-3 : 0.1;
         const double asked = (10 + 30 * strength) / ohm;
-        const double noise = current ? 0.01 * asked : 1e-9;  // noise of |Z|, as each train reads it
+        const double noise = current ? 0.01 * asked : 1e-9;  // noise of |Z| in each train's reading
         const double programmed = seen.trainAmplitude * (current ? 1e-3 : 1);
         const bool atTheTop = gain * std::round(asked / gain / step) * step > 40 / ohm;
         EXPECT_GE(gain * programmed, asked - (atTheTop ? 1 : 0.5) * gain * step - noise) << trial;
@@ -119,8 +119,8 @@ TEST_F(CalibratedBenchTest, ACorrectionGoesToTheNearestStep) {
 
 TEST_F(CalibratedBenchTest, AWrongCalibrationCannotPassALimit) {
     RecordProperty("hazard", "H1");
-    // The calibration says the stimulator is weak; it is not. The programmed value must keep every limit too: 42.1 V
-    // would make 10.2 mA RMS.
+    // By the calibration the stimulator is weak, but in truth it is not. The programmed value must keep every limit
+    // too: 42.1 V would give 10.2 mA RMS.
     calibration_ = weak_;
     open({}, {Role::Stimulator, Role::Oscilloscope}, false, "140 ohm");
     ASSERT_TRUE(armAndDrive(1, 1, "140 ohm"));
@@ -129,7 +129,7 @@ TEST_F(CalibratedBenchTest, AWrongCalibrationCannotPassALimit) {
 
 TEST_F(CalibratedBenchTest, OneThatNoLongerHoldsIsNotAppliedAndStillJudgedBy) {
     RecordProperty("hazard", "H1");
-    // 40 V programmed and, by the old calibration, 47.2 V delivered: 8.4 mA RMS of the programmed ones would pass.
+    // 40 V is programmed, but by the old calibration 47.2 V come out; judged by 40 V alone, 8.4 mA RMS would pass.
     calibration_ = StimulatorCalibration{{1.18, 0, 10, 40}};
     calibrationHolds_ = false;
     open({}, {Role::Stimulator, Role::Oscilloscope}, false, "150 ohm");
@@ -137,7 +137,7 @@ TEST_F(CalibratedBenchTest, OneThatNoLongerHoldsIsNotAppliedAndStillJudgedBy) {
     EXPECT_THAT(bench_->wait(Seconds(3)), refusedSaying("RMS current over 5 s"));
     EXPECT_FALSE(bench_->calibration());
 
-    // The command is what is programmed: 40 V on 1 kohm go out as they are.
+    // The programmed value equals the command: 40 V into 1 kohm are delivered uncorrected.
     open({});
     ASSERT_TRUE(armAndDrive(1, 1));
     EXPECT_NEAR(deliveredAtFull(), 40, 0.3);
@@ -172,7 +172,7 @@ TEST_F(CalibratedBenchTest, LeavesItAsideOnlyWhileDisarmedAndRecordsIt) {
     EXPECT_NE(said[1].find("left aside"), std::string::npos) << said[1];
 }
 
-// Static: what a bench asks for the date has no context.
+// Static, since the bench's function for the date takes no context.
 std::chrono::sys_days pretended;
 
 TEST_F(CalibratedBenchTest, OneThatEndsWhileTheBenchIsOpenPermitsNoArming) {
@@ -199,7 +199,7 @@ TEST_F(CalibratedBenchTest, OneThatEndsWhileTheBenchIsOpenPermitsNoArming) {
     EXPECT_THAT(arm(), refused(ErrorCode::NotArmed, "ended on 2026-11-30 and today is 2026-12-01"));
     EXPECT_EQ(state(), InterlockState::Disarmed);
 
-    // A bench load needs no date.
+    // For a bench load the date does not matter.
     person_.reset();
     open({"sim:stimulator"}, {Role::Stimulator});
     EXPECT_TRUE(arm());
@@ -207,7 +207,7 @@ TEST_F(CalibratedBenchTest, OneThatEndsWhileTheBenchIsOpenPermitsNoArming) {
 
 TEST_F(CalibratedBenchTest, WhatIsReadBackIsComparedWithTheCommandAndNotWithWhatWasTold) {
     RecordProperty("hazard", "H1");
-    // The calibration says the stimulator is weak; it is strong. 47.05 V are programmed for 40, and 49.4 come out.
+    // By the calibration the stimulator is weak; it is strong. 47.05 V are programmed for 40 V, and 49.4 V come out.
     calibration_ = StimulatorCalibration{{0.85, 0, 10, 40}};
     open({"sim:stimulator?gain=1.05"});
     ASSERT_TRUE(armAndDrive(1, 1));
@@ -218,7 +218,7 @@ TEST_F(CalibratedBenchTest, WhatIsReadBackIsComparedWithTheCommandAndNotWithWhat
 
 TEST_F(CalibratedBenchTest, ACalibrationThatWouldTellMoreThanAFifthBesideTheCommandDeliversNothing) {
     RecordProperty("hazard", "H1");
-    calibration_ = StimulatorCalibration{{0.81, 0, 10, 40}};  // 49.4 V for 40
+    calibration_ = StimulatorCalibration{{0.81, 0, 10, 40}};  // programs 49.4 V for 40 V
     open({});
     ASSERT_TRUE(armAndDrive(1, 1));
     EXPECT_THAT(bench_->wait(Seconds(3)), refusedSaying("program 49.38 for the amplitude 40"));
@@ -232,7 +232,7 @@ TEST_F(CalibratedBenchTest, ACaptureThatShowsAnotherAmplitudeThanTheCommandFault
         ASSERT_TRUE(armAndDrive(1, 1));
         ScopeSettings settings;
         settings.voltageRange = Volts(80);
-        // The capture itself may come before the fault it causes; what follows may not.
+        // The capture may arrive before the fault that it causes; the next wait must fail.
         const auto capture = bench_->capture(1, settings);
         if (!capture) {
             EXPECT_EQ(capture.error().code, ErrorCode::Device) << capture.error().message;

@@ -1,4 +1,4 @@
-// A session's words on each train, and on what it was judged by.
+// A session records each train, and the values by which the train was judged.
 #include <gtest/gtest.h>
 
 #include "core/session/Origin.h"
@@ -13,7 +13,7 @@ namespace {
 class DeliveredRows : public BenchFixture {
 protected:
     DeliveredRows() { RecordProperty("hazard", "H8"); }
-    /// Recorded from here on, on a clock of its own that the bench's stands still beside.
+    /// Records from here on, with a separate clock; the bench's clock stands still meanwhile.
     void record() {
         writer_ = SessionWriter::create(folder_.path() / "run.tacto", {}, sessionClock_).value();
         session_ = writer_.get();

@@ -1,5 +1,5 @@
-// Output beside command: a train that was not read, one that never came, and one that is more than was asked for end
-// the output; a reading belongs to one command by its time.
+// Output compared with the command: output ends if a train was not read back, did not come, or was larger than asked
+// for. The time of a reading tells which command it belongs to.
 #include <cmath>
 #include <gmock/gmock.h>
 #include <random>
@@ -19,12 +19,12 @@ namespace {
 using namespace std::chrono_literals;
 using testing::HasSubstr;
 
-/// From its train number `from` on (check pulses count) it lies about its readings, or about having delivered at all.
+/// From train number `from` on (check pulses included), reports wrong readings or trains that it did not deliver.
 class LyingStimulator final : public WrappedStimulator {
 public:
     struct Lie {
         int from = 0;
-        bool swallows = false;  ///< nothing is put out, and the last train's status is given again
+        bool swallows = false;  ///< puts nothing out, and repeats the last train's status
         std::function<void(StimulatorStatus&)> said = {};
     };
     LyingStimulator(std::unique_ptr<Stimulator> inner, Lie lie, int& trains)
@@ -49,7 +49,7 @@ private:
     int& trains_;
 };
 
-/// Puts out pulses of its own between the trains that it is given.
+/// Puts out additional pulses between the trains that it is given.
 class UnaskedStimulator final : public WrappedStimulator {
 public:
     UnaskedStimulator(std::unique_ptr<Stimulator> inner, Volts volts, int from)
@@ -84,7 +84,7 @@ protected:
     }
     [[nodiscard]] std::string reason() const { return bench_->telemetry().reason.c_str(); }
 
-    int trains_ = 0;  // how many trains the device was given
+    int trains_ = 0;  // number of trains given to the device
     std::mt19937 draw_{47};
 };
 
@@ -122,7 +122,7 @@ TEST_F(DeliveredTruth, ATrainThatWasNotReadIsTheLast) {
 
 TEST_F(DeliveredTruth, AReadBackOfNothingIsNoTrain) {
     RecordProperty("hazard", "H3");
-    // The device's smallest step, which the reading may be off by, is all that was asked for.
+    // The command is one smallest step of the device, by which the reading may be off.
     profile_.encoding.amplitudeMin = Volts(0.53);
     for (const double share : {0.0, 0.04, 0.09}) {
         lies({3, false, [share](StimulatorStatus& said) {
@@ -173,12 +173,12 @@ TEST_F(DeliveredTruth, TrainsThatComeAreNoFaultHoweverTheyAreRecorded) {
     }
 }
 
-/// The first train begins 5 to 9 s after arming: a second check pulse goes before it.
+/// The first train begins 5 to 9 s after arming, after a second check pulse.
 TEST_F(DeliveredTruth, ACheckPulseAtAnyTimeBeforeATrainIsNotTakenForIt) {
     RecordProperty("hazard", "H12");
     profile_.encoding.intervalMin = Seconds(0.02);
     for (int trial = 0; trial < 120; ++trial) {
-        // Without stated stamps the size tells it where the time allows both.
+        // Without stated time stamps, the amplitude decides if the time allows both.
         open(
             {"sim:stimulator?readback=yes", trial % 3 == 0 ? "sim:oscilloscope?accuracy=unknown" : "sim:oscilloscope"});
         ASSERT_TRUE(arm());
@@ -202,7 +202,7 @@ TEST_F(DeliveredTruth, ACheckPulseAtAnyTimeBeforeATrainIsNotTakenForIt) {
     }
 }
 
-/// Tries every offset between a check pulse and a train, with an oracle that counts samples.
+/// Tries every offset between a check pulse and a train, and compares with a direct count of samples.
 TEST(CommandShownIn, IsTheOnlyOneWhosePulsesTheRecordMayShow) {
     std::mt19937 draw(12);
     int alone = 0, both = 0;
@@ -225,12 +225,12 @@ TEST(CommandShownIn, IsTheOnlyOneWhosePulsesTheRecordMayShow) {
         };
         fill(known[3], 1, 0.0005, 1, true);
         fill(known[7], 1 + offset, time(0.0005, 0.03), 10, false);
-        const auto distance = [&](const ProgrammedTrain& train) {  // 0: they overlap
+        const auto distance = [&](const ProgrammedTrain& train) {  // 0 if they overlap
             return std::max({0.0, toSeconds(train.from) - end_s, capture.start_s - toSeconds(train.until)});
         };
         const double toCheck = distance(known[3]), toTrain = distance(known[7]);
         const auto shown = commandShownIn(capture, known);
-        // 2 ms beyond what is stated are the output's own; near that edge either answer is right.
+        // The program allows 2 ms beyond the stated time; close to that edge either answer is right.
         const auto may = [&](double far) { return far < slack + 0.0019; };
         const auto mayNot = [&](double far) { return far > slack + 0.0021; };
         if (may(toCheck) && may(toTrain)) {
@@ -296,7 +296,7 @@ TEST_F(DeliveredTruth, MoreThanALimitIsAFaultAndBesideTheCommandAMark) {
     EXPECT_GT(std::min({faults, marks, neither}), 3) << faults << " " << marks << " " << neither;
 }
 
-/// Pulses that a record shows by a part, beside an oracle that made them.
+/// Pulses that a record shows only in part, compared with the known pulses.
 TEST(AmplitudeSeenIn, SaysNothingUntrueOfARecordThatCannotShowItsPulsesWhole) {
     testing::Test::RecordProperty("hazard", "H1");
     std::mt19937 draw(147);
@@ -425,7 +425,7 @@ TEST_F(DeliveredTruth, AMassagerThatGoesOnWhenItShouldRestIsAFault) {
     }
 }
 
-/// It may gather speed and run down as slowly as it likes.
+/// A massager may start and stop slowly without limit.
 TEST_F(DeliveredTruth, ASlowMassagerIsAFaultOnlyWhereItGoesOn) {
     RecordProperty("hazard", "H2");
     int found = 0;
@@ -446,7 +446,7 @@ TEST_F(DeliveredTruth, ASlowMassagerIsAFaultOnlyWhereItGoesOn) {
             found += waited ? 0 : 1;
         else
             EXPECT_TRUE(waited) << spinUp << " s, " << strength << ", " << pressure << ": " << reason();
-    }  // Some cannot be told from a slow motor that is driven again before it rests.
+    }  // some stuck motors look like a slow motor that is driven again before it rests
     EXPECT_GE(found, 13) << "of 15";
 }
 

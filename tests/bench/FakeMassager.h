@@ -1,6 +1,6 @@
-// FakeMassager.h - a massager that remembers what it was sent, and when.
+// FakeMassager.h - a massager that records what it was sent, and when.
 //
-// Thread-safety: as a Massager; sent(), `offs` and `unplugged` from any thread, `onVibrate` is set before.
+// Thread-safety: as a Massager; sent(), `offs` and `unplugged` from any thread; set `onVibrate` before use.
 #pragma once
 
 #include <atomic>
@@ -13,7 +13,7 @@
 
 namespace tacto::test {
 
-/// Remembers what it was told. Bursts end by themselves.
+/// Records its commands. Bursts end by themselves.
 class FakeMassager final : public Massager {
 public:
     explicit FakeMassager(const Clock& clock)

@@ -1,7 +1,7 @@
-// FakeStimulator.h - a stimulator that does what a test tells it to, and counts what was asked of it.
+// FakeStimulator.h - a stimulator that behaves as a test says, and counts the calls.
 //
-// Thread-safety: as a Stimulator. What is atomic from any thread; all else is set while nothing is called, and the
-// hooks are called by whichever thread calls the device.
+// Thread-safety: as a Stimulator. Atomic members may be used from any thread; set all others while no call is running.
+// The hooks run in the thread that calls the device.
 #pragma once
 
 #include <atomic>
@@ -64,12 +64,12 @@ public:
     std::function<void()> onOff;
     bool deliverFails = false;
     bool statusFails = false;
-    Instant stillOnUntil{0};  ///< a train continues until then
+    Instant stillOnUntil{0};  ///< a train lasts until then
     bool saysWhenItEnds = true;
     std::atomic<bool> statusBlocks{false};
     ElectrodeState electrode = ElectrodeState::Ok;
     Ohms impedance{1000};
-    std::optional<double> measured;  ///< amplitude that it reads back
+    std::optional<double> measured;  ///< amplitude that the device reads back
     std::atomic<int> delivered{0};
     std::atomic<int> offs{0};
     std::atomic<int> keptAlive{0};
@@ -81,7 +81,7 @@ private:
     DeviceIdentity identity_{"fake:", Role::Stimulator, "Fake stimulator", "F1", "1", true};
 };
 
-/// One generous limit set, so that tests of the bench meet the gate's own rules and not a standard's.
+/// Returns one limit set with very high limits, so that bench tests meet the gate's own rules, not a standard's.
 [[nodiscard]] inline LimitSet generousLimits() {
     LimitSet set;
     set.id = "test";
@@ -94,7 +94,7 @@ private:
     return set;
 }
 
-/// A bench setup around `source` with a declared resistor.
+/// Returns a bench setup around `source` with a declared resistor.
 [[nodiscard]] inline GateSetup benchSetup(const SourceTraits& source, Ohms load = Ohms(1000)) {
     GateSetup setup;
     setup.source = source;
@@ -103,7 +103,7 @@ private:
     return setup;
 }
 
-/// Takes `loop` through arming on a declared kiloohm; armed after its next steps.
+/// Starts arming `loop` on a declared kiloohm; it is armed after its next steps.
 inline void armFake(ControlLoop& loop, Interlock& interlock, const FakeStimulator& device, const Clock& clock,
                     StopMark asked = {}) {
     if (interlock.state() == InterlockState::Disconnected && !interlock.connect()) return;

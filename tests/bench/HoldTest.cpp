@@ -1,4 +1,4 @@
-// Delivering into a load that changes: what the profile holds stays, the limits hold, and what jumps ends it.
+// Delivery into a changing load: the profile's held quantity stays constant, limits are kept, a jump ends delivery.
 #include "core/bench/sensing/CaptureLoad.h"
 #include "core/measure/PulseMeasurement.h"
 #include "tests/bench/BenchFixture.h"
@@ -71,7 +71,7 @@ TEST_F(HoldTest, AsEncodedTheVoltageStays) {
 TEST_F(HoldTest, NothingIsHeldBeyondALimit) {
     RecordProperty("hazard", "H1");
     hold(Hold::Charge, "voltage");
-    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));  // 40 V, and the paper allows no more
+    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));  // 40 V, the most that the paper allows
     EXPECT_THAT(bench_->wait(Seconds(9)), refused(ErrorCode::LimitExceeded, "at most 40 V"));
 }
 
@@ -84,7 +84,7 @@ TEST_F(HoldTest, ALoadThatLeavesItsRangeEndsDelivery) {
     EXPECT_NE(waited.error().message.find("20 % more or less"), std::string::npos) << waited.error().message;
 }
 
-/// A stimulator that cannot read its load back, on a bench with an oscilloscope that sees it.
+/// A stimulator that cannot read its load back, on a bench with an oscilloscope that measures the load.
 class SeenLoadTest : public HoldTest {
 protected:
     void deliver(Hold what, const std::string& load) {
@@ -93,7 +93,7 @@ protected:
         accepted(arm());
         ASSERT_TRUE(bench_->drive(DriveSource::Manual, 0.5, 1));
     }
-    /// Captures once a second; the error that ended it, or nothing after `times`.
+    /// Captures once a second; returns the error that ended delivery, or nothing after `times` captures.
     [[nodiscard]] std::optional<Error> watch(int times) {
         for (int k = 0; k < times; ++k) {
             const auto captures = bench_->capture(1, ScopeSettings{});
@@ -191,7 +191,7 @@ TEST_F(SeenLoadTest, ALoadThatLeavesItsRangeEndsDelivery) {
     }
 }
 
-/// A stimulator that reports nothing of its electrode at all; the simulated one knows an open lead by itself.
+/// Uses a stimulator that reports nothing about its electrode; the simulated one would detect an open lead itself.
 TEST(SeenLoad, WithoutAnyCurrentEndsDelivery) {
     RecordProperty("hazard", "H3");
     test::LoopRig rig(false);

@@ -1,4 +1,4 @@
-// Other threads' wishes to the control loop: the newest of each kind, once, and nothing lost between threads.
+// Requests from other threads to the control loop: the newest of each kind arrives once, and none is lost.
 #include <atomic>
 #include <gtest/gtest.h>
 #include <thread>
@@ -28,7 +28,7 @@ TEST(LoopInbox, TheNewestOfEachKindIsTakenOnce) {
     inbox.arm(first);
     inbox.arm(second);
     inbox.drive({DriveSource::Manual, 0.5, 0.5});
-    inbox.drive({});  // a stop hands this in after a wish
+    inbox.drive({});  // as sent by a stop, after a request
     inbox.confirm(Ohms(100));
     inbox.confirm(fail(ErrorCode::NotArmed, "another pulse"));
     inbox.load({Ohms(1), false, Instant(1)});
@@ -105,7 +105,7 @@ TEST(LoopInbox, ThreadsHandInWhileTheLoopTakes) {
     while (running > 0) take();
     driving.join();
     looking.join();
-    take();  // no other thread is there: the latest is not held back
+    take();  // no other thread is running, so the newest is not held back
     EXPECT_EQ(back, 0) << "a setting came twice, or after a newer one";
     EXPECT_EQ(driven, 1.0);
     EXPECT_EQ(seen, kEach);

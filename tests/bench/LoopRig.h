@@ -1,4 +1,4 @@
-// LoopRig.h - a control loop by itself: taped samples in, a null stimulator out, armed and driven by the finger.
+// LoopRig.h - a control loop alone: recorded samples in, a null stimulator out, armed and driven by the finger.
 //
 // Thread-safety: the test's own thread.
 #pragma once
@@ -16,12 +16,12 @@ struct LoopRig {
         armFake(loop, interlock, device, clock);
         loop.drive({DriveSource::Sensor, 0, 0});
     }
-    /// One turn later, the finger's samples are there.
+    /// Advances one period, so that new samples of the finger are available.
     void nextSamples() {
         clock.advanceTo(clock.now() + ControlLoop::kPeriod);
         sensor->serve(clock.now());
     }
-    /// Writes what is due, and reads the status of what was written.
+    /// Writes pending trains, then reads their status.
     void serveStimulator() {
         stimulator.serve(clock.now());
         stimulator.serve(clock.now());

@@ -1,4 +1,4 @@
-// A massager in place of the electrodes: driven by the same encoder, under the same stop.
+// A massager instead of electrodes: the same encoder, the same stop.
 #include <gtest/gtest.h>
 #include <thread>
 

@@ -1,4 +1,4 @@
-// The control loop in its steady state takes no memory.
+// The control loop in its steady state allocates no memory.
 #include <gtest/gtest.h>
 
 #include "tests/bench/LoopRig.h"

@@ -1,4 +1,4 @@
-// Person mode on the bench: on which devices, with which calibration, and how far a level may go.
+// Person mode on the bench: which devices and calibrations are allowed, and how high a level may go.
 #include <gmock/gmock.h>
 #include <limits>
 
@@ -18,7 +18,7 @@ using testing::HasSubstr;
 
 constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
-/// A fake that says whether it is simulated, and states a calibration of itself.
+/// A fake that can be simulated or not, and that states its own calibration.
 class StatingStimulator final : public Stimulator, public StatesCalibration {
 public:
     StatingStimulator(const Clock& clock, bool simulated) : fake(clock) {
@@ -47,7 +47,7 @@ private:
 
 class PersonBenchTest : public test::PersonFixture {
 protected:
-    /// A bench around a stimulator that states its calibration.
+    /// Opens a bench with a stimulator that states its calibration.
     [[nodiscard]] Result<std::unique_ptr<Bench>> openStating(bool simulated, bool virtualParticipant,
                                                              bool rehearsal = false) {
         clock_ = std::make_shared<VirtualClock>();
@@ -229,7 +229,7 @@ TEST_F(PersonBenchTest, TheCapOfTheStudyHolds) {
 
 TEST_F(PersonBenchTest, TheLargestLevelIsTheOneTheGateStopsAt) {
     RecordProperty("hazard", "H6");
-    skin_ = "300 ohm + (8 kohm || 20 nF)";  // 40 V at some 6 mA
+    skin_ = "300 ohm + (8 kohm || 20 nF)";  // needs 40 V at about 6 mA
     openArmed();
     const auto limit = accepted(bench_->levelLimit(kShortest));
     EXPECT_THAT(limit.limitedBy, HasSubstr("commanded voltage (paper)"));

@@ -1,4 +1,4 @@
-// PersonFixture.h - a bench for a virtual participant: a current source on a grid of 0.5 mA, skin for a load.
+// PersonFixture.h - a bench for a virtual participant: a current source with steps of 0.5 mA, and skin as load.
 //
 // Thread-safety: the test's own thread; the bench has its own rules.
 #pragma once
@@ -23,7 +23,7 @@ protected:
         profile_.electrodeArea = SquareCentimetres(3);
     }
 
-    /// `more`: further keys of the stimulator's address.
+    /// `more`: additional keys of the stimulator's address.
     void openPerson(const std::string& more = "", bool realTime = false) {
         open({"sim:stimulator?mode=current&step=0.5mA" + more}, {Role::Stimulator}, realTime, skin_);
     }
@@ -36,7 +36,7 @@ protected:
         EXPECT_TRUE(presented) << presented.error().message;
         return presented ? std::move(*presented) : Presented{};
     }
-    /// Goes from 0.5 mA upwards, each level presented and accepted.
+    /// Raises the level from 0.5 mA; each level is presented and accepted.
     void rampTo(double mA) {
         for (double level = 0.5; level <= mA; level += 0.5) {
             const auto presented = accepted(bench_->present(ascendingPresentation(Milliamps(level), kShortest)));

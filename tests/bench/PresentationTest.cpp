@@ -167,7 +167,7 @@ TEST_F(PresentationTest, AnEmptyOneTakesTheSameTimeAndDeliversNothing) {
     openArmed();
     for (const auto& [interval, gap] : {std::pair(0.5, 0s), std::pair(2.0, 20s)}) {
         const auto full = [&](double mA) {
-            bench_->idle(Seconds(gap));  // the reading of |Z| grows old
+            bench_->idle(Seconds(gap));  // lets the reading of |Z| grow old
             const Instant asked = clock_->now();
             const auto before = bench_->telemetry();
             const auto made = presentTest(mA, interval, 4);
@@ -280,7 +280,7 @@ TEST_F(PresentationTest, AStopAtAnyMomentMakesItVoidAndNothingFollows) {
         wanted.notBefore = clock_->now() + 100ms;
         const auto presented = bench_->present(wanted);
         bench_->onProgress(nullptr, nullptr);
-        if (stopping.turns >= 0) break;  // it was over before it could be stopped
+        if (stopping.turns >= 0) break;  // the presentation ended before it could be stopped
         ASSERT_TRUE(presented) << presented.error().message;
         EXPECT_EQ(presented->end, PresentationEnd::Stopped) << turn;
         EXPECT_FALSE(presented->reason.empty());
@@ -318,7 +318,7 @@ TEST_F(PresentationTest, APauseMakesItVoid) {
     EXPECT_EQ(bench_->present(testPresentation(Milliamps(1), Seconds(0.5))).error().code, ErrorCode::NotArmed);
 }
 
-/// A current source that does what the test says, on a bench load.
+/// A current source that behaves as the test says, on a bench load.
 class FakedPresentationTest : public testing::Test {
 protected:
     void open() {

@@ -1,4 +1,4 @@
-// Presentations on the steady clock, with a thread for each device: the same loop, the same bounds; and on a massager.
+// Presentations on the steady clock, with a thread for each device: same loop, same bounds; also on a massager.
 #include <gmock/gmock.h>
 #include <thread>
 

@@ -1,4 +1,4 @@
-// The same bench on the steady clock: threads, stop latency, the control loop's own time.
+// The bench on the steady clock: threads, stop latency, and the control loop's timing.
 #include <algorithm>
 #include <thread>
 #include <vector>
@@ -37,13 +37,13 @@ TEST_F(RealTimeBenchTest, DeliversOnTimeWithAThreadPerDevice) {
     const auto captures = bench_->capture(4, ScopeSettings{});
     ASSERT_IN_TIME(captures);
     for (std::size_t i = 1; i < captures->size(); ++i) {
-        // A busy machine may be late by a few milliseconds; a missed turn would be late by a whole interval.
+        // A busy machine may be a few milliseconds late; a missed turn would be late by a whole interval.
         const double apart_s = (*captures)[i].trigger_s - (*captures)[i - 1].trigger_s;
         EXPECT_IN_TIME(std::abs(apart_s - 0.5) <= 0.25) << apart_s;
     }
 }
 
-/// The loop hears nothing for 50 ms before the device's thread gives up: what it has heard counts.
+/// The loop hears nothing for 50 ms before the device's thread gives up; what it heard before decides the cause.
 TEST_F(RealTimeBenchTest, ADeviceThatSaysThatItGoesOnIsStuckOnAndNotSilent) {
     RecordProperty("hazard", "H2");
     for (int trial = 0; trial < 3; ++trial) {

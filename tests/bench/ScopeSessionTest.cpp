@@ -1,4 +1,4 @@
-// An oscilloscope's session when its device does what no device should.
+// An oscilloscope's session with a device that misbehaves.
 #include <gtest/gtest.h>
 #include <new>
 
@@ -8,7 +8,7 @@
 namespace tacto::test {
 namespace {
 
-/// An oscilloscope with a record that does not fit into the memory that is left.
+/// An oscilloscope with a record larger than the free memory.
 struct LargeScope final : Oscilloscope {
     [[nodiscard]] const DeviceIdentity& identity() const noexcept override { return who; }
     [[nodiscard]] const ScopeTraits& traits() const noexcept override { return what; }

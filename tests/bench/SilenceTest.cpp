@@ -1,5 +1,5 @@
-// A process that was stopped, a computer that slept: the loop and a device's thread wake in either order, and nothing
-// is delivered until the operator arms again (H2).
+// After a process was stopped or the computer slept, the loop and a device's thread wake in either order; nothing is
+// delivered until the operator arms again (H2).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,12 +16,12 @@ using test::refused;
 
 enum class Order { LoopFirst, DeviceFirst };
 
-/// A control loop and one output, with the test as the scheduler.
+/// A control loop and one output; the test schedules both.
 class Silence : public testing::TestWithParam<std::tuple<Order, bool>> {
 protected:
     Silence() {
         RecordProperty("hazard", "H2");
-        stimulator.traits_.readsBack = !std::get<1>(GetParam());  // arming of a massager is confirmed, not measured
+        stimulator.traits_.readsBack = !std::get<1>(GetParam());  // a massager's arming is confirmed, not measured
         ControlLoop::Parts parts{clock, gate, interlock, heartbeat, OutputMode::BenchLoad, nullptr, nullptr, 0, {}};
         parts.stops = &stops;
         if (std::get<1>(GetParam()))
@@ -37,7 +37,7 @@ protected:
         else
             stimulatorSession.serve(clock.now());
     }
-    /// One turn of both, in the order of the test.
+    /// One turn of the loop and the device, in the order of the test.
     void turn() {
         if (std::get<0>(GetParam()) == Order::DeviceFirst) serve();
         loop->step(clock.now());
@@ -60,14 +60,14 @@ protected:
         turn();
         turn();
     }
-    /// Delivers until the next train is handed over and not written.
+    /// Delivers until the next train is handed over but not yet written.
     void deliverUntilOneIsHandedOver() {
         arm();
         pass(1200ms);
         ASSERT_GE(delivered(), 2U);
         const auto before = delivered();
         const Instant giveUp = clock.now() + 1s;
-        // The device's thread is not served: what the loop hands over stays where it is.
+        // The device's thread does not run, so the train handed over stays unwritten.
         const auto idle = [this] {
             return std::get<1>(GetParam()) ? massagerSession.idle() : stimulatorSession.idle();
         };
@@ -266,7 +266,7 @@ TEST(LateTrain, ADeviceThreadThatNeverBeginsItIsAFault) {
     loop.drive({DriveSource::Manual, 1, 1});
     while (session.idle()) step();
     const Instant posted = clock.now();
-    // The thread hangs in deliver(), as far as the loop can tell.
+    // For the loop, the thread seems to hang in deliver().
     while (clock.now() < posted + 200ms) step();
     EXPECT_EQ(interlock.state(), InterlockState::Delivering) << "it may still be programming the device";
     while (clock.now() < posted + 260ms) step();

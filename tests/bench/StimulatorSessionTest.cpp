@@ -24,7 +24,7 @@ protected:
         session_.post(std::move(approved), onset, false);
     }
     void passTo(Instant moment) {
-        // Steps as the bench does, with the loop alive.
+        // Steps like the bench, with the loop alive.
         while (clock_.now() < moment) {
             clock_.advanceTo(std::min(moment, clock_.now() + Instant(1ms)));
             heartbeat_.beat(clock_.now());
@@ -82,7 +82,7 @@ TEST_F(StimulatorSessionTest, DeliversNothingThatExpired) {
 
 TEST_F(StimulatorSessionTest, RepeatsForceOffAfterAWriteThatWasInFlight) {
     RecordProperty("hazard", "H2");
-    // The stop reaches the device while the write is on its way and would switch it on again.
+    // The stop reaches the device during the write, which would switch the device on again.
     device_.onDeliver = [this] {
         gate_.latchStop();
         session_.forceOff();
@@ -102,7 +102,7 @@ TEST_F(StimulatorSessionTest, SwitchesOffWhenTheLoopIsSilent) {
     EXPECT_EQ(session_.silencedAfter(), 0ms);
     const int kept = device_.keptAlive;
     EXPECT_GE(kept, 1);
-    // No thread beats any longer.
+    // From here on no thread beats.
     clock_.advanceTo(301ms);
     session_.serve(clock_.now());
     EXPECT_EQ(device_.offs, 1);
@@ -121,7 +121,7 @@ TEST_F(StimulatorSessionTest, FeedsTheDeadManSwitchManyTimesWithinItsTime) {
 
 TEST_F(StimulatorSessionTest, ATrainEndsALengthAfterTheDeviceHadBegunIt) {
     RecordProperty("hazard", "H2");
-    // A Pulse Pal is programmed for 4 to 36 ms before it begins: that is not the status deadline's time.
+    // A Pulse Pal is programmed for 4 to 36 ms before a train begins; the status deadline must not include this.
     device_.onDeliver = [this] { clock_.advanceTo(clock_.now() + Instant(60ms)); };
     post(10ms);
     passTo(10ms);
@@ -138,7 +138,7 @@ TEST_F(StimulatorSessionTest, ATrainEndsALengthAfterTheDeviceHadBegunIt) {
 
 TEST_F(StimulatorSessionTest, ATrainThatSlipsEndsWhenItsDriverSays) {
     RecordProperty("hazard", "H2");
-    // Pulses that the host sends one by one: 300 ms later than planned in all, and none late by itself.
+    // The host sends the pulses one by one: in total 300 ms later than planned, but no single pulse is late.
     device_.stillOnUntil = Instant(300ms);
     post();
     passTo(299ms);

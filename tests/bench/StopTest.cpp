@@ -1,5 +1,5 @@
-// Stops at the worst moments: during a write, during the check, between voiding and disarming. The stimulator is a fake
-// that tells what reached it and when.
+// Stops at the worst moments: during a write, during the check, between voiding and disarming. The fake stimulator
+// records what reached it and when.
 #include <gtest/gtest.h>
 #include <thread>
 
@@ -81,7 +81,7 @@ TEST_F(StopTest, OfATrainThatThenReadsTooLittleIsNoFaultAndOfOneThatReadsTooMuch
         EXPECT_FALSE(bench_->wait(Seconds(2)));
         if (stopped) {
             EXPECT_TRUE(bench_->begin(bench_->stops().mark()));
-            static_cast<void>(bench_->wait(Seconds(1)));  // the train that was cut off is read now
+            static_cast<void>(bench_->wait(Seconds(1)));  // reads the train that was cut off
         }
         const auto seen = bench_->telemetry().state;
         device_->onDeliver = nullptr;
@@ -110,10 +110,10 @@ TEST_F(StopTest, APauseIsNoneAndATrainThatReadsTooLittleIsAFault) {
 TEST_F(StopTest, WhileTheDriveIsSetLeavesNoDriveForTheNextArming) {
     RecordProperty("hazard", "H2");
     std::atomic<bool> stops{false};
-    watched_ = [&] {  // asked before the loop is told
+    watched_ = [&] {  // called before the loop is told
         if (stops.exchange(false)) {
             bench_->stop("test");
-            std::this_thread::sleep_for(20ms);  // some turns of the loop
+            std::this_thread::sleep_for(20ms);  // a few turns of the loop
         }
         return true;
     };
@@ -193,7 +193,7 @@ TEST_F(StopTest, ABenchThatWasAskedForBeforeAStopDoesNothing) {
 
 TEST_F(StopTest, JustBeforeCheckingIsEnteredIsFollowedByNoCheckPulse) {
     RecordProperty("hazard", "H2");
-    // The stop finds the interlock disarmed, so it has nothing to disarm, and voids approvals that do not exist yet.
+    // The stop finds the interlock disarmed, so it has nothing to disarm, and it voids approvals before any exist.
     const VirtualClock clock;
     SafetyGate gate(clock);
     Interlock interlock;

@@ -1,4 +1,4 @@
-// TapedFinger.h - a finger that slides for ever on made-up numbers, without a driver's cost.
+// TapedFinger.h - a finger that slides forever, with generated samples and without the cost of a driver.
 //
 // Thread-safety: as a TactileSensor.
 #pragma once
@@ -8,7 +8,7 @@
 
 namespace tacto::test {
 
-/// A finger at rest for half a second, then in contact. 3 axes at 4 kHz, 8 taxels and force at 200 Hz.
+/// A finger, at rest for half a second, then in contact: 3 axes at 4 kHz, 8 taxels and force at 200 Hz.
 class TapedFinger final : public TactileSensor {
 public:
     explicit TapedFinger(const Clock& clock) : clock_(clock) {}

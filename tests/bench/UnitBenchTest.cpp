@@ -1,4 +1,4 @@
-// A bench on a real unit continues from what the unit delivered and from the fault that it was left in.
+// A bench with a real unit continues from the unit's earlier deliveries and from the fault left by an earlier run.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A stimulator that does not say that it is simulated.
+/// A stimulator that is not marked as simulated.
 class Unit final : public Stimulator {
 public:
     explicit Unit(const Clock& clock) : fake(clock) {}
@@ -34,7 +34,7 @@ private:
     DeviceIdentity unit_{"fake:", Role::Stimulator, "A unit", "F7", "1", false};
 };
 
-/// The bench's clock and the computer's, moved together.
+/// The computer's time, which follows the bench's clock.
 struct ComputerTime final : SystemTime {
     explicit ComputerTime(const Clock& clock) : clock_(clock) {}
     [[nodiscard]] Instant sinceBoot() const noexcept override { return std::chrono::hours(1) + clock_.now(); }
@@ -83,7 +83,7 @@ TEST_F(UnitBench, OpensFaultedUntilTheFaultThatWasLeftIsReset) {
     unit_->electrode = ElectrodeState::Open;
     ASSERT_FALSE(bench_->wait(Seconds(1)));
 
-    open();  // The program was started again
+    open();  // as if the program was started again
     EXPECT_EQ(bench_->telemetry().state, InterlockState::Faulted);
     EXPECT_THAT(arm(), refusedSaying("left by an earlier run: the electrode is open"));
     unit_->statusFails = true;
@@ -100,7 +100,7 @@ TEST_F(UnitBench, ArmingWaitsUntilAUnitWhosePastIsNotKnownHasRested) {
     RecordProperty("hazard", "H1");
     open();
     bench_.reset();
-    std::filesystem::remove_all(folder_.path());  // stands for another data folder that is named
+    std::filesystem::remove_all(folder_.path());  // as if another data folder was chosen
     open();
     const Instant opened = clock_->now();
     ASSERT_TRUE(bench_->wait(Seconds(0.01)));
@@ -116,7 +116,7 @@ TEST_F(UnitBench, ArmingWaitsUntilAUnitWhosePastIsNotKnownHasRested) {
 
 TEST_F(UnitBench, ARunBeginsWithWhatTheRunsBeforeItDelivered) {
     RecordProperty("hazard", "H1");
-    // 40 V every 0.5 s into 250 ohm, four runs of 2 s each: one alone makes 4.3 mA RMS over 5 s at the worst.
+    // 40 V every 0.5 s into 250 ohm, four runs of 2 s each: one alone gives 4.3 mA RMS over 5 s in the worst case.
     for (int k = 0; k < 4; ++k) {
         open(250);
         ASSERT_TRUE(arm("250 ohm"));

@@ -1,4 +1,4 @@
-// A person at a massager: what was accepted and what was too strong bound the next burst, and nothing else is put out.
+// A person at a massager: accepted levels and too strong levels bound the next burst; nothing else is put out.
 #include <gmock/gmock.h>
 
 #include "core/session/SessionReader.h"
@@ -42,7 +42,7 @@ protected:
         return presented ? std::move(*presented) : Presented{};
     }
     [[nodiscard]] PresentationEnd endOf(double intensity) { return present(intensity).end; }
-    /// Goes from 0.05 upwards, each level presented and accepted.
+    /// Raises the level from 0.05; each level is presented and accepted.
     void rampTo(int steps) {
         for (int k = 1; k <= steps; ++k) {
             ASSERT_EQ(endOf(0.05 * k), PresentationEnd::Complete) << k;
