@@ -1,5 +1,5 @@
-// Every document that a comment names exists, with the section that it names; every path that a document names exists;
-// every header says which thread may call it.
+// Every document and section named in a comment exists; every path named in a document exists; every header says which
+// threads may call it.
 #include <fstream>
 #include <gmock/gmock.h>
 #include <map>
@@ -19,7 +19,7 @@ std::string contentOf(const fs::path& file) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// All files of the tree below these folders and at its top, except for what a build makes.
+/// Returns all files at the top of the tree and below these folders, except files made by a build.
 std::vector<fs::path> filesBelow(std::initializer_list<const char*> folders) {
     std::vector<fs::path> files;
     const auto add = [&](const fs::directory_entry& entry) {
@@ -31,15 +31,15 @@ std::vector<fs::path> filesBelow(std::initializer_list<const char*> folders) {
     return files;
 }
 
-/// What can be pointed to in a document: its headings, "7" of "## 7. Exposure", "2.6" of the sixth item in section 2,
-/// "H3" of a table's row.
+/// Returns what can be referred to in a document: headings; "7" for "## 7. Exposure"; "2.6" for the sixth item in
+/// section 2; "H3" for a row of a table.
 std::set<std::string> sectionsOf(const std::string& document) {
     static const std::regex heading(R"(^#+ (?:(\d+)\. )?(.*)$)"), item(R"(^(\d+)\. .*$)"), row(R"(^\| (H\d+) \|.*$)");
     std::set<std::string> sections;
     std::string current;
     std::istringstream lines(document);
     for (std::string line; std::getline(lines, line);) {
-        const auto beginning = line.substr(0, 100);  // a regular expression goes as deep as its line is long
+        const auto beginning = line.substr(0, 100);  // the regular expression recurses once per character
         std::smatch found;
         if (std::regex_match(beginning, found, heading)) {
             current = found[1];
@@ -62,7 +62,7 @@ void PrintTo(const Mention& mention, std::ostream* out) {
     *out << mention.document << " (" << fmt::format("{}", fmt::join(mention.sections, ", ")) << ")";
 }
 
-/// The documents named in a text, with the sections named after them, over the ends of comment lines.
+/// Returns the documents named in a text with the sections named after each, across the ends of comment lines.
 std::vector<Mention> mentionsIn(const std::string& text) {
     static const std::regex lineEnd(R"(\n[ \t]*(?://+!?<?|\*|#|")?[ \t]*)");
     static const std::regex name(R"re(([\w./-]*[\w-]\.md)\b)re"
@@ -165,7 +165,7 @@ TEST(Headers, SayWhichThreadMayCallThem) {
         ++headers;
         const auto text = contentOf(test::sourceDir() / file);
         const auto comment = text.substr(0, std::min(text.find("#pragma once"), text.find("#ifndef")));
-        // What the folder says once, its headers need not say again.
+        // Headers need not repeat what the README of their folder says.
         const auto folder = test::sourceDir() / file.parent_path() / "README.md";
         const auto said = fs::exists(folder) ? contentOf(folder) : std::string();
         EXPECT_THAT(comment + said, testing::ContainsRegex(R"((//| \*) Thread-safety: |Thread: )")) << file;

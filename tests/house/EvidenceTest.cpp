@@ -1,5 +1,5 @@
-// Every test that pilot-evidence.md names exists, and it names some for each section that it gives evidence for. Every
-// hazard of safety.md has tests, and tests record no other.
+// Every test named in pilot-evidence.md exists, and each section there that gives evidence names some. Every hazard of
+// safety.md has tests, and tests record no other hazards.
 #include <fstream>
 #include <gmock/gmock.h>
 #include <regex>
@@ -11,7 +11,7 @@
 namespace tacto {
 namespace {
 
-/// All names of this form in a text, their groups joined by a dot.
+/// Returns all names of this form in a text, with their two groups joined by a dot.
 std::set<std::string> namesIn(const std::string& text, const std::regex& form) {
     std::set<std::string> names;
     for (std::sregex_iterator at(text.begin(), text.end(), form), end; at != end; ++at)

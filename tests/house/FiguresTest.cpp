@@ -1,4 +1,4 @@
-// Figures that tests are held against are made by a script in tests/reference, and the script still makes them.
+// Reference values in tests are made by a script in tests/reference, and that script still produces them.
 #include <algorithm>
 #include <cctype>
 #include <fstream>
@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 const fs::path kScripts = "tests/reference";
 
-/// "estimates", "trials": the files of figures.
+/// Returns the names of the files with reference values: "estimates", "trials".
 std::set<std::string> figureFiles() {
     std::set<std::string> names;
     for (const auto& entry : fs::directory_iterator(test::sourceDir() / kScripts))
@@ -27,7 +27,7 @@ std::set<std::string> figureFiles() {
     return names;
 }
 
-/// The sources of tests by path.
+/// Returns the test sources by path.
 std::map<fs::path, std::string> testSources() {
     std::map<fs::path, std::string> sources;
     for (const auto& entry : fs::recursive_directory_iterator(test::sourceDir() / "tests")) {
@@ -59,7 +59,7 @@ TEST(ReferenceFigures, EachFileIsReadByATestAndNoneIsMissing) {
     EXPECT_EQ(read, figureFiles());
 }
 
-/// The numbers of more than seven digits in a text, which arithmetic in the test does not have.
+/// Returns the numbers with more than seven digits in a text, which are not computed in the test.
 std::vector<std::string> longNumbersIn(const std::string& text) {
     static const std::regex number(R"((?:^|[^\w.'])((?:\d|'\d)*\.\d+)(?![\d.]))");
     std::vector<std::string> found;

@@ -1,5 +1,5 @@
-// The pictures of the tree are of the tree: architecture.md lists the folders of core, drivers and app, and
-// CONTRIBUTING.md draws them, each above what it stands on.
+// The drawings of the source tree match the tree: architecture.md lists the folders of core, drivers and app, and
+// CONTRIBUTING.md draws each above the folders that it uses.
 #include <fstream>
 #include <gmock/gmock.h>
 #include <map>
@@ -15,7 +15,7 @@ namespace tacto {
 namespace {
 
 namespace fs = std::filesystem;
-using Folders = std::map<std::string, std::set<std::string>>;  // what lies in which
+using Folders = std::map<std::string, std::set<std::string>>;  // folders inside each folder
 
 std::string documentText(const fs::path& file) {
     std::ifstream in(test::sourceDir() / file, std::ios::binary);
@@ -35,7 +35,7 @@ Folders foldersOfTheTree() {
     return tree;
 }
 
-/// "core/        what it is" begins a folder; "  usb/, system/  what they are" names some within it.
+/// Reads a list of folders: "core/  what it is" begins a folder; "  usb/, system/  what they are" names folders inside.
 Folders listedIn(const std::string& document) {
     static const std::regex top(R"(^(\w+)/ +.*$)"), within(R"(^  (\w+/(?:, \w+/)*) +.*$)"), name(R"(\w+)");
     Folders listed;
@@ -88,7 +88,7 @@ Folders drawnIn(const std::string& document) {
     return drawn;
 }
 
-/// "core/safety" of a target with sources there or below; empty for one without.
+/// Returns "core/safety" for a target with sources there or below; empty for other targets.
 std::string folderOf(const test::Target& target) {
     for (const fs::path source : target.sources) {
         auto part = source.begin();

@@ -1,5 +1,5 @@
-// Layers.h - the targets of core, drivers and app, as tests/house/CMakeLists.txt writes them: their sources, what they
-// link and what they hand on.
+// Layers.h - the build targets of core, drivers and app, as written by tests/house/CMakeLists.txt: their sources, the
+// targets they link, and the links they pass on.
 //
 // Thread-safety: pure functions on plain data.
 #pragma once
@@ -18,7 +18,7 @@ struct Target {
 using Targets = std::map<std::string, Target>;
 
 [[nodiscard]] Targets readTargets(std::istream& in);
-/// The targets of this build.
+/// Returns the targets of this build.
 [[nodiscard]] Targets targetsOfTheBuild();
 
 }  // namespace tacto::test

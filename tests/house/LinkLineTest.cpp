@@ -1,5 +1,5 @@
-// Every include follows the link line: a file includes headers only from targets that its own target links, or that
-// those hand on. A privately linked target is not handed on, and gives no right to include.
+// Every include follows the link lines: a file includes headers only from targets that its own target links, directly
+// or through public links. A privately linked target is not passed on, and its headers may not be included.
 #include <fstream>
 #include <gtest/gtest.h>
 #include <map>
@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 using test::readTargets;
 using test::Targets;
 
-/// The targets with headers that the files of `target` may include, its own among them.
+/// Returns the targets with headers that `target` may include, with `target` itself.
 std::set<std::string> reachOf(const Targets& targets, const std::string& target) {
     std::set<std::string> reached{target};
     auto waiting = targets.at(target).links;
@@ -30,8 +30,8 @@ std::set<std::string> reachOf(const Targets& targets, const std::string& target)
     return reached;
 }
 
-/// Tells which targets a file belongs to: the one that compiles the source of its name, else all that have sources in
-/// its folder, else in the folder around it.
+/// Finds the targets of a file: the one that compiles the source of that name; otherwise all with sources in the file's
+/// folder; otherwise all with sources in the parent folder.
 class Owners {
 public:
     explicit Owners(const Targets& targets) {
@@ -67,7 +67,7 @@ std::vector<std::string> includesIn(const fs::path& file) {
     return includes;
 }
 
-/// What is wrong with the includes of one file.
+/// Returns the faults in the includes of one file.
 std::vector<std::string> faultsOf(const fs::path& file, const std::vector<std::string>& includes,
                                   const Targets& targets, const Owners& owners) {
     std::vector<std::string> faults;
@@ -95,7 +95,7 @@ TEST(LinkLine, EveryIncludeFollowsIt) {
         for (const auto& entry : fs::recursive_directory_iterator(test::sourceDir() / top)) {
             const auto ending = entry.path().extension();
             const auto file = fs::relative(entry.path(), test::sourceDir());
-            // A build without Qt, or without the programs, has no targets there.
+            // A build without Qt or without the programs has no targets for some files.
             if ((ending != ".cpp" && ending != ".h") || owners.of(file).empty()) continue;
             ++files;
             for (const auto& fault : faultsOf(file, includesIn(entry.path()), targets, owners)) ADD_FAILURE() << fault;

@@ -1,4 +1,4 @@
-// sample_words.py draws pieces of prose to be read aloud: sixty, of every kind, the same for the same seed.
+// sample_words.py draws pieces of prose for reading aloud: sixty, of every kind, always the same for one seed.
 #include <gmock/gmock.h>
 #include <map>
 #include <regex>
@@ -27,7 +27,7 @@ TEST(SampleWords, AreSixtyOfEveryKindAndTheSameForTheSameSeed) {
     int number = 0;
     for (std::string line; std::getline(lines, line);) {
         std::smatch found;
-        const auto beginning = line.substr(0, 100);  // a regular expression goes as deep as its line is long
+        const auto beginning = line.substr(0, 100);  // the regular expression recurses once per character
         ASSERT_TRUE(std::regex_match(beginning, found, piece)) << line;
         EXPECT_EQ(found[1].str(), std::to_string(++number));
         ++kinds[found[2]];

@@ -1,5 +1,5 @@
-// A file is a thing, named after it; a line fits in 120 columns; a limit is kMin or kMax; the environment is asked
-// where the user's data lie in one place.
+// Rules for sources: a file is named after what it holds; lines fit in 120 columns; limits are called kMin or kMax;
+// only one place asks the environment for the user's data folders.
 #include <fstream>
 #include <gmock/gmock.h>
 #include <map>
@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxColumns = 120;
 
-/// Calls `see` with each source, header and list of sources below `folders`, relative to the tree, and its text.
+/// Calls `see` with the path in the tree and the text of each source, header and source list below `folders`.
 void forSources(std::initializer_list<const char*> folders,
                 const std::function<void(const fs::path&, const std::string&)>& see) {
     for (const char* folder : folders) {
@@ -29,7 +29,7 @@ void forSources(std::initializer_list<const char*> folders,
     }
 }
 
-/// Code points of UTF-8.
+/// Counts the code points of UTF-8 text.
 std::size_t columnsOf(std::string_view line) {
     return static_cast<std::size_t>(
         std::ranges::count_if(line, [](char each) { return (static_cast<unsigned char>(each) & 0xC0) != 0x80; }));
@@ -68,7 +68,7 @@ TEST(Sources, ALimitIsNamedByMinOrMax) {
     });
 }
 
-// Two types of one name in one program are one to the linker, which keeps either's functions: lists overrun.
+// The linker merges two types of the same name in one program and keeps only one's functions: memory is overrun.
 TEST(Sources, TwoTypesOfANamespaceHaveTwoNames) {
     static const std::regex within("(?:^|\n)namespace ([\\w:]+) \\{");
     static const std::regex type("\n(?:struct|class) (\\w+)(?: final)?(?: :[^{;]*)? \\{");
@@ -92,8 +92,8 @@ TEST(Sources, TheUsersDataLieWhereOneFunctionSays) {
     EXPECT_THAT(asking, testing::ElementsAre("core/base/ProgramStart.cpp"));
 }
 
-// Qt sets the locale of the C library, and std::locale("") has it too: letters are not folded in Turkish, and numbers
-// have a decimal comma in German. core/base/LocaleFreeText.h and fmt follow none.
+// Qt sets the locale of the C library, and std::locale("") uses it too: under a Turkish locale letters change case
+// differently, and under a German one numbers have a decimal comma. core/base/LocaleFreeText.h and fmt ignore locales.
 const std::set<std::string_view> kFollowsTheLocale{
     "tolower",  "toupper",  "towlower",  "towupper", "isalnum",    "isalpha",  "isblank",  "iscntrl",    "isdigit",
     "isgraph",  "islower",  "isprint",   "ispunct",  "isspace",    "isupper",  "isxdigit", "iswalpha",   "iswspace",
@@ -103,7 +103,7 @@ const std::set<std::string_view> kFollowsTheLocale{
     "fscanf",   "sscanf",   "strcoll",   "strxfrm",  "strcasecmp", "strftime", "strptime", "put_time",   "get_time",
     "mbstowcs", "wcstombs", "put_money", "imbue",    "localeconv", "iequals",  "to_lower", "strncasecmp"};
 
-/// The names in `line` that follow the locale: functions by what stands before a bracket.
+/// Returns the first name in `line` that depends on the locale; a function is a name before a bracket.
 std::string followingTheLocale(std::string_view line) {
     line = line.substr(0, line.find("//"));
     for (const std::string_view text : {"std::locale", "std::regex", "std::wregex", "QLocale::system", "QLocale()"})
