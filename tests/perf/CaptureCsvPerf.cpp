@@ -1,8 +1,8 @@
-// A long capture as CSV against what others read tables with: pandas' C reader and pyarrow on one thread. 10 million
-// rows of two channels, 240 MB, from the page cache; ours, then theirs, in every turn. All times are the processor's
-// (user and system), so that a busy machine changes them little. "over_pandas" and "over_pyarrow" are how many times as
-// fast ours is; over_pandas must be at least 2. They come from pip into build/<preset>/perf-python; where that cannot
-// be, they are "not compared". A baseline stays what it is: pandas 2.2.3, as pandas 3.1 takes two thirds of its time.
+// Reads a long capture as CSV, compared with common table readers: pandas' C reader and pyarrow on one thread. 10
+// million rows of two channels, 240 MB, from the page cache; ours and theirs in turns. All times are processor times
+// (user and system), which a busy machine changes little. "over_pandas" and "over_pyarrow" say how many times faster
+// ours is; over_pandas must be at least 2. Both come from pip into build/<preset>/perf-python, or are "not compared".
+// The baseline stays at pandas 2.2.3, as pandas 3.1 needs only two thirds of its time.
 #include <algorithm>
 #include <benchmark/benchmark.h>
 #include <cstdio>
@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kRows = 10'000'000;
 constexpr double kRate_hz = 10e6;
 
-/// A table with a name of its own in $TMPDIR; gone when this is.
+/// A table in a file of its own in $TMPDIR, which the destructor removes.
 class LongTable {
 public:
     LongTable() : path_(fs::temp_directory_path() / fmt::format("tactoscope-perf-{}.csv", getpid())) {
@@ -58,7 +58,7 @@ private:
     bool made_ = false;
 };
 
-/// What a command writes; nothing when it fails.
+/// Returns the output of a command; nothing if the command fails.
 std::optional<std::string> outputOf(const std::string& command) {
     std::FILE* pipe = popen(command.c_str(), "r");
     if (pipe == nullptr) return std::nullopt;
@@ -68,7 +68,7 @@ std::optional<std::string> outputOf(const std::string& command) {
     return pclose(pipe) == 0 ? std::optional(text) : std::nullopt;
 }
 
-/// A Python that has both readers, made once beside the build.
+/// Returns a Python with both readers, installed once next to the build.
 std::optional<std::string> pythonWithReaders() {
     std::error_code none;
     const auto folder = fs::read_symlink("/proc/self/exe", none).parent_path().parent_path() / "perf-python";
@@ -108,7 +108,7 @@ assert table.num_rows == 10000000' ')" +
     return theirs;
 }
 
-/// The time that this process has used, all threads.
+/// Returns the processor time used by this process, all threads.
 double processorTime_s() {
     timespec time{};
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
@@ -152,7 +152,7 @@ void BM_CsvCapture(benchmark::State& state) {
         return times[times.size() / 2];
     };
     state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(fs::file_size(table.path())));
-    state.counters["peak_MB"] = megabytes;  // the samples are 80 of them
+    state.counters["peak_MB"] = megabytes;  // 80 MB of this are the samples
     if (pandas.empty()) {
         state.SetLabel("not compared: no python3 with pandas and pyarrow");
         return;

@@ -1,5 +1,5 @@
-// LoopPerf.cpp - one turn of the control loop (read, R, encode, gate, write to a null device) beside its baseline,
-// the roughness chain alone on the same samples.
+// LoopPerf.cpp - measures one turn of the control loop (read, R, encode, gate, write to a null device), compared with
+// its baseline, the roughness chain alone on the same samples.
 #include <algorithm>
 #include <benchmark/benchmark.h>
 #include <chrono>

@@ -1,6 +1,6 @@
-// Measuring pulses in ten million samples on one core, beside copying them and beside adding them up.
+// Measures pulses in ten million samples on one core, compared with copying the samples and with adding them up.
 //
-// The goal is 100 ms for pulses, for noise of full height and for 200 000 pulses in one record.
+// The goal is 100 ms, for pulses, for noise of full height, and for 200 000 pulses in one record.
 #include <benchmark/benchmark.h>
 #include <cmath>
 #include <cstring>
@@ -76,7 +76,7 @@ void BM_Measure(benchmark::State& state) {
 }
 BENCHMARK(BM_Measure)->DenseRange(0, kSignals - 1)->Unit(benchmark::kMillisecond);
 
-/// What the memory gives: 40 MB read and written.
+/// The memory's speed: 40 MB read and written.
 void BM_MeasureBaselineCopy(benchmark::State& state) {
     const auto& samples = captureOf(kPulses).channels[0].samples;
     std::vector<float> copy(kSamples);
@@ -89,7 +89,7 @@ void BM_MeasureBaselineCopy(benchmark::State& state) {
 }
 BENCHMARK(BM_MeasureBaselineCopy)->Unit(benchmark::kMillisecond);
 
-/// What one pass costs that does next to nothing with each sample.
+/// The cost of one pass that does almost nothing with each sample.
 void BM_MeasureBaselineSum(benchmark::State& state) {
     const auto& samples = captureOf(kPulses).channels[0].samples;
     for (auto _ : state) benchmark::DoNotOptimize(std::reduce(samples.begin(), samples.end(), 0.0F));

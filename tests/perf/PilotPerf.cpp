@@ -1,9 +1,9 @@
-// Pilot sessions: a whole one of 90 trials with its thresholds on a virtual participant; how long after an answer the
-// next trial's first row is on disk; how long from the participant's Esc to the end of the device's forceOff(), while
-// trains are delivered. What two rows cost by themselves is BM_SessionAcknowledgedEvent, twice; what a press costs in
-// an empty window is measured in tests/perf/window.
+// Pilot sessions: a whole session of 90 trials with thresholds for a virtual participant; the time from an answer until
+// the next trial's first row is on disk; the time from the participant's Esc to the end of the device's forceOff()
+// during trains. BM_SessionAcknowledgedEvent, twice, gives the cost of two rows alone; tests/perf/window gives the cost
+// of a press in an empty window.
 //
-// The goals are 8 s a session; 20 ms to the next trial (median); 10 ms to the output (worst).
+// The goals are 8 s per session, 20 ms to the next trial (median), and 10 ms to output off (worst).
 #include <QApplication>
 #include <QEventLoop>
 #include <QKeyEvent>
@@ -34,7 +34,7 @@ namespace {
 namespace fs = std::filesystem;
 using SteadyMoment = std::chrono::steady_clock::time_point;
 
-/// A place for sessions; nothing there is the user's.
+/// A folder for sessions, apart from the user's data.
 class Place {
 public:
     Place() {
@@ -58,7 +58,7 @@ void report(benchmark::State& state, std::vector<double> all_ms) {
     state.counters["worst_ms"] = all_ms.back();
 }
 
-/// From the command to the result: study, script, sealed rows.
+/// Measures from the command to the result: study, script, sealed rows.
 void BM_PilotSession(benchmark::State& state) {
     needWindows();
     const Place place;
@@ -89,7 +89,7 @@ void BM_PilotSession(benchmark::State& state) {
 }
 BENCHMARK(BM_PilotSession)->Name("pilot/a session of 90 trials")->Unit(benchmark::kMillisecond)->UseRealTime();
 
-/// A bench for a person, on a simulated current source.
+/// A bench for a person, with a simulated current source.
 struct PersonBench {
     PersonBench(const Place& place, std::shared_ptr<Clock> time, const std::string& load,
                 std::function<std::unique_ptr<Stimulator>(std::unique_ptr<Stimulator>)> as = {})
@@ -136,7 +136,7 @@ struct PersonBench {
     PilotSettings settings;
 };
 
-/// A virtual participant, with the moment at which they said which condition it was.
+/// A virtual participant that records when it identified the condition.
 class TimedPeople final : public PilotParticipant {
 public:
     explicit TimedPeople(PilotParticipant& people) : people_(people) {}
@@ -173,8 +173,8 @@ Result<void> answersAll(PilotSession& session) {
     return {};
 }
 
-/// The time from the answer to the row `trial-begin` of the next trial, with the row `answer` between them, both
-/// durable. The bench lets the response time pass meanwhile, in virtual time.
+/// Measures from the answer to the row `trial-begin` of the next trial; the row `answer` comes between, and both are
+/// durable. Meanwhile the bench lets the response time pass in virtual time.
 void BM_PilotNextTrial(benchmark::State& state) {
     needWindows();
     const Place place;
@@ -209,7 +209,7 @@ BENCHMARK(BM_PilotNextTrial)
     ->UseRealTime()
     ->Iterations(3);
 
-/// When forceOff() last came through since this was cleared.
+/// Time of the first forceOff() since this was cleared.
 std::atomic<std::int64_t> pilotOffAt_ns{0};
 
 std::int64_t steady_ns() { return std::chrono::steady_clock::now().time_since_epoch().count(); }
@@ -219,12 +219,12 @@ public:
     using WrappedStimulator::WrappedStimulator;
     void forceOff() noexcept override {
         WrappedStimulator::forceOff();
-        std::int64_t none = 0;  // the first one counts
+        std::int64_t none = 0;  // only the first call is stored
         pilotOffAt_ns.compare_exchange_strong(none, steady_ns());
     }
 };
 
-/// In real time, the key comes from outside at a moment that the window does not choose, while trains are delivered.
+/// In real time: the key arrives from outside at a random moment, while trains are delivered.
 void BM_PilotStopKey(benchmark::State& state) {
     needWindows();
     const Place place;

@@ -1,5 +1,5 @@
-// The roughness chain beside its baseline: the bare windowed FFTW transforms that it contains, same plan flags.
-// Wanted: at least 3000 times real time on one core, and at most 3 times the baseline's cost.
+// The roughness chain compared with its baseline: only the windowed FFTW transforms that it contains, with the same
+// plan flags. Goals: at least 3000 times real time on one core, and at most 3 times the baseline's cost.
 #include <benchmark/benchmark.h>
 #include <cmath>
 #include <fftw3.h>
@@ -24,7 +24,7 @@ std::vector<StreamInfo> streams() {
             {StreamKind::Taxels, StreamUnit::Pascal, 8, 200, "taxels"}};
 }
 
-/// A second of rest, then sliding contact.
+/// Returns a second of rest, then sliding contact.
 std::vector<SampleBlock> fingertip() {
     Random random(1, "roughness perf");
     std::vector<SampleBlock> blocks(3);
@@ -65,7 +65,7 @@ void roughnessChain(benchmark::State& state) {
 }
 BENCHMARK(roughnessChain)->Unit(benchmark::kMicrosecond);
 
-/// Feeds it as the live bench does: every 5 ms.
+/// Feeds the chain like the live bench: every 5 ms.
 void roughnessChainLive(benchmark::State& state) {
     const auto whole = fingertip();
     const auto infos = streams();

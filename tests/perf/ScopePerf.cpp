@@ -1,8 +1,8 @@
-// The oscilloscope's screen: ten million samples a channel panned and zoomed at 1280x720 on the raster engine, beside
-// QCustomPlot's own graph of the same samples and a plot with nothing in it; and building the pyramid, beside reading
-// the samples once.
+// The oscilloscope's screen: ten million samples per channel, panned and zoomed at 1280x720 on the raster engine,
+// compared with QCustomPlot's own graph of the same samples and with an empty plot. Also builds the min-max pyramid,
+// compared with reading the samples once.
 //
-// Goals: 3 ms a frame for two channels of pulses, 4 ms for noise of full height, 200 million samples/s on one core.
+// Goals: 3 ms per frame for two channels of pulses, 4 ms for noise of full height, 200 million samples/s on one core.
 #include <QApplication>
 #include <benchmark/benchmark.h>
 #include <cmath>
@@ -22,7 +22,7 @@ const QSize kScreen(1280, 720);
 
 enum Signal { kPulses, kNoise };
 
-/// Biphasic pulses of 200 µs every 10 ms on a little noise, or noise as high as the range.
+/// Returns biphasic pulses of 200 µs every 10 ms with a little noise, or noise over the full range.
 std::shared_ptr<const std::vector<float>> samplesOf(Signal signal) {
     static std::shared_ptr<const std::vector<float>> made[2];
     if (made[signal]) return made[signal];
@@ -41,7 +41,7 @@ std::shared_ptr<const std::vector<float>> samplesOf(Signal signal) {
     return samples;
 }
 
-/// What the k-th frame shows: panning through the record while the zoom goes from all of it to a hundredth and back.
+/// View of the k-th frame: panning through the record while zooming from the whole record to a hundredth and back.
 struct Look {
     double perDivision_s, centre_s;
 };
@@ -85,7 +85,7 @@ void BM_ScopeFrame(benchmark::State& state) {
 }
 BENCHMARK(BM_ScopeFrame)->ArgName("noise")->Arg(kPulses)->Arg(kNoise)->Unit(benchmark::kMillisecond);
 
-/// What the library's own graph takes for the same, with what makes it quickest: no antialiasing, adaptive sampling.
+/// The library's own graph for the same samples, with its fastest settings: no antialiasing, adaptive sampling.
 void BM_ScopeFrameBaselineGraph(benchmark::State& state) {
     needWindows();
     QCustomPlot plot;
@@ -149,7 +149,7 @@ void BM_PyramidBuild(benchmark::State& state) {
 }
 BENCHMARK(BM_PyramidBuild)->Unit(benchmark::kMillisecond);
 
-/// Grows it as samples arrive: 4096 at a time.
+/// Adds samples as they arrive: 4096 at a time.
 void BM_PyramidGrow(benchmark::State& state) {
     const auto samples = samplesOf(kNoise);
     const std::span<const float> all(*samples);

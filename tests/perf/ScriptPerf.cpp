@@ -1,5 +1,5 @@
-// The cost of running a script in a process of its own: a call, beside a word to and fro between two processes, and its
-// start, beside the start of a program that does nothing.
+// The cost of running a script in a separate process: one call, compared with a word sent to another process and back;
+// and the start, compared with the start of a program that does nothing.
 #include <benchmark/benchmark.h>
 #include <chrono>
 #include <spawn.h>
@@ -17,7 +17,7 @@ namespace {
 constexpr int kCalls = 20'000;
 constexpr std::size_t kMemory = std::size_t{512} << 20;
 
-/// Answers at once.
+/// Answers every call at once.
 class QuickPort final : public HostPort {
 public:
     Result<nlohmann::json> call(const HostFunction&, const nlohmann::json&, int) override { return 1.5; }

@@ -1,7 +1,7 @@
-// A sensor board's stream, 4 kHz × 3 and 9 × 200 Hz, through SensorBoard::read() every 2 ms as a session calls it:
-// frames, CRC, losses, clock, values. Beside it, the same bytes only copied, and only searched for frames.
+// A sensor board's stream, 4 kHz × 3 and 9 × 200 Hz, through SensorBoard::read() every 2 ms as in a session: frames,
+// CRC, losses, clock, values. Compared with only copying the bytes, and with only searching them for frames.
 //
-// The goal is a core_percent below 5, of one core, for the whole of read().
+// Goal: core_percent (share of one core) below 5 for the whole of read().
 #include <benchmark/benchmark.h>
 #include <chrono>
 #include <cstring>
@@ -16,9 +16,9 @@ using namespace sensorboard;
 
 constexpr double kStream_s = 10;
 constexpr Instant kPollInterval = std::chrono::milliseconds(2);
-using Tape = std::vector<std::vector<std::uint8_t>>;  // what each look finds
+using Tape = std::vector<std::vector<std::uint8_t>>;  // the bytes for each read
 
-/// An emulated board that answers while the streams are opened, then a tape of what it sends afterwards.
+/// An emulated board that answers while the streams are opened, and then a tape of the bytes it sends afterwards.
 class TapeTransport final : public Transport {
 public:
     explicit TapeTransport(VirtualClock& clock)
@@ -49,7 +49,7 @@ public:
             now += kPollInterval;
             const auto got = board_.transmit(bytes, now);
             tape.emplace_back(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(got));
-            if (got == 0) tape.back().push_back(0);  // there is nothing between two frames
+            if (got == 0) tape.back().push_back(0);  // nothing arrives between two frames
         }
     }
 
@@ -67,7 +67,7 @@ private:
     EmulatedBoard board_;
 };
 
-/// The time that the streams took, in all.
+/// Adds up the time spent on the streams.
 class Stopwatch {
 public:
     void begin() { begin_ = std::chrono::steady_clock::now(); }
@@ -122,7 +122,7 @@ void BM_SensorBoardRead(benchmark::State& state) {
 }
 BENCHMARK(BM_SensorBoardRead)->Unit(benchmark::kMillisecond);
 
-/// Ten seconds of stream, look by look.
+/// Returns ten seconds of stream, read by read.
 const Tape& aTape() {
     static const Tape made = [] {
         VirtualClock clock;

@@ -1,6 +1,6 @@
-// Recording rate against its ceiling: bare inserts of blobs of the same size into SQLite with the same pragmas, page
-// size, index and commits. "ratio" of BM_SessionAgainstBareBlobs is the figure that must be at least 0.8: both are
-// timed in turns inside one benchmark, so that a busy machine slows both alike.
+// Recording rate compared with the possible maximum: plain inserts of equally large blobs into SQLite with the same
+// pragmas, page size, index and commits. The goal: "ratio" of BM_SessionAgainstBareBlobs is at least 0.8. Both are
+// timed in turns in one benchmark, so that a busy machine slows both equally.
 #include <algorithm>
 #include <benchmark/benchmark.h>
 #include <chrono>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kRate = 4000;
 constexpr std::size_t kAxes = 3;
-constexpr std::size_t kChunkBytes = kRate * kAxes * sizeof(double);  // 96 kB: a second of a fingertip
+constexpr std::size_t kChunkBytes = kRate * kAxes * sizeof(double);  // 96 kB: one second of a fingertip
 constexpr int kChunksPerTurn = 200;
 
 std::filesystem::path scratch(const char* name) {
@@ -35,7 +35,7 @@ SampleBlock aSecond(double t0) {
     return block;
 }
 
-/// A steady clock moved by hand, or a virtual one: the first syncs every commit, the second only what is acknowledged.
+/// A clock set by hand, steady or virtual: a steady clock syncs every commit, a virtual one only acknowledged rows.
 class StepClock final : public Clock {
 public:
     explicit StepClock(bool isVirtual) : virtual_(isVirtual) {}
@@ -48,7 +48,7 @@ private:
     Instant now_{0};
 };
 
-/// Blobs and nothing else: what SQLite itself allows.
+/// Writes only blobs: the fastest that SQLite allows.
 class BareBlobs {
 public:
     explicit BareBlobs(bool synced) : path_(scratch("tactoscope-perf-bare.db")) {
@@ -150,7 +150,7 @@ BENCHMARK(BM_Record<Session>)
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
 
-/// Alone on the disk: what another target left unwritten would be written in this one's time.
+/// Syncs first, so that data left unwritten by another target does not add to this time.
 template <class Target>
 double timedAlone(const std::vector<SampleBlock>& blocks, benchmark::State& state) {
     sync();

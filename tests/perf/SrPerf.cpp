@@ -1,6 +1,6 @@
-// Opening a .sr of 45 million samples against unpacking it: libzip reading the same entries into one buffer, and
-// checking them, in turns with ours inside one benchmark. "times_unzip" must be at most 2. "memory_of_samples" is the
-// most memory held while it opens, over that of the samples: at most 1.25.
+// Opening a .sr file of 45 million samples, compared with unpacking: libzip reads the same entries into one buffer and
+// checks them, in turns with ours in one benchmark. Goals: "times_unzip" at most 2; "memory_of_samples", the peak
+// memory during opening divided by the size of the samples, at most 1.25.
 #include <benchmark/benchmark.h>
 #include <chrono>
 #include <cstring>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kSamples = 45'000'000;
 
-/// Pulses in the noise of eight bits, in pieces of 4 MB, as PulseView saves an oscilloscope's record; written once.
+/// Pulses in 8-bit noise, in pieces of 4 MB as PulseView saves an oscilloscope's record; the file is written once.
 const std::filesystem::path& largeFile() {
     static const auto path = [] {
         constexpr std::size_t kPiece = 1 << 20;
@@ -36,7 +36,7 @@ const std::filesystem::path& largeFile() {
             samples.clear();
         }
         auto made = std::filesystem::temp_directory_path() / "tactoscope-perf-45M.sr";
-        // zlib's level 3: libzip's own takes five minutes for this, and unpacks as fast.
+        // zlib level 3: libzip's default takes five minutes for this, and unpacks no faster.
         std::ofstream(made, std::ios::binary) << test::zipOf(entries, 3);
         return made;
     }();
@@ -59,7 +59,7 @@ double unzipSeconds(const std::filesystem::path& path) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-/// A line of /proc/self/status, in bytes.
+/// Returns a line of /proc/self/status in bytes.
 double statusBytes(const std::string& key) {
     std::ifstream status("/proc/self/status");
     std::string word;
@@ -78,7 +78,7 @@ void BM_OpenSrAgainstUnzip(benchmark::State& state) {
     double ours = 0, theirs = 0, memory = 0;
     for ([[maybe_unused]] auto _ : state) {
         theirs += unzipSeconds(path);
-        std::ofstream("/proc/self/clear_refs") << "5";  // the peak starts again
+        std::ofstream("/proc/self/clear_refs") << "5";  // resets the peak
         const double before = statusBytes("VmRSS");
         const auto begin = std::chrono::steady_clock::now();
         const auto reading = SigrokFormat().read(path, {}, {});

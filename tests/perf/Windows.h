@@ -1,6 +1,6 @@
-// Windows.h - what a benchmark of windows needs before its first one.
+// Windows.h - preparation for benchmarks that use windows.
 //
-// Thread-safety: the main thread alone.
+// Thread-safety: the main thread only.
 #pragma once
 
 #include <QApplication>
@@ -9,7 +9,7 @@
 
 namespace tacto {
 
-/// The program that windows belong to: made at first need, never destroyed, since benchmark's main() knows nothing of
+/// Creates the QApplication at first need, and never destroys it, since the main() of Google Benchmark does not know
 /// Qt.
 inline void needWindows() {
     static int argc = 1;

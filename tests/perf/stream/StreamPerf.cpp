@@ -1,9 +1,9 @@
-// StreamPerf.cpp - a sensor board's stream for ten minutes of real time: 4 kHz × 3 and 9 × 200 Hz through a terminal
-// between two processes, read every 2 ms as a session reads it. Says what was lost and what the reading side cost.
+// StreamPerf.cpp - a sensor board's stream for ten minutes of real time: 4 kHz × 3 and 9 × 200 Hz through a
+// pseudo-terminal between two processes, read every 2 ms as in a session. Prints the losses and the reader's cost.
 //
 //   perf_stream [SECONDS]
 //
-// The goal: nothing is lost, and it costs at most ten times what a thread costs that wakes as often.
+// Goal: no losses, and at most ten times the cost of a thread that only wakes as often.
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -25,7 +25,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// The board, in a process of its own: its work is not the reader's. Ends when `stop` is closed.
+/// Runs the board in a separate process, so that its work is not the reader's. Ends when `stop` is closed.
 [[noreturn]] void beBoard(int tell, int stop) {
     SteadyClock clock;
     sensorboard::EmulatedBoardSettings settings;
@@ -47,7 +47,7 @@ double processorSeconds() {
     return seconds(used.ru_utime) + seconds(used.ru_stime);
 }
 
-/// Share of a core, in percent, that waking every 2 ms takes.
+/// Returns the share of a core, in percent, for only waking every 2 ms.
 double wakingAlone_percent() {
     const double before = processorSeconds();
     const auto end = std::chrono::steady_clock::now() + 3s;

@@ -1,5 +1,5 @@
-// How soon an approved train is in libusb's hands, and how late a keep-alive gets while both cores are busy: the real
-// libusb on an emulated stimulator. Started through with-emulated-usb.
+// Measures how soon libusb has an approved train, and how late a keep-alive becomes while both cores are busy: the real
+// libusb with an emulated stimulator. Started through with-emulated-usb.
 //
 // Baseline of the latency: the same bytes written to the transport without driver, gate or protocol.
 #include <algorithm>
@@ -24,7 +24,7 @@ using Steady = std::chrono::steady_clock;
 constexpr int kTrains = 200;
 constexpr auto kUnderLoad = 10s;
 
-/// The ports of the bus, and the transport that was opened last.
+/// The ports of the bus, and the last transport opened.
 class WatchedPorts final : public TransportPorts {
 public:
     explicit WatchedPorts(std::shared_ptr<TransportPorts> ports) : ports_(std::move(ports)) {}
@@ -42,7 +42,7 @@ private:
 
 double microseconds(Steady::duration d) { return std::chrono::duration<double, std::micro>(d).count(); }
 
-/// The median, in microseconds.
+/// Prints the median and the 99 % value; returns the median in microseconds.
 double print(const char* what, std::vector<double> us) {
     std::ranges::sort(us);
     fmt::print("{:<58} median {:7.1f} us   99 % {:7.1f} us\n", what, us[us.size() / 2], us[us.size() * 99 / 100]);
@@ -65,7 +65,7 @@ TrainRequest requestFor(Instant now) {
     return request;
 }
 
-/// From the gate's approval to the last byte in libusb.
+/// Measures from the gate's approval to the last byte in libusb.
 void latency(Stimulator& device, const UsbBulkTransport& transport, SafetyGate& gate, const Clock& clock) {
     std::vector<double> whole, bare;
     for (int i = 0; i < kTrains; ++i) {
@@ -80,11 +80,11 @@ void latency(Stimulator& device, const UsbBulkTransport& transport, SafetyGate& 
             return;
         }
         whole.push_back(microseconds(transport.submittedAt() - begin));
-        std::this_thread::sleep_for(12ms);  // the pulse ends, and a period of 10 ms is over
+        std::this_thread::sleep_for(12ms);  // the pulse ends, and its period of 10 ms is over
         static_cast<void>(device.status());
     }
     auto& wire = const_cast<UsbBulkTransport&>(transport);
-    const std::array<std::uint8_t, 24> bytes{};  // this is no frame: the device drops the bytes
+    const std::array<std::uint8_t, 24> bytes{};  // not a valid frame: the device drops these bytes
     for (int i = 0; i < kTrains; ++i) {
         const auto begin = Steady::now();
         if (!wire.write(bytes, Seconds(1))) return;
@@ -96,7 +96,7 @@ void latency(Stimulator& device, const UsbBulkTransport& transport, SafetyGate& 
     fmt::print("  {}{}\n", verdict(median_us / bare_us, "the bytes alone", 3), ofLimit(median_us, 200, "us wanted"));
 }
 
-/// During a train; the loop beats, both cores are busy.
+/// Measures keep-alives during a train, while the loop beats and both cores are busy.
 void keepAlive(Stimulator& device, SafetyGate& gate, const Clock& clock) {
     Heartbeat heartbeat;
     StimulatorSession session(device, gate, heartbeat, clock, {});
@@ -117,7 +117,7 @@ void keepAlive(Stimulator& device, SafetyGate& gate, const Clock& clock) {
     auto request = requestFor(clock.now());
     request.train.pulses = 600;
     request.train.rate = Hertz(50);
-    request.interval = Seconds(14);  // the clock of the device may be 5 % off
+    request.interval = Seconds(14);  // the device's clock may be 5 % off
     auto approved = gate.approve(request);
     const auto begun = approved ? device.deliver(std::move(*approved)) : Result<void>(failure(approved));
     const auto end = Steady::now() + kUnderLoad;

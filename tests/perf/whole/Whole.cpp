@@ -1,5 +1,5 @@
-// Whole.cpp - times tactoscope-cli as its users run it, with the memory it takes. Each figure stands beside its
-// baseline, measured in the same run: a fixed sum that takes a processor a third of a second.
+// Whole.cpp - measures time and memory of tactoscope-cli in normal use. Each time is compared with a baseline of the
+// same run: a fixed calculation that takes a processor a third of a second.
 //
 //   perf_whole PATH-OF-tactoscope-cli
 #include <algorithm>
@@ -24,7 +24,7 @@ namespace {
 
 struct Ran {
     double seconds = 0;
-    double megabytes = 0;  ///< largest resident set
+    double megabytes = 0;  ///< peak resident memory
     int exitCode = -1;
 };
 
@@ -50,7 +50,7 @@ Ran runQuietly(const std::vector<std::string>& words) {
     return ran;
 }
 
-/// 2e8 products, each of the last: what a processor does when nothing can be done at once, and no memory is asked.
+/// Times 2e8 multiplications, each using the last result: no parallel work and no memory access is possible.
 double fixedSum_s() {
     double best = 1e9;
     for (int round = 0; round < 3; ++round) {

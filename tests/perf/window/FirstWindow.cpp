@@ -1,9 +1,8 @@
-// FirstWindow.cpp - from exec to the window painted on the screen, beside another program's, on one X server of its own
+// FirstWindow.cpp - the time from exec to the painted window, compared with another program's, on a separate X server
 // (Xvfb) with warm caches and a fresh home each time. Median of 5, the programs taking turns.
 //
-// The server keeps its screen in a file; a window is there when a tenth of the screen is no longer as the bare server
-// left it. So nothing but the program and the server works while it is waited for, and a window that is mapped but not
-// painted does not count.
+// The server keeps its screen in a file; a window counts as painted when a tenth of the screen differs from the empty
+// screen. So only the program and the server work during the wait, and a mapped but unpainted window does not count.
 //
 //   perf_first_window PROGRAM [BASELINE]    a baseline that is not installed is not compared
 #include <algorithm>
@@ -35,7 +34,7 @@ constexpr int kRounds = 5;
 constexpr auto kLimit = std::chrono::seconds(20);
 constexpr const char* kScreen = "1440x900x24";
 
-/// Starts a program; its output goes nowhere. `descriptor` is handed on as the program's 3, -1 for none.
+/// Starts a program and discards its output. `descriptor` becomes the program's descriptor 3; -1 for none.
 pid_t start(const std::vector<std::string>& words, int descriptor = -1) {
     std::vector<char*> arguments;
     for (const auto& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
@@ -59,7 +58,7 @@ void end(pid_t child) {
     waitpid(child, nullptr, 0);
 }
 
-/// An X server and a look at its screen, which it keeps as an XWD file in memory that is shared.
+/// An X server and access to its screen, an XWD file in shared memory.
 class Server {
 public:
     explicit Server(const fs::path& folder) {
@@ -69,7 +68,7 @@ public:
                          "tcp", "-noreset"},
                         ready[1]);
         close(ready[1]);
-        // Reads to the end of the line: a server ends whose number nobody reads any longer.
+        // Reads to the end of the line, since the server ends if nobody reads its number.
         std::string digits;
         for (char digit = 0; read(ready[0], &digit, 1) == 1 && digit != '\n';) digits += digit;
         close(ready[0]);
@@ -93,7 +92,7 @@ public:
     Server& operator=(const Server&) = delete;
 
     [[nodiscard]] bool runs() const { return screen_ != nullptr; }
-    /// The part of the screen, 0 to 1, that is not as the bare server left it.
+    /// Returns the part of the screen, 0 to 1, that differs from the empty screen.
     [[nodiscard]] double painted() const {
         const auto now = sampled();
         std::size_t other = 0;
@@ -102,15 +101,15 @@ public:
     }
 
 private:
-    /// A word of the file's header: 32-bit words, the largest byte first.
+    /// Returns a word of the file's header: 32-bit words, big-endian.
     [[nodiscard]] std::size_t word(std::size_t index) const {
         const auto* at = screen_ + 4 * index;
         return (std::size_t{at[0]} << 24) | (std::size_t{at[1]} << 16) | (std::size_t{at[2]} << 8) | at[3];
     }
-    /// A pixel in every 16 by 16.
+    /// Returns one pixel of every 16 by 16.
     [[nodiscard]] std::vector<std::uint32_t> sampled() const {
         const std::size_t width = word(4), height = word(5), row = word(12);
-        const auto* pixels = screen_ + word(0) + 12 * word(19);  // header, then colours of 12 bytes
+        const auto* pixels = screen_ + word(0) + 12 * word(19);  // header, then colours of 12 bytes each
         std::vector<std::uint32_t> all;
         for (std::size_t y = 8; y < height; y += 16) {
             for (std::size_t x = 8; x < width; x += 16) {
@@ -135,12 +134,12 @@ bool waitFor(const Server& server, bool painted) {
     return true;
 }
 
-/// Seconds; nothing when no window came.
+/// Returns the time in seconds; nothing if no window appeared.
 std::optional<double> firstWindow(const Server& server, const std::string& program, const fs::path& scratch) {
     static int number = 0;
     const auto home = scratch / ("home-" + std::to_string(++number));
     fs::create_directories(home);
-    fs::permissions(home, fs::perms::owner_all);  // as a runtime folder must be
+    fs::permissions(home, fs::perms::owner_all);  // as required for a runtime folder
     for (const char* name : {"HOME", "XDG_DATA_HOME", "XDG_CONFIG_HOME", "XDG_CACHE_HOME", "XDG_RUNTIME_DIR"})
         setenv(name, home.c_str(), 1);
     const auto begun = steady_clock::now();
@@ -149,7 +148,7 @@ std::optional<double> firstWindow(const Server& server, const std::string& progr
     const double seconds = std::chrono::duration<double>(steady_clock::now() - begun).count();
     end(child);
     const bool gone = waitFor(server, false);
-    std::this_thread::sleep_for(milliseconds(300));  // what its end left to do
+    std::this_thread::sleep_for(milliseconds(300));  // time for the rest of its shutdown
     return came && gone ? std::optional(seconds) : std::nullopt;
 }
 
@@ -195,7 +194,7 @@ int main(int argc, char** argv) {
     {
         const Server server(scratch / "screen");
         std::vector<std::vector<double>> taken(programs.size());
-        for (int round = -1; server.runs() && round < kRounds && exitCode == 0; ++round) {  // -1 warms the caches
+        for (int round = -1; server.runs() && round < kRounds && exitCode == 0; ++round) {  // round -1 warms the caches
             for (std::size_t i = 0; i < programs.size(); ++i) {
                 const auto seconds = firstWindow(server, programs[i], scratch);
                 if (!seconds) {

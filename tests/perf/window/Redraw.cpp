@@ -1,8 +1,8 @@
-// Redraw.cpp - what live plots cost at 60 frames a second, 1280x720: CPU time of the window's thread and of the whole
-// process (the simulated bench and its recording included) over some seconds of wall time, beside a plot with nothing
-// in it that is redrawn as often.
+// Redraw.cpp - the cost of live plots at 60 frames a second, 1280x720: CPU time of the window's thread and of the whole
+// process (including simulated bench and recording) over some seconds, compared with an empty plot that is redrawn as
+// often.
 //
-// The goal: two channels at three times the empty plot's cost, and as many pictures. The limit is 25 % of one core.
+// Goal: two channels cost at most three times the empty plot, with as many pictures. The limit is 25 % of one core.
 #include <QTabWidget>
 #include <fmt/format.h>
 #include <qcustomplot.h>
@@ -31,12 +31,12 @@ constexpr double kMaxOfCore_percent = 25;
 const QSize kScreen(1280, 720);
 
 struct Cost {
-    double window_percent = 0;   ///< share of one core that the window's thread takes
-    double process_percent = 0;  ///< share of one core that all threads take
-    double frames_hz = 0;        ///< pictures that were really drawn
+    double window_percent = 0;   ///< share of one core for the window's thread
+    double process_percent = 0;  ///< share of one core for all threads
+    double frames_hz = 0;        ///< pictures actually drawn
 };
 
-/// Calls `frame` sixty times a second; nothing calls it when it is empty. `drawn` counts pictures.
+/// Calls `frame` sixty times a second, if it is set. `drawn` counts pictures.
 Cost costOf(const std::function<void()>& frame, const std::size_t& drawn) {
     QTimer timer;
     timer.setTimerType(Qt::PreciseTimer);
@@ -45,7 +45,7 @@ Cost costOf(const std::function<void()>& frame, const std::size_t& drawn) {
     const std::chrono::duration<double> step(1 / kFrames_hz);
     std::chrono::duration<double> due(0);
     const auto began = now();
-    // Due times stand on a grid of sixtieths, whatever a frame takes; missed ones are not made up for.
+    // Due times are multiples of 1/60 s, however long a frame takes; missed frames are not made up for.
     const auto next = [&] {
         const std::chrono::duration<double> passed = now() - began;
         due = std::max(due + step, passed);
@@ -103,7 +103,7 @@ Cost emptyPlot() {
         drawn);
 }
 
-/// Two channels, another capture of the bench in each frame: no real one triggers so fast.
+/// Two channels with a new capture in each frame, more often than any real trigger.
 void twoChannels(const Cost& baseline) {
     const char* what = "oscilloscope: two channels, new each frame";
     gui::BenchController controller(test::simulatedRegistry);
@@ -132,8 +132,8 @@ void twoChannels(const Cost& baseline) {
     tell(what, cost, baseline, true);
 }
 
-/// All strips, taxels and the tactile plane, while a finger slides and trains are delivered. The window redraws them
-/// half as often: wholeWindow().
+/// All strips, taxels and the tactile plane, while a finger slides and trains are delivered. The real window redraws
+/// them half as often: wholeWindow().
 void touch(const Cost& baseline) {
     const char* what = "touch: every strip; plane 30/s, numbers 10/s";
     gui::BenchController controller(test::simulatedRegistry);
@@ -146,7 +146,7 @@ void touch(const Cost& baseline) {
     controller.drive(DriveSource::Sensor);
     std::size_t drawn = 0;
     count(const_cast<gui::StripPlots&>(live.plots()), drawn);
-    // Ten seconds are shown: a full picture is what costs.
+    // Ten seconds are visible, and only a full picture has its full cost.
     QTimer fill;
     QObject::connect(&fill, &QTimer::timeout, [&] { live.refresh(controller.telemetry(), true); });
     fill.start(50);
@@ -159,7 +159,7 @@ void touch(const Cost& baseline) {
          fmt::format("; 14 traces and a spectrum, where {:.0f} % are asked of two channels", kMaxOfCore_percent));
 }
 
-/// The program as it is, redrawn as often as it does by itself.
+/// The real program, redrawn as often as it does itself.
 void wholeWindow(const Cost& baseline, int tab, const std::string& what) {
     gui::MainWindow window(test::simulatedRegistry);
     window.resize(1440, 900);

@@ -1,7 +1,7 @@
-// Stalls.cpp - how long the window cannot answer while long work runs beside it: a protocol, its report, an export.
+// Stalls.cpp - how long the window cannot answer while long work runs: a protocol, its report, an export.
 //
-// The longest gap between the beats of a 5 ms timer in the window's event loop, beside that of a window with nothing to
-// do. To be met: ten times that. From 50 ms on a person feels it.
+// Measures the longest gap between beats of a 5 ms timer in the window's event loop, compared with an idle window.
+// Goal: at most ten times as long. People notice gaps from 50 ms on.
 #include <QLabel>
 #include <QPdfDocument>
 #include <QProcess>
@@ -26,7 +26,7 @@ namespace {
 using test::Stalls;
 using test::stallsWhile;
 
-constexpr int kLive = 0, kSeparability = 3, kSessions = 5;  // workspaces, from the top
+constexpr int kLive = 0, kSeparability = 3, kSessions = 5;  // indices of workspaces, from the top
 constexpr int kExported_s = 600;                            // seconds of simulated bench
 constexpr int kLimit_ms = 120'000;
 
@@ -52,7 +52,7 @@ std::function<bool()> after(int ms) {
     return [until] { return std::chrono::steady_clock::now() >= until; };
 }
 
-/// A session of ten minutes, as the command line records it.
+/// Records a session of ten minutes through the command line.
 QString longSession(const std::string& cli, const QString& folder) {
     QProcess recorder;
     recorder.start(QString::fromStdString(cli), {"run", "live", "--device", "sim:", "--set",

@@ -1,5 +1,5 @@
-// perf_window - what the window costs and how soon it answers, each figure beside its goal and its baseline, measured
-// in the same run. On the offscreen platform unless QT_QPA_PLATFORM says otherwise; the user's folders are elsewhere.
+// perf_window - the cost and response time of the window; each value has a goal and a baseline from the same run. Uses
+// the offscreen platform unless QT_QPA_PLATFORM is set, and keeps out of the user's folders.
 //
 //   perf_window PATH-OF-tactoscope-cli [redraw] [stalls] [stop]
 #include "tests/perf/window/WindowPerf.h"
@@ -20,7 +20,7 @@ namespace {
 
 bool everything = true;
 
-/// The offscreen platform says this of every window, in the middle of the tables.
+/// Drops a message that the offscreen platform prints for every window, in the middle of the tables.
 void withoutSizeHints(QtMsgType, const QMessageLogContext&, const QString& text) {
     if (!text.contains("propagateSizeHints")) std::fprintf(stderr, "%s\n", qPrintable(text));
 }
