@@ -1,4 +1,4 @@
-// The report of a stimulator's calibration as a certificate: ISO/IEC 17025:2017, 7.8.2.1, 7.8.4.1 and 7.8.6.2.
+// The report of a stimulator's calibration as a certificate by ISO/IEC 17025:2017, 7.8.2.1, 7.8.4.1 and 7.8.6.2.
 #include <QJsonArray>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ QJsonObject quantity(const char* id, const char* title, const char* unit, double
             {"left", QJsonValue::Null}};
 }
 
-/// A customer's stimulator on a real oscilloscope with a known certificate.
+/// A customer's stimulator, calibrated with a real oscilloscope that has a known certificate.
 ReportModel calibrated() {
     ReportModel model;
     model.title = "Stimulator calibration";
@@ -91,7 +91,7 @@ protected:
         EXPECT_TRUE(written) << (written ? "" : written.error().message);
         std::string all =
             path.extension() == ".pdf" ? poppler("pdftotext -layout", path) : contentOfFile(path).toStdString();
-        // The text as it is read: one blank for narrow ones and line breaks; no tags but that of a line to write on.
+        // The text as people read it: blanks for narrow blanks and line breaks; of the tags only a line to write on.
         QString read = QString::fromStdString(all).replace(QChar(0x202f), ' ');
         if (path.extension() == ".html") {
             read.remove(QRegularExpression("<style>.*</style>", QRegularExpression::DotMatchesEverythingOption));
@@ -182,8 +182,8 @@ TEST_F(Certificate, WhatNobodySaidIsALineToWriteOn) {
     const auto page = text(model, "c.html");
     for (const auto& detail : kCertificateDetails) {
         const auto title = std::string(detail.title);
-        if (detail.key == "function" || detail.key == "authorised_by") continue;  // the signature's own words
-        if (detail.key == "model" || detail.key == "serial") {                    // the device says them
+        if (detail.key == "function" || detail.key == "authorised_by") continue;  // part of the signature
+        if (detail.key == "model" || detail.key == "serial") {                    // given by the device
             EXPECT_THAT(page, Not(HasSubstr(title + " ____"))) << title;
         } else {
             EXPECT_THAT(page, HasSubstr(title + "____")) << title;
@@ -221,7 +221,7 @@ TEST_F(Certificate, HoldsWhatWasFoundAndWhatIsLeftApart) {
                       HasSubstr("the correction of 2026-03-01 was applied")));
 }
 
-/// Column by column: U has two digits, the value stands to the same place, and the unit stands in the header alone.
+/// In each column: U has two digits, the value ends at the same decimal place, and only the header has the unit.
 TEST_F(Certificate, EveryValueHasItsUAndItsFactorInOnePrefix) {
     RecordProperty("hazard", "H8");
     const auto content = contentOf(calibrated());

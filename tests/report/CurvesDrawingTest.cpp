@@ -1,4 +1,4 @@
-// Curves with their bands: read, refused, drawn.
+// Curves with their bands: reading, refusing and drawing.
 #include <QJsonArray>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

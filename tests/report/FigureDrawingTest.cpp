@@ -30,7 +30,7 @@ std::string legendOf(const QJsonObject& json) {
     return figure ? figureLegend(*figure).toStdString() : std::string();
 }
 
-/// All text in an SVG, one line per text element.
+/// Returns all text in an SVG, one line per text element.
 std::string textOf(const QByteArray& svg) {
     QXmlStreamReader xml(svg);
     std::string text;
@@ -43,7 +43,7 @@ std::string textOf(const QByteArray& svg) {
     return text;
 }
 
-/// Different colours in the drawn figure: a blank one has one, and an axis alone few.
+/// Counts the colours in the drawn figure: a blank one has one, and a bare axis has few.
 std::size_t coloursOf(const QByteArray& svg) {
     QSvgRenderer renderer(svg);
     QImage image(renderer.defaultSize(), QImage::Format_RGB32);
@@ -239,7 +239,7 @@ TEST(FigureDrawing, ShowsNotEvaluatedAsHatchedAndInWords) {
     EXPECT_NE(text.find("not evaluated"), std::string::npos) << text;
     EXPECT_THAT(legendOf(exposureJson()), HasSubstr("no electrode area")) << "and why, below";
     EXPECT_NE(text.find("attention"), std::string::npos);
-    // The hatching is more lines than the same row has with a value.
+    // The hatching has more lines than the same row with a value.
     auto evaluated = exposureJson();
     auto rows = evaluated["rows"].toArray();
     auto row = rows[4].toObject();

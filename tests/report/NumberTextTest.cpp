@@ -10,7 +10,7 @@
 namespace tacto {
 namespace {
 
-// Narrow no-break spaces read as spaces here.
+// Replaces narrow no-break spaces by spaces.
 std::string plain(QString text) { return text.replace(QChar(0x202f), ' ').toStdString(); }
 
 TEST(NumberText, UsesEngineeringPrefixesAndFourDigits) {
@@ -144,7 +144,7 @@ TEST(NumberText, AColumnHasOnePrefixForEachUnit) {
     EXPECT_EQ(shared(sentences), sentences) << "a sentence keeps its words";
 }
 
-/// Each cell says the same number as it did alone, with the same digits, in the shared unit.
+/// In the shared unit, each cell shows the same number with the same digits as it does alone.
 TEST(NumberText, APrefixThatIsSharedChangesNoNumber) {
     RecordProperty("hazard", "H8");
     std::mt19937_64 random(20261129);
@@ -229,7 +229,7 @@ TEST(NumberText, DecimalPointsStandOneBelowTheOther) {
     EXPECT_EQ(cells[0], "7" + point + digit + " ± 11" + point + digit + digit);
     EXPECT_EQ(cells[1], "−2.1 ± 6.65");
     EXPECT_EQ(cells[2], "–");
-    // The widths of the values, in the face of the reports.
+    // The widths of the values in the font of the reports.
     const QFontMetricsF metrics(textFont(11));
     EXPECT_NEAR(metrics.horizontalAdvance(digit), metrics.horizontalAdvance("0"), 0.01);
     EXPECT_NEAR(metrics.horizontalAdvance(point), metrics.horizontalAdvance("."), 0.01);

@@ -20,7 +20,7 @@ using ::testing::Not;
 
 QString asQString(const fs::path& path) { return QString::fromStdString(path.string()); }
 
-/// Text with narrow spaces as spaces.
+/// Returns the text of a PDF, with narrow spaces as spaces.
 std::string pdfText(const fs::path& pdf) {
     return QString::fromStdString(poppler("pdftotext -layout", pdf)).replace(QChar(0x202f), ' ').toStdString();
 }
@@ -47,7 +47,7 @@ TEST_F(Report, PutsTheVerdictAndItsReasonsFirst) {
     const auto text = pdfText(write(separabilityModel(false), "r.pdf"));
     const auto verdict = text.find("Indeterminate");
     ASSERT_NE(verdict, std::string::npos);
-    // Page 1: how it was decided, what that rests on, who did it; then the rest.
+    // Page 1 gives the reasons, their basis and the people; then the rest follows.
     EXPECT_LT(verdict, text.find("Every pair of conditions"));
     EXPECT_LT(text.find("Every pair of conditions"), text.find("Not evaluated"));
     EXPECT_LT(text.find("Not evaluated"), text.find("Ambient conditions"));
@@ -110,7 +110,7 @@ TEST_F(Report, KeepsEachCaptionOnItsFiguresPage) {
     for (auto end = text.find('\f'); end != std::string::npos; begin = end + 1, end = text.find('\f', begin)) {
         pages.push_back(text.substr(begin, end - begin));
     }
-    // A word from inside each figure, and its caption.
+    // A word inside each figure, and the figure's caption.
     const std::vector<std::pair<const char*, const char*>> pairs{
         {"Texture alone", "Figure 1."}, {"Interval between trains", "Figure 2."},
         {"Current (mA)", "Figure 3."},  {"Presented", "Figure 4."},
@@ -372,7 +372,7 @@ TEST(LimitMatrix, OneLimitFromTwoDocumentsIsOneRowThatNamesBoth) {
     EXPECT_EQ(block.rows[1].cells[1].state, State::Broken);
     EXPECT_EQ(block.rows[2].cells[1].state, State::Open) << "and no share of what was not evaluated";
     EXPECT_EQ(closestOf(block, "").rows.front().last(), "noted");
-    // Nothing that a script gives under these names is a reason to end.
+    // No shape of these values from a script may crash the program.
     const nlohmann::json shapes[] = {nullptr, 1, "text", true, nlohmann::json::array({1, "a", nullptr}), {{"a", 1}}};
     for (const auto& shape : shapes) {
         EXPECT_TRUE(limitsOf(shape).rows.empty());
@@ -405,14 +405,14 @@ TEST_F(Report, WhatIsNotEvaluatedOnSeveralLoadsForOneReasonIsOneSentence) {
     ReportModel model;
     readBasis(results, model);
     ASSERT_EQ(model.basis.notEvaluated.size(), 2);
-    // Stands beside "Not evaluated", which is not repeated.
+    // Placed next to "Not evaluated", which is not repeated.
     EXPECT_EQ(model.basis.notEvaluated[0],
               withSigns("current density into 100 ohm, 200 ohm + 10 kohm || 50 nF and in the worst case: the area is "
                         "not known"));
     EXPECT_EQ(model.basis.notEvaluated[1], withSigns("net charge into 100 ohm: it was not captured"));
 }
 
-/// The report's judgement on the reference of these results.
+/// Returns the report's judgement on the reference in these results.
 std::string referenceJudged(const QJsonObject& check) {
     ReportModel model;
     readBasis({{"kind", "stimulator-calibration"}, {"reference", check}}, model);
@@ -503,7 +503,7 @@ TEST_F(Report, LeavesAnExistingReportWholeWhenItFails) {
     const auto path = scratch_.write("r.pdf", "the old report");
     EXPECT_FALSE(writeReport(separabilityModel(false, 3), asQString(path), [](const QString&) { return false; }));
     EXPECT_EQ(contentOfFile(path), "the old report");
-    // A folder in the report's place cannot be replaced; nothing else may be left beside it.
+    // A folder in the report's place cannot be replaced; nothing else may remain next to it.
     const auto blocked = scratch_.path() / "taken" / "r.html";
     fs::create_directories(blocked);
     EXPECT_FALSE(writeReport(separabilityModel(false, 3), asQString(blocked)));

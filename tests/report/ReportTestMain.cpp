@@ -1,4 +1,4 @@
-// Figures are widgets: the tests need an application, and no display.
+// Figures are widgets, so the tests need an application, but no display.
 #include <QApplication>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// How long a report takes. The sanitizers take more time.
+// The time to make a report; under sanitizers it may take longer.
 #include <QElapsedTimer>
 #include <gtest/gtest.h>
 

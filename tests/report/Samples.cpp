@@ -31,7 +31,7 @@ QJsonObject statistic(double mean, double sd) {
     return {{"mean", mean}, {"sd", sd}, {"median", mean}, {"min", mean - 2 * sd}, {"max", mean + 2 * sd}, {"n", 25}};
 }
 
-/// A symmetric biphasic pulse of 2 x 200 us with a 100 us gap, on 1 kohm.
+/// A symmetric biphasic pulse of 2 x 200 us with a 100 us gap, into 1 kohm.
 double pulse(double t, double amplitude) {
     const auto edge = [&](double at) { return 1 / (1 + std::exp(-(t - at) / 2e-6)); };
     return amplitude * (edge(0) - edge(200e-6)) - amplitude * (edge(300e-6) - edge(500e-6));

@@ -1,4 +1,4 @@
-// Samples.h - reports and figures for tests: a separability run as a bench would measure it.
+// Samples.h - reports and figures for tests, from a separability run as a bench would measure it.
 //
 // Thread-safety: the test's own thread.
 #pragma once
@@ -12,7 +12,7 @@
 
 namespace tacto::test {
 
-/// The trials, conditions, captures and confusion of a separability run with `repeats` per condition.
+/// Trials of a separability run with `repeats` per condition; below, its conditions, captures and confusion.
 QJsonObject planeJson(int repeats);
 QJsonObject conditionsJson();
 QJsonObject waveformsJson();
@@ -20,16 +20,16 @@ QJsonObject confusionJson();
 QJsonObject exposureJson();
 QJsonObject timelineJson(int frames);
 
-/// `type` with nothing in it that could be drawn.
+/// A figure of `type` with nothing to draw.
 QJsonObject emptyFigureJson(const QString& type);
 
-/// The figure as SVG.
+/// Returns the figure as SVG.
 std::string drawn(const QJsonObject& figure, bool simulated);
 
-/// A whole report with a figure of every type and two tables.
+/// Returns a whole report with a figure of every type and two tables.
 ReportModel separabilityModel(bool simulated, int repeats = 25);
 
-/// Text, page count and so on by a program of poppler-utils; empty when it fails.
+/// Runs a program of poppler-utils on a PDF; returns its output, such as the text, or an empty text if it fails.
 std::string poppler(const std::string& command, const std::filesystem::path& pdf);
 bool havePoppler();
 inline constexpr const char* kNoPoppler = "poppler-utils is not installed: the PDF is not looked into";

@@ -152,7 +152,7 @@ TEST_F(SessionReport, TakesTheLastVerdict) {
 TEST_F(SessionReport, NeverCallsABrokenOffSessionPassed) {
     RecordProperty("hazard", "H9");
     ASSERT_TRUE(writer_->verdict(Instant{0}, "separability", "pass", {"All pairs apart."}, {}));
-    const auto model = read();  // still open: not closed
+    const auto model = read();  // the session is still open
     EXPECT_EQ(model.verdict, ReportVerdict::Stopped);
     EXPECT_TRUE(model.reasons.first().startsWith("The session was not closed"));
 }

@@ -22,7 +22,7 @@ using testing::Not;
 
 const std::vector<std::string> kLabels = {"smooth-low", "smooth-high", "rough-low", "rough-high"};
 
-/// `right` of 80 test trials, the others answered with the next label.
+/// A session with `right` correct answers in 80 test trials; the others got the next label as answer.
 SessionRecord sessionWith(std::size_t right, int number, const std::string& encoding, double days) {
     SessionRecord session;
     session.about.id = "00000000000000a1";
@@ -92,7 +92,7 @@ StudyRecord studyOfThree() {
     return study;
 }
 
-/// Everything that is written, a line a piece.
+/// Returns all text of the report, one line per piece.
 std::string textOf(const ReportContent& content) {
     QStringList all = {content.documentTitle, content.header, content.footer};
     for (const auto& block : content.blocks) {
@@ -154,7 +154,7 @@ TEST(StudyReport, ASessionWithoutAUsableRangeIsNotCountedAsOneAndSaysWhyThereWas
     EXPECT_THAT(textOf(*content), HasSubstr("P-BBBB | no | 0 of 0 | – | – | –"));
     EXPECT_THAT(textOf(*content), HasSubstr("Session 1 had no usable range, and so no test: from the lowest level of"));
     EXPECT_THAT(textOf(*content), HasSubstr("Had a usable range | 2"));
-    // Thresholds found a range on the first day, and the test's session none: it is the latter that has no test.
+    // On the first day thresholds found a range, but the test's session found none, so that session has no test.
     auto wide = narrow;
     wide.results.rangeNotUsable.clear();
     narrow.results.number = 2;
@@ -171,7 +171,7 @@ TEST(StudyReport, ThresholdsAndRatingsOverSessionsStandBesideTheFirst) {
     RecordProperty("hazard", "H9");
     auto study = studyOfThree();
     auto thresholds = sessionWith(0, 3, "standard", 14);
-    thresholds.results.trials.clear();  // thresholds alone
+    thresholds.results.trials.clear();  // a session of thresholds only
     thresholds.results.detection = 6.2;
     thresholds.results.detectionLow = 5.6;
     thresholds.results.detectionHigh = 6.8;
@@ -190,7 +190,7 @@ TEST(StudyReport, ThresholdsAndRatingsOverSessionsStandBesideTheFirst) {
     EXPECT_THAT(said, HasSubstr("3 | – | 2.00 (1.74 to 2.29) | 1.20 | 1.00 | 1.00"));
     EXPECT_THAT(said, HasSubstr("1 | 5.5 | – | – | –"));
     EXPECT_THAT(said, Not(HasSubstr("nan")));
-    // The highest that was given was not called too strong: what is lies above.
+    // The highest level given was not called too strong, so the level that is too strong lies above.
     sessions.back().results.saidTooStrong = false;
     const auto never = textOf(studyReport(study).value());
     EXPECT_THAT(never, HasSubstr("3 | 14 | 6.20 (5.60 to 6.80) | > 9.0 | "));
@@ -233,8 +233,8 @@ TEST(StudyReport, APredictionFromThePersonsThresholdsStandsBesideTheAnswersAndJu
     }
     const auto said = textOf(*studyReport(study));
     EXPECT_THAT(said, HasSubstr("P-7K3M, session 1: predicted from the detection threshold, and answered"));
-    // At the threshold the noise of 1 JND hides one presentation in two; far above it the intervals, 9.3 JND apart, and
-    // the levels are never confused.
+    // At the threshold, the noise of 1 JND hides one presentation in two. Far above the threshold, intervals (9.3 JND
+    // apart) and levels are never confused.
     EXPECT_THAT(said, HasSubstr("rough-low | 0 % | 0 % | 50 % | 0 % | 50 % | 50 % | "));
     EXPECT_THAT(said, HasSubstr("smooth-high | 0 % | 100 % | 0 % | 0 % | 0 % | 100 % | "));
     EXPECT_THAT(said,
@@ -321,8 +321,8 @@ TEST(StudyReport, SimulatedParticipantsAreCalledSo) {
     EXPECT_THAT(textOf(*content), HasSubstr("SIMULATED"));
 }
 
-/// A study of people, people on simulated devices and virtual participants in an order drawn at random, with and
-/// without sessions, consent and a part in it still. Codes say which is which: P-P…, P-S…, P-V….
+/// A study of persons, persons on simulated devices and virtual participants in random order; with or without sessions
+/// and consent, some no longer in the study. The codes say which is which: P-P…, P-S…, P-V….
 StudyRecord mixedStudy(Random& random) {
     auto study = studyOfThree();
     study.participants.clear();
@@ -352,7 +352,7 @@ StudyRecord mixedStudy(Random& random) {
     return study;
 }
 
-/// The kinds that a text names, by the codes and events of mixedStudy().
+/// Returns the kinds of participants that a text names, by the codes and events of mixedStudy().
 std::set<char> kindsIn(const std::string& text) {
     std::set<char> all;
     static const std::regex named("P-([PSV])\\d{3}|event of ([PSV])");
@@ -400,7 +400,7 @@ TEST(StudyReport, NoFigureOrTableIsOfPeopleAndOfSimulatedOnesTogether) {
                 const bool marked = text.find("(simulated)") != std::string::npos;
                 EXPECT_EQ(marked, !kinds.contains('P')) << text;
             }
-            // Each kind has its own flow, by the heading of its column.
+            // Each kind of participant has its own flow chart, named in the heading of its column.
             std::map<std::string, std::size_t> shown;
             for (const auto& block : content->blocks) {
                 const auto* table = std::get_if<TableBlock>(&block);
@@ -459,7 +459,7 @@ std::string textOfAll(const ReportContent& content) {
     return all;
 }
 
-/// The study of three with a massager, where the first participant had an accelerometer on its motor.
+/// The study of three with a massager; the first participant had an accelerometer on the motor.
 StudyRecord vibratedStudy() {
     auto study = studyOfThree();
     study.settings.modality = Modality::Massager;

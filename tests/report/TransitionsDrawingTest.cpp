@@ -1,4 +1,4 @@
-// The map of steps over the R–P plane: read, refused, drawn.
+// The map of steps over the plane of R and P: reading, refusing and drawing.
 #include <QJsonArray>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 using test::drawn;
 using testing::HasSubstr;
 
-/// Two by two: one cell that no trial passed, one above what is wanted.
+/// Two by two cells: one that no trial passed, one above the wanted value.
 QJsonObject mapJson() {
     const QJsonArray cells{QJsonArray{0.5, QJsonValue()}, QJsonArray{8.24, 1.5}};
     return {{"type", "transitions"},
