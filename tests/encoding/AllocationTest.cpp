@@ -1,4 +1,4 @@
-// The functions that the control loop calls for every train must not allocate.
+// Functions that the control loop calls for every train must not allocate memory.
 #include <gtest/gtest.h>
 
 #include "core/encoding/Encoder.h"

@@ -144,7 +144,7 @@ RC_GTEST_PROP(SegmentsOf, BalanceTheChargeOfEveryBiphasicPulse, ()) {
     RC_ASSERT(std::abs(duration - t.pulseDuration().count()) <= 1e-12);
 }
 
-/// The ideal level at `t`, by walking through the definition.
+/// Returns the ideal level at `t` directly from the definition.
 double levelAt(const PulseTrain& train, double t) {
     const double period = 1 / train.rate.value();
     const auto pulse = segmentsOf(train, GapState::HoldsZero);
@@ -174,7 +174,7 @@ PulseTrain train(PulseShape shape) {
 }
 
 TEST(Waveform, IsThePlateauWhereAPhaseFillsTheSample) {
-    const auto samples = synthesized(train(PulseShape::SymmetricBiphasic), 10'000);  // 100 µs a sample
+    const auto samples = synthesized(train(PulseShape::SymmetricBiphasic), 10'000);  // 100 µs per sample
     const std::vector<double> expected{40, 40, 0, -40, -40, 0};
     for (std::size_t p = 0; p < 3; ++p) {
         for (std::size_t k = 0; k < expected.size(); ++k) EXPECT_NEAR(samples[100 * p + k], expected[k], 1e-9);

@@ -106,7 +106,7 @@ RC_GTEST_PROP(RoundToDevice, NeverAddsAndNeverTakesMoreThanTenPercent, ()) {
     DeviceGrid grid{*rc::gen::inRange(0, 300) / 100.0,    *rc::gen::inRange(1, 1000) / 10.0,
                     Micros(*rc::gen::inRange(0, 50)),     Micros(*rc::gen::inRange(1, 100)),
                     Micros(*rc::gen::inRange(100, 5000)), *rc::gen::inRange(1, 50)};
-    // Mostly within the device's range, sometimes just beyond it.
+    // Mostly within the device's range, sometimes slightly above.
     const auto share = [] { return *rc::gen::inRange(1, 1080) / 1000.0; };
     PulseTrain wanted = volts(grid.amplitudeMax * share());
     wanted.phaseWidth = grid.widthMax * share();
@@ -126,7 +126,7 @@ RC_GTEST_PROP(RoundToDevice, NeverAddsAndNeverTakesMoreThanTenPercent, ()) {
     RC_ASSERT(amplitudeOf(*rounded) <= grid.amplitudeMax);
     RC_ASSERT(rounded->train.phaseWidth <= grid.widthMax);
     RC_ASSERT(rounded->train.phaseWidth >= grid.widthMin * (1 - 1e-9));
-    // Rounding what was rounded changes nothing.
+    // Rounding a rounded train changes nothing.
     const auto twice = roundToDevice(rounded->train, grid);
     RC_ASSERT(twice.has_value());
     RC_ASSERT(!twice->changed());

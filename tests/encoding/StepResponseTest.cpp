@@ -1,4 +1,4 @@
-// A step seen in the trains: what the scheduler's design makes of it, and what counts as carrying it.
+// A step of the command as seen in the trains: how the scheduler is designed to carry it out, and when it is complete.
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -44,26 +44,26 @@ TEST(StepResponse, SlewLimitsSpreadAStepOverTrains) {
     // ln 4 / ln 1.2 = 7.6: the eighth train has the new interval.
     EXPECT_EQ(designOf(profile, {Seconds(0.3), at(25, 2), at(25, 0.5)}).trains, 8);
     EXPECT_NEAR(designOf(profile, {Seconds(0.3), at(25, 2), at(25, 0.5)}).latency.value().count(), 2 / 1.2 - 0.3, 1e-8);
-    // Pressed late: the first train comes at once and still is not the new interval.
+    // The step comes late: the first train comes at once, but does not have the new interval yet.
     EXPECT_EQ(designOf(profile, {Seconds(1.8), at(25, 2), at(25, 0.5)}).trains, 8);
 
-    // An interval on the way to the new one is not complete, although it is longer.
+    // An interval between the old and the new one does not complete the step, although it is longer.
     EncodingProfile ratio;
     ratio.intervalRatioPerTrain = 1.34;
     EXPECT_EQ(designOf(ratio, {Seconds(0.4), at(25, 0.8), at(25, 0.5)}).trains, 2);
 
     EncodingProfile slow;
-    slow.amplitudeSlew_V_per_s = 10;  // 12.5 V a train at 1.25 s: 30 V take three
+    slow.amplitudeSlew_V_per_s = 10;  // 12.5 V per train at 1.25 s: 30 V take three trains
     EXPECT_EQ(designOf(slow, {Seconds(0.4), at(10, 1.25), at(40, 1.25)}).trains, 3);
 }
 
 TEST(StepResponse, LeavesOpenWhichTrainOfACreepingAmplitudeCarriesIt) {
     EncodingProfile slow;
-    slow.amplitudeSlew_V_per_s = 0.25;  // 0.3125 V a train: at 40 V a twelfth of a difference
+    slow.amplitudeSlew_V_per_s = 0.25;  // 0.3125 V per train: at 40 V a twelfth of a just noticeable difference
     const StepEnds down{Seconds(0.4), at(40, 1.25), at(10, 1.25)};
     const auto trains = designedTrains(slow, down).value();
     const auto range = rangeOf(down, trains);
-    // 0.2 and 0.3 differences below 40 V are 0.76 and 1.13 V: the third and the fourth train.
+    // 0.2 and 0.3 just noticeable differences below 40 V are 0.76 and 1.13 V: the third and the fourth train.
     EXPECT_NEAR(range.first.latency.value().count(), 0.85 + 2 * 1.25, 1e-8);
     EXPECT_NEAR(range.last.latency.value().count(), 0.85 + 3 * 1.25, 1e-8);
     EXPECT_LE(range.first.trains.value(), respond(down, trains).trains.value());
@@ -116,7 +116,7 @@ TEST(TransitionMap, HoldsTheLargestStepOfEveryCell) {
     }
     EXPECT_DOUBLE_EQ(amplitude, report.gradual.amplitude.amplitude);
     EXPECT_DOUBLE_EQ(interval, report.gradual.interval.interval);
-    // The worst step lies where it is said to be.
+    // The worst step is at the place reported.
     const auto& worst = report.gradual.amplitude;
     EXPECT_DOUBLE_EQ(map.amplitude[static_cast<std::size_t>(std::lround(worst.P * 10))]
                                   [static_cast<std::size_t>(std::lround(worst.R * 10))],

@@ -1,4 +1,4 @@
-// The programmed values of a calibrated stimulator, and what it then delivers.
+// The values programmed for a calibrated stimulator, and what the stimulator then delivers.
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
@@ -15,9 +15,9 @@ TEST(CalibrationLine, FollowsTheLineInItsRangeAndTheNearerEndsRatioBeyond) {
     EXPECT_DOUBLE_EQ(kMeasured.delivered(25), 24.7);
     EXPECT_DOUBLE_EQ(kMeasured.delivered(40), 39.4);
     EXPECT_DOUBLE_EQ(kMeasured.delivered(80), 2 * 39.4);
-    EXPECT_DOUBLE_EQ(kMeasured.delivered(5), 5.0);  // 10 gives 10
+    EXPECT_DOUBLE_EQ(kMeasured.delivered(5), 5.0);  // as 10 gives 10
     EXPECT_EQ(kMeasured.delivered(0), 0);
-    // Outside its range, judging takes whichever of line and ratio is more, or less.
+    // Outside the calibrated range, judging takes the larger (or smaller) of line and ratio.
     EXPECT_DOUBLE_EQ(kMeasured.atMost(5), 5.1);
     EXPECT_DOUBLE_EQ(kMeasured.atLeast(5), 5.0);
     EXPECT_DOUBLE_EQ(kMeasured.atMost(80), 2 * 39.4);

@@ -1,4 +1,4 @@
-// The limits on a step, train by train: what the live loop, the sweep and the design share.
+// The limits on a step, train by train, as used by the live loop, the sweep and the design.
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
@@ -28,7 +28,7 @@ struct Seen {
     Volts amplitude;
 };
 
-/// Trains from a first one at `before`, with `after` wanted from `step_s` on, as a loop that looks every 5 ms.
+/// Returns the trains of a loop with a 5 ms period: the first at `before`, and `after` wanted from `step_s` on.
 std::vector<Seen> trainsOf(TrainSeries& series, const Command& before, const Command& after, double step_s,
                            double until_s) {
     std::vector<Seen> trains;
@@ -77,7 +77,7 @@ TEST(TrainSeries, NoTrainStepsBeyondTheLimitsWhateverIsWantedAndWhenever) {
                       const auto interval = [&](std::size_t i) {
                           return Seconds(trains[i].onset - trains[i - 1].onset);
                       };
-                      // The loop looks every 5 ms: that much an interval is longer than its command.
+                      // The loop runs every 5 ms: an interval can be longer than commanded by that much.
                       const double slack = std::log1p(0.006 / interval(k).count()) / std::log(1.16);
                       RC_ASSERT(intervalDistance(interval(k), interval(k - 1)) <= 2 + slack);
                   }
@@ -89,7 +89,7 @@ TEST(TrainSeries, ATrainPulledForwardLateIsFeltAtTheIntervalThatPassed) {
     TrainSeries series(limited());
     const auto trains = trainsOf(series, command(20, 2), command(20, 0.5), 1.9, 12);
     EXPECT_EQ(toSeconds(trains[1].onset), 1.9) << "at once";
-    // It does not count from the 1.49 s after which it might have come.
+    // Computed from the 1.9 s that have passed, not from 1.49 s, when the train could have come at the earliest.
     EXPECT_NEAR(toSeconds(trains[2].onset - trains[1].onset), 1.9 / 1.34, 0.005);
 }
 
@@ -118,7 +118,7 @@ TEST(TrainSeries, SwitchedOnAgainNothingBeginsStrongerOrMoreOftenThanItIsWanted)
     };
     EXPECT_EQ(after(command(10, 2)).amplitude, Volts(10)) << "not a step down from 40 V";
     EXPECT_EQ(after(command(10, 2)).interval, Seconds(2));
-    // It goes up in steps, however often it is switched.
+    // However often it is switched, the amplitude rises in steps.
     TrainSeries again(limited());
     again.want(command(10, 2), seconds(0));
     static_cast<void>(again.begin(seconds(0)));
@@ -129,7 +129,7 @@ TEST(TrainSeries, SwitchedOnAgainNothingBeginsStrongerOrMoreOftenThanItIsWanted)
     again.delivered();
     again.want(command(10, 2), seconds(1));
     EXPECT_NEAR(again.command()->amplitude.value(), 10, 1e-9);
-    // While it is driven it steps down as before.
+    // While driven, it steps down as before.
     again.want(command(40, 0.5), seconds(1));
     for (double now = 2; now < 12; now += 1) {
         static_cast<void>(again.begin(seconds(now)));
@@ -165,14 +165,14 @@ TEST(TrainSeries, ACalibratedScheduleKeepsTheIntervalsThatAreTold) {
 }
 
 TEST(StepPace, CountsTheTrainsAndTheTimeThatTwoDifferencesTake) {
-    // Found by trying all ways (tests/reference/trains.py).
+    // The expected values come from an exhaustive search (tests/reference/trains.py).
     for (const auto& least : test::figuresOf("trains").at("pace")) {
         const auto at = [&](const char* end) { return command(least.at(end).at(0), least.at(end).at(1)); };
         const auto pace = fastestPace({Seconds(least.at("since")), at("before"), at("after")}, 2);
         EXPECT_EQ(pace.trains, least.at("trains").get<int>()) << least;
         EXPECT_NEAR(pace.complete.count(), least.at("complete_s").get<double>(), 1e-9) << least;
     }
-    // However late the press comes, the time that has passed counts as the first interval.
+    // However late the step comes, the elapsed time counts as the first interval.
     for (const double since : {0.0, 0.5, 1.0, 1.4863, 1.7, 2.0}) {
         EXPECT_GT(fastestPace({Seconds(since), command(25, 2), command(25, 0.5)}, 2).complete, Seconds(3)) << since;
     }
