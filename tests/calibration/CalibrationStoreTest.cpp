@@ -53,7 +53,7 @@ TEST_F(CalibrationStoreFile, KeepsEveryCalibrationAndTheNewestCounts) {
     const auto before = textOf(path);
     ASSERT_TRUE(first.add(sample("B2", 0.97)));
     ASSERT_TRUE(first.add(sample("A1", 1.03)));
-    EXPECT_TRUE(textOf(path).starts_with(before));  // superseded, never overwritten
+    EXPECT_TRUE(textOf(path).starts_with(before));  // kept although superseded
     const auto again = store();
     ASSERT_EQ(again.all().size(), 3U);
     EXPECT_DOUBLE_EQ(again.latest("A1", "V")->amplitude.gain, 1.03);
@@ -150,11 +150,11 @@ TEST_F(CalibrationStoreFile, TheGateLearnsOfUncertaintyAndResidual) {
     made.phaseWidth->uncertainty_pct = 8;
     ASSERT_TRUE(store().add(made));
     const auto lines = linesOf(*store().latest("A1", "V"));
-    // 0.6 % of the command are 0.667 % of the nine tenths that come out.
+    // 0.6 % of the command is 0.667 % of the output, which is nine tenths of the command.
     ASSERT_TRUE(lines.amplitude.spread);
     EXPECT_NEAR(lines.amplitude.spread->relative, 0.006 / 0.9, 1e-12);
     EXPECT_DOUBLE_EQ(lines.amplitude.spread->absolute, 0.05);
-    // Earlier files state no residual: 5 %, or U where that is larger.
+    // Earlier files give no residual: then 5 %, or U if U is larger.
     ASSERT_TRUE(lines.gap->spread);
     EXPECT_DOUBLE_EQ(lines.gap->spread->relative, 0.05);
     EXPECT_NEAR(lines.phaseWidth->spread->relative, 0.08, 1e-3);
@@ -169,7 +169,7 @@ TEST_F(CalibrationStoreFile, TheGateLearnsOfUncertaintyAndResidual) {
 TEST_F(CalibrationStoreFile, OneWithoutItsTimesIsReadAndHoldsForNothing) {
     RecordProperty("hazard", "H9");
     ASSERT_TRUE(store().add(sample("A1")));
-    // The line as the store wrote it while it kept amplitudes alone.
+    // The line as written by a version of the store that knew only amplitudes.
     auto line = nlohmann::json::parse(textOf(path));
     for (const char* time : {"interval", "width", "gap"}) line["calibration"].erase(time);
     writeUnnoted(path, std::move(line));
@@ -179,7 +179,7 @@ TEST_F(CalibrationStoreFile, OneWithoutItsTimesIsReadAndHoldsForNothing) {
     const auto valid = old.valid("A1", "V", on("2026-12-01"), false);
     ASSERT_FALSE(valid);
     EXPECT_THAT(valid.error().message, HasSubstr("is without its interval"));
-    // A whole one supersedes it.
+    // A complete calibration supersedes it.
     ASSERT_TRUE(old.add(sample("A1")));
     EXPECT_TRUE(store().valid("A1", "V", on("2026-12-01"), false));
 }

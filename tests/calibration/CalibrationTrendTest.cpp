@@ -1,4 +1,4 @@
-// A stimulator over its calibrations: what moved by more than its uncertainties explain, and what cannot be judged.
+// Changes of a stimulator between calibrations: which exceed the uncertainties, and which cannot be judged.
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -47,7 +47,7 @@ TEST(CalibrationTrend, OtherUnitsSimulationAndMissingQuantitiesArePassedOver) {
 }
 
 TEST(CalibrationTrend, AJumpIsMoreThanBothUTogether) {
-    // U of 1 % each: 1.414 % together.
+    // U of 1 % each: 1.414 % for the difference.
     EXPECT_TRUE(jumpsIn(amplitude({made("2025-05-01", 1.000), made("2026-05-01", 1.014)})).empty());
     const auto jumps = jumpsIn(amplitude({made("2025-05-01", 1.000), made("2026-05-01", 0.985)}));
     ASSERT_EQ(jumps.size(), 1U);

@@ -1,4 +1,4 @@
-// A certificate's details beside what the program knows: the laboratory's, kept once, and the order's.
+// A certificate's details that the user enters: the laboratory's, entered once, and those of one order.
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

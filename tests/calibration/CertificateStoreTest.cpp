@@ -27,7 +27,7 @@ std::string contentsOf(const std::filesystem::path& path) {
 class CertificateStoreFile : public testing::Test {
 protected:
     [[nodiscard]] CertificateStore store() const { return CertificateStore::open(path).value(); }
-    /// The state of the certificate of that number.
+    /// Returns the state of the certificate with that number.
     [[nodiscard]] CertificateState stateOf(const char* number, const char* day) const {
         const auto kept = store();
         for (std::size_t i = 0; i < kept.all().size(); ++i) {
@@ -77,7 +77,7 @@ TEST_F(CertificateStoreFile, TheLatestDateCountsWhateverWasEnteredLast) {
     EXPECT_EQ(stateOf("new", "2026-11-23"), CertificateState::Counts);
     EXPECT_EQ(stateOf("old", "2026-11-23"), CertificateState::Superseded);
     EXPECT_EQ(stateOf("next", "2026-11-23"), CertificateState::NotYet);
-    // A certificate that ran out does not bring the older one back.
+    // An expired certificate does not make the older one valid again.
     EXPECT_EQ(stateOf("new", "2026-12-02"), CertificateState::Expired);
     EXPECT_EQ(stateOf("old", "2026-12-02"), CertificateState::Superseded);
     EXPECT_EQ(stateOf("next", "2027-06-01"), CertificateState::Counts);
@@ -93,7 +93,7 @@ TEST_F(CertificateStoreFile, AWithdrawnOneStaysAndTheOneBeforeCounts) {
     EXPECT_EQ(stateOf("2", "2026-11-23"), CertificateState::Withdrawn);
     EXPECT_EQ(stateOf("1", "2026-11-23"), CertificateState::Counts);
     EXPECT_EQ(kept.withdraw("2", "", today).error().code, ErrorCode::NotFound);
-    ASSERT_TRUE(kept.add(certificateOf("A1", "2"), today));  // corrected
+    ASSERT_TRUE(kept.add(certificateOf("A1", "2"), today));  // the corrected certificate
     ASSERT_TRUE(kept.add(certificateOf("B1", "2"), today));
     EXPECT_THAT(kept.withdraw("2", "", today).error().message, HasSubstr("A1, B1"));
     ASSERT_TRUE(kept.withdraw("2", "B1", today));
@@ -119,7 +119,7 @@ TEST_F(CertificateStoreFile, WhatWasChangedOrTakenOutIsFound) {
     EXPECT_THAT(why("{}\n"), HasSubstr("this is not a certificate"));
     EXPECT_THAT(why(sound.substr(0, sound.size() - 5)), HasSubstr("lines are missing"));
     std::ofstream(path.string() + ".end") << endOfFirst;
-    EXPECT_EQ(why(sound.substr(0, sound.size() - 5)), "read");  // cut short by a crash, before its end was noted
+    EXPECT_EQ(why(sound.substr(0, sound.size() - 5)), "read");  // cut short by a crash, before the note on its end
     EXPECT_TRUE(store().lastLineCut());
     EXPECT_EQ(store().all().size(), 1U);
 }

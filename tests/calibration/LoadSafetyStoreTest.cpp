@@ -53,7 +53,7 @@ protected:
         const auto kept = store().add(check);
         ASSERT_TRUE(kept) << kept.error().message;
     }
-    /// Says why no check counts; empty where one does.
+    /// Returns why no check is valid; empty if one is.
     [[nodiscard]] std::string why(const LoadSafetyNeed& need = needed()) const {
         const auto passed = store().passed(need);
         return passed ? "" : passed.error().message;
@@ -156,7 +156,7 @@ TEST_F(LoadSafetyChecks, IsOfElectrodesTrainsLimitsAndAProtocolThatCoverTheSessi
     EXPECT_THAT(why(), HasSubstr("states no electrode area; one of at most 4 cm² is expected"));
 }
 
-// A check that fails at the program's own tolerances may be run again with wider ones: that is no pass.
+// A check that fails at the program's own tolerances may be repeated with wider ones, but that is not a pass.
 TEST_F(LoadSafetyChecks, OneThatAllowedMoreThanTheProgramDoesNotCount) {
     RecordProperty("hazard", "H9");
     auto wide = checkOf();
@@ -225,7 +225,7 @@ TEST_F(LoadSafetyChecks, LinesTakenOffItsEndAreMissed) {
     EXPECT_THAT(refusal(newer, "{}"), HasSubstr("does not say where"));
     EXPECT_THAT(refusal(newer, "bytes"), HasSubstr("load-safety.jsonl.end"));
 
-    // The power failed when the line was on disk and its end was not noted.
+    // The power failed when the line was on disk but the note on the file's end was not.
     EXPECT_EQ(refusal(newer, olderNote), "");
     EXPECT_THAT(why(), HasSubstr("ended with the verdict \"fail\"")) << "the line counts";
     keep(checkOf(CheckVerdict::Fail));

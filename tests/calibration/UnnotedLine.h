@@ -1,4 +1,4 @@
-// UnnotedLine.h - a file of one chained line, written as it was before the end of such files was noted.
+// UnnotedLine.h - writes a file of one chained line in the older form, without a note on the file's end.
 //
 // Thread-safety: the test's own thread.
 #pragma once
