@@ -9,8 +9,8 @@
 namespace tacto {
 namespace {
 
-/// The claims of a SegmentResponse, found the slow way: fourth-order Runge-Kutta on the capacitor's voltage, the
-/// source's limits applied at every instant, the integrals accumulated with it.
+/// Computes the values of a SegmentResponse the slow way: fourth-order Runge-Kutta for the capacitor's voltage, with
+/// the source's limits applied at every step and the integrals summed up alongside.
 struct Oracle {
     Circuit z;
     DriveSegment drive;
@@ -50,7 +50,7 @@ struct Oracle {
         const auto slope = [&](double t, double x) {
             return z.hasCapacitor() ? (at(t, x).i - x / z.parallelOhm) / z.capacitance_F : 0.0;
         };
-        // Values are compared in the mean over the record: at a corner the two may differ for one step.
+        // Values are compared by their mean error: at a corner the two methods may differ for one step.
         double meanError = 0;
         for (int n = 0; n < steps; ++n) {
             const double t = n * h;
@@ -119,13 +119,13 @@ TEST(Respond, MatchesFineIntegrationWhereLimitsAreReached) {
     const SourceLimits compliance{20, 1};
     expectMatchesOracle(kRc, {Drive::Current, 10e-3, 10e-3, 400e-6}, 0, compliance);
     expectMatchesOracle(kRc, {Drive::Current, -10e-3, -10e-3, 400e-6}, 15, compliance);
-    expectMatchesOracle(kRc, {Drive::Current, 10e-3, -10e-3, 400e-6}, 10, compliance);  // a ramp there and back
+    expectMatchesOracle(kRc, {Drive::Current, 10e-3, -10e-3, 400e-6}, 10, compliance);  // a ramp from + to -
     expectMatchesOracle(kRc, {Drive::Current, 0, 20e-3, 400e-6}, 0, compliance);
     const SourceLimits current{50, 30e-3};
-    expectMatchesOracle(kRc, {Drive::Voltage, 40, 40, 200e-6}, 0, current);  // 200 mA wanted
+    expectMatchesOracle(kRc, {Drive::Voltage, 40, 40, 200e-6}, 0, current);  // would need 200 mA
     expectMatchesOracle(kRc, {Drive::Voltage, -40, -40, 200e-6}, 39, current);
     expectMatchesOracle(kRc, {Drive::Voltage, 40, -40, 400e-6}, 0, current);
-    expectMatchesOracle(kRc, {Drive::Voltage, 0, 80, 200e-6}, 0, current);  // a current beyond its own range
+    expectMatchesOracle(kRc, {Drive::Voltage, 0, 80, 200e-6}, 0, current);  // the current exceeds its limit
     expectMatchesOracle({100, 0, 0, false}, {Drive::Voltage, -20, 20, 1e-3}, 0, current);
 }
 
@@ -149,7 +149,7 @@ RC_GTEST_PROP(Respond, MatchesFineIntegrationForAnySourceAndLoad, ()) {
     if (*rc::gen::arbitrary<bool>()) limits.current_A = between(2e-3, 100e-3);
     const double range = std::min(limits.compliance_V, 40.0);
     const double vc0 = z.hasCapacitor() ? between(-range, range) : 0;
-    // Short enough for the oracle's steps to be fine against the fastest time constant.
+    // Short enough that the oracle's steps are fine compared with the fastest time constant.
     const double fastest =
         z.hasCapacitor() ? z.seriesOhm * z.parallelOhm / (z.seriesOhm + z.parallelOhm) * z.capacitance_F : 1e-3;
     drive.duration_s = std::min(logBetween(1e-6, 2e-3), 500 * fastest);
@@ -213,12 +213,12 @@ TEST(Respond, HoldsAShortAtTheSourcesCurrentLimit) {
 }
 
 TEST(Respond, KeepsItsIntegralsExactForVeryShortStretches) {
-    // 1 ns of a ramp against a time constant 5·10⁵ times longer: charge is the trapezoid to a few parts in 10⁹.
+    // 1 ns of a ramp with a time constant 5·10⁵ times longer: the trapezoid gives the charge to a few parts in 10⁹.
     const auto response = respond(kRc, {Drive::Current, 0, 8e-3, 1e-9}, 10, {});
     EXPECT_NEAR(response.items[0].charge(), 4e-12, 1e-20);
     EXPECT_NEAR(response.items[0].currentSquared(), 64e-6 / 3 * 1e-9, 1e-22);
     EXPECT_NEAR(response.items[0].energy(), (10 * 4e-3 + 200 * 64e-6 / 3) * 1e-9,
-                1e-15);  // the capacitor moves by 80 µV
+                1e-15);  // the capacitor's voltage changes by 80 µV
 }
 
 const Circuit kRcLoad = circuitAt(benchRcLoad(), 0);
@@ -233,7 +233,7 @@ PulseSegments biphasic(Drive drive, double level, double width, double gap, Driv
 
 DriveSegment rest(Drive drive, double duration) { return {drive, 0, 0, duration}; }
 
-/// The response to 40 V in the RC load, integrated numerically (tests/reference/loads.py).
+/// Returns the peak for 40 V into the RC load, integrated numerically (tests/reference/loads.py).
 double peakByScipy(const char* when) {
     return test::figuresOf("loads").at("bench_load_40_v").at(when).get<double>() / 1e3;
 }
@@ -335,7 +335,7 @@ TEST(PulseResponse, GainsNoEnergyFromAPassiveLoad) {
     for (const double level : {1.0, 20.0, 40.0}) {
         const auto pulse = biphasic(Drive::Voltage, level, 200e-6, 100e-6, Drive::HighImpedance);
         const auto totals = pulseTotals(kRcLoad, pulse, rest(Drive::Voltage, 0.1));
-        // All of it ends in the two resistors; the heat of the series resistor is a lower bound.
+        // All the energy ends in the two resistors; the heat of the series resistor is a lower bound.
         EXPECT_GT(totals.energy_J, totals.currentSquared_A2s * 200);
     }
 }
