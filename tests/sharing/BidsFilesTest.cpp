@@ -166,7 +166,7 @@ TEST(BidsFiles, TrialsSayWhatWasPresentedAndAnswered) {
     EXPECT_EQ(rows[3][4], "catch");
     EXPECT_EQ(rows[3][5], "n/a");
     EXPECT_EQ(rows[3][8], "true");   // nothing was presented, and nothing was felt
-    EXPECT_EQ(rows[4][8], "false");  // nothing was presented, and something was named
+    EXPECT_EQ(rows[4][8], "false");  // nothing was presented, but something was named
     EXPECT_EQ(rows[5][7], "n/a");
     EXPECT_EQ(rows[5][8], "n/a");
 }
@@ -242,7 +242,7 @@ TEST(BidsFiles, WhatIsSimulatedSaysSoInEachNameCountAndRow) {
             sessions[one.basis] += count;
             study.participants.push_back(std::move(one));
         }
-        // People who are enrolled and had no session took no part: they do not make a study one of people.
+        // People who are enrolled but had no session took no part, so they do not make this a study of people.
         if (people.empty()) people = std::exchange(waiting, {});
         const auto files = filesOf(study);
         const auto& readme = files.at("README");

@@ -14,7 +14,7 @@ SessionRow rowOf(const char* kind, const std::string& name, json body = json::ob
     body["name"] = name;
     SessionRow made;
     made.name = kind;
-    made.body = *parseJson(dumpJson(body), name);  // as a file gives it back
+    made.body = *parseJson(dumpJson(body), name);  // as read back from a file
     return made;
 }
 
@@ -111,7 +111,7 @@ TEST(SessionResults, ThresholdsKeepTheirProcedures) {
     EXPECT_EQ(found.thresholds[0].procedure, "ascending");
     EXPECT_EQ(found.thresholds[0].type, "stimulus");
     EXPECT_EQ(found.thresholds[1].type, "catch");
-    EXPECT_EQ(found.tooStrong, 4);  // an empty presentation counts for the level before it
+    EXPECT_EQ(found.tooStrong, 4);  // an empty presentation is counted with the previous level
     EXPECT_EQ(found.thresholds[3].number, 12U);
     EXPECT_EQ(found.thresholds[3].correct, false);
     EXPECT_EQ(found.thresholds[4].procedure, "drift");
