@@ -1,4 +1,4 @@
-// What is declared of each kind of result.
+// The facts declared for each kind of result.
 #include <gtest/gtest.h>
 
 #include "core/kinds/ResultKinds.h"

@@ -1,4 +1,4 @@
-// What a described record writes, and which columns it has.
+// The output of a described record, and its columns.
 #include <gtest/gtest.h>
 #include <limits>
 
