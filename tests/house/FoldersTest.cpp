@@ -61,7 +61,7 @@ struct DrawnRow {
     std::vector<std::string> folders;
 };
 
-/// " core   │ safety   analysis: a library each │ what they are": rows of boxes; the first of a top folder names it.
+/// Reads rows of boxes: " core   │ safety   analysis: a library each │ what they are"; a first row names the folder.
 std::vector<DrawnRow> rowsDrawnIn(const std::string& document) {
     static const std::string side = "│";
     static const std::regex box(R"((\w+)(?:: \w+(?: \w+)*)?)"), word(R"(\w+)");

@@ -191,7 +191,7 @@ private:
         if (allowed.person && configured_) measure();
     }
 
-    /// What a device really does if `known` is known as surely as `doubt` says: often it is off as far as it may be.
+    /// Returns a device's true errors, given the `known` errors and their uncertainty: often the largest possible.
     Flaw truly(const Flaw& known, const std::optional<Spread>& doubt, double perUnit) {
         const Spread spread = doubt.value_or(Spread{0.05, 0});
         const auto side = [&] { return dice_.chance(0.5) ? 1.0 : dice_.between(-1, 1); };
