@@ -1,4 +1,4 @@
-// One presentation of a pilot session, from the command to the output.
+// A single presentation of a pilot session, from the command to the output.
 #include <gmock/gmock.h>
 #include <limits>
 

@@ -1,6 +1,6 @@
 // One day at the bench, in a real X server: open, arm in two steps, drive, stop from inside a dialog, run a protocol.
 //
-// Needs a display of its own (see in-xvfb); skipped elsewhere.
+// Needs its own display (see in-xvfb); skipped elsewhere.
 #include <QApplication>
 #include <QLineEdit>
 #include <QPushButton>

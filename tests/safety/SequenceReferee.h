@@ -211,7 +211,7 @@ protected:
         }
     }
 
-    /// `train` came out of what was `told`; `expected` should have, by all that is known of the device.
+    /// Judges `train`, which came out when `told` was programmed; by the known errors `expected` should have come out.
     void referee(const PulseTrain& train, const PulseFacts& facts, double interval, const PulseTrain& told,
                  const PulseTrain& expected, bool isCheck) {
         const double amplitude = siValue(expected.amplitude);

@@ -21,7 +21,7 @@ constexpr int kLegendColumns = 2;
 constexpr double kAside = 0.006;   // share of the range: upward readings left of their level, downward right
 constexpr double kNearest = 0.02;  // share of the range: half the width of the frame
 constexpr double kNearestBottom = 0.98,
-                 kLeadFrom = 0.8;  // share of the frame's height, from above: its words, and their line
+                 kLeadFrom = 0.8;  // shares of the frame's height from the top: of its words, and of the line to them
 
 QCPRange rangeOf(const Reach& reach, double factor) {
     return reach.known() ? padded(reach.low * factor, reach.high * factor, kMargin) : QCPRange(0, 1);

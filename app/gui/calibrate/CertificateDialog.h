@@ -62,7 +62,7 @@ private:
     QLabel* says_;
     QPushButton* enter_ = nullptr;
     ConfirmButton* withdraw_ = nullptr;
-    bool asksWithdraw_ = false;  // the button is at its second step
+    bool asksWithdraw_ = false;  // the Withdraw button waits for its second click
 };
 
 }  // namespace tacto::gui

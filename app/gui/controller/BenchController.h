@@ -221,7 +221,7 @@ private:
     RunFeedCollector feed_;
     std::atomic<double> speed_{1};
     std::unique_ptr<DrivenBench> live_;  // used by the bench's thread only
-    TaskThread thread_;                  // last: starts when all else is ready
+    TaskThread thread_;                  // declared last: starts when all else is ready
 };
 
 }  // namespace tacto::gui

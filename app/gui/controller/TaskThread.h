@@ -35,7 +35,7 @@ private:
     std::condition_variable came_;
     std::deque<std::function<void()>> tasks_;  // guarded by mutex_
     bool quitting_ = false;                    // guarded by mutex_
-    std::thread thread_;                       // last: starts when all else is ready
+    std::thread thread_;                       // declared last: starts when all else is ready
 };
 
 /// Checks whether the window's thread still responds: a window that hangs shows no STOP and does not receive Esc, so

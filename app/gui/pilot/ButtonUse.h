@@ -31,7 +31,7 @@ inline constexpr int kMaxAnswers = 6;  ///< most answers to a question that can 
 struct SeatedDevice {
     ButtonDeviceInfo device;
     PromptTo whose = PromptTo::Participant;  ///< Participant or Operator
-    std::vector<ButtonUse> uses;             ///< one for each button
+    std::vector<ButtonUse> uses;             ///< one use per button
     /// Returns the largest n for which the device has buttons for all answers 1 to n.
     [[nodiscard]] int answers() const;
 };

@@ -1,4 +1,4 @@
-// ParticipantStop.h - the participant's own STOP: calls `stop` the moment a press goes down on it, by mouse or finger.
+// ParticipantStop.h - the participant's own STOP button: calls `stop` when a press by mouse or finger goes down.
 #pragma once
 
 #include <QAbstractButton>

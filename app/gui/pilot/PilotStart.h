@@ -33,7 +33,7 @@ struct PilotStart {
     std::vector<ExclusionAnswer> exclusions{};  ///< a person's answers
     std::string protocol = "pilot-identification";
     std::string method = "quest";    ///< method to find the detection threshold
-    std::string unfinished{};        ///< what to do with an interrupted session: "resume" or "end"; empty: none exists
+    std::string unfinished{};        ///< "resume" or "end" an interrupted session; empty: there is none
     std::uint64_t seed = 1;          ///< seed of the plan and the order, and of a rehearsal's virtual participant
     std::string modality = "study";  ///< for a new rehearsal: "electrodes" or "massager"; "study": the study's own
     std::optional<int> blocks{};     ///< blocks of a rehearsal's test; nothing: as many as in the study

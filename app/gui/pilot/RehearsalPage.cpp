@@ -24,7 +24,7 @@ QString newFolder() {
     return documents.filePath("Tactoscope/rehearsal-" + QDateTime::currentDateTime().toString("yyyyMMdd-HHmmss"));
 }
 
-/// The modality of the rehearsal in that folder; nothing before there is one.
+/// Returns the modality of the rehearsal in `folder`; nothing if there is none yet.
 std::optional<Modality> modalityIn(const QString& folder) {
     if (folder.isEmpty() || !Study::isThere(folder.toStdString())) return std::nullopt;
     const auto study = Study::open(folder.toStdString(), nullptr, Study::Access::Read);

@@ -97,7 +97,7 @@ signals:
     void begun();
     void screenChanged(const tacto::PilotScreen& screen);
     void asked(const tacto::PilotPrompt& prompt);
-    void changed();                                             ///< stops, faults, what the participant's window shows
+    void changed();                                             ///< stops, faults or participant's screen changed
     void attentionWanted();                                     ///< stops, faults or the participant's screen changed
     void progressed(const QString& what, int done, int total);  ///< progress of a virtual participant
     void refused(const QString& why);                           ///< no session was begun

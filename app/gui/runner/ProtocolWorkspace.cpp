@@ -69,7 +69,7 @@ ProtocolWorkspace::ProtocolWorkspace(BenchController& controller, const QString&
         if (running_ && open) pages_->views().setDevices(open->about.devices, open->simulated());
     });
     connect(&controller_.windowOperator(), &WindowOperator::asked, this, [this](const OperatorQuestion& question) {
-        if (!running_) return;  // the other workspace's run
+        if (!running_) return;  // another workspace runs it
         prompt_->ask(question);
         QApplication::alert(window());
         emit attentionWanted();

@@ -27,7 +27,7 @@ public:
     void setName(int step, const QString& name);
     /// Shows or hides a step, as some procedures lack one.
     void setStepVisible(int step, bool visible);
-    /// Sets the step whose page is shown.
+    /// Marks the step of the visible page.
     void setShown(int step);
     [[nodiscard]] int shown() const { return shown_; }
     void focusShown();

@@ -57,7 +57,7 @@ QWidget* WorstPage::buildChooser() {
     nameWidget(*chooser_, "limitSetChooser", tr("Limit set"),
                tr("Selects the limit set to show. All limit sets always apply."));
     chooser_->addItem(tr("All limits"));
-    const auto least = [this] { chooser_->setMinimumWidth(scaledPx(kMinChooser)); };  // its longest title may be wider
+    const auto least = [this] { chooser_->setMinimumWidth(scaledPx(kMinChooser)); };  // its longest entry may be wider
     least();
     onFontChange(*chooser_, least);
     connect(chooser_, &QComboBox::currentIndexChanged, this, &WorstPage::filter);

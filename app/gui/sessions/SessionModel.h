@@ -53,7 +53,7 @@ public:
     explicit SessionModel(QObject* parent);
 
     void setEntries(std::vector<SessionEntry> entries, const std::filesystem::path& recording);
-    /// Replaces the session of the same path in its row, without filtering or sorting again.
+    /// Replaces the session with the same path in its row, without filtering or sorting again.
     void replace(SessionEntry entry);
     void setFilter(const SessionFilter& filter);
     /// Updates the verdict colours from the theme.

@@ -162,7 +162,7 @@ void SessionOverview::show(std::shared_ptr<const ReadSession> session) {
     layout()->activate();
     showHead();
     showHappened();
-    QTimer::singleShot(0, this, &SessionOverview::fitWhy);  // once the head has its width
+    QTimer::singleShot(0, this, &SessionOverview::fitWhy);  // after the layout has set the head's width
 }
 
 void SessionOverview::showHead() {
