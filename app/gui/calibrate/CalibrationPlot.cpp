@@ -19,7 +19,7 @@ constexpr int kMinChars = 24;
 constexpr int kMinLines = 10;
 constexpr int kLegendColumns = 2;
 constexpr double kAside = 0.006;   // share of the range: upward readings left of their level, downward right
-constexpr double kNearest = 0.02;  // share of the range: half the width of the frame
+constexpr double kNearest = 0.02;  // share of the range: half the frame's width at the nearest level
 constexpr double kNearestBottom = 0.98,
                  kLeadFrom = 0.8;  // shares of the frame's height from the top: of its words, and of the line to them
 

@@ -81,7 +81,7 @@ void BenchController::arm(const ArmRequest& request, StopMark asked) {
         bench.resume();                                // ends a pause that began before this arming
         const auto armed = bench.arm(request);
         if (!armed) bench.disarm();                                                   // also ends an earlier arming
-        if (auto again = live_->repeatCapture(); !again) scopeFailed(again.error());  // in case arming used it
+        if (auto again = live_->repeatCapture(); !again) scopeFailed(again.error());  // arming may use the scope
         if (!armed) return armed;
         tell([this] { emit this->armed(); });
         return {};
@@ -93,7 +93,7 @@ void BenchController::checkImpedance(const ArmRequest& request, StopMark asked) 
         if (bench.telemetry().paused) bench.disarm();
         bench.resume();  // ends a pause that began before this check
         const auto found = bench.checkImpedance(request);
-        if (auto again = live_->repeatCapture(); !again) scopeFailed(again.error());  // in case the check used it
+        if (auto again = live_->repeatCapture(); !again) scopeFailed(again.error());  // checking may use the scope
         if (!found) return failure(found);
         tell([this, ohms = *found ? (*found)->value() : std::nan("")] { emit checked(ohms); });
         return {};

@@ -193,7 +193,7 @@ private:
     using Prepare = std::function<Result<Prepared>(Registry& registry, std::shared_ptr<BenchTap> tap)>;
     [[nodiscard]] RunOrder begun(const RunOrder& order, StopMark asked);
     void runOnThread(const RunOrder& order, std::uint64_t number, const Prepare& prepare);
-    /// `why`: emitted by failed() in the same event, so that no one sees one change without the other.
+    /// `why`: emitted by failed() in the same event as the change, so that both are seen together.
     void become(Activity activity, std::shared_ptr<const OpenBench> open, std::shared_ptr<BenchTap> tap,
                 const std::optional<Error>& why = std::nullopt);
 

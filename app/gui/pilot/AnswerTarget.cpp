@@ -85,7 +85,7 @@ int AnswerTarget::fittingPx() const {
         const int icons = icons_.isEmpty() || !row ? 0 : int(px * kIconShare) + pad / 2;
         const int cap = row ? capsWide() : 0;
         const int high = metrics.height() + (row || icons_.isEmpty() ? 0 : int(px * (kIconShare + 0.9)));
-        // If the words reach down to the key, they are placed next to the key, not above it.
+        // If the words reach down to the key, they must fit next to the key.
         const bool low = !row && capsWide() > 0 && (height() + high) / 2 > height() - int(keyPx() * 2.3);
         const int beside = low ? 2 * (capsWide() + keyPx() / 10) : 2 * pad;
         const bool wide = metrics.horizontalAdvance(text()) + icons + cap + beside <= width();

@@ -38,7 +38,7 @@ struct SeatedDevice {
 
 /// The button numbers written on the targets that the participant's device can answer.
 struct ButtonLabels {
-    QStringList answers;  ///< the buttons for answers 1 to n; they may be on one device only
+    QStringList answers;  ///< the buttons for answers 1 to n
     QString hold;         ///< empty if no button holds
     QStringList stops;    ///< the STOP buttons of the first device with a STOP; a pedal (one button) has no number
 };
@@ -52,7 +52,7 @@ struct AnswerButtons {
     int reached = 0;  ///< answers 1 to `reached` have a button
     ButtonLabels labels;
 
-    /// Returns the target, counted from 0, of answers 1 to n.
+    /// Returns the target, counted from 0, for an answer counted from 1.
     [[nodiscard]] std::optional<int> targetOf(int answer, const PilotPrompt& prompt) const;
     /// Returns the label of each target; empty if buttons cannot answer the prompt.
     [[nodiscard]] QStringList textsFor(const PilotPrompt& prompt) const;

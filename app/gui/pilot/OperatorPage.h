@@ -69,7 +69,7 @@ private:
     QWidget* sure_ = nullptr;
     QPushButton* reallyAbort_ = nullptr;
     PilotScreen screen_;
-    QString asked_;  ///< the step in which a question of the phase was asked
+    QString asked_;  ///< the step that began with the last question
     bool blind_ = true;
     bool breakDue_ = false;
     bool vibrates_ = false;  ///< true if a massager delivers

@@ -440,9 +440,9 @@ std::optional<HeardStop> SessionStops::participantPressed(const char* by) {
 bool SessionStops::isTested(const char* by) {
     if (std::string_view(by).ends_with(kStillHeld)) return heldTested_.load();
     if (!isPressOfStop(by)) return false;
-    // This press has already tested a STOP and switched off; only its repeats come here, while a question is next.
+    // A repeat of a press that tested STOP: the output is already off, and a question comes next.
     if (std::chrono::steady_clock::now() - testedAt_.load() < kOnePress) return true;
-    // During either STOP test this press is the operator's STOP: the test asks again if it was the wrong one.
+    // If a test asks for either STOP, this press of the operator's STOP answers the test and does not end the session.
     const bool tests = desk_.testsStopOf(PromptTo::Operator) || desk_.testsStopOf(PromptTo::Participant);
     heldTested_ = tests && desk_.stopBy(by);
     if (heldTested_) testedAt_ = std::chrono::steady_clock::now();

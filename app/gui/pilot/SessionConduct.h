@@ -39,13 +39,13 @@ public:
     void begin();
     /// Switches the output off and says what the press was; nothing if the same press is heard again.
     [[nodiscard]] std::optional<HeardStop> participantPressed(const char* by);
-    /// True if this is a new press, not the last one heard again: the participant had to say "go on" between the two.
+    /// True if this is a new press, not the last one heard again: output returns only after the participant's "go on".
     [[nodiscard]] bool isAnotherPress(const char* by);
     /// Notes that the stop has been shown: the repainting may have taken longer than the press.
     void shown() { stoppedAt_ = std::chrono::steady_clock::now(); }
     /// True if the operator's stop is a test of their STOP, which only switches the output off.
     [[nodiscard]] bool isTested(const char* by);
-    /// Notes that the operator answered: a STOP key still held from now on stops the session again.
+    /// Notes that the operator answered: if the STOP key is still held, it now stops what comes next.
     void answered() { heldTested_ = false; }
 
 private:
@@ -98,7 +98,7 @@ signals:
     void screenChanged(const tacto::PilotScreen& screen);
     void asked(const tacto::PilotPrompt& prompt);
     void changed();                                             ///< stops, faults or participant's screen changed
-    void attentionWanted();                                     ///< stops, faults or the participant's screen changed
+    void attentionWanted();                                     ///< the operator is asked something
     void progressed(const QString& what, int done, int total);  ///< progress of a virtual participant
     void refused(const QString& why);                           ///< no session was begun
     void ended(std::shared_ptr<const tacto::gui::FinishedRun> run);

@@ -78,8 +78,8 @@ public:
 signals:
     /// `code` identifies the button. Emitted also for events that `atOnce` has already reported.
     void participantMoved(int code, const tacto::gui::ButtonUse& use, bool down, tacto::gui::SteadyTime at);
-    void operatorPressed(const tacto::gui::ButtonUse& use);  ///< likewise
-    void lost();                                             ///< also if `atOnce` has reported the event
+    void operatorPressed(const tacto::gui::ButtonUse& use);  ///< also if `atOnce` has reported the event
+    void lost();                                             ///< an assigned device was unplugged: gone() names it
     void back();
 
 private:

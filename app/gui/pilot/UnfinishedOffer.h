@@ -1,7 +1,7 @@
 // UnfinishedOffer.h - offers to continue an interrupted session, or to end it and begin another. Neither is
 // preselected.
 //
-// Thread-safety: the GUI thread; unfinishedOf() as the class Study.
+// Thread-safety: the GUI thread; unfinishedOf() may be called wherever its Study may be.
 #pragma once
 
 #include <QDateTime>
