@@ -2,13 +2,13 @@
 // widget is, so that a click finds it in any layout, and which text the widget shows. It does not click or type.
 //
 // A question is the file "ask" in the folder given to the plugin, the answer is the file "answer":
-//   where NAME   "X Y", the middle in real pixels of the visible and enabled widget with this text, name or accessible
-//                name, or of a window with this title; of "tab NAME" the current tab of a tab bar. Where several have
-//                that name, one that no other window covers
-//   text NAME    what is written in it: of what holds others the visible labels and buttons, from top to bottom, with
-//                " | " between them
-//   popup        "X Y" of the menu or list that is open
-//   focus        the name of the widget that has the focus
+//   where NAME   "X Y", the centre, in real pixels, of the visible and enabled widget with this text, name or accessible
+//                name, or of a window with this title; for "tab NAME" of the current tab of a tab bar. If several match,
+//                one that no other window covers
+//   text NAME    the text of a widget; for a container the text of its visible labels and buttons, from top to bottom,
+//                joined by " | "
+//   popup        "X Y" of the open menu or list
+//   focus        the name of the widget with the focus
 // The answer is empty if nothing matches.
 #include <QAbstractButton>
 #include <QApplication>

@@ -1,6 +1,5 @@
 // GateSequences.h - random command sequences against the gate, judged by a referee with IndependentBody (hazard H1).
 //
-// A sequence is a handful of commands: configure, approve, deliver (perhaps late), stop, wait, impedance readings,
 // A sequence is a few commands: configure, approve, deliver (perhaps late), stop, wait, impedance readings, acceptance,
 // garbage. Trains go into a body with a true impedance in the permitted range; the referee has its own limits.
 //

@@ -1,8 +1,8 @@
 // DeviceRows.h - form rows to choose the connected device that a session delivers with and, for a massager, the sensor
 // board on its motor.
 //
-// The rules of a study (pilot.md, section 3) decide what may deliver. Virtual participants and rehearsals use the
-// simulated bench; a person is given a real device, and in a rehearsal only a massager.
+// The rules of a study (pilot.md, section 3) decide what may deliver: for a virtual participant and in a rehearsal the
+// simulated bench; for a person a real device, but in a rehearsal only a massager.
 #pragma once
 
 #include <QComboBox>

@@ -138,7 +138,7 @@ QWidget* RunViews::buildBar() {
     return holder;
 }
 
-/// Adds the tools of Touch and the oscilloscope. A calibration shows them next to its title and plot chooser.
+/// Adds picture tools, as in Touch and the oscilloscope. A calibration has them next to its title and plot chooser.
 void RunViews::addPictureTools(QBoxLayout& row) {
     toolRow_ = new QWidget(viewRow_);
     auto* tools = new ToolRow(toolRow_);
