@@ -1,10 +1,10 @@
-// a plugin that Qt loads into the built program for an end-to-end test (QT_QPA_GENERIC_PLUGINS). It tells where a
-// widget is, so that a click finds it in any layout, and which text the widget shows. It does not click or type.
+// Whereabouts.cpp - a Qt plugin for end-to-end tests of the built program (QT_QPA_GENERIC_PLUGINS). It tells where a
+// widget is, so that a click finds it in any layout, and which text it shows. It does not click or type.
 //
 // A question is the file "ask" in the folder given to the plugin, the answer is the file "answer":
-//   where NAME   "X Y", the centre, in real pixels, of the visible and enabled widget with this text, name or accessible
-//                name, or of a window with this title; for "tab NAME" of the current tab of a tab bar. If several match,
-//                one that no other window covers
+//   where NAME   "X Y", the centre, in real pixels, of the visible and enabled widget with this text, name or
+//                accessible name, or of a window with this title; for "tab NAME" of the current tab of a tab bar. If
+//                several match, one that no other window covers
 //   text NAME    the text of a widget; for a container the text of its visible labels and buttons, from top to bottom,
 //                joined by " | "
 //   popup        "X Y" of the open menu or list

@@ -14,7 +14,7 @@ namespace {
 constexpr int kLaneTicks = 3;
 constexpr double kPad = 0.15;  // margin above and below, as a share of a lane's span
 constexpr double kDay_s = 86400;
-constexpr int kDayPadding = 12;  // days around a single calibration
+constexpr int kDayPadding = 12;  // least margin in days before and after the calibrations
 constexpr int kMaxJumps = 2;     // most jumps described in words; the plot marks all
 constexpr int kMinLines = 16;
 

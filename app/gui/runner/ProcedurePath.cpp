@@ -167,7 +167,7 @@ void ProcedurePath::fitLegend() {
 /// Wrapped text may need more height than the layout's minimum: the page then scrolls, and nothing is cut.
 bool ProcedurePath::event(QEvent* event) {
     const bool done = QWidget::event(event);
-    const auto* parts = layout();  // none while the layout changes
+    const auto* parts = layout();  // null while the layout is replaced
     if (parts != nullptr && (event->type() == QEvent::LayoutRequest || event->type() == QEvent::Resize))
         setMinimumHeight(across_ ? wholeHeightAt(*parts, width()) : leastHeightAt(*parts, width()));
     if (event->type() == QEvent::LayoutRequest || event->type() == QEvent::Resize) fitLegend();

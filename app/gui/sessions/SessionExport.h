@@ -1,8 +1,8 @@
 // SessionExport.h - exports a session for other programs: CSV files of streams, trials, events and captures; or its
 // sensor streams as a recording that can be replayed.
 //
-// Files are written into a new folder next to the target, which is renamed at the end: a cancelled or failed export
-// leaves nothing behind, and no export changes existing files.
+// Files are written into a new folder next to the target, and this folder gets its name at the end: a cancelled or
+// failed export leaves nothing behind, and no export changes existing files.
 //
 // Thread-safety: no shared state except the files; runs on another thread.
 #pragma once
