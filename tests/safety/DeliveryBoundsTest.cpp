@@ -48,8 +48,8 @@ TEST(DeliveryBounds, AreTheWiderOfBothWhereAnOldCalibrationIsLeftAside) {
 
 TEST(DeliveryBounds, ACalibrationIsNeverNarrowerThanItself) {
     RecordProperty("hazard", "H1");
-    // For any line: the largest value that may come out, including its uncertainty U, is at least the value that an
-    // uncalibrated source with that U would be judged by.
+    // For any line: the largest value that may come out, including its uncertainty U, is at least the largest value
+    // that an uncalibrated source with that U may deliver.
     for (const double gain : {0.85, 0.99993, 1.0, 1.15}) {
         for (const double u : {0.0, 0.008, 0.05}) {
             const CalibrationLine line{gain, 0, 5, 40, Spread{u, 0}};

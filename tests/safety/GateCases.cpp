@@ -241,7 +241,7 @@ void addStateCases(std::vector<GateCase>& cases) {
     add(IntervalMayBeBelowTrain, "an interval that comes out shorter than its train", [=] {
         GateSetup setup = benchSetup();
         PulseTrain train = volts(10);
-        train.pulses = 50;  // at 100 Hz
+        train.pulses = 50;  // 0.5 s at 100 Hz
         const bool fine = Rig(setup).ask(train, 0.5).has_value();
         setup.calibration = StimulatorCalibration{known, exactLine(0.99, 0, 0.1, 10), {}, {}};
         return fine && refuses(Rig(setup).ask(train, 0.5), ErrorCode::InvalidArgument, "come out as 0.495 s");
@@ -249,7 +249,7 @@ void addStateCases(std::vector<GateCase>& cases) {
     add(IntervalMayBeBelowTrain, "a train that comes out longer than its interval", [=] {
         GateSetup setup = benchSetup();
         PulseTrain train = volts(10);
-        train.pulses = 48;  // at 100 Hz
+        train.pulses = 48;  // 0.48 s at 100 Hz
         const bool fine = Rig(setup).ask(train, 0.5).has_value();
         setup.source.accuracy.rate = Spread{0.05, 0};
         return fine && refuses(Rig(setup).ask(train, 0.5), ErrorCode::InvalidArgument, "of 0.48 s as 0.505263 s");

@@ -130,7 +130,7 @@ void DrivePanel::begin() {
     asked_.reset();
     last_ = DriveSource::Off;
     off_->setChecked(true);
-    // With another bench everything starts anew: values set by hand belonged to the previous bench.
+    // With another bench everything starts anew: the values set by hand belonged to the previous bench.
     if (const auto bench = controller_.tap(); bench != bench_.lock() || !bench) {
         bench_ = bench;
         was_.reset();

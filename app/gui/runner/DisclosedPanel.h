@@ -28,7 +28,7 @@ public:
     /// `disclosed`: as in the results of load-safety, with one column per load; any other value shows nothing.
     void show(const nlohmann::json& disclosed);
     using QWidget::show;
-    /// Shows the outputs beside the tracing, below it, or not at all if there is no room for both.
+    /// Shows the outputs next to the tracing, below it, or not at all if there is no room for both.
     enum class Outputs { Beside, Below, Nowhere };
     void showOutputs(Outputs outputs);
     /// Returns the smallest height at which a tracing is readable.

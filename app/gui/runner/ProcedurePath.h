@@ -26,7 +26,7 @@ public:
 
     /// Becomes a row if a column would take over a third of `room`, the owner's width. Returns true for a row.
     bool fit(int room);
-    /// Resets for a newly read procedure that has not run.
+    /// Resets the path for a newly read procedure that has not run.
     void showNoRun(bool hasReference);
     /// Shows the steps before the run. A tick means that a step was seen, or that the run used its settings.
     void showSetup(FieldForm& form, const QString& devices, bool declared, bool begun, const std::set<Step>& seen);

@@ -39,7 +39,7 @@ public:
     /// Sets whether there is a protocol to run. `obstacle`: a sentence that says why it may not run; empty if it may.
     /// `byProfile`: the profile is the obstacle, and a button to change it is shown.
     void setReady(bool ready, const QString& obstacle = {}, bool byProfile = false);
-    /// Sets whether Run is the highlighted button; beside a result another button is highlighted.
+    /// Sets whether Run is the highlighted button; when a result is shown, another button is highlighted.
     void setLeading(bool leading);
     /// Shows a sentence about what prevents the run; empty for none. `line`: its line in the script; 0 for none.
     void say(const QString& what, int line = 0);

@@ -23,9 +23,9 @@ namespace tacto::gui {
 namespace {
 
 constexpr int kLogLines = 5000;           // lines shown; the session keeps all lines
-constexpr int kBesideChars = 115;         // width in characters from which the waveform is beside the plot
-constexpr int kDisclosedFromChars = 120;  // width from which the outputs are beside the tracing
-constexpr int kTracedFromChars = 165;     // width from which the tracing is beside the limits
+constexpr int kBesideChars = 115;         // width in characters from which the waveform is next to the plot
+constexpr int kDisclosedFromChars = 120;  // width from which the outputs are next to the tracing
+constexpr int kTracedFromChars = 165;     // width from which the tracing is next to the limits
 constexpr double kTracingShare = 0.18;    // the tracing's least share of the height; the limits get the rest
 constexpr int kRoomyLines = 34;           // with less height, the bar below is as low as its buttons
 constexpr int kPageGap = 4, kViewSide = 16, kViewTop = 4, kBarPad = 12, kBarPadLow = 4;
@@ -211,7 +211,7 @@ void RunViews::showResult(bool result) {
     arrange();
 }
 
-/// Places the tracing of a judged run: beside the limits in a wide window, below them in a high one, otherwise in its
+/// Places the tracing of a judged run: next to the limits in a wide window, below them in a high one, otherwise in its
 /// own view.
 void RunViews::placeTracing(bool judged) {
     disclosed_->setVisible(judged);
@@ -236,8 +236,8 @@ void RunViews::placeTracing(bool judged) {
     judged_->setSizes({all - part, part});
 }
 
-/// Shows one main plot. The waveform is beside the plot if there is room, otherwise in its own view (always for a
-/// calibration), and hidden without an oscilloscope. A judged safety check shows its tracing instead.
+/// Shows one main plot. The waveform is next to the plot if there is room, otherwise in its own view (always for a
+/// calibration); hidden without an oscilloscope. A judged safety check shows its tracing instead.
 void RunViews::arrange() {
     const bool tall = height() >= fontMetrics().height() * kRoomyLines;
     const int pad = tall ? kBarPad : kBarPadLow;

@@ -91,7 +91,7 @@ private:
     LoadRows* loads_ = nullptr;            // replaces the plane if a protocol measures loads
     QSplitter* judged_ = nullptr;          // the limits and their results
     LimitMatrixView* matrix_ = nullptr;    // the limits for each load
-    DisclosedPanel* disclosed_ = nullptr;  // outputs to disclose, beside or below the limits
+    DisclosedPanel* disclosed_ = nullptr;  // outputs to disclose, next to the limits or below
     Tracing tracing_ = Tracing::Below;
     CalibrationView* calibration_ = nullptr;  // replaces all of these for a calibration protocol
     QLabel* none_ = nullptr;

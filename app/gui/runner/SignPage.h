@@ -50,7 +50,7 @@ private:
     QWidget* words_ = nullptr;
     QWidget* named_ = nullptr;
     ReportView* view_;
-    bool beside_ = true;  ///< words beside the report, not above it
+    bool beside_ = true;  ///< words and report are side by side
     QPushButton* cancel_ = nullptr;
     QProgressBar* drawing_ = nullptr;
     QLabel* says_ = nullptr;
