@@ -17,7 +17,7 @@ namespace tacto::gui {
 struct RunFeed {
     std::optional<ScriptProgress> progress;
     std::vector<std::string> log;
-    std::vector<nlohmann::json> trials;  ///< as passed to record.trial(), with condition and trial
+    std::vector<nlohmann::json> trials;                    ///< as passed to record.trial(), with condition and trial
     std::vector<std::shared_ptr<const Capture>> captures;  ///< only the newest few
 };
 

@@ -58,8 +58,7 @@ DrivePanel::DrivePanel(BenchController& controller, QWidget* parent) : QWidget(p
     says_->setAlignment(Qt::AlignTop);
     setTone(*says_, Tone::Quiet);
     setTextSize(*says_, TextSize::Small);
-    says_->setMinimumHeight(2 *
-                            QFontMetrics(textFont(TextSize::Small)).lineSpacing());  // keeps room for two lines
+    says_->setMinimumHeight(2 * QFontMetrics(textFont(TextSize::Small)).lineSpacing());  // keeps room for two lines
     layout->addWidget(says_);
     begin();
 }
