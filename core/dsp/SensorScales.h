@@ -69,7 +69,7 @@ enum class FingertipMatch {
 ///    "taxels": {"unit": "Pa"|"count", "scale": […], "offset_pa": […], "scale_u": [x|null…]}}
 /// Errors: InvalidArgument for a scale of 0.
 [[nodiscard]] ValueKind<SensorScales> sensorScalesKind();
-/// Returns the fields of `uncertainty` in the same section.
+/// Returns the fields of `uncertainty` in a roughness section.
 [[nodiscard]] RecordFields<RoughnessUncertainty> roughnessUncertaintyFields();
 
 // Units that a fingertip's streams may have, in the words of profiles and results.

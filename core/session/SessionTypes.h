@@ -64,8 +64,8 @@ struct SessionAbout {
     std::vector<SessionLimitSet> limitSets;
     bool simulated = false;     ///< true if any device is simulated: the report gets a watermark
     std::string mode;           ///< "bench load" or "person"
-    std::string wallStart;      ///< ISO 8601 UTC, wallTimeUtc() ...
-    Instant wallStartAt{0};     ///< ... read at this moment on the session's time base
+    std::string wallStart;      ///< ISO 8601 UTC, by wallTimeUtc()
+    Instant wallStartAt{0};     ///< session time at which wallStart was read
     bool virtualClock = false;  ///< set by the writer from its clock
 };
 

@@ -13,9 +13,9 @@
 // Before 2 s no drift is reported or applied; while its uncertainty is not small compared to 100 ppm, only a part of it
 // is applied.
 //
-// The offset comes from the shortest delay of the last half minute, less a margin: stamps are late by that delay, or
-// early by at most the margin. Data then look older than they are, never fresher. The margin is kMargin_s, or how much
-// earlier a message may have come than it was seen, if that is more.
+// The offset comes from the shortest delay of the last half minute, less a margin: stamps are late by less than that
+// delay, or early by at most the margin (data then look older than they are). The margin is kMargin_s, or 1.1 times the
+// smoothed `doubt` of observe() if that is more.
 //
 // Mapping: corrections change the clock's rate by at most 0.5 %, so that stamps stay evenly spaced. Exception: if a
 // message arrived before its own mapped time, the last 8 ms of the mapping are shifted back at once, because no sample

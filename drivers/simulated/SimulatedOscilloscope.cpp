@@ -60,7 +60,7 @@ Result<void> SimulatedOscilloscope::configure(const ScopeSettings& settings) {
                     traits_.memoryDepth);
     }
     if (!(settings.preTrigger >= 0) || !(settings.preTrigger <= 1)) {
-        return fail(ErrorCode::InvalidArgument, "oscilloscope pre-trigger {}: 0 to 1", settings.preTrigger);
+        return fail(ErrorCode::InvalidArgument, "oscilloscope pre-trigger {}; 0 to 1 is accepted", settings.preTrigger);
     }
     const double volts = settings.voltageRange.value();
     const double amps = settings.currentRange.value() * 1e-3;

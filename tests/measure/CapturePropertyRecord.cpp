@@ -293,7 +293,7 @@ double share(const Plan& plan) {
     return busy * static_cast<double>(plan.onsets.size()) / static_cast<double>(plan.samples);
 }
 
-/// If two states do not show which is the baseline, it is the state near zero (StateLevels.h).
+/// Sets an offset. If the baseline is unclear, StateLevels.h takes the state near zero for it.
 void monophasicOffset(Dice& dice, Plan& plan, int sign) {
     double offset = dice.chance(0.4) ? dice.between(-0.05, 0.05) : dice.between(-3, 3);
     if (share(plan) > 0.07) {

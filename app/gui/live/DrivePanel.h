@@ -69,7 +69,7 @@ private:
     std::optional<DriveSource> asked_;  // the source asked for, until the bench answers
     QElapsedTimer askedAt_;
     std::optional<DriveCommand> was_;      // what drove last on this bench
-    DriveSource last_ = DriveSource::Off;  // asked for last, or set by the bench since
+    DriveSource last_ = DriveSource::Off;  // the source last asked for or reported
 };
 
 }  // namespace tacto::gui

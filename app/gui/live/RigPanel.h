@@ -15,7 +15,7 @@ class RigPanel final : public QWidget {
     Q_OBJECT
 public:
     explicit RigPanel(BenchController& controller, QWidget* parent = nullptr);
-    /// Starts anew for another bench, or for none. `speed`: its time's speed; `recording`: true if one is replayed.
+    /// Starts anew for another bench, or for none. `speed`: of the bench's clock; `recording`: true if it replays one.
     void begin(double speed, bool recording);
     void refresh(const Telemetry& telemetry);
     [[nodiscard]] double speed() const { return paceBox_->currentData().toDouble(); }

@@ -35,7 +35,7 @@ void chooseAgain(QComboBox& box, const QVariant& before) {
 DeviceRows::DeviceRows(FieldForm& form, const DeviceWatch& watch)
     : QObject(&form), form_(form), watch_(watch), delivers_(new QComboBox), looks_(new QComboBox) {
     delivers_->setObjectName("deliversWith");
-    delivers_->setToolTip(tr("It is opened for the session alone; a bench that is open under Live is closed first."));
+    delivers_->setToolTip(tr("The device is opened for the session alone; a bench open under Live is closed first."));
     looks_->setObjectName("looksAtMotor");
     looks_->setPlaceholderText(tr("none chosen"));
     looks_->setToolTip(

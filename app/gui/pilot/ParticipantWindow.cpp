@@ -367,7 +367,7 @@ void ParticipantWindow::judge() {
     else if (stripOpen())
         why = tr("the operator's strip is open on the participant's screen: F2 closes it");
     else if (!isActiveWindow())
-        why = tr("the participant's window does not have the keys");
+        why = tr("keys do not reach the participant's window");
     else if (const int need = 6 * least; height() < need || width() < 5 * least)
         why = tr("the participant's screen has no room for targets of 20 mm");
     desk_.setObstacle(why);

@@ -204,8 +204,7 @@ void PilotResult::show(const RunResult& result, const QString& folder, bool ofSt
     }
     blocks_->setText(blocks.isEmpty() ? QString() : tr("Right in ") + blocks.join(", ") + '.');
     blocks_->setVisible(!blocks.isEmpty());
-    note_->setText(basisWords(result) +
-                   (ofStudy ? tr("In the study at %1.") : tr("In the rehearsal at %1.")).arg(folder) +
+    note_->setText(basisWords(result) + (ofStudy ? tr("Study folder: %1.") : tr("Rehearsal folder: %1.")).arg(folder) +
                    (result.markers ? ' ' + qtext(markersSentence(*result.markers)) : QString()));
     goOn_->setVisible(outcome.error.has_value() && !ofStudy);
     another_->setVisible(!ofStudy);

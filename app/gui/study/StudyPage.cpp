@@ -116,8 +116,8 @@ NewStudyPage::NewStudyPage(OpenStudy& study, QWidget* parent)
     auto* column = columnIn(*inside, 12, {kPagePad, kPagePad, kPagePad, kPagePad});
     column->addWidget(heading(tr("A new study"), inside));
     column->addWidget(explanation(
-        tr("As the ethics committee approved it. Settings and protocols are fixed with it: a later change is an "
-           "amendment with a reference of its own. Participants, people and virtual ones, are enrolled afterwards."),
+        tr("Enter the study as the ethics committee approved it. This fixes settings and protocols: a later change "
+           "is an amendment with its own reference. Participants, people or virtual, are enrolled afterwards."),
         inside));
     auto* place = new QWidget(inside);
     auto* row = rowIn(*place, 8);

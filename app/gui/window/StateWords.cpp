@@ -80,7 +80,7 @@ QString stateWords(const Telemetry& telemetry, const QString& protocol, bool ref
             if (telemetry.driving == DriveSource::Sensor && telemetry.finger != FingerStanding::Fresh)
                 return fingerHolds(telemetry);
             return protocol.isEmpty() ? deliveringWords(telemetry)
-                                      : QObject::tr("By the protocol %1. Space stops.").arg(protocol);
+                                      : QObject::tr("Protocol %1 drives. Space stops.").arg(protocol);
         case InterlockState::Paused:
             return QObject::tr("No train is delivered until you resume.");
         case InterlockState::Armed:

@@ -19,9 +19,9 @@ double levelOf(const PulseTrain& train) noexcept {
 Result<void> staysNear(std::string_view what, double programmed, double command) {
     if (std::abs(programmed - command) <= kMaxCorrection * command) return {};
     return fail(ErrorCode::LimitExceeded,
-                "the calibration would program {:.4g} for {} {:.4g}; it must be within 20 %: the stimulator is out of "
-                "order, or the calibration is not its own",
-                programmed, what, command);
+                "the calibration turns {} {:.4g} into {:.4g}; it must be within 20 %: the stimulator is defective, or "
+                "the calibration belongs to another",
+                what, command, programmed);
 }
 
 Result<void> timesStayNear(const PulseTrain& programmed, const PulseTrain& command) {

@@ -62,7 +62,7 @@ Result<void> checkRange(const ScopeSettings& s, const ScopeTraits& traits) {
         return invalid("oscilloscope record of {} samples: 2 to {}", s.samples, traits.memoryDepth);
     }
     if (!(s.preTrigger >= 0) || !(s.preTrigger <= 1))
-        return invalid("oscilloscope pre-trigger {}: 0 to 1", s.preTrigger);
+        return invalid("oscilloscope pre-trigger {}; 0 to 1 is accepted", s.preTrigger);
     if (const double volts = s.voltageRange.value(); !(volts > 0) || !(volts <= 10'000)) {
         return invalid("oscilloscope voltage range {} V: above 0, at most 10000 V", volts);
     }

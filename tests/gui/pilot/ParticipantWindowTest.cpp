@@ -124,7 +124,7 @@ TEST_F(Seated, WithoutTheKeysNoPresentationStarts) {
     ASSERT_IN_TIME(QTest::qWaitForWindowActive(&other));
     EXPECT_TRUE(desk.hindrance());
     ASSERT_FALSE(said.isEmpty());
-    EXPECT_EQ(said.last().toStdString(), "the participant's window does not have the keys");
+    EXPECT_EQ(said.last().toStdString(), "keys do not reach the participant's window");
     QTest::keyClick(other.windowHandle(), Qt::Key_1);  // the operator types, which answers nothing
     window.takeKeys();
     ASSERT_IN_TIME(QTest::qWaitForWindowActive(&window));

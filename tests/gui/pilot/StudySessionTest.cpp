@@ -132,7 +132,7 @@ protected:
         EXPECT_EQ(said("pilotHeadline"), headline);
         EXPECT_EQ(pilot->findChild<QTableWidget*>("confusion")->rowCount(), 4);
         EXPECT_THAT(said("pilotNote"),
-                    HasSubstr("Simulated: answered by a virtual participant. In the study at " + place().string()));
+                    HasSubstr("Simulated: answered by a virtual participant. Study folder: " + place().string()));
         EXPECT_FALSE(pilot->findChild<gui::StepList*>()->isVisible()) << "nothing is under way";
         looksRight(*pilot, "pilot-reopened-result", {QSize(1280, 720), QSize(1280, 720)}, &window);
         LargeBesideDocks(*this).fits("pilot-reopened-result", "confusion");  // the matrix has its own scroll bars

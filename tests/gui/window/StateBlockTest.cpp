@@ -50,7 +50,7 @@ TEST(StateWords, SayWhatIsDeliveredAndByWhom) {
     EXPECT_EQ(wordsOf(now), "The last train ends by itself. Space stops.");
     for (const auto drive : {DriveSource::Off, DriveSource::Manual}) {
         now.driving = drive;
-        EXPECT_EQ(wordsOf(now, "Separability"), "By the protocol Separability. Space stops.");
+        EXPECT_EQ(wordsOf(now, "Separability"), "Protocol Separability drives. Space stops.");
     }
 }
 
@@ -178,7 +178,7 @@ TEST_F(StateOnTheBar, NamesTheProtocolThatHasTheBench) {
     static_cast<void>(controller.run(*order));
     ASSERT_IN_TIME(comesTrue([this] { return controller.activity() == gui::Activity::Running; }));
     bar.refresh(inState(InterlockState::Delivering, DriveSource::Manual));
-    EXPECT_THAT(says().text().toStdString(), StartsWith("By the protocol Slow ticks."));
+    EXPECT_THAT(says().text().toStdString(), StartsWith("Protocol Slow ticks drives."));
     controller.stop("test");
     ASSERT_IN_TIME(comesTrue([this] { return controller.activity() == gui::Activity::Closed; }));
     bar.refresh(inState(InterlockState::Delivering, DriveSource::Manual));
