@@ -130,7 +130,7 @@ void spreadCoarseStamps(std::span<double> stamps) {
 namespace {
 constexpr double kByChance = 1e-9;
 constexpr std::uint64_t kKnown = 100;  // changes after which the normal behaviour of a value is known
-constexpr std::uint64_t kEnough = 40;  // repeats of a value that usually moves: a chance of 1 in 10^12
+constexpr std::uint64_t kEnough = 40;  // repeats that show a standstill: 1 in 10^12 if the value moves
 
 /// Sets a bit for each of the last values, newest first, that equals `value`. Few do, so it first checks for any.
 std::uint64_t sameAs(std::uint64_t value, const std::uint64_t* past) noexcept {

@@ -67,7 +67,7 @@ Result<EnteredCertificate*> CertificateStore::standing(std::string_view number, 
         serials.push_back(certificate.serial);
     }
     if (found == nullptr) {
-        return fail(ErrorCode::NotFound, "there is no certificate \"{}\"{} that is not withdrawn", number,
+        return fail(ErrorCode::NotFound, "certificate \"{}\"{} does not exist or is withdrawn", number,
                     serial.empty() ? "" : fmt::format(" of serial number \"{}\"", serial));
     }
     if (serials.size() > 1) {

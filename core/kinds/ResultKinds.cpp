@@ -39,7 +39,7 @@ ResultTraits encodingComparison() {
                        number("Interval, mean and s.d.", "interval_s", "s"),
                        jnd("Amplitude moved (JND)", "amplitude_jnd"), jnd("Interval moved (JND)", "interval_jnd")},
                       Else::InTheTerminal),
-                 rows("Distances against the default", "differences",
+                 rows("Distances beside those of the default", "differences",
                       {text("Encoding", "encoding"), jnd("Smallest pair (JND)", "pair_jnd"),
                        jnd("Neighbours, smallest (JND)", "neighbours_min_jnd"),
                        jnd("Neighbours, mean (JND)", "neighbours_mean_jnd"),

@@ -64,7 +64,7 @@ TEST_F(CertificateCli, IsEnteredListedAndWithdrawn) {
     const auto shown = desk.run({"certificate", "list"});
     EXPECT_THAT(shown.out, HasSubstr("certificate 4000"));
     EXPECT_THAT(shown.out, HasSubstr("expired, not used"));
-    expectRefused(desk.run({"certificate", "withdraw", "4711"}), 3, {"4711", "not withdrawn"});
+    expectRefused(desk.run({"certificate", "withdraw", "4711"}), 3, {"4711", "does not exist or is withdrawn"});
 }
 
 TEST_F(CertificateCli, IsRefusedInOneSentence) {

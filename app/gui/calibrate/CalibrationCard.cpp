@@ -148,7 +148,7 @@ void CalibrationCard::tell(const StimulatorId& stimulator) {
     warns_ = !counts_;
     word_->setText((counts_ ? "✔ " : "⚠ ") + standingText(standing));
     QStringList facts;
-    if (!counts_) facts << standing.why + tr(" Until then the stimulator is for bench loads only.");
+    if (!counts_) facts << standing.why + tr(" An uncalibrated stimulator is for bench loads only.");
     if (standing.newest) facts << factsOf(*standing.newest) + ".";
     facts_->setText(facts.join("\n"));
     word_->setToolTip(standingTip(standing));

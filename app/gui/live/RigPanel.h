@@ -1,4 +1,4 @@
-// RigPanel.h - sets what the simulated finger touches, if the bench can simulate touch, and the speed of its time.
+// RigPanel.h - sets the speed of the bench's clock and, if touch is simulated, what the finger touches.
 #pragma once
 
 #include <QComboBox>

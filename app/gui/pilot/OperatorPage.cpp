@@ -70,7 +70,7 @@ OperatorPage::OperatorPage(QWidget* parent)
     obstacleText_ = makeLabel({}, {.name = "presentationObstacle", .tone = Tone::Warning, .wraps = true}, obstacle_);
     row->addWidget(obstacleText_, 1);
     auto* keys =
-        pageButton(tr("&Give them the keys"), {}, tr("Brings the participant’s window to the front."), obstacle_);
+        pageButton(tr("&Hand over the keys"), {}, tr("Brings the participant’s window to the front."), obstacle_);
     connect(keys, &QPushButton::clicked, this, &OperatorPage::keysWanted);
     row->addWidget(keys);
     // The line appears and disappears with the keys; its space is kept so that the buttons below do not move.

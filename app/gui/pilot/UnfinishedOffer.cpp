@@ -94,7 +94,7 @@ void UnfinishedOffer::offer(const std::optional<Unfinished>& unfinished) {
     goOn_->setText(offered_->complete            ? tr("Go on: nothing is presented or asked any more")
                    : offered_->mayGoOn           ? tr("Go on: nothing is asked twice")
                    : offered_->trouble.isEmpty() ? tr("Go on: only within 2 h of the last answer")
-                                                 : tr("Go on: not with this record"));
+                                                 : tr("Go on: record is unreadable"));
     fit();
     emit changed();
 }

@@ -18,7 +18,7 @@ class ReportView final : public QWidget {
 public:
     /// `empty` is the text shown while there is no report.
     explicit ReportView(const QString& empty, QWidget* parent = nullptr);
-    /// Shows a written report. The file is read when it becomes visible, as a long report takes a moment.
+    /// Shows a written report. A long one takes a moment, so it is read only once this view is visible.
     void show(const QString& pdf);
     void clear();
     [[nodiscard]] const QString& report() const { return report_; }

@@ -140,7 +140,7 @@ void RunPanel::setAcross(bool across) {
     showButtons();
 }
 
-/// In a row, one line has room for either the progress or the time left.
+/// In the one-row layout, the bar shows progress and time left together.
 void RunPanel::sayHowFar(const QString& format, const QString& left) {
     howLong_ = left;
     sayLeft();

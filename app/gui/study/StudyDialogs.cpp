@@ -344,8 +344,8 @@ QDialog* endPartDialog(OpenStudy& study, EndOfPart how, const QString& code, QWi
 
 QDialog* adverseEventDialog(OpenStudy& study, const QString& code, QWidget* parent) {
     auto* asks = new StudyDialog(study, "adverseEvent", tr("An adverse event"),
-                                 tr("It is sealed under the study’s key, stands in the committee’s report, and stays "
-                                    "when the participant withdraws. Never write a name."),
+                                 tr("The event is sealed under the study’s key, goes into the committee’s report and "
+                                    "outlasts a withdrawal. Never write a name."),
                                  parent);
     const auto needed = tr("the committee cannot judge it");
     auto what = textField("what", tr("What happened"), {}, {});

@@ -64,7 +64,7 @@ ResultRecord<LatencyJudgement> describeLatency() {
     using J = LatencyJudgement;
     ResultRecord<J> all;
     all.shown(number("Latency's tolerance, ±", "tolerance_s", "s"), &J::tolerance_s);
-    all.rows("Latency: from the step to the first train that carries it, against its design", "groups", &J::groups,
+    all.rows("Latency from a step to the first train that carries it, beside the design", "groups", &J::groups,
              describeLatencyGroup())
         .note =
         "Design: the pending train is pulled forward to max(now, last onset + new interval), and carries the newest "

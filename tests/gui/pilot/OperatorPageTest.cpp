@@ -67,7 +67,7 @@ TEST_F(Operator8b, NothingMovesUnderAPointerWhateverIsInTheWay) {
             QTest::qWait(1);
             std::vector<QRect> all;
             for (const auto* each : page.findChildren<QPushButton*>())
-                if (each->isVisible() && each->text() != "&Give them the keys")
+                if (each->isVisible() && each->text() != "&Hand over the keys")
                     all.push_back({each->mapToGlobal(QPoint()), each->size()});
             return all;
         };

@@ -192,7 +192,7 @@ Result<StimulatorRun*> reading(ScriptSession& session, const Arguments& argument
     const auto begun = session.begun<StimulatorRun>(arguments.object());
     if (!begun) return failure(begun);
     if ((*begun)->quantity != nullptr) return *begun;
-    return fail(ErrorCode::InvalidArgument, "{0} reads no quantity; {0}.levels() is expected first",
+    return fail(ErrorCode::InvalidArgument, "{0} has no quantity yet; {0}.levels() is expected first",
                 arguments.object());
 }
 
