@@ -196,7 +196,7 @@ std::vector<std::string> labelsOf(const Predicted& of) {
 ResultRecord<Predicted> describeVariation() {
     using P = Predicted;
     using V = Variation;
-    const auto of = [](auto member) {
+    const auto figure = [](auto member) {
         return [member](const P& all) -> decltype(auto) { return std::invoke(member, all.found); };
     };
     const auto median = [](Estimate V::*member) {
@@ -209,35 +209,35 @@ ResultRecord<Predicted> describeVariation() {
         const auto& encoding = of.options.stimulation.encoding;
         return std::array{encoding.amplitudeMin.value(), encoding.amplitudeMax.value()};
     });
-    all.kept("served", of(&V::served));
-    all.kept("participants_refused", of(&V::refusedPeople));
-    all.kept("participants_not_feeling", of(&V::unfeltPeople));
-    all.kept("participants_without_range", of(&V::withoutRange));
-    all.kept("asked", of(&V::asked));
-    all.kept("partial", of(&V::partial));
-    all.kept("seed", of(&V::seed));
+    all.kept("served", figure(&V::served));
+    all.kept("participants_refused", figure(&V::refusedPeople));
+    all.kept("participants_not_feeling", figure(&V::unfeltPeople));
+    all.kept("participants_without_range", figure(&V::withoutRange));
+    all.kept("asked", figure(&V::asked));
+    all.kept("partial", figure(&V::partial));
+    all.kept("seed", figure(&V::seed));
     all.kept("labels", labelsOf);
     all.kept("columns", [](const P& of) {
         auto columns = labelsOf(of);
         columns.emplace_back("none");
         return columns;
     });
-    all.kept("confusion", of(&V::confusion));
+    all.kept("confusion", figure(&V::confusion));
     all.kept("presented_accuracy", median(&V::presentedAccuracy));
-    all.kept("it_bits", of(&V::pooledInformation));
+    all.kept("it_bits", figure(&V::pooledInformation));
     all.kept("it_bias_bits", [](const P& of) { return of.found.pooledInformation - of.found.pooledCorrected; });
-    all.kept("it_corrected_bits", of(&V::pooledCorrected));
-    all.kept("clearly_separable", of(&V::clearlySeparable));
-    all.kept("refused", of(&V::refused));
-    all.kept("not_felt", of(&V::notFelt));
+    all.kept("it_corrected_bits", figure(&V::pooledCorrected));
+    all.kept("clearly_separable", figure(&V::clearlySeparable));
+    all.kept("refused", figure(&V::refused));
+    all.kept("not_felt", figure(&V::notFelt));
     all.kept("withheld", [](const P& of) {
         json reasons = json::array();
         for (const auto& [reason, count] : of.found.withheld) reasons.push_back({{"reason", reason}, {"count", count}});
         return reasons;
     });
-    all.kept("accuracies", of(&V::accuracies));
-    all.kept("attention_ma", of(&V::attention_ma));
-    all.kept("intolerance_ma", of(&V::intolerance_ma));
+    all.kept("accuracies", figure(&V::accuracies));
+    all.kept("attention_ma", figure(&V::attention_ma));
+    all.kept("intolerance_ma", figure(&V::intolerance_ma));
     all.kept("trials_needed", [](const P& of) {
         if (!of.found.trials) return json();
         return trialsJson(*of.found.trials, of.options.wanted, 1 / static_cast<double>(of.found.conditions.size()));
@@ -245,17 +245,17 @@ ResultRecord<Predicted> describeVariation() {
     all.kept("model", [](const P& of) { return modelJson(of.options); });
     all.kept("people", [](const P& of) { return peopleJson(of.found.people); });
 
-    all.shown(number("Virtual participants", "participants"), of(&V::participants));
-    all.shown(number("Served", "complete"), of(&V::complete));
+    all.shown(number("Virtual participants", "participants"), figure(&V::participants));
+    all.shown(number("Served", "complete"), figure(&V::complete));
     all.shown(as(As::Share, "Clearly separable", "clearly_separable_share"), [](const P& of) {
         return static_cast<double>(of.found.clearlySeparable) / static_cast<double>(of.found.participants);
     });
     all.shown(as(As::Share, "Recognised, median", "accuracy"), median(&V::accuracy));
-    all.shown(as(As::Share, "Recognised, all together", "pooled_accuracy"), of(&V::pooledAccuracy));
+    all.shown(as(As::Share, "Recognised, all together", "pooled_accuracy"), figure(&V::pooledAccuracy));
     all.shown(number("Information, median", "information_bits", "bit"), median(&V::information));
-    all.shown(number("Felt from, median", "detection_ma", "mA"), of(&V::detection_ma));
-    all.shown(number("Uncomfortable from, median", "discomfort_ma", "mA"), of(&V::discomfort_ma));
-    all.shown(number("Impedance, median", "impedance_ohm", "ohm"), of(&V::impedance_ohm));
+    all.shown(number("Felt from, median", "detection_ma", "mA"), figure(&V::detection_ma));
+    all.shown(number("Uncomfortable from, median", "discomfort_ma", "mA"), figure(&V::discomfort_ma));
+    all.shown(number("Impedance, median", "impedance_ohm", "ohm"), figure(&V::impedance_ohm));
     all.facts("Participants");
     all.table(rows(
         "Who is served, predicted, not measured", "ranges",
@@ -269,7 +269,7 @@ ResultRecord<Predicted> describeVariation() {
               number("Fixed range serves", "fixed_served"), number("It is refused to", "fixed_refused"),
               number("Its lowest not felt by", "fixed_not_feeling"), number("Own range serves", "personal_served"),
               as(As::Share, "Right answers of these", "accuracy")}));
-    all.rows("What few people can show, predicted, not measured", "pilots", of(&V::pilots), describePilot()).note =
+    all.rows("What few people can show, predicted, not measured", "pilots", figure(&V::pilots), describePilot()).note =
         "“If all” says what share of such people can do it, at least (95 %), when everyone in the pilot is above "
         "chance "
         "(p < 0.05, one-sided); “if all but one” when one is not (Bayesian prevalence, Ince et al. 2021, "
@@ -280,7 +280,7 @@ ResultRecord<Predicted> describeVariation() {
         .note =
         "Source: the value is the source's. Choice: ours, to be replaced with the laboratory's own. Set: for this run. "
         "Every spread (geometric standard deviation) is a choice.";
-    all.rows("Conditions, predicted, not measured", "conditions", of(&V::conditions), describeCondition(),
+    all.rows("Conditions, predicted, not measured", "conditions", figure(&V::conditions), describeCondition(),
              Else::InTheTerminal)
         .note =
         "A value is the median, and in brackets stand 5 and 95 %, of participants or of benches. A condition counts "
@@ -291,7 +291,7 @@ ResultRecord<Predicted> describeVariation() {
                     number("Counted", "counted"), number("Draws attention", "draws_attention"),
                     number("Too strong", "too_strong"), number("Not tolerated", "not_tolerated")},
                    Else::InTheTerminal));
-    all.rows("Pairs in just-noticeable differences, predicted, not measured", "separability", of(&V::pairs),
+    all.rows("Pairs in just-noticeable differences, predicted, not measured", "separability", figure(&V::pairs),
              describePair());
     all.table(confusion());
     all.table(
