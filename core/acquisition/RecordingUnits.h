@@ -1,4 +1,6 @@
 // RecordingUnits.h - units in files of sensor data, and their spellings: "m/s²", "m·s⁻²", "mN", "µs".
+//
+// Thread-safety: pure functions.
 #pragma once
 
 #include <optional>

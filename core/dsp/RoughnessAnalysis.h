@@ -1,4 +1,6 @@
 // RoughnessAnalysis.h - processes a whole recording with the roughness chain and summarises the result.
+//
+// Thread-safety: pure functions.
 #pragma once
 
 #include <span>

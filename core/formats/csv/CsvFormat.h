@@ -1,4 +1,6 @@
 // CsvFormat.h - tables of text: the dialects of oscilloscopes (CsvLayout.h), and plain `time_s,voltage_v,current_a`.
+//
+// Thread-safety: as CaptureFormat.
 #pragma once
 
 #include "core/formats/CaptureFormat.h"

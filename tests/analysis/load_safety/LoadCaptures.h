@@ -1,4 +1,6 @@
 // LoadCaptures.h - makes captures of a train into a resistor with known truth, as an ideal instrument would.
+//
+// Thread-safety: pure functions.
 #pragma once
 
 #include <cmath>

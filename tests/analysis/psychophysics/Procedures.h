@@ -1,4 +1,6 @@
 // Procedures.h - grids and virtual participants shared by the tests of procedures.
+//
+// Thread-safety: pure functions.
 #pragma once
 
 #include "core/analysis/psychophysics/AscendingLimits.h"

@@ -1,4 +1,6 @@
 // CountedOut.h - the binomial distribution by summing all outcomes, to check the exact tests.
+//
+// Thread-safety: a pure function.
 #pragma once
 
 #include <cmath>
