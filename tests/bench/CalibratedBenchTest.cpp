@@ -221,7 +221,7 @@ TEST_F(CalibratedBenchTest, ACalibrationThatWouldTellMoreThanAFifthBesideTheComm
     calibration_ = StimulatorCalibration{{0.81, 0, 10, 40}};  // programs 49.4 V for 40 V
     open({});
     ASSERT_TRUE(armAndDrive(1, 1));
-    EXPECT_THAT(bench_->wait(Seconds(3)), refusedSaying("program 49.38 for the amplitude 40"));
+    EXPECT_THAT(bench_->wait(Seconds(3)), refusedSaying("turns the amplitude 40 into 49.38"));
     EXPECT_EQ(bench_->telemetry().trainsDelivered, 0U);
 }
 
