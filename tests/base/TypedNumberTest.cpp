@@ -1,6 +1,8 @@
 // Numbers as people type them, against how they were made.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <locale>
+#include <sstream>
 
 #include "core/base/Random.h"
 #include "core/base/TypedNumber.h"
@@ -43,6 +45,15 @@ TEST(TypedNumber, RefusesWhatMayBeTwoNumbersAndSaysWhy) {
     for (const char* text : {"", "5,", ",", "a,b", "4,5x", "1 ,5"}) EXPECT_FALSE(typedNumber(text)) << text;
 }
 
+/// Reads a number with a point, whatever the locale of the test.
+double inPlainC(const std::string& text) {
+    std::istringstream in(text);
+    in.imbue(std::locale::classic());
+    double value = 0;
+    in >> value;
+    return value;
+}
+
 /// Numbers are made of their digits, so that what they mean is known without reading them.
 TEST(TypedNumber, MeansTheSameWithACommaAsWithAPointOrNothing) {
     Random random(48, "typed numbers");
@@ -59,7 +70,7 @@ TEST(TypedNumber, MeansTheSameWithACommaAsWithAPointOrNothing) {
         const auto read = typedNumber(sign + whole + ',' + part);
         ASSERT_EQ(read.has_value(), !ambiguous) << whole << ',' << part;
         if (read) {
-            EXPECT_EQ(*read, std::strtod((sign + whole + '.' + part).c_str(), nullptr));
+            EXPECT_EQ(*read, inPlainC(sign + whole + '.' + part));
         }
         EXPECT_EQ(typedTrouble(sign + whole + ',' + part).empty(), !ambiguous);
     }
