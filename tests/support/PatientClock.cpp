@@ -77,6 +77,12 @@ struct Now {
         return std::max(left, isHeld ? kLook : kLook / 20);
     }
 };
+Now reckon(Nanoseconds machine, Nanoseconds beat, Nanoseconds own, double rate) {
+    const auto passed = std::max<Nanoseconds>(0, machine - beat);  // the beat may have come after the reading
+    if (rate == 0) return {own + passed, machine};
+    const auto counted = static_cast<Nanoseconds>(rate * static_cast<double>(std::min(passed, kMaxBetween)));
+    return {own + counted + std::max<Nanoseconds>(0, passed - kAbandoned), machine, rate, passed > kMaxBetween};
+}
 Now now() {
     const Nanoseconds machine = machineNow();
     const Page* const shared = page;
@@ -85,19 +91,16 @@ Now now() {
         const auto turn = shared->turn.load();
         const Nanoseconds beat = shared->beat, own = shared->own;
         const double rate = shared->rate;
-        if (turn % 2 != 0 || shared->turn.load() != turn) continue;
-        const auto passed = std::max<Nanoseconds>(0, machine - beat);  // the beat may be newer than the reading
-        if (rate == 0) return {own + passed, machine};
-        const auto counted = static_cast<Nanoseconds>(rate * static_cast<double>(std::min(passed, kMaxBetween)));
-        return {own + counted + std::max<Nanoseconds>(0, passed - kAbandoned), machine, rate, passed > kMaxBetween};
+        if (turn % 2 == 0 && shared->turn.load() == turn) return reckon(machine, beat, own, rate);
     }
 }
 
-/// Changes the rate from now on.
+/// Changes the rate from this moment on. Nobody reads between this moment and the new rate: a reading by the old rate
+/// could be later than the next one.
 void write(double rate) {
-    const auto at = now();
     Page& shared = *page;
     ++shared.turn;
+    const auto at = reckon(machineNow(), shared.beat, shared.own, shared.rate);
     shared.beat = at.machine;
     shared.own = at.own;
     shared.rate = rate;
