@@ -15,7 +15,7 @@ namespace tacto {
 enum class ShownName { Code, Label };
 [[nodiscard]] TableBlock courseTable(const StudyRecord& study, ShownName name, const QString& caption);
 [[nodiscard]] TableBlock careTable(const StudyRecord& study, const QString& caption);
-/// Side effects before, after and on a day after each session, and "not asked" if nobody asked.
+/// Side effects before, after and on a day after each session, and "not asked" if the question was not asked.
 [[nodiscard]] TableBlock sideEffectsTable(const StudyRecord& study, ShownName name, const QString& caption);
 [[nodiscard]] TableBlock refusalsTable(const StudyRecord& study, const QString& caption);
 [[nodiscard]] TableBlock eventsTable(const StudyRecord& study, const QString& caption);

@@ -170,7 +170,7 @@ struct Preference {
 };
 constexpr Preference kPreferences[] = {{row::kEasier, "Easier to tell"}, {row::kMoreLikeTouch, "More like touch"}};
 
-/// Returns the last answer; empty if nobody asked.
+/// Returns the last answer; empty if no question was asked.
 std::string preferredBy(const ParticipantRecord& participant, const char* item) {
     std::string said;
     for (const auto& session : participant.sessions) {

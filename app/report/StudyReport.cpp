@@ -31,7 +31,7 @@ QString warningOf(SessionBasis basis) {
            "people do.";
 }
 
-/// Counts the participants of each kind who had a session; if nobody had one, those enrolled.
+/// Counts the participants of each kind who had a session; without any session, those enrolled.
 std::map<SessionBasis, std::size_t> tookPart(const StudyRecord& study) {
     std::map<SessionBasis, std::size_t> counts;
     const auto had = [](const ParticipantRecord& each) { return !each.sessions.empty(); };

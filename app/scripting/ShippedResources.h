@@ -1,6 +1,6 @@
 // ShippedResources.h - the files of resources/ that are built into the program: the limit sets, the instrument
 // profiles, the default profile and the digests of the shipped protocols. No file and no environment variable replaces
-// them, so nobody can lower the safety floor (hazard H1) or change the accuracy stated for an oscilloscope (hazard H9).
+// them, so none can lower the safety floor (hazard H1) or change the accuracy stated for an oscilloscope (hazard H9).
 //
 // Thread-safety: constant.
 #pragma once

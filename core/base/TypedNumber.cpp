@@ -1,6 +1,7 @@
 #include "core/base/TypedNumber.h"
 
 #include <fmt/format.h>
+#include <optional>
 
 #include "core/base/LocaleFreeText.h"
 
@@ -8,72 +9,43 @@ namespace tacto {
 
 namespace {
 
-bool isDigit(char c) noexcept { return c >= '0' && c <= '9'; }
-
-std::size_t digitsFrom(std::string_view text, std::size_t at) noexcept {
-    std::size_t count = 0;
-    while (at + count < text.size() && isDigit(text[at + count])) ++count;
-    return count;
-}
-
-/// The number that a text begins with: digits, and groups of digits after commas.
+/// The number at the beginning of a text with a comma in it, in parts.
 struct Commas {
-    std::size_t first = 0;                          ///< where the first comma stands
-    std::size_t count = 0;                          ///< commas with digits behind them
-    std::size_t digitsBefore = 0, digitsAfter = 0;  ///< of the first
-    bool beginsWithZero = false;
-    bool hasPoint = false;  ///< a point, too, stands in it
+    std::string_view sign, whole, part;  ///< `part`: the digits after the comma
+    bool isOne = false;                  ///< false if another comma or a point stands in the number
 
-    /// One of 1 to 3 digits and one of 3: a thousand is written so.
+    /// True if "1,000" may be meant: groups of three digits, the first of one to three and without a leading zero.
     [[nodiscard]] bool mayGroup() const noexcept {
-        return digitsBefore >= 1 && digitsBefore <= 3 && digitsAfter == 3 && !beginsWithZero;
+        return !whole.empty() && whole.size() <= 3 && whole.front() != '0' && part.size() == 3;
     }
-    [[nodiscard]] bool isDecimal() const noexcept { return count == 1 && !hasPoint && !mayGroup(); }
+    [[nodiscard]] bool isDecimal() const noexcept { return isOne && !mayGroup(); }
 };
 
-/// Nothing where no comma stands among the digits.
+/// Returns nothing if no comma with a digit after it stands in the number.
 std::optional<Commas> commasOf(std::string_view text) noexcept {
-    std::size_t at = !text.empty() && (text.front() == '-' || text.front() == '+') ? 1 : 0;
-    Commas found;
-    found.digitsBefore = digitsFrom(text, at);
-    found.beginsWithZero = found.digitsBefore > 0 && text[at] == '0';
-    at += found.digitsBefore;
-    found.first = at;
-    while (at < text.size() && (text[at] == ',' || text[at] == '.')) {
-        const auto digits = digitsFrom(text, at + 1);
-        if (text[at] == '.') {
-            found.hasPoint = true;
-        } else if (digits > 0) {
-            if (found.count++ == 0) {
-                found.first = at;
-                found.digitsAfter = digits;
-            }
-        } else {
-            break;
-        }
-        at += 1 + digits;
-    }
-    return found.count > 0 ? std::optional(found) : std::nullopt;
+    const std::size_t sign = text.starts_with('-') || text.starts_with('+') ? 1 : 0;
+    const auto rest = text.substr(sign);
+    const auto number = rest.substr(0, rest.find_first_not_of("0123456789.,"));
+    const auto comma = number.find(',');
+    if (comma == number.npos || comma + 1 == number.size()) return std::nullopt;
+    return Commas{text.substr(0, sign), number.substr(0, comma), number.substr(comma + 1),
+                  number.find_first_of(".,") == comma && number.find_last_of(".,") == comma};
 }
 
 }  // namespace
 
 std::optional<double> typedNumber(std::string_view text, std::string_view unit) {
     std::string plain(trimmed(text));
-    if (const auto commas = commasOf(plain); commas && commas->isDecimal()) plain[commas->first] = '.';
+    if (const auto commas = commasOf(plain); commas && commas->isDecimal()) plain[plain.find(',')] = '.';
     return unit.empty() ? parseNumber(plain) : parseQuantity(plain, unit);
 }
 
 std::string typedTrouble(std::string_view text) {
-    text = trimmed(text);
-    const auto commas = commasOf(text);
+    const auto commas = commasOf(trimmed(text));
     if (!commas || commas->isDecimal()) return "";
-    if (commas->count > 1 || commas->hasPoint) return "; write it with a point, and without commas";
-    const auto sign = isDigit(text.front()) ? std::string_view() : text.substr(0, 1);
-    const auto whole = text.substr(sign.size(), commas->digitsBefore);
-    const auto rest = text.substr(commas->first + 1, commas->digitsAfter);
-    return fmt::format("; \"{}{},{}\" may be {}{}.{} or {}{}{}: write one of these", sign, whole, rest, sign, whole,
-                       rest, sign, whole, rest);
+    if (!commas->isOne) return "; write it with a point, and without commas";
+    const auto& [sign, whole, part, isOne] = *commas;
+    return fmt::format("; \"{0}{1},{2}\" may be {0}{1}.{2} or {0}{1}{2}: write one of these", sign, whole, part);
 }
 
 }  // namespace tacto

@@ -31,6 +31,7 @@ struct ResultTraits {
     bool guardBanded = false;            ///< true if the uncertainty counts against the device
     bool ofStudy = false;                ///< true for a session of a study, kept in its participant's record
     std::string_view procedure = {};     ///< usual name if it differs from `name`: "safety check"
+    std::vector<std::string> members{};  ///< keys of the analysis' own record; empty if a protocol makes the record
     std::vector<ResultTable> tables{};   ///< in reading order
 };
 

@@ -148,6 +148,16 @@ public:
         for (const auto& [at, value] : members_) out[at] = value(record);
         return out;
     }
+    /// Returns the keys of the members in the order added, those of nested records as "a.b", each once.
+    [[nodiscard]] std::vector<std::string> keys() const {
+        std::vector<std::string> all;
+        for (const auto& [at, value] : members_) {
+            auto key = at.to_string().substr(1);
+            std::ranges::replace(key, '/', '.');
+            if (std::ranges::find(all, key) == all.end()) all.push_back(std::move(key));
+        }
+        return all;
+    }
     [[nodiscard]] const std::vector<ResultColumn>& columns() const& noexcept { return columns_; }
     [[nodiscard]] std::vector<ResultColumn> columns() && { return std::move(columns_); }
     /// Returns the column with that key under another title, for another table.

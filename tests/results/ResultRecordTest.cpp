@@ -1,4 +1,5 @@
 // The output of a described record, and its columns.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <limits>
 
@@ -60,6 +61,8 @@ TEST(ResultRecords, WriteEachMemberUnderItsKey) {
         "counts": [[1, 2], []], "note": null, "value_low": -1.0, "value_high": null,
         "seen": {"colour": "green", "parts": 2}})");
     EXPECT_EQ(describeWhole().write(whole), expected);
+    EXPECT_THAT(describeWhole().keys(), testing::ElementsAre("rank", "parts", "best", "counts", "note", "value_low",
+                                                             "value_high", "seen.colour", "seen.parts"));
     whole.best = whole.parts.front();
     whole.rank.reset();
     whole.note = "few";

@@ -86,6 +86,13 @@ bool has(const nlohmann::json& record, const std::string& path) {
     return within.is_object() && within.contains(dot == path.npos ? path : path.substr(dot + 1));
 }
 
+/// Returns keys that the analysis declares and the results lack.
+std::vector<std::string> missingMembers(const nlohmann::json& results) {
+    auto declared = resultTraits(results.at("kind").get<std::string>()).members;
+    std::erase_if(declared, [&](const auto& key) { return has(results, key); });
+    return declared;
+}
+
 /// Returns columns that are empty in every record of a table: keys that no analysis writes.
 std::set<std::string> emptyColumns(const nlohmann::json& results) {
     static const std::set<std::string> kWhereAsked{"reason",   "note",       "reason",      "spearman.note",
@@ -129,6 +136,7 @@ TEST_P(EveryShippedProtocol, RunsOnTheSimulatedBench) {
     const auto reader = SessionReader::open(rig.folder().path() / "run.tacto").value();
     EXPECT_GE(reader.reportItems().value().size(), 2U);
     EXPECT_EQ(emptyColumns(outcome.results), std::set<std::string>{});
+    EXPECT_THAT(missingMembers(outcome.results), testing::IsEmpty());
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, EveryShippedProtocol, ::testing::ValuesIn(namesWithoutStudy()),

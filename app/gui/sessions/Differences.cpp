@@ -14,7 +14,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr int kMaxNamedAlone = 4;  // up to this many, conditions are named one by one
-constexpr int kMaxPerPart = 120;   // most sentences per part; nobody reads more
+constexpr int kMaxPerPart = 120;   // most sentences per part; more would not be read
 
 QString tr(const char* text) { return QObject::tr(text); }
 

@@ -140,7 +140,7 @@ void ArmDialog::judge() {
     arm_->setEnabled(parsed && (readsBack_ || connected_->isChecked()));
 }
 
-/// Says what the first train will be, so that it surprises nobody.
+/// Says what the first train will be, so that it comes as no surprise.
 void ArmDialog::sayFirst() {
     const auto source = controller_.telemetry().driving;
     QString text = tr("Drive is off: no train follows until you choose one.");

@@ -110,7 +110,11 @@ std::string scriptReference() {
         }
         out += fmt::format("\n### `{}`\n\n{}\n", heading(function), function.text);
         for (const auto& parameter : function.parameters) out += describe(parameter);
-        if (!function.returns.empty()) out += fmt::format("\nReturns: {}\n", function.returns);
+        if (!function.returns.empty()) {
+            const auto members =
+                function.members.empty() ? "" : fmt::format("{{ {} }}", fmt::join(function.members, ", "));
+            out += fmt::format("\nReturns: {}{}\n", members, function.returns);
+        }
         if (!function.errors.empty()) out += fmt::format("\n{}\n", function.errors);
     }
     return out;

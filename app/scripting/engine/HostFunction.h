@@ -34,7 +34,8 @@ struct HostFunction {
     HostKind kind = HostKind::Function;
     std::vector<HostParameter> parameters = {};
     std::string_view text = {};               ///< what the function does, in one or two sentences
-    std::string_view returns = {};            ///< empty if it returns nothing
+    std::vector<std::string> members = {};    ///< keys of the record that it returns, if an analysis describes them
+    std::string_view returns = {};            ///< what is to be said of the result; empty if it returns nothing
     std::string_view errors = {};             ///< when it throws; empty if it throws only for wrong arguments
     std::vector<std::string_view> asks = {};  ///< questions to the operator that a search of the script reports
     std::optional<Role> needs = {};           ///< the call fails without a device of this role

@@ -53,7 +53,7 @@ struct RunRequest {
     /// MemoryGuard.
     std::optional<std::size_t> memoryLimit;
     std::uint64_t seed = 1;
-    Bench* bench = nullptr;               ///< used by nobody else until the run is over, except for stop()
+    Bench* bench = nullptr;               ///< for the run alone until it is over, except for stop()
     std::filesystem::path program;        ///< runs instead of tactoscope-script, unless empty
     StopMark asked = {};                  ///< the bench's stops() when the operator requested the run
     SessionWriter* session = nullptr;     ///< null: nothing is recorded

@@ -178,7 +178,7 @@ void addQuantity(Tables& all, const std::string& title, const std::string& id) {
         return all.emplace_back(
             rows((title + what).c_str(), (id + at).c_str(), std::move(columns), Else::InTheTerminal));
     };
-    add(": levels", ".levels", describeJudgedLevel().columns()).note =
+    add(": levels", ".levels", builtOnce<describeJudgedLevel>().columns()).note =
         "The error that is judged is that of the worse direction, with its U (95 %).";
     const auto contributions = describeContribution().columns();
     add(": uncertainty at the largest command", ".budget.rows", contributions);
@@ -230,6 +230,8 @@ ResultTraits stimulatorCalibrationKind() {
             .guardBanded = true,
             .tables = withBasis(stimulatorTables())};
 }
+
+std::vector<std::string> judgedMembers() { return judgedRecord().keys(); }
 
 const ResultRecord<Calibration>& calibrationRecord() { return builtOnce<describeCalibration>(); }
 

@@ -39,5 +39,7 @@ namespace tacto {
 /// Describes how a stimulator calibration, or the check of a stored one, is judged and shown.
 [[nodiscard]] ResultTraits stimulatorCalibrationKind();
 [[nodiscard]] const ResultRecord<Calibration>& calibrationRecord();
+/// Returns the keys of a judged calibration.
+[[nodiscard]] std::vector<std::string> judgedMembers();
 
 }  // namespace tacto

@@ -277,20 +277,23 @@ ResultRecord<Drift> describeDrift() {
     return all;
 }
 
+constexpr std::string_view kDrift = "drift";
+
 }  // namespace
 
 nlohmann::json toJson(const Drift& found) {
     auto out = builtOnce<describeDrift>().write(found);
-    out["kind"] = driftKind().name;
+    out["kind"] = kDrift;
     return out;
 }
 
 ResultTraits driftKind() {
-    return {.name = "drift",
+    return {.name = kDrift,
             .decisionRule =
                 "Steady when the 95 % intervals of two changes lie within the tolerance: that of a straight line from "
                 "the first trial to the last, and the largest between two quarters of the trials; a fail when one of "
                 "them lies beyond it. The tolerance is a choice.",
+            .members = builtOnce<describeDrift>().keys(),
             .tables = withBasis(builtOnce<describeDrift>().tables())};
 }
 

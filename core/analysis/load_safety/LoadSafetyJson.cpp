@@ -1,5 +1,6 @@
 #include "core/analysis/load_safety/LoadSafetyJson.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/analysis/load_safety/LimitMatrix.h"
@@ -139,20 +140,20 @@ using namespace describe;
 /// A figure of the strongest step on a load that is shown in tables.
 struct ShownReading {
     const char* title;
-    const char* key;
     const char* unit;
     Reading LoadReading::*reading;
     bool keepsStandard = false;  ///< true if u is shown in addition to U
 };
-constexpr ShownReading kShownReadings[] = {
-    {"Peak voltage", "peak_v", "V", &LoadReading::peak_v, true},
-    {"Peak current", "peak_ma", "mA", &LoadReading::peak_ma, true},
-    {"RMS current in the train", "rms_train_ma", "mA", &LoadReading::rms_train_ma},
-    {"RMS current over 1 s", "rms_1s_ma", "mA", &LoadReading::rms_1s_ma},
-    {"RMS current over 5 s", "rms_5s_ma", "mA", &LoadReading::rms_5s_ma, true},
-    {"Charge of a phase", "charge_uc", "uC", &LoadReading::charge_uc},
-    {"Net charge of a pulse", "net_charge_uc", "uC", &LoadReading::net_charge_uc},
-    {"Energy of a pulse", "energy_mj", "mJ", &LoadReading::energy_mj}};
+constexpr ShownReading kShownReadings[] = {{"Peak voltage", "V", &LoadReading::peak_v, true},
+                                           {"Peak current", "mA", &LoadReading::peak_ma, true},
+                                           {"RMS current in the train", "mA", &LoadReading::rms_train_ma},
+                                           {"RMS current over 1 s", "mA", &LoadReading::rms_1s_ma},
+                                           {"RMS current over 5 s", "mA", &LoadReading::rms_5s_ma, true},
+                                           {"Charge of a phase", "uC", &LoadReading::charge_uc},
+                                           {"Net charge of a pulse", "uC", &LoadReading::net_charge_uc},
+                                           {"Energy of a pulse", "mJ", &LoadReading::energy_mj}};
+
+std::string keyOf(Reading LoadReading::*reading) { return std::ranges::find(kMembers, reading, &Member::reading)->key; }
 
 ResultRecord<LoadLine> describeLoad() {
     using L = LoadLine;
@@ -165,7 +166,7 @@ ResultRecord<LoadLine> describeLoad() {
     all.kept("measured_u_ohm", in(&L::measured_ohm, &Reading::u));
     all.kept("measured_expanded_ohm", in(&L::measured_ohm, &Reading::expanded));
     for (const auto& each : kShownReadings) {
-        const std::string key = each.key, expanded = key + "_expanded";
+        const std::string key = keyOf(each.reading), expanded = key + "_expanded";
         const auto strongest = in(&L::strongest, each.reading);
         all.shown({each.title, key, As::Number, each.unit, expanded}, in(strongest, &Reading::value));
         if (each.keepsStandard) all.kept(key + "_u", in(strongest, &Reading::u));
@@ -286,6 +287,7 @@ ResultTraits loadSafetyKind() {
                 "indeterminate between. Values that were not measured are not evaluated and prevent a pass.",
             .guardBanded = true,
             .procedure = "safety check",
+            .members = builtOnce<describeLoadSafety>().keys(),
             .tables = withBasis(builtOnce<describeLoadSafety>().tables())};
 }
 

@@ -290,6 +290,7 @@ ResultTraits sensorCalibrationKind() {
             .decisionRule =
                 "Accepted when the 95 % interval of d′ between the two references begins at 1 or above: the "
                 "scale then tells them apart.",
+            .members = sensorRecord().keys(),
             .tables = sensorTables()};
 }
 

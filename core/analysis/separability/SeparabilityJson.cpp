@@ -98,24 +98,27 @@ ResultRecord<Separability> describeSeparability() {
     return all;
 }
 
+constexpr std::string_view kKind = "separability";
+
 const ResultRecord<Separability>& separabilityRecord() { return builtOnce<describeSeparability>(); }
 
 }  // namespace
 
 json toJson(const Separability& found) {
     auto out = separabilityRecord().write(found);
-    out["kind"] = separabilityKind().name;
+    out["kind"] = kKind;
     return out;
 }
 
 ResultTraits separabilityKind() {
     return {.kind = ResultKind::Separability,
-            .name = "separability",
+            .name = kKind,
             .decisionRule =
                 "Separable when each pair of conditions is at least 5 just-noticeable differences apart in one "
                 "dimension and no coefficient of variation exceeds 5 %, each judged by its one-sided 95 % confidence "
                 "bound, and the accuracy's 95 % interval begins at 95 % or above. The 5 differences and the 5 % are "
                 "choices of this program.",
+            .members = separabilityRecord().keys(),
             .tables = withBasis(separabilityRecord().tables())};
 }
 

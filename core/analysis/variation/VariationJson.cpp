@@ -316,6 +316,7 @@ ResultTraits variationKind() {
     return {.kind = ResultKind::Variation,
             .name = "variation",
             .decisionRule = "A prediction: nothing is measured, and nothing is judged.",
+            .members = builtOnce<describeVariation>().keys(),
             .tables = builtOnce<describeVariation>().tables()};
 }
 

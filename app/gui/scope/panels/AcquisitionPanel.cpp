@@ -154,7 +154,7 @@ void AcquisitionPanel::sourceChanged() {
 }
 
 void AcquisitionPanel::setLevel(double level) {
-    // Rounded to three digits: the level follows the commanded amplitude, and nobody reads a fourth digit.
+    // Rounded to three digits: the level follows the commanded amplitude, and a fourth digit has no use.
     const QSignalBlocker quiet(level_);
     level_->setValue(QString::number(level, 'g', 3).toDouble());
 }

@@ -246,10 +246,9 @@ std::vector<HostFunction> calibrationAnalysis() {
                   .optional()},
          .text = "Fits measured against commanded, works out the uncertainty and judges each level with a guard band. "
                  "The uncertainty of own readings is at least what the oscilloscope states.",
-         .returns = "{ gain, offset, residual_max_pct_fs, repeatability_pct_fs, hysteresis_pct_fs, "
-                    "expanded_uncertainty, verdict, verdict_iec (± 20 %), reasons, levels, readings with outlier, "
-                    "budget: { rows }, calibration, ... }; calibration is its number for record.calibration(), null "
-                    "where a reading is not the program's own.",
+         .members = judgedMembers(),
+         .returns = " with quantity, unit, verdict_iec (± 20 %) and calibration, which is its number for "
+                    "record.calibration(), null where a reading is not the program's own.",
          .errors = "Throws for fewer than two levels, or where nothing was repeated.",
          .call = host::analysis::calibration},
     };

@@ -185,12 +185,9 @@ std::vector<HostFunction> variationAnalysis() {
          .parameters = host::analysis::variationParameters(),
          .text = "Predicts how virtual participants tell the conditions apart, drawn with the run's seed: no person "
                  "and no device takes part. Works on all cores, with the same result whatever their number.",
-         .returns = "{ simulated, participants, seed, partial, range_v, served, participants_refused, "
-                    "participants_not_feeling, participants_without_range, conditions, separability: [{ a, b, jnd, "
-                    "amplitude_jnd, interval_jnd }], labels, columns, confusion, complete, accuracy: { median, low, "
-                    "high }, presented_accuracy, information_bits, refused, not_felt, withheld, trials_needed: { "
-                    "per_participant, pooled, curve, assumptions }, pilots, premises, model, people }: low and high "
-                    "are 5 and 95 % of the participants. A condition counts where it is presented, felt and not too "
+         .members = variationKind().members,
+         .returns = ": low and high are 5 and 95 % of the participants. A condition counts where it is presented, felt "
+                    "and not too "
                     "strong; served are those for whom every one counts, and accuracy, confusion and pilots are "
                     "theirs. people holds the first 1000, a list per column.",
          .errors = "Throws for an option out of its range, and when the run is stopped; what was predicted until "

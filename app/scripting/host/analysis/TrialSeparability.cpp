@@ -79,8 +79,8 @@ std::vector<HostFunction> separabilityAnalysis() {
                   .of(ValueType::Text)
                   .optional()},
          .text = "Judges whether the conditions can be told apart from what was measured.",
-         .returns =
-             "{ verdict, reasons, conditions, pairs, confusion, accuracy, folds, trials }, for plot.* and verdict().",
+         .members = separabilityKind().members,
+         .returns = " with kind and trials, for plot.* and verdict().",
          .errors = "Throws for fewer than two conditions, or a value that is not above zero.",
          .call = host::analysis::separability},
         {.name = "drift",
@@ -90,8 +90,8 @@ std::vector<HostFunction> separabilityAnalysis() {
                             .otherwise(DriftOptions{}.tolerance_pct)},
          .text = "Judges whether the amplitude stayed where it was over the trials: along a straight line, and from "
                  "one quarter of them to another.",
-         .returns = "{ verdict, reasons, trials, tolerance_pct, change_pct, between_quarters_pct, conditions, "
-                    "quarters, curves }, for plot.curves() (its curves) and verdict().",
+         .members = driftKind().members,
+         .returns = " with kind, for plot.curves() (its curves) and verdict().",
          .errors = "Throws for no trials, or an amplitude that is not above zero.",
          .call = host::analysis::drift},
     };

@@ -436,10 +436,11 @@ std::vector<HostFunction> loadSafetyFunctions() {
          .call = host::load_safety::silence},
         {.name = "judge",
          .text = "Judges everything measured so far against every limit set with its guard band.",
+         .members = loadSafetyKind().members,
          .returns =
-             "{ kind, verdict, reasons, loads, rows, matrix, disclosed, described, worst_case } for "
-             "verdict(): what is missing reads \"not evaluated\", and then the verdict is "
-             "not a pass. matrix is { loads, lines }, every limit once with a cell per load and the margin left, "
+             " with kind, matrix and described, for verdict(): what is missing reads \"not evaluated\", and then the "
+             "verdict is not a pass. matrix is { loads, lines }, every limit once with a cell per load and the margin "
+             "left, "
              "the smallest first.",
          .call = host::load_safety::judge},
         {.name = "tracings",
