@@ -4,6 +4,7 @@
 
 #include "core/analysis/calibration/CalibrationJson.h"
 #include "core/analysis/drift/Drift.h"
+#include "core/analysis/encodings/ComparedEncodings.h"
 #include "core/analysis/load_safety/LoadSafetyJson.h"
 #include "core/analysis/sensor_calibration/SensorCalibrationJson.h"
 #include "core/analysis/separability/SeparabilityJson.h"
@@ -19,33 +20,6 @@ namespace {
 using namespace describe;
 
 // Kinds with results that only a protocol assembles.
-
-ResultTraits encodingComparison() {
-    return {.kind = ResultKind::EncodingComparison,
-            .name = "encoding-comparison",
-            .decisionRule = "A comparison: the encodings are set side by side, and none is judged.",
-            .tables = withBasis(
-                {facts("Comparison", "", {text("Compared with", "default"), jnd("Asymmetry (JND)", "asymmetry_jnd")},
-                       Else::InTheTerminal),
-                 rows("Encodings: smallest distances in just-noticeable differences", "encodings",
-                      {text("Encoding", "name"), jnd("Amplitude (JND)", "smallest_amplitude_jnd"),
-                       jnd("Interval (JND)", "smallest_interval_jnd"), jnd("Smallest pair (JND)", "smallest_pair_jnd"),
-                       jnd("Neighbours, smallest (JND)", "neighbours.min_jnd"),
-                       jnd("A train, at most (JND)", "gradual_jnd"), as(As::Share, "Recognised", "accuracy"),
-                       as(As::Verdict, "Separable", "separable")}),
-                 rows("Conditions as measured, and how far they moved against the default", "conditions",
-                      {text("Encoding", "encoding"), text("Condition", "name"),
-                       number("Amplitude, mean and s.d.", "amplitude_v", "V"),
-                       number("Interval, mean and s.d.", "interval_s", "s"),
-                       jnd("Amplitude moved (JND)", "amplitude_jnd"), jnd("Interval moved (JND)", "interval_jnd")},
-                      Else::InTheTerminal),
-                 rows("Distances beside those of the default", "differences",
-                      {text("Encoding", "encoding"), jnd("Smallest pair (JND)", "pair_jnd"),
-                       jnd("Neighbours, smallest (JND)", "neighbours_min_jnd"),
-                       jnd("Neighbours, mean (JND)", "neighbours_mean_jnd"),
-                       jnd("A train, at most (JND)", "per_train_jnd")},
-                      Else::InTheTerminal)})};
-}
 
 ResultTraits recording(ResultKind kind, std::string_view name, Columns delivered) {
     Columns columns{number("Duration", "duration_s", "s")};
@@ -74,7 +48,7 @@ const ResultTraits& resultTraits(std::string_view name) {
     static const ResultTraits kOther;
     static const std::vector<ResultTraits> kKinds{separabilityKind(),
                                                   driftKind(),
-                                                  encodingComparison(),
+                                                  comparedEncodingsKind(),
                                                   transitionsKind(),
                                                   variationKind(),
                                                   loadSafetyKind(),

@@ -119,11 +119,19 @@ public:
         kept("verdict", &Record::verdict);
         kept("reasons", &Record::reasons);
     }
-    /// Adds all members of a nested record to this one. A later member with the same key replaces the earlier.
+    /// Adds all members of a nested record to this one; those of an absent record are left out. A later member with the
+    /// same key replaces the earlier.
     template <class Get, class Part>
     void merge(Get get, const ResultRecord<Part>& part) {
         part.each([&](const nlohmann::json::json_pointer& at, const auto& value) {
-            members_.emplace_back(at, [get, value](const Record& record) { return value(std::invoke(get, record)); });
+            members_.emplace_back(at, [get, value](const Record& record) -> nlohmann::json {
+                const auto& held = std::invoke(get, record);
+                if constexpr (detail::kIsOptional<std::remove_cvref_t<decltype(held)>>) {
+                    return held ? value(*held) : nlohmann::json(nlohmann::json::value_t::discarded);
+                } else {
+                    return value(held);
+                }
+            });
         });
     }
 
@@ -145,7 +153,9 @@ public:
 
     [[nodiscard]] nlohmann::json write(const Record& record) const {
         auto out = nlohmann::json::object();
-        for (const auto& [at, value] : members_) out[at] = value(record);
+        for (const auto& [at, value] : members_) {
+            if (auto written = value(record); !written.is_discarded()) out[at] = std::move(written);
+        }
         return out;
     }
     /// Returns the keys of the members in the order added, those of nested records as "a.b", each once.

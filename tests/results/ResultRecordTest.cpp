@@ -72,6 +72,16 @@ TEST(ResultRecords, WriteEachMemberUnderItsKey) {
     EXPECT_EQ(written["note"], "few");
 }
 
+TEST(ResultRecords, LeaveOutTheMembersOfAnAbsentMergedRecord) {
+    ResultRecord<Whole> all;
+    all.kept("note", &Whole::note);
+    all.merge(&Whole::best, describePart());
+    Whole whole;
+    EXPECT_EQ(all.write(whole), nlohmann::json::parse(R"({"note": ""})"));
+    whole.best = Part{"a", 1.5};
+    EXPECT_EQ(all.write(whole), nlohmann::json::parse(R"({"note": "", "name": "a", "value": 1.5})"));
+}
+
 TEST(ResultRecords, ShowInTheirTablesWhatTheyHold) {
     const auto whole = describeWhole();
     ASSERT_EQ(whole.tables().size(), 2U);

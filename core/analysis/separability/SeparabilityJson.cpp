@@ -8,7 +8,6 @@
 #include "core/base/LocaleFreeText.h"
 #include "core/base/RecordFields.h"
 #include "core/base/Statistics.h"
-#include "core/results/ResultRecord.h"
 
 namespace tacto {
 
@@ -76,6 +75,16 @@ ResultRecord<PairSummary> describePair() {
     return all;
 }
 
+ResultRecord<FeltReference> describeFeltReference() {
+    using F = FeltReference;
+    ResultRecord<F> all;
+    all.shown(text("Material", "material"), &F::material);
+    all.shown(number("Vibration h", "h"), &F::h);
+    all.shown(number("Taxels v", "v"), &F::v);
+    all.shown(number("Frames", "frames"), &F::frames);
+    return all;
+}
+
 ResultRecord<Separability> describeSeparability() {
     using S = Separability;
     ResultRecord<S> all;
@@ -84,14 +93,12 @@ ResultRecord<Separability> describeSeparability() {
     all.shown(number("Instrument's floor, amplitude", "floor.amplitude_v", "V"), &S::amplitudeFloor);
     all.shown(number("Instrument's floor, interval", "floor.interval_s", "s"), &S::intervalFloor_s);
     all.facts("Recognition");
-    // The protocol adds this table.
-    all.table(rows(
-        "Reference surfaces", "references",
-        {text("Material", "material"), number("Vibration h", "h"), number("Taxels v", "v"), number("Frames", "frames")},
-        Else::InTheTerminal));
-    all.rows("Conditions", "conditions", &S::conditions, describeCondition()).note =
+    // The protocol adds these, of surfaces that were felt before the trials.
+    all.table(
+        rows("Reference surfaces", "references", builtOnce<describeFeltReference>().columns(), Else::InTheTerminal));
+    all.rows("Conditions", "conditions", &S::conditions, conditionRecord()).note =
         "At most and at least: the one-sided 95 % confidence bound, by which each is judged.";
-    all.rows("Pairs", "pairs", &S::pairs, describePair());
+    all.rows("Pairs", "pairs", &S::pairs, pairRecord());
     all.table(confusion());
     all.kept("confusion", &S::confusion);
     all.judged();
@@ -103,6 +110,11 @@ constexpr std::string_view kKind = "separability";
 const ResultRecord<Separability>& separabilityRecord() { return builtOnce<describeSeparability>(); }
 
 }  // namespace
+
+const ResultRecord<ConditionSummary>& conditionRecord() { return builtOnce<describeCondition>(); }
+const ResultRecord<PairSummary>& pairRecord() { return builtOnce<describePair>(); }
+
+json toJson(const FeltReference& felt) { return builtOnce<describeFeltReference>().write(felt); }
 
 json toJson(const Separability& found) {
     auto out = separabilityRecord().write(found);

@@ -10,6 +10,7 @@
 #include "core/analysis/separability/Separability.h"
 #include "core/base/Result.h"
 #include "core/results/ResultKind.h"
+#include "core/results/ResultRecord.h"
 
 namespace tacto {
 
@@ -19,6 +20,19 @@ namespace tacto {
 /// {"condition","amplitude_v","interval_s","amplitude_u_v","interval_u_s","time_base_u",
 /// "amplitude_gain_u"}
 [[nodiscard]] nlohmann::json toJson(const SeparabilityTrial& trial);
+
+/// Describe the members and columns of a condition and of a pair.
+[[nodiscard]] const ResultRecord<ConditionSummary>& conditionRecord();
+[[nodiscard]] const ResultRecord<PairSummary>& pairRecord();
+
+/// A reference surface that was felt before the trials.
+struct FeltReference {
+    std::string material;
+    double h = 0;  ///< vibration feature; NaN if this rig does not have it, as `v` of the taxels
+    double v = 0;
+    std::size_t frames = 0;  ///< number of readings in the means
+};
+[[nodiscard]] nlohmann::json toJson(const FeltReference& felt);
 
 /// {"conditions","pairs","confusion","accuracy","verdict","reasons", ...}
 [[nodiscard]] nlohmann::json toJson(const Separability& found);

@@ -155,38 +155,50 @@ const RecordFields<CapturedChange>& fieldsOf(ChangeKind kind) {
     return kind == ChangeKind::Movement ? movement : step;
 }
 
+ResultRecord<TransitionsFound> describeFound() {
+    using F = TransitionsFound;
+    const auto changes = describeChanges();
+    const auto latency = describeLatency();
+    const auto& computed = computedTransitionsRecord();
+    const auto add = [](ResultRecord<F>& all, const std::string& place, const auto& part) {
+        for (auto& column : under(place, part.columns())) all.shown(std::move(column));
+    };
+    ResultRecord<F> all;
+    all.kept("transitions", &F::computed);
+    all.kept("steps", &F::steps);
+    all.kept("jumps", &F::jumps);
+    all.kept("movements", &F::movements);
+    all.kept("changes", &F::changes, changes);
+    all.kept("latency", &F::latency, latency);
+    add(all, "changes", changes);
+    add(all, "latency", latency);
+    add(all, "transitions", computed);
+    all.facts("Changes", Else::InTheTerminal);
+    all.table(under("changes", changes.tables().front()));
+    all.table(under("latency", latency.tables().front()));
+    all.table(under("transitions", computed.tables().front()));
+    all.kept("notes", [](const F& found) { return found.changes ? found.changes->notes : std::vector<std::string>(); });
+    all.table(sentences("Notes", "notes", Else::InBoth));
+    all.judged();
+    return all;
+}
+
 }  // namespace
 
 nlohmann::json toJson(const CapturedChange& change) { return fieldsOf(change.kind).write(change); }
 
-nlohmann::json toJson(const LatencyJudgement& judgement) { return builtOnce<describeLatency>().write(judgement); }
-
-nlohmann::json toJson(const ChangeJudgement& judgement) { return builtOnce<describeChanges>().write(judgement); }
+nlohmann::json toJson(const TransitionsFound& found) { return builtOnce<describeFound>().write(found); }
 
 ResultTraits transitionsKind() {
-    const auto& changes = builtOnce<describeChanges>();
-    const auto& latency = builtOnce<describeLatency>();
-    auto limits = under("changes", changes.columns());
-    std::ranges::copy(under("latency", latency.columns()), std::back_inserter(limits));
-    // The protocol adds the changes that the encoding makes.
-    limits.push_back(jnd("Largest change, gradual (JND)", "transitions.gradual.largest_jnd"));
-    limits.push_back(jnd("Largest change, abrupt (JND)", "transitions.abrupt.largest_jnd"));
-    return {
-        .kind = ResultKind::Transitions,
-        .name = "transitions",
-        .decisionRule =
-            "No step from one captured train to the next may exceed the just-noticeable differences wanted, "
-            "uncertainty included; a change must be complete in the time wanted or, where steps of that size "
-            "cannot, in the fewest trains that they take (choice); no latency may differ from its design by more "
-            "than the tolerance.",
-        .tables = withBasis({facts("Changes", "", std::move(limits), Else::InTheTerminal),
-                             under("changes", changes.tables().front()), under("latency", latency.tables().front()),
-                             rows("Computed from the encoding: largest step from train to train", "transitions.largest",
-                                  {text("Movement", "movement"), text("Of", "of"), number("From", "from", "@unit"),
-                                   number("To", "to", "@unit"), jnd("Step (JND)", "jnd"), number("R", "roughness"),
-                                   number("P", "pressure"), as(As::YesNo, "As wanted", "wanted")},
-                                  Else::InTheTerminal),
-                             sentences("Notes", "notes", Else::InBoth)})};
+    return {.kind = ResultKind::Transitions,
+            .name = "transitions",
+            .decisionRule =
+                "No step from one captured train to the next may exceed the just-noticeable differences wanted, "
+                "uncertainty included; a change must be complete in the time wanted or, where steps of that size "
+                "cannot, in the fewest trains that they take (choice); no latency may differ from its design by more "
+                "than the tolerance.",
+            .members = builtOnce<describeFound>().keys(),
+            .tables = withBasis(builtOnce<describeFound>().tables())};
 }
 
 }  // namespace tacto

@@ -8,6 +8,8 @@
 #include "app/scripting/engine/Arguments.h"
 #include "app/scripting/engine/ScriptSession.h"
 #include "core/analysis/calibration/CalibrationVerdict.h"
+#include "core/analysis/separability/Separability.h"
+#include "core/analysis/transitions/ComputedTransitions.h"
 #include "core/analysis/variation/Variation.h"
 
 namespace tacto::host::analysis {
@@ -25,15 +27,15 @@ struct CalibrationAsked {
 /// InvalidArgument for an entry that is no reading; as fitCalibration().
 [[nodiscard]] Result<Json> calibrationOf(ScriptSession& session, const Json& readings, const CalibrationAsked& asked);
 
-/// Returns the result of analysis.separability(). Errors: InvalidArgument naming the called function.
-[[nodiscard]] Result<Json> separabilityOf(const Arguments& arguments, const Json& trials,
-                                          std::vector<std::string> conditions);
+/// Judges trials as analysis.separability() does. Errors: InvalidArgument naming the called function.
+[[nodiscard]] Result<Separability> separabilityOf(const Arguments& arguments, const Json& trials,
+                                                  std::vector<std::string> conditions);
 
 /// Returns the members lines, traverse_s and jumps of "options" or "settings".
 [[nodiscard]] std::vector<HostParameter> sweepSettings(bool ofOptions);
-/// Returns the result of analysis.transitions() for the present encoding.
-[[nodiscard]] Result<Json> computedTransitions(ScriptSession& session, const Arguments& arguments, int lines,
-                                               double traverse_s, bool jumps);
+/// Computes the transitions of the present encoding as analysis.transitions() does.
+[[nodiscard]] Result<ComputedTransitions> computedTransitions(ScriptSession& session, const Arguments& arguments,
+                                                              int lines, double traverse_s, bool jumps);
 
 /// Returns the parameters that are options of analysis.variation().
 [[nodiscard]] std::vector<HostParameter> variationParameters();

@@ -6,7 +6,7 @@
 #include "app/scripting/host/analysis/RunAnalysis.h"
 #include "core/analysis/drift/Drift.h"
 #include "core/analysis/separability/SeparabilityJson.h"
-#include "core/analysis/statistics/StatisticsJson.h"
+#include "core/results/ResultRecord.h"
 
 namespace tacto::host::analysis {
 
@@ -31,25 +31,28 @@ Result<std::vector<SeparabilityTrial>> trialsFrom(const Arguments& arguments, co
     return trials;
 }
 
+Result<Separability> judged(std::span<const SeparabilityTrial> trials, std::vector<std::string> conditions) {
+    return judgeSeparability(trials, {.conditions = std::move(conditions)});
+}
+
 }  // namespace
 
-Result<Json> separabilityOf(const Arguments& arguments, const Json& rows, std::vector<std::string> conditions) {
+Result<Separability> separabilityOf(const Arguments& arguments, const Json& rows, std::vector<std::string> conditions) {
     const auto trials = trialsFrom(arguments, rows);
     if (!trials) return failure(trials);
-    SeparabilityOptions options;
-    options.conditions = std::move(conditions);
-    auto found = judgeSeparability(*trials, options);
-    if (!found) return failure(found);
-    Json out = toJson(*found);
-    out["trials"] = Json::array();
-    for (const auto& trial : *trials) out["trials"].push_back(toJson(trial));
-    return out;
+    return judged(*trials, std::move(conditions));
 }
 
 namespace {
 
 Result<Json> separability(ScriptSession&, const Arguments& arguments) {
-    return separabilityOf(arguments, arguments.list("trials"), arguments.list("options.conditions"));
+    const auto trials = trialsFrom(arguments, arguments.list("trials"));
+    if (!trials) return failure(trials);
+    const auto found = judged(*trials, arguments.list("options.conditions"));
+    if (!found) return failure(found);
+    Json out = toJson(*found);
+    out["trials"] = resultJson(*trials);
+    return out;
 }
 
 Result<Json> drift(ScriptSession&, const Arguments& arguments) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "app/scripting/host/bench/BenchCalls.h"
+#include "core/analysis/separability/SeparabilityJson.h"
 #include "core/base/JsonText.h"
 #include "core/base/Statistics.h"
 
@@ -100,8 +101,8 @@ Result<Json> measureReference(ScriptSession& session, const Arguments& arguments
         return fail(ErrorCode::Device, "bench.measureReference: {} was not felt in {} s of sliding", material,
                     duration);
     }
-    const auto mean = [](const std::vector<double>& x) { return x.empty() ? Json() : Json(statisticsOf(x).mean); };
-    Json out{{"material", material}, {"h", mean(h)}, {"v", mean(v)}, {"frames", std::max(h.size(), v.size())}};
+    Json out =
+        toJson(FeltReference{material, statisticsOf(h).mean, statisticsOf(v).mean, std::max(h.size(), v.size())});
     session.own().note(out);
     return out;
 }

@@ -25,33 +25,35 @@ struct TransitionRun {
     ChangeLimits limits{kWantedPerTrain};
     double traverse_s = 0;
     std::vector<std::string> stepNames, names;  ///< steps with a judged latency; all changes
-    Json sweep;
-    std::vector<CapturedChange> steps, jumps, movements;
-    Json results = Json::object();
-    ChangeJudgement changes;
-    LatencyJudgement latency;
+    TransitionsFound found = {};
+    Json reference = {};  ///< null until the known load was read
 };
+
+Json resultsOf(const TransitionRun& run) {
+    Json results = toJson(run.found);
+    if (!run.reference.is_null()) results["reference"] = run.reference;
+    return results;
+}
 
 /// Judges everything captured so far, and keeps the result in case the run ends early.
 void judge(ScriptSession& session, TransitionRun& run) {
+    TransitionsFound& found = run.found;
     std::vector<CapturedChange> all;
-    for (const auto* some : {&run.steps, &run.jumps, &run.movements}) all.insert(all.end(), some->begin(), some->end());
-    run.latency = judgeLatency(run.steps, run.stepNames, run.latency_s);
-    run.changes = judgeChanges(all, run.names, run.limits);
-    run.results["latency"] = toJson(run.latency);
-    run.results["changes"] = toJson(run.changes);
-    session.keepPartial(run.results, Json::array());
+    for (const auto* some : {&found.steps, &found.jumps, &found.movements})
+        all.insert(all.end(), some->begin(), some->end());
+    found.latency = judgeLatency(found.steps, run.stepNames, run.latency_s);
+    found.changes = judgeChanges(all, run.names, run.limits);
+    session.keepPartial(resultsOf(run), Json::array());
 }
 
-std::string limitsText(const Json& sweep) {
+std::string limitsText(const EncodingProfile& encoding) {
     std::vector<std::string> limits;
-    const auto add = [&](const char* key, const char* text) {
-        const double limit = sweep.at(key).get<double>();
+    const auto add = [&](double limit, const char* text) {
         if (limit > 0) limits.push_back(fmt::format(fmt::runtime(text), limit));
     };
-    add("amplitude_ratio_per_train", "amplitude at most {} times the one before");
-    add("amplitude_slew_v_per_s", "amplitude by at most {} V/s");
-    add("interval_ratio_per_train", "interval at most {} times the one before");
+    add(encoding.amplitudeRatioPerTrain, "amplitude at most {} times the one before");
+    add(encoding.amplitudeSlew_V_per_s, "amplitude by at most {} V/s");
+    add(encoding.intervalRatioPerTrain, "interval at most {} times the one before");
     if (limits.empty()) return "No limits on a step: a change is taken in one train.";
     return fmt::format("Limits on a step from train to train, either way: {}.", fmt::join(limits, ", "));
 }
@@ -98,10 +100,10 @@ double least(const std::vector<double>& values) { return values.empty() ? kNaN :
 double most(const std::vector<double>& values) { return values.empty() ? kNaN : *std::ranges::max_element(values); }
 
 /// Returns the words of a pass: what was found, and why the wanted time cannot be reached.
-Json passedText(const ChangeJudgement& changes) {
+std::vector<std::string> passedReasons(const ChangeJudgement& changes) {
     const double largest_jnd = largest(
         changes.groups, [](const ChangeGroup& group) { return std::max(group.amplitude.jnd, group.interval.jnd); });
-    Json out = {
+    std::vector<std::string> out = {
         fmt::format("No captured train differs from the one before by more than {:.2f} just-noticeable "
                     "differences; at most 2 are wanted",
                     largest_jnd)};
@@ -139,17 +141,14 @@ Result<Json> begin(ScriptSession& session, const Arguments& arguments) {
     first.stepNames = arguments.list("steps").get<std::vector<std::string>>();
     first.names = first.stepNames;
     for (const auto& name : arguments.list("changes")) first.names.push_back(name);
-    auto sweep = analysis::computedTransitions(session, arguments, arguments.whole("settings.lines"), first.traverse_s,
-                                               arguments.flag("settings.jumps"));
-    if (!sweep) return sweep;
-    first.sweep = std::move(*sweep);
-    for (const char* key : {"steps", "jumps", "movements"}) first.results[key] = Json::array();
-    for (const char* key : {"changes", "latency"}) first.results[key] = nullptr;
-    first.results["transitions"] = first.sweep;
+    auto computed = analysis::computedTransitions(session, arguments, arguments.whole("settings.lines"),
+                                                  first.traverse_s, arguments.flag("settings.jumps"));
+    if (!computed) return failure(computed);
+    first.found.computed = std::move(*computed);
     const auto run = session.begin(arguments.object(), std::move(first));
     if (!run) return failure(run);
-    session.keepPartial((*run)->results, Json::array());
-    return done(session.reportText(limitsText((*run)->sweep)));
+    session.keepPartial(resultsOf(**run), Json::array());
+    return done(session.reportText(limitsText((*run)->found.computed.encoding)));
 }
 
 Result<Json> knownLoad(ScriptSession& session, const Arguments& arguments) {
@@ -157,8 +156,8 @@ Result<Json> knownLoad(ScriptSession& session, const Arguments& arguments) {
     if (!run) return failure(run);
     auto known = bench::knownLoad(session, (*run)->load_ohm, (*run)->load_pct);
     if (!known) return known;
-    (*run)->results["reference"] = *known;
-    return known->at("passed");
+    (*run)->reference = std::move(*known);
+    return (*run)->reference.at("passed");
 }
 
 Place placeFrom(const Arguments& arguments, const std::string& name) {
@@ -186,9 +185,8 @@ Result<Json> step(ScriptSession& session, const Arguments& arguments) {
     const Json trial = toJson(*change);
     change->name = arguments.text("change.name");
     const bool counts = std::ranges::find(run.stepNames, change->name) != run.stepNames.end();
-    run.results[counts ? "steps" : "jumps"].push_back(toJson(*change));
     if (auto added = session.addTrial(change->name, trial); !added) return failure(added);
-    (counts ? run.steps : run.jumps).push_back(std::move(*change));
+    (counts ? run.found.steps : run.found.jumps).push_back(std::move(*change));
     judge(session, run);
     return Json();
 }
@@ -200,8 +198,7 @@ Result<Json> traverse(ScriptSession& session, const Arguments& arguments) {
     auto change = captureMovement(session, placeFrom(arguments, "from"), placeFrom(arguments, "to"), run.traverse_s);
     if (!change) return failure(change);
     change->name = arguments.text("change.name");
-    run.results["movements"].push_back(toJson(*change));
-    run.movements.push_back(std::move(*change));
+    run.found.movements.push_back(std::move(*change));
     return Json();
 }
 
@@ -210,24 +207,24 @@ Result<Json> conclude(ScriptSession& session, const Arguments& arguments) {
     const auto begun = session.begun<TransitionRun>(arguments.object());
     if (!begun) return failure(begun);
     TransitionRun& run = **begun;
-    const Json known = run.results.value("reference", Json());
-    if (known.is_null())
+    if (run.reference.is_null())
         return fail(ErrorCode::InvalidArgument, "{0}.conclude: {0}.knownLoad() is expected first", arguments.object());
     judge(session, run);
+    TransitionsFound& found = run.found;
     if (auto said = session.reportText(askedText(run.limits)); !said) return failure(said);
-    if (auto said = session.reportText(openText(run.changes.groups)); !said) return failure(said);
-    Json reasons = run.changes.reasons;
-    for (const auto& reason : run.latency.reasons) reasons.push_back(reason);
-    for (const auto& reason : run.sweep["reasons"])
-        reasons.push_back("computed, not captured: " + reason.get<std::string>());
-    if (known["passed"] != true)
-        reasons.insert(reasons.begin(), known["reason"].get<std::string>() + "; nothing was measured");
-    const auto designed = run.sweep["verdict"] == "pass" ? Verdict::Pass : Verdict::Indeterminate;
-    const auto verdict = worseOf(worseOf(run.changes.verdict, run.latency.verdict), designed);
-    run.results["notes"] = run.changes.notes;
-    run.results["verdict"] = nameOf(verdict);
-    run.results["reasons"] = verdict == Verdict::Pass ? passedText(run.changes) : reasons;
-    return run.results;
+    if (auto said = session.reportText(openText(found.changes->groups)); !said) return failure(said);
+    const auto designed = found.computed.verdict == Verdict::Pass ? Verdict::Pass : Verdict::Indeterminate;
+    found.verdict = worseOf(worseOf(found.changes->verdict, found.latency->verdict), designed);
+    if (found.verdict == Verdict::Pass) {
+        found.reasons = passedReasons(*found.changes);
+        return resultsOf(run);
+    }
+    if (run.reference["passed"] != true)
+        found.reasons.push_back(run.reference["reason"].get<std::string>() + "; nothing was measured");
+    std::ranges::copy(found.changes->reasons, std::back_inserter(found.reasons));
+    std::ranges::copy(found.latency->reasons, std::back_inserter(found.reasons));
+    for (const auto& reason : found.computed.reasons) found.reasons.push_back("computed, not captured: " + reason);
+    return resultsOf(run);
 }
 
 }  // namespace
