@@ -412,7 +412,7 @@ protected:
                      }
                      return editor != nullptr;
                  }));
-                 editor->code().insertPlainText("// not saved");
+                 editor->code().append("// not saved");
                  window.close();
                  editor->leave();  // this question needs no answer here
                  deliver();

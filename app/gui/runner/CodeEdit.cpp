@@ -1,157 +1,156 @@
 #include "app/gui/runner/CodeEdit.h"
 
 #include <QFontDatabase>
-#include <QPainter>
-#include <QTextBlock>
+#include <QKeyEvent>
+#include <Qsci/qscilexerjavascript.h>
+#include <algorithm>
 
 #include "app/gui/theme/Theme.h"
+
 namespace tacto::gui {
 
-class CodeEdit::Margin final : public QWidget {
+namespace {
+
+constexpr int kNumbers = 0, kArrows = 1;                     // margins
+constexpr int kMarkedLine = 0, kMarkedArrow = 1;             // markers
+constexpr int kFoundWords = QsciScintilla::INDIC_CONTAINER;  // indicator
+
+/// JavaScript, and the objects that the program provides.
+class ScriptLexer final : public QsciLexerJavaScript {
 public:
-    explicit Margin(CodeEdit& editor) : QWidget(&editor), editor_(editor) {}
+    using QsciLexerJavaScript::QsciLexerJavaScript;
 
-protected:
-    void paintEvent(QPaintEvent* event) override { editor_.paintNumbers(event, *this); }
-
-private:
-    CodeEdit& editor_;
+    [[nodiscard]] const char* keywords(int set) const override {
+        constexpr int kObjects = 2;
+        return set == kObjects
+                   ? "bench operator analysis report random record measure plot protocol progress verdict log"
+                   : QsciLexerJavaScript::keywords(set);
+    }
 };
 
-CodeEdit::CodeEdit(QWidget* parent) : QPlainTextEdit(parent), margin_(new Margin(*this)) {
+}  // namespace
+
+CodeEdit::CodeEdit(QWidget* parent) : QsciScintilla(parent) {
+    setLexer(new ScriptLexer(this));
+    setUtf8(true);
+    setEolMode(EolUnix);
+    setIndentationsUseTabs(false);
+    setIndentationWidth(2);
+    setAutoIndent(true);
+    setBraceMatching(SloppyBraceMatch);
+    setScrollWidth(1);  // as wide as the text asks
+    setScrollWidthTracking(true);
+    setMarginLineNumbers(kNumbers, true);
+    setMarginType(kArrows, SymbolMargin);
+    setMarginMarkerMask(kArrows, 1 << kMarkedArrow);
+    markerDefine(Background, kMarkedLine);
+    markerDefine(RightTriangle, kMarkedArrow);
+    indicatorDefine(StraightBoxIndicator, kFoundWords);
+    setIndicatorDrawUnder(true, kFoundWords);
+    onLookChange(*this, [this] { recolour(); });
+    recolour();
+}
+
+void CodeEdit::recolour() {
+    const auto& c = colours();
     auto font = QFontDatabase::systemFont(QFontDatabase::FixedFont);
     font.setPointSizeF(QApplication::font().pointSizeF());
-    setFont(font);
-    setLineWrapMode(NoWrap);
-    setTabStopDistance(2 * fontMetrics().horizontalAdvance(' '));
-    highlighter_ = new ScriptHighlighter(document());
-    connect(this, &QPlainTextEdit::blockCountChanged, this, [this] { setViewportMargins(marginWidth(), 0, 0, 0); });
-    connect(this, &QPlainTextEdit::updateRequest, this, [this](const QRect& rect, int dy) {
-        if (dy != 0)
-            margin_->scroll(0, dy);
-        else
-            margin_->update(0, rect.y(), margin_->width(), rect.height());
-    });
-    setViewportMargins(marginWidth(), 0, 0, 0);
-    onLookChange(*this, [this] {
-        highlighter_->recolour();
-        showMarks();
-    });
+    auto* script = lexer();
+    script->setDefaultPaper(palette().color(QPalette::Base));
+    script->setDefaultColor(palette().color(QPalette::Text));
+    script->setPaper(palette().color(QPalette::Base));  // of every style, as the two below
+    script->setColor(palette().color(QPalette::Text));
+    script->setFont(font);
+    auto bold = font, italic = font;
+    bold.setBold(true);
+    italic.setItalic(true);
+    using Script = QsciLexerJavaScript;
+    const auto style = [script](std::initializer_list<int> styles, const QColor& colour, const QFont& styled) {
+        for (const int each : styles) {
+            script->setColor(colour, each);
+            script->setFont(styled, each);
+        }
+    };
+    style({Script::Keyword}, c.voltage, bold);
+    style({Script::KeywordSet2}, c.third, bold);
+    style({Script::Number}, c.voltage, font);
+    style({Script::DoubleQuotedString, Script::SingleQuotedString, Script::RawString, Script::UnclosedString,
+           Script::Regex},
+          c.current, font);
+    style({Script::Comment, Script::CommentLine, Script::CommentDoc, Script::CommentLineDoc}, c.quiet, italic);
+    setMarginsFont(font);
+    setMarginsBackgroundColor(palette().color(QPalette::AlternateBase));
+    setMarginsForegroundColor(c.quiet);
+    setMarginWidth(kNumbers, QStringLiteral("00000"));
+    setMarginWidth(kArrows, QStringLiteral("00"));
+    setCaretForegroundColor(palette().color(QPalette::Text));
+    setSelectionBackgroundColor(c.selection);
+    setSelectionForegroundColor(palette().color(QPalette::Text));
+    setMatchedBraceBackgroundColor(c.selection);
+    setMatchedBraceForegroundColor(palette().color(QPalette::Text));
+    setUnmatchedBraceForegroundColor(c.amberText);
+    auto tint = c.amber;
+    tint.setAlpha(50);
+    setMarkerBackgroundColor(tint, kMarkedLine);
+    setMarkerBackgroundColor(c.amberText, kMarkedArrow);
+    setMarkerForegroundColor(c.amberText, kMarkedArrow);
+    setIndicatorForegroundColor(c.selection, kFoundWords);
+    SendScintilla(SCI_INDICSETALPHA, kFoundWords, 110L);  // weaker than the selection
 }
 
-int CodeEdit::marginWidth() const {
-    const auto digitsNeeded = QString::number(std::max(99, blockCount())).size();
-    return int(digitsNeeded) * fontMetrics().horizontalAdvance('9') + 12;
+/// Esc stops the output or closes a search: it is never a key of the text.
+void CodeEdit::keyPressEvent(QKeyEvent* event) {
+    if (event->key() == Qt::Key_Escape) return event->ignore();
+    QsciScintilla::keyPressEvent(event);
 }
 
-void CodeEdit::resizeEvent(QResizeEvent* event) {
-    QPlainTextEdit::resizeEvent(event);
-    const auto room = contentsRect();
-    margin_->setGeometry(room.left(), room.top(), marginWidth(), room.height());
-}
-
-void CodeEdit::paintNumbers(QPaintEvent* event, QWidget& margin) {
-    QPainter painter(&margin);
-    painter.fillRect(event->rect(), palette().color(QPalette::AlternateBase));
-    painter.setFont(font());
-    for (auto block = firstVisibleBlock(); block.isValid(); block = block.next()) {
-        const auto box = blockBoundingGeometry(block).translated(contentOffset());
-        if (box.top() > event->rect().bottom()) break;
-        const int number = block.blockNumber() + 1;
-        painter.setPen(number == marked_ ? colours().amberText : colours().quiet);
-        const QRectF cell(0, box.top(), margin.width() - 6, fontMetrics().height());
-        painter.drawText(cell, Qt::AlignRight, (number == marked_ ? "▶" : "") + QString::number(number));
-    }
-}
-
-void CodeEdit::mark(int line) {
-    marked_ = std::min(line, blockCount());  // engines report a missing brace after the last line
-    showMarks();
-    margin_->update();
+void CodeEdit::mark(int line, bool goThere) {
+    marked_ = std::min(line, lines());  // engines report a missing brace after the last line
+    markerDeleteAll();
     if (line <= 0) return;
-    const auto block = document()->findBlockByNumber(marked_ - 1);
-    if (!block.isValid()) return;
-    setTextCursor(QTextCursor(block));
-    centerCursor();
+    for (const int marker : {kMarkedLine, kMarkedArrow}) markerAdd(marked_ - 1, marker);
+    if (!goThere) return;
+    setCursorPosition(marked_ - 1, 0);
+    SendScintilla(SCI_VERTICALCENTRECARET);
 }
 
 int CodeEdit::markWords(const QString& words) {
     found_.clear();
-    QTextCursor from(document());
-    while (!words.isEmpty() && !(from = document()->find(words, from)).isNull()) found_ << from;
-    showMarks();
+    const long end = SendScintilla(SCI_GETLENGTH);
+    SendScintilla(SCI_SETINDICATORCURRENT, kFoundWords);
+    SendScintilla(SCI_INDICATORCLEARRANGE, 0UL, end);
+    SendScintilla(SCI_SETSEARCHFLAGS, 0UL);
+    const auto wanted = words.toUtf8();
+    for (long from = 0; !wanted.isEmpty();) {
+        SendScintilla(SCI_SETTARGETSTART, from);
+        SendScintilla(SCI_SETTARGETEND, end);
+        if (SendScintilla(SCI_SEARCHINTARGET, static_cast<unsigned long>(wanted.size()), wanted.constData()) < 0) break;
+        const Place place{SendScintilla(SCI_GETTARGETSTART), SendScintilla(SCI_GETTARGETEND)};
+        SendScintilla(SCI_INDICATORFILLRANGE, static_cast<unsigned long>(place.from), place.to - place.from);
+        found_ << place;
+        from = place.to;
+    }
     return int(found_.size());
 }
 
-void CodeEdit::showMarks() {
-    QList<QTextEdit::ExtraSelection> selections;
-    const auto block = document()->findBlockByNumber(marked_ - 1);
-    if (marked_ > 0 && block.isValid()) {
-        QTextEdit::ExtraSelection selection;
-        auto tint = colours().amber;
-        tint.setAlpha(50);
-        selection.format.setBackground(tint);
-        selection.format.setProperty(QTextFormat::FullWidthSelection, true);
-        selection.cursor = QTextCursor(block);
-        selections << selection;
+bool CodeEdit::selectFound(bool forward) {
+    if (found_.isEmpty()) return false;
+    const long from = SendScintilla(forward ? SCI_GETSELECTIONEND : SCI_GETSELECTIONSTART);
+    const Place* place = nullptr;
+    for (const auto& each : found_) {
+        if (forward ? each.from >= from && place == nullptr : each.to <= from) place = &each;
     }
-    for (const auto& found : found_) {
-        QTextEdit::ExtraSelection selection;
-        selection.format.setBackground(colours().selection);
-        selection.cursor = found;
-        selections << selection;
-    }
-    setExtraSelections(selections);
+    const bool wrapped = place == nullptr;
+    if (wrapped) place = forward ? &found_.front() : &found_.back();
+    SendScintilla(SCI_SETSEL, static_cast<unsigned long>(place->from), place->to);
+    return wrapped;
 }
 
-ScriptHighlighter::ScriptHighlighter(QTextDocument* document) : QSyntaxHighlighter(document) { recolour(); }
-
-void ScriptHighlighter::recolour() {
-    const auto& c = colours();
-    const auto in = [](const QColor& colour, bool bold = false) {
-        QTextCharFormat format;
-        format.setForeground(colour);
-        if (bold) format.setFontWeight(QFont::Bold);
-        return format;
-    };
-    rules_ = {
-        {QRegularExpression(
-             R"(\b(const|let|var|function|return|if|else|for|of|in|while|do|break|continue|new|throw|try|)"
-             R"(catch|finally|true|false|null|undefined|typeof|switch|case|default)\b)"),
-         in(c.voltage, true)},
-        {QRegularExpression(
-             R"(\b(bench|operator|analysis|report|random|record|measure|plot|protocol|progress|verdict|log)\b)"),
-         in(c.third, true)},
-        {QRegularExpression(R"(\b\d+(\.\d+)?([eE][+-]?\d+)?\b)"), in(c.voltage)},
-        {QRegularExpression(R"("([^"\\]|\\.)*"|'([^'\\]|\\.)*'|`([^`\\]|\\.)*`)"), in(c.current)},
-    };
-    comment_ = in(c.quiet);
-    comment_.setFontItalic(true);
-    rehighlight();
-}
-
-void ScriptHighlighter::highlightBlock(const QString& text) {
-    for (const auto& rule : rules_) {
-        for (auto found = rule.pattern.globalMatch(text); found.hasNext();) {
-            const auto match = found.next();
-            setFormat(int(match.capturedStart()), int(match.capturedLength()), rule.format);
-        }
-    }
-    // Comment colour overrides all others; block state 1 means inside /* */.
-    static const QRegularExpression line(R"(^([^"'`]|"[^"]*"|'[^']*'|`[^`]*`)*?//)");
-    if (const auto match = line.match(text); match.hasMatch() && previousBlockState() != 1) {
-        const int start = int(match.capturedEnd()) - 2;
-        setFormat(start, int(text.size()) - start, comment_);
-    }
-    setCurrentBlockState(0);
-    qsizetype start = previousBlockState() == 1 ? 0 : text.indexOf("/*");
-    while (start >= 0) {
-        const auto end = text.indexOf("*/", start);
-        if (end < 0) setCurrentBlockState(1);
-        const auto length = end < 0 ? text.size() - start : end - start + 2;
-        setFormat(int(start), int(length), comment_);
-        start = end < 0 ? -1 : text.indexOf("/*", end + 2);
-    }
+int CodeEdit::selectedFound() const {
+    const auto at = std::ranges::find_if(found_, [this](const Place& place) {
+        return place.from == SendScintilla(SCI_GETSELECTIONSTART) && place.to == SendScintilla(SCI_GETSELECTIONEND);
+    });
+    return at == found_.end() ? 0 : int(at - found_.begin()) + 1;
 }
 
 }  // namespace tacto::gui

@@ -1,57 +1,37 @@
-// CodeEdit.h - a script's text with line numbers, one marked line, and marks on searched words.
+// CodeEdit.h - a script's text, edited by QScintilla: line numbers, one marked line, and marks on searched words.
 #pragma once
 
-#include <QPlainTextEdit>
-#include <QRegularExpression>
-#include <QSyntaxHighlighter>
-#include <vector>
+#include <QList>
+#include <Qsci/qsciscintilla.h>
 
 namespace tacto::gui {
 
-// Colours a protocol script: JavaScript keywords, strings, comments, numbers, and the objects that the program
-// provides.
-
-class ScriptHighlighter final : public QSyntaxHighlighter {
-    Q_OBJECT
-public:
-    explicit ScriptHighlighter(QTextDocument* document);
-    /// Updates the colours after a change of theme.
-    void recolour();
-
-protected:
-    void highlightBlock(const QString& text) override;
-
-private:
-    struct Rule {
-        QRegularExpression pattern;
-        QTextCharFormat format;
-    };
-    std::vector<Rule> rules_;
-    QTextCharFormat comment_;
-};
-
-class CodeEdit final : public QPlainTextEdit {
+class CodeEdit final : public QsciScintilla {
     Q_OBJECT
 public:
     explicit CodeEdit(QWidget* parent = nullptr);
-    /// Marks a line, counted from 1, and goes there; 0 removes the mark.
-    void mark(int line);
+    /// Marks a line, counted from 1; 0 removes the mark. `goThere` also moves the cursor to the line.
+    void mark(int line, bool goThere = true);
     [[nodiscard]] int marked() const { return marked_; }
-    /// Marks every occurrence of these words, ignoring case; empty removes the marks. Returns how many there are.
+
+    /// Marks every place with these words, ignoring case; empty removes the marks. Returns how many there are.
     int markWords(const QString& words);
+    /// Selects the next or the previous marked place, from the start or end of the selection. Returns true if it went
+    /// round the end of the text.
+    bool selectFound(bool forward);
+    /// Returns the number of the selected place, from 1; 0 if none is selected.
+    [[nodiscard]] int selectedFound() const;
 
 protected:
-    void resizeEvent(QResizeEvent* event) override;
+    void keyPressEvent(QKeyEvent* event) override;
 
 private:
-    void paintNumbers(QPaintEvent* event, QWidget& margin);
-    [[nodiscard]] int marginWidth() const;
-    void showMarks();
-    class Margin;
-    QWidget* margin_;
-    ScriptHighlighter* highlighter_;
+    struct Place {
+        long from, to;  // in bytes
+    };
+    void recolour();
     int marked_ = 0;
-    QList<QTextCursor> found_;  // the places that markWords() found
+    QList<Place> found_;  // the places that markWords() found
 };
 
 }  // namespace tacto::gui

@@ -30,7 +30,7 @@ FindBar::FindBar(CodeEdit& code, QWidget* parent) : QWidget(parent), code_(code)
     connect(back_, &QPushButton::clicked, this, [this] { go(false); });
     connect(next_, &QPushButton::clicked, this, [this] { go(true); });
     connect(done, &QPushButton::clicked, this, &FindBar::close);
-    connect(&code_, &QPlainTextEdit::textChanged, this, [this] {
+    connect(&code_, &CodeEdit::textChanged, this, [this] {
         if (isVisible()) count();
     });
     hide();
@@ -43,8 +43,8 @@ QPushButton* FindBar::addButton(const QString& text, const QString& name, const 
 }
 
 void FindBar::begin() {
-    const auto selected = code_.textCursor().selectedText();
-    if (!selected.isEmpty() && !selected.contains(QChar::ParagraphSeparator)) words_->setText(selected);
+    const auto selected = code_.selectedText();
+    if (!selected.isEmpty() && !selected.contains('\n')) words_->setText(selected);
     show();
     words_->setFocus(Qt::ShortcutFocusReason);
     words_->selectAll();
@@ -59,41 +59,25 @@ void FindBar::close() {
 
 /// Searches while the user types: finds the first match from the start of the present one.
 void FindBar::search() {
-    auto cursor = code_.textCursor();
-    cursor.setPosition(cursor.selectionStart());
-    code_.setTextCursor(cursor);
+    int line = 0, index = 0, end = 0;
+    code_.getSelection(&line, &index, &end, &end);
+    if (line >= 0) code_.setCursorPosition(line, index);
     if (words_->text().isEmpty()) return count();
     go(true);
 }
 
 void FindBar::go(bool forward) {
     if (words_->text().isEmpty()) return;
-    const auto flags = forward ? QTextDocument::FindFlags() : QTextDocument::FindBackward;
-    const auto* text = code_.document();
-    auto found = text->find(words_->text(), code_.textCursor(), flags);
-    const bool wrapped = found.isNull();
-    if (wrapped) {
-        QTextCursor end(code_.document());
-        if (!forward) end.movePosition(QTextCursor::End);
-        found = text->find(words_->text(), end, flags);
-    }
-    if (!found.isNull()) code_.setTextCursor(found);
+    code_.markWords(words_->text());
+    const bool wrapped = code_.selectFound(forward);
     count();
-    if (wrapped && !found.isNull())
+    if (wrapped)
         says_->setText(forward ? tr("%1, from the top").arg(says_->text()) : tr("%1, from the end").arg(says_->text()));
 }
 
 void FindBar::count() {
     const int all = code_.markWords(words_->text());
-    int at = 0;
-    const auto current = code_.textCursor();
-    if (current.hasSelection() && current.selectedText().compare(words_->text(), Qt::CaseInsensitive) == 0) {
-        for (QTextCursor each(code_.document());;) {
-            each = code_.document()->find(words_->text(), each);
-            if (each.isNull() || each.selectionStart() > current.selectionStart()) break;
-            ++at;
-        }
-    }
+    const int at = code_.selectedFound();
     says_->setText(words_->text().isEmpty() ? QString()
                    : all == 0               ? tr("no match")
                    : at == 0 && all == 1    ? tr("1 match")

@@ -73,10 +73,10 @@ ScriptEditor::ScriptEditor(const BenchController& controller, QWidget* parent)
     later_.setSingleShot(true);
     later_.setInterval(kCheckAfter_ms);
     connect(&later_, &QTimer::timeout, this, &ScriptEditor::check);
-    connect(code_, &QPlainTextEdit::textChanged, this, [this] {
-        if (code_->document()->isModified()) later_.start();
+    connect(code_, &CodeEdit::textChanged, this, [this] {
+        if (code_->isModified()) later_.start();
     });
-    connect(code_->document(), &QTextDocument::modificationChanged, this, &QWidget::setWindowModified);
+    connect(code_, &CodeEdit::modificationChanged, this, &QWidget::setWindowModified);
     resize(fontMetrics().averageCharWidth() * 150, fontMetrics().height() * 42);
 }
 
@@ -140,7 +140,7 @@ void ScriptEditor::buildButtons() {
     };
     const auto saveAndRun = [this] {
         runWhenSaved_ = !source_.shipped;
-        if (runWhenSaved_ && !source_.path.empty() && !code_->document()->isModified()) {
+        if (runWhenSaved_ && !source_.path.empty() && !code_->isModified()) {
             runWhenSaved_ = false;
             emit runRequested(QString::fromStdString(source_.path.string()));
         } else {
@@ -170,7 +170,7 @@ void ScriptEditor::buildButtons() {
 
 void ScriptEditor::edit(const ProtocolSource& source) {
     const bool same = !source.text.empty() && source.path == source_.path && source.name == source_.name;
-    if (isVisible() && code_->document()->isModified()) {
+    if (isVisible() && code_->isModified()) {
         if (!same) message_->setText(tr("⚠ This script has changes that are not saved. Save it or close it first."));
         raise();
         activateWindow();
@@ -178,8 +178,8 @@ void ScriptEditor::edit(const ProtocolSource& source) {
     }
     source_ = source;
     const bool isNew = source.text.empty();
-    code_->setPlainText(isNew ? QString(kTemplate) : QString::fromStdString(source.text));
-    code_->document()->setModified(false);
+    code_->setText(isNew ? QString(kTemplate) : QString::fromStdString(source.text));
+    code_->setModified(false);
     code_->setReadOnly(source.shipped);
     code_->mark(0);
     later_.stop();
@@ -206,7 +206,7 @@ QString ScriptEditor::scriptName() const {
 void ScriptEditor::showTitle() {
     setWindowTitle(source_.shipped ? tr("Protocol script: %1 (read-only)").arg(scriptName())
                                    : tr("Protocol script: %1[*]").arg(scriptName()));
-    setWindowModified(code_->document()->isModified());
+    setWindowModified(code_->isModified());
     save_->setText(source_.shipped || source_.path.empty() ? tr("&Save a copy…") : tr("&Save"));
 }
 
@@ -217,7 +217,7 @@ void ScriptEditor::showError(int line, const QString& why) {
 
 void ScriptEditor::check() {
     ProtocolSource source = source_;
-    source.text = code_->toPlainText().toStdString();
+    source.text = code_->text().toStdString();
     if (source.name.empty()) source.name = "script";
     reading_.read(source);
 }
@@ -231,10 +231,8 @@ void ScriptEditor::checked(const Result<ProtocolDeclaration>& declaration) {
         return;
     }
     const auto why = QString::fromStdString(declaration.error().message);
-    // The user may be typing: the line is marked, but the cursor stays.
-    const auto cursor = code_->textCursor();
-    showError(lineOf(why), why);
-    if (code_->hasFocus()) code_->setTextCursor(cursor);
+    code_->mark(lineOf(why), !code_->hasFocus());  // the cursor stays where the user may be typing
+    message_->setText("⚠ " + why);
 }
 
 void ScriptEditor::save() {
@@ -260,7 +258,7 @@ void ScriptEditor::saveAs(const QString& name) {
 
 void ScriptEditor::saveTo(const QString& path) {
     QDir().mkpath(QFileInfo(path).absolutePath());
-    const auto text = code_->toPlainText().toStdString();
+    const auto text = code_->text().toStdString();
     if (const auto written = writeWholeFile(path.toStdString(), text); !written) {
         stay();
         return message_->setText(tr("⚠ Not saved: %1: %2. The text is still here.")
@@ -272,7 +270,7 @@ void ScriptEditor::saveTo(const QString& path) {
     source_.shipped = false;
     naming_->hide();
     code_->setReadOnly(false);
-    code_->document()->setModified(false);
+    code_->setModified(false);
     showTitle();
     message_->setText(tr("Saved to %1.").arg(path));
     emit saved(path);
@@ -322,7 +320,7 @@ void ScriptEditor::reject() {
 
 void ScriptEditor::leave() {
     stay();
-    code_->document()->setModified(false);
+    code_->setModified(false);
     naming_->hide();
     later_.stop();
     QDialog::reject();

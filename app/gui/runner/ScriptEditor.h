@@ -57,7 +57,7 @@ public:
     /// Marks the line and shows the reason.
     void showError(int line, const QString& why);
     [[nodiscard]] CodeEdit& code() { return *code_; }
-    [[nodiscard]] bool unsaved() const { return code_->document()->isModified(); }
+    [[nodiscard]] bool unsaved() const { return code_->isModified(); }
     /// Returns the script's name: "bend", "new".
     [[nodiscard]] QString scriptName() const;
     /// Saves and closes; if the script has no name, asks for one first. `then` is called after saving, but not if the

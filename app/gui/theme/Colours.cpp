@@ -221,8 +221,8 @@ QComboBox::drop-down { border: none; width: ~24; }
 QComboBox::down-arrow { image: url(:/icons/controls/down.svg); width: ~11; height: ~11; }
 QComboBox QAbstractItemView { border: 1px solid @edge; outline: none; }
 
-QPlainTextEdit, QTextEdit { border: 1px solid @edge; border-radius: 4px; }
-QPlainTextEdit:focus, QTextEdit:focus { border: 2px solid @text; }
+QPlainTextEdit, QTextEdit, QsciScintilla { border: 1px solid @edge; border-radius: 4px; }
+QPlainTextEdit:focus, QTextEdit:focus, QsciScintilla:focus { border: 2px solid @text; }
 QTextEdit#whatHappened { border: 2px solid transparent; background: transparent; }
 QTextEdit#whatHappened:focus { border-color: @text; }
 

@@ -9,6 +9,7 @@
 #include <QPlainTextEdit>
 #include <QTextEdit>
 #include <QWindow>
+#include <Qsci/qsciscintilla.h>
 #include <utility>
 
 #include "app/gui/theme/ConfirmButton.h"
@@ -24,6 +25,7 @@ bool takesText(const QWidget* widget) {
     if (const auto* line = qobject_cast<const QLineEdit*>(widget)) return !line->isReadOnly();
     if (const auto* text = qobject_cast<const QTextEdit*>(widget)) return !text->isReadOnly();
     if (const auto* text = qobject_cast<const QPlainTextEdit*>(widget)) return !text->isReadOnly();
+    if (const auto* code = qobject_cast<const QsciScintilla*>(widget)) return !code->isReadOnly();
     if (const auto* combo = qobject_cast<const QComboBox*>(widget)) return combo->isEditable();
     return qobject_cast<const QAbstractSpinBox*>(widget) != nullptr;
 }
