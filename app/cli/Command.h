@@ -62,8 +62,8 @@ void printJson(const nlohmann::json& value);
 [[nodiscard]] Result<void> writeFile(const std::string& path, const std::string& content);
 
 // Each is defined in app/cli/<Name>Command.cpp.
-extern const Command kDevices, kProtocols, kRun, kRoughness, kEncode, kMeasure, kConvert, kAnalyze, kVerify, kHid,
-    kScienceMode, kSensor, kCertificate, kStudy, kExport;
+extern const Command kDevices, kProtocols, kRun, kRoughness, kEncode, kMeasure, kConvert, kAnalyze, kVerify, kCompare,
+    kHid, kScienceMode, kSensor, kCertificate, kStudy, kExport;
 // The usage text of the program tactoscope-report, for the help of tactoscope-cli.
 extern const Command kReport;
 inline constexpr const char* kReportArguments =

@@ -22,9 +22,9 @@ constexpr const char* kNotice =
 const std::vector<Command>& commands() {
     // A separate program makes reports (ReportProgram.h).
     static const Command report{"report", kReportArguments, kReportSummary, nullptr, nullptr};
-    static const std::vector<Command> all{kRun,     kProtocols,   kDevices, kRoughness, kEncode, kMeasure,
-                                          kConvert, kAnalyze,     report,   kVerify,    kHid,    kScienceMode,
-                                          kSensor,  kCertificate, kStudy,   kExport};
+    static const std::vector<Command> all{kRun,         kProtocols, kDevices,     kRoughness, kEncode,  kMeasure,
+                                          kConvert,     kAnalyze,   report,       kVerify,    kCompare, kHid,
+                                          kScienceMode, kSensor,    kCertificate, kStudy,     kExport};
     return all;
 }
 

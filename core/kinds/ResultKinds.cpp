@@ -10,6 +10,7 @@
 #include "core/analysis/separability/SeparabilityJson.h"
 #include "core/analysis/transitions/TransitionsJson.h"
 #include "core/analysis/variation/VariationJson.h"
+#include "core/kinds/SessionComparison.h"
 #include "core/pilot/PilotResults.h"
 #include "core/results/Describe.h"
 
@@ -57,7 +58,8 @@ const ResultTraits& resultTraits(std::string_view name) {
                                                   live(),
                                                   massager(),
                                                   pilotThresholdsKind(),
-                                                  pilotIdentificationKind()};
+                                                  pilotIdentificationKind(),
+                                                  comparisonKind()};
     const auto found = std::ranges::find(kKinds, name, &ResultTraits::name);
     return found == kKinds.end() ? kOther : *found;
 }

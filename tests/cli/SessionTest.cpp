@@ -90,6 +90,33 @@ TEST_F(Session, VerifyingChangesNothing) {
     EXPECT_EQ(desk.files(), before);
 }
 
+TEST_F(Session, IsComparedWithAnotherAsTextAndAsJson) {
+    const auto ran = desk.run({"run", "separability", "--device", "sim:stimulator?gain=1.05", "--device",
+                               "sim:", "--set", "repeats=3", "--seed", "2", "--out", desk.at("out"), "--json"});
+    const std::string other = jsonOf(ran)["session"];
+    const auto compared = jsonOf(desk.run({"compare", session, other, "--json"}));
+    ASSERT_FALSE(compared["settings"].empty());
+    const auto& first = compared["quantities"][0];
+    EXPECT_EQ(first["more_than_u"], true) << "a gain of 5 % is more than the oscilloscope's uncertainty";
+    double amplitude_v = 0;
+    for (const auto& quantity : compared["quantities"]) {
+        if (quantity["name"] != "Rough-high: Amplitude") continue;
+        amplitude_v = quantity["difference"];
+        EXPECT_EQ(quantity["unit"], "V");
+        EXPECT_NEAR(amplitude_v / quantity["a"].get<double>(), 0.05, 0.015);
+    }
+    EXPECT_NE(amplitude_v, 0);
+    const auto text = desk.run({"compare", session, other});
+    EXPECT_EQ(text.code, 0) << text.err;
+    for (const auto* part : {"Repeats", "gain=1.05", "More than U", "Rough-high: Amplitude"})
+        EXPECT_THAT(text.out, HasSubstr(part));
+    const auto same = jsonOf(desk.run({"compare", session, session, "--json"}));
+    EXPECT_TRUE(same["settings"].empty());
+    for (const auto& quantity : same["quantities"]) EXPECT_EQ(quantity["more_than_u"], false) << quantity;
+    expectRefused(desk.run({"compare", session}), 2, {"two sessions"});
+    expectRefused(desk.run({"compare", session, desk.at("none.tacto")}), 3, {"none.tacto"});
+}
+
 TEST_F(Session, ReportsAsPdfAndAsHtmlFromTheSessionAlone) {
     const auto alone = desk.write("alone.tacto", contentOf(session));
     std::filesystem::remove_all(desk.at("out"));

@@ -1,13 +1,14 @@
 #include "app/gui/sessions/CompareWindow.h"
 
-#include <QTextBrowser>
+#include <QSplitter>
 #include <QVBoxLayout>
 #include <algorithm>
 
-#include "app/gui/sessions/Differences.h"
+#include "app/gui/runner/ResultTables.h"
 #include "app/gui/sessions/SessionPreview.h"
 #include "app/gui/sessions/SessionWords.h"
 #include "app/gui/theme/Building.h"
+#include "app/gui/theme/Pages.h"
 #include "app/gui/theme/PlotLegend.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Text.h"
@@ -15,256 +16,277 @@
 #include "app/report/FigureDrawing.h"
 #include "app/report/NumberText.h"
 #include "app/report/ShownText.h"
+#include "core/base/JsonText.h"
 #include "core/session/SessionReader.h"
 
 namespace tacto::gui {
 
 namespace {
 
-constexpr int kPlotChars = 30;  // width in characters at which a plot is readable
+constexpr int kFigureLines = 12;      // least height of the figure in lines of text
+constexpr int kTableLines = 20;       // height of the tables at first
+constexpr double kSameTime_s = 0.01;  // samples of two streams this close are of the same time
 
-double feature(const SessionTrial& trial, const char* key) {
-    const auto at = trial.measured.find(key);
-    return at != trial.measured.end() && at->is_number() ? at->get<double>() : std::nan("");
+/// Returns B less A at the times that both have.
+std::pair<std::vector<double>, std::vector<double>> differenceOf(const std::vector<double>& ta,
+                                                                 const std::vector<double>& va,
+                                                                 const std::vector<double>& tb,
+                                                                 const std::vector<double>& vb) {
+    std::vector<double> t, difference;
+    std::size_t j = 0;
+    for (std::size_t i = 0; i < ta.size() && !tb.empty(); ++i) {
+        while (j + 1 < tb.size() && std::abs(tb[j + 1] - ta[i]) <= std::abs(tb[j] - ta[i])) ++j;
+        if (std::abs(tb[j] - ta[i]) > kSameTime_s) continue;
+        t.push_back(ta[i]);
+        difference.push_back(vb[j] - va[i]);
+    }
+    return {std::move(t), std::move(difference)};
 }
 
-QString differencesHtml(const QList<Difference>& all) {
-    if (all.isEmpty()) return "<p>" + CompareWindow::tr("The two sessions do not differ.") + "</p>";
-    QString html;
-    std::optional<Difference::About> part;
-    for (const auto& [about, sentence] : all) {
-        if (part != about)
-            html += "<h3>" +
-                    (about == Difference::About::Found ? CompareWindow::tr("What was found")
-                                                       : CompareWindow::tr("What was used")) +
-                    "</h3>";
-        part = about;
-        html += "<p>" + sentence.toHtmlEscaped() + "</p>";
-    }
-    return html;
+/// Returns the first capture of each condition.
+std::map<std::string, std::int64_t> capturesOf(const ReadSession& session) {
+    std::map<int, std::string> conditions;
+    for (const auto& trial : session.trials) conditions[trial.number] = trial.condition;
+    std::map<std::string, std::int64_t> first;
+    for (const auto& capture : session.captures)
+        if (capture.trial && conditions.contains(*capture.trial))
+            first.try_emplace(conditions[*capture.trial], capture.seq);
+    return first;
 }
 
 }  // namespace
 
-CompareWindow::CompareWindow(std::shared_ptr<const ReadSession> first, std::shared_ptr<const ReadSession> second,
+CompareWindow::CompareWindow(std::shared_ptr<const ReadSession> a, std::shared_ptr<const ReadSession> b,
                              QWidget* parent)
-    : QDialog(parent), sessions_{std::move(first), std::move(second)} {
+    : QDialog(parent), sessions_{std::move(a), std::move(b)} {
     const auto beganOf = [](const ReadSession& session) {
         return QDateTime::fromString(qtext(session.about.wallStart), Qt::ISODate).toLocalTime();
     };
-    const auto nameOf = [&](const ReadSession& session) {
-        const auto began = beganOf(session);
+    QString names[2];
+    for (std::size_t s = 0; s < 2; ++s) {
+        const auto& session = *sessions_[s];
         const auto sample = qtext(session.labels.sample);
-        return QString("%1, %2%3")
-            .arg(procedureText(session.about.protocol), beganText(began),
-                 sample.isEmpty() ? sample : tr(", sample %1").arg(sample));
-    };
-    QString names[] = {nameOf(*sessions_[0]), nameOf(*sessions_[1])};
-    if (names[0] == names[1]) {
-        for (int s = 0; s < 2; ++s) names[s] += beganOf(*sessions_[s]).toString(":ss");
+        names[s] = QString("%1, %2%3")
+                       .arg(procedureText(session.about.protocol), beganText(beganOf(session)),
+                            sample.isEmpty() ? sample : tr(", sample %1").arg(sample));
     }
+    if (names[0] == names[1])
+        for (std::size_t s = 0; s < 2; ++s) names[s] += beganOf(*sessions_[s]).toString(":ss");
     setWindowTitle(tr("Compare %1 with %2").arg(names[0], names[1]));
     auto* layout = new QVBoxLayout(this);
-    layout->addWidget(
-        explanation(tr("First, hollow marks and the solid trace: %1. Second, filled marks and the dashed trace: %2.")
-                        .arg(names[0], names[1]),
-                    this));
-    auto* tabs = new QTabWidget(this);
-    plane_ = new QCustomPlot(tabs);
-    plane_->setAccessibleName(tr("Trials of both"));
-    addPlotMenu(*plane_, "trials");
-    putLegendAbove(*plane_);
-    wrapLegend(*plane_);
-    plane_->setMinimumWidth(fontMetrics().averageCharWidth() * kPlotChars);  // the width within which the legend wraps
-    plane_->xAxis->setLabel(tr("Interval (s)"));
-    plane_->yAxis->setLabel(tr("Amplitude (V)"));
-    tabs->addTab(plane_, tr("&Trials"));
-    auto* page = new QWidget(tabs);
-    auto* column = new QVBoxLayout(page);
-    stream_ = new QComboBox(page);
-    stream_->setAccessibleName(tr("Stream"));
+    layout->addWidget(explanation(tr("A: %1. B: %2.").arg(names[0], names[1]), this));
+    auto* split = new QSplitter(Qt::Vertical, this);
+    split->setChildrenCollapsible(false);
+    auto* page = new ScrollingPage(split);
+    auto* tables = new ResultTables(page->viewport());
+    nameWidget(*tables, "comparison", tr("What differs"));
+    tables->show(toJson(compareTwo(*sessions_[0], *sessions_[1])));
+    page->hold(tables);
+    split->addWidget(page);
+    split->addWidget(buildFigure(split));
+    split->setStretchFactor(0, 3);
+    split->setStretchFactor(1, 2);
+    split->setSizes({fontMetrics().height() * kTableLines, fontMetrics().height() * kFigureLines});
+    layout->addWidget(split, 1);
+    offerCaptures();
+    offerTrials();
+    offerStreams();
+    which_->setEnabled(!drawn_.empty());
+    if (drawn_.empty()) which_->addItem(tr("Nothing that both hold can be drawn"));
+    connect(which_, &QComboBox::currentIndexChanged, this, &CompareWindow::draw);
+    draw();
+    onLookChange(*this, [this] { colour(); });
+    resize(fontMetrics().averageCharWidth() * 130, fontMetrics().height() * 34);
+}
+
+QWidget* CompareWindow::buildFigure(QWidget* parent) {
+    auto* page = new QWidget(parent);
+    auto* column = columnIn(*page);
+    which_ = new QComboBox(page);
+    nameWidget(*which_, "drawn", tr("Drawn of both"));
+    column->addWidget(which_);
+    plot_ = new QCustomPlot(page);
+    nameWidget(*plot_, "both", tr("The same of both"));
+    plot_->setInteractions(QCP::iRangeDrag | QCP::iRangeZoom);
+    plot_->setMinimumHeight(fontMetrics().height() * kFigureLines);
+    addPlotMenu(*plot_, "compared");
+    putLegendAbove(*plot_);
+    column->addWidget(plot_, 1);
+    marks_ = std::make_unique<MarkLines>(*plot_);
+    connect(plot_->xAxis, qOverload<const QCPRange&>(&QCPAxis::rangeChanged), this, &CompareWindow::drawMarks);
+    addWatermark(*plot_->axisRect(), WatermarkPlace::InFront)
+        ->setVisible(sessions_[0]->about.simulated || sessions_[1]->about.simulated);
+    return page;
+}
+
+void CompareWindow::offer(Drawn drawn) {
+    which_->addItem(drawn.title);
+    drawn_.push_back(std::move(drawn));
+}
+
+void CompareWindow::offerTrials() {
+    const auto holds = [](const auto& session) {
+        return std::ranges::any_of(session->trials, [](const SessionTrial& trial) {
+            return std::isfinite(numberOr(trial.measured, "interval_s")) &&
+                   std::isfinite(numberOr(trial.measured, "amplitude_v"));
+        });
+    };
+    if (holds(sessions_[0]) && holds(sessions_[1])) offer({.title = tr("Trials: amplitude against interval")});
+}
+
+void CompareWindow::offerStreams() {
     for (const auto& info : sessions_[0]->streams) {
-        const auto same = std::any_of(sessions_[1]->streams.begin(), sessions_[1]->streams.end(),
-                                      [&](const auto& other) { return other.stream == info.stream; });
-        for (std::size_t c = 0; same && c < info.stream.columns.size(); ++c) {
+        const auto& others = sessions_[1]->streams;
+        const auto same = std::ranges::find_if(others, [&](const auto& other) { return other.stream == info.stream; });
+        if (same == others.end() || info.samples == 0 || same->samples == 0) continue;
+        for (std::size_t c = 0; c < info.stream.columns.size(); ++c) {
             const auto name = titled(qtext(info.stream.name));
-            const auto title = columnTitle(info.stream, c);
             const bool only = info.stream.columns.size() == 1;
-            stream_->addItem(only ? name : QString("%1: %2").arg(name, title), QVariant::fromValue(drawn_.size()));
-            drawn_.push_back({info.stream, c, only ? name : title, columnUnit(info.stream, c)});
+            offer({.source = Source::Stream,
+                   .title = only ? name : QString("%1: %2").arg(name, columnTitle(info.stream, c)),
+                   .unit = columnUnit(info.stream, c),
+                   .at = {info.id, same->id},
+                   .column = c});
         }
     }
-    column->addWidget(stream_);
-    streams_ = new QCustomPlot(page);
-    streams_->setInteractions(QCP::iRangeDrag | QCP::iRangeZoom);
-    streams_->setAccessibleName(tr("The stream of both"));
-    addPlotMenu(*streams_, "streams");
-    putLegendAbove(*streams_);
-    column->addWidget(streams_, 1);
-    tabs->addTab(page, tr("&Streams"));
-    const bool simulated = sessions_[0]->about.simulated || sessions_[1]->about.simulated;
-    marks_ = std::make_unique<MarkLines>(*streams_);
-    connect(streams_->xAxis, qOverload<const QCPRange&>(&QCPAxis::rangeChanged), this, &CompareWindow::drawMarks);
-    addWatermark(*plane_->axisRect())->setVisible(simulated);
-    addWatermark(*streams_->axisRect(), WatermarkPlace::InFront)->setVisible(simulated);
-    const auto found = differencesOf(*sessions_[0], *sessions_[1]);
-    auto* said = new QTextBrowser(tabs);
-    nameWidget(*said, "differences", tr("Differences"));
-    said->setTabChangesFocus(true);
-    said->setHtml(differencesHtml(found));
-    tabs->insertTab(0, said, tr("&Differences (%1)").arg(found.size()));
-    tabs->setCurrentIndex(0);
-    layout->addWidget(tabs, 1);
-    connect(stream_, &QComboBox::currentIndexChanged, this, &CompareWindow::drawStream);
-    drawTrials();
-    drawStream();
-    onLookChange(*this, [this] { colour(); });
-    resize(fontMetrics().averageCharWidth() * 120, fontMetrics().height() * 36);
+}
+
+void CompareWindow::offerCaptures() {
+    const auto a = capturesOf(*sessions_[0]), b = capturesOf(*sessions_[1]);
+    for (const auto& [condition, seq] : a) {
+        const auto same = b.find(condition);
+        if (same == b.end()) continue;
+        const auto name = conditionText(condition);
+        offer({.source = Source::Capture,
+               .title = name.isEmpty() ? tr("First capture") : tr("Capture: %1").arg(name),
+               .at = {seq, same->second}});
+    }
+}
+
+Result<CompareWindow::Both> CompareWindow::read(const std::array<std::filesystem::path, 2>& paths, const Drawn& drawn) {
+    Both both;
+    for (std::size_t s = 0; s < 2; ++s) {
+        auto& trace = both[s];
+        const auto reader = SessionReader::open(paths[s]);
+        if (!reader) return failure(reader);
+        if (drawn.source == Source::Capture) {
+            const auto capture = reader->capture(drawn.at[s]);
+            if (!capture) return failure(capture);
+            if (capture->channels.empty()) continue;
+            const auto* voltage = channelOf(*capture, "voltage");
+            const auto& channel = voltage != nullptr ? *voltage : capture->channels.front();
+            const double from = std::isfinite(capture->trigger_s) ? capture->start_s - capture->trigger_s : 0;
+            trace.y.assign(channel.samples.begin(), channel.samples.end());
+            for (std::size_t i = 0; i < trace.y.size(); ++i)
+                trace.t.push_back(from + static_cast<double>(i) / capture->rate_hz);
+        } else {
+            const auto block = reader->samples(int(drawn.at[s]));
+            if (!block) return failure(block);
+            if (block->samples() == 0) continue;
+            const auto columns = block->values.size() / block->samples();
+            trace.begins_s = block->t_s.front();
+            for (std::size_t i = 0; i < block->samples(); ++i) {
+                trace.t.push_back(block->t_s[i] - trace.begins_s);
+                trace.y.push_back(block->values[i * columns + drawn.column]);
+            }
+        }
+    }
+    return both;
+}
+
+void CompareWindow::draw() {
+    plot_->clearGraphs();
+    plot_->legend->setVisible(false);
+    drawMarks();
+    if (drawn_.empty()) return colour();
+    const auto drawn = drawn_[std::size_t(which_->currentIndex())];
+    if (drawn.source == Source::Trials) return drawTrials();
+    background_.take([drawn, paths = std::array{sessions_[0]->path, sessions_[1]->path}](
+                         const WorkPort&) { return read(paths, drawn); },
+                     [this, drawn](Result<Both> both) {
+                         if (both) overlay(std::move(*both), drawn);
+                     });
 }
 
 void CompareWindow::drawTrials() {
-    QMap<QString, int> order;
-    for (int s = 0; s < 2; ++s) {
-        QMap<QString, QCPGraph*> graphs;
+    for (std::size_t s = 0; s < 2; ++s) {
+        auto* graph = plot_->addGraph();
+        graph->setName(s == 0 ? tr("A") : tr("B"));
+        graph->setLineStyle(QCPGraph::lsNone);
         for (const auto& trial : sessions_[s]->trials) {
-            const auto name = qtext(trial.condition);
-            if (!order.contains(name)) order[name] = int(order.size());
-            auto*& graph = graphs[name];
-            if (graph == nullptr) {
-                graph = plane_->addGraph();
-                graph->setName(QString("%1, %2").arg(name, s == 0 ? tr("first") : tr("second")));
-                graph->setLineStyle(QCPGraph::lsNone);
-                trials_.push_back({graph, name, order[name], s == 0});
-            }
-            const double x = feature(trial, "interval_s"), y = feature(trial, "amplitude_v");
+            const double x = numberOr(trial.measured, "interval_s"), y = numberOr(trial.measured, "amplitude_v");
             if (std::isfinite(x) && std::isfinite(y)) graph->addData(x, y);
         }
     }
-    if (plane_->graphCount() == 0) {
-        noTrials_ = new QCPItemText(plane_);
-        noTrials_->position->setType(QCPItemPosition::ptAxisRectRatio);
-        noTrials_->position->setCoords(0.5, 0.5);
-        noTrials_->setText(tr("Neither session holds a trial."));
-        for (auto* axis : {plane_->xAxis, plane_->yAxis}) {
-            axis->setTicks(false);
-            axis->setTickLabels(false);
-            axis->grid()->setVisible(false);
-        }
+    plot_->xAxis->setLabel(tr("Interval (s)"));
+    plot_->yAxis->setLabel(tr("Amplitude (V)"));
+    plot_->legend->setVisible(true);
+    plot_->rescaleAxes();
+    plot_->xAxis->scaleRange(1.2);
+    plot_->yAxis->scaleRange(1.2);
+    colour();
+}
+
+/// Draws both traces from their beginnings or triggers, and of streams the difference at the times that both have.
+void CompareWindow::overlay(Both both, const Drawn& drawn) {
+    plot_->clearGraphs();
+    if (both[0].t.empty() || both[1].t.empty()) return colour();
+    const bool capture = drawn.source == Source::Capture;
+    Reach reach, span;
+    for (const auto& trace : both) {
+        for (const double value : trace.y) reach.include(value);
+        for (const double at : trace.t) span.include(at);
     }
-    plane_->legend->setVisible(plane_->graphCount() > 0);
-    colourTrials();
-    plane_->rescaleAxes();
-    plane_->xAxis->scaleRange(1.2);
-    plane_->yAxis->scaleRange(1.2);
-}
-
-/// Applies the current theme and text size, also to everything coloured below.
-void CompareWindow::colour() {
-    colourTrials();
-    colourStreams();
-    for (auto* plot : {plane_, streams_}) plot->replot(QCustomPlot::rpQueuedReplot);
-}
-
-void CompareWindow::colourTrials() {
-    stylePlot(*plane_);
-    if (noTrials_ != nullptr) {
-        noTrials_->setColor(colours().quiet);
-        noTrials_->setFont(textFont(TextSize::Body));
-    }
-    for (const auto& [graph, condition, number, first] : trials_) {
-        const auto style = conditionInTheme(condition, number);
-        graph->setScatterStyle(QCPScatterStyle(style.marker, QPen(style.color, 1.5),
-                                               first ? QBrush(Qt::NoBrush) : QBrush(style.color), first ? 10 : 6));
-    }
-    fitLegend(*plane_);
-}
-
-void CompareWindow::colourStreams() {
-    stylePlot(*streams_);
-    const QPen pens[] = {QPen(colours().voltage), QPen(colours().current, 1, Qt::DashLine), QPen(colours().third)};
-    for (int i = 0; i < streams_->graphCount(); ++i) streams_->graph(i)->setPen(pens[i]);
-    marks_->colour();
-    fitLegend(*streams_);
-}
-
-void CompareWindow::drawStream() {
-    if (stream_->count() == 0) return;
-    const auto& drawn = drawn_[stream_->currentData().toULongLong()];
-    std::array<std::pair<std::filesystem::path, int>, 2> where;
+    const auto unit = axisUnit(reach.magnitude(), capture ? QStringLiteral("V") : drawn.unit);
+    const auto time = axisUnit(span.magnitude(), "s");
     for (std::size_t s = 0; s < 2; ++s) {
-        for (const auto& info : sessions_[s]->streams) {
-            if (info.stream == drawn.stream) where[s] = {sessions_[s]->path, info.id};
-        }
+        for (double& value : both[s].y) value *= unit.factor;
+        begins_s_[s] = both[s].begins_s;
     }
-    using Samples = std::array<SampleBlock, 2>;
-    background_.take(
-        [where](const WorkPort&) -> Result<Samples> {
-            Samples samples;
-            for (std::size_t s = 0; s < 2; ++s) {
-                const auto reader = SessionReader::open(where[s].first);
-                if (!reader) return failure(reader);
-                auto read = reader->samples(where[s].second);
-                if (!read) return failure(read);
-                samples[s] = std::move(*read);
-            }
-            return samples;
-        },
-        [this, drawn](const Result<Samples>& samples) {
-            if (samples) overlay((*samples)[0], (*samples)[1], drawn);
-        });
-}
-
-/// Draws each stream from its own beginning, and below them the difference at the times that both have.
-void CompareWindow::overlay(const SampleBlock& a, const SampleBlock& b, const Drawn& drawn) {
-    streams_->clearGraphs();
-    const auto shown = [&](std::vector<double> t, const std::vector<double>& values, const QString& name) {
-        for (const double from = t.front(); double& at_s : t) at_s -= from;
-        addCurve(*streams_, streams_->yAxis, t, values, name);
+    auto difference = differenceOf(both[0].t, both[0].y, both[1].t, both[1].y);
+    const auto shown = [&](std::vector<double> t, const std::vector<double>& y, const QString& name) {
+        if (capture)
+            for (double& at : t) at *= time.factor;
+        addCurve(*plot_, plot_->yAxis, t, y, name);
     };
-    const auto column = [&](const SampleBlock& block) {
-        std::vector<double> values(block.samples());
-        const auto columns = drawn.stream.columns.size();
-        for (std::size_t i = 0; i < values.size(); ++i) values[i] = block.values[i * columns + drawn.column];
-        return values;
-    };
-    if (a.samples() == 0 || b.samples() == 0) return;
-    auto va = column(a), vb = column(b);
-    Reach reach;
-    for (const auto* values : {&va, &vb}) std::ranges::for_each(*values, [&](double v) { reach.include(v); });
-    const auto unit = axisUnit(reach.magnitude(), drawn.unit);
-    for (auto* values : {&va, &vb}) std::ranges::for_each(*values, [&](double& v) { v *= unit.factor; });
-    shown(a.t_s, va, tr("first"));
-    shown(b.t_s, vb, tr("second"));
-    std::vector<double> t, difference;
-    std::size_t j = 0;
-    for (std::size_t i = 0; i < va.size(); ++i) {
-        const double at = a.t_s[i] - a.t_s.front();
-        while (j + 1 < vb.size() &&
-               std::abs(b.t_s[j + 1] - b.t_s.front() - at) <= std::abs(b.t_s[j] - b.t_s.front() - at))
-            ++j;
-        if (std::abs(b.t_s[j] - b.t_s.front() - at) > 0.01) continue;
-        t.push_back(a.t_s.front() + at);
-        difference.push_back(va[i] - vb[j]);
-    }
-    if (!t.empty()) shown(t, difference, tr("first less second"));
-    streams_->legend->setVisible(true);
-    colourStreams();
-    streams_->xAxis->setLabel(tr("Time from the first sample (s)"));
-    streams_->yAxis->setLabel(axisTitle(drawn.title, unit.unit));
-    begins_s_ = {a.t_s.front(), b.t_s.front()};
-    streams_->rescaleAxes();
+    shown(both[0].t, both[0].y, tr("A"));
+    shown(both[1].t, both[1].y, tr("B"));
+    if (!capture && !difference.first.empty()) shown(difference.first, difference.second, tr("B less A"));
+    plot_->legend->setVisible(true);
+    plot_->xAxis->setLabel(capture ? axisTitle(tr("Time from the trigger"), time.unit)
+                                   : tr("Time from the first sample (s)"));
+    plot_->yAxis->setLabel(axisTitle(capture ? tr("Voltage") : drawn.title.section(": ", -1), unit.unit));
+    plot_->rescaleAxes();
     drawMarks();
-    streams_->replot();
+    colour();
 }
 
-/// Draws the marks of both sessions; like the traces, each counts from the first sample of its stream.
+/// Draws the marks of both sessions on their streams; like the traces, each counts from its first sample.
 void CompareWindow::drawMarks() {
     std::vector<PlotMark> marks;
-    for (std::size_t s = 0; s < 2 && streams_->graphCount() > 0; ++s) {
+    const bool stream = !drawn_.empty() && drawn_[std::size_t(which_->currentIndex())].source == Source::Stream;
+    for (std::size_t s = 0; s < 2 && stream && plot_->graphCount() > 0; ++s) {
         for (const auto& [at_s, word] : operatorMarks(*sessions_[s]))
-            marks.push_back({at_s - begins_s_[s], (s == 0 ? tr("first: ") : tr("second: ")).toStdString() + word});
+            marks.push_back({at_s - begins_s_[s], (s == 0 ? tr("A: ") : tr("B: ")).toStdString() + word});
     }
-    marks_->draw(marks, {streams_->axisRect()});
+    marks_->draw(marks, {plot_->axisRect()});
+}
+
+/// Applies the current theme and text size.
+void CompareWindow::colour() {
+    stylePlot(*plot_);
+    const QColor colourOf[] = {colours().voltage, colours().current, colours().third};
+    for (int i = 0; i < plot_->graphCount(); ++i) {
+        auto* graph = plot_->graph(i);
+        const auto& of = colourOf[i];
+        graph->setPen(QPen(of, 1, i == 1 ? Qt::DashLine : Qt::SolidLine));
+        if (graph->lineStyle() == QCPGraph::lsNone)
+            graph->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssCircle, QPen(of, 1.5),
+                                                   i == 0 ? QBrush(Qt::NoBrush) : QBrush(of), i == 0 ? 10 : 6));
+    }
+    marks_->colour();
+    fitLegend(*plot_);
+    plot_->replot(QCustomPlot::rpQueuedReplot);
 }
 
 }  // namespace tacto::gui

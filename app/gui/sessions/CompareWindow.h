@@ -1,5 +1,5 @@
-// CompareWindow.h - compares two sessions: their trials in one plane, a stream of both with its difference, and
-// sentences that say how settings and results differ.
+// CompareWindow.h - compares two sessions, A and B: a table of what differs, and one figure of a trace of both: their
+// trials, a stream, or what the oscilloscope captured in the same condition.
 #pragma once
 
 #include <QComboBox>
@@ -17,40 +17,42 @@ namespace tacto::gui {
 class CompareWindow final : public QDialog {
     Q_OBJECT
 public:
-    CompareWindow(std::shared_ptr<const ReadSession> first, std::shared_ptr<const ReadSession> second, QWidget* parent);
+    CompareWindow(std::shared_ptr<const ReadSession> a, std::shared_ptr<const ReadSession> b, QWidget* parent);
     /// Returns the operator's marks of both sessions on the stream drawn.
     [[nodiscard]] const MarkLines& marks() const { return *marks_; }
 
 private:
-    /// The trials of one condition in one of the two sessions.
-    struct Trials {
-        QCPGraph* graph = nullptr;
-        QString condition;
-        int number = 0;  ///< the condition's number
-        bool first = true;
-    };
-    void drawTrials();
-    void drawStream();
-    void drawMarks();
-    void colour();
-    void colourTrials();
-    void colourStreams();
-    /// A column of a stream that both sessions have, and its axis title without the unit prefix.
+    enum class Source { Trials, Stream, Capture };
+    /// What both sessions hold and the figure can show; `at` is a stream's id or a capture's row in each session.
     struct Drawn {
-        SessionStream stream;
-        std::size_t column = 0;
+        Source source = Source::Trials;
         QString title;
         QString unit;
+        std::array<std::int64_t, 2> at{};
+        std::size_t column = 0;
     };
-    void overlay(const SampleBlock& a, const SampleBlock& b, const Drawn& drawn);
-    std::shared_ptr<const ReadSession> sessions_[2];
-    QCustomPlot* plane_;
-    std::vector<Trials> trials_;
-    QCPItemText* noTrials_ = nullptr;  ///< says that there are no trials; null if there are some
-    QCustomPlot* streams_;
-    QComboBox* stream_;
-    std::vector<Drawn> drawn_;          // in the order of stream_
-    std::array<double, 2> begins_s_{};  // start times of the streams drawn, each on its own time base
+    /// The curve of one session: seconds from its beginning (of a capture: from its trigger), and values.
+    struct Trace {
+        std::vector<double> t, y;
+        double begins_s = 0;
+    };
+    using Both = std::array<Trace, 2>;
+    [[nodiscard]] QWidget* buildFigure(QWidget* parent);
+    void offerTrials();
+    void offerStreams();
+    void offerCaptures();
+    void offer(Drawn drawn);
+    [[nodiscard]] static Result<Both> read(const std::array<std::filesystem::path, 2>& paths, const Drawn& drawn);
+    void draw();
+    void drawTrials();
+    void overlay(Both both, const Drawn& drawn);
+    void drawMarks();
+    void colour();
+    std::array<std::shared_ptr<const ReadSession>, 2> sessions_;
+    QComboBox* which_ = nullptr;
+    QCustomPlot* plot_ = nullptr;
+    std::vector<Drawn> drawn_;          ///< in the order of which_
+    std::array<double, 2> begins_s_{};  ///< when the streams drawn begin, each on its own time base
     std::unique_ptr<MarkLines> marks_;
     Background background_;
 };

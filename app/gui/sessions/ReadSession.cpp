@@ -1,6 +1,11 @@
 #include "app/gui/sessions/ReadSession.h"
 
+#include <cmath>
+#include <map>
+
 #include "app/gui/theme/Text.h"
+#include "app/report/NumberText.h"
+#include "app/report/ResultCells.h"
 #include "app/report/SessionReport.h"
 #include "core/base/DriveSegment.h"
 #include "core/base/JsonText.h"
@@ -16,11 +21,6 @@ namespace {
 /// Report figures come from a script; a figure that cannot be drawn is ignored.
 void takeItem(const nlohmann::json& item, const SessionReader& reader, ReadSession& session) {
     const auto kind = textOr(item, "kind");
-    if (kind == "about") {
-        for (const auto& parameter : valueOr(item, "parameters"))
-            session.settings[textOr(parameter, "name")] = parameter;
-        return;
-    }
     const auto drawn = valueOr(item, "figure");
     if (kind != "figure") return;
     if (textOr(drawn, "type") == "plane") session.planeOfTrials = true;
@@ -65,18 +65,85 @@ Result<void> readCourse(const SessionReader& reader, ReadSession& session) {
     return {};
 }
 
+/// The commands delivered for one capture: their least and largest values.
+struct CommandRange {
+    double low = kNaN, high = kNaN;
+    void include(double value) {
+        if (!std::isfinite(value)) return;
+        low = std::fmin(low, value);
+        high = std::fmax(high, value);
+    }
+    [[nodiscard]] QString text(const QString& unit) const {
+        if (!std::isfinite(low)) return {};
+        const auto most = settingText(high, unit);
+        return low == high ? most : QObject::tr("%1 to %2").arg(settingText(low, {}), most);
+    }
+};
+
+/// Finds the command of each capture: the last train delivered before it, or all those of its trial.
+Result<void> readCommands(const SessionReader& reader, ReadSession& session) {
+    struct Command {
+        std::int64_t seq = 0;
+        double amplitude = kNaN, interval_s = kNaN, impedance_ohm = kNaN;
+        bool current = false;
+    };
+    std::vector<Command> delivered;  // since the capture before
+    std::map<int, const SessionTrial*> trials;
+    for (const auto& trial : session.trials) trials[trial.number] = &trial;
+    const double set = numberOr(session.about.parameters, "load");
+    auto next = session.captures.begin();
+    const auto close = [&](ReadCapture& capture) {
+        const auto* before = &capture == session.captures.data() ? nullptr : &capture - 1;
+        const auto found = capture.trial ? trials.find(*capture.trial) : trials.end();
+        const auto* trial = found != trials.end() ? found->second : nullptr;
+        if (before != nullptr && delivered.empty() && before->trial == capture.trial) {
+            capture.load = before->load;
+            capture.command = before->command;
+            return;
+        }
+        if (trial == nullptr && delivered.size() > 1) delivered.erase(delivered.begin(), delivered.end() - 1);
+        CommandRange amplitude, interval;
+        for (const auto& command : delivered) {
+            amplitude.include(command.amplitude);
+            interval.include(command.interval_s);
+        }
+        const bool current = !delivered.empty() && delivered.back().current;
+        const auto every = interval.text("s");
+        capture.command = amplitude.text(amplitudeUnit(current ? Drive::Current : Drive::Voltage));
+        if (!capture.command.isEmpty() && !every.isEmpty())
+            capture.command = QObject::tr("%1 every %2").arg(capture.command, every);
+        // A trial into one of several loads is named by its load and command: "1 kohm, 10.0 V".
+        if (trial != nullptr && trial->measured.contains("command_v"))
+            capture.load = loadText(qtext(trial->condition.substr(0, trial->condition.rfind(", "))));
+        else if (std::isfinite(set))
+            capture.load = settingText(set, "ohm");
+        else if (!delivered.empty() && std::isfinite(delivered.back().impedance_ohm))
+            capture.load = QObject::tr("%1, measured").arg(quantityText(delivered.back().impedance_ohm, "ohm", 3));
+        delivered.clear();
+    };
+    auto read = reader.forEachCommand([&](const SessionRow& row) {
+        for (; next != session.captures.end() && next->seq < row.seq; ++next) close(*next);
+        if (row.name != "delivered" || next == session.captures.end()) return;
+        const bool current = !valueOr(row.body, "amplitude_ma").is_null();
+        delivered.push_back({row.seq, numberOr(row.body, current ? "amplitude_ma" : "amplitude_v"),
+                             numberOr(row.body, "interval_s"), numberOr(row.body, "impedance_ohm"), current});
+    });
+    for (; next != session.captures.end(); ++next) close(*next);
+    return read;
+}
+
 }  // namespace
 
 Result<ReadSession> readSession(const std::filesystem::path& path) {
     const auto reader = SessionReader::open(path);
     if (!reader) return failure(reader);
     ReadSession session;
+    auto compared = readForComparison(*reader);
+    if (!compared) return failure(compared);
+    static_cast<ComparedSession&>(session) = std::move(*compared);
     session.path = path;
-    session.about = reader->about();
-    session.closed = reader->closed();
     session.elsewhere = !session.closed && openElsewhere(path);
     session.head = reader->chainHead();
-    session.length = reader->lastAt();
     if (const auto takes = takesLabels(path, *reader); !takes) session.fixed = sentence(takes.error());
     const auto take = [](auto&& from, auto& into) -> Result<void> {
         if (!from) return failure(from);
@@ -84,20 +151,16 @@ Result<ReadSession> readSession(const std::filesystem::path& path) {
         return {};
     };
     std::vector<SessionRow> items;
-    Delivered delivered;
-    if (auto done = take(reader->labels(), session.labels); !done) return failure(done);
     if (auto done = take(sessionMarks(*reader), session.marks); !done) return failure(done);
-    if (auto done = take(reader->verdicts(), session.verdicts); !done) return failure(done);
-    if (auto done = take(reader->trials(), session.trials); !done) return failure(done);
     if (auto done = take(reader->events(), session.events); !done) return failure(done);
     if (auto done = take(reader->log(), session.log); !done) return failure(done);
     if (auto done = take(reader->streams(), session.streams); !done) return failure(done);
-    if (auto done = take(reader->captures(), session.captures); !done) return failure(done);
+    std::vector<SessionCaptureInfo> captures;
+    if (auto done = take(reader->captures(), captures); !done) return failure(done);
+    for (auto& capture : captures) session.captures.push_back({std::move(capture), {}, {}});
+    if (!captures.empty())
+        if (auto done = readCommands(*reader, session); !done) return failure(done);
     if (auto done = take(reader->reportItems(), items); !done) return failure(done);
-    if (auto done = take(deliveredIn(*reader), delivered); !done) return failure(done);
-    session.trains = delivered.trains;
-    session.most = delivered.most;
-    session.unit = qtext(delivered.unit);
     for (const auto& item : items) takeItem(item.body, *reader, session);
     if (session.figure || session.planeOfTrials) return session;
     if (auto read = readCourse(*reader, session); !read) return failure(read);

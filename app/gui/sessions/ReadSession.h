@@ -5,12 +5,12 @@
 
 #include <QString>
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/gui/theme/MarkLines.h"
+#include "app/report/CompareSessions.h"
 #include "app/report/Figure.h"
 #include "core/base/Result.h"
 #include "core/base/Stream.h"
@@ -26,30 +26,26 @@ struct SessionCourse {
     [[nodiscard]] bool empty() const { return frame_s.empty() && train_s.empty(); }
 };
 
-struct ReadSession {
+/// A capture with what it is of, as far as the session says so.
+struct ReadCapture : SessionCaptureInfo {
+    QString load;     ///< "1 kΩ": of its trial, as set for the run, or as the stimulator measured it
+    QString command;  ///< "40 V every 500 ms"; of a trial with several, "10 to 40 V every 500 ms"
+};
+
+struct ReadSession : ComparedSession {
     std::filesystem::path path;
-    SessionAbout about;
-    SessionLabels labels;
-    QString fixed;  ///< a sentence that says why the labels cannot be changed; empty if they can
-    bool closed = false;
+    QString fixed;           ///< a sentence that says why the labels cannot be changed; empty if they can
     bool elsewhere = false;  ///< another program is recording this session
     std::string head;
-    Instant length{0};
     std::vector<std::string> marks;  ///< the marks from sessionMarks()
-    std::vector<SessionVerdict> verdicts;
-    std::vector<SessionTrial> trials;
     std::vector<SessionRow> events;
     std::vector<SessionRow> log;
     std::vector<SessionStreamInfo> streams;
-    std::vector<SessionCaptureInfo> captures;
-    std::map<std::string, nlohmann::json> settings;  ///< by name: "label", "unit", or a choice's displayed words
-    std::optional<Figure> figure;                    ///< the report's first figure that is not a plane of trials
-    QString caption;                                 ///< the figure's caption
-    bool planeOfTrials = false;                      ///< draw the trials' amplitude against their interval
-    SessionCourse course;                            ///< filled only without figure and plane
-    std::uint64_t trains = 0;                        ///< trains delivered, without impedance checks
-    double most = 0;                                 ///< largest amplitude in `unit`
-    QString unit;
+    std::vector<ReadCapture> captures;
+    std::optional<Figure> figure;  ///< the report's first figure that is not a plane of trials
+    QString caption;               ///< the figure's caption
+    bool planeOfTrials = false;    ///< draw the trials' amplitude against their interval
+    SessionCourse course;          ///< filled only without figure and plane
 };
 /// Errors: as SessionReader.
 [[nodiscard]] Result<ReadSession> readSession(const std::filesystem::path& path);

@@ -16,6 +16,7 @@
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/VerdictBlock.h"
+#include "app/report/FigureDrawing.h"
 #include "app/report/NumberText.h"
 #include "app/report/ShownText.h"
 #include "core/base/JsonText.h"
@@ -38,6 +39,20 @@ QTableWidget* makeTable(QWidget* parent, const QString& name) {
     table->horizontalHeader()->setHighlightSections(false);
     table->setWordWrap(false);
     return table;
+}
+
+/// Says in place of the rows why there are none.
+void sayIfEmpty(QTableWidget& table, const QString& why) {
+    auto* note = table.findChild<QLabel*>("whyEmpty");
+    if (note == nullptr) {
+        note = makeLabel({}, {.name = "whyEmpty", .tone = Tone::Quiet, .wraps = true, .plain = true}, table.viewport());
+        note->setAlignment(Qt::AlignCenter);
+        columnIn(*table.viewport())->addWidget(note);
+    }
+    const bool empty = table.rowCount() == 0;
+    table.horizontalHeader()->setVisible(!empty);
+    note->setVisible(empty);
+    note->setText(empty ? why : QString());
 }
 
 using As = ResultColumn::As;
@@ -181,7 +196,11 @@ void SessionDetails::say(const QString& why) {
     session_.reset();
     overview_->say(why);
     about_->setHtml("<p>" + why.toHtmlEscaped() + "</p>");
-    for (auto* table : {trials_, streams_, captures_}) table->setRowCount(0);
+    for (auto* table : {trials_, streams_, captures_}) {
+        table->setRowCount(0);
+        sayIfEmpty(*table, why);
+    }
+    plot_->hide();
     clearStream();
     setCurrentIndex(0);
 }
@@ -271,6 +290,8 @@ void SessionDetails::show(std::shared_ptr<const ReadSession> session) {
                            {"channels", stream.stream.columns.size()}});
     for (const auto& capture : session_->captures)
         captures.push_back({{"number", captures.size() + 1},
+                            {"load", capture.load.toStdString()},
+                            {"command", capture.command.toStdString()},
                             {"trial", capture.trial ? json(*capture.trial) : json(nullptr)},
                             {"at", toSeconds(capture.at)},
                             {"samples", capture.samples},
@@ -296,12 +317,25 @@ void SessionDetails::show(std::shared_ptr<const ReadSession> session) {
     clearStream();
     fill(*captures_,
          {{"Capture", "number", As::Number},
+          {"Load", "load"},
+          {"Command", "command"},
           {"Trial", "trial", As::Number},
           {"At", "at", As::Number, "s"},
           {"Samples", "samples", As::Number},
           {"Rate", "rate", As::Number, "S/s"}},
          captures);
     if (captures_->rowCount() > 0) captures_->setCurrentCell(0, 0);
+    plot_->setVisible(streams_->rowCount() > 0);
+    const auto has = [this](Role role) {
+        return std::ranges::any_of(session_->about.devices, [role](const auto& device) { return device.is(role); });
+    };
+    sayIfEmpty(*trials_, session_->about.protocol.empty() || session_->about.protocol == "live"
+                             ? tr("No trial: it was driven live, and only protocols make trials.")
+                             : tr("No trial: the run made none before it ended."));
+    sayIfEmpty(*streams_, has(Role::Sensor) ? tr("No stream: the fingertip sent nothing before the end.")
+                                            : tr("No stream: no fingertip was connected."));
+    sayIfEmpty(*captures_, has(Role::Oscilloscope) ? tr("No capture: the oscilloscope was not triggered, or not armed.")
+                                                   : tr("No capture: no oscilloscope was connected."));
     fitStreams();
     // Waits until the session's reader has finished: it reads one thing at a time.
     QTimer::singleShot(0, this, [this, again] {

@@ -143,7 +143,8 @@ QString ending(const ReadSession& session) {
     if (!session.closed && session.elsewhere) return words("Another program is recording it.");
     if (!session.closed) return words("The recording has no end mark: a crash, or it is still going on.");
     QStringList found;
-    if (!session.trials.empty()) found << trialsText(session.trials.size());
+    const auto trials = session.trials.size();
+    if (trials > 0) found << (trials == 1 ? QObject::tr("1 trial") : QObject::tr("%1 trials").arg(trials));
     if (session.trains > 0)
         found << (session.unit.isEmpty() ? QObject::tr("%1 trains").arg(session.trains)
                                          : QObject::tr("%1 trains of at most %2")
@@ -154,10 +155,6 @@ QString ending(const ReadSession& session) {
 }
 
 }  // namespace
-
-QString trialsText(std::size_t count) {
-    return count == 1 ? QObject::tr("1 trial") : QObject::tr("%1 trials").arg(count);
-}
 
 QString conditionText(const std::string& condition) { return withOhmSigns(qtext(condition)); }
 

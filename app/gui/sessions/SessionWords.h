@@ -15,8 +15,6 @@ namespace tacto::gui {
 
 /// Returns "Today 11:02", "Yesterday 16:20", "20 Nov 14:05"; in another year only the date.
 [[nodiscard]] QString beganText(const QDateTime& began);
-/// Returns "1 trial", "25 trials".
-[[nodiscard]] QString trialsText(std::size_t count);
 /// Returns "1 kΩ, 10.0 V" for "1 kohm, 10.0 V": loads and conditions as people write them.
 [[nodiscard]] QString conditionText(const std::string& condition);
 

@@ -1,9 +1,10 @@
-// Tests sessions in sentences (what happened, and what differs between two) and the picture of a session.
+// Tests what happened in a session, in sentences, and the picture of a session.
 #include <QLabel>
 #include <QRegularExpression>
 #include <gmock/gmock.h>
+#include <random>
 
-#include "app/gui/sessions/Differences.h"
+#include "app/gui/sessions/SessionDetails.h"
 #include "app/gui/sessions/SessionPreview.h"
 #include "app/gui/sessions/SessionWords.h"
 #include "app/gui/theme/Text.h"
@@ -27,12 +28,8 @@ protected:
         for (const auto& moment : gui::whatHappened(session)) all.push_back(moment.text.toStdString());
         return all;
     }
-    [[nodiscard]] static std::vector<std::string> between(const gui::ReadSession& a, const gui::ReadSession& b) {
-        std::vector<std::string> all;
-        for (const auto& difference : gui::differencesOf(a, b)) all.push_back(difference.sentence.toStdString());
-        return all;
-    }
     WrittenSessions sessions;
+    const ShippedLimits limits_{};
 };
 
 TEST_F(Words, OfWhatHappenedAreSentencesWithoutIdsOrJson) {
@@ -82,37 +79,83 @@ TEST_F(Words, OfARepeatedEventStandOnceWithTheirCount) {
     EXPECT_THAT(all, Contains("A train was refused: RMS current, 5 s, would be 11.2 mA of 10 mA. (3 times)"));
 }
 
-TEST_F(Words, OfWhatDiffersAreSentencesWithNumbers) {
-    const auto first = read({.name = "a"});
-    auto second = read({.name = "b", .verdict = "fail", .amplitude_v = 40.2});
-    second.about.devices[0].uri = "sim:stimulator?gain=1.05";
-    second.about.profileJson = R"({"encoding": {"A_max_v": 38}})";
-    second.about.parameters = {{"repeats", 40}};
-    const auto all = between(first, second);
-    EXPECT_THAT(all, Contains("The second ended with fail where the first ended with pass."));
-    EXPECT_THAT(all,
-                Contains("Rough-high: the second delivered 40.20\u202fV where the first delivered 39.80\u202fV (means "
-                         "of 25 and 25 trials)."));
-    EXPECT_THAT(all, Not(Contains(HasSubstr("Smooth-low")))) << "what is the same is not said";
-    EXPECT_THAT(all, Contains(HasSubstr("gain=1.05")));
-    EXPECT_THAT(all, Contains(HasSubstr("40 in the second, 25 in the first")));
-    EXPECT_THAT(all, Contains(HasSubstr("38.00\u202fV in the second where the first has 40.00\u202fV")));
-    EXPECT_THAT(all, Contains(HasSubstr("Accuracy: 0.71")));
-    EXPECT_TRUE(between(first, first).empty());
+TEST_F(Words, OfEachCaptureAreItsLoadAndItsCommand) {
+    RecordProperty("hazard", "H9");
+    std::mt19937 random(4911);
+    const auto whole = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(random); };
+    for (int round = 0; round < 6; ++round) {
+        const auto path = sessions.folder() / fmt::format("captures-{}.tacto", round);
+        VirtualClock clock;
+        SessionAbout about;
+        about.protocol = round % 2 == 0 ? "load-safety" : "live";
+        about.mode = "bench load";
+        about.wallStart = "2026-11-20T10:02:05Z";
+        auto made = SessionWriter::create(path, about, clock);
+        ASSERT_TRUE(made) << made.error().message;
+        auto& session = **made;
+        Capture capture;
+        capture.rate_hz = 1e6;
+        capture.channels = {{.name = "voltage", .unit = "V", .samples = std::vector<float>(8, 1.0F)}};
+        std::vector<std::pair<std::string, std::string>> expected;  // load, command
+        const auto delivers = [&](int volts, int ohms) {
+            clock.advanceTo(clock.now() + toInstant(1));
+            ASSERT_TRUE(session.command(clock.now(), "train", {{"amplitude_v", 99}}));  // asked for, not delivered
+            ASSERT_TRUE(session.command(clock.now(), "delivered",
+                                        {{"amplitude_v", volts}, {"interval_s", 0.5}, {"impedance_ohm", ohms}}));
+        };
+        for (int k = 0; k < 8; ++k) {
+            const int volts = whole(1, 40), ohms = 100 * whole(1, 9);
+            for (int train = whole(1, 3); train > 0; --train) delivers(volts, ohms);
+            std::optional<int> trial;
+            auto load = fmt::format("{}\u202fΩ, measured", ohms);
+            if (about.protocol == "load-safety") {
+                const auto number = session.trial(clock.now(), fmt::format("{} ohm, {:.1f} V", ohms, double(volts)),
+                                                  {{"command_v", volts}});
+                ASSERT_TRUE(number);
+                trial = *number;
+                load = fmt::format("{}\u00a0Ω", ohms);
+            }
+            const auto command = fmt::format("{}\u202fV every 500\u202fms", volts);
+            for (int each = trial ? whole(1, 3) : 1; each > 0; --each) {
+                ASSERT_TRUE(session.capture(clock.now(), capture, trial));
+                expected.emplace_back(load, command);
+            }
+        }
+        ASSERT_TRUE(session.close());
+        const auto read = gui::readSession(path);
+        ASSERT_TRUE(read) << read.error().message;
+        ASSERT_EQ(read->captures.size(), expected.size());
+        for (std::size_t k = 0; k < expected.size(); ++k) {
+            EXPECT_EQ(read->captures[k].load.toStdString(), expected[k].first) << about.protocol << ' ' << k;
+            EXPECT_EQ(read->captures[k].command.toStdString(), expected[k].second) << about.protocol << ' ' << k;
+        }
+    }
 }
 
-TEST_F(Words, OfConditionsThatOnlyOneHasAreNamedWhileTheyAreFew) {
-    const auto first = read({.name = "a"});
-    auto second = read({.name = "b", .protocol = "load-safety", .verdict = ""});
-    second.trials = {
-        {1, 1, Instant(1), "10 kohm", {}}, {2, 2, Instant(2), "1 kohm", {}}, {3, 3, Instant(3), "1 kohm", {}}};
-    auto all = between(first, second);
-    EXPECT_THAT(all, Contains("10 kΩ: 1 trial in the second, none in the first."));
-    EXPECT_THAT(all, Contains("1 kΩ: 2 trials in the second, none in the first."));
-    EXPECT_THAT(all, Contains("Rough-high: 25 trials in the first, none in the second."));
-    for (int load = 1; load < 20; ++load) second.trials.push_back({3, 3, Instant(3), fmt::format("{} ohm", load), {}});
-    all = between(first, second);
-    EXPECT_THAT(all, Contains("21 conditions of the second are not in the first."));
+TEST_F(Words, APageWithoutRowsSaysWhy) {
+    gui::SessionDetails details{limits_};
+    details.resize(700, 500);
+    details.QWidget::show();
+    const auto said = [&](int page) {
+        details.setCurrentIndex(page);
+        letLive(20);
+        QStringList all;
+        for (const auto* note : details.currentWidget()->findChildren<QLabel*>("whyEmpty"))
+            if (note->isVisible()) all << note->text();
+        return all.join(' ').toStdString();
+    };
+    constexpr int kTrials = 1, kStreams = 2, kCaptures = 3;
+    for (const int page : {kTrials, kStreams, kCaptures}) EXPECT_THAT(said(page), HasSubstr("Choose a session"));
+    details.show(std::make_shared<gui::ReadSession>(read({.name = "a"})));
+    EXPECT_EQ(said(kTrials), "") << "it has trials";
+    EXPECT_THAT(said(kStreams), HasSubstr("No stream: no fingertip was connected"));
+    EXPECT_THAT(said(kCaptures), HasSubstr("No capture: no oscilloscope was connected"));
+    auto live = read({.name = "b", .protocol = "", .verdict = ""});
+    live.about.devices = {{"sim:oscilloscope", "oscilloscope", "simulated oscilloscope", "SIM-1", "1", true}};
+    details.show(std::make_shared<gui::ReadSession>(live));
+    EXPECT_THAT(said(kTrials), HasSubstr("No trial: it was driven live"));
+    EXPECT_THAT(said(kCaptures), HasSubstr("was not triggered"));
+    shot(details, "session-without-captures");
 }
 
 TEST_F(Words, APreviewIsTheMainPlot) {
