@@ -117,8 +117,8 @@ void CalibrationPlot::hideNearest() {
         item->setVisible(false);
 }
 
-double CalibrationPlot::shown(const CalibrationReading& reading) const {
-    return kind_ == Kind::Errors ? reading.measured - reading.commanded : reading.measured;
+double CalibrationPlot::shown(const CalibrationReadings& of, double commanded, double measured) const {
+    return kind_ == Kind::Errors ? measured - commanded - of.baseAt(commanded) : measured;
 }
 
 void CalibrationPlot::show(const CalibrationReadings& of) {
@@ -127,15 +127,15 @@ void CalibrationPlot::show(const CalibrationReadings& of) {
     Reach x, y;
     for (const auto& reading : of.readings) {
         x.include(reading.commanded);
-        y.include(shown(reading));
+        y.include(shown(of, reading.commanded, reading.measured));
         if (kind_ == Kind::Measured) continue;
         y.include(bandAt(of, reading.commanded));
         y.include(-bandAt(of, reading.commanded));
     }
     for (std::size_t k = 0; kind_ == Kind::Errors && k < of.uncertainty.size(); ++k) {
         const auto& level = of.fit->levels[k];
-        y.include(level.mean - level.commanded + of.uncertainty[k]);
-        y.include(level.mean - level.commanded - of.uncertainty[k]);
+        y.include(shown(of, level.commanded, level.mean) + of.uncertainty[k]);
+        y.include(shown(of, level.commanded, level.mean) - of.uncertainty[k]);
     }
     const AxisUnit across = axisUnit(x.magnitude(), of.unit), upward = axisUnit(y.magnitude(), of.unit);
     xAxis->setRange(rangeOf(x, across.factor));
@@ -155,7 +155,10 @@ void CalibrationPlot::show(const CalibrationReadings& of) {
     if (kind_ == Kind::Errors) nameNearest(of, across, upward);
     xAxis->setLabel(axisTitle(tr("Commanded %1").arg(quantityTitle(of.quantity).toLower()), across.unit));
     if (of.tolerance_pct > 0) bandTop_->setName(tr("tolerance ± %1").arg(settingText(of.tolerance_pct, "%")));
-    yAxis->setLabel(axisTitle(kind_ == Kind::Errors ? tr("Measured − commanded") : tr("Measured"), upward.unit));
+    yAxis->setLabel(axisTitle(kind_ == Kind::Measured ? tr("Measured")
+                              : of.checks             ? tr("Measured − as calibrated")
+                                                      : tr("Measured − commanded"),
+                              upward.unit));
     for (auto* axis : {xAxis, yAxis}) {
         axis->setTickLabels(true);
         axis->setTicker(QSharedPointer<PlainTicker>::create(kTicks));
@@ -167,7 +170,8 @@ void CalibrationPlot::show(const CalibrationReadings& of) {
 
 void CalibrationPlot::drawReadings(const CalibrationReadings& of, const AxisUnit& across, const AxisUnit& upward) {
     for (const auto& reading : of.readings) {
-        const double at = reading.commanded * across.factor, value = shown(reading) * upward.factor;
+        const double at = reading.commanded * across.factor,
+                     value = shown(of, reading.commanded, reading.measured) * upward.factor;
         if (!std::isfinite(at) || !std::isfinite(value)) continue;
         const bool down = reading.direction == SweepDirection::Down;
         const double aside = kind_ == Kind::Errors ? (down ? kAside : -kAside) * xAxis->range().size() : 0;
@@ -182,7 +186,7 @@ void CalibrationPlot::drawLine(const CalibrationReadings& of, const AxisUnit& ac
         const double at = level->commanded;
         const double fitted = of.fit->gain * at + of.fit->offset;
         if (kind_ == Kind::Errors)
-            nominal_->addData(at * across.factor, (fitted - at) * upward.factor);
+            nominal_->addData(at * across.factor, shown(of, at, fitted) * upward.factor);
         else
             line_->addData(at * across.factor, fitted * upward.factor);
     }
@@ -205,7 +209,7 @@ void CalibrationPlot::drawMeans(const CalibrationReadings& of, const AxisUnit& a
     for (std::size_t k = 0; k < of.uncertainty.size(); ++k) {
         const auto& level = of.fit->levels[k];
         if (!std::isfinite(level.mean)) continue;
-        means_->addData(level.commanded * across.factor, (level.mean - level.commanded) * upward.factor);
+        means_->addData(level.commanded * across.factor, shown(of, level.commanded, level.mean) * upward.factor);
         u << (std::isfinite(of.uncertainty[k]) ? of.uncertainty[k] * upward.factor : 0);
     }
     bars_->setData(u);

@@ -42,7 +42,8 @@ private:
     void drawMeans(const CalibrationReadings& of, const AxisUnit& across, const AxisUnit& upward);
     void drawReadings(const CalibrationReadings& of, const AxisUnit& across, const AxisUnit& upward);
     void nameNearest(const CalibrationReadings& of, const AxisUnit& across, const AxisUnit& upward);
-    [[nodiscard]] double shown(const CalibrationReading& reading) const;
+    /// Returns a reading as drawn: measured, or its error, which in a check counts from the line that is checked.
+    [[nodiscard]] double shown(const CalibrationReadings& of, double commanded, double measured) const;
     void hideNearest();
     void colour();
     const Kind kind_;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "app/gui/theme/Text.h"
+#include "core/analysis/statistics/Verdict.h"
 #include "core/base/JsonText.h"
 #include "core/encoding/StimulatorCalibration.h"
 
@@ -109,6 +110,37 @@ std::optional<CalibrationReadings> readingsFrom(const std::string& quantity, con
     }
     out.fit = std::move(fit);
     return out;
+}
+
+void takeCheck(CalibrationReadings& readings, const nlohmann::json& rows) {
+    const auto* known = tacto::calibratedQuantity(readings.quantity);
+    Calibration line;
+    std::vector<double> expected;
+    std::optional<Verdict> worst;
+    readings.used.clear();
+    readings.uncertainty.clear();
+    for (const auto& row : rows) {
+        if (known == nullptr || textOr(row, "quantity") != readings.quantity) continue;
+        const auto value = [&](const char* key) { return numberOr(row, key) / known->perUnit; };
+        CalibrationLevel level;
+        level.commanded = value("commanded");
+        level.mean = value("measured");
+        line.levels.push_back(level);
+        expected.push_back(value("expected"));
+        readings.uncertainty.push_back(value("expanded_uncertainty"));
+        const ToleranceUse use{level.commanded, value("off"), value("expanded_uncertainty"), value("allowed")};
+        if (std::isfinite(use.share())) readings.used.push_back(use);
+        const auto verdict = valueFor(kVerdicts, textOr(row, "verdict")).value_or(Verdict::Indeterminate);
+        worst = worst ? worseOf(*worst, verdict) : verdict;
+    }
+    if (!worst) return;
+    // The expected values lie on the stored line.
+    const double reach = line.levels.back().commanded - line.levels.front().commanded;
+    line.gain = reach != 0 ? (expected.back() - expected.front()) / reach : 1;
+    line.offset = expected.front() - line.gain * line.levels.front().commanded;
+    readings.fit = std::move(line);
+    readings.checks = true;
+    readings.verdict = qtext(nameOf(*worst));
 }
 
 QString quantityTitle(const std::string& quantity) {

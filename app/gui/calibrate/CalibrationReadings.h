@@ -38,7 +38,12 @@ struct CalibrationReadings {
     double resolution = 0;                     ///< the instrument's step, in `unit`
     std::vector<ToleranceUse> used;            ///< levels judged; empty before the result
     QString verdict;                           ///< "pass", ...; empty before the result
+    bool checks = false;  ///< a stored calibration is checked: `fit` is its line, and errors count from that
 
+    /// Returns from what errors count at a command, less the command: 0, or in a check what the line gives there.
+    [[nodiscard]] double baseAt(double command) const {
+        return checks && fit ? (fit->gain - 1) * command + fit->offset : 0;
+    }
     /// Fits the readings again.
     void judge();
     /// Returns the level nearest its tolerance, or furthest beyond it. Null before the result.
@@ -55,6 +60,10 @@ struct CalibrationReadings {
 [[nodiscard]] double toleranceOf(const std::string& quantity, const nlohmann::json& parameters);
 /// Returns the readings and levels for one quantity from a protocol's result; nothing if that quantity was not judged.
 [[nodiscard]] std::optional<CalibrationReadings> readingsFrom(const std::string& quantity, const nlohmann::json& found);
+
+/// Takes the levels of a check of the stored calibration, rows as checked for all quantities, into the readings of one.
+/// Without rows of that quantity, nothing changes.
+void takeCheck(CalibrationReadings& readings, const nlohmann::json& rows);
 
 /// Returns "Amplitude", "Interval", "Phase width", "Inter-phase gap".
 [[nodiscard]] QString quantityTitle(const std::string& quantity);

@@ -12,6 +12,7 @@
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "core/base/JsonText.h"
 
 namespace tacto::gui {
 
@@ -154,6 +155,9 @@ void CalibrationView::end(const nlohmann::json& results) {
         auto judged = readingsFrom(key, found);
         if (judged) of(key) = std::move(*judged);
     }
+    if (const auto rows = valueOr(results, "check"); rows.is_array()) {
+        for (auto& one : all_) takeCheck(one, rows);
+    }
     if (!all_.empty()) choose(follow_ ? nearest() : shown_);
 }
 
@@ -188,6 +192,7 @@ void CalibrationView::say() {
     const auto marked = std::count_if(shown.readings.begin(), shown.readings.end(),
                                       [](const CalibrationReading& reading) { return reading.outlier; });
     QStringList said;
+    if (shown.checks) said << tr("the calibration checked");
     if (shown.fit) {
         said << tr("gain %1").arg(std::isfinite(shown.gainExpanded)
                                       ? quantityText(shown.fit->gain, shown.gainExpanded, {})

@@ -7,6 +7,7 @@
 #include "app/gui/calibrate/CalibrateWorkspace.h"
 #include "app/gui/calibrate/CalibrationPlot.h"
 #include "app/gui/calibrate/CalibrationView.h"
+#include "app/gui/calibrate/ToleranceCard.h"
 #include "app/gui/runner/CaptureStrip.h"
 #include "app/gui/runner/ProtocolWorkspace.h"
 #include "app/gui/runner/StepButton.h"
@@ -133,6 +134,12 @@ TEST_F(Calibrate, FromNeverToCalibratedAndChecked) {
     EXPECT_EQ(ended->result.verdict(), "pass");
     EXPECT_EQ(workspace.findChild<QTableWidget*>("calibrationHistory")->rowCount(), 1);
     EXPECT_EQ(errors->drawnUp() + errors->drawnDown(), 12);
+    EXPECT_EQ(errors->drawnMeans(), 3) << "each level checked, with its U";
+    EXPECT_FALSE(errors->nearestShown().isEmpty());
+    const auto cards = workspace.runner().findChildren<gui::ToleranceCard*>();
+    EXPECT_EQ(cards.size(), 4);
+    for (const auto* card : cards)
+        EXPECT_THAT(card->accessibleDescription().toStdString(), HasSubstr("of the tolerance used"));
     letLive(20);
     shot(workspace, "calibrate_checked_dark");
 }

@@ -6,6 +6,7 @@
 #include <QTest>
 #include <QToolButton>
 #include <gmock/gmock.h>
+#include <random>
 
 #include "app/gui/calibrate/CalibrationPlot.h"
 #include "app/gui/calibrate/CalibrationReadings.h"
@@ -194,6 +195,73 @@ TEST_F(View, AResultShowsTheQuantityThatUsesMostOfItsTolerance) {
     sweep();
     view.end({{"amplitude", found("V", 10, 0.06, 0.2)}, {"width", found("s", 1e-4, 0.4e-6, 1e-6)}});
     EXPECT_EQ(view.quantityShown(), "Phase width") << "40 % against 30 %";
+}
+
+TEST_F(View, ACheckShowsErrorUAndToleranceOfEachQuantityFromTheStoredLine) {
+    RecordProperty("hazard", "H9");
+    std::mt19937 random(4908);
+    const auto between = [&](double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(random);
+    };
+    for (int draw = 0; draw < 8; ++draw) {
+        view.begin({{"tolerance_pct", 2.0}, {"timing_tolerance_pct", 1.0}});
+        const double gain = between(0.9, 1.1), offset = between(-0.5, 0.5);
+        Json rows = Json::array();
+        double most = 0, mostAt = 0;
+        for (const double volts : {10.0, 25.0, 40.0}) {
+            const double expected = gain * volts + offset, off = between(-0.1, 0.1), u = between(0.01, 0.09);
+            view.add(reading("amplitude up", volts, expected + off));
+            view.add(reading("amplitude down", volts, expected + off));
+            rows.push_back({{"quantity", "amplitude"},
+                            {"unit", "V"},
+                            {"commanded", volts},
+                            {"expected", expected},
+                            {"off", off},
+                            {"measured", expected + off},
+                            {"expanded_uncertainty", u},
+                            {"allowed", 0.02 * volts},
+                            {"verdict", "pass"}});
+            const double share = (std::abs(off) + u) / (0.02 * volts);
+            if (share <= most) continue;
+            most = share;
+            mostAt = volts;
+        }
+        // Times are stated in µs, and plotted in the axis' own unit.
+        for (const double us : {100.0, 400.0}) {
+            view.add(reading("width up", us * 1e-6, us * 1e-6));
+            rows.push_back({{"quantity", "width"},
+                            {"unit", "us"},
+                            {"commanded", us},
+                            {"expected", us},
+                            {"off", 0.001 * us},
+                            {"measured", 1.001 * us},
+                            {"expanded_uncertainty", 0.0},
+                            {"allowed", 0.01 * us},
+                            {"verdict", "pass"}});
+        }
+        view.end({{"kind", "stimulator-calibration"}, {"type", "check"}, {"check", rows}, {"verdict", "pass"}});
+        letLive(20);  // time for the layout
+        const auto used = QString::number(100 * most, 'f', 0).toStdString() + "\u202f%";
+        auto* amplitude = find<gui::ToleranceCard>(view, "Amplitude");
+        ASSERT_NE(amplitude, nullptr);
+        EXPECT_THAT(amplitude->accessibleDescription().toStdString(), HasSubstr(used + " of the tolerance used"));
+        EXPECT_THAT(find<gui::ToleranceCard>(view, "Phase width")->accessibleDescription().toStdString(),
+                    HasSubstr("10\u202f% of the tolerance used"));
+        click(*amplitude);
+        EXPECT_EQ(errors().drawnMeans(), 3);
+        EXPECT_THAT(errors().nearestShown().toStdString(), HasSubstr(used));
+        EXPECT_THAT(errors().nearestShown().toStdString(),
+                    testing::StartsWith(QString::number(mostAt).toStdString() + "\u202fV:"));
+        EXPECT_THAT(says(), HasSubstr("the calibration checked"));
+        EXPECT_THAT(errors().yAxis->label().toStdString(), HasSubstr("as calibrated"));
+        for (int g = 0; g < errors().graphCount(); ++g) {
+            if (!errors().graph(g)->name().startsWith("going")) continue;
+            for (const auto& point : *errors().graph(g)->data())
+                EXPECT_LE(std::abs(point.value), errors().yAxis->label().contains("mV") ? 101 : 0.101)
+                    << "errors count from what was calibrated, whatever its gain and offset";
+        }
+        if (draw == 0) shot(view, "calibrate_view_check");
+    }
 }
 
 TEST_F(View, TheResultHasTheLastWord) {
