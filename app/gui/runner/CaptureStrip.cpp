@@ -32,7 +32,6 @@ CaptureStrip::CaptureStrip(QWidget* parent) : QCustomPlot(parent) {
     empty_ = new QCPItemText(this);
     empty_->position->setType(QCPItemPosition::ptAxisRectRatio);
     empty_->position->setCoords(0.5, 0.5);
-    empty_->setText(tr("The last captured train\nappears here."));
     plotLayout()->insertRow(0);
     title_ = new QCPTextElement(this);
     title_->setTextFlags(Qt::AlignLeft | Qt::AlignVCenter);
@@ -48,11 +47,13 @@ CaptureStrip::CaptureStrip(QWidget* parent) : QCustomPlot(parent) {
 }
 
 void CaptureStrip::show(const std::shared_ptr<const Capture>& capture, const QString& title) {
-    title_->setText(title);
-    title_->setVisible(!title.isEmpty());
-    plotLayout()->setRowSpacing(title.isEmpty() ? 0 : kMarginAbove);
-    title_->setMaximumSize(QWIDGETSIZE_MAX, title.isEmpty() ? 0 : QWIDGETSIZE_MAX);
+    const bool titled = capture != nullptr && !title.isEmpty();
+    title_->setText(titled ? title : QString());
+    title_->setVisible(titled);
+    plotLayout()->setRowSpacing(titled ? kMarginAbove : 0);
+    title_->setMaximumSize(QWIDGETSIZE_MAX, titled ? QWIDGETSIZE_MAX : 0);
     empty_->setVisible(capture == nullptr);
+    empty_->setText(title.isEmpty() ? tr("The last captured train\nappears here.") : title);
     watermark_->setVisible(capture && capture->simulated);
     voltage_->data()->clear();
     current_->data()->clear();

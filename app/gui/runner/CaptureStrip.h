@@ -16,7 +16,8 @@ class CaptureStrip final : public QCustomPlot {
     Q_OBJECT
 public:
     explicit CaptureStrip(QWidget* parent = nullptr);
-    /// Shows the capture; null empties the plot. `title` is shown above it; empty for the last capture.
+    /// Shows the capture, with `title` above it; empty for the last capture. Null empties the plot, and `title` says
+    /// why.
     void show(const std::shared_ptr<const Capture>& capture, const QString& title = {});
     [[nodiscard]] QString title() const { return title_->text(); }
     /// True if no trace is drawn.

@@ -94,6 +94,11 @@ int DisclosedPanel::leastHeight() const {
     return kGap + QFontMetrics(textFont(TextSize::Small)).height() + wave_->minimumHeight();
 }
 
+int DisclosedPanel::wholeHeight() const {
+    if (area_->isHidden()) return leastHeight();
+    return kGap + kGap / 2 + QFontMetrics(textFont(TextSize::Small)).height() + area_->maximumHeight();
+}
+
 void DisclosedPanel::showOutputs(Outputs outputs) {
     const bool below = outputs == Outputs::Below;
     layout_->setDirection(below ? QBoxLayout::TopToBottom : QBoxLayout::LeftToRight);
@@ -126,7 +131,7 @@ void DisclosedPanel::take(const std::shared_ptr<const Capture>& capture) {
 
 void DisclosedPanel::showTracing(const std::shared_ptr<const Capture>& capture, const QString& title) {
     peak_->setText(title);
-    wave_->show(capture);
+    wave_->show(capture, capture ? QString() : title);
 }
 
 void DisclosedPanel::show(const nlohmann::json& disclosed) {

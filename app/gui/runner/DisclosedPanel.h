@@ -33,6 +33,8 @@ public:
     void showOutputs(Outputs outputs);
     /// Returns the smallest height at which a tracing is readable.
     [[nodiscard]] int leastHeight() const;
+    /// Returns the height at which outputs next to the tracing need not scroll.
+    [[nodiscard]] int wholeHeight() const;
     /// Shows this tracing, under `title`, instead of the strongest output.
     void showTracing(const std::shared_ptr<const Capture>& capture, const QString& title);
     [[nodiscard]] CaptureStrip& tracing() const { return *wave_; }

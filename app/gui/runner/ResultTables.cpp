@@ -26,14 +26,16 @@ ResultTables::ResultTables(QWidget* parent) : QWidget(parent), layout_(new QVBox
     });
 }
 
-void ResultTables::show(const json& results) {
+void ResultTables::show(const json& results, const QString& none) {
     delete std::exchange(body_, nullptr);
-    if (!results.is_object() || results.empty()) return;
+    empty_ = !results.is_object() || results.empty();
+    if (empty_ && none.isEmpty()) return;
     body_ = new QWidget(this);
     column_ = columnIn(*body_);
-    for (const auto& table : tablesOf(results)) {
+    for (const auto& table : empty_ ? std::vector<ResultTable>() : tablesOf(results)) {
         if (isInWindow(table.shown)) add(table, results);
     }
+    if (column_->isEmpty()) setTone(*addSentence(none), Tone::Quiet);
     column_->addStretch();
     layout_->addWidget(body_);
     tabInPlace(*this);

@@ -14,9 +14,9 @@ class ResultTables final : public QWidget {
     Q_OBJECT
 public:
     explicit ResultTables(QWidget* parent = nullptr);
-    /// Replaces the tables shown.
-    void show(const nlohmann::json& results);
-    [[nodiscard]] bool empty() const { return body_ == nullptr; }
+    /// Replaces the tables shown. `none` stands in their place if the results have none.
+    void show(const nlohmann::json& results, const QString& none = {});
+    [[nodiscard]] bool empty() const { return empty_; }
 
 private:
     void add(const ResultTable& table, const nlohmann::json& results);
@@ -29,6 +29,7 @@ private:
     void addNote(const ResultTable& table);
     QVBoxLayout* layout_;
     QWidget* body_ = nullptr;
+    bool empty_ = true;
     QVBoxLayout* column_ = nullptr;
 };
 

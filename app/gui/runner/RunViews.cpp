@@ -26,7 +26,8 @@ constexpr int kLogLines = 5000;           // lines shown; the session keeps all 
 constexpr int kBesideChars = 115;         // width in characters from which the waveform is next to the plot
 constexpr int kDisclosedFromChars = 120;  // width from which the outputs are next to the tracing
 constexpr int kTracedFromChars = 165;     // width from which the tracing is next to the limits
-constexpr double kTracingShare = 0.18;    // the tracing's least share of the height; the limits get the rest
+constexpr int kLimitsAbove = 8;           // limits that are in sight above the tracing
+constexpr double kTracingShare = 0.35;    // the tracing's share of the height below the limits
 constexpr int kRoomyLines = 34;           // with less height, the bar below is as low as its buttons
 constexpr int kPageGap = 4, kViewSide = 16, kViewTop = 4, kBarPad = 12, kBarPadLow = 4;
 
@@ -86,6 +87,7 @@ QWidget* RunViews::buildPlots() {
         if (column > 0 && !disclosed_->isVisible()) showView(kWaveform);
     });
     disclosed_ = new DisclosedPanel(judged_);
+    connect(judged_, &QSplitter::splitterMoved, this, [this] { dragged_ = true; });
     judged_->setStretchFactor(0, 1);
     judged_->setStretchFactor(1, 0);
     calibration_ = new CalibrationView(holder);
@@ -217,22 +219,25 @@ void RunViews::placeTracing(bool judged) {
     disclosed_->setVisible(judged);
     if (!judged) return;
     const int chars = fontMetrics().averageCharWidth();
-    const bool high = views_->height() * kTracingShare >= disclosed_->leastHeight();
+    const bool high = views_->height() >= matrix_->heightOf(kLimitsAbove) + disclosed_->leastHeight();
     const auto place = width() >= chars * kTracedFromChars ? Tracing::Beside : high ? Tracing::Below : Tracing::OwnView;
     using Outputs = DisclosedPanel::Outputs;
     const bool roomy = place != Tracing::Beside && width() >= chars * kDisclosedFromChars;
     disclosed_->showOutputs(roomy ? Outputs::Beside : place == Tracing::Below ? Outputs::Nowhere : Outputs::Below);
     disclosed_->setContentsMargins(place == Tracing::Beside ? kViewSide : 0, 0, 0, 0);
     matrix_->setFillsHeight(place != Tracing::Below);
-    if (std::exchange(tracing_, place) == place) return;
-    if (place == Tracing::OwnView) {
-        views_->widget(kWaveform)->layout()->addWidget(disclosed_);
-        return;
+    const bool beside = place == Tracing::Beside;
+    if (std::exchange(tracing_, place) != place) {
+        dragged_ = false;
+        if (place == Tracing::OwnView) return views_->widget(kWaveform)->layout()->addWidget(disclosed_);
+        judged_->addWidget(disclosed_);
+        judged_->setOrientation(beside ? Qt::Horizontal : Qt::Vertical);
     }
-    judged_->addWidget(disclosed_);
-    judged_->setOrientation(place == Tracing::Beside ? Qt::Horizontal : Qt::Vertical);
-    const int all = place == Tracing::Beside ? judged_->width() : judged_->height();
-    const int part = place == Tracing::Beside ? disclosed_->minimumSizeHint().width() : int(all * kTracingShare);
+    if (place == Tracing::OwnView || dragged_) return;
+    const int all = beside ? views_->width() : views_->height();
+    const int wanted = std::max(int(all * kTracingShare), roomy ? disclosed_->wholeHeight() : 0);
+    const int part = beside ? disclosed_->minimumSizeHint().width()
+                            : std::clamp(wanted, disclosed_->leastHeight(), all - matrix_->heightOf(kLimitsAbove));
     judged_->setSizes({all - part, part});
 }
 
@@ -362,7 +367,8 @@ QString RunViews::end(const FinishedRun& run) {
     shows([&] { matrix_->show(memberAt(results, "matrix")); });
     shows([&] { disclosed_->show(memberAt(results, "disclosed")); });
     shows([&] { calibration_->end(results); });
-    shows([&] { tables_->show(results); });
+    shows([&] { tables_->show(results, tr("No figures: the run ended before it found any.")); });
+    if (wave_->empty()) wave_->show(nullptr, tr("No train was captured in this run."));
     head_->show(run);
     shows([&] { next_->show(nextStepsAfter(run)); });
     showView(plot_ == Plot::None && !tables_->empty() ? kTables : kPlot);

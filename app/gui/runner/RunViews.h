@@ -93,6 +93,7 @@ private:
     LimitMatrixView* matrix_ = nullptr;    // the limits for each load
     DisclosedPanel* disclosed_ = nullptr;  // outputs to disclose, next to the limits or below
     Tracing tracing_ = Tracing::Below;
+    bool dragged_ = false;                    // the operator parted limits and tracing by hand
     CalibrationView* calibration_ = nullptr;  // replaces all of these for a calibration protocol
     QLabel* none_ = nullptr;
     CaptureStrip* wave_ = nullptr;

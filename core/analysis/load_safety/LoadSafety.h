@@ -151,7 +151,8 @@ struct LoadLine {
     RowVerdict verdict = RowVerdict::NotEvaluated;
 };
 
-/// One line of the output table that the FDA guidance asks for.
+/// One line of the outputs to disclose: the table that the FDA guidance asks for, and the RMS current of the marking in
+/// IEC 60601-2-10.
 struct DisclosedOutput {
     std::string output;  ///< "maximum output voltage"
     std::string load;    ///< "500 ohm"

@@ -309,6 +309,7 @@ std::vector<DisclosedOutput> disclosedOf(const LoadSafetyInput& input) {
     for (const auto& at : loads) add("maximum output current", at.ohm, Quantity::PeakCurrent, at.name);
     add("maximum phase charge", 500, Quantity::PhaseCharge, "500 ohm");
     add("net charge per pulse", 500, Quantity::NetCharge, "500 ohm");
+    for (const auto& at : loads) add("maximum RMS current over 5 s", at.ohm, Quantity::RmsCurrent5s, at.name);
     add("maximum current density (RMS over 5 s)", 500, Quantity::CurrentDensity, "500 ohm");
     add("maximum power density (over 1 s)", 500, Quantity::PowerDensity, "500 ohm");
     return rows;

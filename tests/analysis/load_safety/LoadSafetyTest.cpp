@@ -387,6 +387,9 @@ TEST_F(LoadSafetyCheck, StatesTheOutputsOfTheGuidance) {
                     {"maximum output current", "10 kohm", 4},
                     {"maximum phase charge", "500 ohm", 16},
                     {"net charge per pulse", "500 ohm", 0},
+                    {"maximum RMS current over 5 s", "500 ohm", 80 * std::sqrt(10 * 400e-6 / 5)},
+                    {"maximum RMS current over 5 s", "2 kohm", 20 * std::sqrt(10 * 400e-6 / 5)},
+                    {"maximum RMS current over 5 s", "10 kohm", 4 * std::sqrt(10 * 400e-6 / 5)},
                     {"maximum current density (RMS over 5 s)", "500 ohm", 80 * std::sqrt(10 * 400e-6 / 5) / 3},
                     {"maximum power density (over 1 s)", "500 ohm", 2 * 1.28e-3 / 3}};
     ASSERT_EQ(found.disclosed.size(), std::size(expected));

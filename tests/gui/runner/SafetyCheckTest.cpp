@@ -96,8 +96,22 @@ TEST_F(SafetyCheck, LoadsAreRowsThatTurnToVerdictsAndAMatrixOfLimits) {
     QObject::connect(workspace.get(), &gui::ProtocolWorkspace::plotOnlyWanted, [&] { ++alone; });
     click(the<QToolButton>("Plot only"));
     EXPECT_EQ(alone, 1);
-    EXPECT_NE(find<QPushButton>(*workspace, "Tracing"), nullptr) << "of its own: the limits have the page";
-    // In a high window it is below the limits; if there is room for both, the outputs are next to it.
+    workspace->resize(1150, 560);
+    EXPECT_IN_TIME(comesTrue([&] { return find<QPushButton>(*workspace, "Tracing") != nullptr; }))
+        << "of its own: the limits have the page";
+    // Where there is room for eight limits it is below them, and the outputs are next to it if the window is wide
+    // enough.
+    workspace->resize(1340, 760);
+    EXPECT_IN_TIME(comesTrue([&] { return find<QWidget>(*workspace, "disclosedOutputs") != nullptr; }));
+    EXPECT_GE(matrix.height(), matrix.heightOf(8));
+    EXPECT_NE(find<QWidget>(*workspace, "How to read a cell"), nullptr)
+        << "limits, legend, tracing and outputs at once";
+    EXPECT_TRUE(workspace->findChild<gui::DisclosedPanel*>()->tracing().isVisible());
+    EXPECT_FALSE(the<QScrollArea>("disclosedOutputs")
+                     .findChild<QTableWidget*>()
+                     ->findItems("Maximum RMS current over 5 s", Qt::MatchExactly)
+                     .isEmpty());
+    shot(*workspace, "safety_result_one_view");
     workspace->resize(1150, 1200);
     auto& below = *workspace->findChild<gui::DisclosedPanel*>();
     auto* strip = below.findChild<gui::CaptureStrip*>();
