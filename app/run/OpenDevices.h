@@ -15,6 +15,11 @@ namespace tacto {
 [[nodiscard]] Result<DeviceSet> openDevices(Registry& registry, std::span<const DeviceUri> uris,
                                             const std::set<Role>& needed, const OpenContext& context);
 
+/// Checks addresses while no device may be touched: simulated devices, recordings and captures are opened and closed
+/// again; of other devices only what the address states of their accuracy is read. May read files: not for a window's
+/// thread. Errors: as Registry::open(), but not for a scheme that is unknown.
+[[nodiscard]] Result<void> checkAddresses(std::span<const DeviceUri> uris);
+
 /// Adds the profile of `devices.oscilloscope` for figures that are not stated yet. openDevices() calls this.
 [[nodiscard]] Result<void> addInstrumentProfile(DeviceSet& devices);
 

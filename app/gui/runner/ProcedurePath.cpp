@@ -6,6 +6,7 @@
 #include "app/gui/runner/ProtocolHead.h"
 #include "app/gui/runner/RunPanel.h"
 #include "app/gui/runner/StepList.h"
+#include "app/gui/runner/WiringPanel.h"
 #include "app/gui/theme/Building.h"
 #include "app/gui/theme/FieldForm.h"
 #include "app/gui/theme/Pages.h"
@@ -113,14 +114,14 @@ void ProcedurePath::showNoRun(bool hasReference) {
     panel_->setLeading(true);
 }
 
-void ProcedurePath::showSetup(FieldForm& form, const QString& devices, bool declared, bool begun,
+void ProcedurePath::showSetup(FieldForm& form, const WiringPanel& wiring, bool declared, bool begun,
                               const std::set<Step>& seen) {
     using State = StepList::State;
     const auto state = [&](Step step, bool troubled) {
         return troubled ? State::Troubled : begun || seen.contains(step) ? State::Done : State::ToDo;
     };
-    steps_->setState(kWiring, state(kWiring, !devicesOf(devices)));
-    steps_->setNote(kWiring, devices == "sim:" ? tr("simulated bench") : devices);
+    steps_->setState(kWiring, state(kWiring, !wiring.refused().isEmpty()));
+    steps_->setNote(kWiring, wiring.devices() == "sim:" ? tr("simulated bench") : wiring.devices());
     steps_->setState(kReference, state(kReference, form.refused(true) > 0));
     const auto load = form.text("reference").isEmpty() ? form.text("load") : form.text("reference");
     bool isNumber = false;

@@ -29,7 +29,7 @@ public:
     /// Resets the path for a newly read procedure that has not run.
     void showNoRun(bool hasReference);
     /// Shows the steps before the run. A tick means that a step was seen, or that the run used its settings.
-    void showSetup(FieldForm& form, const QString& devices, bool declared, bool begun, const std::set<Step>& seen);
+    void showSetup(FieldForm& form, const WiringPanel& wiring, bool declared, bool begun, const std::set<Step>& seen);
     void showRun();
     /// Makes the result reachable. `early`: the run was stopped or failed.
     void showEnd(bool early, std::optional<Seconds> benchTime);

@@ -118,6 +118,7 @@ void ProtocolWorkspace::connectPath() {
 
 void ProtocolWorkspace::connectPages() {
     connect(&pages_->form(), &FieldForm::edited, this, &ProtocolWorkspace::judge);
+    pages_->wiring().checkWith([this](const std::vector<DeviceUri>& uris) { return controller_.allVirtual(uris); });
     connect(&pages_->wiring(), &WiringPanel::edited, this, &ProtocolWorkspace::judge);
     connect(&pages_->views(), &RunViews::scriptErrorChosen, this,
             [this](int line, const QString& why) { edit(source_, line, why); });
@@ -206,8 +207,7 @@ void ProtocolWorkspace::judge() {
 }
 
 void ProtocolWorkspace::showSetup() {
-    path_->showSetup(pages_->form(), pages_->wiring().devices(), declaration_.has_value(), running_ || last_ != nullptr,
-                     seen_);
+    path_->showSetup(pages_->form(), pages_->wiring(), declaration_.has_value(), running_ || last_ != nullptr, seen_);
 }
 
 /// Withdraws the question, as settings or profile have changed since.
@@ -250,7 +250,7 @@ void ProtocolWorkspace::runAsked() {
     auto asked = order();
     if (!asked) {
         panel_->say(sentence(asked.error()));
-        const bool inWiring = !devicesOf(pages_->wiring().devices());
+        const bool inWiring = !pages_->wiring().refused().isEmpty();
         const auto part = pages_->form().goToRefused();
         if (part || inWiring) showStep(part ? (*part ? kReference : kSettings) : kWiring);
         return;

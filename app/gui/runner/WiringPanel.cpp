@@ -6,13 +6,21 @@
 #include <QToolButton>
 
 #include "app/gui/calibrate/InstrumentDialog.h"
+#include "app/gui/runner/SimulatedBenchDialog.h"
 #include "app/gui/theme/Building.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/ExposureTable.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "app/run/OpenDevices.h"
 
 namespace tacto::gui {
+
+namespace {
+
+constexpr int kPause_ms = 200;  // of typing, before what was typed is looked up
+
+}  // namespace
 
 Result<std::vector<DeviceUri>> devicesOf(const QString& text) {
     static const QRegularExpression between(R"(\s+(?=[a-z_]+:))");
@@ -27,6 +35,9 @@ Result<std::vector<DeviceUri>> devicesOf(const QString& text) {
 
 WiringPanel::WiringPanel(QWidget* parent) : QWidget(parent) {
     setAccessibleName(tr("Devices"));
+    checkLater_.setSingleShot(true);
+    checkLater_.setInterval(kPause_ms);
+    connect(&checkLater_, &QTimer::timeout, this, &WiringPanel::check);
     auto* form = layoutIn<QFormLayout>(*this, -1, {});
     form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
     form->setRowWrapPolicy(QFormLayout::WrapLongRows);
@@ -68,12 +79,21 @@ QWidget* WiringPanel::buildDevices() {
     auto* add = new QToolButton(holder);
     add->setText("+");
     add->setProperty("role", "opens");
-    add->setAccessibleName(tr("Add a recording or captures"));
-    add->setToolTip(tr("Takes a recording or oscilloscope records in the place of a device."));
+    add->setAccessibleName(tr("Add devices"));
+    add->setToolTip(
+        tr("Takes simulated devices with a fault, a recording or oscilloscope records in the place of a device."));
     add->setPopupMode(QToolButton::InstantPopup);
     add->setFocusPolicy(Qt::StrongFocus);
     auto* menu = new QMenu(add);
     menu->addAction(tr("&Simulated devices"), this, [this] { devices_->setText("sim:"); });
+    menu->addAction(tr("Simulated devices with &faults…"), this, [this] {
+        auto* dialog = new SimulatedBenchDialog(tr("&Use"), this);
+        connect(dialog, &SimulatedBenchDialog::chosen, this, [this](const QString& addresses, quint64 seed) {
+            devices_->setText(addresses);
+            seed_->setValue(int(seed));
+        });
+        openDialog(dialog);
+    });
     menu->addAction(tr("A &recording as fingertip…"), this,
                     [this] { addFolder("recording", tr("Folder of the recording")); });
     menu->addAction(tr("&Captures as oscilloscope…"), this,
@@ -139,6 +159,7 @@ void WiringPanel::show(const ProtocolDeclaration& declaration) {
 Result<void> WiringPanel::fill(RunOrder& order) const {
     auto uris = devicesOf(devices_->text());
     if (!uris) return failure(uris);
+    if (!refused_.isEmpty()) return fail(ErrorCode::InvalidArgument, "{}", refused_.toStdString());
     order.uris = std::move(*uris);
     order.seed = static_cast<std::uint64_t>(seed_->value());
     order.realtime = realtime_->isChecked();
@@ -146,9 +167,38 @@ Result<void> WiringPanel::fill(RunOrder& order) const {
     return {};
 }
 
+/// Judges the text at once, and what it names after a pause: files may have to be read for it.
 void WiringPanel::judge() {
     const auto uris = devicesOf(devices_->text());
-    trouble_->say(uris ? QString() : QString::fromStdString(uris.error().message));
+    refused_ = uris ? QString() : sentence(uris.error());
+    trouble_->say(refused_);
+    checking_.drop();
+    if (uris && known_) checkLater_.start();
+    emit edited();
+}
+
+void WiringPanel::checkWith(std::function<Result<bool>(const std::vector<DeviceUri>&)> known) {
+    known_ = std::move(known);
+}
+
+void WiringPanel::check() {
+    const auto uris = devicesOf(devices_->text());
+    if (!uris) return;
+    if (const auto known = known_(*uris); !known) return refuse(sentence(known.error()));
+    checking_.start(
+        this,
+        [uris = *uris]() -> QString {
+            const auto checked = checkAddresses(uris);
+            return checked ? QString() : sentence(checked.error());
+        },
+        [this, of = devices()](const QString& why) {
+            if (of == devices()) refuse(why);
+        });
+}
+
+void WiringPanel::refuse(const QString& why) {
+    if (std::exchange(refused_, why) == why) return;
+    trouble_->say(why);
     emit edited();
 }
 

@@ -5,8 +5,12 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QSpinBox>
+#include <QTimer>
 #include <QWidget>
+#include <functional>
+#include <vector>
 
+#include "app/gui/controller/SideWork.h"
 #include "app/gui/theme/Labels.h"
 #include "app/run/ProtocolRun.h"
 
@@ -18,6 +22,10 @@ public:
     explicit WiringPanel(QWidget* parent = nullptr);
     /// Shows which devices the protocol needs.
     void show(const ProtocolDeclaration& declaration);
+    /// Sets what knows the drivers, as BenchController::allVirtual(); then addresses are checked as they are typed.
+    void checkWith(std::function<Result<bool>(const std::vector<DeviceUri>&)> known);
+    /// Returns why the devices cannot be used, as far as that shows before they are opened; empty if they can.
+    [[nodiscard]] QString refused() const { return refused_; }
     /// Fills in devices, seed, clock and output of `order`. Errors: InvalidArgument for text that names no device.
     [[nodiscard]] Result<void> fill(RunOrder& order) const;
     /// Returns the devices as typed, such as "sim:".
@@ -32,12 +40,18 @@ private:
     void useOscilloscope(const QString& address);
     void addFolder(const QString& scheme, const QString& title);
     void judge();
+    void check();
+    void refuse(const QString& why);
     QLabel* needs_;
     QLineEdit* devices_ = nullptr;
     TroubleLine* trouble_;
+    QString refused_;
     QSpinBox* seed_;
     QCheckBox* realtime_;
     QLineEdit* out_ = nullptr;
+    QTimer checkLater_;
+    std::function<Result<bool>(const std::vector<DeviceUri>&)> known_;
+    SideWork checking_;
 };
 
 /// Splits "recording:/a b sim:" into devices; a blank ends a device only if a scheme follows.

@@ -18,6 +18,8 @@
 #include "app/gui/live/LiveWorkspace.h"
 #include "app/gui/pilot/ParticipantWindow.h"
 #include "app/gui/pilot/PilotWorkspace.h"
+#include "app/gui/runner/SimulatedBenchDialog.h"
+#include "app/gui/runner/WiringPanel.h"
 #include "app/gui/scope/ScopeFiles.h"
 #include "app/gui/scope/ScopeWorkspace.h"
 #include "app/gui/scope/measurements/MeasurementSummary.h"
@@ -35,7 +37,6 @@
 #include "app/gui/window/OutputDocks.h"
 #include "app/gui/window/RecordingLine.h"
 #include "app/gui/window/SafetyBar.h"
-#include "app/gui/window/SimulatedBenchDialog.h"
 #include "app/gui/window/StateWords.h"
 #include "app/gui/window/StopButton.h"
 #include "app/gui/window/StopKeys.h"
@@ -339,7 +340,17 @@ void MainWindow::noteBlind() {
 
 void MainWindow::checkImpedance() { arming_->ask(ArmDialog::Purpose::CheckImpedance); }
 
-void MainWindow::askForSimulatedBench() { openDialog(new SimulatedBenchDialog(controller_, this)); }
+void MainWindow::askForSimulatedBench() {
+    auto* dialog = new SimulatedBenchDialog(tr("&Open"), this);
+    connect(dialog, &SimulatedBenchDialog::chosen, this, [this](const QString& devices, quint64 seed) {
+        LiveOrder order;
+        order.uris = devicesOf(devices).value_or(std::vector<DeviceUri>());
+        order.profile = controller_.profile();
+        order.seed = seed;
+        controller_.openLive(order);
+    });
+    openDialog(dialog);
+}
 
 void MainWindow::openSimulatedBench() {
     LiveOrder order;

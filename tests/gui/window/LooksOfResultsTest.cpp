@@ -22,7 +22,7 @@
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/window/DayDialog.h"
-#include "app/gui/window/SimulatedBenchDialog.h"
+#include "app/gui/runner/SimulatedBenchDialog.h"
 #include "tests/gui/Looks.h"
 #include "tests/gui/calibrate/CalibrationLab.h"
 #include "tests/gui/window/WindowFixture.h"

@@ -1,12 +1,11 @@
 // SimulatedBenchDialog.h - lets the user set up a simulated bench for training and demonstration: source, load, flaws,
-// and a fault at a chosen time.
+// and a fault at a chosen time. For a Live bench, and in the wiring of a run.
 #pragma once
 
 #include <QDialog>
 #include <QLabel>
 #include <QPushButton>
 
-#include "app/gui/controller/BenchController.h"
 #include "app/gui/theme/FieldForm.h"
 
 namespace tacto::gui {
@@ -14,15 +13,19 @@ namespace tacto::gui {
 class SimulatedBenchDialog final : public QDialog {
     Q_OBJECT
 public:
-    explicit SimulatedBenchDialog(BenchController& controller, QWidget* parent);
+    /// `accept`: the words of the button that takes the bench.
+    explicit SimulatedBenchDialog(const QString& accept, QWidget* parent);
+
+signals:
+    /// `devices`: their addresses, a blank between them.
+    void chosen(const QString& devices, quint64 seed);
 
 private:
     /// `values`: the typed values of the form.
-    [[nodiscard]] std::vector<std::string> uris(const nlohmann::json& values) const;
+    [[nodiscard]] QStringList uris(const nlohmann::json& values) const;
     void judge();
-    void openBench();
+    void take();
 
-    BenchController& controller_;
     FieldForm* form_;
     QLabel* says_;
     QPushButton* open_;

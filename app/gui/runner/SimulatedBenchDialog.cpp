@@ -1,4 +1,4 @@
-#include "app/gui/window/SimulatedBenchDialog.h"
+#include "app/gui/runner/SimulatedBenchDialog.h"
 
 #include <QDialogButtonBox>
 
@@ -36,8 +36,7 @@ constexpr int kBenchChars = 64;  // width in characters
 
 }  // namespace
 
-SimulatedBenchDialog::SimulatedBenchDialog(BenchController& controller, QWidget* parent)
-    : QDialog(parent), controller_(controller) {
+SimulatedBenchDialog::SimulatedBenchDialog(const QString& accept, QWidget* parent) : QDialog(parent) {
     setWindowTitle(tr("Simulated bench"));
     auto* layout = new QVBoxLayout(this);
     layout->addWidget(heading(tr("A simulated bench"), this));
@@ -62,11 +61,11 @@ SimulatedBenchDialog::SimulatedBenchDialog(BenchController& controller, QWidget*
     says_ = makeLabel({}, {.tone = Tone::Quiet, .size = TextSize::Small, .wraps = true, .selectable = true}, this);
     layout->addWidget(says_);
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
-    open_ = buttons->addButton(tr("&Open"), QDialogButtonBox::AcceptRole);
+    open_ = buttons->addButton(accept, QDialogButtonBox::AcceptRole);
     makePrimary(*open_);
     layout->addWidget(buttons);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
-    connect(buttons, &QDialogButtonBox::accepted, this, &SimulatedBenchDialog::openBench);
+    connect(buttons, &QDialogButtonBox::accepted, this, &SimulatedBenchDialog::take);
     connect(form_, &FieldForm::edited, this, &SimulatedBenchDialog::judge);
     judge();
     const int wide = fontMetrics().averageCharWidth() * kBenchChars;
@@ -74,7 +73,7 @@ SimulatedBenchDialog::SimulatedBenchDialog(BenchController& controller, QWidget*
     growWithContent(*this);
 }
 
-std::vector<std::string> SimulatedBenchDialog::uris(const nlohmann::json& values) const {
+QStringList SimulatedBenchDialog::uris(const nlohmann::json& values) const {
     const auto& fault = kFaults[form_->text("fault").toInt()];
     const auto faultOf = [&](const char* device) {
         return std::string_view(fault.device) == device
@@ -85,12 +84,12 @@ std::vector<std::string> SimulatedBenchDialog::uris(const nlohmann::json& values
     load.remove(' ').replace(QStringLiteral("Ω"), "ohm").replace(QChar(0x2126), "ohm");
     auto stimulator = fmt::format("sim:stimulator?mode={}&gain={:g}&load={}", values.at("mode").get<std::string>(),
                                   values.at("gain").get<double>(), load.toStdString());
-    std::vector<std::string> all;
+    QStringList all;
     for (const auto* device : {"stimulator", "finger", "oscilloscope"}) {
         auto uri = std::string_view(device) == "stimulator" ? stimulator : fmt::format("sim:{}", device);
         if (const auto what = faultOf(device); !what.empty())
             uri += fmt::format("{}fault={}", uri.find('?') == std::string::npos ? '?' : '&', what);
-        all.push_back(uri);
+        all << qtext(uri);
     }
     return all;
 }
@@ -101,24 +100,13 @@ void SimulatedBenchDialog::judge() {
     form_->setFieldEnabled("faultAt", form_->text("fault") != "0");
     const auto chosen = form_->read();
     open_->setEnabled(chosen && load);
-    QStringList shown;
-    if (open_->isEnabled())
-        for (const auto& uri : uris(chosen->parameters)) shown << qtext(uri);
-    says_->setText(shown.join("\n"));
+    says_->setText(open_->isEnabled() ? uris(chosen->parameters).join('\n') : QString());
 }
 
-void SimulatedBenchDialog::openBench() {
-    const auto chosen = form_->read();
-    if (!chosen) return;
-    LiveOrder order;
-    for (const auto& text : uris(chosen->parameters)) {
-        auto uri = DeviceUri::parse(text);
-        if (!uri) return says_->setText(qtext(uri.error().message));
-        order.uris.push_back(std::move(*uri));
-    }
-    order.profile = controller_.profile();
-    order.seed = chosen->parameters.at("seed").get<std::uint64_t>();
-    controller_.openLive(order);
+void SimulatedBenchDialog::take() {
+    const auto read = form_->read();
+    if (!read) return;
+    emit chosen(uris(read->parameters).join(' '), read->parameters.at("seed").get<quint64>());
     accept();
 }
 
