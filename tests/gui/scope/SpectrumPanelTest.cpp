@@ -1,9 +1,12 @@
 // Tests the spectrum of a trace: frequencies, levels and peaks of known sines.
 #include <QCheckBox>
 #include <QComboBox>
+#include <QHeaderView>
+#include <QTableWidget>
 #include <gmock/gmock.h>
 
 #include "app/gui/scope/measurements/SpectrumPanel.h"
+#include "app/report/NumberText.h"
 #include "core/base/Random.h"
 #include "tests/gui/Person.h"
 #include "tests/gui/PlotLooks.h"
@@ -110,6 +113,73 @@ TEST(SpectrumPanel, ASmallSignalsAxisHasAPrefixAndItsPeakStandsThere) {
     bool found = false;
     EXPECT_NEAR(plot->graph(0)->getValueRange(found).upper, 20, 0.1);
     EXPECT_TRUE(found);
+}
+
+TEST(SpectrumPanel, LevelsInDecibelsAndLinearStandOnTheirAxisAndInThePeakList) {
+    Random random(5, "spectrum scales");
+    gui::SpectrumPanel panel;
+    panel.resize(1000, 260);
+    panel.QWidget::show();
+    auto* scales = find<QComboBox>(panel, "Levels of the spectrum");
+    const auto* list = panel.findChild<QTableWidget*>();
+    auto* plot = panel.findChild<QCustomPlot*>();
+    for (int i = 0; i < 12; ++i) {
+        // Two sines on lines of 4096 samples, with RMS levels over six decades.
+        constexpr double kRate = 40'960;
+        const double large = std::pow(10, 6 * random.uniform() - 4), small = 0.3 * large;
+        const double first = 10 * (50 + double(random.below(500))), second = 10 * (800 + double(random.below(500)));
+        const auto trace = traceOf(4096, kRate, [&](int at) {
+            const double t = at / kRate;
+            return std::sqrt(2.0) * (large * std::sin(2 * M_PI * first * t) + small * std::sin(2 * M_PI * second * t));
+        });
+        for (int scale = 0; scale < 3; ++scale) {
+            scales->setCurrentIndex(scale);
+            panel.show(trace, 0, 1, Qt::blue);
+            plot->replot(QCustomPlot::rpImmediateRefresh);
+            bool found = false;
+            const double top = plot->graph(0)->getValueRange(found).upper;
+            const auto label = plot->yAxis->label();
+            const double expected = label == "RMS (dB re 1 V)" ? 20 * std::log10(large)
+                                    : label == "RMS (mV)"      ? 1e3 * large
+                                    : label == "RMS (µV)"      ? 1e6 * large
+                                                               : large;
+            EXPECT_NEAR(top, expected, 2e-3 * std::abs(expected) + 0.01) << label.toStdString();
+            EXPECT_TRUE(plot->yAxis->range().contains(top));
+            EXPECT_EQ(label.contains("dB"), scale == 1);
+            EXPECT_EQ(plot->yAxis->scaleType(), scale == 0 ? QCPAxis::stLogarithmic : QCPAxis::stLinear);
+        }
+        ASSERT_GE(list->rowCount(), 2);
+        EXPECT_EQ(list->item(0, 0)->text(), quantityText(first, "Hz"));
+        EXPECT_EQ(list->item(0, 1)->text(), quantityText(large, "V", 3));
+        EXPECT_NEAR(list->item(0, 2)->text().replace("−", "-").toDouble(), 20 * std::log10(large), 0.06);
+        EXPECT_EQ(list->item(1, 0)->text(), quantityText(second, "Hz"));
+    }
+    EXPECT_EQ(list->horizontalHeaderItem(2)->text(), "dB re 1 V");
+    for (int column = 0; column < 3; ++column)
+        EXPECT_GE(list->columnWidth(column), list->horizontalHeader()->sectionSizeHint(column)) << "nothing is cut";
+    scales->setCurrentIndex(1);
+    letLive(20);
+    shot(panel, "spectrum-dB");
+    scales->setCurrentIndex(2);
+    find<QCheckBox>(panel, "Peak list")->setChecked(false);
+    QSettings settings(QDir::temp().filePath("tacto-spectrum-scales.ini"), QSettings::IniFormat);
+    panel.save(settings);
+    gui::SpectrumPanel next;
+    next.restore(settings);
+    EXPECT_EQ(next.levelScale(), gui::LevelScale::Linear);
+    EXPECT_TRUE(next.findChild<QTableWidget*>()->isHidden());
+}
+
+TEST(SpectrumPanel, ASignalOfNothingHasNoLevelAndNoPeak) {
+    gui::SpectrumPanel panel;
+    panel.QWidget::show();
+    auto* scales = find<QComboBox>(panel, "Levels of the spectrum");
+    for (int scale = 0; scale < 3; ++scale) {
+        scales->setCurrentIndex(scale);
+        panel.show(traceOf(4096, 1e5, [](int) { return 0; }), 0, 1, Qt::blue);
+        panel.findChild<QCustomPlot*>()->replot(QCustomPlot::rpImmediateRefresh);
+        EXPECT_EQ(panel.findChild<QTableWidget*>()->rowCount(), 0);
+    }
 }
 
 TEST(SpectrumPanel, SaysThatSamplesAreMissing) {

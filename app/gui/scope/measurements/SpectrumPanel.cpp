@@ -2,8 +2,11 @@
 
 #include <QCheckBox>
 #include <QComboBox>
+#include <QHeaderView>
 #include <QLabel>
+#include <QScrollBar>
 #include <QSettings>
+#include <QTableWidget>
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -20,6 +23,7 @@
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/NumberText.h"
+#include "core/base/Words.h"
 
 namespace tacto::gui {
 
@@ -27,6 +31,21 @@ namespace {
 
 constexpr std::size_t kMinSamples = 16;
 constexpr double kPeakOverMedian = 10;  ///< 20 dB; noise alone reaches 10 or 12
+
+constexpr std::size_t kMaxNamed = 6;
+constexpr double kDecades = 5;       ///< of the level axis, unless it is linear
+constexpr double kMinShare = 1e-12;  ///< of the highest level: a level of 0 has no logarithm
+constexpr Word<LevelScale> kLevelScales[] = {
+    {"log", LevelScale::Logarithmic}, {"dB", LevelScale::Decibel}, {"linear", LevelScale::Linear}};
+
+double decibels(double rms) { return 20 * std::log10(rms); }
+
+void numberLinearly(QCPAxis& axis) {
+    axis.setScaleType(QCPAxis::stLinear);
+    axis.setTicker(QSharedPointer<QCPAxisTicker>::create());
+    axis.setNumberFormat("gb");
+    axis.setNumberPrecision(6);
+}
 
 void numberInPowers(QCPAxis& axis, int subTicks) {
     auto ticker = QSharedPointer<QCPAxisTickerLog>::create();
@@ -62,9 +81,12 @@ SpectrumPanel::SpectrumPanel(QWidget* parent)
     : QWidget(parent),
       channel_(new QComboBox(this)),
       window_(new QComboBox(this)),
+      levels_(new QComboBox(this)),
       log_(new QCheckBox(tr("Log frequency"), this)),
+      listed_(new QCheckBox(tr("Peak list"), this)),
       note_(new ElidedLabel(this)),
       plot_(new QCustomPlot(this)),
+      list_(new QTableWidget(0, 3, this)),
       graph_(plot_->addGraph()),
       peaks_(plot_->addGraph()) {
     channel_->setAccessibleName(tr("Channel of the spectrum"));
@@ -76,7 +98,24 @@ SpectrumPanel::SpectrumPanel(QWidget* parent)
         window_->addItem(title, qtext(nameOf(window)));
         window_->setItemData(window_->count() - 1, use, Qt::ToolTipRole);
     }
+    levels_->setAccessibleName(tr("Levels of the spectrum"));
+    levels_->setToolTip(tr("How the levels are spread over the axis. dB are relative to 1 in the lane's unit."));
+    levels_->addItem(tr("Log levels"), "log");
+    levels_->addItem(tr("dB"), "dB");
+    levels_->addItem(tr("Linear levels"), "linear");
     log_->setToolTip(tr("Decades of frequency instead of equal steps."));
+    listed_->setToolTip(tr("The peaks with frequency and level, highest first."));
+    listed_->setChecked(true);
+    list_->setAccessibleName(tr("Peaks of the spectrum"));
+    list_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+    list_->verticalHeader()->hide();
+    list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    list_->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Expanding);
+    connect(listed_, &QCheckBox::toggled, list_, &QWidget::setVisible);
+    connect(levels_, &QComboBox::currentIndexChanged, this, [this] {
+        setLevelAxis();
+        draw();
+    });
     connect(channel_, &QComboBox::activated, this, &SpectrumPanel::showModel);
     connect(window_, &QComboBox::activated, this, &SpectrumPanel::showModel);
     connect(log_, &QCheckBox::toggled, this, [this] {
@@ -88,11 +127,15 @@ SpectrumPanel::SpectrumPanel(QWidget* parent)
     auto* line = new QHBoxLayout;
     line->setContentsMargins(8, 0, 8, 0);
     line->addWidget(new QLabel(tr("Spectrum of"), this));
-    for (QWidget* each : std::initializer_list<QWidget*>{channel_, window_, log_}) line->addWidget(each);
+    for (QWidget* each : std::initializer_list<QWidget*>{channel_, window_, levels_, log_, listed_})
+        line->addWidget(each);
     line->addWidget(note_, 1);
     auto* layout = columnIn(*this, 4);
     layout->addLayout(line);
-    layout->addWidget(plot_, 1);
+    auto* below = new QHBoxLayout;
+    below->addWidget(plot_, 1);
+    below->addWidget(list_);
+    layout->addLayout(below, 1);
     plot_->setAccessibleName(tr("Spectrum"));
     plot_->setMinimumHeight(fontMetrics().height() * 7);
     plot_->setNotAntialiasedElements(QCP::aeAll);
@@ -104,9 +147,8 @@ SpectrumPanel::SpectrumPanel(QWidget* parent)
     addPlotMenu(*plot_, "spectrum");
     watermark_ = addWatermark(*plot_->axisRect());
     watermark_->setVisible(false);
-    numberInPowers(*plot_->yAxis, 0);
     peaks_->setLineStyle(QCPGraph::lsNone);
-    for (std::size_t i = 0; i < kMaxPeaks; ++i) {
+    for (std::size_t i = 0; i < kMaxNamed; ++i) {
         auto* name = new QCPItemText(plot_);
         name->setClipToAxisRect(false);
         name->setPositionAlignment(Qt::AlignHCenter | Qt::AlignBottom);
@@ -117,6 +159,7 @@ SpectrumPanel::SpectrumPanel(QWidget* parent)
     connect(plot_->xAxis, qOverload<const QCPRange&>(&QCPAxis::rangeChanged), this, &SpectrumPanel::namePeaks);
     connect(plot_, &QCustomPlot::afterLayout, this, &SpectrumPanel::fitLevels);
     setFrequencyAxis();
+    setLevelAxis();
     restyle();
     onLookChange(*this, [this] {
         restyle();
@@ -135,6 +178,10 @@ SpectralWindow SpectrumPanel::window() const {
 }
 
 bool SpectrumPanel::logarithmic() const { return log_->isChecked(); }
+
+LevelScale SpectrumPanel::levelScale() const {
+    return valueFor(kLevelScales, levels_->currentData().toString().toStdString()).value_or(LevelScale::Logarithmic);
+}
 
 void SpectrumPanel::show(const TracePtr& trace, double from_s, double to_s, const QColor& colour) {
     colour_ = colour;
@@ -210,12 +257,42 @@ void SpectrumPanel::setFrequencyAxis() {
     if (logarithmic()) {
         numberInPowers(axis, 8);
     } else {
-        axis.setScaleType(QCPAxis::stLinear);
-        axis.setTicker(QSharedPointer<QCPAxisTicker>::create());
-        axis.setNumberFormat("gb");
-        axis.setNumberPrecision(6);
+        numberLinearly(axis);
     }
     shownTop_hz_ = 0;  // the old zoom does not fit the new axis
+}
+
+void SpectrumPanel::setLevelAxis() {
+    levelScale() == LevelScale::Logarithmic ? numberInPowers(*plot_->yAxis, 0) : numberLinearly(*plot_->yAxis);
+}
+
+double SpectrumPanel::placed(double rms) const {
+    const double level = std::max(rms, kMinShare * highest_);
+    return levelScale() == LevelScale::Decibel ? decibels(level) : level * levelFactor_;
+}
+
+void SpectrumPanel::listPeaks() {
+    list_->setHorizontalHeaderLabels({tr("Frequency"), tr("RMS"), tr("dB re 1 %1").arg(unit_)});
+    int wide = 2 * list_->frameWidth() + list_->verticalScrollBar()->sizeHint().width();
+    const char* const widest[] = {"000.0 kHz", "00.0 mV", "−00.0"};  // numbers that jump cannot be read
+    for (int column = 0; column < 3; ++column) {
+        list_->horizontalHeaderItem(column)->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
+        const int number = QFontMetrics(list_->font()).horizontalAdvance(widest[column]) + scaledPx(16);
+        list_->setColumnWidth(column, std::max(number, list_->horizontalHeader()->sectionSizeHint(column)));
+        wide += list_->columnWidth(column);
+    }
+    list_->setFixedWidth(wide);
+    list_->setRowCount(static_cast<int>(spectrum_.peaks.size()));
+    for (int row = 0; row < list_->rowCount(); ++row) {
+        const auto& peak = spectrum_.peaks[static_cast<std::size_t>(row)];
+        const QString texts[] = {quantityText(peak.hz, "Hz"), quantityText(peak.rms, unit_, 3),
+                                 decimalText(decibels(peak.rms), 1)};
+        for (int column = 0; column < 3; ++column) {
+            auto* item = new QTableWidgetItem(texts[column]);
+            item->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
+            list_->setItem(row, column, item);
+        }
+    }
 }
 
 void SpectrumPanel::draw() {
@@ -244,21 +321,23 @@ void SpectrumPanel::draw() {
     const bool other = count > 0 && std::abs(shownTop_hz_ - top_hz) > 0.01 * top_hz;
     const auto unit = axisUnit(logarithmic() ? 1 : top_hz / 2, "Hz");
     for (auto& f : hz) f *= unit.factor;
-    const double highest = rms.isEmpty() ? 0 : *std::max_element(rms.begin(), rms.end());
-    const auto level = highest > 0 ? axisUnit(highest, unit_) : AxisUnit{1, unit_};
+    highest_ = rms.isEmpty() ? 0 : *std::max_element(rms.begin(), rms.end());
+    const auto level = highest_ > 0 ? axisUnit(highest_, unit_) : AxisUnit{1, unit_};
     levelFactor_ = level.factor;
-    for (auto& value : rms) value *= levelFactor_;
+    for (auto& value : rms) value = placed(value);
     graph_->setData(hz, rms, true);
     plot_->xAxis->setLabel(tr("Frequency (%1)").arg(unit.unit));
-    plot_->yAxis->setLabel(level.unit.isEmpty() ? tr("RMS") : tr("RMS (%1)").arg(level.unit));
+    plot_->yAxis->setLabel(levelScale() == LevelScale::Decibel ? tr("RMS (dB re 1 %1)").arg(unit_)
+                           : level.unit.isEmpty()              ? tr("RMS")
+                                                               : tr("RMS (%1)").arg(level.unit));
     peaks_->data()->clear();
-    for (const auto& peak : spectrum_.peaks) peaks_->addData(peak.hz * unit.factor, peak.rms * levelFactor_);
+    for (const auto& peak : spectrum_.peaks) peaks_->addData(peak.hz * unit.factor, placed(peak.rms));
+    listPeaks();
     if (!hz.isEmpty()) {
         if (other) {
             shownTop_hz_ = top_hz;
             plot_->xAxis->setRange(logarithmic() ? spectrum_.hz.front() * unit.factor : 0, top_hz * unit.factor);
         }
-        highest_ = highest * levelFactor_;
         fitLevels();
     }
     restyle();
@@ -271,7 +350,16 @@ void SpectrumPanel::fitLevels() {
     if (!(highest_ > 0)) return;
     const double name = QFontMetrics(textFont(TextSize::Small)).height() + 8;
     const double height = std::max<double>(plot_->axisRect()->height(), 2 * name);
-    plot_->yAxis->setRange(highest_ * 1e-5, highest_ * std::pow(10, 5 * name / (height - name)));
+    const double above = name / (height - name), top = placed(highest_);
+    auto& axis = *plot_->yAxis;
+    switch (levelScale()) {
+        case LevelScale::Logarithmic:
+            return axis.setRange(top * std::pow(10, -kDecades), top * std::pow(10, kDecades * above));
+        case LevelScale::Decibel:
+            return axis.setRange(top - 20 * kDecades, top + 20 * kDecades * above);
+        case LevelScale::Linear:
+            return axis.setRange(0, top * (1 + above));
+    }
 }
 
 /// Names the highest peaks first; leaves out a name that would overlap another.
@@ -287,7 +375,10 @@ void SpectrumPanel::namePeaks() {
         const auto& peak = spectrum_.peaks[i];
         const double key = peak.hz * unit.factor;
         if (!range.contains(key)) continue;
-        const auto text = tr("%1 · %2").arg(quantityText(peak.hz, "Hz"), quantityText(peak.rms, unit_, 3));
+        const auto text =
+            tr("%1 · %2").arg(quantityText(peak.hz, "Hz"), levelScale() == LevelScale::Decibel
+                                                               ? tr("%1 dB").arg(decimalText(decibels(peak.rms), 1))
+                                                               : quantityText(peak.rms, unit_, 3));
         const double half = 0.5 * metrics.size(0, text).width() + 4;
         const double at = plot_->xAxis->coordToPixel(key);
         // No name may stick out of the plot at the side.
@@ -302,7 +393,7 @@ void SpectrumPanel::namePeaks() {
         if (!free) continue;
         taken.emplace_back(left, right);
         name->setText(text);
-        name->position->setCoords(key, peak.rms * levelFactor_);
+        name->position->setCoords(key, placed(peak.rms));
         name->setPositionAlignment(Qt::AlignBottom | side);
         name->setVisible(true);
     }
@@ -319,6 +410,11 @@ QStringList SpectrumPanel::namedPeaks() const {
 void SpectrumPanel::restyle() {
     stylePlot(*plot_);
     graph_->setPen(QPen(colour_, 1));
+    const auto ink = legible(colour_.isValid() ? colour_ : colours().text, colours().base);
+    plot_->yAxis->setLabelColor(ink);
+    plot_->yAxis->setTickLabelColor(ink);
+    list_->setFont(digits(textFont(TextSize::Small)));
+    list_->verticalHeader()->setDefaultSectionSize(QFontMetrics(list_->font()).height() + scaledPx(6));
     peaks_->setScatterStyle(
         QCPScatterStyle(QCPScatterStyle::ssTriangleInverted, QPen(colours().text, 1), QBrush(colours().base), 7));
     for (auto* name : names_) {
@@ -330,12 +426,17 @@ void SpectrumPanel::restyle() {
 void SpectrumPanel::save(QSettings& settings) const {
     settings.setValue("fft/window", window_->currentData());
     settings.setValue("fft/log", logarithmic());
+    settings.setValue("fft/levels", levels_->currentData());
+    settings.setValue("fft/peaks", listed_->isChecked());
 }
 
 void SpectrumPanel::restore(const QSettings& settings) {
     const int known = window_->findData(settings.value("fft/window").toString());
     if (known >= 0) window_->setCurrentIndex(known);
     log_->setChecked(rememberedFlag(settings, "fft/log").value_or(false));
+    if (const int scale = levels_->findData(settings.value("fft/levels").toString()); scale >= 0)
+        levels_->setCurrentIndex(scale);
+    listed_->setChecked(rememberedFlag(settings, "fft/peaks").value_or(true));
 }
 
 void SpectrumPanel::follow(const ScopeModel& model) {

@@ -1,6 +1,6 @@
 // SpectrumPanel.h - the one-sided spectrum of the visible part of one lane, with a window function that the user
-// chooses. Levels are the RMS of a sine at that frequency (corrected for the window's equivalent noise bandwidth), over
-// linear or logarithmic frequency; the peaks are named.
+// chooses. Levels are the RMS of a sine at that frequency (corrected for the window's equivalent noise bandwidth),
+// linear, logarithmic or in dB, over linear or logarithmic frequency. The peaks are named, and listed beside the plot.
 //
 // If there are more samples than one transform takes, the middle is used, and the panel says which part.
 #pragma once
@@ -18,6 +18,7 @@ class QSettings;
 class QCustomPlot;
 class QCPGraph;
 class QCPItemText;
+class QTableWidget;
 
 namespace tacto::gui {
 
@@ -37,11 +38,13 @@ struct Spectrum {
     QString note;             ///< why there is no spectrum, or which part of the samples it covers
 };
 
+enum class LevelScale { Logarithmic, Decibel, Linear };
+
 class SpectrumPanel final : public QWidget {
     Q_OBJECT
 public:
     static constexpr std::size_t kMaxSamples = std::size_t{1} << 17;
-    static constexpr std::size_t kMaxPeaks = 6;
+    static constexpr std::size_t kMaxPeaks = 10;  ///< in the list; the highest ones are named in the plot
 
     explicit SpectrumPanel(QWidget* parent = nullptr);
     ~SpectrumPanel() override;
@@ -51,7 +54,8 @@ public:
     void follow(const ScopeModel& model);
     [[nodiscard]] QString lane() const;
     [[nodiscard]] SpectralWindow window() const;
-    [[nodiscard]] bool logarithmic() const;
+    [[nodiscard]] bool logarithmic() const;  ///< of the frequency
+    [[nodiscard]] LevelScale levelScale() const;
     /// from_s and to_s are on the session's time base.
     void show(const TracePtr& trace, double from_s, double to_s, const QColor& colour);
     using QWidget::show;
@@ -68,6 +72,10 @@ private:
     void findPeaks(const QString& unit);
     void draw();
     void setFrequencyAxis();
+    void setLevelAxis();
+    /// The place of a level on the axis.
+    [[nodiscard]] double placed(double rms) const;
+    void listPeaks();
     void fitLevels();
     void namePeaks();
     void restyle();
@@ -75,13 +83,16 @@ private:
     const ScopeModel* model_ = nullptr;
     QComboBox* channel_;
     QComboBox* window_;
+    QComboBox* levels_;
     QCheckBox* log_;
+    QCheckBox* listed_;
     QLabel* note_;
     QCustomPlot* plot_;
+    QTableWidget* list_;
     QCPGraph* graph_;
     QCPItemText* watermark_;
     QCPGraph* peaks_;
-    std::vector<QCPItemText*> names_;  // enough for all peaks; the plot owns them
+    std::vector<QCPItemText*> names_;  // the plot owns them
     Spectrum spectrum_;
     QString unit_;
     std::unique_ptr<PowerSpectrum> transform_;  // reused while length, window and rate stay the same
@@ -90,7 +101,7 @@ private:
     SpectralWindow transformWindow_ = SpectralWindow::Hann;
     double shownTop_hz_ = 0;
     double levelFactor_ = 1;  ///< factor from unit_ to the unit of the level axis
-    double highest_ = 0;      ///< highest level, in the unit of the level axis
+    double highest_ = 0;      ///< highest level, in unit_
     QColor colour_;
 };
 
