@@ -1,7 +1,9 @@
 // Tests the oscilloscope's screen with mouse and keys, on captures with known values.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <set>
 
+#include "app/gui/scope/screen/LaneLegend.h"
 #include "app/gui/scope/screen/TimeFlags.h"
 #include "app/gui/theme/Theme.h"
 #include "core/base/Random.h"
@@ -164,6 +166,40 @@ TEST_F(Screen, ALanesLetterDragsItsOffsetAndMakesItActive) {
     drag(screen, letterOf(amps), letterOf(amps) - QPoint(0, screen.axisRect()->height() / 8));
     EXPECT_NEAR(scaleOf(amps).position, before + 1, 0.05);
     EXPECT_EQ(model.activeLane(), amps);
+}
+
+TEST_F(Screen, EveryChannelHasOneColourAndNoOtherHasIt) {
+    auto capture = twoPulses();
+    for (const auto* name : {"probe", "second current", "pulse", "gate", "clock", "spare"}) {
+        auto more = capture.channels[capture.channels.size() % 2];
+        more.name = name;
+        if (QString(name).size() == 5) more.unit = "";
+        capture.channels.push_back(std::move(more));
+    }
+    model.show(prepared(std::move(capture)));
+    model.setTimeCursors(true);
+    gui::LaneLegend legend(model, nullptr);
+    for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
+        gui::applyTheme(theme);
+        draw();
+        std::set<QRgb> inks;
+        const auto& flags = screen.overlay().flags;
+        for (std::size_t c = 0; c < model.lanes().size(); ++c) {
+            const auto& lane = model.lanes()[c];
+            const auto colour = gui::laneColour(model, lane);
+            const auto ink = gui::laneInk(model, lane);
+            EXPECT_TRUE(inks.insert(ink.rgb()).second) << lane.title.toStdString();
+            EXPECT_EQ(gui::channelColour(lane.letter, c), colour);
+            EXPECT_EQ(gui::channelInk(lane.letter, c), ink);
+            EXPECT_EQ(screen.graph(lane.key)->pen().color(), colour);
+            EXPECT_EQ(screen.overlay().lanes[c].colour, ink);
+            EXPECT_EQ(flags[0].rows[c].colour, ink);
+            EXPECT_TRUE(legend.text().contains(colour.name()) && legend.text().contains(ink.name()));
+            if (lane.key == model.activeLane()) EXPECT_EQ(screen.yAxis->labelColor(), ink);
+        }
+        shot(screen, theme == gui::Theme::Dark ? "channels-dark" : "channels");
+    }
+    gui::applyTheme(gui::Theme::Light);
 }
 
 TEST_F(Screen, AClickOnATracePicksItsLane) {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/gui/scope/screen/LaneLegend.h"
 #include "app/gui/theme/Building.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Text.h"
@@ -46,10 +47,9 @@ const ChannelMeasurement* measuredIn(const std::vector<ChannelMeasurement>& meas
     return nullptr;
 }
 
-QString inColour(const QString& text, const QString& unit) {
-    const auto& c = colours();
-    const auto colour = unit == "A" ? c.currentText : unit == "V" ? c.voltage : c.text;
-    return QString("<span style=\"color:%1\">%2</span>").arg(colour.name(), text.toHtmlEscaped());
+QString inColour(const QString& letter, std::size_t channel) {
+    return QString("<span style=\"color:%1\">%2</span>")
+        .arg(channelInk(letter, channel).name(), letter.toHtmlEscaped());
 }
 
 }  // namespace
@@ -163,7 +163,7 @@ void MeasurementSummary::lay() {
     const auto& channels = statistics_.channels();
     const int first = below() ? 0 : 1;
     for (std::size_t c = 0; c < channels.size(); ++c) {
-        auto* title = new QLabel(inColour(channels[c].letter, channels[c].unit), rows_);
+        auto* title = new QLabel(inColour(channels[c].letter, c), rows_);
         title->setToolTip(titled(channels[c].name));
         title->setAlignment(Qt::AlignRight);
         setTextSize(*title, TextSize::Small, true);

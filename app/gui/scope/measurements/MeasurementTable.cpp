@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/gui/scope/screen/LaneLegend.h"
 #include "app/gui/theme/Building.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
@@ -253,10 +254,10 @@ void MeasurementTable::restyle() {
     for (int c = 0; c < table_->columnCount(); ++c) {
         const int statistic = c == 0 ? -1 : (c - 1) % kPerChannel;
         const bool isLast = statistic == 0, isCount = statistic == kPerChannel - 1;
-        const auto* channel = c == 0 ? nullptr : &channels[static_cast<std::size_t>((c - 1) / kPerChannel)];
-        const auto colour = channel == nullptr || !isLast ? (c == 0 ? colours().text : colours().quiet)
-                            : channel->unit == "A"        ? colours().currentText
-                                                          : colours().voltage;
+        const auto channel = static_cast<std::size_t>(std::max(0, c - 1) / kPerChannel);
+        const auto colour = c == 0    ? colours().text
+                            : !isLast ? colours().quiet
+                                      : channelInk(channels[channel].letter, channel);
         for (int row = 0; row < table_->rowCount(); ++row) {
             table_->item(row, c)->setFont(isLast ? strong : plain);
             table_->item(row, c)->setForeground(colour);

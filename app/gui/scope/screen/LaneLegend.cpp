@@ -7,6 +7,27 @@
 
 namespace tacto::gui {
 
+namespace {
+
+/// Colours of the channels beside the first voltage and the first current; none is red, which means STOP and faults.
+constexpr const char* kOtherChannels[] = {"#5E7200", "#C25700", "#6B4FBB", "#8A5A2B",
+                                          "#3F6F86", "#9A6B00", "#7B3FA0", "#586068"};
+
+}  // namespace
+
+QColor channelColour(const QString& letter, std::size_t channel) {
+    const auto& c = colours();
+    if (letter == "V" || letter == "V1") return c.voltage;
+    if (letter == "I" || letter == "I1") return c.current;
+    return legible(QColor(kOtherChannels[channel % std::size(kOtherChannels)]), c.base);
+}
+
+QColor channelInk(const QString& letter, std::size_t channel) {
+    const auto& c = colours();
+    const auto colour = channelColour(letter, channel);
+    return colour == c.current ? c.currentText : legible(colour, c.base);
+}
+
 QColor laneColour(const ScopeModel& model, const ScopeLane& lane) {
     const auto& c = colours();
     if (lane.reference()) return c.zero;
@@ -14,12 +35,9 @@ QColor laneColour(const ScopeModel& model, const ScopeLane& lane) {
     if (lane.key == "math/power") return c.third;
     if (lane.key == "math/charge") return dark ? c.third.lighter(125) : c.third.darker(140);
     if (lane.key == "math/difference") return c.text;
-    if (lane.letter == "V" || lane.letter == "V1") return c.voltage;
-    if (lane.letter == "I" || lane.letter == "I1") return c.current;
-    // Other channels get the remaining colours of the palette, in order.
     const auto& all = model.lanes();
     const auto at = std::find_if(all.begin(), all.end(), [&](const ScopeLane& l) { return l.key == lane.key; });
-    return conditionInTheme({}, static_cast<int>(at - all.begin())).color;
+    return channelColour(lane.letter, static_cast<std::size_t>(at - all.begin()));  // channels come before calculations
 }
 
 QColor laneInk(const ScopeModel& model, const ScopeLane& lane) {
