@@ -128,6 +128,32 @@ TEST_F(Model, ATimeCursorSnapsToAnEdgeWithinReach) {
     EXPECT_FALSE(model.nudgeLevelCursor(1)) << "a time cursor has the focus";
 }
 
+TEST_F(Model, CursorsBeginAtTheEdgesOfThePulseInSight) {
+    // Onsets at 0 and 4 ms; each pulse lasts 0.5 ms, its first phase 0.2 ms, at ±40 V.
+    const auto begin = [this](double left_s, double right_s) {
+        model.setTimeCursors(false);
+        model.setLevelCursors(false);
+        model.zoomToBox(left_s, right_s, -gui::kHalfUp, gui::kHalfUp);
+        model.setTimeCursors(true);
+        model.setLevelCursors(true);
+        return model.readout();
+    };
+    for (const auto& [left_s, right_s, onset_s, end_s] :
+         {std::array{-1e-3, 9e-3, 0.0, 0.5e-3}, std::array{-0.1e-3, 0.6e-3, 0.0, 0.5e-3},
+          std::array{3e-3, 7e-3, 4e-3, 4.5e-3}, std::array{-0.1e-3, 0.25e-3, 0.0, 0.2e-3}}) {
+        const auto read = begin(left_s, right_s);
+        ASSERT_LE(model.viewport().left_s, onset_s);
+        EXPECT_NEAR(read.x1_s, onset_s, 1e-7) << left_s;
+        EXPECT_NEAR(read.x2_s, end_s, 1e-7) << left_s;
+        EXPECT_NEAR(read.y1, 0, 0.1) << left_s;
+        EXPECT_NEAR(read.y2, 40, 0.1) << left_s;
+    }
+    const auto none = begin(1e-3, 3e-3);
+    EXPECT_GT(none.x1_s, model.viewport().left_s) << "within the view where no pulse is";
+    EXPECT_LT(none.x2_s, model.viewport().right_s());
+    EXPECT_LT(none.x1_s, none.x2_s);
+}
+
 TEST_F(Model, LevelCursorsStayOnTheScreenWhenAnotherLaneIsChosen) {
     model.setLevelCursors(true);
     const auto heights = [this](const QString& lane) {

@@ -209,6 +209,8 @@ TEST_F(Screen, AClickOnATracePicksItsLane) {
 
 TEST_F(Screen, TimeCursorsSnapToEdgesAndReadWhatIsBetween) {
     model.setTimeCursors(true);
+    model.dragTimeCursor(0, 2e-3, 0);
+    model.dragTimeCursor(1, 6e-3, 0);
     draw();
     const auto grab = [&](int cursor, double to_s) {
         const auto& place = screen.overlay().timeCursors_s[static_cast<std::size_t>(cursor)];
@@ -357,6 +359,7 @@ TEST_F(Screen, AMasksBandLiesBehindItsLaneAndAFailureIsSaidLarge) {
 
 TEST_F(Screen, ArrowsNudgeTheFocusedCursorAndCtrlJumpsToTheNextEdge) {
     model.setTimeCursors(true);
+    model.dragTimeCursor(0, 2e-3, 0);
     QTest::keyClick(&screen, Qt::Key_2);
     const double x2 = model.readout().x2_s;
     const double pixel = model.viewport().width_s() / screen.axisRect()->width();

@@ -30,8 +30,9 @@ CursorValue::At valueOf(const Trace& trace, double time_s) {
 
 }  // namespace
 
-void ScopeCursors::showTime(const Viewport& view) {
+void ScopeCursors::showTime(const Viewport& view, const std::optional<std::pair<double, double>>& at_s) {
     time_s_ = {view.left_s + view.width_s() * 0.3, view.left_s + view.width_s() * 0.7};
+    if (at_s) time_s_ = {at_s->first, at_s->second};
     focused_ = 0;
 }
 
@@ -40,10 +41,12 @@ void ScopeCursors::hideTime() {
     if (focused_ < 2) focused_ = level_ ? 2 : kNone;
 }
 
-void ScopeCursors::showLevel(const LaneScale& scale) {
+void ScopeCursors::showLevel(const LaneScale& scale, const std::optional<std::pair<double, double>>& at) {
     constexpr double kFarthest = kHalfUp - 0.5;
     level_ = {scale.levelAt(std::max(-kFarthest, scale.position - 1)),
               scale.levelAt(std::min(kFarthest, scale.position + 1))};
+    const auto onScreen = [&](double level) { return std::abs(scale.heightOf(level)) <= kHalfUp; };
+    if (at && onScreen(at->first) && onScreen(at->second)) level_ = {at->first, at->second};
     focused_ = 2;
 }
 

@@ -57,9 +57,11 @@ public:
     [[nodiscard]] bool timeFocused() const noexcept { return time_s_ && focused_ >= 0 && focused_ < 2; }
     [[nodiscard]] bool levelFocused() const noexcept { return level_ && focused_ >= 2; }
 
-    void showTime(const Viewport& view);
+    /// Shows the time cursors at two times; without them, within the view.
+    void showTime(const Viewport& view, const std::optional<std::pair<double, double>>& at_s);
     void hideTime();
-    void showLevel(const LaneScale& scale);
+    /// Shows the level cursors at two levels; without them, or where they are not on the screen, around the zero.
+    void showLevel(const LaneScale& scale, const std::optional<std::pair<double, double>>& at);
     void hideLevel();
     /// Does nothing if that cursor is hidden.
     void focus(int cursor);

@@ -265,15 +265,33 @@ void ScopeModel::tellCursors() {
     emit overlayChanged();
 }
 
+std::optional<std::pair<double, double>> ScopeModel::pulseInSight() const {
+    return pulseWithin(lanes_.edgesFor(active_), viewport().left_s, viewport().right_s(), restingTime_s());
+}
+
+std::optional<std::pair<double, double>> ScopeModel::levelsInSight() const {
+    const auto its = trace(active_);
+    const auto pulse = pulseInSight();
+    if (!its || !pulse || its->levels.size() < 2) return {};
+    const double inside_s = pulse->first + (pulse->second - pulse->first) / 1000;
+    const auto leading = edgesAround(lanes_.edgesFor(active_), inside_s);
+    if (!leading) return {};
+    const double top = its->valueAt((leading->from_s + leading->to_s) / 2 + (roll() ? 0 : its->zero_s));
+    const auto resting = std::min_element(its->levels.begin(), its->levels.end(),
+                                          [top](double a, double b) { return std::abs(a - top) < std::abs(b - top); });
+    if (!std::isfinite(top) || resting == its->levels.begin()) return {};
+    return std::pair{its->levels.front(), *resting};
+}
+
 void ScopeModel::setTimeCursors(bool on) {
     if (on == cursors_.time_s().has_value()) return;
-    on ? cursors_.showTime(viewport()) : cursors_.hideTime();
+    on ? cursors_.showTime(viewport(), pulseInSight()) : cursors_.hideTime();
     tellCursors();
 }
 
 void ScopeModel::setLevelCursors(bool on) {
     if (on == cursors_.level().has_value() || (on && active() == nullptr)) return;
-    on ? cursors_.showLevel(scaleOf(*active())) : cursors_.hideLevel();
+    on ? cursors_.showLevel(scaleOf(*active()), levelsInSight()) : cursors_.hideLevel();
     tellCursors();
 }
 

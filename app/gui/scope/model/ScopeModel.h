@@ -151,6 +151,10 @@ private:
     void go(const Viewport& next, const QString& kind);
     void become(const Viewport& next);
     void tellCursors();
+    /// Onset and end of the pulse in sight, nearest to the trigger; where the cursors begin.
+    [[nodiscard]] std::optional<std::pair<double, double>> pulseInSight() const;
+    /// The active lane's resting level and the level of the leading phase of that pulse.
+    [[nodiscard]] std::optional<std::pair<double, double>> levelsInSight() const;
 
     ShownCaptures captures_;
     ScopeLanes lanes_;

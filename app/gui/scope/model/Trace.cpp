@@ -245,21 +245,39 @@ double nextEdge(const std::vector<TraceSpan>& spans, double time_s, double direc
     });
 }
 
-std::optional<std::pair<double, double>> pulseNear(const std::vector<TraceSpan>& spans, double time_s) {
+namespace {
+
+/// Returns onset and end of the pulse, or of the phase, with the onset nearest to `time_s` of those that are `wanted`.
+template <class Wanted>
+std::optional<std::pair<double, double>> nearestPulse(const std::vector<TraceSpan>& spans, double time_s, bool phases,
+                                                      Wanted wanted) {
     std::optional<std::pair<double, double>> nearest;
     for (const auto& span : spans) {
         const auto& edges = span.trace->edges;
         const double shift = span.key_s - span.trace->start_s;
         for (auto edge = edges.begin(); edge != edges.end(); ++edge) {
-            const double onset_s = edge->onset_s + shift;
-            if (!edge->leading || (nearest && std::abs(onset_s - time_s) >= std::abs(nearest->first - time_s)))
-                continue;
+            if (!edge->leading && !phases) continue;
             const auto second = std::next(edge);
-            const bool biphasic = second != edges.end() && !second->leading;
-            nearest = {onset_s, (biphasic ? second->end_s : edge->end_s) + shift};
+            const bool biphasic = !phases && second != edges.end() && !second->leading;
+            const std::pair its{edge->onset_s + shift, (biphasic ? second->end_s : edge->end_s) + shift};
+            if (nearest && std::abs(its.first - time_s) >= std::abs(nearest->first - time_s)) continue;
+            if (wanted(its)) nearest = its;
         }
     }
     return nearest;
+}
+
+}  // namespace
+
+std::optional<std::pair<double, double>> pulseNear(const std::vector<TraceSpan>& spans, double time_s) {
+    return nearestPulse(spans, time_s, false, [](const auto&) { return true; });
+}
+
+std::optional<std::pair<double, double>> pulseWithin(const std::vector<TraceSpan>& spans, double from_s, double to_s,
+                                                     double time_s) {
+    const auto inSight = [&](const auto& its) { return its.first >= from_s && its.second <= to_s; };
+    const auto pulse = nearestPulse(spans, time_s, false, inSight);
+    return pulse ? pulse : nearestPulse(spans, time_s, true, inSight);
 }
 
 std::optional<EdgeReading> edgesAround(const std::vector<TraceSpan>& spans, double time_s) {

@@ -147,6 +147,10 @@ struct EdgeReading {
 [[nodiscard]] double nextEdge(const std::vector<TraceSpan>& spans, double time_s, double direction, double least_s);
 /// Returns onset and end of the pulse with the onset nearest to `time_s`.
 [[nodiscard]] std::optional<std::pair<double, double>> pulseNear(const std::vector<TraceSpan>& spans, double time_s);
+/// Returns onset and end of the pulse wholly between two times whose onset is nearest to `time_s`; without one, of the
+/// phase. Nothing if there is neither.
+[[nodiscard]] std::optional<std::pair<double, double>> pulseWithin(const std::vector<TraceSpan>& spans, double from_s,
+                                                                   double to_s, double time_s);
 /// Returns the phase, or the rest between two phases, that contains `time_s`.
 [[nodiscard]] std::optional<EdgeReading> edgesAround(const std::vector<TraceSpan>& spans, double time_s);
 
