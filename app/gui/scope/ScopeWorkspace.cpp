@@ -213,7 +213,7 @@ void ScopeWorkspace::connectBench() {
     });
     connect(acquisition_.get(), &ScopeAcquisition::requested, this, [this] {
         pipe_.breakOff();
-        pipe_.setTrigger(acquisition_->requestedSettings());
+        pipe_.setTrigger(acquisition_->requestedSettings(), acquisition_->requestedTrigger());
     });
     connect(acquisition_.get(), &ScopeAcquisition::stopped, this, [this](const QString& why) { tell({}, why); });
     connect(&pipe_, &CapturePipe::prepared, this, &ScopeWorkspace::take);
@@ -401,7 +401,7 @@ void ScopeWorkspace::say() {
     const bool ours = !shown || shown->source.isEmpty();
     model_.setTrigger(
         ours && !model_.roll() ? model_.channelIn(controls_->acquisition().triggersOnCurrent() ? "A" : "V") : QString(),
-        settings().triggerLevel, acquisition_->levelFollows());
+        controls_->acquisition().trigger(), acquisition_->levelFollows());
     model_.setPreTrigger(ours && running() && shown ? std::optional(acquisition_->requestedSettings().preTrigger)
                                                     : std::nullopt);
     tools_->tool(ScopeTool::Undo).setEnabled(model_.canUndo());

@@ -170,17 +170,17 @@ TEST_F(Model, TheTriggerIsDraggedUnlessItFollowsTheCommand) {
     double level = 0, fraction = 0;
     QObject::connect(&model, &gui::ScopeModel::triggerLevelChosen, [&](double l) { level = l; });
     QObject::connect(&model, &gui::ScopeModel::preTriggerChosen, [&](double f) { fraction = f; });
-    model.setTrigger(volts, 8, true);
+    model.setTrigger(volts, {.level = 8}, true);
     model.dragTriggerLevel(scaleOf(volts).heightOf(20));
     EXPECT_EQ(level, 0) << "held";
-    model.setTrigger(volts, 8, false);
+    model.setTrigger(volts, {.level = 8}, false);
     model.dragTriggerLevel(scaleOf(volts).heightOf(20));
     EXPECT_NEAR(level, 20, 0.1);
     EXPECT_THAT(model.trigger().text().toStdString(), HasSubstr("Trigger at 20.0"));
-    model.setTrigger(volts, 8, false);
+    model.setTrigger(volts, {.level = 8}, false);
     EXPECT_NEAR(model.trigger().level(), 20, 0.1) << "the hand on it knows better";
     model.dropTrigger();
-    model.setTrigger(volts, 8, false);
+    model.setTrigger(volts, {.level = 8}, false);
     EXPECT_EQ(model.trigger().level(), 8);
 
     model.dragTriggerMoment(2e-3);

@@ -96,7 +96,7 @@ TEST_F(Screen, TwoLanesHaveTheirZerosOnLinesOfTheGridAndNumbersWhereTheyAre) {
 }
 
 TEST_F(Screen, TheTriggersLevelStandsBesideAHandleAtTheSameHeight) {
-    model.setTrigger(amps, 2e-3, false);
+    model.setTrigger(amps, {.level = 2e-3}, false);
     draw();
     const auto zero = letterOf(amps);
     EXPECT_EQ(screen.gripAt(zero).grip, Grip::Lane);

@@ -35,10 +35,20 @@ void CapturePipe::setAverage(std::size_t captures) {
     work_.start([this, captures] { average_.setCaptures(captures); });
 }
 
+void CapturePipe::setTrigger(const ScopeSettings& settings, const SampleTrigger& trigger) {
+    trigger_ = searched(trigger.kind) ? std::nullopt : std::optional(settings);
+    passesOver_ = searched(trigger.kind) || trigger.holdOff_s > 0;
+    work_.start([this, trigger, unit = settings.triggerOnCurrent ? "A" : "V", samples = settings.samples,
+                 before = settings.preTrigger] { search_.set(trigger, unit, samples, before); });
+}
+
 void CapturePipe::beginAnew() {
     gap_ = true;
     ++epoch_;
-    work_.start([this] { average_.clear(); });
+    work_.start([this] {
+        average_.clear();
+        search_.forget();
+    });
 }
 
 void CapturePipe::take(std::shared_ptr<const Capture> capture, const QString& source) {
@@ -49,12 +59,13 @@ void CapturePipe::take(std::shared_ptr<const Capture> capture, const QString& so
         return;
     }
     ++pending_;
-    const bool follows = !std::exchange(gap_, false);
     const bool ours = source.isEmpty();
+    const bool follows = !std::exchange(gap_, false) && !(ours && passesOver_);
     auto prepare = [this, capture = std::move(capture), source, math = mathOptions_, follows, ours,
                     mask = ours ? mask_ : nullptr, trigger = ours ? trigger_ : std::nullopt,
                     asked = ours ? asked_ : std::nullopt,
                     taken = ours ? QDateTime::currentDateTime() : QDateTime()]() mutable -> ShownPtr {
+        if (ours) capture = search_.take(std::move(capture));
         if (trigger) capture = triggeredAtCrossing(std::move(capture), *trigger);
         std::optional<MaskCheck> judged;
         if (mask && !capture->untriggered) judged = mask->check(*capture);

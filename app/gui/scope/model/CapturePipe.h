@@ -20,6 +20,7 @@
 #include "core/devices/Oscilloscope.h"
 #include "core/measure/Capture.h"
 #include "core/measure/CaptureAverage.h"
+#include "core/measure/SampleTrigger.h"
 
 namespace tacto::gui {
 
@@ -40,9 +41,9 @@ public:
     void setAverage(std::size_t captures);
     /// Tests the bench's captures against this mask from now on; null: no test.
     void setMask(std::shared_ptr<const CaptureMask> mask) { mask_ = std::move(mask); }
-    /// Sets the trigger of the bench's captures: time 0 is then where the signal crosses the trigger level. Nothing:
-    /// time 0 is where the oscilloscope states it.
-    void setTrigger(const std::optional<ScopeSettings>& settings) { trigger_ = settings; }
+    /// Sets the trigger of the bench's next captures. For the oscilloscope's own trigger time 0 is where the signal
+    /// crosses the level; another one is searched for, and a capture without it is untriggered.
+    void setTrigger(const ScopeSettings& settings, const SampleTrigger& trigger = {});
     /// Sets the drive that is asked of the output while the next captures are taken.
     void setAsked(const std::optional<AskedDrive>& asked) { asked_ = asked; }
     /// The next capture does not follow the last one, because the oscilloscope's settings changed.
@@ -80,9 +81,11 @@ private:
     std::shared_ptr<const CaptureMask> mask_;
     std::optional<ScopeSettings> trigger_;
     std::optional<AskedDrive> asked_;
-    CaptureAverage average_;   // used by the worker thread only
-    bool gap_ = false;         // a capture was left out after the last one
-    std::uint64_t epoch_ = 1;  // counts the calls of beginAnew(): captures of an earlier epoch are dropped
+    CaptureAverage average_;      // used by the worker thread only
+    SampleTriggerSearch search_;  // likewise
+    bool passesOver_ = false;     // the trigger leaves out trains between two captures
+    bool gap_ = false;            // a capture was left out after the last one
+    std::uint64_t epoch_ = 1;     // counts the calls of beginAnew(): captures of an earlier epoch are dropped
     int pending_ = 0;
     std::uint64_t skipped_ = 0;
     bool opening_ = false;

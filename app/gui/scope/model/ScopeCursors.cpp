@@ -135,11 +135,11 @@ QString readoutText(CursorReadout r, double rate_hz) {
     return parts.join(QStringLiteral("   "));
 }
 
-bool ScopeTrigger::set(const QString& lane, double level, bool held) {
-    if (lane_ == lane && level_ == level && held_ == held) return false;
+bool ScopeTrigger::set(const QString& lane, const SampleTrigger& its, bool held) {
+    if (lane_ == lane && its_ == its && held_ == held) return false;
     if (levelDragged_ && !held) return false;
     lane_ = lane;
-    level_ = level;
+    its_ = its;
     held_ = held;
     return true;
 }
@@ -149,8 +149,8 @@ bool ScopeTrigger::dragLevel(double height, const LaneScale& scale, const QStrin
     // Rounds to whole hundredths of a division, because a level set by eye needs no more digits.
     const double grain = scale.perDivision / 100;
     levelDragged_ = true;
-    level_ = std::round(scale.levelAt(height) / grain) * grain;
-    text_ = QObject::tr("Trigger at %1").arg(quantityText(level_, unit, 3));
+    its_.level = std::round(scale.levelAt(height) / grain) * grain;
+    text_ = QObject::tr("Trigger at %1").arg(quantityText(its_.level, unit, 3));
     return true;
 }
 

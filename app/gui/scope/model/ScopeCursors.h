@@ -11,6 +11,7 @@
 
 #include "app/gui/scope/model/ScopeLanes.h"
 #include "app/gui/scope/model/Viewport.h"
+#include "core/measure/SampleTrigger.h"
 
 namespace tacto::gui {
 
@@ -84,8 +85,9 @@ class ScopeTrigger {
 public:
     /// The lane whose level is shown; empty: no level is shown.
     [[nodiscard]] const QString& lane() const noexcept { return lane_; }
-    /// The trigger level, in the lane's unit.
-    [[nodiscard]] double level() const noexcept { return level_; }
+    /// In the lane's unit.
+    [[nodiscard]] const SampleTrigger& its() const noexcept { return its_; }
+    [[nodiscard]] double level() const noexcept { return its_.level; }
     /// True if the level follows the commanded amplitude and cannot be dragged.
     [[nodiscard]] bool held() const noexcept { return held_; }
     /// The moment to which the user dragged the trigger, in seconds on the axis.
@@ -94,7 +96,7 @@ public:
     [[nodiscard]] const QString& text() const noexcept { return text_; }
 
     /// Returns true if anything changed. A level that the user is dragging is not changed.
-    bool set(const QString& lane, double level, bool held);
+    bool set(const QString& lane, const SampleTrigger& its, bool held);
     /// Sets the share of the record before the trigger; nothing: this share cannot be set.
     void setFraction(std::optional<double> fraction) { fraction_ = fraction; }
     /// Drags the level. Returns false if the level cannot be dragged; dragMoment() does the same.
@@ -108,7 +110,7 @@ private:
     [[nodiscard]] double fractionAt(double time_s, double length_s) const;
 
     QString lane_;
-    double level_ = 0;
+    SampleTrigger its_;
     bool held_ = false;
     bool levelDragged_ = false;
     std::optional<double> fraction_;

@@ -380,8 +380,8 @@ QString ScopeModel::markBeside() const {
     return marks_.beside(*shown(), behind.empty() ? nullptr : behind.front().get());
 }
 
-void ScopeModel::setTrigger(const QString& key, double level, bool held) {
-    if (trigger_.set(key, level, held)) emit overlayChanged();
+void ScopeModel::setTrigger(const QString& key, const SampleTrigger& trigger, bool held) {
+    if (trigger_.set(key, trigger, held)) emit overlayChanged();
 }
 
 void ScopeModel::dragTriggerLevel(double height) {

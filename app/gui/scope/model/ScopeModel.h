@@ -118,7 +118,8 @@ public:
     [[nodiscard]] QString markBeside() const;
 
     [[nodiscard]] const ScopeTrigger& trigger() const noexcept { return trigger_; }
-    void setTrigger(const QString& lane, double level, bool held);
+    /// `held`: the user cannot set the level.
+    void setTrigger(const QString& lane, const SampleTrigger& trigger, bool held);
     void setPreTrigger(std::optional<double> fraction) { trigger_.setFraction(fraction); }
     void dragTriggerLevel(double height);
     void dragTriggerMoment(double time_s);

@@ -13,6 +13,7 @@
 #include "app/gui/scope/model/Viewport.h"
 #include "app/gui/scope/panels/QuantitySpin.h"
 #include "app/gui/theme/Building.h"
+#include "app/gui/theme/FieldForm.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/NumberText.h"
@@ -41,8 +42,9 @@ void choose(QComboBox* combo, double value) {
 AcquisitionPanel::AcquisitionPanel(QWidget* parent)
     : QWidget(parent),
       traits_{Hertz(2e6), 1'000'000, 8, Hertz(0)},
-      source_(combo(tr("Trigger source"), tr("The channel that is watched: a capture begins where its magnitude rises "
-                                             "through the level."))),
+      kind_(combo(tr("Kind of trigger"), tr("What a capture waits for."))),
+      fields_(new FieldForm(this)),
+      source_(combo(tr("Trigger source"), tr("The channel that is watched."))),
       level_(new QuantitySpin("V", kLowestLevel, kMaxVolts, this)),
       preTrigger_(new QSpinBox(this)),
       length_(combo(tr("Record length"), tr("The time that one capture covers. To measure an interval it must hold two "
@@ -52,13 +54,17 @@ AcquisitionPanel::AcquisitionPanel(QWidget* parent)
                                            "measured; far below it they are coarse."))),
       amps_(combo(tr("Current range"), tr("Full scale of the current input."))),
       said_(makeLabel({}, {.tone = Tone::Quiet, .wraps = true}, this)) {
+    for (const auto& kind : triggerKinds()) {
+        kind_->addItem(tr(kind.title.data()), qtext(kind.key));
+        kind_->setItemData(kind_->count() - 1, tr(kind.tip.data()), Qt::ToolTipRole);
+    }
     source_->addItem(tr("Voltage"), false);
     source_->addItem(tr("Current"), true);
-    level_->setValue(1);
+    level_->setValue(trigger_.level);
     level_->setAccessibleName(tr("Trigger level"));
     level_->setToolTip(
-        tr("The trigger fires where the magnitude rises through this. In Auto it follows a fifth of the "
-           "commanded amplitude; choose Normal to set it, or drag T at the right of the screen."));
+        tr("In Auto the level of the oscilloscope's own trigger follows a fifth of the commanded amplitude; choose "
+           "Normal to set it, or drag T at the right of the screen."));
     preTrigger_->setRange(0, 100);
     preTrigger_->setValue(10);
     preTrigger_->setSuffix(QStringLiteral("\u202f%"));
@@ -77,14 +83,28 @@ AcquisitionPanel::AcquisitionPanel(QWidget* parent)
     fillRates();
     auto* form = layoutIn<QFormLayout>(*this, -1, {});
     form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
+    form_ = form;
+    form->addRow(tr("Trigger"), kind_);
     form->addRow(tr("Trigger on"), source_);
     form->addRow(tr("Level"), level_);
+    form->addRow(fields_);
     form->addRow(tr("Pre-trigger"), preTrigger_);
     form->addRow(tr("Record"), length_);
     form->addRow(tr("Rate"), rate_);
     form->addRow(tr("V range"), volts_);
     form->addRow(tr("I range"), amps_);
     form->addRow(said_);
+    showTrigger();
+    connect(kind_, &QComboBox::activated, this, [this](int kind) {
+        trigger_.kind = triggerKinds()[static_cast<std::size_t>(kind)].kind;
+        showTrigger();
+        takeTrigger();
+        emit changed();
+    });
+    const auto take = [this] {
+        if (takeTrigger()) emit changed();
+    };
+    connect(fields_, &FieldForm::edited, this, take);
     connect(source_, &QComboBox::activated, this, [this] {
         sourceChanged();
         emit changed();
@@ -96,7 +116,7 @@ AcquisitionPanel::AcquisitionPanel(QWidget* parent)
             emit changed();
         });
     }
-    connect(level_, &QDoubleSpinBox::valueChanged, this, &AcquisitionPanel::changed);
+    connect(level_, &QDoubleSpinBox::valueChanged, this, take);
     connect(preTrigger_, &QSpinBox::valueChanged, this, &AcquisitionPanel::changed);
     say();
 }
@@ -126,7 +146,7 @@ double AcquisitionPanel::rate_hz() const {
     const double length = length_->currentData().toDouble();
     const double chosen = rate_->currentData().toDouble();
     const double wanted = chosen > 0 ? chosen : std::max(stepNotBelow(kUsualSamples / length), kUsualRate_hz);
-    const double most = std::min(traits_.maxRate.value(), static_cast<double>(traits_.memoryDepth) / length);
+    const double most = std::min(traits_.maxRate.value(), static_cast<double>(depth()) / length);
     return std::max(kLowestRate_hz, std::min(wanted, most));
 }
 
@@ -134,29 +154,94 @@ ScopeSettings AcquisitionPanel::settings() const {
     ScopeSettings s;
     s.sampleRate = Hertz(rate_hz());
     const double samples = length_->currentData().toDouble() * rate_hz();
-    s.samples = std::clamp<std::size_t>(static_cast<std::size_t>(std::lround(samples)), 2, traits_.memoryDepth);
+    s.samples = std::clamp<std::size_t>(static_cast<std::size_t>(std::lround(samples)), 2, depth());
     s.preTrigger = preTrigger_->value() / 100.0;
     s.triggerOnCurrent = triggersOnCurrent();
     s.voltageRange = Volts(volts_->currentData().toDouble());
     s.currentRange = Milliamps(1e3 * amps_->currentData().toDouble());
     const double most = s.triggerOnCurrent ? amps_->currentData().toDouble() : s.voltageRange.value();
-    s.triggerLevel = std::clamp(level_->value(), kLowestLevel, most);
+    s.triggerLevel = std::clamp(std::abs(trigger_.level), kLowestLevel, most);
     return s;
+}
+
+/// Samples per record: a trigger that is searched for needs as much again for the search.
+std::size_t AcquisitionPanel::depth() const {
+    return searched(trigger_.kind) ? std::max<std::size_t>(traits_.memoryDepth / 2, 2) : traits_.memoryDepth;
 }
 
 bool AcquisitionPanel::triggersOnCurrent() const { return source_->currentData().toBool(); }
 
+const char* AcquisitionPanel::unit() const { return triggersOnCurrent() ? "A" : "V"; }
+
+double AcquisitionPanel::fullScale() const { return triggersOnCurrent() ? kMaxAmps : kMaxVolts; }
+
 void AcquisitionPanel::sourceChanged() {
-    const bool current = triggersOnCurrent();
     const QSignalBlocker quiet(level_);
-    level_->setUnit(current ? "A" : "V", kLowestLevel, current ? kMaxAmps : kMaxVolts);
-    level_->setValue(current ? 1e-3 : 1);
+    const double level = triggersOnCurrent() ? 1e-3 : 1;
+    level_->setUnit(unit(), -fullScale(), fullScale());
+    level_->setValue(level);
+    trigger_.level = level;
+    trigger_.upper = 2 * level;
+    trigger_.hysteresis = 0;
+    showTrigger();
+}
+
+void AcquisitionPanel::showTrigger() {
+    const auto& info = infoOf(trigger_.kind);
+    kind_->setCurrentIndex(kind_->findData(qtext(info.key)));
+    const QSignalBlocker quiet(level_), alsoQuiet(fields_);
+    level_->setUnit(unit(), searched(info.kind) ? -fullScale() : kLowestLevel, fullScale());
+    static_cast<QLabel*>(form_->labelForField(level_))->setText(tr(info.level.data()));
+    std::vector<FormField> fields;
+    if (!info.edges.empty()) {
+        std::vector<std::pair<QString, QString>> edges;
+        for (const auto& edge : info.edges) edges.emplace_back(qtext(edge.text), tr(edge.text.data()));
+        fields.push_back(choiceField("edge", info.kind == TriggerKind::Slope ? tr("Edge") : tr("Pulses"), edges,
+                                     tr("Which edges or pulses trigger.")));
+        fields.back().parameter.value = wordFor(info.edges, trigger_.edge);
+    }
+    for (const auto& field : info.fields) {
+        const double scale = scaleOf(field), most = field.isTime ? 1 : fullScale();
+        fields.push_back(numberField(field.key.data(), tr(field.title.data()), unitOf(field),
+                                     field.least * most * scale, field.most * most * scale,
+                                     trigger_.*field.value * scale, tr(field.tip.data())));
+    }
+    fields_->show(fields);
+    say();
+}
+
+bool AcquisitionPanel::takeTrigger() {
+    const auto read = fields_->read();
+    if (!read) return false;
+    auto next = trigger_;
+    next.level = level_->value();
+    const auto& info = infoOf(next.kind);
+    for (const auto& field : info.fields)
+        next.*field.value = read->parameters.at(std::string(field.key)).get<double>() / scaleOf(field);
+    for (const auto& edge : info.edges)
+        if (fields_->text("edge") == qtext(edge.text)) next.edge = edge.value;
+    const auto valid = checkTrigger(next, fullScale(), unit());
+    const auto why = valid ? QString() : sentence(qtext(valid.error().message));
+    for (const auto* field : {"upper", "longest"}) fields_->refuse(field, why);
+    if (!valid || next == trigger_) return false;
+    trigger_ = next;
+    say();
+    return true;
+}
+
+const char* AcquisitionPanel::unitOf(const TriggerField& field) const {
+    return field.isTime ? "ms" : triggersOnCurrent() ? "mA" : "V";
+}
+
+double AcquisitionPanel::scaleOf(const TriggerField& field) const {
+    return field.isTime || triggersOnCurrent() ? 1e3 : 1;
 }
 
 void AcquisitionPanel::setLevel(double level) {
     // Rounded to three digits: the level follows the commanded amplitude, and a fourth digit has no use.
     const QSignalBlocker quiet(level_);
     level_->setValue(QString::number(level, 'g', 3).toDouble());
+    takeTrigger();
 }
 
 void AcquisitionPanel::setPreTrigger(double fraction) {
@@ -169,6 +254,10 @@ void AcquisitionPanel::save(QSettings& settings) const {
     settings.setValue("trigger/onCurrent", triggersOnCurrent());
     settings.setValue("trigger/level", level_->value());
     settings.setValue("trigger/preTrigger", preTrigger_->value());
+    settings.setValue("trigger/kind", qtext(infoOf(trigger_.kind).key));
+    settings.setValue("trigger/edge", static_cast<int>(trigger_.edge));
+    for (const auto& kind : triggerKinds())
+        for (const auto& field : kind.fields) settings.setValue("trigger/" + qtext(field.key), trigger_.*field.value);
     settings.setValue("record/length", length_->currentData());
     settings.setValue("record/rate", wantedRate_hz_);
     settings.setValue("record/volts", volts_->currentData());
@@ -181,9 +270,26 @@ void AcquisitionPanel::restore(const QSettings& settings) {
         source_->setCurrentIndex(*current ? 1 : 0);
         sourceChanged();
     }
+    SampleTrigger before = trigger_;
+    for (const auto& kind : triggerKinds()) {
+        if (settings.value("trigger/kind").toString() == qtext(kind.key)) before.kind = kind.kind;
+        for (const auto& field : kind.fields) {
+            const double most = field.isTime ? 1 : fullScale();
+            before.*field.value =
+                rememberedNumber(settings, "trigger/" + qtext(field.key), field.least * most, field.most * most)
+                    .value_or(before.*field.value);
+        }
+    }
+    if (const auto edge = rememberedNumber(settings, "trigger/edge", 0, 2))
+        before.edge = static_cast<TriggerEdge>(std::lround(*edge));
+    trigger_.kind = before.kind;  // decides which levels are possible
+    showTrigger();
     if (const auto level = rememberedNumber(settings, "trigger/level", level_->minimum(), level_->maximum())) {
         setLevel(*level);
     }
+    before.level = level_->value();
+    if (checkTrigger(before, fullScale(), unit())) trigger_ = before;
+    showTrigger();
     if (const auto part = rememberedNumber(settings, "trigger/preTrigger", 0, 100)) setPreTrigger(*part / 100);
     for (const auto& [box, key] :
          {std::pair{length_, "record/length"}, std::pair{volts_, "record/volts"}, std::pair{amps_, "record/amps"}}) {
@@ -202,6 +308,10 @@ void AcquisitionPanel::say() {
     if (asked > s.sampleRate.value() * 1.001) {
         said_->setText(said_->text() + tr(": more does not fit into the instrument's memory"));
     }
+    if (!searched(trigger_.kind)) return;
+    said_->setText(said_->text() + '\n' +
+                   tr("A software trigger: it is searched for in the samples of each record. What happens between two "
+                      "records does not trigger."));
 }
 
 }  // namespace tacto::gui

@@ -1,20 +1,24 @@
 // AcquisitionPanel.h - settings of the next capture: trigger, length, sample rate and ranges.
 //
-// In Auto the level follows the commanded amplitude; the panel shows the level, and the user cannot set it.
+// The fields of each kind of trigger come from core/measure/SampleTrigger.h. In Auto the level of the oscilloscope's
+// own trigger follows the commanded amplitude; the panel shows the level, and the user cannot set it.
 #pragma once
 
 #include <QWidget>
 #include <optional>
 
 #include "core/devices/Oscilloscope.h"
+#include "core/measure/SampleTrigger.h"
 
 class QComboBox;
+class QFormLayout;
 class QLabel;
 class QSettings;
 class QSpinBox;
 
 namespace tacto::gui {
 
+class FieldForm;
 class QuantitySpin;
 
 class AcquisitionPanel final : public QWidget {
@@ -26,6 +30,8 @@ public:
     void setTraits(const ScopeTraits& traits);
     /// The settings chosen here, limited to what the oscilloscope can do.
     [[nodiscard]] ScopeSettings settings() const;
+    /// The trigger chosen here, as it was when all its fields were last valid.
+    [[nodiscard]] const SampleTrigger& trigger() const { return trigger_; }
     [[nodiscard]] bool triggersOnCurrent() const;
     /// Sets the level in V or A.
     void setLevel(double level);
@@ -44,11 +50,25 @@ private:
     QComboBox* combo(const QString& name, const QString& tip);
     void fillRates();
     void sourceChanged();
+    /// Shows the fields of the present kind of trigger.
+    void showTrigger();
+    /// Takes over the fields. Returns false if nothing changed, or if one is not valid: it then says why.
+    bool takeTrigger();
+    [[nodiscard]] const char* unit() const;  ///< of the level
+    [[nodiscard]] double fullScale() const;
+    [[nodiscard]] const char* unitOf(const TriggerField& field) const;
+    /// Factor from the unit of a field's value to the unit in which it is typed.
+    [[nodiscard]] double scaleOf(const TriggerField& field) const;
+    [[nodiscard]] std::size_t depth() const;
     void say();
     [[nodiscard]] double rate_hz() const;
 
     ScopeTraits traits_;
     double wantedRate_hz_ = 0;  ///< the rate the user chose, even if the open oscilloscope lacks it; 0: automatic
+    SampleTrigger trigger_{.level = 1, .upper = 2};
+    QComboBox* kind_;
+    FieldForm* fields_;
+    QFormLayout* form_ = nullptr;
     QComboBox* source_;
     QuantitySpin* level_;
     QSpinBox* preTrigger_;

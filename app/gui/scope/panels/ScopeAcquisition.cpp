@@ -3,7 +3,6 @@
 #include <cmath>
 #include <utility>
 
-#include "app/gui/scope/panels/AcquisitionPanel.h"
 #include "app/gui/theme/Text.h"
 #include "app/report/NumberText.h"
 
@@ -22,6 +21,24 @@ bool sameSettings(const ScopeSettings& a, const ScopeSettings& b) {
     return a.sampleRate == b.sampleRate && a.samples == b.samples && a.preTrigger == b.preTrigger &&
            a.triggerOnCurrent == b.triggerOnCurrent && a.triggerLevel == b.triggerLevel &&
            a.voltageRange == b.voltageRange && a.currentRange == b.currentRange;
+}
+
+/// The record in which a trigger is searched for: twice as long where the memory allows, so that what surrounds the
+/// trigger has room wherever it comes soon after the oscilloscope's own, which takes whatever is beyond the nearer
+/// level.
+ScopeSettings recordFor(const ScopeSettings& wanted, const SampleTrigger& trigger, std::size_t memoryDepth) {
+    constexpr double kRoomBefore = 0.25;     // share of the additional samples
+    constexpr double kLowestOfRange = 0.01;  // a lower level is in the noise of 8 bits
+    if (!searched(trigger.kind)) return wanted;
+    auto record = wanted;
+    record.samples = std::max(wanted.samples, std::min(2 * wanted.samples, memoryDepth));
+    const auto asked = static_cast<double>(wanted.samples), all = static_cast<double>(record.samples);
+    record.preTrigger = (wanted.preTrigger * asked + kRoomBefore * (all - asked)) / all;
+    double level = std::abs(trigger.level);
+    if (trigger.kind == TriggerKind::Runt) level = std::min(level, std::abs(trigger.upper));
+    const double range = wanted.triggerOnCurrent ? wanted.currentRange.value() * 1e-3 : wanted.voltageRange.value();
+    record.triggerLevel = std::clamp(level, kLowestOfRange * range, range);
+    return record;
 }
 
 }  // namespace
@@ -72,21 +89,28 @@ void ScopeAcquisition::hold() {
 }
 
 void ScopeAcquisition::settingsChanged() {
+    panel_.setLevelHeld(levelFollows());
     if (running_) request();
 }
 
 void ScopeAcquisition::request() {
     requested_ = panel_.settings();
+    trigger_ = panel_.trigger();
     requestedWait_ = untriggeredAfter();
     sinceRequest_.start();
-    controller_.runScope(requested_, mode_ == ScopeMode::Single, requestedWait_);
+    // A searched trigger, or one that is held off, may need many records.
+    const bool first = mode_ == ScopeMode::Single && !searched(trigger_.kind) && trigger_.holdOff_s == 0;
+    controller_.runScope(recordFor(requested_, trigger_, controller_.open()->scope->memoryDepth), first,
+                         requestedWait_);
     emit requested();
 }
 
-/// In Auto (and Roll) there is a picture even without a trigger. While trains come, waits long enough for the slowest
+/// In Auto (and Roll) there is a picture even without a trigger, and a trigger may hide where the oscilloscope's own
+/// does not see it. While trains come, waits long enough for the slowest
 /// ones: a late picture is better than a picture that jumps between triggered and untriggered.
 std::optional<Seconds> ScopeAcquisition::untriggeredAfter() const {
-    if (!levelFollows() || !controller_.open() || !controller_.open()->untriggered) return {};
+    const bool wanted = freeRuns() || searched(panel_.trigger().kind);
+    if (!wanted || !controller_.open() || !controller_.open()->untriggered) return {};
     if (telemetry_.state != InterlockState::Delivering) return kFreeRunAfter;
     return kFreeRunIntervals * controller_.profile().encoding.intervalMax;
 }
@@ -129,11 +153,43 @@ void ScopeAcquisition::refresh(const Telemetry& telemetry) {
 
 bool ScopeAcquisition::take(const ShownCapture& shown) {
     if (!running_) return false;
-    if (shown.capture->untriggered) return true;
+    if (shown.capture->untriggered) return freeRuns() && !awaitsTrigger();
     ++taken_;
     sinceCapture_.start();
-    if (mode_ == ScopeMode::Single) running_ = wanted_ = false;
+    if (mode_ == ScopeMode::Single) hold();
     return true;
+}
+
+/// True while the last triggered capture stays although the records since then did not trigger.
+bool ScopeAcquisition::awaitsTrigger() const {
+    if (taken_ == 0 || (!searched(trigger_.kind) && trigger_.holdOff_s == 0)) return false;
+    const Seconds wait = requestedWait_.value_or(kFreeRunAfter) + Seconds(trigger_.holdOff_s);
+    return double(sinceCapture_.elapsed()) < 1e3 * wait.count();
+}
+
+QString ScopeAcquisition::triggerText() const {
+    const auto unit = requested_.triggerOnCurrent ? QStringLiteral("A") : QStringLiteral("V");
+    const auto text = [&](double value) { return quantityText(value, unit, 3); };
+    const auto& its = trigger_;
+    const auto kind = tr(infoOf(its.kind).title.data()).toLower();
+    QString words;
+    switch (its.kind) {
+        case TriggerKind::Magnitude:
+            words = tr("at %1").arg(text(requested_.triggerLevel));
+            break;
+        case TriggerKind::Slope:
+            words = tr("on %1 through %2").arg(kind, text(its.level));
+            break;
+        case TriggerKind::Width:
+            words = tr("on %1 %2 to %3 at %4")
+                        .arg(kind, quantityText(its.shortest_s, "s", 3), quantityText(its.longest_s, "s", 3),
+                             text(its.level));
+            break;
+        case TriggerKind::Runt:
+            words = tr("on %1 beyond %2, not reaching %3").arg(kind, text(its.level), text(its.upper));
+            break;
+    }
+    return its.holdOff_s > 0 ? tr("%1, held off %2").arg(words, quantityText(its.holdOff_s, "s", 3)) : words;
 }
 
 QString ScopeAcquisition::outputText() const {
@@ -157,15 +213,15 @@ QString ScopeAcquisition::outputText() const {
 }
 
 QString ScopeAcquisition::runningText(const ShownCapture* shown, std::uint64_t skipped) const {
-    const auto level = quantityText(requested_.triggerLevel, requested_.triggerOnCurrent ? "A" : "V", 3);
+    const auto trigger = triggerText();
     if (taken_ == 0 || sinceCapture_.elapsed() > kNoTriggerAfter_ms) {
         if (shown != nullptr && shown->source.isEmpty() && shown->capture->untriggered) {
-            return tr("No trigger at %1. Showing an untriggered record; no measurements. %2").arg(level, outputText());
+            return tr("No trigger %1. Showing an untriggered record; no measurements. %2").arg(trigger, outputText());
         }
-        return tr("Waiting for a trigger at %1. %2").arg(level, outputText());
+        return tr("Waiting for a trigger %1. %2").arg(trigger, outputText());
     }
-    auto text = taken_ == 1 ? tr("Trigger at %1 · 1 capture").arg(level)
-                            : tr("Trigger at %1 · %2 captures").arg(level).arg(taken_);
+    auto text = taken_ == 1 ? tr("Trigger %1 · 1 capture").arg(trigger)
+                            : tr("Trigger %1 · %2 captures").arg(trigger).arg(taken_);
     if (skipped > 0) text += tr(" · %1 came too fast to be shown").arg(skipped);
     return text;
 }

@@ -9,10 +9,9 @@
 #include "app/gui/controller/BenchController.h"
 #include "app/gui/scope/model/ScopeModel.h"
 #include "app/gui/scope/model/Trace.h"
+#include "app/gui/scope/panels/AcquisitionPanel.h"
 
 namespace tacto::gui {
-
-class AcquisitionPanel;
 
 enum class ScopeMode {
     Auto,    ///< the level follows the commanded amplitude; takes untriggered captures if no trigger comes
@@ -31,7 +30,7 @@ public:
     /// Sets the mode without starting to run.
     void setMode(ScopeMode mode);
     /// True if the level follows the amplitude and the user cannot set it.
-    [[nodiscard]] bool levelFollows() const noexcept { return mode_ == ScopeMode::Auto || mode_ == ScopeMode::Roll; }
+    [[nodiscard]] bool levelFollows() const { return freeRuns() && !searched(panel_.trigger().kind); }
     /// True if the latest telemetry says that trains are being delivered, also between two trains.
     [[nodiscard]] bool delivering() const noexcept { return telemetry_.state == InterlockState::Delivering; }
     [[nodiscard]] bool running() const noexcept { return running_; }
@@ -47,8 +46,9 @@ public:
     void refresh(const Telemetry& telemetry);
     /// Notes a measured capture of the bench. False: it was taken before the user pressed Hold, and must not be shown.
     bool take(const ShownCapture& shown);
-    /// The settings of the running capture.
+    /// The settings of the running capture, as the user chose them.
     [[nodiscard]] const ScopeSettings& requestedSettings() const noexcept { return requested_; }
+    [[nodiscard]] const SampleTrigger& requestedTrigger() const noexcept { return trigger_; }
     /// The state as a sentence, for the time while `shown` is on the screen.
     [[nodiscard]] QString statusText(const ShownCapture* shown, std::uint64_t skipped) const;
 
@@ -59,11 +59,15 @@ signals:
     void stopped(const QString& problem);
 
 private:
+    /// True if there is a picture without a trigger, too.
+    [[nodiscard]] bool freeRuns() const noexcept { return mode_ == ScopeMode::Auto || mode_ == ScopeMode::Roll; }
     void request();
     void followAmplitude();
     void fail(const QString& why);
     [[nodiscard]] std::optional<Seconds> untriggeredAfter() const;
     [[nodiscard]] QString runningText(const ShownCapture* shown, std::uint64_t skipped) const;
+    [[nodiscard]] bool awaitsTrigger() const;
+    [[nodiscard]] QString triggerText() const;
     [[nodiscard]] QString outputText() const;
 
     BenchController& controller_;
@@ -74,6 +78,7 @@ private:
     bool failed_ = false;  ///< the oscilloscope stopped by itself and waits until the user runs it again
     Telemetry telemetry_;
     ScopeSettings requested_;
+    SampleTrigger trigger_;
     std::optional<Seconds> requestedWait_;
     QElapsedTimer sinceRequest_;
     QElapsedTimer sinceCapture_;

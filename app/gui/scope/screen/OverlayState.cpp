@@ -127,7 +127,21 @@ void fillTrigger(const ScopeModel& model, OverlayState& o) {
     }
     if (const auto* source = model.lane(trigger.lane()); source != nullptr && source->shown) {
         if (!o.trigger) o.trigger = OverlayState::Trigger{};
-        o.trigger->height = model.scaleOf(*source).heightOf(trigger.level());
+        const auto scale = model.scaleOf(*source);
+        const auto& its = trigger.its();
+        o.trigger->height = scale.heightOf(its.level);
+        if (its.kind == TriggerKind::Runt) o.trigger->other = scale.heightOf(its.upper);
+        if (its.kind == TriggerKind::Width) {
+            const double now_s = o.trigger->moment_s.value_or(0);
+            o.trigger->began_s = std::pair(now_s - its.longest_s, now_s - its.shortest_s);
+        }
+        for (const double sign : {1.0, -1.0}) {
+            if (!searched(its.kind) || !(its.hysteresis > 0)) break;
+            if (its.edge == (sign > 0 ? TriggerEdge::Falling : TriggerEdge::Rising)) continue;
+            const double from = its.kind == TriggerKind::Runt && sign < 0 ? its.upper : its.level;
+            const auto [low, high] = std::minmax(from, from - sign * its.hysteresis);
+            o.trigger->hysteresis.emplace_back(scale.heightOf(low), scale.heightOf(high));
+        }
         o.trigger->colour = laneInk(model, *source);
         o.trigger->held = trigger.held();
     }

@@ -12,6 +12,8 @@ namespace {
 
 constexpr double kReach = 5;  ///< pixels around a line within which the mouse can grip it
 constexpr int kWordChars = 24;
+constexpr int kBandAlpha = 48;   ///< of 255: traces stay visible through a band
+constexpr double kWidthEnd = 8;  ///< pixels above and below the trigger's level
 
 }  // namespace
 
@@ -118,6 +120,19 @@ void ScopeOverlay::drawTrigger(QCPPainter& painter) const {
         }
         plane_.drawPennant(painter, plane_.pennant(Qt::TopEdge, at, "T"), "T", t.colour, true);
     }
+    auto shade = t.colour;
+    shade.setAlpha(kBandAlpha);
+    for (const auto& [low, high] : t.hysteresis) {
+        const QRectF band(QPointF(a.left(), plane_.y(high)), QPointF(a.right(), plane_.y(low)));
+        painter.fillRect(band.intersected(a), shade);
+    }
+    if (t.other) {
+        const double at = plane_.y(*t.other);
+        if (at >= a.top() && at <= a.bottom())
+            plane_.drawLine(painter, QLineF(a.left(), at, a.right(), at), t.colour, Qt::DotLine);
+        plane_.drawPennant(painter, plane_.pennant(Qt::RightEdge, at, "T₂"), "T₂", t.colour, false);
+    }
+    if (t.began_s && t.height) drawWidthWindow(painter);
     if (t.height) {
         const double at = plane_.y(*t.height);
         if (at >= a.top() && at <= a.bottom()) {
@@ -127,6 +142,24 @@ void ScopeOverlay::drawTrigger(QCPPainter& painter) const {
     }
     if (!t.text.isEmpty())
         plane_.drawTag(painter, QPointF(a.center().x(), a.top() + a.height() * 0.12), t.text, t.colour);
+}
+
+/// Draws at the trigger's level where a pulse that triggers began: a bar between two ends.
+void ScopeOverlay::drawWidthWindow(QCPPainter& painter) const {
+    const auto& t = *state.trigger;
+    const auto a = plane_.area();
+    const double at = plane_.y(*t.height);
+    if (at < a.top() || at > a.bottom()) return;
+    const double from = plane_.x(t.began_s->first), to = plane_.x(t.began_s->second);
+    if (to < a.left() || from > a.right()) return;
+    const double left = std::max(from, a.left()), right = std::min(to, a.right());
+    auto shade = t.colour;
+    shade.setAlpha(kBandAlpha);
+    painter.fillRect(QRectF(left, at - kWidthEnd, std::max(1.0, right - left), 2 * kWidthEnd), shade);
+    for (const double end : {from, to}) {
+        if (end >= a.left() && end <= a.right())
+            plane_.drawLine(painter, QLineF(end, at - kWidthEnd, end, at + kWidthEnd), t.colour, Qt::SolidLine);
+    }
 }
 
 void ScopeOverlay::drawLevelCursors(QCPPainter& painter) const {
