@@ -273,7 +273,6 @@ CertificateTable::CertificateTable(QWidget* parent) : QTableWidget(0, kCertifica
     setMaximumHeight(kMaxRows * verticalHeader()->defaultSectionSize());
     makeReadOnly(*this);
     setSelectionBehavior(QAbstractItemView::SelectRows);
-    setSelectionMode(QAbstractItemView::SingleSelection);
     setAlternatingRowColors(true);
     setWordWrap(false);
     setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
@@ -331,13 +330,13 @@ void CertificateTable::fitColumns() {
 
 int CertificateTable::chosen() const {
     const auto rows = selectionModel()->selectedRows();
-    if (rows.isEmpty()) return -1;
+    if (rows.size() != 1) return -1;
     const auto* cell = item(rows.front().row(), kStanding);
     return cell->data(kStandsRole).toBool() ? cell->data(kIndexRole).toInt() : -1;
 }
 
 QString CertificateTable::chosenNumber() const {
-    return chosen() < 0 ? QString() : item(currentRow(), kNumber)->text();
+    return chosen() < 0 ? QString() : item(selectionModel()->selectedRows().front().row(), kNumber)->text();
 }
 
 }  // namespace tacto::gui

@@ -9,6 +9,7 @@
 #include "app/gui/theme/Building.h"
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/RecordColumns.h"
+#include "app/gui/theme/TableText.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/VerdictBlock.h"
@@ -182,7 +183,6 @@ LimitMatrixView::LimitMatrixView(QWidget* parent) : QTableWidget(parent) {
            "? indeterminate; ✖ exceeded; hatched, n. e.: not evaluated, and never a pass; –: not judged on this load. "
            "A chosen cell shows the strongest train on its load."));
     makeReadOnly(*this);
-    setSelectionMode(SingleSelection);
     setHorizontalScrollMode(ScrollPerPixel);
     setVerticalScrollMode(ScrollPerPixel);
     setItemDelegate(new CellDelegate(this));
@@ -218,7 +218,12 @@ void LimitMatrixView::show(const json& matrix) {
     setHorizontalHeaderLabels(header);
     headings_ = header;
     horizontalHeaderItem(0)->setTextAlignment(Qt::AlignLeft | Qt::AlignVCenter);
-    for (int c = 1; c < columnCount(); ++c) horizontalHeaderItem(c)->setToolTip(loads_[std::size_t(c) - 1]);
+    horizontalHeaderItem(0)->setData(kCopiedTextRole, tr("Limit"));
+    for (int c = 1; c < columnCount(); ++c) {
+        const auto& load = loads_[std::size_t(c) - 1];
+        horizontalHeaderItem(c)->setToolTip(load);
+        horizontalHeaderItem(c)->setData(kCopiedTextRole, load);
+    }
     setRowCount(int(limits.rows.size()));
     for (int row = 0; row < rowCount(); ++row) addLine(row, limits.rows[std::size_t(row)]);
     fitColumns();
@@ -248,6 +253,7 @@ void LimitMatrixView::addLine(int row, const MatrixBlock::Row& line) {
     auto* head = new QTableWidgetItem(line.name);
     head->setData(kLineUnit, line.unit);
     head->setData(kLineNote, verdictCell(line.verdict) + " · " + line.note);
+    head->setData(kCopiedTextRole, line.name + ", " + head->data(kLineNote).toString());
     head->setToolTip(QStringList{line.name, line.limit, line.set, line.source, line.verdict}.join(" · "));
     setItem(row, 0, head);
     for (int c = 1; c < columnCount(); ++c) {

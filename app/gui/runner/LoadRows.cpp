@@ -30,7 +30,6 @@ LoadRows::LoadRows(QWidget* parent) : QTableWidget(0, kColumns, parent) {
     setHorizontalHeaderLabels(
         {tr("Load"), tr("Verdict"), tr("Measured"), tr("Commands"), tr("Peak current"), tr("RMS, 5 s")});
     makeReadOnly(*this);
-    setSelectionMode(NoSelection);
     setAlternatingRowColors(true);
     setWordWrap(false);
     setHorizontalScrollMode(ScrollPerPixel);

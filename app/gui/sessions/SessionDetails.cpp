@@ -35,7 +35,6 @@ QTableWidget* makeTable(QWidget* parent, const QString& name) {
     table->setAccessibleName(name);
     makeReadOnly(*table);
     table->setSelectionBehavior(QAbstractItemView::SelectRows);
-    table->setSelectionMode(QAbstractItemView::SingleSelection);
     table->horizontalHeader()->setHighlightSections(false);
     table->setWordWrap(false);
     return table;

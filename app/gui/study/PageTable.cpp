@@ -11,7 +11,7 @@
 namespace tacto::gui {
 
 PageTable::PageTable(const char* name, const QString& title, QWidget& page, int pad, bool chosen)
-    : QTableWidget(&page), page_(page), pad_(pad), chosen_(chosen) {
+    : QTableWidget(&page), page_(page), pad_(pad) {
     nameWidget(*this, name, title);
     if (chosen) {
         setSelectionBehavior(QAbstractItemView::SelectRows);
@@ -28,7 +28,7 @@ void PageTable::show(const std::vector<ResultColumn>& columns, const nlohmann::j
 
 int PageTable::chosenRow() const {
     const auto rows = selectionModel()->selectedRows();
-    return rows.isEmpty() ? -1 : rows.front().row();
+    return rows.size() == 1 ? rows.front().row() : -1;
 }
 
 /// Lays out the table in its present style and text size.
@@ -37,7 +37,6 @@ void PageTable::layOut() {
     ensurePolished();
     horizontalHeader()->ensurePolished();
     layOutRecordTable(*this, std::max(1, widthInSight(page_) - 2 * (pad_ + 1)));
-    if (chosen_) setSelectionMode(QAbstractItemView::SingleSelection);
 }
 
 bool PageTable::eventFilter(QObject* watched, QEvent* event) {

@@ -8,11 +8,11 @@ namespace tacto::gui {
 
 class PageTable final : public QTableWidget {
 public:
-    /// `pad`: from an edge of the page to the table. `chosen`: true if one row at a time can be selected.
+    /// `pad`: from an edge of the page to the table. `chosen`: true if rows are selected as a whole.
     PageTable(const char* name, const QString& title, QWidget& page, int pad, bool chosen);
     /// Replaces the contents.
     void show(const std::vector<ResultColumn>& columns, const nlohmann::json& records);
-    /// -1 if no row is chosen.
+    /// -1 if no row or more than one is chosen.
     [[nodiscard]] int chosenRow() const;
 
 protected:
@@ -22,7 +22,6 @@ private:
     void layOut();
     QWidget& page_;
     const int pad_;
-    const bool chosen_;
 };
 
 }  // namespace tacto::gui

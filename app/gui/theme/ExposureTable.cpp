@@ -8,9 +8,11 @@
 #include <cmath>
 
 #include "app/gui/theme/Building.h"
+#include "app/gui/theme/TableText.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/NumberText.h"
+#include "app/report/ResultCells.h"
 #include "core/safety/TrainExposure.h"
 
 namespace tacto::gui {
@@ -174,6 +176,7 @@ void ExposureTable::showSection(int line, const QString& title) {
     made->setToolTip({});
     made->setData(kEvaluated, QVariant());
     cell(line, kUsed, {})->setData(kEvaluated, QVariant());
+    for (const int column : {kLimit, kUsed}) cell(line, column, {})->setData(kCopiedTextRole, QVariant());
 }
 
 void ExposureTable::showRow(int line, const ExposureRow& row) {
@@ -188,7 +191,9 @@ void ExposureTable::showRow(int line, const ExposureRow& row) {
     value->setToolTip(row.evaluated ? measuredText(row) : tr("Not evaluated: %1").arg(qtext(row.reason.view())));
     // An invalid brush selects the palette's colour, which follows the theme.
     value->setData(Qt::ForegroundRole, QVariant());
-    cell(line, kLimit, limitText(row, compact_))->setToolTip(limitText(row));
+    auto* limit = cell(line, kLimit, limitText(row, compact_));
+    limit->setToolTip(limitText(row));
+    limit->setData(kCopiedTextRole, limitText(row));
     // Both cells that can paint the bar get the data, because a cell is repainted only when its own data change.
     const auto share = row.evaluated && !std::isnan(row.limit) ? QVariant(double(row.value / row.limit)) : QVariant();
     for (auto* drawn : {quantity, cell(line, kUsed, QString())}) {
@@ -196,6 +201,8 @@ void ExposureTable::showRow(int line, const ExposureRow& row) {
         drawn->setData(kEvaluated, row.evaluated);
         drawn->setData(kBroken, broken);
     }
+    cell(line, kUsed, {})
+        ->setData(kCopiedTextRole, share.isValid() ? limitShareText(100 * share.toDouble()) : QString());
 }
 
 QString ExposureTable::titleOfSet(const ExposureRow& row) const {

@@ -14,6 +14,7 @@
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "app/gui/theme/Told.h"
 #include "app/gui/theme/ToolRow.h"
 #include "app/report/NumberText.h"
 #include "core/base/WholeFile.h"
@@ -142,7 +143,10 @@ void captionPictures(QCustomPlot& plot, const CaptionOf& caption) {
     plot.setProperty(kCaption, QVariant::fromValue(caption));
 }
 
-void copyPicture(const Still& still) { QApplication::clipboard()->setImage(pictureOf(still, kPictureScale)); }
+void copyPicture(const Still& still) {
+    QApplication::clipboard()->setImage(pictureOf(still, kPictureScale));
+    tell(QObject::tr("The picture is on the clipboard."));
+}
 
 void askSavePicture(QWidget& parent, const Still& still, const QString& name) {
     FileQuestion question{.title = QObject::tr("Save the plot"),
@@ -151,10 +155,9 @@ void askSavePicture(QWidget& parent, const Still& still, const QString& name) {
                           .name = name + ".png",
                           .suffix = "png"};
     askForFile(parent, question, [&parent, still](const QString& path) {
-        if (const auto wrong = savePicture(still, path)) {
-            openDialog(
-                new QMessageBox(QMessageBox::Warning, QObject::tr("Not saved"), *wrong, QMessageBox::Ok, &parent));
-        }
+        const auto wrong = savePicture(still, path);
+        if (!wrong) return tell(QObject::tr("The picture is saved to %1.").arg(path));
+        openDialog(new QMessageBox(QMessageBox::Warning, QObject::tr("Not saved"), *wrong, QMessageBox::Ok, &parent));
     });
 }
 

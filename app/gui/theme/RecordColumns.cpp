@@ -136,7 +136,6 @@ void putText(QTableWidget& table, int row, int column, const QString& text, bool
 
 void layOutRecordTable(QTableWidget& table, int room_px) {
     makeReadOnly(table);
-    table.setSelectionMode(QAbstractItemView::NoSelection);
     table.setWordWrap(false);
     table.setTextElideMode(Qt::ElideRight);
     table.setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);

@@ -13,6 +13,7 @@
 
 #include "app/gui/theme/Colours.h"
 #include "app/gui/theme/Style.h"
+#include "app/gui/theme/TableText.h"
 
 namespace tacto::gui {
 
@@ -36,6 +37,7 @@ void setStyled(QWidget& widget, const char* name, const QString& value) {
 
 void applyTheme(Theme wanted) {
     WheelGuard::install();
+    TableCopies::install();
     if (applied == wanted) return;
     applied = wanted;
     qApp->setStyleSheet({});  // otherwise each of the three calls would restyle every widget

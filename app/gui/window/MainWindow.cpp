@@ -25,6 +25,7 @@
 #include "app/gui/scope/measurements/MeasurementSummary.h"
 #include "app/gui/theme/Building.h"
 #include "app/gui/theme/Dialogs.h"
+#include "app/gui/theme/Told.h"
 #include "app/gui/window/ArmDialog.h"
 #include "app/gui/window/Attendance.h"
 #include "app/gui/window/CloseQuestion.h"
@@ -136,6 +137,7 @@ MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry, std::function
     setCentralWidget(centre);
     mark_ = new MarkLine(controller_, *line_, *centre, *banner_);
     connect(mark_, &MarkLine::refused, banner_, &NoticeBanner::complain);
+    connect(&Told::all(), &Told::said, line_, [this](const QString& what) { line_->say(what); });
     if (const auto resources = resourcesFolder(); !resources) banner_->complain(sentence(resources.error()));
     if (const auto added = addedLimitsText(controller_.limits()); !added.empty()) {
         auto* limits = makeLabel(QString::fromStdString(added), {.name = "added-limits"}, this);

@@ -1,9 +1,6 @@
 #include "app/gui/scope/measurements/MeasurementTable.h"
 
-#include <QClipboard>
-#include <QGuiApplication>
 #include <QHeaderView>
-#include <QKeyEvent>
 #include <QLabel>
 #include <QMenu>
 #include <QPushButton>
@@ -15,6 +12,7 @@
 
 #include "app/gui/scope/screen/LaneLegend.h"
 #include "app/gui/theme/Building.h"
+#include "app/gui/theme/TableText.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 
@@ -48,7 +46,6 @@ MeasurementTable::MeasurementTable(ChosenReadings& chosen, QWidget* parent)
       reset_(new QPushButton(tr("Reset statistics"), this)) {
     nameWidget(*table_, "measurements", tr("Measurements"));
     makeReadOnly(*table_);
-    table_->setSelectionMode(QAbstractItemView::ContiguousSelection);
     table_->setShowGrid(false);
     table_->setFrameShape(QFrame::NoFrame);
     table_->horizontalHeader()->setHighlightSections(false);
@@ -127,7 +124,12 @@ void MeasurementTable::lay() {
     }
     table_->setHorizontalHeaderLabels(titles);
     for (int c = 0; c < table_->columnCount(); ++c) {
-        table_->horizontalHeaderItem(c)->setTextAlignment((c == 0 ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter);
+        auto* head = table_->horizontalHeaderItem(c);
+        head->setTextAlignment((c == 0 ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter);
+        if (c == 0) continue;
+        const auto& channel = channels[static_cast<std::size_t>((c - 1) / kPerChannel)];
+        const auto statistic = kStatistics[static_cast<std::size_t>((c - 1) % kPerChannel)];
+        head->setData(kCopiedTextRole, titled(channel.name) + " " + nameOf(statistic));
     }
     table_->setRowCount(static_cast<int>(readings.size()));
     for (int row = 0; row < table_->rowCount(); ++row) {
@@ -208,20 +210,7 @@ QString MeasurementTable::hiddenText(std::size_t channel, Reading reading) const
     return parts.join(" · ");
 }
 
-QString MeasurementTable::asText() const {
-    QStringList lines;
-    QStringList head{tr("Measurement")};
-    for (const auto& channel : statistics_.channels()) {
-        for (const auto statistic : kStatistics) head << titled(channel.name) + " " + nameOf(statistic);
-    }
-    lines << head.join('\t');
-    for (int row = 0; row < table_->rowCount(); ++row) {
-        QStringList cells;
-        for (int c = 0; c < table_->columnCount(); ++c) cells << table_->item(row, c)->text();
-        lines << cells.join('\t');
-    }
-    return lines.join('\n');
-}
+QString MeasurementTable::asText() const { return separated(textOf(*table_), '\t'); }
 
 QStringList MeasurementTable::asLines() const {
     QStringList lines;
@@ -234,14 +223,6 @@ QStringList MeasurementTable::asLines() const {
         if (!parts.isEmpty()) lines << channel.letter + ":  " + parts.join(QStringLiteral("   "));
     }
     return lines;
-}
-
-void MeasurementTable::keyPressEvent(QKeyEvent* event) {
-    if (event->matches(QKeySequence::Copy)) {
-        QGuiApplication::clipboard()->setText(asText());
-        return;
-    }
-    QWidget::keyPressEvent(event);
 }
 
 void MeasurementTable::restyle() {

@@ -28,7 +28,7 @@ public:
     void passOverUntriggered(bool held);
     void clear();
     [[nodiscard]] const CaptureStatistics& statistics() const noexcept { return statistics_; }
-    /// The table as tab-separated text for the clipboard.
+    /// The table as tab-separated text, as Ctrl+C copies it.
     [[nodiscard]] QString asText() const;
     /// One line for each channel with the last values of the chosen readings, for a picture.
     [[nodiscard]] QStringList asLines() const;
@@ -36,9 +36,6 @@ public:
 signals:
     /// The user restarted the statistics; the average then restarts too.
     void resetClicked();
-
-protected:
-    void keyPressEvent(QKeyEvent* event) override;
 
 private:
     void lay();
