@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "core/analysis/psychophysics/AscendingLimits.h"
 #include "core/base/LocaleFreeText.h"
 #include "core/base/Printable.h"
 #include "core/pilot/PilotRecord.h"
@@ -140,6 +141,16 @@ Result<void> PilotOutput::askToSee(const std::string& why) {
                                          : fmt::format("{}: {}.", output, why);
     const auto seen = insist(goOnPrompt(
         fmt::format("{} See to the {}, then go on.", said, stage_.settings().modality()), PromptTo::Operator));
+    return seen ? Result<void>() : failure(seen);
+}
+
+Result<void> PilotOutput::askAboutTheComputer() {
+    stage_.participant().show({});
+    const auto seen = insist(goOnPrompt(
+        fmt::format("The computer was too slow for 0.1 s: output is off, nothing is wrong with the {}. Close the "
+                    "programs that keep the computer busy, then go on.",
+                    stage_.settings().modality()),
+        PromptTo::Operator));
     return seen ? Result<void>() : failure(seen);
 }
 
@@ -359,9 +370,11 @@ Result<void> PilotOutput::afterTheFault(const std::string& during, const Error& 
     if (const char* by = stops_.takeBy(); by != nullptr && isParticipants(by)) {  // the participant also pressed STOP
         if (auto noted = noteParticipantStop(during, by); !noted) return noted;
     }
+    const bool slow = stage_.bench().telemetry().fault == FaultCause::LoopSilent;
     auto cause = withoutNumbers(why.message);  // numbers may reveal the train to the participant; the row keeps them
     for (int tries = 1;; ++tries) {
-        if (auto seen = askToSee(cause); !seen) return seen;
+        const bool computer = slow && tries == 1;
+        if (auto seen = computer ? askAboutTheComputer() : askToSee(cause); !seen) return seen;
         const auto reset = stage_.bench().resetFault();
         if (reset) break;
         if (tries >= kSeatings) return reset;
@@ -369,7 +382,8 @@ Result<void> PilotOutput::afterTheFault(const std::string& during, const Error& 
     }
     electrodesTouched();
     ramp_.becomeDue();
-    return askToGoOn("The output was off because of a fault. Go on when you want to.");
+    return askToGoOn(slow ? "The computer was too slow, so the output is off. Go on when you want to."
+                          : "The output was off because of a fault. Go on when you want to.");
 }
 
 Result<void> PilotOutput::beginAnew(StopMark mark) {
@@ -433,6 +447,11 @@ Result<void> LevelRamp::reach() {
     return {};
 }
 
+/// True if a higher level was accepted before, so that "too strong" may be a slip.
+bool LevelRamp::isFarBelow(double level) const noexcept {
+    return !accepted_.empty() && level <= AscendingLimits::kFarBelow * accepted_.rbegin()->first;
+}
+
 Result<void> LevelRamp::presentAgain(const std::string& name, double level, const std::string& first) {
     auto& bench = stage_.bench();
     StageTrial again;
@@ -446,7 +465,15 @@ Result<void> LevelRamp::presentAgain(const std::string& name, double level, cons
     again.held = true;
     again.counts = false;   // a resumed session then continues like an undisturbed session
     again.drawnAs = first;  // a virtual participant answers as before about the same level
-    const auto answer = stage_.trial(again);
+    auto answer = stage_.trial(again);
+    if (answer && answer->response == row::kTooStrong && isFarBelow(level)) {
+        const auto meant = stage_.meantTooStrong(name);
+        if (!meant) return failure(meant);
+        if (!*meant) {
+            again.name += " again";
+            answer = stage_.trial(again);
+        }
+    }
     if (!answer) return failure(answer);
     if (answer->response == row::kTooStrong) {
         if (auto reported = bench.reportDiscomfort(stage_.levelOf(level)); !reported) return reported;

@@ -48,6 +48,7 @@ public:
     [[nodiscard]] Result<void> reach();
 
 private:
+    [[nodiscard]] bool isFarBelow(double level) const noexcept;
     [[nodiscard]] Result<void> presentAgain(const std::string& name, double level, const std::string& first);
 
     PilotStage& stage_;
@@ -129,6 +130,7 @@ private:
     [[nodiscard]] Result<void> noteAbort(const std::string& during);
     [[nodiscard]] Result<void> askToGoOn(const std::string& text);
     [[nodiscard]] Result<void> askToSee(const std::string& why);
+    [[nodiscard]] Result<void> askAboutTheComputer();
     [[nodiscard]] Result<void> measureTouched();
 
     PilotStage& stage_;

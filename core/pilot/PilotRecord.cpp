@@ -128,8 +128,9 @@ std::string endedBy(const PilotRecord& record) {
     std::string ended;
     record.each([&](std::string_view kind, const nlohmann::json& body) {
         if (kind == row::kGate && flagOr(body, row::kEnds)) ended = textOr(body, "said");
-        if (kind == row::kAnswer && flagOr(body, row::kRamp) && textOr(body, "response") == row::kTooStrong)
-            ended = tooStrongNow("a level");
+        if (kind != row::kAnswer || !flagOr(body, row::kRamp) || textOr(body, "response") != row::kTooStrong) return;
+        const auto* meant = record.find(row::kPhase, row::meantName(textOr(body, "name")));
+        if (meant == nullptr || textOr(*meant, "key") != "no") ended = tooStrongNow("a level");
     });
     return ended;
 }

@@ -67,6 +67,8 @@ inline constexpr const char* kEnd = "end";    // the name in the row kSessionEnd
 inline constexpr const char* kEnds = "ends";  // in a gate that did not hold: whether this ends the session
 inline constexpr const char* kRamp = "ramp";  // in the body of a trial: its level was already accepted before
 inline constexpr const char* kTooStrong = "too-strong";  // a response
+/// The name of the row `phase` with the answer whether the participant meant the "too strong" about `trial`.
+[[nodiscard]] inline std::string meantName(const std::string& trial) { return trial + " meant"; }
 
 // Ratings that compare the session's encoding with an earlier encoding are named by kEncodings and one of the next two
 // words. The answer is an encoding or kNoDifference.

@@ -120,8 +120,10 @@ Result<StageAnswer> PilotStage::trial(const StageTrial& trial) {
         if (answer) continue;
         if (auto goesOn = output_.recover(trial.name, answer.error()); !goesOn) return failure(goesOn);
     }
-    return fail(ErrorCode::Timeout, "{}: the bench could not begin a presentation in time {} times in a row",
-                trial.name, kMaxLate);
+    return fail(
+        ErrorCode::Timeout,
+        "the computer was too slow: {} could not begin in time {} times in a row, and nothing is wrong with the {}",
+        trial.name, kMaxLate, settings_.modality());
 }
 
 Result<StageAnswer> PilotStage::stoppedAnswer(const StageTrial& trial) {
@@ -328,8 +330,18 @@ Result<void> PilotStage::answeredFor(const PilotHold& held) {
     }
 }
 
-Result<void> PilotStage::hold() {
-    const auto held = output_.insist(holdPrompt());
+Result<bool> PilotStage::meantTooStrong(const std::string& trial) {
+    rest();
+    PilotScreen letGo;  // the participant may let go: both hands are free for the answer
+    letGo.phase = "ascending";
+    participant_.show(letGo);
+    const auto said = ask(row::kPhase, row::meantName(trial), meantPrompt());
+    if (!said) return failure(said);
+    return textOr(*said, "key") != "no";
+}
+
+Result<void> PilotStage::hold(const PilotPrompt& prompt) {
+    const auto held = output_.insist(prompt);
     return held ? Result<void>() : failure(held);
 }
 

@@ -80,7 +80,7 @@ public:
     /// Switches the output off until the operator has answered by name for the event `held`. Asks once for each event.
     [[nodiscard]] Result<void> answeredFor(const PilotHold& held);
     /// Asks the participant to hold (letting go stops the output) and waits until they do.
-    [[nodiscard]] Result<void> hold();
+    [[nodiscard]] Result<void> hold(const PilotPrompt& prompt = holdPrompt());
     /// Records the impedance as `name`, with nothing armed before or after. NaN if the stimulator reads nothing back.
     [[nodiscard]] Result<double> measureImpedance(const std::string& name) { return output_.measureImpedance(name); }
     /// Sets a function that measures the electrodes, which may have changed. Called before anything is armed after a
@@ -110,6 +110,9 @@ public:
     [[nodiscard]] Result<void> judged(double level, bool tooStrong, const std::string& trial, bool replayed) {
         return output_.ramp().judged(level, tooStrong, trial, replayed);
     }
+    /// Switches the output off and asks the participant, once, whether they meant the doubtful "too strong" about
+    /// `trial`. False: it was a slip, and the level may come again.
+    [[nodiscard]] Result<bool> meantTooStrong(const std::string& trial);
     /// From now on nothing is presented above `level`, the top of a resumed session's ramp.
     void settle(double level) noexcept { output_.ramp().settle(level); }
     /// Writes the end of the session, once. Returns the error that the script throws; no error for Complete.

@@ -35,7 +35,7 @@ Result<DetectionMethod> detectionMethodFrom(std::string_view name) {
 // Ascending limits
 
 Result<LevelGrid> PilotThresholds::ascendingGrid() {
-    const auto stored = stage_.record().once(row::kPhase, "ascending", [this]() -> Result<nlohmann::json> {
+    const auto stored = stage_.record().once(row::kPhase, numbered("ascending"), [this]() -> Result<nlohmann::json> {
         if (auto armed = stage_.ready(); !armed) return failure(armed);
         nlohmann::json body{{"step", stage_.step()}, {"cap", stage_.settings().cap}};
         if (stage_.settings().unit == LevelUnit::Intensity) {
@@ -61,9 +61,11 @@ Result<void> PilotThresholds::ascendingLimits() {
     auto grid = ascendingGrid();
     if (!grid) return failure(grid);
     grid_ = *grid;
-    auto limits = AscendingLimits::create(*grid_, stage_.settings().seed);
+    auto limits = AscendingLimits::create(*grid_, seed());
     if (!limits) return failure(limits);
+    const auto before = ascended_;
     while (const auto next = limits->next()) {
+        ascended_ = before + next->number;
         if (auto done = present(*limits, *next); !done) return done;
     }
     if (liveSeries_ > 0) {
@@ -81,8 +83,9 @@ Result<void> PilotThresholds::ascendingLimits() {
 
 Result<void> PilotThresholds::present(AscendingLimits& limits, const AscendingPresentation& next) {
     StageTrial trial;
-    trial.name = fmt::format("ascending {}", next.number);
-    trial.about = {{"series", next.series}};
+    const auto series = next.series + static_cast<std::size_t>(repeats_) * AscendingLimits::kSeries;
+    trial.name = fmt::format("ascending {}", ascended_);
+    trial.about = {{"series", series}};
     trial.level = next.level;
     trial.presentation = ascendingPresentation(stage_.levelOf(next.level), stage_.settings().shortest);
     trial.prompt = strengthPrompt();
@@ -95,9 +98,10 @@ Result<void> PilotThresholds::present(AscendingLimits& limits, const AscendingPr
     const bool live = stage_.record().find(row::kAnswer, trial.name) == nullptr;
     if (live && liveSeries_ != next.series) {
         if (auto armed = stage_.ready(); !armed) return armed;
-        if (auto held = stage_.hold(); !held) return held;
         // After an interruption the series continues at the level that the ramp has reached again.
         const bool begins = liveSeries_ > 0 || limits.result().series.back().highest == 0;
+        const auto prompt = begins ? seriesPrompt(next.series, AscendingLimits::kSeries) : holdPrompt();
+        if (auto held = stage_.hold(prompt); !held) return held;
         if (begins) {
             if (auto begun = stage_.bench().beginAscending(); !begun) return begun;
         }
@@ -116,14 +120,23 @@ Result<void> PilotThresholds::present(AscendingLimits& limits, const AscendingPr
     }
     const auto word = strengthWordFrom(answer->response);
     if (!word) return failure(word);
-    const bool tooStrong = *word == StrengthWord::TooStrong;
+    bool tooStrong = *word == StrengthWord::TooStrong;
+    if (tooStrong && limits.doubtful()) {
+        const auto meant = stage_.meantTooStrong(trial.name);
+        if (!meant) return failure(meant);
+        tooStrong = *meant;
+        if (!tooStrong) limits.takeBack();
+    }
+    const bool slip = !tooStrong && *word == StrengthWord::TooStrong;
     // "Too strong" about an empty presentation is taken to mean the last level of the series.
     const double level = next.empty() && tooStrong ? limits.result().series.back().highest : next.level;
-    if (auto told = stage_.judged(level, tooStrong, trial.name, answer->replayed); !told) return told;
-    if (tooStrong && !answer->replayed) {
+    if (!slip) {
+        if (auto told = stage_.judged(level, tooStrong, trial.name, answer->replayed); !told) return told;
+    }
+    if (*word == StrengthWord::TooStrong && !answer->replayed) {
         if (auto answered = stage_.answeredFor(tooStrongHold(trial.name)); !answered) return answered;
     }
-    return limits.answer(*word);
+    return slip ? Result<void>() : limits.answer(*word);
 }
 
 // Detection
@@ -150,7 +163,7 @@ Result<void> PilotThresholds::detection(DetectionMethod method) {
     auto done = method == DetectionMethod::Quest ? measureBy<QuestPlus>(QuestPlusSettings{})
                                                  : measureBy<Staircase>(StaircaseSettings{});
     if (!done) return done;
-    const auto kept = stage_.record().once(row::kEstimate, "detection", [this]() -> Result<nlohmann::json> {
+    const auto kept = stage_.record().once(row::kEstimate, numbered("detection"), [this]() -> Result<nlohmann::json> {
         return nlohmann::json{
             {"estimate", estimateOrNull(estimate_)}, {"at_edge", estimateAtEdge_}, {"trials", trials_.size()}};
     });
@@ -183,10 +196,10 @@ Result<TrialInterval> PilotThresholds::askInterval(StageTrial trial, TrialInterv
 template <class Procedure, class Settings>
 Result<void> PilotThresholds::measureBy(Settings settings) {
     settings.felt = ascending_.felt;
-    auto procedure = Procedure::create(*detectionGrid_, settings, stage_.settings().seed);
+    auto procedure = Procedure::create(*detectionGrid_, settings, seed());
     if (!procedure) return failure(procedure);
     while (const auto next = procedure->next()) {
-        const auto said = twoIntervals(fmt::format("detection {}", next->number), *next, "detection");
+        const auto said = twoIntervals(fmt::format("detection {}", ++detected_), *next, "detection");
         if (!said) return failure(said);
         if (auto taken = procedure->answer(*said); !taken) return taken;
     }
@@ -214,11 +227,9 @@ Result<void> PilotThresholds::range() {
         settings.saidTooStrong = ascending_.saidTooStrong;
         auto range = PersonalRange::create(*grid_, settings);
         if (!range) return failure(range);
-        for (int n = 1;; ++n) {
-            const auto level = range->next();
-            if (!level) break;
+        while (const auto level = range->next()) {
             StageTrial trial;
-            trial.name = fmt::format("range {}", n);
+            trial.name = fmt::format("range {}", ++ranged_);
             trial.level = *level;
             trial.presentation = testPresentation(stage_.levelOf(*level), stage_.settings().shortest, kFeltBeforeAsked);
             trial.prompt = yesNoPrompt("half-an-hour", "Could you feel half an hour of this?");
@@ -232,8 +243,8 @@ Result<void> PilotThresholds::range() {
     }
     if (range_->usable) stage_.settle(range_->max);
     // The voltages belong to the impedance at that moment: they are read from the row, also after a resume.
-    auto stored =
-        stage_.record().once(row::kRange, "range", [this]() -> Result<nlohmann::json> { return describe(*range_); });
+    auto stored = stage_.record().once(row::kRange, numbered("range"),
+                                       [this]() -> Result<nlohmann::json> { return describe(*range_); });
     if (!stored) return failure(stored);
     const auto now = describe(*range_);
     const auto unit = stage_.settings().unit;
@@ -245,6 +256,37 @@ Result<void> PilotThresholds::range() {
     rangeRow_ = std::move(*stored);
     rangeRow_.erase("name");
     return {};
+}
+
+Result<bool> PilotThresholds::measureAgain() {
+    if (!range_) return invalid("whether to measure again comes after the range");
+    if (range_->usable || repeats_ == kMaxRepeats) return false;
+    stage_.rest();
+    const auto prompt =
+        yesNoPrompt("measure-again",
+                    fmt::format("There is no usable range. Seat the {} again and measure once more, from "
+                                "zero? What was too strong stays the ceiling.",
+                                stage_.settings().modality()),
+                    PromptTo::Operator);
+    const auto said = stage_.ask(row::kPhase, fmt::format("measure again {}", repeats_ + 1), prompt);
+    if (!said) return failure(said);
+    if (textOr(*said, "key") != "yes") return false;
+    ++repeats_;
+    liveSeries_ = 0;
+    detectionGrid_.reset();
+    estimate_ = {kNaN, kNaN, kNaN};
+    estimateAtEdge_ = measured_ = false;
+    shares_ = {};
+    trials_.clear();
+    range_.reset();
+    rangeRow_ = nullptr;
+    stage_.electrodesTouched();
+    return true;
+}
+
+/// Returns the name of a row that each repeat has: "range", "range 2".
+std::string PilotThresholds::numbered(const char* name) const {
+    return repeats_ == 0 ? std::string(name) : fmt::format("{} {}", name, repeats_ + 1);
 }
 
 // Comparison

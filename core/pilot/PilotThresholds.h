@@ -29,6 +29,10 @@ public:
     /// If no level was felt, there is nothing to measure: finishes at once, without an estimate.
     [[nodiscard]] Result<void> detection(DetectionMethod method);
     [[nodiscard]] Result<void> range();
+    /// After a range that is not usable, asks the operator whether to measure once more, kMaxRepeats times at most.
+    /// Yes: the electrodes are seated again, and the three steps above begin anew, below what was called too strong.
+    [[nodiscard]] Result<bool> measureAgain();
+    static constexpr int kMaxRepeats = 2;
     /// Measures the Weber fraction of strength within the range, by 40 trials. Without a usable range there is nothing
     /// to measure.
     [[nodiscard]] Result<void> comparison();
@@ -48,6 +52,9 @@ public:
                                                      const std::string& phase);
 
 private:
+    /// Each repeat has a random order of its own.
+    [[nodiscard]] std::uint64_t seed() const { return stage_.settings().seed + static_cast<std::uint64_t>(repeats_); }
+    [[nodiscard]] std::string numbered(const char* name) const;
     [[nodiscard]] Result<LevelGrid> ascendingGrid();
     [[nodiscard]] Result<void> present(AscendingLimits& limits, const AscendingPresentation& next);
     [[nodiscard]] Result<LevelGrid> belowTooStrong() const;
@@ -71,6 +78,8 @@ private:
     nlohmann::json rangeRow_;
     std::optional<StrengthComparisonResult> compared_;
     std::size_t liveSeries_ = 0;
+    int repeats_ = 0;
+    std::size_t ascended_ = 0, detected_ = 0, ranged_ = 0;  // presentations so far of each step, over all repeats
 };
 
 }  // namespace tacto

@@ -45,9 +45,21 @@ PilotPrompt holdPrompt() {
     return prompt(PromptKind::Hold, "hold", "Hold the key while the level rises. Letting go stops at once.", {});
 }
 
+PilotPrompt seriesPrompt(std::size_t series, std::size_t of) {
+    auto made = holdPrompt();
+    made.text = fmt::format("Series {} of {} starts from zero. {}", series, of, made.text);
+    return made;
+}
+
 PilotPrompt strengthPrompt() {
     return prompt(PromptKind::Strength, "strength", "What did you feel?",
                   {{"nothing", "Nothing"}, {"weak", "Weak"}, {"strong", "Strong"}, {"too-strong", "Too strong"}});
+}
+
+PilotPrompt meantPrompt() {
+    auto made = yesNoPrompt("meant", "You said “too strong”. The output is off. Was it too strong?");
+    made.targets = {{"yes", "Yes, too strong"}, {"no", "No, a slip"}};
+    return made;
 }
 
 PilotPrompt intervalPrompt() {

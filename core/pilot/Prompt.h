@@ -118,7 +118,10 @@ inline constexpr std::size_t kAnswerWays = 8;
 
 // Prompts with fixed texts.
 [[nodiscard]] PilotPrompt holdPrompt();
+/// Before a series of rising levels, which begins at zero.
+[[nodiscard]] PilotPrompt seriesPrompt(std::size_t series, std::size_t of);
 [[nodiscard]] PilotPrompt strengthPrompt();
+[[nodiscard]] PilotPrompt meantPrompt();
 [[nodiscard]] PilotPrompt intervalPrompt();
 [[nodiscard]] PilotPrompt comparisonPrompt();
 /// `names`: keys of the conditions, in the order of the places.

@@ -76,7 +76,7 @@ std::string VirtualPilotParticipant::answerTo(const PilotPrompt& prompt) const {
         case PromptKind::YesNo:
             if (prompt.name == "half-an-hour")
                 return observer_.acceptable(key, felt_.level, felt_.stimulated) ? "yes" : "no";
-            return prompt.name.starts_with("exclusion") ? "no" : "yes";
+            return prompt.name.starts_with("exclusion") || prompt.name == "measure-again" ? "no" : "yes";
         case PromptKind::Choice:
             if (prompt.name == "naturalness")
                 return std::string(nameOf(observer_.rate(key, felt_.level, felt_.stimulated).naturalness));

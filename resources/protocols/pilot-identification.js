@@ -55,10 +55,14 @@ function run(p) {
   pilot.begin();
   pilot.sideEffects("before");
 
-  // What is felt, and from where it is too strong.
-  pilot.ascendingLimits();
-  pilot.detection({ method: p.method });
-  if (!pilot.range().usable) {
+  // What is felt, and from where it is too strong. Without a usable range the operator may have it measured again.
+  let range;
+  do {
+    pilot.ascendingLimits();
+    pilot.detection({ method: p.method });
+    range = pilot.range();
+  } while (!range.usable && pilot.measureAgain());
+  if (!range.usable) {
     pilot.skin("after");
     pilot.sideEffects("after");
     pilot.finish("no usable range");

@@ -57,12 +57,14 @@ function run(p) {
   pilot.begin({ trials: false });
   pilot.sideEffects("before");
 
-  // 1. Rising levels, three times, until "too strong".
-  pilot.ascendingLimits();
-  // 2. The detection threshold: "in the first or in the second interval?"
-  pilot.detection({ method: p.method });
-  // 3. The range, accepted for half an hour.
-  pilot.range();
+  // Without a usable range the operator may have the three steps done again.
+  do {
+    // 1. Rising levels, three times, until "too strong".
+    pilot.ascendingLimits();
+    // 2. The detection threshold: "in the first or in the second interval?"
+    pilot.detection({ method: p.method });
+    // 3. The range, accepted for half an hour.
+  } while (!pilot.range().usable && pilot.measureAgain());
   // 4. How much stronger must it be to be told apart? "In which interval was it stronger?"
   if (p.comparison === "yes") pilot.comparison();
 

@@ -53,7 +53,10 @@ public:
         answer.after = Seconds(0.5);
         return answer;
     }
-    void delivered(const FeltPresentation& felt) override { drawn.push_back(felt.drawnFor); }
+    void delivered(const FeltPresentation& felt) override {
+        drawn.push_back(felt.drawnFor);
+        level = felt.level;
+    }
     [[nodiscard]] std::vector<EarlyPress> takeEarly() override { return {}; }
     void cancel() noexcept override {}
     [[nodiscard]] bool holding() const noexcept override { return holds; }
@@ -66,6 +69,7 @@ public:
 
     std::vector<std::string> asked;
     std::vector<std::string> drawn;
+    double level = 0;  // what was felt last
     std::vector<PilotScreen> shown;
     std::function<void()> onShow;
     std::function<void(const PilotPrompt&)> onAsk;

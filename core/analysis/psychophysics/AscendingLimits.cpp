@@ -48,6 +48,7 @@ void AscendingLimits::beginSeries() {
     leading_ = 1 + static_cast<std::size_t>(random.below(kMaxLeading));
     last_ = first_ = inFive_ = fives_ = 0;
     repeat_ = false;
+    takenBack_.reset();
     chooseEmptyPlace();
     if (ceiling_ == 0) {
         end(SeriesEnd::Ceiling);
@@ -95,7 +96,12 @@ Result<void> AscendingLimits::answer(StrengthWord word) {
     } else {
         answerLevel(word);
     }
-    if (done() || result_.series.size() != series) return {};
+    if (!done() && result_.series.size() == series) advance();
+    return {};
+}
+
+/// Chooses the next presentation of the series.
+void AscendingLimits::advance() {
     if (leading_ > 0) {
         --leading_;
     } else if (++inFive_ == kOneEmptyOf) {
@@ -104,7 +110,19 @@ Result<void> AscendingLimits::answer(StrengthWord word) {
         chooseEmptyPlace();
     }
     choose();
-    return {};
+}
+
+bool AscendingLimits::doubtful() const noexcept {
+    if (done() || takenBack_ == meant()) return false;
+    return first_ == 0 || grid_.level(meant()) <= kFarBelow * grid_.level(tolerated_);
+}
+
+void AscendingLimits::takeBack() {
+    if (done()) return;
+    ++number_;
+    takenBack_ = meant();
+    repeat_ = repeat_ || (index_ == 0 && last_ > 0);
+    advance();
 }
 
 void AscendingLimits::answerEmpty(StrengthWord word) {
@@ -131,11 +149,9 @@ void AscendingLimits::answerLevel(StrengthWord word) {
         first_ = index_;
         current().felt = level;
     }
-    if (word == StrengthWord::TooStrong) {
-        calledTooStrong(index_);
-    } else if (index_ == ceiling_) {
-        end(SeriesEnd::Ceiling);
-    }
+    if (word == StrengthWord::TooStrong) return calledTooStrong(index_);
+    tolerated_ = std::max(tolerated_, index_);
+    if (index_ == ceiling_) end(SeriesEnd::Ceiling);
 }
 
 void AscendingLimits::calledTooStrong(std::size_t index) {

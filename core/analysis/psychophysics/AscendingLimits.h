@@ -6,12 +6,15 @@
 // empty one was felt, the last level is presented again and its new answer replaces the previous one; a second felt
 // empty presentation marks the series. "Too strong" ends the series after any presentation and keeps all later levels
 // below it. Said about an empty presentation, it applies to the last level of the series and marks the series.
+// "Too strong" is doubtful at half or less of what was tolerated in this or an earlier series, and while nothing was
+// felt in the series: the caller asks once whether it was meant. A slip is taken back, and the same level comes again.
 //
 // The same settings, seed and answers give the same presentations, so a recorded series can be replayed.
 #pragma once
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "core/analysis/psychophysics/LevelGrid.h"
@@ -64,6 +67,7 @@ struct AscendingResult {
 class AscendingLimits {
 public:
     static constexpr std::size_t kSeries = 3;
+    static constexpr double kFarBelow = 0.5;  ///< share of the highest tolerated level
 
     /// Errors: InvalidArgument for a grid of currents with a step above 1 mA.
     [[nodiscard]] static Result<AscendingLimits> create(const LevelGrid& grid, std::uint64_t seed);
@@ -72,6 +76,10 @@ public:
     [[nodiscard]] std::optional<AscendingPresentation> next() const;
     /// Errors: InvalidArgument for a value that is not a word, or if no answer is expected; nothing has changed then.
     [[nodiscard]] Result<void> answer(StrengthWord word);
+    /// True if "too strong" about the open presentation would be doubtful; false if it was taken back at this level.
+    [[nodiscard]] bool doubtful() const noexcept;
+    /// Reports that the participant said "too strong" about the open presentation by a slip. No effect if done().
+    void takeBack();
     /// Reports that `by` refused the presentation: its ceiling ends the series. No effect if done().
     void refused(LevelLimit by);
     /// Reports that the participant or the operator stopped: the series ends and the open presentation is not
@@ -91,6 +99,9 @@ private:
     void beginSeries();
     void chooseEmptyPlace();
     void choose();
+    void advance();
+    /// Index of the level that "too strong" is about; 0: none.
+    [[nodiscard]] std::size_t meant() const noexcept { return index_ > 0 ? index_ : last_; }
     void answerEmpty(StrengthWord word);
     void answerLevel(StrengthWord word);
     void calledTooStrong(std::size_t index);
@@ -109,7 +120,9 @@ private:
     std::size_t inFive_ = 0;      // Position in the current group of five
     std::size_t emptyPlace_ = 0;  // Position of the empty one in the group of five
     std::size_t fives_ = 0;
-    bool repeat_ = false;  // true if `last_` must be presented again
+    bool repeat_ = false;                   // true if `last_` must be presented again
+    std::size_t tolerated_ = 0;             // Highest index, of all series, that was not too strong
+    std::optional<std::size_t> takenBack_;  // Index at which this series' last "too strong" was taken back
 };
 
 }  // namespace tacto

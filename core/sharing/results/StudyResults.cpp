@@ -219,6 +219,8 @@ public:
             out_.ratings.push_back({item, condition == row::kEncodings ? "" : condition, saidIn(body)});
         } else if (each.name == row::kSideEffect) {
             takeSideEffect(name, body);
+        } else if (each.name == row::kPhase && name == row::meantName(calledTooStrong_) && saidIn(body) == "no") {
+            out_.tooStrong = beforeTooStrong_;  // a slip, taken back
         } else if (each.name == row::kAnswer) {
             takeAnswer(name, body);
         } else if (each.name == row::kNoAnswer && countOr(body, "number") > 0) {
@@ -262,7 +264,7 @@ private:
         trial.response = textOr(body, "response");
         trial.response_s = numberOr(body, "rt_s");
         if (procedure == "ascending") {
-            takeAscending(trial, body);
+            takeAscending(trial, name, body);
         } else if (procedure == "detection" || procedure == "drift" || procedure == "comparison") {
             trial.weaker = numberOr(body, body.contains("weaker_ma") ? "weaker_ma" : "weaker_intensity");
             trial.type = textOr(body, "right");
@@ -282,7 +284,7 @@ private:
 
     /// `tooStrong` is the lowest level called too strong, else the highest level given. The answer to an empty
     /// presentation counts for the level before it.
-    void takeAscending(BidsThresholdTrial& trial, const json& body) {
+    void takeAscending(BidsThresholdTrial& trial, const std::string& name, const json& body) {
         trial.series = countOr(body, "series");
         const double level = std::isfinite(trial.intensity) ? trial.intensity : trial.current.value();
         trial.type = level > 0 ? "stimulus" : "catch";
@@ -292,6 +294,8 @@ private:
         }
         if (trial.response != "too-strong") return;
         const double strong = level > 0 ? level : beforeLevel_;
+        calledTooStrong_ = name;
+        beforeTooStrong_ = out_.tooStrong;
         out_.tooStrong = std::isnan(out_.tooStrong) ? strong : std::min(out_.tooStrong, strong);
     }
 
@@ -335,6 +339,8 @@ private:
     double impedance_ = kNaN;
     double detectionLevel_ = kNaN;
     double beforeLevel_ = kNaN, highestLevel_ = kNaN;  // levels in the ascending limits
+    std::string calledTooStrong_;                      // the last trial that was called too strong
+    double beforeTooStrong_ = kNaN;                    // the lowest level called too strong before it
     std::set<std::size_t> adapted_;                    // block numbers
     std::map<std::size_t, BidsTrial> silent_;          // the last attempt of trials that have no answer yet
 };

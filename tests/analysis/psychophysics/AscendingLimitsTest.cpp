@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/analysis/psychophysics/AscendingLimits.h"
+#include "core/base/Random.h"
 #include "tests/analysis/psychophysics/Procedures.h"
 #include "tests/support/Refused.h"
 
@@ -230,6 +231,51 @@ TEST(AscendingLimits, EndsWhereTheSmallestStepIsTooStrong) {
     presented(limits, sure(0.1, 0.2));
     EXPECT_EQ(limits.result().tooStrong, 0.5);
     EXPECT_EQ(limits.result().series[2].highest, 0) << "no level is left";
+}
+
+TEST(AscendingLimits, ASlipThatIsTakenBackChangesNothing) {
+    RecordProperty("hazard", "H12");
+    std::size_t slips = 0;
+    for (std::uint64_t seed = 0; seed < 200; ++seed) {
+        Random random(seed, "slips");
+        const double felt = 1 + 5 * random.uniform(), strong = felt + 2 + 6 * random.uniform();
+        auto undisturbed = AscendingLimits::create(test::gridUpTo(15), seed).value();
+        presented(undisturbed, sure(felt, strong));
+        auto limits = AscendingLimits::create(test::gridUpTo(15), seed).value();
+        double tolerated = 0, last = 0;
+        std::size_t series = 0;
+        bool feels = false;
+        std::optional<double> takenBack;
+        for (int n = 0; const auto asked = limits.next(); ++n) {
+            ASSERT_LT(n, 2000);
+            if (std::exchange(series, asked->series) != asked->series) {
+                last = 0;
+                feels = false;
+                takenBack.reset();
+            }
+            const double about = asked->empty() ? last : asked->level;
+            const bool doubt = (!feels || about <= tolerated / 2) && takenBack != about;
+            ASSERT_EQ(limits.doubtful(), doubt) << "seed " << seed << ", presentation " << asked->number;
+            const auto word = sure(felt, strong)(*asked);
+            if (doubt && word != StrengthWord::TooStrong && random.uniform() < 0.2) {
+                takenBack = about;
+                limits.takeBack();
+                ++slips;
+                continue;
+            }
+            ASSERT_TRUE(limits.answer(word));
+            if (asked->empty()) continue;
+            last = asked->level;
+            feels = feels || word != StrengthWord::Nothing;
+            if (word != StrengthWord::TooStrong) tolerated = std::max(tolerated, asked->level);
+        }
+        const auto expected = undisturbed.result(), found = limits.result();
+        EXPECT_EQ(found.felt, expected.felt) << seed;
+        EXPECT_EQ(found.tooStrong, expected.tooStrong) << seed;
+        for (std::size_t i = 0; i < AscendingLimits::kSeries; ++i)
+            EXPECT_EQ(found.series[i].highest, expected.series[i].highest) << seed;
+    }
+    EXPECT_GT(slips, 1000U);
 }
 
 TEST(AscendingLimits, ReplaysFromTheAnswers) {

@@ -106,6 +106,14 @@ Result<Json> range(ScriptSession& session, const Arguments&) {
     });
 }
 
+Result<Json> measureAgain(ScriptSession& session, const Arguments&) {
+    return inPilot(session, [](PilotSession& pilot) -> Result<Json> {
+        const auto again = pilot.thresholds().measureAgain();
+        if (!again) return failure(again);
+        return Json(*again);
+    });
+}
+
 Result<Json> comparison(ScriptSession& session, const Arguments&) {
     return inPilot(session, [](PilotSession& pilot) { return pilot.thresholds().comparison(); });
 }
@@ -204,6 +212,13 @@ std::vector<HostFunction> pilotFunctions() {
          .errors = kEnds,
          .failsDisarmed = true,
          .call = host::pilot::range},
+        {.name = "measureAgain",
+         .text = "After a range that is not usable: asks the operator whether ascendingLimits(), detection() and "
+                 "range() are done once more, twice at most. What was called too strong stays the ceiling.",
+         .returns = "true where they are",
+         .errors = kEnds,
+         .failsDisarmed = true,
+         .call = host::pilot::measureAgain},
         {.name = "comparison",
          .text =
              "The participant's Weber fraction of strength, by 40 trials of two intervals with a train in each, both "
