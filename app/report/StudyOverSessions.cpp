@@ -182,24 +182,22 @@ std::string preferredBy(const ParticipantRecord& participant, const char* item) 
 }
 
 /// Returns the encodings in the order in which the person used them.
-std::vector<EncodingResult> encodingsOf(const ParticipantRecord& participant) {
-    std::vector<EncodingResult> had;
+std::vector<std::string> encodingsOf(const ParticipantRecord& participant) {
+    std::vector<std::string> had;
     for (const auto& session : participant.sessions) {
         const auto& encoding = session.results.encoding;
-        if (session.results.trials.empty()) continue;
-        if (std::ranges::find(had, encoding, &EncodingResult::encoding) == had.end())
-            had.push_back({.encoding = encoding});
+        if (!session.results.trials.empty() && std::ranges::find(had, encoding) == had.end()) had.push_back(encoding);
     }
     return had;
 }
 
-/// Returns the comparisons of all participants who were asked.
-std::vector<EncodingComparison> comparisons(const StudyRecord& study, const char* item) {
-    std::vector<EncodingComparison> all;
+/// Returns the preferences of all participants who were asked.
+std::vector<EncodingPreference> preferencesIn(const StudyRecord& study, const char* item) {
+    std::vector<EncodingPreference> all;
     for (const auto& participant : study.participants) {
         if (participant.about.state == ParticipantState::Withdrawn) continue;
         auto said = preferredBy(participant, item);
-        if (!said.empty()) all.push_back(compareEncodings(encodingsOf(participant), std::move(said)));
+        if (!said.empty()) all.push_back({encodingsOf(participant), std::move(said)});
     }
     return all;
 }
@@ -222,7 +220,7 @@ QString preferenceText(const ParticipantRecord& participant) {
 std::optional<TableBlock> preferencesTable(const StudyRecord& study) {
     std::map<std::string, std::vector<std::size_t>> rows;
     for (std::size_t i = 0; i < std::size(kPreferences); ++i) {
-        for (const auto& [encoding, people] : preferences(comparisons(study, kPreferences[i].item))) {
+        for (const auto& [encoding, people] : preferences(preferencesIn(study, kPreferences[i].item))) {
             auto& counts = rows[encoding];
             counts.resize(std::size(kPreferences));
             counts[i] = people;
@@ -247,9 +245,9 @@ std::optional<TableBlock> preferencesTable(const StudyRecord& study) {
 
 QString preferencesNote(const StudyRecord& study) {
     std::map<QString, std::size_t> orders;
-    for (const auto& person : comparisons(study, row::kEasier)) {
+    for (const auto& person : preferencesIn(study, row::kEasier)) {
         QStringList names;
-        for (const auto& each : person.encodings) names << QString::fromStdString(each.encoding);
+        for (const auto& each : person.had) names << QString::fromStdString(each);
         ++orders[names.join(", ")];
     }
     QStringList had;

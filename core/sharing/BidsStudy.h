@@ -65,6 +65,7 @@ struct BidsDrift {
     std::size_t block = 0;
     double detection = kNaN;  ///< mA, or a massager's intensity
     bool adapted = false;
+    double low = kNaN, high = kNaN;  ///< 95 % interval of `detection`
 };
 
 struct BidsSession {
@@ -78,6 +79,7 @@ struct BidsSession {
     double lowIntensity = kNaN, highIntensity = kNaN;
     std::string rangeNotUsable;                 ///< why not ("it was not confirmed"); empty if usable or not measured
     double detection = kNaN, tooStrong = kNaN;  ///< mA, or a massager's intensity
+    double felt = kNaN;                         ///< median of the ascending series' first felt levels
     bool saidTooStrong = false;                 ///< false: `tooStrong` is the highest level given
     double detectionLow = kNaN, detectionHigh = kNaN;  ///< 95 % interval of `detection`
     double amplitudeWeber = kNaN;                      ///< from a comparison of strengths; NaN if it was at its edge

@@ -106,19 +106,38 @@ ResultRecord<EncodingResult> describeEncoding() {
     all.kept("training_blocks", &E::trainingBlocks);
     all.kept("median_rt_s", &E::medianResponse_s);
     all.kept("naturalness", &E::naturalness);
+    all.kept("sessions", &E::sessions);
+    all.kept("it_corrected_bits", in(&E::itCorrected_bits, &Estimate::value));
+    all.kept("it_corrected_low_bits", in(&E::itCorrected_bits, &Estimate::low));
+    all.kept("it_corrected_high_bits", in(&E::itCorrected_bits, &Estimate::high));
     return all;
 }
 
-ResultRecord<EncodingComparison> describeComparison() {
-    using C = EncodingComparison;
-    ResultRecord<EncodingPair> pair;
-    pair.kept("a", &EncodingPair::a);
-    pair.kept("b", &EncodingPair::b);
-    pair.kept("difference", &EncodingPair::difference);
-    ResultRecord<C> all;
-    all.kept("encodings", &C::encodings, describeEncoding());
-    all.kept("pairs", &C::pairs, pair);
-    all.kept("preferred", nullIfEmpty(&C::preferred));
+ResultRecord<EncodingsOverPeople> describeOverPeople() {
+    using O = EncodingsOverPeople;
+    using P = PairOverPeople;
+    ResultRecord<PersonEncodings> person;
+    person.kept("name", &PersonEncodings::name);
+    person.kept("encodings", &PersonEncodings::encodings, describeEncoding());
+    ResultRecord<PersonDifference> difference;
+    difference.kept("name", &PersonDifference::name);
+    difference.kept("accuracy", &PersonDifference::accuracy);
+    difference.kept("bits", &PersonDifference::bits);
+    difference.kept("a_first", &PersonDifference::aFirst);
+    ResultRecord<P> pair;
+    pair.kept("a", &P::a);
+    pair.kept("b", &P::b);
+    pair.kept("people", &P::people, difference);
+    pair.kept("accuracy", &P::accuracy);
+    pair.kept("bits", &P::bits);
+    pair.kept("a_better", &P::aBetter);
+    pair.kept("b_better", &P::bBetter);
+    pair.kept("exchange_p", &P::exchangeP);
+    ResultRecord<O> all;
+    all.kept("people", &O::people, person);
+    all.kept("pairs", &O::pairs, pair);
+    all.kept("better", nullIfEmpty(&O::better));
+    all.kept("sentences", [](const O& found) { return encodingSentences(found); });
     return all;
 }
 
@@ -177,7 +196,7 @@ json toJson(const Identification& found) { return builtOnce<describeIdentificati
 
 json toJson(const FewPeople& people) { return builtOnce<describePeople>().write(people); }
 
-json toJson(const EncodingComparison& compared) { return builtOnce<describeComparison>().write(compared); }
+json toJson(const EncodingsOverPeople& found) { return builtOnce<describeOverPeople>().write(found); }
 
 const std::vector<ResultTable>& identificationTables() { return builtOnce<describeIdentification>().tables(); }
 

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/analysis/identification/EncodingsOverPeople.h"
 #include "core/analysis/identification/FewPeople.h"
 #include "core/analysis/identification/Identification.h"
 #include "core/analysis/identification/OverSessions.h"
@@ -31,7 +32,8 @@ namespace tacto {
 /// "above_chance": {"k", "n", "share", "prevalence", "prevalence_at_least"}}; "prevalence_at_least" is the lower end of
 /// "prevalence".
 [[nodiscard]] nlohmann::json toJson(const FewPeople& people);
-/// {"encodings", "pairs": [{"a", "b", "difference"}], "preferred"}
-[[nodiscard]] nlohmann::json toJson(const EncodingComparison& compared);
+/// {"people": [{"name", "encodings"}], "pairs": [{"a", "b", "people": [{"name", "accuracy", "bits", "a_first"}],
+/// "accuracy", "bits", "a_better", "b_better", "exchange_p"}], "better", "sentences"}
+[[nodiscard]] nlohmann::json toJson(const EncodingsOverPeople& found);
 
 }  // namespace tacto

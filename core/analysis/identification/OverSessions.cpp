@@ -194,23 +194,10 @@ Estimate logisticSlope(std::span<const LogisticPoint> points) {
     return {value, end(-kSteepest), end(kSteepest)};
 }
 
-EncodingComparison compareEncodings(std::vector<EncodingResult> inOrder, std::string preferred) {
-    EncodingComparison out;
-    for (std::size_t earlier = 0; earlier < inOrder.size(); ++earlier) {
-        for (std::size_t later = earlier + 1; later < inOrder.size(); ++later) {
-            const auto &a = inOrder[later], &b = inOrder[earlier];
-            out.pairs.push_back({a.encoding, b.encoding, newcombeDifference(a.hits, a.n, b.hits, b.n)});
-        }
-    }
-    out.encodings = std::move(inOrder);
-    out.preferred = std::move(preferred);
-    return out;
-}
-
-std::map<std::string, std::size_t> preferences(std::span<const EncodingComparison> people) {
+std::map<std::string, std::size_t> preferences(std::span<const EncodingPreference> people) {
     std::map<std::string, std::size_t> out;
     for (const auto& person : people) {
-        for (const auto& encoding : person.encodings) out.try_emplace(encoding.encoding, 0);
+        for (const auto& encoding : person.had) out.try_emplace(encoding, 0);
         if (!person.preferred.empty()) ++out[person.preferred];
     }
     return out;

@@ -74,12 +74,13 @@ struct LogisticPoint {
 /// answers are right, or all wrong.
 [[nodiscard]] Estimate logisticSlope(std::span<const LogisticPoint> points);
 
-// The following part compares several encodings (the same stimuli with other names) within one person.
+// The following part is about several encodings (the same stimuli with other names) within one person; people together
+// are compared in EncodingsOverPeople.h.
 //
 // By symmetry an ideal observer is equally good with each encoding, so the comparison shows how well the names fit.
 // Each session has one encoding, so the trials of two encodings are independent samples.
 
-/// One person's results with one encoding; NaN or 0 if nothing was recorded.
+/// One person's results with one encoding, all sessions together; NaN or 0 if nothing was recorded.
 struct EncodingResult {
     std::string encoding;
     std::size_t n = 0;
@@ -87,23 +88,18 @@ struct EncodingResult {
     std::size_t trainingBlocks = 0;
     double medianResponse_s = kNaN;
     double naturalness = kNaN;  ///< mean of the conditions' ratings
+    std::size_t sessions = 0;   ///< number of added sessions
+    Estimate itCorrected_bits = {};
 };
 
-struct EncodingPair {
-    std::string a, b;
-    Estimate difference;  ///< accuracy of a minus accuracy of b, Newcombe 95 %
+/// The encodings that a person had, in the order of use, and the one that the person preferred; empty if not asked.
+struct EncodingPreference {
+    std::vector<std::string> had;
+    std::string preferred = {};
 };
-
-struct EncodingComparison {
-    std::vector<EncodingResult> encodings;  ///< in the order of use
-    std::vector<EncodingPair> pairs;        ///< accuracy of the later encoding minus that of the earlier one
-    std::string preferred;                  ///< the encoding that the person named; empty if not asked
-};
-
-[[nodiscard]] EncodingComparison compareEncodings(std::vector<EncodingResult> inOrder, std::string preferred = {});
 
 /// Counts the people who preferred each encoding. Never tested statistically: even five of five give only p = 0.06.
-[[nodiscard]] std::map<std::string, std::size_t> preferences(std::span<const EncodingComparison> people);
+[[nodiscard]] std::map<std::string, std::size_t> preferences(std::span<const EncodingPreference> people);
 
 /// Order of the encodings for the `enrolled`-th person (from 0), as indices: a row of a Williams design (1949), in
 /// which each encoding is equally often in each place and after each other encoding. 2 encodings: AB, BA; 3: six

@@ -33,6 +33,78 @@ Result<void> validateQuestPlus(const QuestPlusSettings& settings) {
                    settings.least, settings.most);
 }
 
+/// The α grid around F.
+EvenDensity alphasAround(double felt) { return {decibels(felt) - kAlphaBelow_db, kAlphaStep_db, {}}; }
+
+/// The levels above 0.
+std::vector<double> levelsOf(const LevelGrid& grid) {
+    std::vector<double> levels;
+    for (std::size_t level = 1; level <= grid.count(); ++level) levels.push_back(grid.level(level));
+    return levels;
+}
+
+/// Returns the posterior before any answer; its choices are `levels`.
+TwoIntervalPosterior priorOver(std::span<const double> levels, const QuestPlusSettings& settings) {
+    const double centre = decibels(settings.felt);
+    const double prior = settings.prior > 0 ? decibels(settings.prior) : centre - kPriorBelowFelt_db;
+    const auto alphas = alphasAround(settings.felt);
+    // Weights are relative to the grid point nearest to the prior, so that a distant prior does not underflow.
+    const double nearest = std::clamp(prior, alphas.first, alphas.at(kAlphas - 1));
+    const auto exponent = [&](double alpha) { return std::pow((alpha - prior) / settings.priorSd_db, 2) / 2; };
+    std::vector<double> weights, right;
+    for (std::size_t i = 0; i < kAlphas; ++i)
+        weights.insert(weights.end(), kSlopes.size(), std::exp(exponent(nearest) - exponent(alphas.at(i))));
+    right.reserve(levels.size() * weights.size());
+    for (const double level : levels) {
+        const double x = decibels(level);
+        for (std::size_t i = 0; i < kAlphas; ++i) {
+            for (const double slope : kSlopes) right.push_back(QuestPlus::probabilityRight(x, alphas.at(i), slope));
+        }
+    }
+    return {std::move(weights), std::move(right)};
+}
+
+EvenDensity alphaIn(const TwoIntervalPosterior& posterior, double felt) {
+    auto alpha = alphasAround(felt);
+    const auto weights = posterior.weights();
+    for (std::size_t from = 0; from < weights.size(); from += kSlopes.size()) {
+        const auto slopes = weights.subspan(from, kSlopes.size());
+        alpha.weights.push_back(std::accumulate(slopes.begin(), slopes.end(), 0.0));
+    }
+    return alpha;
+}
+
+Estimate thresholdIn(const EvenDensity& alpha) {
+    return {levelOf(alpha.mean()), levelOf(alpha.quantile(0.025)), levelOf(alpha.quantile(0.975))};
+}
+
+/// Mean of p(x) over the posterior, and its 2.5 and 97.5 % points; α is uniform within its cell.
+Estimate rightAt(double level, const TwoIntervalPosterior& posterior, const EvenDensity& alphas) {
+    constexpr int kParts = 10;  // of a cell of α
+    const double x = decibels(level);
+    std::vector<std::pair<double, double>> shares;  // p(x), weight
+    const auto weights = posterior.weights();
+    double mean = 0;
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        for (int part = 0; part < kParts; ++part) {
+            const double alpha = alphas.at(i / kSlopes.size()) + kAlphaStep_db * ((part + 0.5) / kParts - 0.5);
+            const double weight = weights[i] / kParts;
+            shares.emplace_back(QuestPlus::probabilityRight(x, alpha, kSlopes[i % kSlopes.size()]), weight);
+            mean += weight * shares.back().first;
+        }
+    }
+    std::ranges::sort(shares);
+    const auto point = [&](double q) {
+        double sum = 0;
+        for (const auto& [share, weight] : shares) {
+            sum += weight;
+            if (sum >= q) return share;
+        }
+        return shares.back().first;
+    };
+    return {mean, point(0.025), point(0.975)};
+}
+
 }  // namespace
 
 double QuestPlus::probabilityRight(double level_db, double alpha_db, double slope) noexcept {
@@ -46,29 +118,9 @@ Result<QuestPlus> QuestPlus::create(const LevelGrid& grid, const QuestPlusSettin
 }
 
 QuestPlus::QuestPlus(const LevelGrid& grid, const QuestPlusSettings& settings, std::uint64_t seed)
-    : grid_(grid), settings_(settings), order_(seed, settings.stream), posterior_(begun()) {
+    : grid_(grid), settings_(settings), order_(seed, settings.stream), posterior_(priorOver(levelsOf(grid), settings)) {
     if (!(settings_.first > 0)) settings_.first = settings_.felt;
     choose();
-}
-
-TwoIntervalPosterior QuestPlus::begun() const {
-    const double centre = decibels(settings_.felt);
-    const double prior = settings_.prior > 0 ? decibels(settings_.prior) : centre - kPriorBelowFelt_db;
-    const EvenDensity alphas{centre - kAlphaBelow_db, kAlphaStep_db, {}};
-    // Weights are relative to the grid point nearest to the prior, so that a distant prior does not underflow.
-    const double nearest = std::clamp(prior, alphas.first, alphas.at(kAlphas - 1));
-    const auto exponent = [&](double alpha) { return std::pow((alpha - prior) / settings_.priorSd_db, 2) / 2; };
-    std::vector<double> weights, right;
-    for (std::size_t i = 0; i < kAlphas; ++i)
-        weights.insert(weights.end(), kSlopes.size(), std::exp(exponent(nearest) - exponent(alphas.at(i))));
-    right.reserve(grid_.count() * weights.size());
-    for (std::size_t level = 1; level <= grid_.count(); ++level) {
-        const double x = decibels(grid_.level(level));
-        for (std::size_t i = 0; i < kAlphas; ++i) {
-            for (const double slope : kSlopes) right.push_back(probabilityRight(x, alphas.at(i), slope));
-        }
-    }
-    return {std::move(weights), std::move(right)};
 }
 
 void QuestPlus::choose() {
@@ -107,15 +159,7 @@ bool QuestPlus::done() const {
     return trials_.size() >= settings_.least && ofAlpha().sd() <= settings_.enough_db;
 }
 
-EvenDensity QuestPlus::ofAlpha() const {
-    EvenDensity alpha{decibels(settings_.felt) - kAlphaBelow_db, kAlphaStep_db, {}};
-    const auto weights = posterior_.weights();
-    for (std::size_t from = 0; from < weights.size(); from += kSlopes.size()) {
-        const auto slopes = weights.subspan(from, kSlopes.size());
-        alpha.weights.push_back(std::accumulate(slopes.begin(), slopes.end(), 0.0));
-    }
-    return alpha;
-}
+EvenDensity QuestPlus::ofAlpha() const { return alphaIn(posterior_, settings_.felt); }
 
 double QuestPlus::probabilityAbove(double level) const {
     const double x = decibels(level);
@@ -129,7 +173,7 @@ double QuestPlus::probabilityAbove(double level) const {
 QuestPlusResult QuestPlus::result() const {
     QuestPlusResult out;
     const auto alpha = ofAlpha();
-    out.estimate = {levelOf(alpha.mean()), levelOf(alpha.quantile(0.025)), levelOf(alpha.quantile(0.975))};
+    out.estimate = thresholdIn(alpha);
     out.sd_db = alpha.sd();
     out.slope = 0;
     const auto weights = posterior_.weights();
@@ -137,6 +181,27 @@ QuestPlusResult QuestPlus::result() const {
     out.atEdge = alpha.atEdge();
     out.intervals = shares_;
     out.trials = trials_;
+    return out;
+}
+
+Result<DetectionCourse> detectionCourse(std::span<const LevelAnswer> answers, double felt, std::span<const double> at) {
+    QuestPlusSettings settings;
+    settings.felt = felt;
+    if (auto valid = validateQuestPlus(settings); !valid) return failure(valid);
+    std::vector<double> levels;
+    for (const auto& answer : answers) levels.push_back(answer.level);
+    std::ranges::copy(at, std::back_inserter(levels));
+    for (const double level : levels) {
+        if (!(level > 0) || !std::isfinite(level)) return invalid("a level of {}; a number above 0 is accepted", level);
+    }
+    auto posterior = priorOver(levels, settings);  // each answer is a choice of its own
+    DetectionCourse out;
+    for (std::size_t i = 0; i < answers.size(); ++i) {
+        posterior.take(i, answers[i].correct);
+        out.threshold.push_back(thresholdIn(alphaIn(posterior, felt)));
+    }
+    const auto alphas = alphasAround(felt);
+    for (const double level : at) out.right.push_back(rightAt(level, posterior, alphas));
     return out;
 }
 

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/analysis/psychophysics/LevelGrid.h"
@@ -64,7 +65,6 @@ public:
 private:
     QuestPlus(const LevelGrid& grid, const QuestPlusSettings& settings, std::uint64_t seed);
     void choose();
-    [[nodiscard]] TwoIntervalPosterior begun() const;
     [[nodiscard]] EvenDensity ofAlpha() const;
 
     LevelGrid grid_;
@@ -75,6 +75,22 @@ private:
     IntervalShares shares_;
     std::vector<AnsweredTwoIntervalTrial> trials_;
 };
+
+// The course of a detection run, from its levels and answers alone: what figures show. For answers to QUEST+ trials the
+// estimates are those of the run; for answers to a staircase they are those that QUEST+ would have had.
+
+struct LevelAnswer {
+    double level = 0;  ///< > 0
+    bool correct = false;
+};
+
+struct DetectionCourse {
+    std::vector<Estimate> threshold;  ///< α after each answer, in the levels' unit
+    std::vector<Estimate> right;      ///< posterior mean and 95 % points of p(x) at each level of `at`
+};
+/// `felt`: F of the prior, > 0. `at`: levels > 0. Errors: InvalidArgument naming the value and what is accepted.
+[[nodiscard]] Result<DetectionCourse> detectionCourse(std::span<const LevelAnswer> answers, double felt,
+                                                      std::span<const double> at);
 
 // Drift check: tests before each later block whether the lowest condition is still felt (pilot.md section 4).
 //

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/analysis/identification/IdentificationJson.h"
+#include "core/analysis/psychophysics/AscendingLimits.h"
 #include "core/analysis/vibration/VibrationSeparability.h"
 #include "core/base/JsonText.h"
 #include "core/base/LocaleFreeText.h"
@@ -209,7 +210,8 @@ public:
             const auto found = driftRowFrom(body);
             detectionLevel_ = found.detection.value;
             if (found.adapted) adapted_.insert(found.block);
-            out_.drift.push_back({found.block, detectionLevel_, found.adapted});
+            out_.drift.push_back(
+                {found.block, detectionLevel_, found.adapted, found.detection.low, found.detection.high});
         } else if (each.name == row::kRange) {
             takeRange(rangeRowFrom(body));
         } else if (each.name == row::kSkin) {
@@ -232,6 +234,7 @@ public:
         for (const auto& [number, trial] : silent_) out_.trials.push_back(trial);
         out_.saidTooStrong = std::isfinite(out_.tooStrong);
         if (!out_.saidTooStrong) out_.tooStrong = highestLevel_;
+        out_.felt = feltFrom();
         return std::move(out_);
     }
 
@@ -291,12 +294,24 @@ private:
         if (level > 0) {
             beforeLevel_ = level;
             highestLevel_ = std::isnan(highestLevel_) ? level : std::max(highestLevel_, level);
+            if (const auto word = strengthWordFrom(trial.response))  // not a stop
+                series_[trial.series].insert_or_assign(level, *word != StrengthWord::Nothing);
         }
         if (trial.response != "too-strong") return;
         const double strong = level > 0 ? level : beforeLevel_;
         calledTooStrong_ = name;
         beforeTooStrong_ = out_.tooStrong;
         out_.tooStrong = std::isnan(out_.tooStrong) ? strong : std::min(out_.tooStrong, strong);
+    }
+
+    /// Median over the series of the lowest level that was felt, by the last answer about each level.
+    [[nodiscard]] double feltFrom() const {
+        std::vector<double> first;
+        for (const auto& [number, levels] : series_) {
+            const auto found = std::ranges::find_if(levels, [](const auto& level) { return level.second; });
+            if (found != levels.end()) first.push_back(found->first);
+        }
+        return statisticsOf(first).median;
     }
 
     void takeRange(const RangeRow& found) {
@@ -338,11 +353,12 @@ private:
     BidsSession out_;
     double impedance_ = kNaN;
     double detectionLevel_ = kNaN;
-    double beforeLevel_ = kNaN, highestLevel_ = kNaN;  // levels in the ascending limits
-    std::string calledTooStrong_;                      // the last trial that was called too strong
-    double beforeTooStrong_ = kNaN;                    // the lowest level called too strong before it
-    std::set<std::size_t> adapted_;                    // block numbers
-    std::map<std::size_t, BidsTrial> silent_;          // the last attempt of trials that have no answer yet
+    double beforeLevel_ = kNaN, highestLevel_ = kNaN;       // levels in the ascending limits
+    std::string calledTooStrong_;                           // the last trial that was called too strong
+    double beforeTooStrong_ = kNaN;                         // the lowest level called too strong before it
+    std::map<std::size_t, std::map<double, bool>> series_;  // of the ascending limits: level, whether it was felt
+    std::set<std::size_t> adapted_;                         // block numbers
+    std::map<std::size_t, BidsTrial> silent_;               // the last attempt of trials that have no answer yet
 };
 
 }  // namespace

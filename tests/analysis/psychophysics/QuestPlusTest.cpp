@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/analysis/psychophysics/QuestPlus.h"
+#include "core/base/Random.h"
+#include "core/base/Statistics.h"
 #include "tests/analysis/psychophysics/Procedures.h"
 #include "tests/support/Figures.h"
 #include "tests/support/InTime.h"
@@ -314,6 +316,67 @@ TEST(DriftCheck, RefusesWhatIsNoSetting) {
     EXPECT_TRUE(refused([](auto& s) { s.trials = 0; }));
     auto check = DriftCheck::create(test::gridUpTo(10), before(2), 1).value();
     EXPECT_FALSE(check.rested()) << "no rest was asked for";
+}
+
+/// Posterior over (α, β) written from the definition, α in steps of a tenth of the cell, all in plain sums.
+TEST(QuestPlus, TheCourseAndTheFunctionAreThoseOfSumsOverAllModels) {
+    RecordProperty("hazard", "H9");
+    Random random(49, "detection course");
+    const int rounds = test::trials<int>({.local = 12, .ci = 60, .campaign = 600});
+    for (int round = 0; round < rounds; ++round) {
+        const double first = 0.3 + 8 * random.uniform();
+        std::vector<LevelAnswer> answers;
+        for (std::size_t i = 0, n = 1 + random.below(40); i < n; ++i)
+            answers.push_back({first * (0.3 + 2 * random.uniform()), random.uniform() < 0.8});
+        const std::vector<double> at = {first * 0.4, first, first * 1.7};
+        const auto found = detectionCourse(answers, first, at).value();
+        ASSERT_EQ(found.threshold.size(), answers.size());
+        const double f_db = 20 * std::log10(first);
+        const auto right = [](double level, double alpha, double beta) {
+            return 0.5 + 0.48 * (1 - std::exp(-std::pow(10, beta * (20 * std::log10(level) - alpha) / 20)));
+        };
+        for (const std::size_t upTo : {std::size_t{1}, answers.size()}) {
+            double total = 0, meanAlpha = 0;
+            double share[3] = {0, 0, 0}, below[3] = {0, 0, 0}, above[3] = {0, 0, 0}, belowAlpha = 0, aboveAlpha = 0;
+            const auto& threshold = found.threshold[upTo - 1];
+            for (int cell = 0; cell < 43; ++cell) {
+                const double alpha = f_db - 12 + 0.5 * cell;
+                for (const double beta : {2.0, 4.0, 8.0, 16.0}) {
+                    double weight = std::exp(-std::pow((alpha - (f_db - 1)) / 4, 2) / 2);
+                    for (std::size_t i = 0; i < upTo; ++i) {
+                        const double p = right(answers[i].level, alpha, beta);
+                        weight *= answers[i].correct ? p : 1 - p;
+                    }
+                    total += weight;
+                    meanAlpha += weight * alpha;
+                    for (int part = 0; part < 100; ++part) {
+                        const double inside = alpha + 0.5 * ((part + 0.5) / 100 - 0.5), some = weight / 100;
+                        belowAlpha += inside < 20 * std::log10(threshold.low) ? some : 0;
+                        aboveAlpha += inside > 20 * std::log10(threshold.high) ? some : 0;
+                        if (upTo != answers.size()) continue;
+                        for (std::size_t k = 0; k < at.size(); ++k) {
+                            const double p = right(at[k], inside, beta);
+                            share[k] += some * p;
+                            below[k] += p < found.right[k].low ? some : 0;
+                            above[k] += p > found.right[k].high ? some : 0;
+                        }
+                    }
+                }
+            }
+            EXPECT_NEAR(threshold.value, std::pow(10, meanAlpha / total / 20), 1e-9 * threshold.value);
+            EXPECT_NEAR(belowAlpha / total, 0.025, 0.006);
+            EXPECT_NEAR(aboveAlpha / total, 0.025, 0.006);
+            if (upTo != answers.size()) continue;
+            for (std::size_t k = 0; k < at.size(); ++k) {
+                EXPECT_NEAR(found.right[k].value, share[k] / total, 1e-3);
+                EXPECT_LE(below[k] / total, 0.03);
+                EXPECT_LE(above[k] / total, 0.03);
+            }
+        }
+    }
+    EXPECT_FALSE(detectionCourse({}, 0, {}));
+    EXPECT_FALSE(detectionCourse(std::vector<LevelAnswer>{{kNaN, true}}, 1, {}));
+    EXPECT_FALSE(detectionCourse(std::vector<LevelAnswer>{{1, true}}, 1, std::vector<double>{-1}));
 }
 
 }  // namespace
