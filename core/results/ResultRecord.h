@@ -100,6 +100,14 @@ public:
             }
         });
     }
+    /// Adds a member that is left out where `get` returns an empty std::optional.
+    template <class Get>
+    void keptIfAny(std::string key, Get get) {
+        keep(std::move(key), [get](const Record& record) {
+            const auto& held = std::invoke(get, record);
+            return held ? resultJson(*held) : leftOut();
+        });
+    }
     /// Adds a member to the session and a column to its tables.
     template <class Get>
     void shown(ResultColumn column, Get get) {
@@ -119,18 +127,17 @@ public:
         kept("verdict", &Record::verdict);
         kept("reasons", &Record::reasons);
     }
-    /// Adds all members of a nested record to this one; those of an absent record are left out. A later member with the
-    /// same key replaces the earlier.
+    /// Adds all members of a nested record to this one, left out if it is an empty std::optional. A later member with
+    /// the same key replaces the earlier.
     template <class Get, class Part>
     void merge(Get get, const ResultRecord<Part>& part) {
         part.each([&](const nlohmann::json::json_pointer& at, const auto& value) {
-            members_.emplace_back(at, [get, value](const Record& record) -> nlohmann::json {
+            members_.emplace_back(at, [get, value](const Record& record) {
                 const auto& held = std::invoke(get, record);
-                if constexpr (detail::kIsOptional<std::remove_cvref_t<decltype(held)>>) {
-                    return held ? value(*held) : nlohmann::json(nlohmann::json::value_t::discarded);
-                } else {
+                if constexpr (detail::kIsOptional<std::remove_cvref_t<decltype(held)>>)
+                    return held ? value(*held) : leftOut();
+                else
                     return value(held);
-                }
             });
         });
     }
@@ -154,9 +161,16 @@ public:
     [[nodiscard]] nlohmann::json write(const Record& record) const {
         auto out = nlohmann::json::object();
         for (const auto& [at, value] : members_) {
-            if (auto written = value(record); !written.is_discarded()) out[at] = std::move(written);
+            if (auto member = value(record); !member.is_discarded()) out[at] = std::move(member);
         }
         return out;
+    }
+    /// Returns a record with only these members, and without columns and tables.
+    [[nodiscard]] ResultRecord only(const std::vector<std::string>& keys) const {
+        ResultRecord some;
+        for (const auto& key : keys)
+            some.members_.push_back(*std::ranges::find(members_, placeOf(key), &std::pair<Place, Value>::first));
+        return some;
     }
     /// Returns the keys of the members in the order added, those of nested records as "a.b", each once.
     [[nodiscard]] std::vector<std::string> keys() const {
@@ -170,10 +184,10 @@ public:
     }
     [[nodiscard]] const std::vector<ResultColumn>& columns() const& noexcept { return columns_; }
     [[nodiscard]] std::vector<ResultColumn> columns() && { return std::move(columns_); }
-    /// Returns the column with that key under another title, for another table.
-    [[nodiscard]] ResultColumn column(std::string_view key, std::string title) const {
+    /// Returns the column with that key for another table, perhaps under another title.
+    [[nodiscard]] ResultColumn column(std::string_view key, std::string title = {}) const {
         auto found = *std::ranges::find(columns_, key, &ResultColumn::at);
-        found.title = std::move(title);
+        if (!title.empty()) found.title = std::move(title);
         return found;
     }
     /// Calls `visit(key, value)` for each member.
@@ -185,15 +199,17 @@ public:
     [[nodiscard]] std::vector<ResultTable> tables() && { return std::move(tables_); }
 
 private:
+    using Place = nlohmann::json::json_pointer;
     using Value = std::function<nlohmann::json(const Record&)>;
 
+    static nlohmann::json leftOut() { return nlohmann::json::value_t::discarded; }
     void keep(std::string key, Value value) { members_.emplace_back(placeOf(std::move(key)), std::move(value)); }
-    static nlohmann::json::json_pointer placeOf(std::string key) {
+    static Place placeOf(std::string key) {
         for (std::size_t dot = 0; (dot = key.find('.', dot)) != key.npos;) key[dot] = '/';
-        return nlohmann::json::json_pointer('/' + key);
+        return Place('/' + key);
     }
 
-    std::vector<std::pair<nlohmann::json::json_pointer, Value>> members_;
+    std::vector<std::pair<Place, Value>> members_;
     std::vector<ResultColumn> columns_;
     std::vector<ResultTable> tables_;
 };

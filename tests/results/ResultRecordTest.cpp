@@ -72,16 +72,6 @@ TEST(ResultRecords, WriteEachMemberUnderItsKey) {
     EXPECT_EQ(written["note"], "few");
 }
 
-TEST(ResultRecords, LeaveOutTheMembersOfAnAbsentMergedRecord) {
-    ResultRecord<Whole> all;
-    all.kept("note", &Whole::note);
-    all.merge(&Whole::best, describePart());
-    Whole whole;
-    EXPECT_EQ(all.write(whole), nlohmann::json::parse(R"({"note": ""})"));
-    whole.best = Part{"a", 1.5};
-    EXPECT_EQ(all.write(whole), nlohmann::json::parse(R"({"note": "", "name": "a", "value": 1.5})"));
-}
-
 TEST(ResultRecords, ShowInTheirTablesWhatTheyHold) {
     const auto whole = describeWhole();
     ASSERT_EQ(whole.tables().size(), 2U);
@@ -106,6 +96,19 @@ TEST(ResultRecords, HoldWhatAnotherHoldsAndReplaceIt) {
     all.merge(&Named::part, describePart());
     all.kept("value", &Named::twice);
     EXPECT_EQ(all.write({{"a", 1}, 2}), (nlohmann::json{{"name", "a"}, {"value", 2.0}}));
+}
+
+TEST(ResultRecords, LeaveOutWhatIsAbsentWhereTheySayThatItMayBe) {
+    ResultRecord<Whole> all;
+    all.keptIfAny("rank", &Whole::rank);
+    all.merge(&Whole::best, describePart());
+    EXPECT_EQ(all.write({}), nlohmann::json::object());
+    Whole whole;
+    whole.best = Part{"a", 2};
+    whole.rank = 0;
+    EXPECT_EQ(all.write(whole), (nlohmann::json{{"rank", 0}, {"name", "a"}, {"value", 2.0}}));
+    EXPECT_THAT(all.keys(), testing::ElementsAre("rank", "name", "value"));
+    EXPECT_EQ(all.only({"value"}).write(whole), (nlohmann::json{{"value", 2.0}}));
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 
 #include "app/scripting/host/sensor_calibration/FingertipCalibration.h"
 #include "app/scripting/host/stimulator_calibration/StimulatorLevels.h"
+#include "core/analysis/calibration/CalibrationJson.h"
+#include "core/analysis/sensor_calibration/SensorCalibrationJson.h"
 #include "tests/scripting/RunBench.h"
 
 namespace tacto {
@@ -12,11 +14,12 @@ namespace {
 
 using Json = nlohmann::json;
 using namespace host::stimulator_calibration;
+using host::sensor_calibration::judgeWeight;
 using test::RunBench;
 using test::withRun;
 
 TEST(KnownWeight, ReadsAsWhatItIsOrStandsOutFromRestWhereItsUnitIsNotKnown) {
-    host::sensor_calibration::FingertipRest rest;
+    FingertipRest rest;
     rest.force.sd = 0.01;
     rest.inUse = ForceInUse{0, StreamUnit::Newton, 0.001};
     const host::sensor_calibration::WeighingTolerances known{0.001, 0.0027}, weightAlone{0.001};
@@ -25,12 +28,13 @@ TEST(KnownWeight, ReadsAsWhatItIsOrStandsOutFromRestWhereItsUnitIsNotKnown) {
                            rest, tolerances, 10);
     };
     const auto right = read(1, StreamUnit::Newton, known);
-    EXPECT_EQ(right.check["passed"], true);
+    EXPECT_TRUE(right.passed());
     EXPECT_EQ(right.reason, "");
-    EXPECT_NEAR(right.check["deviation_pct"].get<double>(), 100 * (1 / 0.98 - 1), 1e-9);
+    EXPECT_NEAR(right.deviation_pct, 100 * (1 / 0.98 - 1), 1e-9);
+    EXPECT_EQ(toJson(right)["unit"], "N");
     const auto is = [](const auto& weight, const char* verdict, const char* reason) {
-        EXPECT_EQ(weight.check["verdict"], verdict);
-        EXPECT_EQ(weight.check["passed"], std::string_view(verdict) == "pass");
+        EXPECT_EQ(toJson(weight)["verdict"], verdict);
+        EXPECT_EQ(toJson(weight)["passed"], std::string_view(verdict) == "pass");
         EXPECT_THAT(weight.reason, testing::HasSubstr(reason));
     };
     is(read(1.2, StreamUnit::Newton, known), "fail", "1.2000 ± 0.0045 N was read under 0.9800 N; 10 % are allowed");
@@ -40,9 +44,10 @@ TEST(KnownWeight, ReadsAsWhatItIsOrStandsOutFromRestWhereItsUnitIsNotKnown) {
     is(read(1.0766, StreamUnit::Newton, known), "indeterminate", "is indeterminate: 1.0766 ±");
     is(read(1, StreamUnit::Newton, weightAlone), "not evaluated", "was not stated");
     is(read(kNaN, StreamUnit::Newton, known), "not evaluated", "nothing was read under");
-    const auto none = judgeWeight({}, rest, known, 10);
-    EXPECT_TRUE(none.check["passed"].is_null());
-    EXPECT_EQ(none.check["verdict"], "not evaluated");
+    const auto none = toJson(judgeWeight({}, rest, known, 10));
+    EXPECT_TRUE(none["passed"].is_null());
+    EXPECT_EQ(none["verdict"], "not evaluated");
+    EXPECT_FALSE(none.contains("unit"));
 }
 
 TEST(TimeBase, IsJudgedWithItsUncertainty) {
@@ -158,8 +163,8 @@ TEST(GivenReadings, ThatAreNoneAreRefused) {
 Json checked(const Json& level) {
     Json all = {{"commanded", 20}, {"mean", 20.01}, {"expanded_uncertainty", 0.05}};
     all.update(level);
-    return checkAgainst({{"gain", 1}, {"offset", 0}, {"lowest", 10}, {"highest", 40}},
-                        {{"quantity", "amplitude"}, {"unit", "V"}, {"levels", Json::array({all})}}, 2);
+    return toJson(checkAgainst({{"gain", 1}, {"offset", 0}, {"lowest", 10}, {"highest", 40}},
+                               {{"quantity", "amplitude"}, {"unit", "V"}, {"levels", Json::array({all})}}, 2));
 }
 
 TEST(CalibrationCheck, TheWorseDirectionIsJudged) {

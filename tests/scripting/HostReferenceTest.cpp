@@ -56,7 +56,7 @@ TEST(HostReference, NamesNoKeyThatNothingWrites) {
             EXPECT_NE(sources.find('"' + key + '"'), std::string::npos) << function.fullName() << " returns " << key;
         }
     }
-    EXPECT_GT(keys, 75U);
+    EXPECT_GT(keys, 40U);  // others come from the description of the record
     EXPECT_EQ(keysIn("{ a, load_ohm, x_1 }: _u_ is one"), (std::set<std::string>{"load_ohm", "x_1"}));
 }
 

@@ -162,6 +162,42 @@ ResultRecord<JudgedCalibration> describeJudged() {
 
 const ResultRecord<JudgedCalibration>& judgedRecord() { return builtOnce<describeJudged>(); }
 
+ResultRecord<CheckedLevel> describeChecked() {
+    using C = CheckedLevel;
+    ResultRecord<C> all;
+    all.shown(verdict(), &C::verdict);
+    all.shown(as(As::Quantity, "Quantity", "quantity"), &C::quantity);
+    all.shown(number("Commanded", "commanded", "@unit"), &C::commanded);
+    all.shown(number("Expected", "expected", "@unit"), &C::expected);
+    all.shown(number("Measured", "measured", "@unit"), &C::measured);
+    all.shown(number("Off", "off", "@unit", "expanded_uncertainty"), &C::off);
+    all.kept("expanded_uncertainty", &C::expanded);
+    all.shown(text("Direction", "direction"), &C::direction);
+    all.shown(number("Allowed, ±", "allowed", "@unit"), &C::allowed);
+    all.kept("not_measured", &C::notMeasured);
+    all.kept("unit", &C::unit);
+    return all;
+}
+
+ResultRecord<CalibrationCheck> describeCheck() {
+    ResultRecord<CalibrationCheck> all;
+    all.kept("rows", &CalibrationCheck::rows, describeChecked());
+    all.judged();
+    return all;
+}
+
+ResultRecord<KeptCalibration> describeKept() {
+    using K = KeptCalibration;
+    ResultRecord<K> all;
+    all.shown(text("Stimulator", "serial"), &K::serial);
+    all.shown(text("Valid until", "valid_until"), &K::validUntil);
+    all.kept("supersedes", nullIfEmpty(&K::supersedes));
+    all.shown(number("Readings", "readings"), &K::readings);
+    all.kept("session_head", &K::sessionHead);
+    all.shown(as(As::YesNo, "Simulated", "simulated"), &K::simulated);
+    return all;
+}
+
 /// Paths of this member of every quantity: "amplitude.budget|interval.budget|...".
 std::string ofEach(std::string_view member) {
     std::string all;
@@ -202,14 +238,8 @@ Tables stimulatorTables() {
                rows("Uncertainty at the smallest command", ofEach(".budget_smallest").c_str(),
                     describeBudget().columns(), Else::InTheTerminal)};
     for (const auto& one : kCalibratedQuantities) addQuantity(all, std::string(one.title), std::string(one.id));
-    all.push_back(rows("Check of the stored calibration", "check",
-                       {verdict(), as(As::Quantity, "Quantity", "quantity"), number("Commanded", "commanded", "@unit"),
-                        number("Expected", "expected", "@unit"), number("Measured", "measured", "@unit"),
-                        number("Off", "off", "@unit", "expanded_uncertainty"), text("Direction", "direction"),
-                        number("Allowed, ±", "allowed", "@unit")}));
-    all.push_back(facts("Stored calibration", "stored",
-                        {text("Stimulator", "serial"), text("Valid until", "valid_until"),
-                         number("Readings", "readings"), as(As::YesNo, "Simulated", "simulated")}));
+    all.push_back(rows("Check of the stored calibration", "check", describeChecked().columns()));
+    all.push_back(facts("Stored calibration", "stored", describeKept().columns()));
     return all;
 }
 
@@ -220,6 +250,12 @@ json toJson(const Calibration& found) { return builtOnce<describeCalibration>().
 json toJson(const UncertaintyBudget& budget) { return builtOnce<describeBudget>().write(budget); }
 
 json toJson(const JudgedCalibration& judged) { return judgedRecord().write(judged); }
+
+json toJson(const CalibrationCheck& check) { return builtOnce<describeCheck>().write(check); }
+
+json toJson(const KeptCalibration& kept) { return builtOnce<describeKept>().write(kept); }
+
+std::vector<std::string> keptMembers() { return builtOnce<describeKept>().keys(); }
 
 ResultTraits stimulatorCalibrationKind() {
     return {.kind = ResultKind::StimulatorCalibration,

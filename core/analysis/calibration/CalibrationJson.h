@@ -25,6 +25,11 @@ namespace tacto {
 /// "budget" (at the largest command), "tolerance_pct","verdict","reasons"}; each k as "..._coverage_factor".
 [[nodiscard]] nlohmann::json toJson(const JudgedCalibration& judged);
 
+[[nodiscard]] nlohmann::json toJson(const CalibrationCheck& check);
+[[nodiscard]] nlohmann::json toJson(const KeptCalibration& kept);
+/// Returns the keys of a kept calibration.
+[[nodiscard]] std::vector<std::string> keptMembers();
+
 // The table that `analyze calibration` reads.
 
 /// Reads the CSV columns `commanded` and `measured` and, if present, `direction` (up, down or empty) and `u` (standard

@@ -75,6 +75,33 @@ struct JudgedCalibration {
 [[nodiscard]] Result<JudgedCalibration> judgeCalibration(Calibration calibration, const InstrumentErrors& errors,
                                                          double tolerance_pct, const BudgetOptions& options = {});
 
+/// A level of a stored calibration that was read again, in the unit that people read.
+struct CheckedLevel {
+    std::string quantity = {};
+    double commanded = kNaN, expected = kNaN;
+    double measured = kNaN;                           ///< the mean furthest from what is expected
+    SweepDirection direction = SweepDirection::None;  ///< of that mean; None: of all readings
+    double off = kNaN, expanded = kNaN;
+    double allowed = kNaN;
+    double notMeasured = kNaN;  ///< number of readings
+    std::string unit = {};
+    Verdict verdict = Verdict::Indeterminate;
+};
+struct CalibrationCheck {
+    std::vector<CheckedLevel> rows = {};
+    Verdict verdict = Verdict::Indeterminate;
+    std::vector<std::string> reasons = {};
+};
+/// What the store says of a calibration that it keeps; dates as text.
+struct KeptCalibration {
+    std::string serial = {};
+    std::string validUntil = {};
+    std::string supersedes = {};  ///< the date of the calibration before; empty: none
+    std::size_t readings = 0;
+    std::string sessionHead = {};
+    bool simulated = false;
+};
+
 /// Judges the same readings with another tolerance; fast. `tolerance_pct` > 0, else all levels are indeterminate.
 [[nodiscard]] Verdict verdictAt(const JudgedCalibration& judged, double tolerance_pct) noexcept;
 

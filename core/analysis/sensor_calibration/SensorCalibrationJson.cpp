@@ -33,57 +33,103 @@ std::string_view wordsOf(SensorFeature feature) noexcept {
 
 std::size_t indexOf(SensorFeature feature) { return static_cast<std::size_t>(feature); }
 
-constexpr std::size_t kMaxTaxels = 100'000;
-
-RecordFields<SensorRest> restFields() {
-    RecordFields<SensorRest> all;
-    all.list("taxel_baseline", in(&SensorRest::levels, &RestLevels::taxelBaseline), numberKind<double>({}), 0,
-             kMaxTaxels);
-    all.number("taxel_floor", in(&SensorRest::levels, &RestLevels::taxelFloor), {.low = 0});
-    all.number("mean_square", in(&SensorRest::levels, &RestLevels::slidingMeanSquare));
-    all.word("taxel_unit", &SensorRest::taxelUnit, kTaxelUnits);
-    all.word("unit", &SensorRest::restUnit, kRestUnits);
-    return all;
-}
-
-RecordFields<ForceInUse> forceFields() {
-    RecordFields<ForceInUse> all;
-    all.number("mean", &ForceInUse::mean);
-    all.word("unit", &ForceInUse::unit, kForceUnits);
-    all.number("u", &ForceInUse::uncertainty, {.low = 0});
-    return all;
-}
-
-RecordFields<WeightReading> weightFields() {
-    using W = WeightReading;
-    RecordFields<W> all;
-    all.number("mass_g", &W::mass_g, {.unit = "g"});
-    all.number("reference_n", &W::reference_n, {.unit = "N"});
-    all.number("force", &W::force);
-    all.word("force_unit", &W::forceUnit, kForceUnits).leftOutIfEmpty = true;
-    all.list("taxels", &W::taxels, readingKind(), 0, kMaxTaxels);
-    all.word("taxel_unit", &W::taxelUnit, kTaxelUnits).leftOutIfEmpty = true;
-    all.record("force_in_use", &W::inUse, forceFields());
-    return all;
-}
-
-RecordFields<SlideReading> slideFields() {
-    using S = SlideReading;
-    RecordFields<S> all;
-    all.number("h", &S::h);
-    all.number("h_abs", &S::hAbs);
-    all.number("v_static", &S::vStatic);
-    all.number("v_dynamic", &S::vDynamic);
-    all.number("force_n", &S::force_n);
-    all.number("sliding_frames", &S::slidingFrames);
-    return all;
-}
-
-}  // namespace
-
-namespace {
-
 using namespace describe;
+
+/// Gives the symbol of a unit, or of an optional one.
+template <class Get>
+auto symbolAt(Get get) {
+    return [get](const auto& record) {
+        const auto& unit = std::invoke(get, record);
+        if constexpr (detail::kIsOptional<std::remove_cvref_t<decltype(unit)>>)
+            return unit ? std::optional(symbolOf(*unit)) : std::nullopt;
+        else
+            return symbolOf(unit);
+    };
+}
+
+ResultRecord<ForceInUse> describeForceInUse() {
+    using F = ForceInUse;
+    ResultRecord<F> all;
+    all.kept("mean", &F::mean);
+    all.kept("unit", symbolAt(&F::unit));
+    all.kept("u", &F::uncertainty);
+    return all;
+}
+
+ResultRecord<FingertipRest> describeRest() {
+    using F = FingertipRest;
+    const auto levels = [](auto member) { return in(&F::levels, member); };
+    ResultRecord<F> all;
+    all.shown(number("Acceleration, 5 Hz to 1 kHz: mean square", "mean_square"),
+              levels(in(&SensorRest::levels, &RestLevels::slidingMeanSquare)));
+    all.shown(text("in the square of", "unit"), symbolAt(levels(&SensorRest::restUnit)));
+    all.shown(number("Taxels' floor", "taxel_floor", "@taxel_unit"),
+              levels(in(&SensorRest::levels, &RestLevels::taxelFloor)));
+    all.kept("taxel_unit", symbolAt(levels(&SensorRest::taxelUnit)));
+    all.shown(text("Taxels' baselines", "taxel_baseline"), levels(in(&SensorRest::levels, &RestLevels::taxelBaseline)));
+    all.kept("duration_s", &F::duration_s);
+    all.kept("force", &F::force);
+    all.kept("force_in_use", &F::inUse, describeForceInUse());
+    return all;
+}
+
+ResultRecord<WeightReading> describeWeight() {
+    using W = WeightReading;
+    ResultRecord<W> all;
+    all.shown(number("Mass", "mass_g", "g"), &W::mass_g);
+    all.shown(number("Weight", "reference_n", "N"), &W::reference_n);
+    all.shown(number("Read as", "force", "@force_unit"), &W::force);
+    all.keptIfAny("force_unit", symbolAt(&W::forceUnit));
+    all.kept("taxels", &W::taxels);
+    all.keptIfAny("taxel_unit", symbolAt(&W::taxelUnit));
+    all.kept("force_in_use", &W::inUse, describeForceInUse());
+    return all;
+}
+
+ResultRecord<Weighed> describeWeighed() {
+    const auto weight = describeWeight();
+    ResultRecord<Weighed> all;
+    all.merge(&Weighed::reading, weight);
+    all.shown(weight.column("mass_g"));
+    all.shown(text("Direction", "direction"), &Weighed::direction);
+    all.shown(number("Repeat", "repeat"), &Weighed::repeat);
+    all.shown(weight.column("reference_n"));
+    all.shown(weight.column("force"));
+    return all;
+}
+
+ResultRecord<Slid> describeSlide() {
+    using S = SlideReading;
+    const auto read = [](auto member) { return in(&Slid::reading, member); };
+    ResultRecord<Slid> all;
+    all.shown(text("Surface", "material"), &Slid::material);
+    all.shown(number("Vibration h", "h"), read(&S::h));
+    all.shown(number("Vibration, absolute", "h_abs"), read(&S::hAbs));
+    all.shown(number("Taxels, static", "v_static"), read(&S::vStatic));
+    all.shown(number("Taxels, dynamic", "v_dynamic"), read(&S::vDynamic));
+    all.shown(number("Force", "force_n", "N"), read(&S::force_n));
+    all.shown(number("Sliding frames", "sliding_frames"), read(&S::slidingFrames));
+    return all;
+}
+
+ResultRecord<KnownWeight> describeKnownWeight() {
+    using K = KnownWeight;
+    const auto ifWeighed = [](auto get) {
+        return [get](const K& known) { return known.weighed ? std::optional(resultJson(get(known))) : std::nullopt; };
+    };
+    ResultRecord<K> all;
+    all.shown(number("Mass", "mass_g", "g"), &K::mass_g);
+    all.shown(number("Weight", "reference_n", "N"), &K::reference_n);
+    all.shown(number("Read as", "measured", "@unit", "expanded_uncertainty"), &K::measured);
+    all.kept("expanded_uncertainty", &K::expanded);
+    all.keptIfAny("unit", ifWeighed(symbolAt(&K::unit)));
+    all.shown(number("Deviation", "deviation_pct", "%", "expanded_uncertainty_pct"), &K::deviation_pct);
+    all.kept("expanded_uncertainty_pct", &K::expanded_pct);
+    all.shown(number("Allowed, ±", "allowed_pct", "%"), &K::allowed_pct);
+    all.shown(verdict(), &K::verdict);
+    all.kept("passed", [](const K& known) { return known.weighed ? Json(known.passed()) : Json(); });
+    return all;
+}
 
 /// A distance with the name of its feature.
 struct NamedDistance {
@@ -225,7 +271,65 @@ ResultRecord<SensorScale> describeScale() {
     all.shown(number("Offset", "offset", "N", "offset_expanded_uncertainty"), &S::offset);
     all.kept("offset_expanded_uncertainty", &S::offsetU);
     for (const auto& column : fit.columns()) all.shown(column);
-    all.shown(text("Reason", "reason"));  // why there is no scale
+    return all;
+}
+
+/// Gives the reason why there is no scale, or nothing.
+std::optional<std::string> reasonOf(const FingertipScale& scale) {
+    return scale.reason.empty() ? std::nullopt : std::optional(scale.reason);
+}
+
+ResultRecord<FingertipScale> describeForce() {
+    using F = FingertipScale;
+    const auto scale = describeScale();
+    ResultRecord<F> all;
+    all.kept("scale", [](const F&) { return Json(); });
+    all.merge(&F::found, scale);
+    for (const auto& column : scale.columns()) all.shown(column);
+    all.shown(text("Reason", "reason"));
+    all.keptIfAny("reason", reasonOf);
+    all.keptIfAny("unit", symbolAt(&F::unit));
+    all.keptIfAny("follows", [](const F& of) { return of.follows ? std::nullopt : std::optional(false); });
+    all.keptIfAny("asked", [](const F& of) { return of.asked ? std::optional(true) : std::nullopt; });
+    return all;
+}
+
+struct NumberedTaxel {
+    std::size_t taxel;  ///< from 1
+    FingertipScale scale;
+};
+
+ResultRecord<NumberedTaxel> describeTaxel() {
+    using N = NumberedTaxel;
+    using S = SensorScale;
+    const auto found = [](auto member) {
+        return [member](const N& row) { return row.scale.found ? std::invoke(member, *row.scale.found) : kNaN; };
+    };
+    ResultRecord<N> all;
+    all.merge(&N::scale, describeForce().only({"unit", "follows"}));
+    all.shown(number("Taxel", "taxel"), &N::taxel);
+    all.shown(number("Scale (Pa per reading)", "scale", "", "scale_expanded_uncertainty"), found(&S::scale));
+    all.kept("scale_expanded_uncertainty", found(&S::scaleU));
+    all.shown(number("Offset", "offset_pa", "Pa", "offset_expanded_uncertainty_pa"), found(&S::offset));
+    all.kept("offset_expanded_uncertainty_pa", found(&S::offsetU));
+    all.shown(spread("Largest residual", "residual_max_pct_fs", "% FS"),
+              found(in(&S::fit, &Calibration::residualMax_pct)));
+    all.shown(text("Reason", "reason"), [](const N& row) { return reasonOf(row.scale); });
+    return all;
+}
+
+ResultRecord<FingertipScales> describeScales() {
+    using F = FingertipScales;
+    ResultRecord<F> all;
+    all.kept("force", &F::force, describeForce());
+    all.kept(
+        "taxels",
+        [](const F& scales) {
+            std::vector<NumberedTaxel> rows;
+            for (const auto& taxel : scales.taxels) rows.push_back({rows.size() + 1, taxel});
+            return rows;
+        },
+        describeTaxel());
     return all;
 }
 
@@ -233,41 +337,24 @@ const ResultRecord<SensorCalibration>& sensorRecord() { return builtOnce<describ
 
 /// The protocol adds the scales, the readings for them, and the reference.
 Tables sensorTables() {
-    Tables all{facts("Known reference", "reference",
-                     {number("Mass", "mass_g", "g"), number("Weight", "reference_n", "N"),
-                      number("Read as", "measured", "@unit", "expanded_uncertainty"),
-                      number("Deviation", "deviation_pct", "%", "expanded_uncertainty_pct"),
-                      number("Allowed, ±", "allowed_pct", "%"), verdict()})};
+    Tables all{facts("Known reference", "reference", builtOnce<describeKnownWeight>().columns())};
     std::ranges::copy(sensorRecord().tables(), std::back_inserter(all));
     const Tables read{
-        facts("Force", "force", builtOnce<describeScale>().columns()),
+        facts("Force", "force", describeForce().columns()),
         rows("Force, weight by weight", "force.levels",
              {number("Weight", "commanded", "N"), number("n", "n"), number("Mean reading", "mean"),
               number("Going up", "mean_up"), number("Going down", "mean_down"), spread("s", "s", ""),
               spread("Residual", "residual", "")},
              Else::InTheTerminal),
         noted(
-            rows("Taxels against force over the contact area", "taxels",
-                 {number("Taxel", "taxel"), number("Scale (Pa per reading)", "scale", "", "scale_expanded_uncertainty"),
-                  number("Offset", "offset_pa", "Pa", "offset_expanded_uncertainty_pa"),
-                  spread("Largest residual", "residual_max_pct_fs", "% FS"), text("Reason", "reason")},
+            rows("Taxels against force over the contact area", "taxels", describeTaxel().columns(),
                  Else::InTheTerminal),
             "A taxel's scale takes the weight as spread evenly over the contact area; it holds for a contact of that "
             "shape. Its U holds the tolerances of the weights, of local gravity and of the contact area; where one is "
             "not known there is no U."),
-        rows("Slides", "slides",
-             {text("Surface", "material"), number("Vibration h", "h"), number("Vibration, absolute", "h_abs"),
-              number("Taxels, static", "v_static"), number("Taxels, dynamic", "v_dynamic"),
-              number("Force", "force_n", "N"), number("Sliding frames", "sliding_frames")},
-             Else::InTheTerminal),
-        rows("Weights", "weights",
-             {number("Mass", "mass_g", "g"), text("Direction", "direction"), number("Repeat", "repeat"),
-              number("Weight", "reference_n", "N"), number("Read as", "force", "@force_unit")},
-             Else::InBoth),
-        facts("At rest, nothing touched", "rest",
-              {number("Acceleration, 5 Hz to 1 kHz: mean square", "mean_square"), text("in the square of", "unit"),
-               number("Taxels' floor", "taxel_floor", "@taxel_unit"), text("Taxels' baselines", "taxel_baseline")},
-              Else::InTheTerminal),
+        rows("Slides", "slides", builtOnce<describeSlide>().columns(), Else::InTheTerminal),
+        rows("Weights", "weights", builtOnce<describeWeighed>().columns(), Else::InBoth),
+        facts("At rest, nothing touched", "rest", builtOnce<describeRest>().columns(), Else::InTheTerminal),
         rows("Instruments", "instruments",
              {text("Role", "role"), text("Instrument", "name"), text("Serial", "serial"),
               as(As::YesNo, "Simulated", "simulated")},
@@ -282,7 +369,7 @@ Tables sensorTables() {
 
 Json toJson(const SensorCalibration& found) { return sensorRecord().write(found); }
 
-Json toJson(const SensorScale& found) { return builtOnce<describeScale>().write(found); }
+Json toJson(const FingertipScales& scales) { return builtOnce<describeScales>().write(scales); }
 
 ResultTraits sensorCalibrationKind() {
     return {.kind = ResultKind::SensorCalibration,
@@ -294,12 +381,18 @@ ResultTraits sensorCalibrationKind() {
             .tables = sensorTables()};
 }
 
-Json toJson(const SensorRest& rest) { return builtOnce<restFields>().write(rest); }
+Json toJson(const FingertipRest& rest) { return builtOnce<describeRest>().write(rest); }
 
-Json toJson(const SlideReading& slide) { return builtOnce<slideFields>().write(slide); }
+Json toJson(const Slid& slide) { return builtOnce<describeSlide>().write(slide); }
 
-Json toJson(const ForceInUse& force) { return forceFields().write(force); }
+Json toJson(const WeightReading& reading) { return builtOnce<describeWeight>().write(reading); }
 
-Json toJson(const WeightReading& reading) { return builtOnce<weightFields>().write(reading); }
+Json toJson(const Weighed& weighed) { return builtOnce<describeWeighed>().write(weighed); }
+
+Json toJson(const KnownWeight& known) { return builtOnce<describeKnownWeight>().write(known); }
+
+std::vector<std::string> restMembers() { return builtOnce<describeRest>().keys(); }
+
+std::vector<std::string> weightMembers() { return builtOnce<describeWeight>().keys(); }
 
 }  // namespace tacto

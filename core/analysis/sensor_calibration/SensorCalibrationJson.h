@@ -17,19 +17,21 @@ namespace tacto {
 ///  "spearman": {"value","low","high","n","ties","note"}|null, "accepted","verdict" ("pass"|"fail"),"reasons",
 ///  "warnings","roughness" (a profile's section)}; "h" and "v" are the variants that the settings choose.
 [[nodiscard]] nlohmann::json toJson(const SensorCalibration& found);
-/// {"scale","scale_expanded_uncertainty","offset","offset_expanded_uncertainty", "gain","residual_max_pct_fs",
-/// "repeatability_pct_fs","hysteresis_pct_fs","levels","readings","warnings", ...}, as for Calibration.
-[[nodiscard]] nlohmann::json toJson(const SensorScale& found);
+/// {"force": {"scale","scale_expanded_uncertainty","offset","offset_expanded_uncertainty",
+/// "gain","residual_max_pct_fs", "repeatability_pct_fs","hysteresis_pct_fs","levels","readings","warnings", ...}, as
+/// for Calibration, with "unit", "taxels": [{"taxel","unit","scale","offset_pa", ...}]}. A scale that is not known is
+/// null, with its reason.
+[[nodiscard]] nlohmann::json toJson(const FingertipScales& scales);
 
-/// {"taxel_baseline","taxel_floor","taxel_unit","mean_square","unit"}
-[[nodiscard]] nlohmann::json toJson(const SensorRest& rest);
-/// {"h","h_abs","v_static","v_dynamic","force_n","sliding_frames"}
-[[nodiscard]] nlohmann::json toJson(const SlideReading& slide);
-/// {"mean","unit","u"}
-[[nodiscard]] nlohmann::json toJson(const ForceInUse& force);
-/// {"mass_g","reference_n","force","force_unit" (if there is a force sensor),"taxels","taxel_unit" (if there are
-/// taxels),"force_in_use": {"mean","unit","u"}|null}
+// Readings for scripts and for the run's results; the functions below list the keys of some.
+
+[[nodiscard]] nlohmann::json toJson(const FingertipRest& rest);
+[[nodiscard]] nlohmann::json toJson(const Slid& slide);
 [[nodiscard]] nlohmann::json toJson(const WeightReading& reading);
+[[nodiscard]] nlohmann::json toJson(const Weighed& weighed);
+[[nodiscard]] nlohmann::json toJson(const KnownWeight& known);
+[[nodiscard]] std::vector<std::string> restMembers();
+[[nodiscard]] std::vector<std::string> weightMembers();
 
 /// Describes how a fingertip's calibration is judged and shown.
 [[nodiscard]] ResultTraits sensorCalibrationKind();

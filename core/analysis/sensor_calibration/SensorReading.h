@@ -74,6 +74,38 @@ struct WeightReading {
     std::optional<ForceInUse> inUse{};      ///< empty: there is no force sensor
 };
 
+/// The fingertip without contact, for a run.
+struct FingertipRest {
+    SensorRest levels = {};
+    Statistics force = {};                 ///< in the sensor's unit
+    std::optional<ForceInUse> inUse = {};  ///< empty: there is no force sensor
+    double duration_s = 0;
+};
+/// A weight on the fingertip, and the direction from which it was reached.
+struct Weighed {
+    WeightReading reading = {};
+    SweepDirection direction = SweepDirection::None;
+    int repeat = 0;  ///< from 1
+};
+struct Slid {
+    SlideReading reading = {};
+    std::string material = {};
+};
+
+/// The check of a known weight before other readings are trusted. NaN: not known.
+struct KnownWeight {
+    [[nodiscard]] bool passed() const noexcept { return verdict == "pass"; }
+
+    bool weighed = false;  ///< false: there is no weight or no force sensor
+    double mass_g = kNaN, reference_n = kNaN;
+    double measured = kNaN, expanded = kNaN;  ///< in `unit`, less the reading at rest
+    std::optional<StreamUnit> unit = {};
+    double deviation_pct = kNaN, expanded_pct = kNaN;
+    double allowed_pct = kNaN;
+    std::string_view verdict = "not evaluated";
+    std::string reason = {};  ///< why it did not pass; empty if it passed or nothing was weighed
+};
+
 /// Error of the sensor with the profile's scale under a known weight, in N, with U (95 %).
 struct WeightError {
     double value = kNaN;
@@ -116,5 +148,18 @@ struct SensorScale {
 /// message.
 [[nodiscard]] Result<SensorScale> fitSensorScale(std::span<const CalibrationReading> readings,
                                                  const std::vector<double>& tolerances, std::string_view what);
+
+/// The scale of the force or of a taxel, or why there is none.
+struct FingertipScale {
+    std::optional<SensorScale> found = {};
+    std::optional<StreamUnit> unit = {};  ///< of the readings
+    std::string reason = {};
+    bool follows = true;  ///< false: the readings do not follow the weights
+    bool asked = false;   ///< true if weights were given and a reading is missing
+};
+struct FingertipScales {
+    FingertipScale force = {};
+    std::vector<FingertipScale> taxels = {};
+};
 
 }  // namespace tacto

@@ -186,22 +186,103 @@ ResultRecord<BenchVariation> describeBench() {
     return all;
 }
 
+double chanceOf(const Predicted& of) { return 1 / static_cast<double>(of.found.conditions.size()); }
+
 std::vector<std::string> labelsOf(const Predicted& of) {
     std::vector<std::string> labels;
     for (const auto& condition : of.found.conditions) labels.push_back(condition.name);
     return labels;
 }
 
-/// The description also covers what the protocol's steps add: other ranges, readings, levels, pilot needs and benches.
+template <class Member>
+auto figure(Member member) {
+    return [member](const Predicted& all) -> decltype(auto) { return std::invoke(member, all.found); };
+}
+
+auto median(Estimate Variation::*member) {
+    return [member](const Predicted& all) { return medianOf(all.found.*member); };
+}
+
+ResultRecord<Predicted> describeServed() {
+    using V = Variation;
+    ResultRecord<Predicted> all;
+    all.shown(number("Served", "served"), figure(&V::served));
+    all.shown(number("Refused", "participants_refused"), figure(&V::refusedPeople));
+    all.shown(number("Do not feel all", "participants_not_feeling"), figure(&V::unfeltPeople));
+    all.shown(number("Without a range", "participants_without_range"), figure(&V::withoutRange));
+    return all;
+}
+
+/// A range of amplitudes.
+struct ServedRange {
+    std::string amplitudes;
+    Predicted predicted;
+};
+
+ResultRecord<ServedRange> describeRange() {
+    using R = ServedRange;
+    const auto served = describeServed();
+    ResultRecord<R> all;
+    all.shown(text("Amplitudes", "amplitudes"), &R::amplitudes);
+    all.merge(&R::predicted, served);
+    for (const auto& column : served.columns()) all.shown(column);
+    const auto of = [](auto get) { return [get](const R& range) { return get(range.predicted); }; };
+    all.shown(number("Every pair 5 JND apart", "clearly_separable"), of(figure(&Variation::clearlySeparable)));
+    all.shown(as(As::Share, "Right answers of the served", "accuracy"), of(median(&Variation::accuracy)));
+    return all;
+}
+
+ResultRecord<ComfortReading> describeReading() {
+    using R = ComfortReading;
+    using V = Variation;
+    const auto of = [](const V& (*range)(const R&), auto member) {
+        return [range, member](const R& reading) {
+            const auto& value = std::invoke(member, range(reading));
+            if constexpr (std::is_same_v<decltype(value), const Estimate&>)
+                return medianOf(value);
+            else
+                return value;
+        };
+    };
+    const auto fixed = [](const R& reading) -> const V& { return reading.fixed; };
+    const auto personal = [](const R& reading) -> const V& { return reading.personal; };
+    ResultRecord<R> all;
+    all.shown(text("Too strong from", "too_strong_from"), &R::tooStrongFrom);
+    all.shown(number("Median", "median_ma", "mA"), &R::median_ma);
+    all.shown(number("Fixed range serves", "fixed_served"), of(fixed, &V::served));
+    all.shown(number("It is refused to", "fixed_refused"), of(fixed, &V::refusedPeople));
+    all.shown(number("Its lowest not felt by", "fixed_not_feeling"), of(fixed, &V::unfeltPeople));
+    all.shown(number("Own range serves", "personal_served"), of(personal, &V::served));
+    all.shown(as(As::Share, "Right answers of these", "accuracy"), of(personal, &V::accuracy));
+    all.kept("presented_accuracy", of(personal, &V::presentedAccuracy));
+    all.kept("presented_fixed_accuracy", of(fixed, &V::presentedAccuracy));
+    return all;
+}
+
+/// An aim of a pilot, and how many answers it needs.
+struct PilotAim {
+    std::string aim;
+    std::optional<std::size_t> onePerson;
+    PooledTrials pooled;
+};
+
+ResultRecord<PilotAim> describeAim() {
+    using A = PilotAim;
+    using T = PooledTrials;
+    ResultRecord<A> all;
+    all.shown(text("Aim", "aim"), &A::aim);
+    all.shown(number("One participant", "one_participant"), &A::onePerson);
+    all.shown(number("Pooled, each", "pooled_each"), in(&A::pooled, &T::perParticipant));
+    all.shown(number("Pooled, all", "pooled_trials"), in(&A::pooled, &T::total));
+    all.shown(number("Design effect", "design_effect"), in(&A::pooled, &T::designEffect));
+    all.shown(number("Participants, at least", "participants_at_least"), in(&A::pooled, &T::participantsLeast));
+    return all;
+}
+
+/// The description also has the tables of what a run of the protocol adds.
 ResultRecord<Predicted> describeVariation() {
     using P = Predicted;
     using V = Variation;
-    const auto figure = [](auto member) {
-        return [member](const P& all) -> decltype(auto) { return std::invoke(member, all.found); };
-    };
-    const auto median = [](Estimate V::*member) {
-        return [member](const P& all) { return medianOf(all.found.*member); };
-    };
     ResultRecord<P> all;
     all.kept("simulated", [](const P&) { return true; });
     all.kept("measured", [](const P&) { return false; });
@@ -209,10 +290,7 @@ ResultRecord<Predicted> describeVariation() {
         const auto& encoding = of.options.stimulation.encoding;
         return std::array{encoding.amplitudeMin.value(), encoding.amplitudeMax.value()};
     });
-    all.kept("served", figure(&V::served));
-    all.kept("participants_refused", figure(&V::refusedPeople));
-    all.kept("participants_not_feeling", figure(&V::unfeltPeople));
-    all.kept("participants_without_range", figure(&V::withoutRange));
+    all.merge(std::identity(), describeServed());
     all.kept("asked", figure(&V::asked));
     all.kept("partial", figure(&V::partial));
     all.kept("seed", figure(&V::seed));
@@ -239,8 +317,7 @@ ResultRecord<Predicted> describeVariation() {
     all.kept("attention_ma", figure(&V::attention_ma));
     all.kept("intolerance_ma", figure(&V::intolerance_ma));
     all.kept("trials_needed", [](const P& of) {
-        if (!of.found.trials) return json();
-        return trialsJson(*of.found.trials, of.options.wanted, 1 / static_cast<double>(of.found.conditions.size()));
+        return of.found.trials ? trialsJson(*of.found.trials, of.options.wanted, chanceOf(of)) : json();
     });
     all.kept("model", [](const P& of) { return modelJson(of.options); });
     all.kept("people", [](const P& of) { return peopleJson(of.found.people); });
@@ -257,18 +334,9 @@ ResultRecord<Predicted> describeVariation() {
     all.shown(number("Uncomfortable from, median", "discomfort_ma", "mA"), figure(&V::discomfort_ma));
     all.shown(number("Impedance, median", "impedance_ohm", "ohm"), figure(&V::impedance_ohm));
     all.facts("Participants");
-    all.table(rows(
-        "Who is served, predicted, not measured", "ranges",
-        {text("Amplitudes", "amplitudes"), number("Served", "served"), number("Refused", "participants_refused"),
-         number("Do not feel all", "participants_not_feeling"), number("Without a range", "participants_without_range"),
-         number("Every pair 5 JND apart", "clearly_separable"),
-         as(As::Share, "Right answers of the served", "accuracy")}));
-    all.table(
-        rows("Served people by the level that is too strong, predicted, not measured", "readings",
-             {text("Too strong from", "too_strong_from"), number("Median", "median_ma", "mA"),
-              number("Fixed range serves", "fixed_served"), number("It is refused to", "fixed_refused"),
-              number("Its lowest not felt by", "fixed_not_feeling"), number("Own range serves", "personal_served"),
-              as(As::Share, "Right answers of these", "accuracy")}));
+    all.table(rows("Who is served, predicted, not measured", "ranges", describeRange().columns()));
+    all.table(rows("Served people by the level that is too strong, predicted, not measured", "readings",
+                   describeReading().columns()));
     all.rows("What few people can show, predicted, not measured", "pilots", figure(&V::pilots), describePilot()).note =
         "“If all” says what share of such people can do it, at least (95 %), when everyone in the pilot is above "
         "chance "
@@ -286,21 +354,77 @@ ResultRecord<Predicted> describeVariation() {
         "A value is the median, and in brackets stand 5 and 95 %, of participants or of benches. A condition counts "
         "for "
         "a participant only if it is presented, felt and not too strong.";
+    Columns others;
+    for (const char* key : {"name", "presented", "not_felt", "counted", "draws_attention", "too_strong"})
+        others.push_back(describeCondition().column(key));
+    others.push_back(number("Not tolerated", "not_tolerated"));
     all.table(rows("Conditions of the other amplitudes, predicted, not measured", "other_levels.conditions",
-                   {text("Condition", "name"), number("Presented", "presented"), number("Not felt", "not_felt"),
-                    number("Counted", "counted"), number("Draws attention", "draws_attention"),
-                    number("Too strong", "too_strong"), number("Not tolerated", "not_tolerated")},
-                   Else::InTheTerminal));
+                   std::move(others), Else::InTheTerminal));
     all.rows("Pairs in just-noticeable differences, predicted, not measured", "separability", figure(&V::pairs),
              describePair());
     all.table(confusion());
     all.table(
-        rows("Trials that the pilot needs, predicted, not measured", "trials_needed.aims",
-             {text("Aim", "aim"), number("One participant", "one_participant"), number("Pooled, each", "pooled_each"),
-              number("Pooled, all", "pooled_trials"), number("Design effect", "design_effect"),
-              number("Participants, at least", "participants_at_least")}));
+        rows("Trials that the pilot needs, predicted, not measured", "trials_needed.aims", describeAim().columns()));
     all.table(sentences("Assumptions", "trials_needed.assumptions", Else::InTheTerminal));
     for (const auto& table : builtOnce<describeBench>().tables()) all.table(under("bench", table));
+    return all;
+}
+
+Predicted predictedBy(const VariationRun& run) { return {run.found, run.options}; }
+
+json trialsWithAims(const VariationRun& run) {
+    const auto predicted = predictedBy(run);
+    auto out = builtOnce<describeVariation>().only({"trials_needed"}).write(predicted)["trials_needed"];
+    if (out.is_null()) return out;
+    const auto& needed = *run.found.trials;
+    const PilotAim aims[] = {{fmt::format("95 % interval at most {:.0f} % wide", 100 * run.options.wanted.width),
+                              needed.forWidth, needed.pooledForWidth},
+                             {fmt::format("lower end above chance, {:.0f} %", 100 * chanceOf(predicted)),
+                              needed.aboveChance, needed.pooledAboveChance}};
+    for (const auto& aim : aims) out["aims"].push_back(describeAim().write(aim));
+    return out;
+}
+
+ResultRecord<VariationRun> describeRun() {
+    using R = VariationRun;
+    const auto with = [](AmplitudeLevels levels) {
+        return [levels](const R& run) -> Predicted { return {run.with(levels), run.options}; };
+    };
+    const auto fixed = with(AmplitudeLevels::Profile), personal = with(AmplitudeLevels::Personal);
+    const auto& prediction = builtOnce<describeVariation>();
+    ResultRecord<Predicted> other;
+    other.kept("levels", [](const Predicted& of) { return otherThan(of.options.stimulation.levels); });
+    other.merge(std::identity(),
+                prediction.only({"accuracy", "complete", "refused", "not_felt", "served", "participants_refused",
+                                 "participants_not_feeling", "participants_without_range", "presented_accuracy",
+                                 "conditions", "people"}));
+    ResultRecord<R> all;
+    all.merge(predictedBy, prediction);
+    all.kept("verdict", [](const R&) { return json(); });
+    all.kept("reasons", &R::reasons);
+    all.kept("headline", [](const R& run) { return fmt::format("{}", fmt::join(run.reasons, " ")); });
+    all.kept("levels", [](const R& run) { return run.options.stimulation.levels; });
+    all.kept("source", [](const R& run) {
+        return run.options.stimulation.source.drive == Drive::Voltage ? "voltage" : "current";
+    });
+    all.kept("profile_served", [fixed](const R& run) { return fixed(run).found.served; });
+    all.kept("personal_served", [personal](const R& run) { return personal(run).found.served; });
+    all.kept("readings", &R::readings);
+    all.kept("trials_needed", trialsWithAims);
+    all.kept(
+        "other_levels",
+        [](const R& run) -> Predicted {
+            return {run.other, run.options};
+        },
+        other);
+    all.kept("bench", &R::bench);
+    all.kept(
+        "ranges",
+        [fixed, personal](const R& run) {
+            return std::array{ServedRange{run.fixedRange, fixed(run)},
+                              ServedRange{"A range of each participant's own", personal(run)}};
+        },
+        describeRange());
     return all;
 }
 
@@ -311,6 +435,12 @@ json toJson(const Variation& found, const VariationOptions& options) {
 }
 
 json toJson(const BenchVariation& found) { return builtOnce<describeBench>().write(found); }
+
+json toJson(const ComfortReading& reading) { return builtOnce<describeReading>().write(reading); }
+
+json toJson(const VariationRun& run) { return builtOnce<describeRun>().write(run); }
+
+std::vector<std::string> variationRunMembers() { return builtOnce<describeRun>().keys(); }
 
 ResultTraits variationKind() {
     return {.kind = ResultKind::Variation,

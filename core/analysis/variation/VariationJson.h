@@ -41,6 +41,38 @@ namespace tacto {
 /// "interval_jnd"}]}
 [[nodiscard]] nlohmann::json toJson(const BenchVariation& found);
 
+// What a run of the protocol adds to its prediction.
+
+/// Who is served if another level is too strong.
+struct ComfortReading {
+    std::string_view tooStrongFrom;
+    double median_ma;
+    const Variation& fixed;     ///< with the profile's amplitudes
+    const Variation& personal;  ///< with personal amplitudes
+};
+[[nodiscard]] nlohmann::json toJson(const ComfortReading& reading);
+
+[[nodiscard]] constexpr AmplitudeLevels otherThan(AmplitudeLevels levels) noexcept {
+    return levels == AmplitudeLevels::Personal ? AmplitudeLevels::Profile : AmplitudeLevels::Personal;
+}
+
+struct VariationRun {
+    [[nodiscard]] const Variation& with(AmplitudeLevels levels) const noexcept {
+        return options.stimulation.levels == levels ? found : other;
+    }
+
+    VariationOptions options = {};
+    Variation found = {};
+    Variation other = {};  ///< of the same participants, with the other levels
+    nlohmann::json readings = nlohmann::json::array();
+    BenchVariation bench = {};
+    std::string fixedRange = {};            ///< the name of the profile's range
+    std::vector<std::string> reasons = {};  ///< what is said of the result, together its headline
+};
+/// Returns the results of the protocol.
+[[nodiscard]] nlohmann::json toJson(const VariationRun& run);
+[[nodiscard]] std::vector<std::string> variationRunMembers();
+
 // The premises of a prediction: each figure has a source or is marked as the authors' choice.
 
 enum class PremiseMark {

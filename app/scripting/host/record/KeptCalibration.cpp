@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/scripting/engine/Arguments.h"
+#include "core/analysis/calibration/CalibrationJson.h"
 #include "core/base/JsonText.h"
 #include "core/base/Statistics.h"
 #include "core/devices/DeviceUri.h"
@@ -161,11 +162,11 @@ Result<Json> keepCalibration(ScriptSession& session, const Json& found, const Va
     auto store = CalibrationStore::open(calibrationFile());
     if (!store) return failure(store);
     const auto* before = store->latest(made.serial, made.unit);
-    const Json supersedes = before == nullptr ? Json() : Json(dateText(before->made));
+    const auto supersedes = before == nullptr ? std::string() : dateText(before->made);
     if (auto added = store->add(made); !added) return failure(added);
     session.own().note({{"kept at", made.sessionHead}});  // for the certificate, which names it
-    return Json{{"serial", made.serial},     {"valid_until", dateText(made.validUntil)}, {"supersedes", supersedes},
-                {"readings", made.readings}, {"session_head", made.sessionHead},         {"simulated", made.simulated}};
+    return toJson(KeptCalibration{made.serial, dateText(made.validUntil), supersedes, made.readings, made.sessionHead,
+                                  made.simulated});
 }
 
 namespace {
@@ -194,8 +195,8 @@ std::vector<HostFunction> calibrationRecords() {
                   .otherwise(365),
               text("options.scope_due", "day on which the oscilloscope's own calibration is due").optional()},
          .text = "Keeps a calibration for the stimulator's serial. An older one stays in the store and is superseded.",
-         .returns = "{ serial, valid_until, supersedes, readings, session_head, simulated }: supersedes is the date of "
-                    "the one before, or null.",
+         .members = keptMembers(),
+         .returns = ": supersedes is the date of the one before, or null.",
          .errors = "Throws for a calibration that is incomplete or does not rest on readings of this run, a run that "
                    "is not recorded, a stimulator without a serial, an oscilloscope that is overdue or does not state "
                    "its accuracy, or a store that cannot be written.",

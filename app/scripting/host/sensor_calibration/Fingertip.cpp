@@ -102,14 +102,6 @@ Json streamsOf(ScriptSession& session) {
     return out;
 }
 
-Json toJson(const FingertipRest& rest) {
-    Json out = toJson(rest.levels);
-    out["duration_s"] = rest.duration_s;
-    out["force"] = toJson(rest.force);
-    out["force_in_use"] = rest.inUse ? toJson(*rest.inUse) : Json();
-    return out;
-}
-
 Result<FingertipRest> readFingertipRest(ScriptSession& session, double duration_s) {
     Bench& bench = session.bench();
     bench.disarm();

@@ -17,15 +17,6 @@ namespace tacto::host::sensor_calibration {
 
 using Json = nlohmann::json;
 
-struct FingertipRest {
-    SensorRest levels;
-    Statistics force;                 ///< in the sensor's unit
-    std::optional<ForceInUse> inUse;  ///< empty without a force sensor
-    double duration_s = 0;
-};
-/// Returns the result of bench.measureRest().
-[[nodiscard]] Json toJson(const FingertipRest& rest);
-
 // Readings. Each function disarms first. Errors: no answer, too few samples, a stopped run.
 
 /// Lifts the finger (or asks for it, question rest) and reads it without contact. Also fails if the finger is touched.
@@ -55,21 +46,9 @@ struct GivenSurface {
 /// bench.profilometer(): Ra and Rz of a file that the operator chose.
 HostCall profilometer;
 
-/// A weight on the fingertip, and the direction from which it was reached.
-struct Weighed {
-    WeightReading reading;
-    SweepDirection direction;
-};
 /// Relative tolerances of the references. NaN: not known, and then no uncertainty based on them is known.
 struct WeighingTolerances {
     double weights = 0, gravity = kNaN, area = kNaN;
-};
-/// { mass_g, reference_n, measured, expanded_uncertainty, unit, deviation_pct, expanded_uncertainty_pct, allowed_pct,
-/// verdict, passed }. If nothing was read or the uncertainty is not known, the verdict is "not evaluated" and passed is
-/// false; without a reading, passed is null.
-struct KnownWeight {
-    Json check;
-    std::string reason;  ///< empty if it passed, or without a reading
 };
 /// Judges a known weight before other readings are trusted: the reading and its expanded uncertainty (from weight,
 /// local gravity and both readings) must lie within the tolerance. A reading in counts must instead differ from the
@@ -77,13 +56,12 @@ struct KnownWeight {
 [[nodiscard]] KnownWeight judgeWeight(const std::optional<WeightReading>& reading, const FingertipRest& rest,
                                       const WeighingTolerances& known, double tolerance_pct);
 
-/// Returns the scales of force and of each taxel: { force, taxels: list }. force is a SensorScale with unit, taxels {
-/// taxel, unit, scale, offset_pa, … }; a scale that is not known is null, with a reason. `area_cm2` 0: not known.
-[[nodiscard]] Json fingertipScales(const std::vector<Weighed>& weighed, double area_cm2,
-                                   const WeighingTolerances& known);
+/// Returns the scales of force and of each taxel. `area_cm2` 0: not known.
+[[nodiscard]] FingertipScales fingertipScales(const std::vector<Weighed>& weighed, double area_cm2,
+                                              const WeighingTolerances& known);
 /// Converts force and taxels to N and Pa with these scales for the rest of the run. Roughness R is uncalibrated until
 /// references are read with the new scales. Returns { force, taxels }: whether each is scaled now.
-[[nodiscard]] Result<Json> useScales(ScriptSession& session, const Json& scales);
+[[nodiscard]] Result<Json> useScales(ScriptSession& session, const FingertipScales& scales);
 
 /// Adds to the operator's profile the scales of roughness, force and taxels, the fingertip's serial number, the
 /// surfaces and the readings at rest, and uses the result until the run ends. `area_cm2` 0: the profile's area. If

@@ -33,66 +33,53 @@ std::string toldApart(const Json& results) {
                        digitsOf(numberOr(distance, "high"), 3));
 }
 
-std::string whyNot(const Json& check, double measured, double expanded) {
-    const auto unit = textOr(check, "unit"), verdict = textOr(check, "verdict");
-    const double newtons = numberOr(check, "reference_n");
-    if (std::isnan(measured))
+std::string whyNot(const KnownWeight& check) {
+    const auto unit = check.unit ? symbolOf(*check.unit) : std::string_view();
+    if (std::isnan(check.measured))
         return fmt::format(
             "the known-reference check was not evaluated: nothing was read under {} N; nothing was calibrated",
-            digitsOf(newtons, 4));
-    const bool inNewtons = unit == symbolOf(StreamUnit::Newton);
-    if (inNewtons && std::isnan(expanded))
+            digitsOf(check.reference_n, 4));
+    const bool inNewtons = check.unit == StreamUnit::Newton;
+    if (inNewtons && std::isnan(check.expanded))
         return fmt::format(
             "the known-reference check was not evaluated: {} N was read under {} N, and how well the "
             "weight, local gravity or the reading is known was not stated; nothing was calibrated",
-            digitsOf(measured, 4), digitsOf(newtons, 4));
+            digitsOf(check.measured, 4), digitsOf(check.reference_n, 4));
     return fmt::format(
         "the known-reference check {}: {} was read under {} N{}; nothing was calibrated",
-        verdict == "fail" ? "failed" : "is indeterminate",
-        inNewtons ? measuredText(measured, expanded, unit) : digitsOf(measured, 4) + " " + unit, digitsOf(newtons, 4),
-        inNewtons ? fmt::format("; {:.4g} % are allowed, uncertainty included", numberOr(check, "allowed_pct"))
-                  : std::string());
+        check.verdict == "fail" ? "failed" : "is indeterminate",
+        inNewtons ? measuredText(check.measured, check.expanded, std::string(unit))
+                  : fmt::format("{} {}", digitsOf(check.measured, 4), unit),
+        digitsOf(check.reference_n, 4),
+        inNewtons ? fmt::format("; {:.4g} % are allowed, uncertainty included", check.allowed_pct) : std::string());
 }
 
 }  // namespace
 
 KnownWeight judgeWeight(const std::optional<WeightReading>& reading, const FingertipRest& rest,
                         const WeighingTolerances& known, double tolerance_pct) {
-    Json check = {{"mass_g", nullptr},
-                  {"reference_n", nullptr},
-                  {"measured", nullptr},
-                  {"expanded_uncertainty", nullptr},
-                  {"deviation_pct", nullptr},
-                  {"expanded_uncertainty_pct", nullptr},
-                  {"allowed_pct", tolerance_pct},
-                  {"verdict", "not evaluated"},
-                  {"passed", nullptr}};
-    if (!reading) return {check, {}};
-    check["mass_g"] = numberOrNull(reading->mass_g);
-    check["reference_n"] = reading->reference_n;
-    check["unit"] = reading->inUse ? Json(symbolOf(reading->inUse->unit)) : Json();
-    const double atRest = rest.inUse ? rest.inUse->mean : kNaN;
-    const double measured = reading->inUse ? reading->inUse->mean - atRest : kNaN;
-    double expanded = kNaN;
-    if (std::isfinite(measured)) {
-        check["measured"] = measured;
-        if (reading->inUse->unit == StreamUnit::Newton) {
-            const double ofWeight = known.weights > 0 ? known.weights : kNaN;
-            expanded = weightError(*reading, *rest.inUse, ofWeight, known.gravity).expanded;
-            const double percent = 100 / reading->reference_n;
-            check["deviation_pct"] = percent * (measured - reading->reference_n);
-            check["expanded_uncertainty"] = numberOrNull(expanded);
-            check["expanded_uncertainty_pct"] = numberOrNull(percent * expanded);
-            check["verdict"] =
-                guardBandedName(percent * (measured - reading->reference_n), percent * expanded, tolerance_pct);
-        } else {
-            const bool standsOut = std::abs(measured) > kStandsOut * rest.force.sd;
-            check["verdict"] = nameOf(standsOut ? Verdict::Pass : Verdict::Fail);
-        }
+    KnownWeight check{.allowed_pct = tolerance_pct};
+    if (!reading) return check;
+    check.weighed = true;
+    check.mass_g = reading->mass_g;
+    check.reference_n = reading->reference_n;
+    if (reading->inUse) {
+        check.unit = reading->inUse->unit;
+        check.measured = reading->inUse->mean - (rest.inUse ? rest.inUse->mean : kNaN);
     }
-    const bool passed = check["verdict"] == "pass";
-    check["passed"] = passed;
-    return {check, passed ? std::string() : whyNot(check, measured, expanded)};
+    if (check.unit != StreamUnit::Newton) {
+        if (std::isfinite(check.measured))
+            check.verdict =
+                nameOf(std::abs(check.measured) > kStandsOut * rest.force.sd ? Verdict::Pass : Verdict::Fail);
+    } else if (std::isfinite(check.measured)) {
+        const double percent = 100 / check.reference_n, ofWeight = known.weights > 0 ? known.weights : kNaN;
+        check.expanded = weightError(*reading, *rest.inUse, ofWeight, known.gravity).expanded;
+        check.deviation_pct = percent * (check.measured - check.reference_n);
+        check.expanded_pct = percent * check.expanded;
+        check.verdict = guardBandedName(check.deviation_pct, check.expanded_pct, tolerance_pct);
+    }
+    if (!check.passed()) check.reason = whyNot(check);
+    return check;
 }
 
 namespace {
@@ -110,6 +97,7 @@ struct SensorRun {
     std::vector<Weighed> weighed;
     std::vector<SlidSurface> surfaces;
     std::vector<Json> slides;  ///< the slides over each surface, in display order
+    FingertipScales scales;
     Json results = Json::object();
     std::string notKnown;  ///< why the known weight does not read correctly
 };
@@ -199,7 +187,7 @@ Result<Json> knownWeight(ScriptSession& session, const Arguments& arguments) {
         reading = std::move(*read);
     }
     const auto known = judgeWeight(reading, run.rest, run.known, run.reference_pct);
-    run.results["reference"] = known.check;
+    run.results["reference"] = toJson(known);
     run.notKnown = known.reason;
     if (reading) {
         if (auto kept = session.keepMeasurement("known-reference check", run.results["reference"]); !kept)
@@ -233,10 +221,9 @@ Result<Json> weigh(ScriptSession& session, const Arguments& arguments) {
         return arguments.wrong("mass_g", mass_g, "one of the weights");
     auto reading = readWeight(session, mass_g, run.gravity_m_s2, 2);
     if (!reading) return failure(reading);
-    Json row = toJson(*reading);
-    row["direction"] = arguments.text("step.direction");
-    row["repeat"] = arguments.whole("step.repeat");
-    run.weighed.push_back({std::move(*reading), row["direction"] == "up" ? SweepDirection::Up : SweepDirection::Down});
+    const auto direction = arguments.text("step.direction") == "up" ? SweepDirection::Up : SweepDirection::Down;
+    run.weighed.push_back({std::move(*reading), direction, arguments.whole("step.repeat")});
+    const Json row = toJson(run.weighed.back());
     run.results["weights"].push_back(row);
     auto added = session.addTrial(fmt::format("weight {} g", mass_g), row);
     session.keepPartial(run.results, Json::array());
@@ -251,18 +238,19 @@ Result<Json> scale(ScriptSession& session, const Arguments& arguments) {
     if (!run.weighed.empty()) {
         if (auto lifted = lift(session); !lifted) return failure(lifted);
     }
-    const Json scales = fingertipScales(run.weighed, run.area_cm2, run.known);
+    run.scales = fingertipScales(run.weighed, run.area_cm2, run.known);
+    const Json scales = toJson(run.scales);
     run.results.update(scales);
     run.results["scaled"] = {{"force", false}, {"taxels", false}};
     if (auto kept = record(session, "force and taxels", scales, run.results); !kept) return failure(kept);
     if (!run.weighed.empty()) {
-        auto used = useScales(session, scales);
+        auto used = useScales(session, run.scales);
         if (!used) return used;
         run.results["scaled"] = std::move(*used);
         if (auto read = readRestInto(session, run, "fingertip at rest, scaled"); !read) return failure(read);
     }
     Json force = scales["force"];
-    if (textOr(force, "unit") != "N" || force["scale"].is_null()) return Json();
+    if (run.scales.force.unit != StreamUnit::Newton || !run.scales.force.found) return Json();
     force["quantity"] = "force";
     force["offset"] = force["offset_reading"];
     return done(session.reportItem({{"kind", "figure"},
@@ -280,8 +268,7 @@ Result<Json> slide(ScriptSession& session, const Arguments& arguments) {
     run.sliding.material = name;
     auto reading = readSliding(session, run.sliding, run.duration_s, run.rest.levels);
     if (!reading) return failure(reading);
-    Json row = toJson(*reading);
-    row["material"] = name;
+    const Json row = toJson(Slid{*reading, name});
     surface->slides.push_back(*reading);
     run.slides[static_cast<std::size_t>(surface - run.surfaces.begin())].push_back(row);
     auto added = session.addTrial(name, row);
@@ -323,21 +310,20 @@ Result<void> sayRanking(ScriptSession& session, const SensorCalibration& found) 
 
 /// The verdict covers the references, and force and taxels if weights were used. A fingertip that does not follow the
 /// weights is faulty.
-void addVerdict(Json& results, bool weighed) {
+void addVerdict(Json& results, const FingertipScales& found) {
     Json verdict = results.at("verdict");
     Json reasons = results.at("accepted") == true ? Json::array({toldApart(results)}) : results.at("reasons");
-    const auto putFirst = [&reasons](const Json& reason) { reasons.insert(reasons.begin(), reason); };
-    const Json& force = results.at("force");
-    if (force.value("asked", false) && verdict == "pass") {
+    const auto putFirst = [&reasons](const std::string& reason) { reasons.insert(reasons.begin(), reason); };
+    if (found.force.asked && verdict == "pass") {
         verdict = "indeterminate";
-        putFirst(force.at("reason"));
+        putFirst(found.force.reason);
     }
-    std::vector<Json> scales{force};
-    for (const auto& taxel : results.at("taxels")) scales.push_back(taxel);
+    std::vector<FingertipScale> scales{found.force};
+    scales.insert(scales.end(), found.taxels.begin(), found.taxels.end());
     for (const auto& scale : scales) {
-        if (scale.value("follows", true) || !weighed) continue;
+        if (scale.follows) continue;
         verdict = "fail";
-        putFirst(scale.at("reason"));
+        putFirst(scale.reason);
     }
     results["verdict"] = verdict;
     results["reasons"] = reasons;
@@ -366,7 +352,7 @@ Result<Json> conclude(ScriptSession& session, const Arguments& arguments) {
     session.keepPartial(run.results, Json::array());
     if (auto said = sayRanking(session, *found); !said) return failure(said);
     if (auto kept = keepFound(session, *found, run); !kept) return failure(kept);
-    addVerdict(run.results, !run.weighed.empty());
+    addVerdict(run.results, run.scales);
     return run.results;
 }
 
@@ -494,9 +480,9 @@ std::vector<HostFunction> fingertipFunctions() {
          .parameters = {number("options.duration_s", "s", "of reading").range(0.5, 600).otherwise(3)},
          .text =
              "Disarms, lifts the finger (question rest on a rig that cannot) and reads the fingertip without contact.",
+         .members = restMembers(),
          .returns =
-             "{ taxel_baseline, taxel_floor, taxel_unit, mean_square, unit, duration_s, force, force_in_use }: "
-             "mean_square is the power of the acceleration at rest, in unit squared, and null without acceleration; "
+             ": mean_square is the power of the acceleration at rest, in unit squared, and null without acceleration; "
              "force is a statistic in the sensor's unit, force_in_use { mean, unit, u } as the profile scales it, u "
              "the standard uncertainty of the mean.",
          .errors = kErrors,
@@ -510,8 +496,9 @@ std::vector<HostFunction> fingertipFunctions() {
          .text =
              "Disarms, puts a weight on the resting fingertip (question weight-MASSg on a rig that cannot) and reads "
              "force and taxels.",
-         .returns = "{ mass_g, reference_n, force, force_unit, taxels, taxel_unit, force_in_use }: means, in the "
-                    "sensor's own units; force_in_use as bench.measureRest() has it.",
+         .members = weightMembers(),
+         .returns = ": means, in the sensor's own units; a unit is left out without such a sensor, and force_in_use is "
+                    "as bench.measureRest() has it.",
          .errors = kErrors,
          .needs = Role::Sensor,
          .failsDisarmed = true,

@@ -7,6 +7,7 @@
 
 #include "app/scripting/engine/Arguments.h"
 #include "app/scripting/engine/ScriptSession.h"
+#include "core/analysis/calibration/CalibrationVerdict.h"
 #include "core/encoding/StimulatorCalibration.h"
 
 namespace tacto::host::stimulator_calibration {
@@ -50,10 +51,8 @@ struct LevelSettings {
 [[nodiscard]] Result<Json> readLevel(ScriptSession& session, const LevelSettings& settings,
                                      const CalibratedQuantity& quantity, double share);
 
-/// Checks whether a stored line still holds where its range was read again: { rows, verdict, reasons }, rows {
-/// quantity, commanded, expected, measured, direction, off, expanded_uncertainty, allowed, not_measured, unit, verdict
-/// }; widths and gaps in us. `found`: from analysis.calibration().
-[[nodiscard]] Json checkAgainst(const Json& line, const Json& found, double tolerance_pct);
+/// Checks whether a stored line still holds where its range was read again. `found`: from analysis.calibration().
+[[nodiscard]] CalibrationCheck checkAgainst(const Json& line, const Json& found, double tolerance_pct);
 
 /// Checks the oscilloscope's time base by the computer's clock, which times the trains: a wrong time base makes all
 /// times wrong. Returns an empty text if it is right or was not read (null), else the reason.

@@ -11,6 +11,7 @@
 #include "app/scripting/host/record/KeptCalibration.h"
 #include "app/scripting/host/report/Cells.h"
 #include "app/scripting/host/stimulator_calibration/StimulatorLevels.h"
+#include "core/analysis/calibration/CalibrationJson.h"
 #include "core/base/QuantityText.h"
 
 namespace tacto {
@@ -244,7 +245,7 @@ Result<Json> judge(ScriptSession& session, const Arguments& arguments) {
     auto found = analysis::calibrationOf(session, run.rows, asked);
     if (!found) return found;
     if (run.checks) {
-        found = checkAgainst(run.stored.at(quantity), asScriptsSeeIt(*found), asked.tolerance_pct);
+        found = toJson(checkAgainst(run.stored.at(quantity), asScriptsSeeIt(*found), asked.tolerance_pct));
         for (const auto& row : found->at("rows")) run.results["check"].push_back(row);
     } else {
         if (auto kept = session.keepMeasurement("calibration of " + quantity, *found); !kept) return failure(kept);

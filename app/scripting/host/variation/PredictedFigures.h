@@ -3,17 +3,21 @@
 // Thread-safety: pure functions.
 #pragma once
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <string_view>
+
+#include "core/analysis/variation/Variation.h"
 
 namespace tacto::host::variation {
 
 using Json = nlohmann::json;
 
-/// `found`: from analysis.variation(). `view`: "confusion"; "accuracy", its distribution over participants; "width" of
-/// the interval against trials; "thresholds" of the participants, with the currents that the lowest and the highest
-/// command give them.
-[[nodiscard]] Json predictedFigure(const Json& found, std::string_view view);
+[[nodiscard]] Json predictedConfusion(const Variation& found);
+/// The distribution of the accuracy over participants.
+[[nodiscard]] Json accuracyCurve(const Variation& found);
+/// The width of the interval against trials.
+[[nodiscard]] Json widthCurve(const Variation& found, const TrialsWanted& wanted);
+/// The thresholds of the participants, with the currents that the lowest and the highest command give them (of a
+/// current source: A / |Z|), even if these would be withheld.
+[[nodiscard]] Json thresholdCurves(const Variation& found, const EncodingProfile& encoding);
 
 }  // namespace tacto::host::variation
