@@ -45,7 +45,7 @@ protected:
             }
             return editor != nullptr;
         }));
-        QTest::keyClicks(&editor->code(), "//mine");  // without Space, which stops the output outside text fields
+        QTest::keyClicks(&editor->code(), "// mine");  // Space is text here, and stops nothing
         return editor;
     }
     /// Starts a run that delivers until it is stopped.
@@ -118,7 +118,7 @@ TEST_F(Closing, UnsavedScriptsAreAskedAboutWithTheOutputOff) {
     EXPECT_EQ(faultsOf(*asked()), "");
     answer(QMessageBox::Cancel);
     EXPECT_TRUE(window.isVisible());
-    EXPECT_THAT(editor->code().text().toStdString(), HasSubstr("//mine"));
+    EXPECT_THAT(editor->code().text().toStdString(), HasSubstr("// mine"));
     window.close();
     answer(QMessageBox::Discard);
     EXPECT_FALSE(window.isVisible());
@@ -163,7 +163,7 @@ TEST_F(Closing, WhatCannotBeSavedKeepsTheWindow) {
     letLive(100);
     EXPECT_TRUE(window.isVisible());
     EXPECT_THAT(editor->findChild<QLabel*>("scriptMessage")->text().toStdString(), HasSubstr("Not saved"));
-    EXPECT_THAT(editor->code().text().toStdString(), HasSubstr("//mine"));
+    EXPECT_THAT(editor->code().text().toStdString(), HasSubstr("// mine"));
 }
 
 TEST_F(Closing, EscThatStopsTheOutputLeavesTheSearchOfTheScriptOpen) {
