@@ -12,6 +12,13 @@ namespace {
 void declareVerify(QCommandLineParser& parser) { parser.addOption({"json", "Prints one JSON value."}); }
 
 nlohmann::json toJson(const VerifyReport& report) {
+    auto signatures = nlohmann::json::array();
+    for (const auto& [signature, state] : report.signatures)
+        signatures.push_back({{"by", signature.by},
+                              {"wall", signature.wall},
+                              {"report", signature.report},
+                              {"sha256", signature.sha256},
+                              {"state", nameOf(state)}});
     return {{"status", nameOf(report.status)},
             {"closed", report.closed},
             {"recovered", report.recovered},
@@ -24,7 +31,8 @@ nlohmann::json toJson(const VerifyReport& report) {
             {"captures", report.captures},
             {"verdicts", report.verdicts},
             {"chunks", report.chunks},
-            {"samples", report.samples}};
+            {"samples", report.samples},
+            {"signatures", std::move(signatures)}};
 }
 
 int verifyWholeStudy(const QCommandLineParser& parser, const std::string& folder) {
@@ -74,7 +82,7 @@ int runVerify(const QCommandLineParser& parser) {
         say("  {} rows, {} trials, {} captures, {} samples\n  chain head {}\n", report->rows, report->trials,
             report->captures, report->samples, report->head);
     }
-    return report->status == SessionStatus::Intact ? kDone : kVerdictFailed;
+    return report->status == SessionStatus::Intact && !reportChanged(*report) ? kDone : kVerdictFailed;
 }
 
 }  // namespace

@@ -145,23 +145,17 @@ void takeEdit(const SessionLabels& shown, const SessionLabels& edited, SessionLa
     applyLabels(changesFrom(shown, edited), onto);
 }
 
-Result<SessionLabels> saveLabels(const std::filesystem::path& session, const SessionLabels& shown,
-                                 const SessionLabels& edited) {
-    SessionLabels changed;
-    takeEdit(shown, edited, changed);
-    if (auto checked = checkLabels(changed); !checked) return failure(checked);
+Result<void> annotateSession(const std::filesystem::path& session,
+                             const std::function<Result<nlohmann::json>(const SessionReader&)>& bodyFor) {
     const auto name = session.filename().string();
     const FileLock lock(session);
     const bool held = lock.take(session);  // locked before reading: changes by other programs are read and kept
     const auto reader = SessionReader::open(session);
     if (!reader) return failure(reader);
-    const auto before = reader->labels();
-    if (!before) return failure(before);
-    auto now = *before;
-    takeEdit(shown, edited, now);
-    auto body = changesFrom(*before, now);
-    if (body.empty()) return now;
-    if (auto takes = takesLabels(session, *reader); !takes) return failure(takes);
+    auto body = bodyFor(*reader);
+    if (!body) return failure(body);
+    if (body->empty()) return {};
+    if (auto takes = takesLabels(session, *reader); !takes) return takes;
     if (!held) {
         return fail(ErrorCode::Io,
                     "session {} is locked: another program is changing it. Nothing was changed; try again", name);
@@ -173,8 +167,8 @@ Result<SessionLabels> saveLabels(const std::filesystem::path& session, const Ses
     const Copy copy(session);
     removeDraft(copy.path());
     if (!std::filesystem::copy_file(session, copy.path(), error)) return because(error.message());
-    body["wall"] = wallTimeUtc();
-    if (auto added = append(copy.path(), reader->lastAt(), body); !added) return because(added.error().message);
+    (*body)["wall"] = wallTimeUtc();
+    if (auto added = append(copy.path(), reader->lastAt(), *body); !added) return because(added.error().message);
     const auto written = SessionReader::open(copy.path());
     if (!written) return because(written.error().message);
     if (!written->closed() || written->chainHead() != reader->chainHead())
@@ -183,6 +177,23 @@ Result<SessionLabels> saveLabels(const std::filesystem::path& session, const Ses
     std::filesystem::rename(copy.path(), session, error);
     if (error) return because(error.message());
     syncFolderOf(session);
+    return {};
+}
+
+Result<SessionLabels> saveLabels(const std::filesystem::path& session, const SessionLabels& shown,
+                                 const SessionLabels& edited) {
+    SessionLabels changed;
+    takeEdit(shown, edited, changed);
+    if (auto checked = checkLabels(changed); !checked) return failure(checked);
+    SessionLabels now;
+    const auto added = annotateSession(session, [&](const SessionReader& reader) -> Result<nlohmann::json> {
+        const auto before = reader.labels();
+        if (!before) return failure(before);
+        now = *before;
+        takeEdit(shown, edited, now);
+        return changesFrom(*before, now);
+    });
+    if (!added) return failure(added);
     return now;
 }
 

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 
 #include "core/base/Result.h"
 #include "core/session/SessionTypes.h"
@@ -42,6 +43,11 @@ void takeEdit(const SessionLabels& shown, const SessionLabels& edited, SessionLa
 /// written. After an error the session is unchanged.
 [[nodiscard]] Result<SessionLabels> saveLabels(const std::filesystem::path& session, const SessionLabels& shown,
                                                const SessionLabels& edited);
+
+/// Adds a row with the body that `bodyFor` returns and the present time; adds none if the body is empty. The session is
+/// locked from before `bodyFor` reads it. Errors: as `bodyFor` and saveLabels().
+[[nodiscard]] Result<void> annotateSession(const std::filesystem::path& session,
+                                           const std::function<Result<nlohmann::json>(const SessionReader&)>& bodyFor);
 
 /// Copies the labels in the body of a row, which is an annotation or the report's notes, to `labels`.
 void applyLabels(const nlohmann::json& body, SessionLabels& labels);

@@ -59,6 +59,7 @@ public:
         }
     }
     [[nodiscard]] std::size_t found() const noexcept { return found_; }
+    [[nodiscard]] const std::vector<SessionSignature>& signatures() const noexcept { return signatures_; }
 
 private:
     [[nodiscard]] Result<void> checkPages() {
@@ -144,7 +145,10 @@ private:
             if (auto done = checkKind(entry, body ? *body : nlohmann::json(), *chunk, *capture); !done) return done;
             ++report_.rows;
             if (annotates) {
-                ++annotations_;
+                if (auto signature = signatureIn(body ? *body : nlohmann::json()))
+                    signatures_.push_back(std::move(*signature));
+                else
+                    ++annotations_;
                 continue;  // not part of the recording, which ended before
             }
             head_ = previous;
@@ -297,6 +301,7 @@ private:
     std::vector<StreamSeen> streams_;
     Digest head_{};  // hash of the recording's last row, without annotations
     int annotations_ = 0;
+    std::vector<SessionSignature> signatures_;
     std::uint64_t sealedRows_ = 0;
     SampleBlock scratch_;
     std::size_t found_ = 0;
@@ -308,6 +313,10 @@ constexpr Word<SessionStatus> kSessionStatusWords[] = {{"intact", SessionStatus:
 }  // namespace
 
 std::string_view nameOf(SessionStatus status) noexcept { return wordFor(kSessionStatusWords, status); }
+
+bool reportChanged(const VerifyReport& report) {
+    return std::ranges::any_of(report.signatures, [](const auto& each) { return each.state == SignedReport::Changed; });
+}
 
 Result<VerifyReport> verifySession(const std::filesystem::path& path) {
     VerifyReport report;
@@ -336,6 +345,8 @@ Result<VerifyReport> verifySession(const std::filesystem::path& path) {
                                findings->lostCommits);
         }
     }
+    report.signatures = checkSignatures(path, inspection.signatures());
+    for (const auto& signature : report.signatures) report.notes.push_back(sentenceOf(signature));
     if (!report.closed && report.rows > 0) {
         report.notes.push_back(openElsewhere(path)
                                    ? "The session is being recorded by another program."

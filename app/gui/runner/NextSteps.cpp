@@ -38,6 +38,8 @@ NextStepWords wordsOf(NextStep step) {
         case NextStep::Sign:
             return {QObject::tr("Sign report…"), "sign",
                     QObject::tr("Shows the report with its lines for signatures.")};
+        case NextStep::Report:
+            return {QObject::tr("Report"), "report", QObject::tr("Shows the report, to print, save or find it.")};
         case NextStep::Session:
             return {QObject::tr("Open session"), "open", QObject::tr("Everything that this run recorded.")};
         case NextStep::ChangeSettings:
@@ -66,6 +68,7 @@ std::vector<NextStep> nextStepsAfter(const FinishedRun& run) {
     }
     if (!run.result.session.empty()) {
         if (!outcome.error) steps.push_back(NextStep::Sign);
+        steps.push_back(NextStep::Report);
         if (passed && calibrates) steps.push_back(NextStep::SafetyCheck);
         if (passed && calibrates && memberAt(results, "stored").is_object()) steps.push_back(NextStep::Check);
         if (passed && traits.kind == ResultKind::LoadSafety) steps.push_back(NextStep::Live);

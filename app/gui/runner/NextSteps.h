@@ -19,6 +19,7 @@ enum class NextStep {
     SafetyCheck,    ///< open the safety check workspace
     Live,           ///< open the Live workspace
     Sign,           ///< sign the report
+    Report,         ///< show the report, to print or save it
     Session,        ///< view the whole recorded session
     ChangeSettings  ///< change the settings and run again
 };

@@ -9,6 +9,7 @@
 #include "app/gui/runner/ProcedurePath.h"
 #include "app/gui/runner/PromptPanel.h"
 #include "app/gui/runner/ProtocolHead.h"
+#include "app/gui/runner/ReportView.h"
 #include "app/gui/runner/RunPanel.h"
 #include "app/gui/runner/RunViews.h"
 #include "app/gui/runner/ScriptEditor.h"
@@ -126,7 +127,8 @@ void ProtocolWorkspace::connectPages() {
     connect(&pages_->views(), &RunViews::nextChosen, this, &ProtocolWorkspace::goOn);
     connect(&pages_->sign(), &SignPage::stateChanged, this, [this] {
         steps_->setNote(kSign, pages_->sign().note());
-        steps_->setState(kSign, pages_->sign().taken() ? StepList::State::Done : StepList::State::ToDo);
+        steps_->setState(kSign, pages_->sign().isSigned() ? StepList::State::Done : StepList::State::ToDo);
+        if (wantsReport_) showReport();
     });
     connect(&pages_->sign(), &SignPage::settingsWanted, this, [this] { goTo(kSettings); });
 }
@@ -283,6 +285,7 @@ void ProtocolWorkspace::runNow() {
         return panel_->say(tr("The question was answered after a stop or after 30 s. Press Run again."));
     running_ = true;
     last_.reset();
+    wantsReport_ = false;
     pages_->views().begin(declaration_->view, QString::fromStdString(declaration_->title),
                           asked_.order().settings.parameters);
     pages_->sign().clear();
@@ -348,12 +351,23 @@ void ProtocolWorkspace::goOn(NextStep next) {
             return;
         case NextStep::Sign:
             return goTo(kSign);
+        case NextStep::Report:
+            return showReport();
         case NextStep::Session:
             emit sessionWanted(QString::fromStdString(last_->result.session.string()));
             return;
         case NextStep::ChangeSettings:
             return goTo(kSettings);
     }
+}
+
+/// Shows the report, or says what it waits for and shows it once it is drawn.
+void ProtocolWorkspace::showReport() {
+    const auto& sign = pages_->sign();
+    const bool there = !sign.report().isEmpty();
+    wantsReport_ = !there && sign.drawing();
+    if (there) ReportWindow::showReport(*this, sign.report(), qtext(last_->result.session.string()));
+    panel_->say(there ? QString() : sign.note());
 }
 
 /// The bench checks this profile like any other: it refuses an unsuitable one, and failed() says why.

@@ -85,6 +85,7 @@ private:
     void showBench();
     void goOn(NextStep next);
     void useProfile();
+    void showReport();
     void showButtons();
     void edit(const ProtocolSource& source, int line, const QString& why);
     void saved(const QString& path);
@@ -99,7 +100,8 @@ private:
     AskedRun asked_;          // waits for the second step
     std::shared_ptr<const FinishedRun> last_;
     bool running_ = false;
-    std::set<Step> seen_;  // the steps seen since this protocol was chosen
+    bool wantsReport_ = false;  ///< the report is to be shown once it is drawn
+    std::set<Step> seen_;       // the steps seen since this protocol was chosen
     bool plotOnly_ = false;
     std::uint64_t run_ = 0;  ///< number of the run
 

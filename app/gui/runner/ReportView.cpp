@@ -1,16 +1,21 @@
 #include "app/gui/runner/ReportView.h"
 
+#include <QFile>
 #include <QFileInfo>
 #include <QMenu>
 #include <QScreen>
 #include <algorithm>
 
 #include "app/gui/runner/ReportPrinter.h"
+#include "app/gui/runner/SigningRow.h"
 #include "app/gui/theme/Building.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/Labels.h"
+#include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/ToolRow.h"
+#include "core/base/WholeFile.h"
+
 namespace tacto::gui {
 
 namespace {
@@ -62,13 +67,22 @@ QWidget* ReportView::buildRow() {
     auto* printers = new QMenu(print_);
     connect(printers, &QMenu::aboutToShow, this, [this, printers] { printer_->offer(*printers, report_); });
     print_->setMenu(printers);
-    elsewhere_ = new QPushButton(tr("Open in the PDF viewer"), holder);
-    elsewhere_->setObjectName("openReport");
-    elsewhere_->setToolTip(tr("Opens the PDF with the desktop's program for it, to sign it there."));
-    connect(elsewhere_, &QPushButton::clicked, this, [this] {
-        if (const auto why = openOnDesktop(report_); !why.isEmpty()) emit said(why);
-    });
-    for (auto* button : {print_, elsewhere_}) {
+    auto* save = pageButton(tr("Save as…"), "saveReport", tr("Saves a copy of the report in another place."), holder);
+    connect(save, &QPushButton::clicked, this, &ReportView::askSave);
+    const auto opens = [this](const QString& text, const char* name, const QString& tip, auto path) {
+        auto* button = pageButton(text, name, tip, this);
+        connect(button, &QPushButton::clicked, this, [this, path] {
+            if (const auto why = openOnDesktop(path()); !why.isEmpty()) emit said(why);
+        });
+        return button;
+    };
+    auto* folder = opens(tr("Show in folder"), "folderOfReport", tr("Opens the folder that holds the report."),
+                         [this] { return QFileInfo(report_).absolutePath(); });
+    auto* viewer =
+        opens(tr("Open in the PDF viewer"), "openReport",
+              tr("Opens the PDF with the desktop's program for it, to sign it there."), [this] { return report_; });
+    acts_ = {print_, save, folder, viewer};
+    for (auto* button : acts_) {
         button->setAutoDefault(false);
         acts->addWidget(button);
     }
@@ -94,6 +108,24 @@ QWidget* ReportView::buildZoom(QWidget* parent) {
         [this] { view_->setZoomMode(QPdfView::ZoomMode::FitToWidth); });
     add("+", "reportLarger", tr("Larger"), [this] { zoom(kZoomStep); });
     return holder;
+}
+
+/// Saves the report as it was when the question was asked.
+void ReportView::askSave() {
+    QFile file(report_);
+    if (!file.open(QIODevice::ReadOnly))
+        return emit said(tr("%1 cannot be read: %2.").arg(report_, file.errorString()));
+    const FileQuestion question{.title = tr("Save the report"),
+                                .wants = FileQuestion::Wants::NewFile,
+                                .filters = {tr("Reports (*.pdf)")},
+                                .name = QFileInfo(report_).fileName(),
+                                .suffix = "pdf"};
+    askForFile(*this, question, [this, bytes = file.readAll()](const QString& path) {
+        const auto saved = writeWholeFile(path.toStdString(), {bytes.constData(), std::size_t(bytes.size())});
+        emit said(saved ? tr("The report is saved to %1.").arg(path)
+                        : tr("%1 was not saved: %2. An existing file of that name was not changed.")
+                              .arg(path, qtext(saved.error().message)));
+    });
 }
 
 /// Zooms from the present width.
@@ -130,7 +162,7 @@ void ReportView::read() {
 
 void ReportView::offer() {
     const bool shows = document_->pageCount() > 0;
-    for (auto* button : {print_, elsewhere_}) {
+    for (auto* button : acts_) {
         button->setEnabled(!report_.isEmpty());
         button->setVisible(!report_.isEmpty());
     }
@@ -143,7 +175,7 @@ namespace {
 constexpr int kWideChars = 110, kHighLines = 42;
 }
 
-ReportWindow::ReportWindow(const QString& pdf, QWidget* parent)
+ReportWindow::ReportWindow(const QString& pdf, const QString& session, QWidget* parent)
     : QDialog(parent), view_(new ReportView(tr("The report is not read yet."), this)) {
     setObjectName("reportWindow");
     setWindowTitle(tr("Report %1").arg(QFileInfo(pdf).fileName()));
@@ -154,7 +186,7 @@ ReportWindow::ReportWindow(const QString& pdf, QWidget* parent)
     auto* close = new QPushButton(tr("Close"), this);
     close->setAutoDefault(false);
     connect(close, &QPushButton::clicked, this, &QDialog::close);
-    view_->row().addWidget(says, 1);
+    view_->row().addStretch();
     view_->row().addWidget(close);
     const auto say = [says](const QString& what) {
         says->setText(what);
@@ -162,18 +194,25 @@ ReportWindow::ReportWindow(const QString& pdf, QWidget* parent)
     };
     connect(view_, &ReportView::said, says, say);
     connect(view_, &ReportView::unreadable, says, say);
+    column->addWidget(says);
+    if (!session.isEmpty()) {
+        auto* signing = new SigningRow(this);
+        signing->offer(session, pdf, {});
+        connect(signing, &SigningRow::ended, says, say);
+        column->addWidget(signing);
+    }
     view_->show(pdf);
     resize(fontMetrics().averageCharWidth() * kWideChars, fontMetrics().height() * kHighLines);
 }
 
-void ReportWindow::showReport(QWidget& asking, const QString& pdf) {
+void ReportWindow::showReport(QWidget& asking, const QString& pdf, const QString& session) {
     for (auto* other : asking.findChildren<ReportWindow*>()) {
         if (!other->isVisible() || other->view_->report() != pdf) continue;
         other->view_->show(pdf);
         other->raise();
         return other->activateWindow();
     }
-    openDialog(new ReportWindow(pdf, &asking));
+    openDialog(new ReportWindow(pdf, session, &asking));
 }
 
 }  // namespace tacto::gui

@@ -1,4 +1,5 @@
-// ReportView.h - shows a report's pages, with zoom and print, and a button for the desktop's viewer.
+// ReportView.h - shows a report's pages, with zoom, print and save, and buttons for its folder and the desktop's
+// viewer.
 #pragma once
 
 #include <QDialog>
@@ -8,6 +9,7 @@
 #include <QPdfView>
 #include <QPushButton>
 #include <QWidget>
+#include <array>
 
 namespace tacto::gui {
 
@@ -26,7 +28,7 @@ public:
     [[nodiscard]] QHBoxLayout& row() { return *row_; }
 
 signals:
-    /// Tells in a sentence how far printing is, or why the pages cannot be shown.
+    /// Tells in a sentence what was done with the report or why not, or why the pages cannot be shown.
     void said(const QString& what);
     void unreadable(const QString& why);
 
@@ -36,6 +38,7 @@ private:
     void read();
     void offer();
     void zoom(double factor);
+    void askSave();
 
     QLabel* empty_;
     QPdfDocument* document_;
@@ -43,22 +46,23 @@ private:
     QHBoxLayout* row_ = nullptr;  ///< a second line if the buttons need one
     QWidget* zoom_ = nullptr;     ///< holds the zoom buttons
     QPushButton* print_ = nullptr;
-    QPushButton* elsewhere_ = nullptr;
+    std::array<QPushButton*, 4> acts_{};  ///< print_ and the others that need a report
     ReportPrinter* printer_;
     QString report_;  ///< empty if there is none
 };
 
-// A written report in a window of its own: zoom, print, and the desktop's viewer.
+// A written report in a window of its own.
 
 class ReportWindow final : public QDialog {
     Q_OBJECT
 public:
     /// Shows the report below the safety bar of the window that contains `asking`. If a window for this report is
     /// already open, it is reloaded.
-    static void showReport(QWidget& asking, const QString& pdf);
+    /// `session`: that of the report, in which a signature can be noted; empty for a report of something else.
+    static void showReport(QWidget& asking, const QString& pdf, const QString& session = {});
 
 private:
-    ReportWindow(const QString& pdf, QWidget* parent);
+    ReportWindow(const QString& pdf, const QString& session, QWidget* parent);
     ReportView* view_;
 };
 

@@ -2,10 +2,11 @@
 
 #include <QFormLayout>
 
-#include "app/gui/runner/ReportPrinter.h"
 #include "app/gui/runner/ReportView.h"
+#include "app/gui/runner/SigningRow.h"
 #include "app/gui/theme/Building.h"
 #include "app/gui/theme/Labels.h"
+#include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/ToolRow.h"
 
@@ -29,13 +30,6 @@ SignPage::SignPage(QWidget* parent) : QWidget(parent), maker_(this) {
     onFontChange(*words_, [this] { fitWords(beside_); });
     fitWords(true);
     addStateTo(view_->row());
-    if (auto* open = view_->findChild<QPushButton*>("openReport")) {
-        makePrimary(*open);
-        connect(open, &QPushButton::clicked, this, &SignPage::take);
-    }
-    connect(view_->findChild<ReportPrinter*>(), &ReportPrinter::ended, this, [this](int pages) {
-        if (pages > 0) take();
-    });
     connect(&maker_, &ReportMaker::done, this,
             [this](const QString& out) { out.endsWith(".pdf") ? showReport(out) : showState(); });
     const auto note = [this](const QString& why) {
@@ -45,7 +39,7 @@ SignPage::SignPage(QWidget* parent) : QWidget(parent), maker_(this) {
     connect(&maker_, &ReportMaker::failed, this, note);
     connect(view_, &ReportView::unreadable, this, note);
     connect(view_, &ReportView::said, this, [this](const QString& what) {
-        printed_ = what;
+        said_ = what;
         showState();
     });
     clear();
@@ -56,8 +50,16 @@ QWidget* SignPage::buildWords() {
     auto* column = columnIn(*holder);
     column->addWidget(
         makeLabel(tr("Print the report and sign in ink, on the lines of its first page; or open it in the PDF "
-                     "viewer and sign there."),
+                     "viewer, sign and save it there. Then note here who signed: the session keeps the name, the time "
+                     "and the report’s hash, and Verify tells if the report is changed later."),
                   {.name = "howToSign", .wraps = true}, holder));
+    signing_ = new SigningRow(holder);
+    makePrimary(*signing_->findChild<QPushButton*>("signReport"));
+    connect(signing_, &SigningRow::ended, this, [this](const QString& what) {
+        said_ = what;
+        showState();
+    });
+    column->addWidget(signing_);
     named_ = new QWidget(holder);
     auto* named = columnIn(*named_, -1, {0, 8, 0, 0});
     named->addWidget(makeLabel(tr("This report names"), {.size = TextSize::Body, .strong = true}, named_));
@@ -86,6 +88,10 @@ QWidget* SignPage::buildWords() {
     return holder;
 }
 
+bool SignPage::isSigned() const { return !signing_->noted().isEmpty(); }
+
+const QString& SignPage::report() const { return view_->report(); }
+
 void SignPage::fitWords(bool beside) {
     beside_ = beside;
     words_->setMaximumWidth(beside ? scaledPx(kNotesWidth) : QWIDGETSIZE_MAX);
@@ -98,11 +104,6 @@ void SignPage::showNotes(const RunNotes* notes) {
     const std::string* texts[] = {&notes->operatorName, &notes->sample, &notes->reviewer, &notes->ambient};
     for (std::size_t i = 0; i < notes_.size(); ++i)
         notes_[i]->setText(texts[i]->empty() ? tr("not recorded") : QString::fromStdString(*texts[i]));
-}
-
-void SignPage::take() {
-    taken_ = true;
-    showState();
 }
 
 void SignPage::addStateTo(QHBoxLayout& row) {
@@ -124,21 +125,21 @@ void SignPage::addStateTo(QHBoxLayout& row) {
 
 QString SignPage::state() const {
     if (!fault_.isEmpty()) return fault_;
+    if (!said_.isEmpty()) return said_;
     if (maker_.busy()) return tr("Drawing the report…");
-    if (!printed_.isEmpty()) return printed_;
     return view_->report().isEmpty() ? QString() : tr("Written as PDF and HTML.");
 }
 
 QString SignPage::note() const {
     if (!fault_.isEmpty() || maker_.busy() || view_->report().isEmpty()) return state();
-    if (!taken_) return tr("Not signed yet");
-    return printed_.isEmpty() ? tr("Opened to be signed") : printed_;
+    return isSigned() ? signing_->noted() : tr("Not signed yet");
 }
 
 void SignPage::showState() {
     const bool busy = maker_.busy();
     drawing_->setVisible(busy);
     cancel_->setVisible(busy);
+    signing_->offer(session_, report(), by_);
     says_->setText(fault_.isEmpty() ? state() : "⚠ " + state());
     says_->setToolTip(says_->text());
     emit stateChanged();
@@ -152,8 +153,9 @@ void SignPage::showReport(const QString& pdf) {
 void SignPage::clear() {
     maker_.cancel();
     fault_.clear();
-    printed_.clear();
-    taken_ = false;
+    said_.clear();
+    session_.clear();
+    by_.clear();
     showNotes(nullptr);
     view_->clear();
     showState();
@@ -163,7 +165,9 @@ void SignPage::show(const FinishedRun& run) {
     clear();
     const auto session = QString::fromStdString(run.result.session.string());
     if (session.isEmpty()) return;  // the session did not begin
+    session_ = session;
     showNotes(&run.order.notes);
+    by_ = qtext(run.order.notes.operatorName);
     if (!run.pdf.empty()) maker_.make(session, QString::fromStdString(run.pdf.string()));
     if (!run.html.empty()) maker_.make(session, QString::fromStdString(run.html.string()));
     showState();

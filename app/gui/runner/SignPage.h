@@ -1,7 +1,7 @@
 // SignPage.h - page for signing the report: what a signature means, who and what the report names, and its pages.
 //
-// A signature is made by hand, on paper or in the PDF; the program stores the names and draws the lines. The step is
-// shown as done once the report has been printed or opened from here.
+// A signature is made by hand, on paper or in the PDF; the program draws the lines. Who signed is then entered here,
+// and name, time and the report's hash are kept in the session: only then is the step done.
 #pragma once
 
 #include <QHBoxLayout>
@@ -17,6 +17,7 @@
 namespace tacto::gui {
 
 class ReportView;
+class SigningRow;
 
 class SignPage final : public QWidget {
     Q_OBJECT
@@ -28,8 +29,11 @@ public:
     void show(const FinishedRun& run);
     /// Returns a note for the step: signed, as far as the program can tell, or how far the report is.
     [[nodiscard]] QString note() const;
-    /// True if the report of this run was printed or opened from here.
-    [[nodiscard]] bool taken() const noexcept { return taken_; }
+    /// True if the session of this run keeps a signature.
+    [[nodiscard]] bool isSigned() const;
+    [[nodiscard]] bool drawing() const { return maker_.busy(); }
+    /// Returns the written report; empty if there is none yet.
+    [[nodiscard]] const QString& report() const;
     /// Shows a report that has already been written.
     void showReport(const QString& pdf);
 
@@ -44,7 +48,6 @@ private:
     [[nodiscard]] QString state() const;
     void addStateTo(QHBoxLayout& row);
     void showNotes(const RunNotes* notes);
-    void take();
     void showState();
     std::vector<QLabel*> notes_;  ///< operator, sample, reviewer, ambient
     QWidget* words_ = nullptr;
@@ -55,9 +58,10 @@ private:
     QProgressBar* drawing_ = nullptr;
     QLabel* says_ = nullptr;
     ReportMaker maker_;
-    bool taken_ = false;
-    QString fault_;    // why the first failed report failed
-    QString printed_;  // printing progress; empty: nothing was printed
+    SigningRow* signing_ = nullptr;
+    QString session_, by_;  // the session of this run, and its operator
+    QString fault_;         // why the first failed report failed
+    QString said_;          // what was done with the report last
 };
 
 }  // namespace tacto::gui

@@ -151,6 +151,9 @@ Result<ReadSession> readSession(const std::filesystem::path& path) {
         return {};
     };
     std::vector<SessionRow> items;
+    const auto signatures = signaturesIn(path);
+    if (!signatures) return failure(signatures);
+    session.signatures = checkSignatures(path, *signatures);
     if (auto done = take(sessionMarks(*reader), session.marks); !done) return failure(done);
     if (auto done = take(reader->events(), session.events); !done) return failure(done);
     if (auto done = take(reader->log(), session.log); !done) return failure(done);

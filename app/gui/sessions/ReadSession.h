@@ -14,6 +14,7 @@
 #include "app/report/Figure.h"
 #include "core/base/Result.h"
 #include "core/base/Stream.h"
+#include "core/session/SessionSignature.h"
 #include "core/session/SessionTypes.h"
 
 namespace tacto::gui {
@@ -34,6 +35,7 @@ struct ReadCapture : SessionCaptureInfo {
 
 struct ReadSession : ComparedSession {
     std::filesystem::path path;
+    std::vector<CheckedSignature> signatures;  ///< of its reports
     QString fixed;           ///< a sentence that says why the labels cannot be changed; empty if they can
     bool elsewhere = false;  ///< another program is recording this session
     std::string head;

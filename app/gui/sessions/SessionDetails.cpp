@@ -249,6 +249,7 @@ QString SessionDetails::aboutHtml() const {
         row(known ? qtext(textOr(declared->second, "label")) : column.title,
             shown.isEmpty() ? settingWords(value, unit) : shown);
     }
+    for (const auto& signature : session_->signatures) row(tr("Signed"), qtext(sentenceOf(signature)));
     row(tr("Seed"), QString::number(about.seed));
     row(tr("Output mode"), qtext(about.mode));
     for (const auto& device : about.devices) {

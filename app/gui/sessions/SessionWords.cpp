@@ -236,6 +236,11 @@ QList<SessionMoment> whatHappened(const ReadSession& session) {
     }
     count();
     all << SessionMoment{toSeconds(session.length), momentText(session, session.length), ending(session), false};
+    for (const auto& each : session.signatures) {
+        const auto at = QDateTime::fromString(qtext(each.signature.wall), Qt::ISODate).toLocalTime();
+        all << SessionMoment{toSeconds(session.length), at.toString("yyyy-MM-dd HH:mm"), qtext(sentenceOf(each)),
+                             false};
+    }
     return all;
 }
 

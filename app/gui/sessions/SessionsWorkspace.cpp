@@ -72,7 +72,7 @@ SessionsWorkspace::SessionsWorkspace(BenchController& controller, QWidget* paren
     }
     connect(&reports_, &ReportMaker::done, this, [this](const QString& out) {
         say(tr("The report is written: %1").arg(out));
-        ReportWindow::showReport(*this, out);
+        showReport(out);
     });
     connect(&reports_, &ReportMaker::failed, this, &SessionsWorkspace::say);
     showBusy();
@@ -240,7 +240,9 @@ void SessionsWorkspace::verify() {
                    QStringList words;
                    for (const auto& note : report->notes) words << qtext(note);
                    for (const auto& problem : report->problems) words << qtext(problem);
-                   if (report->status == SessionStatus::Intact)
+                   if (report->status == SessionStatus::Intact && reportChanged(*report))
+                       say(tr("✖ %1 is intact, its report is not: %2").arg(name, words.join(" ")));
+                   else if (report->status == SessionStatus::Intact)
                        say(tr("✔ %1 is intact: %2 rows, %3 samples. %4")
                                .arg(name)
                                .arg(report->rows)
@@ -257,7 +259,22 @@ void SessionsWorkspace::makeReport() {
     auto out = entry->path;
     out.replace_extension(".pdf");
     say(tr("Drawing the report…"));
-    reports_.make(qtext(entry->path.string()), qtext(out.string()));
+    work_.take([path = entry->path](const WorkPort&) { return signaturesIn(path); },
+               [this, path = entry->path, out](const Result<std::vector<SessionSignature>>& found) {
+                   const auto known = found ? checkSignatures(path, *found) : std::vector<CheckedSignature>();
+                   std::error_code error;
+                   if (known.empty() || !std::filesystem::exists(out, error))
+                       return reports_.make(qtext(path.string()), qtext(out.string()));
+                   // A drawing would take the place of what was signed.
+                   say(tr("%1 It is not drawn again.").arg(qtext(sentenceOf(known.back()))));
+                   showReport(qtext(out.string()));
+               });
+}
+
+/// A report lies beside its session and has its name.
+void SessionsWorkspace::showReport(const QString& pdf) {
+    auto session = std::filesystem::path(pdf.toStdString());
+    ReportWindow::showReport(*this, pdf, qtext(session.replace_extension(".tacto").string()));
 }
 
 void SessionsWorkspace::askExport() {

@@ -74,6 +74,7 @@ private:
     void drawStream(int stream);
     void verify();
     void makeReport();
+    void showReport(const QString& pdf);
     void askExport();
     void exportSession(const std::filesystem::path& session, const QString& folder);
     void replay();

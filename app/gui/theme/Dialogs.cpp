@@ -13,13 +13,16 @@
 #include <QLayout>
 #include <QLineEdit>
 #include <QListView>
+#include <QProcess>
 #include <QScreen>
 #include <QShortcut>
+#include <QStandardPaths>
 #include <QTreeView>
 #include <QUrl>
 #include <utility>
 
 #include "app/gui/theme/Building.h"
+#include "app/gui/theme/Told.h"
 
 namespace tacto::gui {
 
@@ -209,8 +212,27 @@ void addCloseButton(QDialog& dialog, QLayout& layout) {
 }
 
 QString openOnDesktop(const QString& path) {
-    if (QDesktopServices::openUrl(QUrl::fromLocalFile(path))) return {};
-    return QObject::tr("This desktop has no program that opens %1.").arg(path);
+    const auto none = QObject::tr("This desktop has no program that opens %1.").arg(path);
+    const auto url = QUrl::fromLocalFile(path);
+    const auto opener = QStandardPaths::findExecutable("xdg-open");
+    const auto platform = QGuiApplication::platformName();
+    const bool desktop = platform == "xcb" || platform.startsWith("wayland");
+    if (!desktop || opener.isEmpty() || QFile::exists("/.flatpak-info"))
+        return QDesktopServices::openUrl(url) ? QString() : none;
+    // Qt would start the same program and never learn whether it found one for the file.
+    auto* process = new QProcess;
+    const auto end = [process, none](bool opened) {
+        if (!opened) tell(none);
+        process->deleteLater();
+    };
+    QObject::connect(process, &QProcess::finished, [end](int code) { end(code == 0); });
+    QObject::connect(process, &QProcess::errorOccurred, [end](QProcess::ProcessError error) {
+        if (error == QProcess::FailedToStart) end(false);
+    });
+    process->setStandardOutputFile(QProcess::nullDevice());
+    process->setStandardErrorFile(QProcess::nullDevice());
+    process->start(opener, {url.toString(QUrl::FullyEncoded)});
+    return {};
 }
 
 void askForFile(QWidget& asking, const FileQuestion& question, std::function<void(const QString& path)> then) {

@@ -23,7 +23,8 @@ void place(QWidget& dialog);
 /// Adds a button at the end of `layout` that closes the dialog.
 void addCloseButton(QDialog& dialog, QLayout& layout);
 
-/// Opens a file or folder with the desktop's program. Returns where the file is if there is no such program.
+/// Opens a file or folder with the desktop's program. Returns where the file is if there is no such program; if the
+/// desktop finds that out only later, it is told then (Told.h).
 [[nodiscard]] QString openOnDesktop(const QString& path);
 
 struct FileQuestion {

@@ -6,13 +6,16 @@
 #include <QPdfView>
 #include <QProgressBar>
 #include <QTableWidget>
+#include <QTemporaryDir>
 #include <QToolButton>
+#include <fstream>
 #include <gmock/gmock.h>
 
 #include "app/gui/runner/ProcedurePages.h"
 #include "app/gui/runner/TrialPlane.h"
 #include "app/gui/theme/ExposureTable.h"
 #include "app/gui/theme/Theme.h"
+#include "core/session/SessionVerify.h"
 #include "tests/gui/Looks.h"
 #include "tests/gui/Person.h"
 #include "tests/gui/runner/Lab.h"
@@ -121,7 +124,7 @@ TEST_F(Workspace, RunsSeparabilityFromClickToReport) {
     shot(*workspace, "report");
 }
 
-TEST_F(Workspace, TheReportIsPrintedToBeSignedAndSaysWhomItNames) {
+TEST_F(Workspace, TheReportIsSignedInItsSessionAndSaysWhomItNames) {
     RecordProperty("hazard", "H9");
     open("separability");
     ASSERT_IN_TIME(ready()) << says("runObstacle").toStdString();
@@ -144,11 +147,55 @@ TEST_F(Workspace, TheReportIsPrintedToBeSignedAndSaysWhomItNames) {
     EXPECT_EQ(says("namedReviewer"), "not recorded");
     EXPECT_EQ(step("Sign").state(), State::ToDo);
     ASSERT_IN_TIME(comesTrue([this] { return find<QPushButton>(*workspace, "openReport") != nullptr; }, 60'000));
-    EXPECT_THAT(primaries(), testing::ElementsAre("Open in the PDF viewer"));
+    EXPECT_THAT(primaries(), testing::ElementsAre("Note signature"));
     click(the<QPushButton>("openReport"));
-    EXPECT_EQ(step("Sign").state(), State::Done);
+    EXPECT_THAT(says("reportState").toStdString(), HasSubstr("no program that opens"));
+    EXPECT_EQ(step("Sign").state(), State::ToDo) << "a viewer that did not open has signed nothing";
+    EXPECT_EQ(the<QLineEdit>("signedBy").text(), "A. Lind") << "the operator, unless another signs";
+    the<QLineEdit>("signedBy").clear();
+    EXPECT_FALSE(the<QPushButton>("signReport").isEnabled());
+    type("signedBy", "R. Viewer");
+    click(the<QPushButton>("signReport"));
+    ASSERT_IN_TIME(comesTrue([&] { return step("Sign").state() == State::Done; }));
+    EXPECT_THAT(says("reportState").toStdString(), HasSubstr("Signed by R. Viewer"));
+    const auto verified = verifySession(ended->result.session);
+    ASSERT_EQ(verified->signatures.size(), 1U);
+    EXPECT_EQ(verified->signatures[0].signature.by, "R. Viewer");
+    EXPECT_EQ(verified->signatures[0].state, SignedReport::Unchanged);
+    EXPECT_EQ(verified->status, SessionStatus::Intact);
+    std::ofstream(ended->pdf, std::ios::app) << '%';
+    EXPECT_TRUE(reportChanged(*verifySession(ended->result.session)));
     click(the<QPushButton>("changeNotes"));
     EXPECT_TRUE(step("Settings").isChecked()) << "names are changed there, and the run done again";
+}
+
+TEST_F(Workspace, TheReportStandsBesideTheResult) {
+    open("separability");
+    ASSERT_IN_TIME(ready()) << says("runObstacle").toStdString();
+    type("repeats", "2");
+    click(the<QPushButton>("runButton"));
+    ASSERT_IN_TIME(ends());
+    click(the<QPushButton>("Report"));  // also while it is still being drawn
+    QDialog* shown = nullptr;
+    ASSERT_IN_TIME(
+        comesTrue([&] { return (shown = workspace->findChild<QDialog*>("reportWindow")) != nullptr; }, 60'000));
+    for (const char* act : {"printReport", "saveReport", "folderOfReport", "openReport"})
+        EXPECT_TRUE(shown->findChild<QPushButton*>(act)->isVisible()) << act;
+    shown->findChild<QPushButton*>("saveReport")->click();
+    auto* chooser = shown->findChild<QFileDialog*>("fileChooser");
+    ASSERT_NE(chooser, nullptr);
+    const QTemporaryDir folder;
+    chooser->selectFile(folder.filePath("mine.pdf"));
+    QMetaObject::invokeMethod(chooser, "accept");
+    QFile copy(folder.filePath("mine.pdf")), report(QString::fromStdString(ended->pdf.string()));
+    ASSERT_TRUE(copy.open(QIODevice::ReadOnly) && report.open(QIODevice::ReadOnly));
+    EXPECT_EQ(copy.readAll(), report.readAll());
+    EXPECT_NE(find<QLineEdit>(*shown, "signedBy"), nullptr);
+    EXPECT_TRUE(std::ranges::any_of(shown->findChildren<QLabel*>(), [&](auto* label) {
+        return label->toolTip().contains(copy.fileName());
+    })) << "it says where the copy is";
+    shot(*shown, "report-window");
+    shown->close();
 }
 
 TEST_F(Workspace, ARunSaysThatItClosesTheBenchAndOpensItAgain) {

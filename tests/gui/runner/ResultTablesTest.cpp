@@ -126,19 +126,19 @@ TEST(NextSteps, FollowFromWhatWasFound) {
     const auto pass = ScriptVerdict::Pass;
     EXPECT_THAT(gui::nextStepsAfter(
                     finished({{"kind", "sensor-calibration"}, {"profile", {{"profile", {{"name", "x"}}}}}}, pass)),
-                ElementsAre(NextStep::UseProfile, NextStep::Sign, NextStep::Session));
+                ElementsAre(NextStep::UseProfile, NextStep::Sign, NextStep::Report, NextStep::Session));
     EXPECT_THAT(
         gui::nextStepsAfter(finished({{"kind", "stimulator-calibration"}, {"stored", {{"serial", "S"}}}}, pass)),
-        ElementsAre(NextStep::Sign, NextStep::SafetyCheck, NextStep::Check, NextStep::Session));
+        ElementsAre(NextStep::Sign, NextStep::Report, NextStep::SafetyCheck, NextStep::Check, NextStep::Session));
     const nlohmann::json check = {{"kind", "stimulator-calibration"}, {"type", "check"}};
     EXPECT_THAT(gui::nextStepsAfter(finished(check, ScriptVerdict::Fail)),
-                ElementsAre(NextStep::Calibrate, NextStep::Sign, NextStep::Session));
+                ElementsAre(NextStep::Calibrate, NextStep::Sign, NextStep::Report, NextStep::Session));
     EXPECT_THAT(gui::nextStepsAfter(finished({{"kind", "load-safety"}}, pass)),
-                ElementsAre(NextStep::Sign, NextStep::Live, NextStep::Session));
+                ElementsAre(NextStep::Sign, NextStep::Report, NextStep::Live, NextStep::Session));
     EXPECT_THAT(gui::nextStepsAfter(finished({{"kind", "load-safety"}}, ScriptVerdict::Indeterminate)),
-                ElementsAre(NextStep::ChangeSettings, NextStep::Sign, NextStep::Session));
+                ElementsAre(NextStep::ChangeSettings, NextStep::Sign, NextStep::Report, NextStep::Session));
     EXPECT_THAT(gui::nextStepsAfter(finished({{"kind", "live"}}, ScriptVerdict::None)),
-                ElementsAre(NextStep::Sign, NextStep::Session));
+                ElementsAre(NextStep::Sign, NextStep::Report, NextStep::Session));
 }
 
 TEST(NextSteps, StandInRowsWhereOneHasNoRoom) {
