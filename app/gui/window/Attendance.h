@@ -30,9 +30,9 @@ public:
     static constexpr int kCovered_ms = 500, kUncovered_ms = 2000;
 
     explicit Attendance(QWidget& window) : QObject(&window), window_(window), lock_(this) {}
-    /// Called 30 times a second in every state of the output; asks the display only while output is on. Returns why
-    /// STOP has been out of reach for kAbsent_ms ("this window was minimised": in the past tense, because the operator
-    /// reads it afterwards); empty while STOP is in reach.
+    /// Called 30 times a second while output can flow, and more seldom otherwise; asks the display only while it is on.
+    /// Returns why STOP has been out of reach for kAbsent_ms ("this window was minimised": in the past tense, because
+    /// the operator reads it afterwards); empty while STOP is in reach.
     [[nodiscard]] QString absence(const StopInSight& shown, bool outputOn);
     /// True if another program's window covers STOP while output is on, even if another STOP is in reach.
     [[nodiscard]] bool isCovered() const { return covered_; }

@@ -12,6 +12,7 @@
 #include <QStatusBar>
 #include <QToolBar>
 #include <QToolButton>
+#include <QWindow>
 #include <algorithm>
 #include <utility>
 
@@ -25,6 +26,7 @@
 #include "app/gui/scope/measurements/MeasurementSummary.h"
 #include "app/gui/theme/Building.h"
 #include "app/gui/theme/Dialogs.h"
+#include "app/gui/theme/Text.h"
 #include "app/gui/theme/Told.h"
 #include "app/gui/window/ArmDialog.h"
 #include "app/gui/window/Attendance.h"
@@ -44,13 +46,15 @@
 #include "app/gui/window/WelcomeTour.h"
 #include "app/gui/window/WorkspaceRail.h"
 #include "app/gui/window/Workspaces.h"
+#include "app/scripting/engine/ProtocolLibrary.h"
 #include "core/bench/Telemetry.h"
 
 namespace tacto::gui {
 
 namespace {
 
-constexpr int kFrame_ms = 33;
+constexpr int kFrame_ms = 33, kBesideBench_ms = 100, kIdle_ms = 1000;
+constexpr int kStirred_ms = 700;     // how long every frame is shown after something has happened
 constexpr QSize kWanted(1440, 900);  // size of the window on a large enough screen
 constexpr int kDocksFrom = 960;      // narrower windows, or windows with large text, start with the docks in a strip
 constexpr int kAllDocksFrom = 480;   // in lower windows all docks except the drive's start folded
@@ -100,7 +104,7 @@ MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry, std::function
     const QSettings settings;
     applyTextSize(settings.value("textSize", 100).toInt());
     applyTheme(settings.value("theme").toString() == "dark" ? Theme::Dark : Theme::Light);
-    new StopKeys(
+    keys_ = new StopKeys(
         [this](const char* by) {
             auto* pilot = workspaces_ == nullptr ? nullptr : workspaces_->pilot();
             const bool theirs = pilot != nullptr && std::string_view(by).starts_with("participant");
@@ -171,7 +175,11 @@ MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry, std::function
         [this] { return workspaces_->pilot() != nullptr && workspaces_->pilot()->running(); });
     restore();
     connect(&frame_, &QTimer::timeout, this, &MainWindow::tick);
-    frame_.start(kFrame_ms);
+    frame_.setObjectName("frame");
+    connect(&controller_, &BenchController::changed, this, &MainWindow::stir);
+    connect(&controller_, &BenchController::failed, this, &MainWindow::stir);
+    qApp->installEventFilter(this);
+    stir();
     showTitle();
     onEvent(*this, QEvent::Resize, [this] {
         const bool changed = hasRoomForDocks_ != (width() >= scaledPx(kDocksFrom)) ||
@@ -184,6 +192,7 @@ MainWindow::~MainWindow() {
     // Hiding notifies the workspaces, and they use the controller. So hide now: the controller is a member, and gone by
     // the time Qt would hide the window.
     hide();
+    qApp->removeEventFilter(this);
 }
 
 void MainWindow::connectWorkspaces() {
@@ -223,6 +232,47 @@ void MainWindow::buildDocks() {
     connect(devices_, &DeviceDock::checkRequested, this, &MainWindow::checkImpedance);
 }
 
+/// What a person or the window system does. A tick causes none of these.
+bool MainWindow::eventFilter(QObject* /*watched*/, QEvent* event) {
+    switch (event->type()) {
+        case QEvent::KeyPress:
+        case QEvent::MouseButtonPress:
+        case QEvent::MouseButtonRelease:
+        case QEvent::Wheel:
+        case QEvent::TouchBegin:
+        case QEvent::TabletPress:
+        case QEvent::Drop:
+        case QEvent::Close:
+        case QEvent::Expose:
+        case QEvent::WindowStateChange:
+        case QEvent::ApplicationStateChange:
+            stir();
+            break;
+        default:
+            break;
+    }
+    return false;
+}
+
+void MainWindow::stir() {
+    stirred_.start();
+    if (frame_.interval() != kFrame_ms || !frame_.isActive()) frame_.start(kFrame_ms);
+}
+
+bool MainWindow::inSight() const {
+    return !isMinimized() && (windowHandle() == nullptr || windowHandle()->isExposed());
+}
+
+int MainWindow::frameTime_ms(InterlockState state) const {
+    const auto activity = controller_.activity();
+    const auto* pilot = workspaces_->pilot();
+    const bool runs = pilot != nullptr && pilot->running();
+    if (runs || !stirred_.hasExpired(kStirred_ms)) return kFrame_ms;
+    if (activity == Activity::Closed) return kIdle_ms;
+    const bool still = activity == Activity::Live && outputIsOff(state) && state != InterlockState::Faulted;
+    return still && !(inSight() && workspace() == Workspaces::kLive) ? kBesideBench_ms : kFrame_ms;
+}
+
 void MainWindow::tick() {
     // The window system may add its frame long after the window is shown, without moving it. The frame must fit too.
     if (awaitsFrame_ && frameGeometry() != geometry()) {
@@ -235,6 +285,8 @@ void MainWindow::tick() {
     const auto telemetry = blind ? blinded(seen) : seen;
     safety_->refresh(telemetry);
     attend(seen);
+    keys_->stayFirst(controller_.activity() != Activity::Closed);
+    if (const int next = frameTime_ms(seen.state); next != frame_.interval()) frame_.start(next);
     showTitle();
     standIn();
     if (smallStop_) smallStop_->showState(safety_->shownState());
@@ -250,7 +302,7 @@ void MainWindow::tick() {
     docks_->refresh();
     line_->refresh();
     const bool measured = measurements_->isVisible();
-    workspaces_->refresh(telemetry, measured);
+    workspaces_->refresh(telemetry, measured, inSight());
     if (measured) summary_->refresh(telemetry);
 }
 

@@ -1,8 +1,10 @@
 // MainWindow.h - the main window: safety bar at the top, workspaces chosen at the left, docks, recording line.
 //
-// Reads telemetry 30 times a second and lets the visible parts redraw. Nothing here blocks.
+// Reads telemetry 30 times a second and lets the visible parts redraw; more seldom where less can change, see
+// MainWindow::frameTime_ms(). Nothing here blocks.
 #pragma once
 
+#include <QElapsedTimer>
 #include <QMainWindow>
 #include <QTimer>
 #include <functional>
@@ -28,6 +30,7 @@ class NoticeBanner;
 class RecordingLine;
 class SafetyBar;
 class SmallStop;
+class StopKeys;
 class WelcomeTour;
 class WorkspaceRail;
 class Workspaces;
@@ -77,12 +80,21 @@ protected:
     void closeEvent(QCloseEvent* event) override;
     void dragEnterEvent(QDragEnterEvent* event) override;
     void dropEvent(QDropEvent* event) override;
+    bool eventFilter(QObject* watched, QEvent* event) override;
 
 private:
     void connectWorkspaces();
     void buildDocks();
     void restore();
     void tick();
+    /// Returns the time to the next tick(): a frame while output can flow, a run has the bench, live plots are in
+    /// sight, or something has happened just now; ten a second with another page beside an open bench; one without a
+    /// bench.
+    [[nodiscard]] int frameTime_ms(InterlockState state) const;
+    /// Something has happened that tick() may have to show: ticks with every frame for a while.
+    void stir();
+    /// True if a part of the window may be on the screen.
+    [[nodiscard]] bool inSight() const;
     /// Pauses output while the operator cannot see and reach STOP.
     void attend(const Telemetry& telemetry);
     void standIn();
@@ -93,6 +105,7 @@ private:
 
     BenchController controller_;
     CalibrationBook calibrations_{controller_};
+    StopKeys* keys_ = nullptr;
     Attendance* attendance_ = nullptr;
     SafetyBar* safety_ = nullptr;
     const QWidget* stop_ = nullptr;  ///< the STOP of the safety bar
@@ -115,7 +128,8 @@ private:
     WorkspaceRail* rail_ = nullptr;
     bool hasRoomForDocks_ = true, hasRoomForAllDocks_ = true;
     bool awaitsFrame_ = false;  ///< the window system has not yet added its frame
-    QTimer frame_;
+    QTimer frame_{this};
+    QElapsedTimer stirred_;  ///< time since something happened
 };
 
 }  // namespace tacto::gui

@@ -266,7 +266,7 @@ void SafetyBar::showDevice(const Telemetry& telemetry) {
     const auto open = controller_.open();
     if (!open) {
         device_->setText(controller_.activity() == Activity::Opening ? tr("Opening…") : QString());
-        load_->clear();
+        load_->setText({});  // clear() would paint it again
         showCalibration();
         return;
     }

@@ -35,15 +35,20 @@ bool isReturn(const QKeyEvent& key) { return key.key() == Qt::Key_Return || key.
 }  // namespace
 
 StopKeys::StopKeys(std::function<void(const char*)> stop, QObject* parent) : QObject(parent), stop_(std::move(stop)) {
-    qApp->installEventFilter(this);
-    startTimer(kFirstEvery_ms);
+    // Installing the filter again puts it before all others.
+    connect(&first_, &QTimer::timeout, this, [this] { qApp->installEventFilter(this); });
+    first_.setInterval(kFirstEvery_ms);
+    stayFirst(true);
     returnReleased_.setSingleShot(true);
     returnReleased_.setInterval(kReleased_ms);
     connect(&returnReleased_, &QTimer::timeout, this, [this] { returnHeld_ = false; });
 }
 
-/// Installing the filter again puts it before all others.
-void StopKeys::timerEvent(QTimerEvent*) { qApp->installEventFilter(this); }
+void StopKeys::stayFirst(bool stays) {
+    if (stays == first_.isActive()) return;
+    qApp->installEventFilter(this);
+    stays ? first_.start() : first_.stop();
+}
 
 StopKeys::~StopKeys() { qApp->removeEventFilter(this); }
 

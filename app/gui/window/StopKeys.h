@@ -4,7 +4,7 @@
 // Installed on the application, so that it sees each key before any widget. Qt would hide keys and clicks in a window
 // behind a modal dialog even from the application, so StopKeys makes every window non-modal before it is shown, also
 // those that Qt opens by itself. During a drag Qt puts its own filter before all others and takes every key, so
-// StopKeys puts itself first again 20 times a second.
+// StopKeys puts itself first again 20 times a second, as long as there is an output to stop.
 #pragma once
 
 #include <QObject>
@@ -24,10 +24,11 @@ public:
     /// key repeats; with "participant (Esc)" if the key went to a window whose property "stopsAs" is "participant".
     StopKeys(std::function<void(const char*)> stop, QObject* parent);
     ~StopKeys() override;
+    /// Whether to come first also in a drag, which takes every key; true at first.
+    void stayFirst(bool stays);
 
 protected:
     bool eventFilter(QObject* watched, QEvent* event) override;
-    void timerEvent(QTimerEvent* event) override;
 
 private:
     [[nodiscard]] static bool isParticipants(const QObject* watched);
@@ -36,7 +37,7 @@ private:
     static constexpr int kReleased_ms = 150;
     const std::function<void(const char*)> stop_;
     bool returnHeld_ = false;
-    QTimer returnReleased_;
+    QTimer returnReleased_, first_;
 };
 
 }  // namespace tacto::gui

@@ -14,7 +14,7 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kLookInterval_ms = 60;
+constexpr int kLookInterval_ms = 150;
 constexpr int kWidthChars = 46;
 constexpr int kMargin = 24;       // distance from the window's edges
 constexpr int kAboveStatus = 48;  // distance from the window's lower edge
@@ -148,7 +148,10 @@ void Tour::place() {
         }
     }
     if (geometry() != best) setGeometry(best);
-    raise();
+    // What lies on top already must not be raised: it would be painted again each time.
+    const auto& all = parentWidget()->children();
+    const bool framed = !all.isEmpty() && all.back() == frame_;
+    if (all.value(all.size() - (framed ? 2 : 1)) != this) raise();
     if (frame_) frame_->raise();
 }
 
@@ -196,7 +199,6 @@ void TourFrame::follow(const TourTarget& target) {
     const auto around = seen.adjusted(-line, -line, line, line) & window->rect();
     if (geometry() != around) setGeometry(around);
     if (!isVisible()) show();
-    raise();
 }
 
 void TourFrame::paintEvent(QPaintEvent*) {

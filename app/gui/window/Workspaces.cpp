@@ -155,9 +155,9 @@ void Workspaces::showPlotOnly(bool only) {
     for (auto* runner : runners()) runner->showPlotOnly(only);
 }
 
-void Workspaces::refresh(const Telemetry& telemetry, bool measured) {
+void Workspaces::refresh(const Telemetry& telemetry, bool measured, bool inSight) {
     letYield(*this, telemetry.state == InterlockState::Faulted);  // makes room for Reset
-    live_->refresh(telemetry, currentIndex() == kLive && !showsScope());
+    live_->refresh(telemetry, inSight && currentIndex() == kLive && !showsScope());
     if (measured || showsScope()) scope_->refresh(telemetry);
     // Only the workspace that started the run takes its reports; each recognises its own run.
     for (auto* protocol : runners()) protocol->refresh();

@@ -37,8 +37,8 @@ public:
     void takeFocus();
     /// Hides tabs, tools and paths.
     void showPlotOnly(bool only);
-    /// `measured`: the oscilloscope's readings are shown next to the present workspace.
-    void refresh(const Telemetry& telemetry, bool measured);
+    /// `measured`: the oscilloscope's readings are shown next to the present workspace. `inSight`: the window may be.
+    void refresh(const Telemetry& telemetry, bool measured, bool inSight);
     /// Opens a recording (a folder or its JSON), a session or a capture; emits complained() if it is none of these.
     void openFile(const QString& path);
 

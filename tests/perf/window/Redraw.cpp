@@ -2,7 +2,8 @@
 // process (including simulated bench and recording) over some seconds, compared with an empty plot that is redrawn as
 // often.
 //
-// Goal: two channels cost at most three times the empty plot, with as many pictures. The limit is 25 % of one core.
+// Goal: two channels cost at most three times the empty plot, with as many pictures. The limit is 25 % of one core. A
+// window without a bench costs at most a tenth of the empty plot; there the limit is 0.5 %.
 #include <QTabWidget>
 #include <fmt/format.h>
 #include <qcustomplot.h>
@@ -28,6 +29,7 @@ constexpr int kSettle_ms = 1000;
 constexpr int kMeasured_ms = 5000;
 constexpr double kMaxTimes = 3;
 constexpr double kMaxOfCore_percent = 25;
+constexpr double kMaxIdleTimes = 0.1, kMaxIdle_percent = 0.5;
 const QSize kScreen(1280, 720);
 
 struct Cost {
@@ -181,6 +183,20 @@ void wholeWindow(const Cost& baseline, int tab, const std::string& what) {
     window.close();
 }
 
+/// The window without a bench, in which nothing changes.
+void idleWindow(const Cost& baseline) {
+    gui::MainWindow window(test::simulatedRegistry);
+    window.resize(1440, 900);
+    window.show();
+    pass(1000);
+    const auto cost = costOf({}, 0);
+    line("the whole window, no bench is open",
+         fmt::format("{:7.2f} % {:7.2f} %", cost.window_percent, cost.process_percent),
+         verdict(cost.window_percent / baseline.window_percent, "the empty plot", kMaxIdleTimes) +
+             ofLimit(cost.process_percent, kMaxIdle_percent, "% of one core"));
+    window.close();
+}
+
 }  // namespace
 
 void measureRedraw() {
@@ -189,6 +205,7 @@ void measureRedraw() {
     tell("baseline: empty plot", baseline, baseline, false);
     twoChannels(baseline);
     touch(baseline);
+    idleWindow(baseline);
     wholeWindow(baseline, 0, "the whole window at its own pace: touch");
     wholeWindow(baseline, 1, "the whole window at its own pace: oscilloscope");
 }
