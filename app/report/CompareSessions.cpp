@@ -151,7 +151,7 @@ void takeRecord(const ResultTable& table, const json& record, const QString& sub
         if (!word && (c < first || !isNumber(column.as))) continue;
         auto title = textFrom(column.title).section('(', 0, 0).trimmed();
         title = title.section(", mean and s.d.", 0, 0);
-        if (column.as == As::Jnd || column.as == As::AtLeast) title += " in just-noticeable differences";
+        if (column.as == As::Jnd || column.as == As::AtLeast) title += " in JND";
         Found::Cell cell{.name = subject.isEmpty() ? title : subject + ": " + title,
                          .table = textFrom(table.title),
                          .unit = column.unit};

@@ -79,7 +79,7 @@ QWidget* WiringPanel::buildDevices() {
     auto* add = new QToolButton(holder);
     add->setText("+");
     add->setProperty("role", "opens");
-    add->setAccessibleName(tr("Add devices"));
+    add->setAccessibleName(tr("Add a recording or captures"));
     add->setToolTip(
         tr("Takes simulated devices with a fault, a recording or oscilloscope records in the place of a device."));
     add->setPopupMode(QToolButton::InstantPopup);

@@ -1,6 +1,8 @@
 #include "app/gui/sessions/CompareWindow.h"
 
-#include <QSplitter>
+#include <QHeaderView>
+#include <QScreen>
+#include <QTimer>
 #include <QVBoxLayout>
 #include <algorithm>
 
@@ -23,9 +25,11 @@ namespace tacto::gui {
 
 namespace {
 
-constexpr int kFigureLines = 12;      // least height of the figure in lines of text
-constexpr int kTableLines = 20;       // height of the tables at first
-constexpr double kSameTime_s = 0.01;  // samples of two streams this close are of the same time
+constexpr int kFigureChars = 40, kFigureLines = 10;  // least size of the figure in characters and lines
+constexpr int kBesideChars = 148;                    // width from which the figure is beside the tables
+constexpr int kLines = 34;                           // height at first
+constexpr int kTableShare = 62;                      // of width or height, in %
+constexpr double kSameTime_s = 0.01;                 // samples of two streams this close are of the same time
 
 /// Returns B less A at the times that both have.
 std::pair<std::vector<double>, std::vector<double>> differenceOf(const std::vector<double>& ta,
@@ -75,19 +79,16 @@ CompareWindow::CompareWindow(std::shared_ptr<const ReadSession> a, std::shared_p
     setWindowTitle(tr("Compare %1 with %2").arg(names[0], names[1]));
     auto* layout = new QVBoxLayout(this);
     layout->addWidget(explanation(tr("A: %1. B: %2.").arg(names[0], names[1]), this));
-    auto* split = new QSplitter(Qt::Vertical, this);
-    split->setChildrenCollapsible(false);
-    auto* page = new ScrollingPage(split);
-    auto* tables = new ResultTables(page->viewport());
-    nameWidget(*tables, "comparison", tr("What differs"));
-    tables->show(toJson(compareTwo(*sessions_[0], *sessions_[1])));
-    page->hold(tables);
-    split->addWidget(page);
-    split->addWidget(buildFigure(split));
-    split->setStretchFactor(0, 3);
-    split->setStretchFactor(1, 2);
-    split->setSizes({fontMetrics().height() * kTableLines, fontMetrics().height() * kFigureLines});
-    layout->addWidget(split, 1);
+    split_ = new QSplitter(this);
+    split_->setChildrenCollapsible(false);
+    auto* page = new ScrollingPage(split_);
+    tables_ = new ResultTables(page->viewport());
+    nameWidget(*tables_, "comparison", tr("What differs"));
+    tables_->show(toJson(compareTwo(*sessions_[0], *sessions_[1])));
+    page->hold(tables_);
+    split_->addWidget(page);
+    split_->addWidget(buildFigure(split_));
+    layout->addWidget(split_, 1);
     offerCaptures();
     offerTrials();
     offerStreams();
@@ -96,7 +97,28 @@ CompareWindow::CompareWindow(std::shared_ptr<const ReadSession> a, std::shared_p
     connect(which_, &QComboBox::currentIndexChanged, this, &CompareWindow::draw);
     draw();
     onLookChange(*this, [this] { colour(); });
-    resize(fontMetrics().averageCharWidth() * 130, fontMetrics().height() * 34);
+    afterLookChange(*this, [this] { QTimer::singleShot(0, this, &CompareWindow::fit); });
+    onEvent(*this, QEvent::Resize, [this] { fit(); });
+    const QSize wanted(fontMetrics().averageCharWidth() * kBesideChars, fontMetrics().height() * kLines);
+    resize(wanted.boundedTo(screen()->availableSize()));
+}
+
+/// Places the figure beside the tables, or below them in a narrow window; the names of quantities take the room that
+/// numbers leave.
+void CompareWindow::fit() {
+    const bool beside = width() >= fontMetrics().averageCharWidth() * kBesideChars;
+    const auto way = beside ? Qt::Horizontal : Qt::Vertical;
+    if (!fitted_ || split_->orientation() != way) {
+        fitted_ = true;
+        split_->setOrientation(way);
+        const int all = beside ? width() : height();
+        split_->setSizes({all * kTableShare / 100, all * (100 - kTableShare) / 100});
+    }
+    for (auto* table : tables_->findChildren<QTableWidget*>()) {
+        if (!table->horizontalHeaderItem(0)->text().startsWith("Quantity")) continue;
+        table->horizontalHeader()->setStretchLastSection(false);
+        table->horizontalHeader()->setSectionResizeMode(0, QHeaderView::Stretch);
+    }
 }
 
 QWidget* CompareWindow::buildFigure(QWidget* parent) {
@@ -108,8 +130,12 @@ QWidget* CompareWindow::buildFigure(QWidget* parent) {
     plot_ = new QCustomPlot(page);
     nameWidget(*plot_, "both", tr("The same of both"));
     plot_->setInteractions(QCP::iRangeDrag | QCP::iRangeZoom);
-    plot_->setMinimumHeight(fontMetrics().height() * kFigureLines);
+    plot_->setMinimumSize(fontMetrics().averageCharWidth() * kFigureChars, fontMetrics().height() * kFigureLines);
     addPlotMenu(*plot_, "compared");
+    onEvent(*plot_, QEvent::Resize, [this] {  // fewer numbers where the axis is short
+        plot_->yAxis->ticker()->setTickCount(std::clamp(plot_->height() / (4 * fontMetrics().height()), 2, 5));
+        plot_->replot(QCustomPlot::rpQueuedReplot);
+    });
     putLegendAbove(*plot_);
     column->addWidget(plot_, 1);
     marks_ = std::make_unique<MarkLines>(*plot_);

@@ -4,6 +4,7 @@
 
 #include <QComboBox>
 #include <QDialog>
+#include <QSplitter>
 #include <array>
 #include <memory>
 #include <qcustomplot.h>
@@ -13,6 +14,8 @@
 #include "app/gui/theme/MarkLines.h"
 
 namespace tacto::gui {
+
+class ResultTables;
 
 class CompareWindow final : public QDialog {
     Q_OBJECT
@@ -48,7 +51,11 @@ private:
     void overlay(Both both, const Drawn& drawn);
     void drawMarks();
     void colour();
+    void fit();
     std::array<std::shared_ptr<const ReadSession>, 2> sessions_;
+    QSplitter* split_ = nullptr;
+    bool fitted_ = false;
+    ResultTables* tables_ = nullptr;
     QComboBox* which_ = nullptr;
     QCustomPlot* plot_ = nullptr;
     std::vector<Drawn> drawn_;          ///< in the order of which_

@@ -29,6 +29,7 @@ namespace {
 
 constexpr int kPlotLines = 10;  // height of a readable plot in lines of text
 constexpr int kMinStreams = 2;  // rows
+constexpr int kCommand = 2;     // column of captures_
 
 QTableWidget* makeTable(QWidget* parent, const QString& name) {
     auto* table = new QTableWidget(parent);
@@ -324,6 +325,7 @@ void SessionDetails::show(std::shared_ptr<const ReadSession> session) {
           {"Samples", "samples", As::Number},
           {"Rate", "rate", As::Number, "S/s"}},
          captures);
+    captures_->horizontalHeader()->setSectionResizeMode(kCommand, QHeaderView::Stretch);  // elided where room is short
     if (captures_->rowCount() > 0) captures_->setCurrentCell(0, 0);
     plot_->setVisible(streams_->rowCount() > 0);
     const auto has = [this](Role role) {
