@@ -354,6 +354,15 @@ protected:
                  }
              },
              "WiringPanel"},
+            {"Faults of a run's devices",
+             [this] {
+                 page(2);
+                 press(window, "Wiring");
+                 for (auto* action : find<QToolButton>(window, "Add a recording or captures")->menu()->actions()) {
+                     if (action->text() == "Simulated devices with &faults…") return action->trigger();
+                 }
+             },
+             "WiringPanel"},
             {"Saved instruments",
              [this] {
                  page(2);

@@ -170,6 +170,74 @@ TEST(CompareSessions, OfUnequalBoundsThoseThatFaceEachOtherCount) {
     EXPECT_NEAR(back.quantities.front().expanded, accuracy.expanded, 1e-9) << "whichever stands first";
 }
 
+/// Returns JSON of any shape, with the keys that results have.
+json anyJson(std::mt19937& random, int depth) {
+    const auto pick = [&](int most) { return std::uniform_int_distribution<int>(0, most)(random); };
+    static const char* const kKeys[] = {
+        "kind",   "conditions", "pairs",    "matrix",   "lines",     "cells", "loads", "amplitude", "value",
+        "low",    "high",       "mean",     "sd",       "n",         "unit",  "name",  "verdict",   "load",
+        "levels", "disclosed",  "accuracy", "quantity", "commanded", "loads", "is"};
+    static const char* const kWords[] = {
+        "separability", "load-safety", "stimulator-calibration", "drift", "", "V", "rough-high", "pass", "own kind",
+        "\x1b[2J",      "1 kohm"};
+    switch (pick(depth > 0 ? 7 : 4)) {
+        case 0:
+            return nullptr;
+        case 1:
+            return std::uniform_real_distribution<double>(-1e3, 1e3)(random);
+        case 2:
+            return pick(1) == 1;
+        case 3:
+        case 4:
+            return kWords[pick(int(std::size(kWords)) - 1)];
+        case 5: {
+            auto list = json::array();
+            for (int left = pick(4); left > 0; --left) list.push_back(anyJson(random, depth - 1));
+            return list;
+        }
+        default: {
+            auto object = json::object();
+            for (int left = pick(7); left > 0; --left)
+                object[kKeys[pick(int(std::size(kKeys)) - 1)]] = anyJson(random, depth - 1);
+            return object;
+        }
+    }
+}
+
+TEST(CompareSessions, AnyResultsOfAScriptAreComparedOrLeftOut) {
+    RecordProperty("hazard", "H10");
+    std::mt19937 random(4912);
+    static const char* const kKinds[] = {"separability", "load-safety", "stimulator-calibration", "drift",
+                                         "transitions",  "variation",   "sensor-calibration",     "own"};
+    for (int round = 0; round < 1500; ++round) {
+        ComparedSession both[2];
+        const auto* kind = kKinds[std::uniform_int_distribution<std::size_t>(0, std::size(kKinds) - 1)(random)];
+        for (auto& one : both) {
+            auto results = anyJson(random, 4);
+            if (results.is_object()) results["kind"] = kind;
+            one = session(std::move(results));
+            one.about.parameters = {{"p", anyJson(random, 2)}};
+            one.about.profileJson = anyJson(random, 3).dump();
+            one.trials = {{1, 1, Instant(1), "rough-high", anyJson(random, 2)}};
+        }
+        const auto compared = compareTwo(both[0], both[1]);
+        const auto written = toJson(compared);
+        for (const auto& table : tablesOf(written))
+            for (const auto& column : table.columns) static_cast<void>(columnText(column, rowsOf(table, written)));
+        double before = std::numeric_limits<double>::infinity();
+        bool known = true;
+        for (const auto& quantity : compared.quantities) {
+            EXPECT_TRUE(std::isfinite(quantity.a) && std::isfinite(quantity.b));
+            EXPECT_TRUE(known || !quantity.more()) << "those with U first";
+            known = quantity.more().has_value();
+            if (!known || quantity.expanded == 0) continue;
+            const double ratio = std::abs(quantity.difference()) / quantity.expanded;
+            EXPECT_LE(ratio, before) << "the most significant first";
+            before = ratio;
+        }
+    }
+}
+
 TEST(CompareSessions, TheTablesAreOneKindForWindowAndTerminal) {
     auto a = session({{"accuracy", 0.98}}), b = session({{"accuracy", 0.71}});
     b.about.seed = 8;

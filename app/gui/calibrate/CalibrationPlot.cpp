@@ -82,8 +82,6 @@ void CalibrationPlot::build() {
     empty_ = new QCPItemText(this);
     empty_->position->setType(QCPItemPosition::ptAxisRectRatio);
     empty_->position->setCoords(0.5, 0.5);
-    empty_->setText(kind_ == Kind::Errors ? tr("Each reading's error appears here\nagainst the tolerance.")
-                                          : tr("Each reading appears here\nagainst its command."));
 }
 
 /// The legend is in the corner that the band leaves free: levels at the left edge have the smallest tolerance.
@@ -98,7 +96,7 @@ void CalibrationPlot::addLegend() {
     for (auto* graph : named) graph->addToLegend();
 }
 
-void CalibrationPlot::clear() {
+void CalibrationPlot::clear(const QString& why) {
     for (auto* graph : {bandBottom_, bandTop_, line_, nominal_, up_, down_, marked_, means_}) graph->data()->clear();
     hideNearest();
     bars_->setData(QVector<double>());
@@ -107,6 +105,9 @@ void CalibrationPlot::clear() {
     yAxis->setLabel(kind_ == Kind::Errors ? tr("Measured − commanded") : tr("Measured"));
     legend->setVisible(false);
     empty_->setVisible(true);
+    empty_->setText(!why.isEmpty()          ? why
+                    : kind_ == Kind::Errors ? tr("Each reading's error appears here\nagainst the tolerance.")
+                                            : tr("Each reading appears here\nagainst its command."));
     colour();
     replot(QCustomPlot::rpQueuedReplot);
 }

@@ -17,7 +17,8 @@ class CalibrationPlot final : public QCustomPlot {
 public:
     enum class Kind { Measured, Errors };
     explicit CalibrationPlot(Kind kind, QWidget* parent = nullptr);
-    void clear();
+    /// Empties the plot and shows `why` in it; what will appear there if empty.
+    void clear(const QString& why = {});
     void show(const CalibrationReadings& of);
     void setSimulated(bool simulated) { showWatermark(*watermark_, simulated); }
 

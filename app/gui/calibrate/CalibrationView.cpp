@@ -150,7 +150,6 @@ void CalibrationView::draw() {
 
 void CalibrationView::end(const nlohmann::json& results) {
     draw();
-    if (!results.is_object()) return;
     for (const auto& [key, found] : results.items()) {
         auto judged = readingsFrom(key, found);
         if (judged) of(key) = std::move(*judged);
@@ -158,7 +157,10 @@ void CalibrationView::end(const nlohmann::json& results) {
     if (const auto rows = valueOr(results, "check"); rows.is_array()) {
         for (auto& one : all_) takeCheck(one, rows);
     }
-    if (!all_.empty()) choose(follow_ ? nearest() : shown_);
+    if (all_.empty())
+        for (auto* plot : {errors_, measured_}) plot->clear(tr("The run ended\nbefore a level was read."));
+    else
+        choose(follow_ ? nearest() : shown_);
 }
 
 /// Returns the index of the quantity that uses most of its tolerance: the verdict's first reason is about it.

@@ -363,6 +363,7 @@ QString RunViews::end(const FinishedRun& run) {
         }
     };
     const auto& results = run.result.outcome.results;
+    plane_->end();
     shows([&] { loads_->end(results); });
     shows([&] { matrix_->show(memberAt(results, "matrix")); });
     shows([&] { disclosed_->show(memberAt(results, "disclosed")); });

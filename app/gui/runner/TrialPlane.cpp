@@ -73,6 +73,15 @@ void TrialPlane::begin(bool simulated, Features features) {
     replot(QCustomPlot::rpQueuedReplot);
 }
 
+void TrialPlane::end() {
+    if (drawn_ > 0) return;
+    const bool trains = features_ == Features::Trains;
+    empty_->setText(trials_ == 0 ? tr("The run ended\nbefore its first trial.")
+                    : trains     ? tr("No trial of this run has\nboth amplitude and interval.")
+                                 : tr("No slide of this run\nwas measured."));
+    replot(QCustomPlot::rpQueuedReplot);
+}
+
 void TrialPlane::add(const nlohmann::json& trial) {
     ++trials_;
     const auto number = [&](const char* key) {

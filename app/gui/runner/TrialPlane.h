@@ -24,6 +24,8 @@ public:
     /// Adds a trial as passed to record.trial(); a trial without both features is counted but not drawn. A slide of a
     /// fingertip without taxels is drawn against its number.
     void add(const nlohmann::json& trial);
+    /// Says why nothing is drawn, if that is so at the end of a run.
+    void end();
     [[nodiscard]] Features features() const { return features_; }
     [[nodiscard]] int trials() const { return trials_; }
     [[nodiscard]] int drawn() const { return drawn_; }

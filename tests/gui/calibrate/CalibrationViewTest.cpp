@@ -176,6 +176,26 @@ TEST_F(View, LowItsCardsAreOneLineSoThatThePlotHasTheRoom) {
     EXPECT_GE(errors().height(), 340);
 }
 
+TEST_F(View, AnEmptyPlotSaysWhyItIsEmpty) {
+    const auto said = [&] {
+        QString all;
+        for (int i = 0; i < errors().itemCount(); ++i) {
+            const auto* text = qobject_cast<QCPItemText*>(errors().item(i));
+            if (text != nullptr && text->visible()) all += text->text();
+        }
+        return all.toStdString();
+    };
+    EXPECT_THAT(said(), HasSubstr("appears here"));
+    for (const Json& results : {Json(), Json::object({{"kind", "stimulator-calibration"}}), Json::array({1, 2})}) {
+        view.end(results);
+        EXPECT_THAT(said(), HasSubstr("before a level was read"));
+    }
+    view.begin({{"tolerance_pct", 2.0}});
+    EXPECT_THAT(said(), HasSubstr("appears here")) << "for the next run";
+    sweep();
+    EXPECT_EQ(said(), "");
+}
+
 TEST_F(View, OtherTrialsAreNone) {
     EXPECT_EQ(gui::calibratedQuantity({{"condition", "rough-high"}, {"amplitude_v", 30}}), "");
     EXPECT_EQ(gui::calibratedQuantity({{"condition", "amplitude up"}, {"commanded", 30}}), "");

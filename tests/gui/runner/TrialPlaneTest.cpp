@@ -43,6 +43,28 @@ protected:
     gui::TrialPlane plane;
 };
 
+TEST_F(Plane, EmptyAtTheEndOfARunItSaysWhy) {
+    const auto said = [&] {
+        QStringList all;
+        for (int i = 0; i < plane.itemCount(); ++i) {
+            const auto* words = qobject_cast<QCPItemText*>(plane.item(i));
+            if (words != nullptr && words->visible() && words->objectName() != "watermark") all << words->text();
+        }
+        return all.join(' ').toStdString();
+    };
+    EXPECT_THAT(said(), testing::HasSubstr("while the protocol runs"));
+    plane.end();
+    EXPECT_THAT(said(), testing::HasSubstr("before its first trial"));
+    plane.begin(true);
+    plane.add({{"condition", "rough-high"}, {"amplitude_v", nullptr}, {"interval_s", 0.5}});
+    plane.end();
+    EXPECT_THAT(said(), testing::HasSubstr("both amplitude and interval"));
+    plane.begin(true);
+    add("rough-high", 40, 0.5);
+    plane.end();
+    EXPECT_THAT(said(), testing::Not(testing::HasSubstr("run")));
+}
+
 TEST_F(Plane, EachClusterIsNamedAtItsPointsAndNothingIsCovered) {
     fourConditions();
     for (const auto& size : {QSize(800, 500), QSize(420, 300), QSize(1300, 800)}) {
