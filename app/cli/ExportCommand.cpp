@@ -11,7 +11,10 @@ void declareExport(QCommandLineParser& parser) {
     parser.addOptions(
         {{"format", "bids: a BIDS dataset of behavioural files.", "bids"},
          {"out", "A new or empty folder outside the study.", "DIR"},
-         {"with", "What else is exported of a participant: age, sex, handedness; commas between.", "LIST"}});
+         {"with",
+          "What else is exported of a participant: age (as a range), sex, handedness; commas between. Withheld where "
+          "fewer than three people share it.",
+          "LIST"}});
     declarePassphrase(parser);
 }
 
@@ -31,6 +34,7 @@ int runExport(const QCommandLineParser& parser) {
     auto study = openStudy(parser, *folder, Study::Access::Change);
     if (!study) return couldNotRun(study.error());
     if (const auto done = exportBids(*study, with, out, TACTOSCOPE_VERSION); !done) return couldNotRun(done.error());
+    if (const auto about = sharedAbout(*study, with); !about.withheld.empty()) say(stderr, "{}.\n", about.withheld);
     say("{}\n", out.string());
     return kDone;
 }

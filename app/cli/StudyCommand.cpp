@@ -1,4 +1,5 @@
 // study: creates and shows studies with people or virtual participants; records enrolment, consent and withdrawal.
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "app/cli/Command.h"
@@ -6,6 +7,7 @@
 #include "app/cli/StudyPassphrase.h"
 #include "app/run/PilotRows.h"
 #include "core/analysis/identification/IdentificationJson.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/pilot/PilotRecord.h"
 #include "core/study/Study.h"
 
@@ -40,9 +42,10 @@ int create(const QCommandLineParser& parser, const std::string& folder) {
     const auto study = Study::create(folder, std::move(*settings), *passphrase);
     if (!study) return failWith(study.error());
     say(stderr,
-        "The keys lie in {}. A lost passphrase or key file is lost data: copy that file to another medium, write the "
-        "passphrase on paper, seal it and lock it away.\n",
-        (Study::defaultKeyFolder() / (study->settings().id + ".json")).string());
+        "The keys lie in {}. A lost passphrase or key file is lost data: the investigator and whoever answers for the "
+        "data should each hold a copy of that file on another medium, apart from the passphrase. Write the passphrase "
+        "on paper, seal it and lock it away.\n",
+        study->keyFile().string());
     if (const auto valid = approvalGate(study->settings(), study->today()); !valid)
         say(stderr, "No session can begin today: {}.\n", valid.error().message);
     if (parser.isSet("json")) printJson(studyJson(*study));
@@ -67,7 +70,7 @@ int amend(Study& study, const QCommandLineParser& parser, const QStringList&) {
 int adverseEvent(Study& study, const QCommandLineParser& parser, const QStringList& words) {
     const auto event = adverseEventGiven(parser);
     if (!event) return usage(fmt::format("study adverse-event: {}", event.error().message));
-    const auto session = words.at(2).toStdString();
+    const auto session = words.value(2).toStdString();
     if (const auto noted = study.adverseEvent(session, *event); !noted) return failWith(noted.error());
     if (parser.isSet("json"))
         printJson({{"session", session}, {"adverse_events", study.adverseEventCount()}});
@@ -129,7 +132,42 @@ int consent(Study& study, const QCommandLineParser& parser, const QStringList& w
 
 int leave(Study& study, const QCommandLineParser& parser, const QStringList& words) {
     const auto code = words.at(2).toStdString();
-    return changed(study.leave(code), study, code, parser);
+    return changed(study.leave(code, given(parser, "reason")), study, code, parser);
+}
+
+int note(Study& study, const QCommandLineParser& parser, const QStringList& words) {
+    const auto given = noteGiven(parser, words.at(2).toStdString());
+    if (!given) return usage(fmt::format("study note: {}", given.error().message));
+    if (const auto noted = study.note(*given); !noted) return failWith(noted.error());
+    if (parser.isSet("json"))
+        printJson(noteJson(study.notes().back()));
+    else
+        say("noted; notes of this kind: {}\n", std::ranges::count(study.notes(), given->kind, &StudyNote::kind));
+    return kDone;
+}
+
+int release(Study& study, const QCommandLineParser& parser, const QStringList& words) {
+    const auto event = parseWhole<std::size_t>(words.at(2).toStdString());
+    if (!event) {
+        return usage(fmt::format("study release: EVENT is \"{}\"; the number of an adverse event is expected",
+                                 words.at(2).toStdString()));
+    }
+    if (const auto done = study.release(*event, given(parser, "by"), given(parser, "reason")); !done)
+        return failWith(done.error());
+    if (parser.isSet("json"))
+        printJson({{"event", *event}, {"by", given(parser, "by")}});
+    else
+        say("released\n");
+    return kDone;
+}
+
+int passphrase(Study& study, const QCommandLineParser& parser, const QStringList&) {
+    const auto next = newPassphraseFor(parser, study.folder());
+    if (!next) return couldNotRun(next.error());
+    if (const auto done = study.changePassphrase(*next); !done) return failWith(done.error());
+    say(stderr, "Copies of {} still open with the passphrase of their time: replace them.\n", study.keyFile().string());
+    if (parser.isSet("json")) printJson({{"key_file", study.keyFile().string()}});
+    return kDone;
 }
 
 int withdraw(Study& study, const QCommandLineParser& parser, const QStringList& words) {
@@ -253,14 +291,18 @@ const std::vector<StudyWord>& studyWords() {
          false,
          [](Study& study, const QCommandLineParser& parser, const QStringList&) { return show(study, parser); }},
         {"trials", 3, 3, "STUDY and CODE", {"session", "passphrase-file", "json"}, false, trials},
-        {"leave", 3, 3, "STUDY and CODE", {"passphrase-file", "json"}, true, leave},
+        {"leave", 3, 3, "STUDY and CODE", {"reason", "passphrase-file", "json"}, true, leave},
+        {"note", 3, 3, "STUDY and KIND", {"set", "passphrase-file", "json"}, true, note},
+        {"release", 3, 3, "STUDY and EVENT", {"by", "reason", "passphrase-file", "json"}, true, release},
+        {"passphrase", 2, 2, "STUDY", {"passphrase-file", "new-passphrase-file", "json"}, true, passphrase},
         {"go-back", 2, 2, "STUDY", {"confirm", "passphrase-file", "json"}, true, goBack},
         {"withdraw", 3, 3, "STUDY and CODE", {"confirm", "passphrase-file", "json"}, true, withdraw},
         {"adverse-event",
-         3,
+         2,
          3,
          "STUDY and SESSION",
-         {"what", "severity", "relation", "serious", "action", "outcome", "reported", "passphrase-file", "json"},
+         {"what", "severity", "relation", "serious", "expected", "onset", "ended", "action", "outcome", "reported",
+          "passphrase-file", "json"},
          true,
          adverseEvent},
         {"next-day",
@@ -312,10 +354,13 @@ const Command kStudy{
     "[--set KEY=VALUE]... [--profile FILE] | "
     "enrol STUDY [CODE] [--virtual SEED] [--group GROUP] [--age YEARS] [--sex SEX] [--handedness HAND] | "
     "consent STUDY CODE --version V --date DATE --by INITIALS | show STUDY | "
-    "trials STUDY CODE [--session N] | leave STUDY CODE | withdraw STUDY CODE --confirm CODE | "
+    "trials STUDY CODE [--session N] | leave STUDY CODE [--reason T] | withdraw STUDY CODE --confirm CODE | "
     "go-back STUDY [--confirm WORD] | "
-    "adverse-event STUDY SESSION --what TEXT --severity 1..4 --relation 1..5 [--serious] [--action T] [--outcome T] "
-    "[--reported] | next-day STUDY SESSION --erythema 0..4 --oedema 0..4 [--side-effect ITEM:SEVERITY:RELATION]...} "
+    "adverse-event STUDY [SESSION] --what TEXT --severity 1..4 --relation 1..5 [--serious] [--expected WORD] "
+    "[--onset DATE] [--ended DATE] [--action T] [--outcome T] [--reported] | release STUDY EVENT --by NAME [--reason "
+    "T] "
+    "| note STUDY KIND --set KEY=VALUE... | passphrase STUDY [--new-passphrase-file F] | next-day STUDY SESSION "
+    "--erythema 0..4 --oedema 0..4 [--side-effect ITEM:SEVERITY:RELATION]...} "
     "[--passphrase-file F] [--json]",
     "Studies with people or virtual participants: approval, consent, sealed records", declareStudyOptions, runStudy};
 

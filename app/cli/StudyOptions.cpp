@@ -1,6 +1,8 @@
 #include "app/cli/StudyOptions.h"
 
+#include <algorithm>
 #include <fmt/ranges.h>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "app/cli/CaptureOptions.h"
@@ -14,13 +16,15 @@ namespace tacto::cli {
 
 namespace {
 
-Result<void> takeSets(const QCommandLineParser& parser, StudySettings& settings) {
+/// Calls `take` with the key and the value of each --set.
+Result<void> forEachSet(const QCommandLineParser& parser,
+                        const std::function<Result<void>(const std::string& key, const std::string& value)>& take) {
     for (const auto& set : parser.values("set")) {
         const auto text = set.toStdString();
         const auto equals = text.find('=');
         if (equals == std::string::npos || equals == 0)
             return fail(ErrorCode::InvalidArgument, "--set {}: KEY=VALUE is expected", text);
-        if (auto done = setStudyField(settings, text.substr(0, equals), text.substr(equals + 1)); !done) return done;
+        if (auto done = take(text.substr(0, equals), text.substr(equals + 1)); !done) return done;
     }
     return {};
 }
@@ -29,7 +33,11 @@ Result<void> takeSets(const QCommandLineParser& parser, StudySettings& settings)
 Result<StudySettings> asSetHere(const QCommandLineParser& parser, StudySettings settings) {
     if (!settings.procedure) settings.procedure.emplace();
     if (!settings.painCeiling) settings.painCeiling = kPainCeiling;
-    if (auto taken = takeSets(parser, settings); !taken) return failure(taken);
+    if (!settings.ageMin) settings.ageMin = kAgeMin;
+    const auto take = [&](const std::string& key, const std::string& value) {
+        return setStudyField(settings, key, value);
+    };
+    if (auto taken = forEachSet(parser, take); !taken) return failure(taken);
     const auto profile = profileOption(parser);
     if (!profile) return failure(profile);
     if (auto stated = stateProgram(settings, *profile); !stated) return failure(stated);
@@ -53,14 +61,17 @@ void declareStudyOptions(QCommandLineParser& parser) {
     parser.addOption({"from", "First day of the approval, as 2026-11-21.", "DATE"});
     parser.addOption({"expires", "Its last day.", "DATE"});
     parser.addOption({"consent-version", "Version of the consent form in force.", "V"});
-    parser.addOption(
-        {"set", "A setting of the study: blocks=3, electrode.area_cm2=5, license=CC-BY-4.0.", "KEY=VALUE"});
+    parser.addOption({"set",
+                      "A setting of the study: blocks=3, electrode.area_cm2=5, license=CC-BY-4.0, "
+                      "exclusions=\"Question?;Other?\". Of "
+                      "a note, a field of it.",
+                      "KEY=VALUE"});
     parser.addOption({"profile", "Profile that its sessions are run with; the shipped one where left out.", "FILE"});
     parser.addOption({"reference", "Reference of the committee's amendment.", "REF"});
     parser.addOption({"virtual", "Enrols a virtual participant of this seed.", "SEED"});
     parser.addOption({"version", "Version of the consent form that was signed.", "V"});
     parser.addOption({"date", "Day on which it was signed.", "DATE"});
-    parser.addOption({"by", "The investigator's initials.", "INITIALS"});
+    parser.addOption({"by", "The investigator's initials; of release, who decides.", "INITIALS"});
     parser.addOption({"confirm",
                       "The code once more: the participant's records are lost for good. Of go-back the word that it "
                       "names: newer rows of the ledger are.",
@@ -75,6 +86,13 @@ void declareStudyOptions(QCommandLineParser& parser) {
     parser.addOption({"serious", "It was a serious adverse event."});
     parser.addOption({"action", "What was done.", "TEXT"});
     parser.addOption({"outcome", "What became of it.", "TEXT"});
+    parser.addOption(
+        {"expected", "Whether the approval names it among the risks: unknown, expected, unexpected.", "WORD"});
+    parser.addOption({"onset", "Day on which it began, as 2026-11-21.", "DATE"});
+    parser.addOption({"ended", "Day on which it ended.", "DATE"});
+    parser.addOption({"reason", "Why they left, or why the study is released.", "TEXT"});
+    parser.addOption(
+        {"new-passphrase-file", "File whose first line is the next passphrase; asked for where left out.", "F"});
     parser.addOption({"reported", "It was reported to the committee."});
     parser.addOption({"group", "intact, or \"limb difference\"; intact where left out.", "GROUP"});
     parser.addOption({"age", "Age in whole years, where the approval asks for it.", "YEARS"});
@@ -173,6 +191,17 @@ Result<AdverseEvent> adverseEventGiven(const QCommandLineParser& parser) {
     event.relation = *relation;
     event.serious = parser.isSet("serious");
     event.reported = parser.isSet("reported");
+    event.onset = given(parser, "onset");
+    event.ended = given(parser, "ended");
+    if (parser.isSet("expected")) {
+        const auto word = given(parser, "expected");
+        const auto expected = valueFor(kExpectedness, word);
+        if (!expected) {
+            return fail(ErrorCode::InvalidArgument, "--expected is \"{}\"; unknown, expected or unexpected is expected",
+                        word);
+        }
+        event.expected = *expected;
+    }
     event.action = given(parser, "action");
     event.outcome = given(parser, "outcome");
     return event;
@@ -221,6 +250,19 @@ Json participantJson(const Participant& participant) {
             {"sessions", participant.sessions}};
 }
 
+Result<StudyNote> noteGiven(const QCommandLineParser& parser, const std::string& kind) {
+    StudyNote note{kind, {}, {}};
+    const auto take = [&](const std::string& key, const std::string& value) -> Result<void> {
+        note.said[key] = value;
+        return {};
+    };
+    if (auto taken = forEachSet(parser, take); !taken) return failure(taken);
+    if (auto sound = checkNote(note); !sound) return failure(sound);
+    return note;
+}
+
+Json noteJson(const StudyNote& note) { return {{"kind", note.kind}, {"date", dayOf(note.at)}, {"said", note.said}}; }
+
 Json amendmentJson(const StudyAmendment& amendment) {
     return {{"reference", amendment.reference}, {"date", dayOf(amendment.at)}, {"changed", amendment.changed}};
 }
@@ -244,6 +286,8 @@ Json studyJson(const Study& study) {
     }
     auto sessions = Json::array();
     for (const auto& session : study.sessions()) sessions.push_back(sessionJson(session));
+    auto notes = Json::array();
+    for (const auto& each : study.notes()) notes.push_back(noteJson(each));
     auto amendments = Json::array();
     for (const auto& amendment : study.amendments()) amendments.push_back(amendmentJson(amendment));
     auto wentBack = Json::array();
@@ -270,6 +314,7 @@ Json studyJson(const Study& study) {
             {"withdrawn", withdrawn},
             {"sessions", std::move(sessions)},
             {"adverse_events", study.adverseEventCount()},
+            {"notes", std::move(notes)},
             {"ledger_head", study.ledgerHead()}};
 }
 
@@ -305,6 +350,21 @@ void sayStudy(const Study& study) {
             nameOf(session.state), session.answered);
     }
     if (const auto events = study.adverseEventCount(); events > 0) say("  adverse events: {}\n", events);
+    for (const auto& kind : studyLogKinds()) {
+        if (const auto n = std::ranges::count(study.notes(), kind.key, &StudyNote::kind); n > 0 && !kind.lastCounts)
+            say("  {}: {}\n", kind.heading, n);
+    }
+    if (study.hasKey()) {
+        const auto known = particularsOf(study.notes());
+        std::size_t unknown = 0;
+        for (const auto& field : (*studyLogKind(kParticulars))->fields) {
+            const auto text = known.text(field.key);
+            unknown += text == kNoWord;
+            if (text != kNoWord) say("  {}: {}\n", field.label, text);
+        }
+        if (unknown > 0) say("  {} particulars of the study are unknown; study note tells them\n", unknown);
+        say("  key file {}\n", study.keyFile().string());
+    }
     say("  ledger head {}\n", study.ledgerHead());
     // A ledger that is outdated, or has rows of another study, can still be read; this says so.
     if (const auto may = study.stillApproved(); !may && !study.isRehearsal())

@@ -26,10 +26,13 @@ void declareStudyOptions(QCommandLineParser& parser);
 /// Returns a new participant; `virtual` is not read. The study checks it. Errors: InvalidArgument for another group.
 [[nodiscard]] Result<Participant> participantGiven(const QCommandLineParser& parser);
 [[nodiscard]] Result<AdverseEvent> adverseEventGiven(const QCommandLineParser& parser);
+/// Returns the note of that kind with the fields that --set gives.
+[[nodiscard]] Result<StudyNote> noteGiven(const QCommandLineParser& parser, const std::string& kind);
 
 // A study as `study` prints it: JSON (cli.md), and lines for people.
 
 [[nodiscard]] nlohmann::json participantJson(const Participant& participant);
+[[nodiscard]] nlohmann::json noteJson(const StudyNote& note);
 [[nodiscard]] nlohmann::json amendmentJson(const StudyAmendment& amendment);
 [[nodiscard]] nlohmann::json studyJson(const Study& study);
 

@@ -1,6 +1,8 @@
 #include "app/cli/StudyPassphrase.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <span>
 #include <termios.h>
 #include <unistd.h>
 
@@ -11,13 +13,13 @@ namespace tacto::cli {
 namespace {
 
 /// Reads a line from the terminal without showing it.
-Result<Passphrase> typedPassphrase() {
+Result<Secret> typedPassphrase(const char* prompt) {
     ::termios before{};
     if (::isatty(STDIN_FILENO) == 0 || ::tcgetattr(STDIN_FILENO, &before) != 0) {
         return fail(ErrorCode::NotFound,
                     "the study's passphrase is needed: --passphrase-file F with the passphrase in its first line");
     }
-    say(stderr, "Passphrase: ");
+    say(stderr, "{}", prompt);
     auto silent = before;
     silent.c_lflag &= ~static_cast<tcflag_t>(ECHO);
     ::tcsetattr(STDIN_FILENO, TCSAFLUSH, &silent);
@@ -29,7 +31,17 @@ Result<Passphrase> typedPassphrase() {
     auto text = std::string_view(at, size > 0 ? static_cast<std::size_t>(size) : 0);
     if (text.ends_with('\n')) text.remove_suffix(1);
     if (text.empty()) return fail(ErrorCode::NotFound, "no passphrase was given");
-    return Passphrase::from(text);
+    return Secret(std::as_bytes(std::span(text)));
+}
+
+/// Reads a passphrase from the file that `option` names.
+Result<Passphrase> filed(const QCommandLineParser& parser, const char* option, const std::filesystem::path& study) {
+    const auto file = parser.value(option).toStdString();
+    if (!liesInside(file, study)) return Passphrase::fromFile(file);
+    return fail(ErrorCode::NotFound,
+                "the passphrase file {} lies inside the study folder; beside what it opens it protects nothing, so "
+                "another place is needed",
+                file);
 }
 
 }  // namespace
@@ -40,15 +52,20 @@ void declarePassphrase(QCommandLineParser& parser) {
 }
 
 Result<Passphrase> passphraseFor(const QCommandLineParser& parser, const std::filesystem::path& study) {
-    if (!parser.isSet("passphrase-file")) return typedPassphrase();
-    const auto file = parser.value("passphrase-file").toStdString();
-    if (liesInside(file, study)) {
-        return fail(ErrorCode::NotFound,
-                    "the passphrase file {} lies inside the study folder; beside what it opens it protects nothing, so "
-                    "another place is needed",
-                    file);
-    }
-    return Passphrase::fromFile(file);
+    if (parser.isSet("passphrase-file")) return filed(parser, "passphrase-file", study);
+    const auto typed = typedPassphrase("Passphrase: ");
+    return typed ? Passphrase::from(*typed) : failure(typed);
+}
+
+Result<Passphrase> newPassphraseFor(const QCommandLineParser& parser, const std::filesystem::path& study) {
+    if (parser.isSet("new-passphrase-file")) return filed(parser, "new-passphrase-file", study);
+    const auto typed = typedPassphrase("New passphrase: ");
+    if (!typed) return failure(typed);
+    const auto again = typedPassphrase("Once more: ");
+    if (!again) return failure(again);
+    if (!std::ranges::equal(typed->bytes(), again->bytes()))
+        return fail(ErrorCode::NotFound, "the two are not the same; nothing was changed");
+    return Passphrase::from(*typed);
 }
 
 Result<Study> openStudy(const QCommandLineParser& parser, const std::filesystem::path& folder, Study::Access access) {

@@ -121,6 +121,48 @@ FactsBlock procedureFacts(const StudyRecord& study) {
     return block;
 }
 
+FactsBlock particularsFacts(const StudyRecord& study) {
+    FactsBlock block;
+    block.oneColumn = true;
+    const auto known = particularsOf(study.notes);
+    for (const auto& field : (*studyLogKind(kParticulars))->fields) {
+        if (isOfElectrodes(field) && withMassager(study)) continue;
+        block.facts.push_back({field.label, shown(known.text(field.key))});
+    }
+    return block;
+}
+
+TableBlock notesTable(const StudyRecord& study, const StudyLogKind& kind, const QString& caption) {
+    TableBlock table;
+    table.caption = caption;
+    table.columns = {{"Noted on"}};
+    for (const auto& field : kind.fields) table.columns.push_back({field.label});
+    for (const auto& note : study.notes) {
+        if (note.kind != kind.key) continue;
+        const auto day = std::chrono::year_month_day(std::chrono::floor<std::chrono::days>(note.at));
+        QStringList row{shown(dateText(day))};
+        for (const auto& field : kind.fields) row << shown(note.text(field.key));
+        table.rows.push_back(std::move(row));
+    }
+    return table;
+}
+
+TableBlock reasonsTable(const StudyRecord& study, const QString& caption) {
+    std::map<std::pair<QString, QString>, int> counts;
+    for (const auto& note : study.notes)
+        if (note.kind == kAssessed) ++counts[{"Assessed and not enrolled", shown(note.text("reason"))}];
+    for (const auto& participant : study.participants) {
+        const auto& about = participant.about;
+        if (about.state == ParticipantState::Left)
+            ++counts[{"Left", about.leftBecause.empty() ? QString("unknown") : shown(about.leftBecause)}];
+    }
+    TableBlock table;
+    table.caption = caption;
+    table.columns = {{"What"}, {"Reason"}, {"People", true}};
+    for (const auto& [what, n] : counts) table.rows.push_back({what.first, what.second, QString::number(n)});
+    return table;
+}
+
 TableBlock flowTable(const StudyRecord& study, SessionBasis basis, const QString& caption) {
     std::size_t consented = 0, begun = 0, usable = 0, tested = 0, complete = 0, left = 0, withdrawn = 0;
     for (const auto& participant : study.participants) {
@@ -142,6 +184,9 @@ TableBlock flowTable(const StudyRecord& study, SessionBasis basis, const QString
     TableBlock table;
     table.caption = caption;
     table.columns = {{"Step"}, {peopleHeading(basis), true}};
+    const auto notEnrolled = static_cast<std::size_t>(std::ranges::count(study.notes, kAssessed, &StudyNote::kind));
+    if (basis == SessionBasis::Person && notEnrolled > 0)
+        table.rows.push_back({"Assessed", QString::number(study.participants.size() + notEnrolled)});
     for (const auto& [step, people] : {std::pair<const char*, std::size_t>{"Enrolled", study.participants.size()},
                                        {"Consented", consented},
                                        {"Began a session", begun},
@@ -260,15 +305,21 @@ TableBlock refusalsTable(const StudyRecord& study, const QString& caption) {
 TableBlock eventsTable(const StudyRecord& study, const QString& caption) {
     TableBlock table;
     table.caption = caption;
-    table.columns = {{"Session"},  {"What"},   {"Severity"}, {"Serious"},
-                     {"Relation"}, {"Action"}, {"Outcome"},  {"Reported"}};
+    table.columns = {{"Session"},  {"What"},     {"Severity"}, {"Serious"}, {"Relation"},
+                     {"Expected"}, {"From, to"}, {"Action"},   {"Outcome"}, {"Reported"}};
     for (const auto& [session, event] : study.events) {
         const auto basis = study.bases.find(session);
+        const auto because = event.releasedBecause.empty() ? QString() : ": " + shown(event.releasedBecause);
+        const auto held = event.releasedBy.empty() ? QString("yes; holds the study")
+                                                   : "yes; released by " + shown(event.releasedBy) + because;
         table.rows.push_back({shown(basis == study.bases.end() ? session : namedWith(basis->second, session)),
                               shown(event.what), QString::fromStdString(scoreText(kEventSeverities, event.severity)),
-                              event.serious ? "yes" : "no",
-                              QString::fromStdString(scoreText(kRelations, event.relation)), shown(event.action),
-                              shown(event.outcome), event.reported ? "yes" : "no"});
+                              event.serious ? held : QString("no"),
+                              QString::fromStdString(scoreText(kRelations, event.relation)),
+                              shown(std::string(wordFor<Expectedness>(kExpectedness, event.expected))),
+                              QString("%1, %2").arg(event.onset.empty() ? QString("unknown") : shown(event.onset),
+                                                    event.ended.empty() ? QString("unknown") : shown(event.ended)),
+                              shown(event.action), shown(event.outcome), event.reported ? "yes" : "no"});
     }
     return table;
 }

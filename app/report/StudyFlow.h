@@ -9,6 +9,12 @@ namespace tacto {
 
 [[nodiscard]] FactsBlock approvalFacts(const StudyRecord& study);
 [[nodiscard]] FactsBlock procedureFacts(const StudyRecord& study);
+/// Returns what a reader of the results asks (StudyLog.h); what was not noted is unknown.
+[[nodiscard]] FactsBlock particularsFacts(const StudyRecord& study);
+/// Returns a table of all notes of that kind; without rows if there are none.
+[[nodiscard]] TableBlock notesTable(const StudyRecord& study, const StudyLogKind& kind, const QString& caption);
+/// Why people were not enrolled, and why they left.
+[[nodiscard]] TableBlock reasonsTable(const StudyRecord& study, const QString& caption);
 /// Contains every enrolled participant; the withdrawn only as a number.
 [[nodiscard]] TableBlock flowTable(const StudyRecord& study, SessionBasis basis, const QString& caption);
 /// Drift of the detection threshold over the blocks, and exposure; one row per session.

@@ -117,6 +117,29 @@ void addApproval(std::vector<ReportBlock>& blocks, Captions& captions, const Stu
     blocks.emplace_back(approvalFacts(study));
     blocks.emplace_back(captions.heading("What the approval covers"));
     blocks.emplace_back(procedureFacts(study));
+    blocks.emplace_back(captions.heading("Particulars of the study"));
+    blocks.emplace_back(particularsFacts(study));
+}
+
+/// Adds why people were not enrolled and why they left, then the logs of devices and deviations.
+void addNotes(std::vector<ReportBlock>& blocks, Captions& captions, const StudyRecord& study) {
+    auto reasons = reasonsTable(study, {});
+    if (!reasons.rows.empty()) {
+        blocks.emplace_back(captions.heading("Why people did not take part"));
+        reasons.caption = captions.table("People who were not enrolled, or left");
+        blocks.emplace_back(std::move(reasons));
+    }
+    for (const auto& kind : studyLogKinds()) {
+        if (kind.lastCounts || kind.key == std::string_view(kAssessed)) continue;
+        blocks.emplace_back(captions.heading(kind.heading));
+        auto table = notesTable(study, kind, {});
+        if (table.rows.empty()) {
+            blocks.emplace_back(ParagraphBlock{"None was noted."});
+            continue;
+        }
+        table.caption = captions.table(kind.heading);
+        blocks.emplace_back(std::move(table));
+    }
 }
 
 /// Adds all results about the participants of one kind.
@@ -208,6 +231,8 @@ ReportContent committeeReport(const StudyRecord& study) {
         if (parts.size() > 1) beginPart(blocks, captions, basis);
         addCare(blocks, captions, basis, part);
     }
+    captions.setSimulated(false);
+    addNotes(blocks, captions, study);
     blocks.emplace_back(SignaturesBlock{{"Principal investigator"}, {"Name", "Date", "Signature"}, {QString()}});
     sharePrefixes(blocks);
     return content;

@@ -140,7 +140,7 @@ void PilotRun::fitOrder(RunOrder& order, const PilotOrder& pilot) {
     request_.personAnswers = pilot.people != nullptr;
     request_.exclusions = pilot.exclusions;
     if (!who_.isVirtual()) return;
-    if (auto answers = virtualAnswers(order.settings.parameters)) request_.exclusions = std::move(*answers);
+    if (auto answers = virtualAnswers(order.settings.parameters, study)) request_.exclusions = std::move(*answers);
 }
 
 Result<RunSession> PilotRun::makeSession(const SessionAbout& about, const Clock& clock, const DeviceSet& devices) {

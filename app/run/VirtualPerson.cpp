@@ -16,8 +16,8 @@ Result<std::optional<std::uint64_t>> virtualSeed(std::string_view participant) {
                 participant);
 }
 
-Result<std::vector<ExclusionAnswer>> virtualAnswers(const nlohmann::json& parameters) {
-    auto answers = nothingExcludes();
+Result<std::vector<ExclusionAnswer>> virtualAnswers(const nlohmann::json& parameters, const StudySettings& study) {
+    auto answers = nothingExcludes(study);
     const auto yes = textOr(parameters, "exclusions");
     if (yes.empty()) return answers;
     const auto at = std::ranges::find(answers, yes, &ExclusionAnswer::key);

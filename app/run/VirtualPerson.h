@@ -20,7 +20,8 @@ namespace tacto {
 
 /// Answers No to each item of the checklist except that in "exclusions" of `parameters`. Errors: InvalidArgument for an
 /// item that the checklist does not have.
-[[nodiscard]] Result<std::vector<ExclusionAnswer>> virtualAnswers(const nlohmann::json& parameters);
+[[nodiscard]] Result<std::vector<ExclusionAnswer>> virtualAnswers(const nlohmann::json& parameters,
+                                                                  const StudySettings& study = {});
 
 /// Returns participant `seed` of the population in `parameters`, with the electrode and pulse of `study`. Errors: as
 /// validate(PopulationModel) and VirtualObserver::create().

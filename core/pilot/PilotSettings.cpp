@@ -94,7 +94,8 @@ std::vector<PilotHold> openHolds(const Study& study, const Participant& who) {
         const auto& [session, event] = (*events)[i];
         if (!event.serious && event.reported) continue;
         found.push_back({fmt::format("adverse event {}", i + 1),
-                         fmt::format("An adverse event of session {} is {}{}: “{}”", session,
+                         fmt::format("An adverse event {} is {}{}: “{}”",
+                                     session.empty() ? "outside sessions" : "of session " + session,
                                      event.serious ? "serious" : "not reported",
                                      event.serious && !event.reported ? " and not reported" : "", event.what)});
     }

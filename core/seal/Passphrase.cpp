@@ -1,9 +1,13 @@
 #include "core/seal/Passphrase.h"
 
+#include <algorithm>
 #include <array>
+#include <cstring>
 #include <fcntl.h>
 #include <sodium.h>
 #include <unistd.h>
+#include <vector>
+#include <zxcvbn.h>
 
 #include "core/seal/SealedText.h"
 #include "core/seal/Secret.h"
@@ -52,6 +56,33 @@ Result<Passphrase> Passphrase::fromFile(const std::filesystem::path& file) {
                     file.string(), line.empty() ? "nothing in its first line" : "too long a line");
     }
     return from(line);
+}
+
+double Passphrase::strength_bits(std::string_view known) const {
+    constexpr std::size_t kJudged =
+        100;  // the beginning; a longer text only resists more, and would take long to judge
+    constexpr std::string_view kSeparators = " \t.,:;-_/()";
+    std::vector<std::string> words{"tactoscope"};
+    for (std::size_t at = 0; (at = known.find_first_not_of(kSeparators, at)) != std::string_view::npos;) {
+        const auto end = std::min(known.find_first_of(kSeparators, at), known.size());
+        words.emplace_back(known.substr(at, end - at));
+        at = end;
+    }
+    std::vector<const char*> dictionary;
+    for (const auto& word : words) dictionary.push_back(word.c_str());
+    dictionary.push_back(nullptr);
+    Secret begins(kJudged + 1);  // ends with a zero
+    std::memcpy(begins.bytes().data(), text_.bytes().data(), std::min(text_.size(), kJudged));
+    return ZxcvbnMatch(reinterpret_cast<const char*>(begins.bytes().data()), dictionary.data(), nullptr);
+}
+
+Result<void> Passphrase::checkStrength(std::string_view known) const {
+    const double bits = strength_bits(known);
+    if (bits >= kMinStrength_bits) return {};
+    return invalid(
+        "the passphrase resists about {:.0f} bits of guessing; at least {:g} bits are expected, as of four words drawn "
+        "at random",
+        bits, kMinStrength_bits);
 }
 
 Result<Secret> Passphrase::keyFor(std::span<const std::byte> salt, const PassphraseCost& cost) const {

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "core/base/Result.h"
@@ -41,6 +42,13 @@ public:
     /// Reads the first line of a file, without its line end. Errors: NotFound for a file that is missing, empty or
     /// accessible to others (isOwnFile()).
     [[nodiscard]] static Result<Passphrase> fromFile(const std::filesystem::path& file);
+
+    /// Bits of guessing that the passphrase resists (zxcvbn; Wheeler 2016, USENIX Security): an attacker who knows
+    /// words, keyboards, dates and repeats, and the words of `known`, needs about 2^bits guesses.
+    [[nodiscard]] double strength_bits(std::string_view known = {}) const;
+    /// Errors: InvalidArgument for a passphrase of less than kMinStrength_bits.
+    [[nodiscard]] Result<void> checkStrength(std::string_view known = {}) const;
+    static constexpr double kMinStrength_bits = 40;
 
     /// Returns a key of 32 bytes. Errors: Io if there is not enough memory.
     [[nodiscard]] Result<Secret> keyFor(std::span<const std::byte> salt, const PassphraseCost& cost) const;

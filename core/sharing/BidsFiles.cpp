@@ -1,8 +1,11 @@
 #include "core/sharing/BidsFiles.h"
 
 #include <algorithm>
+#include <fmt/ranges.h>
+#include <functional>
 #include <map>
 #include <numeric>
+#include <utility>
 
 #include "core/base/JsonText.h"
 #include "core/base/LocaleFreeText.h"
@@ -29,17 +32,10 @@ void addTable(std::vector<BidsFile>& files, const std::string& stem, const BidsT
     files.push_back({stem + ".json", textOf(about)});
 }
 
-/// The numbers of participants and sessions of each basis. Participants without a session did not take part; if nobody
-/// had a session, everyone enrolled is counted.
+/// The numbers of participants and sessions of each basis.
 struct Basis {
     explicit Basis(const BidsStudy& study) {
-        const auto tookPart = [](const BidsParticipant& each) { return !each.sessions.empty(); };
-        const bool any = std::ranges::any_of(study.participants, tookPart);
         for (const auto& participant : study.participants) {
-            if (any && !tookPart(participant)) {
-                ++waiting;
-                continue;
-            }
             ++participants[participant.basis];
             sessions[participant.basis] += participant.sessions.size();
         }
@@ -55,7 +51,6 @@ struct Basis {
         return participants.contains(SessionBasis::Person) ? "SIMULATED IN PART" : "SIMULATED";
     }
     std::map<SessionBasis, std::size_t> participants, sessions;
-    std::size_t waiting = 0;  ///< enrolled, but without a session
 };
 
 /// If data are simulated, even in part, the title says so, unlike any study of people alone.
@@ -110,7 +105,7 @@ BidsFile readme(const BidsStudy& study) {
     std::string text = fmt::format(
         "{}\n\nWhether people tell four conditions of tactile stimulation apart: {}, {} session(s).{}\n\n",
         titleOf(study), countsText(basis.participants), sessions,
-        basis.waiting > 0 ? fmt::format(" {} more are enrolled and have had no session.", basis.waiting) : "");
+        study.waiting > 0 ? fmt::format(" {} more are enrolled and have had no session.", study.waiting) : "");
     if (study.massager) {
         text +=
             "Modality: massager. What was felt was the vibration of a motor; levels are its strength, from 0 to 1. "
@@ -118,6 +113,8 @@ BidsFile readme(const BidsStudy& study) {
             "none was there.\n\n";
     }
     text += simulatedText(study);
+    for (const auto& [label, what] : study.particulars) text += fmt::format("{}: {}\n", label, what);
+    if (!study.particulars.empty()) text += "\n";
     text +=
         "task-thresholds: ascending limits, detection of one train in one of two intervals, and the personal range.\n"
         "task-identification: which of the conditions was presented; trial_type catch is a presentation of nothing.\n"
@@ -127,11 +124,42 @@ BidsFile readme(const BidsStudy& study) {
     return {"README", text};
 }
 
-/// Returns "89+" for 89 years or more, as BIDS recommends, since few people are that old.
-std::string sharedAge(const std::string& age) {
-    constexpr double kOldestShared = 89;
-    const auto years = parseNumber(age);
-    return years && *years >= kOldestShared ? "89+" : age;
+/// Returns the years from the beginning of the span that contains `least` to the end of the one with `most`. From 89
+/// years on there is no upper end, as BIDS recommends, since few people are that old.
+std::string ageRange(int least, int most, int width) {
+    constexpr int kOldestShared = 89;
+    const int from = least / width * width, to = most / width * width + width - 1;
+    return to >= kOldestShared ? fmt::format("{}+", from) : fmt::format("{}-{}", from, to);
+}
+
+using AboutForm = std::function<std::string(const BidsAbout&)>;
+
+/// Returns the ways to state an age, narrow ranges first.
+std::vector<AboutForm> ageForms(const std::vector<BidsAbout>& people) {
+    constexpr int kWidths[] = {10, 20, 40};
+    std::vector<AboutForm> forms;
+    const auto add = [&](auto range) {
+        forms.emplace_back([range](const BidsAbout& each) {
+            const auto years = parseWhole<int>(each.age);
+            return years ? range(*years) : std::string();
+        });
+    };
+    for (const int width : kWidths) add([width](int years) { return ageRange(years, years, width); });
+    std::vector<int> ages;
+    for (const auto& each : people)
+        if (const auto years = parseWhole<int>(each.age)) ages.push_back(*years);
+    if (ages.empty()) return forms;
+    add([least = std::ranges::min(ages), most = std::ranges::max(ages)](int) {
+        return ageRange(least, most, kWidths[0]);
+    });
+    return forms;
+}
+
+/// Whether each of these is there at least kMinAlike times.
+bool allAlike(const std::vector<BidsAbout>& people) {
+    return std::ranges::all_of(people, [&](const BidsAbout& each) {
+        return std::cmp_greater_equal(std::ranges::count(people, each), kMinAlike);
+    });
 }
 
 BidsColumn basisColumn() {
@@ -144,7 +172,7 @@ BidsColumn basisColumn() {
              {std::string(nameOf(SessionBasis::Virtual)), "a model of a person, on simulated devices"}}};
 }
 
-BidsTable participantsTable(const BidsWith& with,
+BidsTable participantsTable(const BidsWith& asked,
                             const std::vector<std::pair<std::string, const BidsParticipant*>>& labelled) {
     std::vector<BidsColumn> columns = {{"participant_id", "Label of the participant, in random order"},
                                        {"species", "Species; n/a for a simulated participant"},
@@ -156,18 +184,25 @@ BidsTable participantsTable(const BidsWith& with,
                                          {"virtual", "simulated by the program"}}},
                                        {"sessions", "Sessions begun"},
                                        basisColumn()};
-    if (with.age) columns.push_back({"age", "Age in years; 89+ from 89 on"});
+    std::vector<BidsAbout> people;
+    for (const auto& [label, each] : labelled)
+        if (each->basis != SessionBasis::Virtual) people.push_back({each->age, each->sex, each->handedness});
+    const auto about = sharedAbout(std::move(people), asked);
+    const auto& with = about.columns;
+    if (with.age) columns.push_back({"age_range", "Range of years in which the age lies"});
     if (with.sex) columns.push_back({"sex", "female, male or other"});
     if (with.handedness) columns.push_back({"handedness", "right, left or ambidextrous"});
     BidsTable table(std::move(columns));
+    auto next = about.people.begin();
     for (const auto& [label, participant] : labelled) {
         const bool isVirtual = participant->basis == SessionBasis::Virtual;
         std::vector<BidsCell> cells = {"sub-" + label, isVirtual ? "" : "homo sapiens",
                                        isVirtual ? "virtual" : participant->group, participant->sessions.size(),
                                        nameOf(participant->basis)};
-        if (with.age) cells.emplace_back(sharedAge(participant->age));
-        if (with.sex) cells.emplace_back(participant->sex);
-        if (with.handedness) cells.emplace_back(participant->handedness);
+        const auto said = isVirtual ? BidsAbout() : *next++;
+        if (with.age) cells.emplace_back(said.age);
+        if (with.sex) cells.emplace_back(said.sex);
+        if (with.handedness) cells.emplace_back(said.handedness);
         table.add(std::move(cells));
     }
     return table;
@@ -245,7 +280,24 @@ BidsTable sessionsTable(const BidsStudy& study, const BidsParticipant& participa
     return table;
 }
 
-void addSession(std::vector<BidsFile>& files, const std::string& subject, const BidsSession& session, bool massager) {
+/// Returns what is known of stimulator and electrodes. What a session recorded of its device fills in what is unknown.
+json stimulationOf(const BidsStudy& study, const BidsSession& session) {
+    auto about = json::object();
+    for (const auto& [name, text] : study.stimulation) about[name] = text;
+    for (const auto& [name, recorded] :
+         {std::pair{"ManufacturersModelName", &session.deviceModel}, {"DeviceSerialNumber", &session.deviceSerial}}) {
+        if (!recorded->empty() && textOr(about, name) == kNoWord) about[name] = *recorded;
+    }
+    if (std::isfinite(study.electrodeArea_cm2)) {
+        about["ElectrodeSize"] = study.electrodeArea_cm2;
+        about["ElectrodeSizeUnits"] = "cm^2";
+    }
+    return about;
+}
+
+void addSession(std::vector<BidsFile>& files, const std::string& subject, const BidsStudy& study,
+                const BidsSession& session) {
+    const bool massager = study.massager;
     const auto label = sessionLabel(session);
     const auto stem = fmt::format("{0}/{1}/beh/{0}_{1}_task-", subject, label);
     struct Task {
@@ -260,14 +312,41 @@ void addSession(std::vector<BidsFile>& files, const std::string& subject, const 
           Task{"ratings", "Rate each condition, presented without its name", ratingsTable(session)},
           Task{"sideeffects", "Say what is noticed at the skin and otherwise", sideEffectsTable(session, massager)}}) {
         if (task.table.isEmpty()) continue;
-        addTable(files, fmt::format("{}{}_beh", stem, task.name), task.table,
-                 {{"TaskName", task.name},
-                  {"TaskDescription", task.description},
-                  {"Basis", std::string(nameOf(session.basis))}});
+        json about{{"TaskName", task.name},
+                   {"TaskDescription", task.description},
+                   {"Basis", std::string(nameOf(session.basis))}};
+        about.update(stimulationOf(study, session));
+        addTable(files, fmt::format("{}{}_beh", stem, task.name), task.table, std::move(about));
     }
 }
 
 }  // namespace
+
+SharedAbout sharedAbout(std::vector<BidsAbout> people, const BidsWith& asked) {
+    SharedAbout out;
+    out.people.resize(people.size());
+    std::vector<std::string> withheld;
+    const auto publish = [&](bool BidsWith::*column, std::string BidsAbout::*member, const char* name,
+                             const std::vector<AboutForm>& forms) {
+        if (!(asked.*column)) return;
+        for (const auto& form : forms) {
+            auto tried = out.people;
+            for (std::size_t i = 0; i < people.size(); ++i) tried[i].*member = form(people[i]);
+            if (!allAlike(tried)) continue;
+            out.people = std::move(tried);
+            out.columns.*column = true;
+            return;
+        }
+        withheld.emplace_back(name);
+    };
+    publish(&BidsWith::age, &BidsAbout::age, "age", ageForms(people));
+    publish(&BidsWith::sex, &BidsAbout::sex, "sex", {&BidsAbout::sex});
+    publish(&BidsWith::handedness, &BidsAbout::handedness, "handedness", {&BidsAbout::handedness});
+    if (!withheld.empty())
+        out.withheld = fmt::format("{} withheld: fewer than {} people would share what is said of them",
+                                   fmt::join(withheld, " and "), kMinAlike);
+    return out;
+}
 
 Result<BidsWith> bidsWithFrom(std::string_view list) {
     BidsWith with;
@@ -326,9 +405,8 @@ Result<std::vector<BidsFile>> bidsFiles(const BidsStudy& study, const BidsWith& 
     addTable(files, "participants", participantsTable(with, labelled));
     for (const auto& [label, participant] : labelled) {
         const auto subject = "sub-" + label;
-        if (participant->sessions.empty()) continue;
         addTable(files, fmt::format("{0}/{0}_sessions", subject), sessionsTable(study, *participant));
-        for (const auto& session : participant->sessions) addSession(files, subject, session, study.massager);
+        for (const auto& session : participant->sessions) addSession(files, subject, study, session);
     }
     std::ranges::sort(files, {}, &BidsFile::path);
     return files;

@@ -21,6 +21,23 @@ namespace tacto {
 struct BidsWith {
     bool age = false, sex = false, handedness = false;
 };
+/// Fewer people than this must not share what an export says of their age, sex and handedness together: in a study of
+/// three to five people, each could be told by someone who knows them.
+inline constexpr std::size_t kMinAlike = 3;
+
+struct BidsAbout {
+    std::string age, sex, handedness;
+    bool operator==(const BidsAbout&) const = default;
+};
+/// What of it may be published.
+struct SharedAbout {
+    BidsWith columns;               ///< as asked for, without what had to be withheld
+    std::vector<BidsAbout> people;  ///< in the order given; ages as ranges of years, "20-39" or, from 89 on, "80+"
+    std::string withheld;           ///< one sentence without its full stop; empty if nothing is
+};
+/// Ages become ranges, as narrow as is possible, of 10, 20 or 40 years or one range for all; what kMinAlike people do
+/// not share is withheld. `people` without the virtual participants, who have none.
+[[nodiscard]] SharedAbout sharedAbout(std::vector<BidsAbout> people, const BidsWith& asked);
 /// Parses a list of any of these words: "age,sex,handedness". Errors: InvalidArgument naming any other word.
 [[nodiscard]] Result<BidsWith> bidsWithFrom(std::string_view list);
 

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/analysis/identification/Identification.h"
@@ -88,8 +89,9 @@ struct BidsSession {
     std::optional<int> skinBefore, skinAfter;          ///< the worse of erythema and oedema, 0 to 4
     bool complete = false;
     std::size_t parts = 1;
-    std::vector<std::string> labels;  ///< the offered answers, in the order of the study
-    std::vector<BidsTrial> trials;    ///< familiarisation, training and test, in the order of presentation
+    std::string deviceModel{}, deviceSerial{};  ///< of what was felt, as recorded; empty if not known
+    std::vector<std::string> labels;            ///< the offered answers, in the order of the study
+    std::vector<BidsTrial> trials;              ///< familiarisation, training and test, in the order of presentation
     std::vector<BidsThresholdTrial> thresholds;
     std::vector<BidsDrift> drift;
     std::vector<BidsRating> ratings;
@@ -121,8 +123,12 @@ struct BidsStudy {
     /// Number of participants in the first approval. This many labels are drawn in random order, then the same number
     /// again for later participants.
     std::size_t places = 0;
-    std::uint64_t labelSeed = 0;                ///< a secret of the study; the same in each export
-    std::vector<BidsParticipant> participants;  ///< active participants and those who left, but nobody who withdrew
+    std::uint64_t labelSeed = 0;  ///< a secret of the study; the same in each export
+    /// What is known of stimulator and electrodes, by the names of BIDS and of the draft NIBS-BIDS: {name, text}.
+    std::vector<std::pair<std::string, std::string>> stimulation{};
+    std::vector<std::pair<std::string, std::string>> particulars{};  ///< of the study, for people: {label, text}
+    std::size_t waiting = 0;  ///< number who are enrolled but not exported: without consent, or without a session
+    std::vector<BidsParticipant> participants;  ///< who consented and had a session, and did not withdraw
 };
 
 }  // namespace tacto

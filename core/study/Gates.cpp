@@ -1,12 +1,16 @@
 #include "core/study/Gates.h"
 
 #include <algorithm>
+#include <ctime>
+#include <utility>
+
+#include "core/base/LocaleFreeText.h"
 
 namespace tacto {
 
 namespace {
 
-constexpr ExclusionItem kExclusionItems[] = {
+constexpr std::pair<const char*, const char*> kExclusionItems[] = {
     {"implant", "Do you have an active implant, such as a pacemaker or a pump?"},
     {"epilepsy", "Do you have epilepsy, or did you ever have a seizure?"},
     {"pregnancy", "Are you pregnant, or could you be?"},
@@ -35,27 +39,42 @@ std::string utcText(std::chrono::sys_seconds at) {
                        time.minutes().count());
 }
 
-std::span<const ExclusionItem> exclusionItems() noexcept { return kExclusionItems; }
+std::string nextText(std::chrono::sys_seconds at) {
+    at = std::chrono::ceil<std::chrono::minutes>(at);
+    const std::time_t seconds = at.time_since_epoch().count();
+    std::tm here{};
+    if (::localtime_r(&seconds, &here) == nullptr || here.tm_gmtoff == 0) return utcText(at);
+    const auto local = utcText(at + std::chrono::seconds(here.tm_gmtoff));
+    return fmt::format("{} ({} local time)", utcText(at), local.substr(0, local.rfind(' ')));
+}
 
-std::vector<ExclusionAnswer> nothingExcludes() {
-    std::vector<ExclusionAnswer> all;
-    for (const auto& item : kExclusionItems) all.push_back({std::string(item.key), false});
+std::vector<ExclusionItem> exclusionItems(const StudySettings& settings) {
+    std::vector<ExclusionItem> all;
+    for (const auto& [key, question] : kExclusionItems) all.push_back({key, question});
+    for (std::size_t i = 0; i < settings.exclusions.size(); ++i)
+        all.push_back({fmt::format("own-{}", i + 1), settings.exclusions[i]});
     return all;
 }
 
-Result<void> exclusionGate(std::span<const ExclusionAnswer> answers) {
+std::vector<ExclusionAnswer> nothingExcludes(const StudySettings& settings) {
+    std::vector<ExclusionAnswer> all;
+    for (const auto& item : exclusionItems(settings)) all.push_back({item.key, false});
+    return all;
+}
+
+Result<void> exclusionGate(std::span<const ExclusionAnswer> answers, const StudySettings& settings) {
+    const auto items = exclusionItems(settings);
     for (const auto& answer : answers) {
-        if (std::ranges::find(kExclusionItems, answer.key, &ExclusionItem::key) != std::end(kExclusionItems)) continue;
+        if (std::ranges::find(items, answer.key, &ExclusionItem::key) != items.end()) continue;
         return invalid("the exclusion checklist has no item \"{}\"", answer.key);
     }
     std::size_t open = 0;
-    for (const auto& item : kExclusionItems) {
-        const auto given = std::ranges::count(answers, std::string(item.key), &ExclusionAnswer::key);
-        if (given != 1) ++open;
+    for (const auto& item : items) {
+        if (std::ranges::count(answers, item.key, &ExclusionAnswer::key) != 1) ++open;
     }
     if (open != 0) {
         return fail(kGateRefused, "{} of the {} questions of the exclusion checklist are not answered; each is asked",
-                    open, std::size(kExclusionItems));
+                    open, items.size());
     }
     if (std::ranges::any_of(answers, &ExclusionAnswer::yes)) {
         return fail(kGateRefused,
@@ -128,16 +147,28 @@ Result<void> procedureGate(const StudySettings& settings, const StudyProcedure& 
     return {};
 }
 
+Result<void> ageGate(const StudySettings& settings, const Participant& participant) {
+    const auto age = parseWhole<int>(participant.age);
+    if (!settings.ageMin || !age || *age >= *settings.ageMin) return {};
+    return fail(kGateRefused, "an age of {} years is below the approval's; {} years or more are accepted", *age,
+                *settings.ageMin);
+}
+
 Result<void> participantGate(const StudySettings& settings, const Participant& participant) {
     if (participant.state != ParticipantState::Active) {
         return fail(kGateRefused, "{} has {} the study; only an active participant takes part", shownName(participant),
                     participant.state == ParticipantState::Left ? "left" : "withdrawn from");
     }
     if (settings.kind == StudyKind::Study && participant.sessions >= settings.sessionsMax) {
-        return fail(kGateRefused, "{} has had {} sessions, and approval {} allows {}", shownName(participant),
-                    participant.sessions, settings.approval.reference, settings.sessionsMax);
+        return fail(kGateRefused, "{} has had {} sessions, and approval {} allows {}; a further one needs an amendment",
+                    shownName(participant), participant.sessions, settings.approval.reference, settings.sessionsMax);
     }
     return {};
+}
+
+std::chrono::sys_seconds gapEnd(const StudySettings& settings, std::chrono::sys_seconds lastSession) {
+    return lastSession +
+           std::chrono::ceil<std::chrono::seconds>(std::chrono::duration<double, std::ratio<3600>>(settings.gapMin_h));
 }
 
 Result<void> gapGate(const StudySettings& settings, std::optional<std::chrono::sys_seconds> lastSession,
@@ -174,11 +205,24 @@ Result<void> consentGate(const StudySettings& settings, const Participant& parti
         name, dateText(newest->date), newest->by, dateText(since), settings.consentVersion, dateText(today));
 }
 
+namespace {
+/// The later of two times: of going back, and of the newest known row, unless that lies in the future.
+std::chrono::sys_seconds wentBackAt(const StudyGoingBack& back, std::chrono::sys_seconds now) {
+    return back.newestAt <= now ? std::max(back.at, back.newestAt) : back.at;
+}
+}  // namespace
+
+std::chrono::sys_seconds wentBackEnd(const StudySettings& settings, const StudyGoingBack& last,
+                                     std::chrono::sys_seconds now) {
+    using std::chrono::days;
+    const auto at = wentBackAt(last, now);
+    return std::max(gapEnd(settings, at), std::chrono::sys_seconds(std::chrono::floor<days>(at) + days(1)));
+}
+
 Result<void> wentBackGate(const StudySettings& settings, std::span<const StudyGoingBack> all,
                           std::chrono::sys_seconds now) {
     if (settings.kind == StudyKind::Rehearsal || all.empty()) return {};
-    // The later of two times: of going back, and of the newest known row, unless that lies in the future.
-    const auto at = all.back().newestAt <= now ? std::max(all.back().at, all.back().newestAt) : all.back().at;
+    const auto at = wentBackAt(all.back(), now);
     const double hours = std::chrono::duration<double, std::ratio<3600>>(now - at).count();
     using std::chrono::days;
     if (hours >= settings.gapMin_h && std::chrono::floor<days>(at) < std::chrono::floor<days>(now)) return {};

@@ -27,12 +27,17 @@ inline constexpr ErrorCode kGateRefused = ErrorCode::Stopped;
 /// Returns text such as "2026-11-23 12:00 UTC".
 [[nodiscard]] std::string utcText(std::chrono::sys_seconds at);
 
+/// Returns text such as "2026-11-23 12:00 UTC (2026-11-23 13:00 local time)", rounded up to the minute.
+[[nodiscard]] std::string nextText(std::chrono::sys_seconds at);
+
 /// One question of the exclusion checklist. `key` is its name in `--set exclusions=KEY` and in rows.
 struct ExclusionItem {
-    std::string_view key;
-    std::string_view question;
+    std::string key;
+    std::string question;
+    bool operator==(const ExclusionItem&) const = default;
 };
-[[nodiscard]] std::span<const ExclusionItem> exclusionItems() noexcept;
+/// Returns the program's own items, then the study's, whose keys are "own-1", "own-2".
+[[nodiscard]] std::vector<ExclusionItem> exclusionItems(const StudySettings& settings = {});
 
 /// The record that a study continued with a ledger older than the newest known (StudyBook::goBack()).
 struct StudyGoingBack {
@@ -53,10 +58,10 @@ struct ExclusionAnswer {
     bool yes = false;
 };
 /// Returns the answer "no" to every item.
-[[nodiscard]] std::vector<ExclusionAnswer> nothingExcludes();
+[[nodiscard]] std::vector<ExclusionAnswer> nothingExcludes(const StudySettings& settings = {});
 
 /// Every item must be answered "no". The error does not say which answer was "yes": answers are sealed.
-[[nodiscard]] Result<void> exclusionGate(std::span<const ExclusionAnswer> answers);
+[[nodiscard]] Result<void> exclusionGate(std::span<const ExclusionAnswer> answers, const StudySettings& settings = {});
 
 /// Checks that the approval has a reference and includes `today`, and that settings and scripts are as approved.
 [[nodiscard]] Result<void> approvalGate(const StudySettings& settings, CalibrationDate today);
@@ -65,8 +70,14 @@ struct ExclusionAnswer {
 /// Checks that a session's `procedure` is as approved. Rehearsals pass, and so do studies whose approval names no
 /// procedure.
 [[nodiscard]] Result<void> procedureGate(const StudySettings& settings, const StudyProcedure& procedure);
+/// Checks that a stated age is at least the approval's.
+[[nodiscard]] Result<void> ageGate(const StudySettings& settings, const Participant& participant);
 /// Checks that the participant is active and has had fewer sessions than the approval allows.
 [[nodiscard]] Result<void> participantGate(const StudySettings& settings, const Participant& participant);
+/// The first moment at which gapGate(), or wentBackGate(), holds.
+[[nodiscard]] std::chrono::sys_seconds gapEnd(const StudySettings& settings, std::chrono::sys_seconds lastSession);
+[[nodiscard]] std::chrono::sys_seconds wentBackEnd(const StudySettings& settings, const StudyGoingBack& last,
+                                                   std::chrono::sys_seconds now);
 /// Checks that the last session was long enough ago; rehearsals pass.
 [[nodiscard]] Result<void> gapGate(const StudySettings& settings, std::optional<std::chrono::sys_seconds> lastSession,
                                    std::chrono::sys_seconds now);

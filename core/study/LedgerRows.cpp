@@ -41,6 +41,16 @@ RecordFields<AdverseEvent> adverseEventFields() {
     all.flag("serious", &A::serious);
     all.number("relation", &A::relation, {.low = 1, .high = 5});
     all.flag("reported", &A::reported);
+    all.texts({{"onset", &A::onset}, {"ended", &A::ended}}, kLedgerText);
+    all.word("expected", &A::expected, kExpectedness);
+    all.rule([](const A& event) -> Result<void> {
+        for (const auto& [name, day] : {std::pair{"onset", &event.onset}, {"ended", &event.ended}}) {
+            if (!day->empty() && !parseDate(*day))
+                return invalid("{} is \"{}\"; a day as 2026-11-21 is accepted, or nothing", name, day->substr(0, 40));
+        }
+        if (event.onset.empty() || event.ended.empty() || event.onset <= event.ended) return {};
+        return invalid("the event began on {} and ended on {}; a later end is expected", event.onset, event.ended);
+    });
     return all;
 }
 
@@ -80,6 +90,8 @@ public:
         if (row.name == ledger::kEnrolled) return enrolled(row);
         if (row.name == ledger::kAdverseEvent) return adverseEvent(row);
         if (row.name == ledger::kExported) return exported(row);
+        if (row.name == ledger::kReleased) return released(row);
+        if (row.name == ledger::kNote) return note(row);
         if (row.name == ledger::kWentBack) return wentBack(row);
         auto* participant = state.participant(textOr(row.body, "participant"));
         if (participant == nullptr) return unfit(row, "an unknown participant");
@@ -89,10 +101,7 @@ public:
             state.excluded[participant->id] = state.last;
             return {};
         }
-        if (row.name == ledger::kLeft) {
-            participant->state = ParticipantState::Left;
-            return {};
-        }
+        if (row.name == ledger::kLeft) return left(row, *participant);
         if (row.name == ledger::kWithdrawn) {
             withdrawn(*participant, flagOr(row.body, "virtual"));
             return {};
@@ -213,6 +222,15 @@ private:
         return {};
     }
 
+    [[nodiscard]] Result<void> left(const SessionRow& row, Participant& participant) {
+        participant.state = ParticipantState::Left;
+        if (!row.body.contains("sealed")) return {};
+        const auto content = opened(row, participant.id);
+        if (!content) return failure(content);
+        if (*content) participant.leftBecause = textOr(**content, "reason");
+        return {};
+    }
+
     /// Deletes what the key could still open, even before the key is destroyed.
     void withdrawn(Participant& participant, bool isVirtual) {
         Participant left;
@@ -281,6 +299,29 @@ private:
         auto event = builtOnce<adverseEventFields>().read(*content, RecordPlace{});
         if (!event) return failure(event);
         state.adverseEvents.emplace_back(textOr(row.body, "session"), std::move(*event));
+        return {};
+    }
+
+    [[nodiscard]] Result<void> released(const SessionRow& row) {
+        if (keys_ == nullptr) return {};
+        const auto content = openedInLedger(study_, keys_->study(), row.seq, row.name, row.body);
+        if (!content) return failure(content);
+        const auto event = countOr(row.body, "event");
+        if (event < 1 || event > state.adverseEvents.size()) return unfit(row, "an unknown adverse event");
+        auto& held = state.adverseEvents[event - 1].second;
+        held.releasedBy = textOr(*content, "by");
+        held.releasedBecause = textOr(*content, "reason");
+        return {};
+    }
+
+    [[nodiscard]] Result<void> note(const SessionRow& row) {
+        if (keys_ == nullptr) return {};
+        const auto content = openedInLedger(study_, keys_->study(), row.seq, row.name, row.body);
+        if (!content) return failure(content);
+        auto said = noteTextsFrom(*content);
+        if (!said) return failure(said);
+        state.notes.push_back(
+            {textOr(row.body, "kind"), std::chrono::sys_seconds(wholeSeconds(row.at)), std::move(*said)});
         return {};
     }
 

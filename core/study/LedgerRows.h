@@ -3,14 +3,17 @@
 //
 //   study, amendment         {settings, sha256, reference}
 //   enrolled, consent        {participant, sealed}; excluded: the same, for that day
-//   left, withdrawn          {participant, sessions}; withdrawn also has "virtual"
+//   left                     {participant, sessions, sealed}; older rows have nothing sealed
+//   withdrawn                {participant, sessions, virtual}
 //   session-begun            {session, file, participant, number, protocol, basis, script_sha256, sealed}
 //   session-part             {session, file, participant, after, head}
 //   session-ended            {session, participant, state, file, head}; "opened" is false if the bench did not open
 //   next-day                 {participant, session, sealed}
 //   went-back                {row, head, at, lost, rows, files, unsealed} about the ledger that was given up; `rows` is
 //                            empty if not known; `unsealed`: names of rows taken over without a "mac"
-//   adverse-event, exported  {session, sealed}, under the study's key
+//   adverse-event, exported  {session, sealed}, under the study's key; `session` is empty for an event outside sessions
+//   released                 {event, sealed}, under the study's key; `event` counts the adverse events from 1
+//   note                     {kind, sealed}, under the study's key (StudyLog.h)
 //
 // Each row has a "mac" over itself and the hash of the row before, made with a subkey of the study's key. The "mac"
 // vouches for all rows up to its own. Older rows, and rows appended without the key, have none.
@@ -44,6 +47,8 @@ inline constexpr const char* kSessionPart = "session-part";
 inline constexpr const char* kSessionEnded = "session-ended";
 inline constexpr const char* kNextDay = "next-day";
 inline constexpr const char* kAdverseEvent = "adverse-event";
+inline constexpr const char* kReleased = "released";
+inline constexpr const char* kNote = "note";
 inline constexpr const char* kExported = "exported";
 inline constexpr const char* kWentBack = "went-back";
 }  // namespace ledger
@@ -61,6 +66,7 @@ struct LedgerState {
     std::vector<StudySession> sessions;                               ///< without `answered`
     std::map<std::string, std::string> heads;                         ///< for each ended file: its chain head
     std::vector<std::pair<std::string, AdverseEvent>> adverseEvents;  ///< only with the key
+    std::vector<StudyNote> notes;                                     ///< only with the key
     std::map<std::string, NextDay> nextDays;           ///< for each session: its last record; only with the key
     std::vector<StudyExport> exports;                  ///< only with the key
     std::map<std::string, CalibrationDate> formSince;  ///< for each version of the consent form: its first valid day

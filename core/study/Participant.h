@@ -46,6 +46,7 @@ struct Participant {
     std::string age, sex, handedness;          ///< empty unless the approval asks for them; age in whole years
     std::vector<Consent> consents;
     ParticipantState state = ParticipantState::Active;
+    std::string leftBecause;   ///< why they left; empty: not known
     int sessions = 0;          ///< number of sessions begun
     int enrolled = 0;          ///< place in the order of enrolment, from 1; decides the order of encodings
     bool virtualGone = false;  ///< a virtual participant who withdrew; the seed was deleted

@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "core/base/JsonText.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/base/ProgramStart.h"
 #include "core/seal/SealedText.h"
 #include "core/session/Digest.h"
@@ -73,6 +74,7 @@ Result<Study> Study::create(const fs::path& folder, StudySettings settings, cons
     settings.approval.protocolSha256 = protocolHash(settings);
     if (auto sound = studyFields().check(settings, RecordPlace{}); !sound) return failure(sound);
     if (settings.approval.reference.empty()) return invalid("a study needs the reference of its approval");
+    if (auto strong = passphrase.checkStrength(settings.title); !strong) return failure(strong);
     if (auto outside = keysLieOutside(files, around); !outside) return failure(outside);
     if (auto made = makeStudy(files, settings, &passphrase, around); !made) return failure(made);
     return open(files.folder, &passphrase, Access::Change, around);
@@ -99,6 +101,7 @@ const fs::path& Study::folder() const noexcept { return state_->files.folder; }
 const StudySettings& Study::settings() const noexcept { return state_->settings; }
 bool Study::isRehearsal() const noexcept { return state_->settings.kind == StudyKind::Rehearsal; }
 bool Study::hasKey() const noexcept { return state_->keys.has_value(); }
+fs::path Study::keyFile() const { return keyFileOf(state_->files, state_->settings, state_->around); }
 std::string Study::ledgerHead() const { return state_->known.head; }
 CalibrationDate Study::today() const { return state_->today(); }
 Result<void> Study::stillApproved() const { return StudyGates(*state_).stillApproved(); }
@@ -157,6 +160,7 @@ Result<Participant> Study::enrol(Participant participant) {
     }
     if (auto sound = checkAbout(participant); !sound) return failure(sound);
     if (auto fits = checkForLedger(participant); !fits) return failure(fits);
+    if (auto old = ageGate(settings, participant); !old) return failure(old);
     participant.id = randomHex(kIdDigits);
     // The key is saved first: without its key a row could never be opened.
     if (auto added = state_->keys->add(participant.id, participant.code); !added) return failure(added);
@@ -169,12 +173,22 @@ Result<Participant> Study::enrol(Participant participant) {
     return state_->known.participants.back();
 }
 
+Result<void> Study::changePassphrase(const Passphrase& next) {
+    if (auto may = state_->changeable(); !may) return may;
+    if (auto strong = next.checkStrength(settings().title); !strong) return strong;
+    return state_->keys->sealUnder(next, state_->around.cost);
+}
+
 Result<void> Study::consent(std::string_view code, const Consent& consent) {
     if (auto may = state_->changeable(); !may) return may;
     const auto participant = state_->find(code);
     if (!participant) return failure(participant);
     if (consent.version.empty() || consent.by.empty())
         return invalid("a consent needs the version of the form and the initials of who took it");
+    if (const auto& inForce = settings().consentVersion; consent.version != inForce) {
+        return invalid("the consent is to version {} of the form; version {}, which is in force, is expected",
+                       consent.version, inForce);
+    }
     if (!consent.date.ok() || !(consent.date <= today())) {
         return invalid("the consent is dated {}; a day no later than today, {}, is expected", dateText(consent.date),
                        dateText(today()));
@@ -191,13 +205,16 @@ Result<void> Study::consent(std::string_view code, const Consent& consent) {
     return state_->appendOf(*participant, ledger::kConsent, nlohmann::json::object(), toJson(consent));
 }
 
-Result<void> Study::leave(std::string_view code) {
+Result<void> Study::leave(std::string_view code, std::string_view reason) {
     if (auto may = state_->changeable(); !may) return may;
     const auto participant = state_->find(code);
     if (!participant) return failure(participant);
     if (participant->state == ParticipantState::Left)
         return fail(kGateRefused, "{} has left the study already", participant->code);
-    return state_->append(ledger::kLeft, {{"participant", participant->id}, {"sessions", participant->sessions}});
+    constexpr std::size_t kMaxBytes = 2000;
+    if (reason.size() > kMaxBytes)
+        return invalid("the reason has {} bytes; up to {} are accepted", reason.size(), kMaxBytes);
+    return state_->appendOf(*participant, ledger::kLeft, {{"sessions", participant->sessions}}, {{"reason", reason}});
 }
 
 Result<void> Study::withdraw(std::string_view code) {
@@ -366,6 +383,29 @@ Result<std::vector<SessionRow>> Study::events(const StudySession& session) const
 Result<void> Study::adverseEvent(std::string_view session, const AdverseEvent& event) {
     return state_->adverseEvent(session, event);
 }
+
+Result<void> Study::release(std::size_t event, std::string_view by, std::string_view reason) {
+    if (auto may = state_->changeable(); !may) return may;
+    const auto& events = state_->known.adverseEvents;
+    if (event < 1 || event > events.size())
+        return fail(ErrorCode::NotFound, "the study has no adverse event {}; it has {}", event, events.size());
+    if (!holdsStudy(events[event - 1].second))
+        return fail(kGateRefused, "adverse event {} holds nothing; only a serious one that was not released does",
+                    event);
+    constexpr std::size_t kMaxBytes = 2000;
+    if (trimmed(by).empty() || by.size() + reason.size() > kMaxBytes)
+        return invalid("a release needs the name of who decides, and up to {} bytes in all", kMaxBytes);
+    return state_->append(ledger::kReleased, {{"event", event}}, &state_->keys->study(),
+                          {{"by", by}, {"reason", reason}});
+}
+
+Result<void> Study::note(const StudyNote& note) {
+    if (auto may = state_->changeable(); !may) return may;
+    if (auto sound = checkNote(note); !sound) return sound;
+    return state_->append(ledger::kNote, {{"kind", note.kind}}, &state_->keys->study(), toJson(note));
+}
+
+const std::vector<StudyNote>& Study::notes() const noexcept { return state_->known.notes; }
 
 std::size_t Study::adverseEventCount() const noexcept { return state_->known.adverseEventRows; }
 

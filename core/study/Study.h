@@ -32,6 +32,7 @@
 #include "core/study/Gates.h"
 #include "core/study/NextDay.h"
 #include "core/study/Participant.h"
+#include "core/study/StudyLog.h"
 #include "core/study/StudySettings.h"
 
 namespace tacto {
@@ -117,6 +118,10 @@ struct StudyAmendment {
     std::vector<std::string> changed;  ///< keys of study.json, such as "cap_ma", "approval.expires"
 };
 
+enum class Expectedness { Unknown, Expected, Unexpected };
+inline constexpr Word<Expectedness> kExpectedness[] = {
+    {"unknown", Expectedness::Unknown}, {"expected", Expectedness::Expected}, {"unexpected", Expectedness::Unexpected}};
+
 struct AdverseEvent {
     std::string what;
     int severity = 1;  ///< one of kEventSeverities
@@ -124,6 +129,9 @@ struct AdverseEvent {
     int relation = 1;  ///< one of kRelations
     std::string action{}, outcome{};
     bool reported = false;
+    std::string onset{}, ended{};                   ///< days as 2026-11-21; empty: not known, or not ended
+    Expectedness expected = Expectedness::Unknown;  ///< by what the approval says of risks
+    std::string releasedBy{}, releasedBecause{};    ///< set by Study::release()
 };
 
 /// Data that left the study.
@@ -150,8 +158,8 @@ public:
 
     /// Creates the study's folder and key file; sets `settings.id` and the approval's protocolSha256. If the passphrase
     /// is lost, the data are lost: callers must say this. Blocks for about a second (Argon2id).
-    /// Errors: InvalidArgument for settings that are not accepted; Unsupported for a folder that is not empty, or that
-    /// contains the key folder; Io.
+    /// Errors: InvalidArgument for settings that are not accepted and for a weak passphrase; Unsupported for a folder
+    /// that is not empty, or that contains the key folder; Io.
     [[nodiscard]] static Result<Study> create(const std::filesystem::path& folder, StudySettings settings,
                                               const Passphrase& passphrase);
     [[nodiscard]] static Result<Study> create(const std::filesystem::path& folder, StudySettings settings,
@@ -178,6 +186,11 @@ public:
     [[nodiscard]] const StudySettings& settings() const noexcept;
     [[nodiscard]] bool isRehearsal() const noexcept;
     [[nodiscard]] bool hasKey() const noexcept;
+    /// The file with the study's keys. Who has lost it, or its passphrase, has lost the data.
+    [[nodiscard]] std::filesystem::path keyFile() const;
+    /// Seals the key file under `next`. Copies of the file still open with the passphrase of their time. Blocks for
+    /// about a second. Errors: InvalidArgument for a weak passphrase; as StudyKeys::sealUnder().
+    [[nodiscard]] Result<void> changePassphrase(const Passphrase& next);
     /// Hash of the ledger's last row: 64 hexadecimal digits.
     [[nodiscard]] std::string ledgerHead() const;
     /// Returns the basis of such a session's figures: who answers, and whether the devices are simulated.
@@ -201,12 +214,14 @@ public:
     [[nodiscard]] std::optional<StudySession> unfinished(std::string_view participantId) const;
 
     /// Enrols a participant; if `participant.code` is empty, draws a code. Of the other fields, uses only group,
-    /// virtualSeed, age, sex and handedness. Errors: kGateRefused if the approved number is already enrolled;
+    /// virtualSeed, age, sex and handedness. Errors: kGateRefused if the approved number is already enrolled, or for an
+    /// age below the approval's;
     /// InvalidArgument for a code that is taken, and as checkAbout().
     [[nodiscard]] Result<Participant> enrol(Participant participant);
+    /// Errors: InvalidArgument for a version of the form that is not in force, or a day on which it was not.
     [[nodiscard]] Result<void> consent(std::string_view code, const Consent& consent);
-    /// The participant stops taking part; their data are kept.
-    [[nodiscard]] Result<void> leave(std::string_view code);
+    /// The participant stops taking part; their data are kept. `reason` may be empty.
+    [[nodiscard]] Result<void> leave(std::string_view code, std::string_view reason = {});
     /// Destroys the participant's key: nobody can open their data any more. Errors: kGateRefused if the study keeps
     /// data (data_on_request), and did so when they last consented.
     [[nodiscard]] Result<void> withdraw(std::string_view code);
@@ -251,15 +266,23 @@ public:
     /// Returns the events of all parts of a session, in order. Errors: as part().
     [[nodiscard]] Result<std::vector<SessionRow>> events(const StudySession& session) const;
 
-    /// Records an adverse event, sealed under the study's key, so that it survives a withdrawal.
+    /// Records an adverse event, sealed under the study's key, so that it survives a withdrawal. An empty `session`: it
+    /// happened outside sessions. Until a serious event is released by name, no session and no block begins.
     [[nodiscard]] Result<void> adverseEvent(std::string_view session, const AdverseEvent& event);
     [[nodiscard]] Result<std::vector<std::pair<std::string, AdverseEvent>>> adverseEvents() const;
+    /// Releases the study after the `event`-th adverse event (from 1), which was serious. `by`: the name or initials of
+    /// who decided. Errors: NotFound; InvalidArgument without `by`; kGateRefused for an event that holds nothing.
+    [[nodiscard]] Result<void> release(std::size_t event, std::string_view by, std::string_view reason);
     /// Number of adverse events; available also without the key.
     [[nodiscard]] std::size_t adverseEventCount() const noexcept;
     /// Records what was said and seen on a day after the session, sealed under the participant's key; the last record
     /// counts. A skin score of 2 or more is also recorded as an adverse event. Errors: NotFound; InvalidArgument as
     /// checkNextDay(); kGateRefused on the day when the session began; Unsupported for a withdrawn participant.
     [[nodiscard]] Result<void> nextDay(std::string_view session, const NextDay& said);
+    /// Notes what standards of reporting ask, sealed under the study's key. Errors: as checkNote().
+    [[nodiscard]] Result<void> note(const StudyNote& note);
+    /// The notes in their order; empty without the key.
+    [[nodiscard]] const std::vector<StudyNote>& notes() const noexcept;
     /// Returns nothing if the participant was not asked, or without the key.
     [[nodiscard]] std::optional<NextDay> nextDay(std::string_view session) const;
     /// Returns the seed of the order in which exports label participants. It is derived from the study's key, so that

@@ -75,6 +75,8 @@ Result<Newest> newestKnown(const StudyBook& book) {
 
 }  // namespace
 
+bool holdsStudy(const AdverseEvent& event) noexcept { return event.serious && event.releasedBy.empty(); }
+
 CalibrationDate utcDay(std::chrono::sys_seconds at) { return std::chrono::floor<std::chrono::days>(at); }
 
 std::string headOf(const std::filesystem::path& file) {
@@ -322,7 +324,8 @@ Result<void> StudyBook::amend(StudySettings amended, std::string_view reference)
 
 Result<void> StudyBook::adverseEvent(std::string_view session, const AdverseEvent& event) {
     if (auto may = changeable(); !may) return may;
-    if (known.session(session) == nullptr) return fail(ErrorCode::NotFound, "the study has no session {}", session);
+    if (!session.empty() && known.session(session) == nullptr)
+        return fail(ErrorCode::NotFound, "the study has no session {}", session);
     if (event.what.empty() || event.severity < 1 || event.severity > 4 || event.relation < 1 || event.relation > 5) {
         return invalid(
             "an adverse event needs what happened, a severity ({}) and a relation ({}); these are \"{}\", {} and {}",
@@ -501,7 +504,37 @@ Result<void> StudyGates::record() const {
 
 Result<void> StudyGates::stillApproved() const {
     if (auto sound = record(); !sound) return sound;
+    if (auto holds = eventGate(); !holds) return holds;
     return approvalGate(book_.settings, book_.today());
+}
+
+Result<void> StudyGates::eventGate() const {
+    if (book_.settings.kind == StudyKind::Rehearsal) return {};
+    for (std::size_t i = 0; i < book_.known.adverseEvents.size(); ++i) {
+        if (!holdsStudy(book_.known.adverseEvents[i].second)) continue;
+        return fail(kGateRefused,
+                    "adverse event {} was serious and holds the study; who is responsible releases it by name", i + 1);
+    }
+    return {};
+}
+
+Result<void> StudyGates::untilWhen(Result<void> holds, const Participant& participant,
+                                   std::optional<std::chrono::sys_seconds> last) const {
+    if (holds) return holds;
+    auto next = std::chrono::sys_seconds(std::chrono::sys_days(book_.settings.approval.from));
+    if (last) next = std::max(next, gapEnd(book_.settings, *last));
+    const auto& backs = book_.known.wentBack;
+    if (!backs.empty()) next = std::max(next, wentBackEnd(book_.settings, backs.back(), book_.now()));
+    if (const auto yes = book_.known.excluded.find(participant.id); yes != book_.known.excluded.end()) {
+        const auto day = std::chrono::sys_days(utcDay(yes->second)) + std::chrono::days(1);
+        next = std::max(next, std::chrono::sys_seconds(day));
+    }
+    const auto& approval = book_.settings.approval;
+    const bool expires = utcDay(next) > approval.expires;
+    return fail(kGateRefused, "{}; the next session is possible from {}{}", holds.error().message, nextText(next),
+                expires ? fmt::format(" on, and approval {} expires on {}: an amendment is needed", approval.reference,
+                                      dateText(approval.expires))
+                        : " on");
 }
 
 /// One participant must not have both a person's answers and a virtual participant's.
@@ -536,9 +569,11 @@ Result<void> StudyGates::session(const SessionRequest& request, Participant part
         if (again || session.participant != participant.id) continue;
         if (const auto at = stimulatedAt(book_.files, session)) last = at;
     }
-    if (auto holds = gapGate(book_.settings, last, book_.now()); !holds) return holds;
+    const auto waits = [&](Result<void> holds) { return untilWhen(std::move(holds), participant, last); };
+    if (auto holds = gapGate(book_.settings, last, book_.now()); !holds) return waits(std::move(holds));
     if (!again) {
-        if (auto holds = wentBackGate(book_.settings, book_.known.wentBack, book_.now()); !holds) return holds;
+        if (auto holds = wentBackGate(book_.settings, book_.known.wentBack, book_.now()); !holds)
+            return waits(std::move(holds));
     }
     if (auto holds = book_.consented(participant); !holds) return holds;
     if (!request.codeConfirmed) {
@@ -546,12 +581,9 @@ Result<void> StudyGates::session(const SessionRequest& request, Participant part
     }
     if (const auto yes = book_.known.excluded.find(participant.id);
         yes != book_.known.excluded.end() && !(utcDay(yes->second) < book_.today())) {
-        return fail(kGateRefused,
-                    "{} answered yes to the exclusion checklist today; a session begins tomorrow at the "
-                    "earliest",
-                    participant.code);
+        return waits(fail(kGateRefused, "{} answered yes to the exclusion checklist today", participant.code));
     }
-    if (auto holds = exclusionGate(request.exclusions); !holds) return holds;
+    if (auto holds = exclusionGate(request.exclusions, book_.settings); !holds) return holds;
     if (auto holds = simulationGate(book_.settings, participant, request.devicesSimulated); !holds) return holds;
     return basisGate(request, participant);
 }

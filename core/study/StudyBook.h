@@ -94,6 +94,8 @@ struct StudyBook {
     [[nodiscard]] Result<void> finishWithdrawals();
 };
 
+/// Whether the event holds the study: it is serious and was not released by name.
+[[nodiscard]] bool holdsStudy(const AdverseEvent& event) noexcept;
 /// Returns the day of `at` in UTC; days of a study are UTC days, whatever the computer's time zone.
 [[nodiscard]] CalibrationDate utcDay(std::chrono::sys_seconds at);
 /// Returns the chain head of a session's file; empty for a file that is missing, unreadable or changed.
@@ -118,6 +120,11 @@ public:
     [[nodiscard]] Result<void> session(const SessionRequest& request, Participant participant, bool again) const;
 
 private:
+    /// Checks that no serious event holds the study. Rehearsals pass.
+    [[nodiscard]] Result<void> eventGate() const;
+    /// Adds to a refusal that waiting ends when the next session of this participant is possible.
+    [[nodiscard]] Result<void> untilWhen(Result<void> holds, const Participant& participant,
+                                         std::optional<std::chrono::sys_seconds> last) const;
     [[nodiscard]] Result<void> basisGate(const SessionRequest& request, const Participant& participant) const;
     const StudyBook& book_;
 };

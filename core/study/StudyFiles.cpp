@@ -1,5 +1,6 @@
 #include "core/study/StudyFiles.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
@@ -41,11 +42,12 @@ std::string studyText(const StudySettings& settings) {
 
 namespace {
 /// study.json is always written with all its fields: a missing field was removed, and its default was never approved.
-/// Only the licence of exports and the pain ceiling may be missing, in older studies.
+/// Only what older studies do not have may be missing.
 Result<void> checkWhole(const nlohmann::json& record, const std::vector<FieldInfo>& infos, const std::string& source) {
     for (const auto& info : infos) {
         if (!record.contains(info.key)) {
-            if (info.key == "license" || info.key == "pain_ceiling") continue;
+            constexpr std::string_view kSince[] = {"license", "pain_ceiling", "age_min", "exclusions"};
+            if (std::ranges::find(kSince, info.key) != std::end(kSince)) continue;
             return fail(ErrorCode::ParseError, "{}: \"{}\" is missing; a study has all its settings", source, info.key);
         }
         if (!record[info.key].is_object()) continue;

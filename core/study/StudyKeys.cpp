@@ -117,11 +117,7 @@ Result<StudyKeys> StudyKeys::create(const fs::path& file, const std::string& stu
     StudyKeys keys(file, study);
     keys.study_ = Secret::random(kKeyBytes);
     if (passphrase != nullptr) {
-        const auto salt = Secret::random(keys.salt_.size());
-        std::ranges::copy(salt.bytes(), keys.salt_.begin());
-        auto lock = passphrase->keyFor(keys.salt_, cost);
-        if (!lock) return failure(lock);
-        keys.lock_ = std::move(*lock);
+        if (auto locked = keys.lockWith(*passphrase, cost); !locked) return failure(locked);
     }
     if (auto written = keys.write(); !written) return failure(written);
     return keys;
@@ -209,6 +205,28 @@ Result<void> StudyKeys::destroy(std::string_view id) {
     auto written = write();
     if (!written) entries_.push_back(std::move(gone));  // the file still has the entry
     return written;
+}
+
+Result<void> StudyKeys::lockWith(const Passphrase& passphrase, const PassphraseCost& cost) {
+    const auto salt = Secret::random(salt_.size());
+    std::ranges::copy(salt.bytes(), salt_.begin());
+    auto lock = passphrase.keyFor(salt_, cost);
+    if (!lock) return failure(lock);
+    lock_ = std::move(*lock);
+    return {};
+}
+
+Result<void> StudyKeys::sealUnder(const Passphrase& passphrase, const PassphraseCost& cost) {
+    if (!lock_) return fail(ErrorCode::Unsupported, "a rehearsal has no passphrase; its keys are not secret");
+    const auto salt = salt_;
+    auto lock = Secret(lock_->bytes());
+    auto done = lockWith(passphrase, cost);
+    if (done) done = write();
+    if (!done) {
+        salt_ = salt;
+        lock_ = std::move(lock);
+    }
+    return done;
 }
 
 Result<void> StudyKeys::noteEnd(const LedgerEnd& end) {

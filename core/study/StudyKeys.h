@@ -55,12 +55,17 @@ public:
     [[nodiscard]] Result<void> add(const std::string& id, const std::string& code);
     /// Deletes a participant's code and key from memory and file. Errors: Io.
     [[nodiscard]] Result<void> destroy(std::string_view id);
+    /// Seals the whole file under another passphrase. If the program is killed, either the old or the new one opens it.
+    /// Errors: Unsupported for a rehearsal; Io, and then the old one stays.
+    [[nodiscard]] Result<void> sealUnder(const Passphrase& passphrase, const PassphraseCost& cost);
 
 private:
     StudyKeys(std::filesystem::path file, std::string study) : file_(std::move(file)), studyId_(std::move(study)) {}
     [[nodiscard]] Secret content() const;
     [[nodiscard]] Result<void> take(const Secret& content, bool saysEnd);
     [[nodiscard]] Result<void> write() const;
+    /// Draws a salt and makes the key of the file. Errors: as Passphrase::keyFor().
+    [[nodiscard]] Result<void> lockWith(const Passphrase& passphrase, const PassphraseCost& cost);
 
     std::filesystem::path file_;
     std::string studyId_;

@@ -24,6 +24,8 @@ constexpr std::string_view kTexturePressure = "texture-pressure";
 /// The encodings: texture and pressure as they are, or exchanged.
 constexpr std::string_view kEncodings[] = {"standard", "swapped"};
 
+constexpr std::size_t kMaxOwnExclusions = 20;
+
 constexpr AcceptedText kShortText{.mostBytes = 200};
 constexpr AcceptedText kOptionalText{.mayBeEmpty = true, .mostBytes = 200};
 
@@ -99,6 +101,7 @@ RecordFields<StudySettings> buildStudyFields() {
     all.text("consent_version", &S::consentVersion, kShortText);
     all.number("participants_max", &S::participantsMax, {.low = 1, .high = 10'000});
     all.number("sessions_max", &S::sessionsMax, {.low = 1, .high = 10'000});
+    all.number("age_min", &S::ageMin, {.low = 1, .high = 120});
     all.number("gap_min_h", &S::gapMin_h, {.low = 0, .high = 10'000, .unit = "h"});
     all.number("session_max_min", &S::sessionMax_min, {.low = 1, .high = 240, .unit = "min"});
     all.number("cap_ma", &S::cap_mA, {.low = 0, .high = 15, .openLow = true, .unit = "mA"});
@@ -116,6 +119,7 @@ RecordFields<StudySettings> buildStudyFields() {
     all.flag("blind", &S::blind);
     all.word("data_on_request", &S::dataOnRequest, kDataOnRequest);
     all.number("pain_ceiling", &S::painCeiling, {.low = 1, .high = 10});
+    all.list("exclusions", &S::exclusions, textKind(kShortText), 0, kMaxOwnExclusions);
     all.text("license", &S::license, kOptionalText);
     all.list("scripts", &S::scripts, namedHashFields<ScriptHash>("name", &ScriptHash::name).kind(), 0, 100);
     all.record("procedure", &S::procedure, procedureFields());
@@ -135,6 +139,9 @@ RecordFields<StudySettings> buildStudyFields() {
     return all;
 }
 
+/// Its values are separated by semicolons, because questions have commas.
+constexpr std::string_view kExclusions = "exclusions";
+
 /// Returns `text` as JSON of the same type as the field's value `before`.
 Result<nlohmann::json> asJson(const nlohmann::json& before, std::string_view key, std::string_view text) {
     const auto refused = [&](std::string_view what) {
@@ -152,9 +159,10 @@ Result<nlohmann::json> asJson(const nlohmann::json& before, std::string_view key
     if (before.is_array()) {
         auto list = nlohmann::json::array();
         for (std::size_t from = 0; from <= text.size();) {
-            const auto comma = std::min(text.find(',', from), text.size());
-            list.push_back(std::string(text.substr(from, comma - from)));
-            from = comma + 1;
+            const auto end = std::min(text.find(key == kExclusions ? ';' : ',', from), text.size());
+            if (const auto each = trimmed(text.substr(from, end - from)); !each.empty() || key != kExclusions)
+                list.push_back(std::string(each));
+            from = end + 1;
         }
         return list;
     }
@@ -224,6 +232,8 @@ std::string protocolHash(const StudySettings& settings) {
     for (const char* key : {"id", "approval", "license"}) json.erase(key);
     if (!settings.procedure) json.erase("procedure");
     if (!settings.painCeiling) json.erase("pain_ceiling");
+    if (!settings.ageMin) json.erase("age_min");
+    if (settings.exclusions.empty()) json.erase("exclusions");
     return sha256Hex(dumpJson(json));
 }
 
@@ -243,7 +253,8 @@ struct SettingName {
 constexpr std::string_view kShortest = "shortest interval", kLongest = "longest interval",
                            kMethod = "method of detection", kTrials = "trials of each condition in a block",
                            kEmpty = "empty trials in a block", kComparison = "Weber fraction of strength",
-                           kPain = "pain ceiling";
+                           kPain = "pain ceiling", kAge = "lowest age",
+                           kOwn = "own questions of the exclusion checklist";
 constexpr SettingName kNames[] = {
     {"procedure.interval_min_s", kShortest, kShortest},
     {"procedure.interval_max_s", kLongest, kLongest},
@@ -254,6 +265,8 @@ constexpr SettingName kNames[] = {
     {"per_condition", kTrials, kTrials},
     {"catch", kEmpty, kEmpty},
     {"pain_ceiling", kPain, kPain},
+    {"age_min", kAge, kAge},
+    {"exclusions", kOwn, kOwn},
     {"train.shape", "shape of the pulses"},
     {"train.width_us", "width of a phase"},
     {"train.gap_us", "gap between the phases"},
@@ -308,6 +321,9 @@ std::vector<ProcedureFact> approvedProcedure(const StudySettings& settings) {
         {"Pain ceiling", settings.painCeiling
                              ? fmt::format("{} of 10", *settings.painCeiling)
                              : fmt::format("not kept by this approval; sessions are held to {} of 10", kPainCeiling)});
+    if (settings.ageMin) all.push_back({"Age", fmt::format("{} years or more", *settings.ageMin)});
+    if (!settings.exclusions.empty())
+        all.push_back({"Own exclusions", fmt::format("{}", fmt::join(settings.exclusions, " "))});
     return all;
 }
 

@@ -89,6 +89,7 @@ struct StudyProcedure {
 };
 
 inline constexpr int kPainCeiling = 4;
+inline constexpr int kAgeMin = 18;  ///< of a new study, unless its approval says otherwise
 
 struct StudySettings {
     std::string id;  ///< 16 hexadecimal digits; set by Study::create()
@@ -99,6 +100,8 @@ struct StudySettings {
     std::string consentVersion;
     int participantsMax = 5;
     int sessionsMax = 4;  ///< for each participant
+    /// Lowest age in years; earlier studies do not say one.
+    std::optional<int> ageMin;
     double gapMin_h = 20;
     double sessionMax_min = 60;
     double cap_mA = 15;
@@ -119,6 +122,7 @@ struct StudySettings {
     /// A pain rating (0 to 10) this high holds the next presentation (pilot.md section 4). Approvals of earlier studies
     /// have no ceiling, and kPainCeiling applies.
     std::optional<int> painCeiling;
+    std::vector<std::string> exclusions;      ///< the laboratory's own questions of the exclusion checklist
     std::string license;                      ///< the licence of exported data, such as "CC-BY-4.0"; empty: not decided
     std::vector<ScriptHash> scripts;          ///< the approved scripts; a session's script must be one of them
     std::optional<StudyProcedure> procedure;  ///< approved; older studies have none until they are amended

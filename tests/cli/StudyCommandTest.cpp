@@ -43,6 +43,26 @@ TEST_F(StudyCli, AGuessAtAPassphraseTakesTheMemoryThatIsPromised) {
     EXPECT_LT(cheap.most_KiB, kPromised_KiB);  // without a real passphrase, less memory is needed
 }
 
+TEST_F(StudyCli, APassphraseIsJudgedAndChangedAndTheEarlierOneOpensNothing) {
+    RecordProperty("hazard", "H11");
+    const auto strong = std::exchange(passphrase, desk.write("weak", "summer 2026\n"));
+    expectRefused(create(), 2, {"bits of guessing; at least 40 bits"});
+    passphrase = strong;
+    ASSERT_EQ(create().code, 0);
+    expectRefused(study({"passphrase", at(), "--new-passphrase-file", desk.at("weak")}), 2, {"at least 40 bits"});
+    const auto next = desk.write("next", "kettle river 3094 lamp\n");
+    const auto changed = study({"passphrase", at(), "--new-passphrase-file", next});
+    ASSERT_EQ(changed.code, 0) << changed.err;
+    EXPECT_THAT(changed.err, HasSubstr("replace them"));
+    expectRefused(study({"show", at()}), 3, {"the passphrase does not open"});
+    passphrase = next;
+    EXPECT_EQ(study({"show", at()}).code, 0);
+    expectRefused(study({"enrol", at(), "--age", "17"}), 4, {"below the approval's; 18 years or more"});
+    const auto code = jsonOf(study({"enrol", at(), "--age", "18"})).at("code").get<std::string>();
+    expectRefused(study({"consent", at(), code, "--version", "1", "--date", "2026-02-01", "--by", "KL"}), 2,
+                  {"version 2, which is in force, is expected"});
+}
+
 TEST_F(StudyCli, GoingBackIsTwoStepsAndStandsInEachReport) {
     RecordProperty("hazard", "H11");
     ASSERT_EQ(create().code, 0);

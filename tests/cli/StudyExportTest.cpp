@@ -106,6 +106,32 @@ TEST_F(StudyExport, AnAdverseEventIsCountedByEverybodyAndReadByTheCommittee) {
     for (const char* said : {"burning", "cooled", "gone"}) EXPECT_THAT(text, HasSubstr(said));
 }
 
+TEST_F(StudyExport, WhatStandardsAskIsNotedAndReportedAndUnknownWhereItIsNot) {
+    RecordProperty("hazard", "H11");
+    const auto noted = desk_.run({"study", "note", study(), "particulars", "--set", "objectives=to find, the range",
+                                  "--set", "electrode_shape=ring", "--json"});
+    ASSERT_EQ(noted.code, 0) << noted.err;
+    EXPECT_EQ(jsonOf(noted).at("said").at("electrode_shape"), "ring");
+    expectRefused(desk_.run({"study", "note", study(), "particulars", "--set", "electrode_shape=star"}), 2,
+                  {"electrode_shape is \"star\"", "rectangular"});
+    expectRefused(desk_.run({"study", "note", study(), "diary", "--set", "a=b"}), 2, {"one of particulars, assessed"});
+    expectRefused(desk_.run({"study", "release", study(), "1", "--by", "KL"}), 3, {"has no adverse event 1"});
+    ASSERT_EQ(desk_
+                  .run({"study", "adverse-event", study(), "--what", "fell", "--severity", "1", "--relation", "1",
+                        "--serious", "--onset", "2026-11-22", "--expected", "unexpected"})
+                  .code,
+              0);
+    ASSERT_EQ(desk_.run({"study", "release", study(), "1", "--by", "K. Lang"}).code, 0);
+    const auto shown = jsonOf(desk_.run({"study", "show", study(), "--json"}));
+    EXPECT_EQ(shown.at("notes").size(), 1U);
+    ASSERT_EQ(desk_.run({"report", study(), "--out", at("c.html"), "--for", "committee"}).code, 0);
+    const auto text = readTextFile(at("c.html")).value_or("");
+    for (const char* said : {"to find, the range", "unexpected", "released by K. Lang", "unknown"})
+        EXPECT_THAT(text, HasSubstr(said));
+    ASSERT_EQ(desk_.run({"export", study(), "--format", "bids", "--out", at("bids")}).code, 0);
+    EXPECT_THAT(readTextFile(at("bids") + "/README").value_or(""), HasSubstr("Objectives: to find, the range"));
+}
+
 TEST_F(StudyExport, TheDayAfterIsNotedOnALaterDayAlone) {
     RecordProperty("hazard", "H12");
     const auto session =

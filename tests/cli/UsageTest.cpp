@@ -28,7 +28,7 @@ TEST(Usage, HelpNamesEveryCommandAndEveryExitCode) {
 
 TEST(Usage, HelpHasALineForEachFormOfACommand) {
     const Desk desk;
-    const std::string leave = "tactoscope-cli study leave STUDY CODE [--passphrase-file F] [--json]\n";
+    const std::string leave = "tactoscope-cli study leave STUDY CODE [--reason T] [--passphrase-file F] [--json]\n";
     EXPECT_THAT(desk.run({"help"}).out, testing::HasSubstr("\n  " + leave));
     const auto ran = desk.run({"study", "--help"});
     EXPECT_EQ(ran.code, 0);

@@ -99,9 +99,13 @@ protected:
         const char* kind;
         nlohmann::json body;
     };
-    /// A complete session of `code` with these rows.
+    /// A complete session of `code` with these rows, after the study was released by name from its serious events.
     std::string session(Study& study, const std::string& code, const std::vector<Row>& rows) {
         time.now += std::chrono::hours(24);
+        const auto events = study.adverseEvents().value();
+        for (std::size_t i = 0; i < events.size(); ++i)
+            EXPECT_EQ(study.release(i + 1, "KL", "").has_value(),
+                      events[i].second.serious && events[i].second.releasedBy.empty());
         const auto begun = study.beginSession(someRequest(code)).value();
         VirtualClock clock;
         auto writer = SessionWriter::create(begun.path, {}, clock, begun.seal).value();

@@ -270,6 +270,37 @@ TEST(StudyReport, AnAdverseEventIsReportedInTheWordsInWhichItIsNoted) {
     EXPECT_THAT(textOf(committeeReport(study)), HasSubstr("redness | 4 life-threatening | no | 3 possible | "));
 }
 
+TEST(StudyReport, TheCommitteesSaysWhatStandardsAskAndUnknownWhereNothingIsKnown) {
+    RecordProperty("hazard", "H11");
+    auto study = studyOfThree();
+    const auto said = [&] { return textOf(committeeReport(study)); };
+    EXPECT_THAT(said(), HasSubstr("Objectives: unknown"));
+    EXPECT_THAT(said(), HasSubstr("Electrode that leads: unknown"));
+    EXPECT_THAT(said(), HasSubstr("Device deficiencies\nNone was noted."));
+    EXPECT_THAT(said(), Not(HasSubstr("Assessed")));
+    study.notes = {{kParticulars, {}, {{"objectives", "to find the range"}, {"leading_electrode", "distal"}}},
+                   {kParticulars, {}, {{"leading_electrode", "proximal"}}},
+                   {kAssessed, {}, {{"reason", "declined"}, {"more", ""}}},
+                   {kAssessed, {}, {{"reason", "declined"}}},
+                   {"deficiency", {}, {{"serial", "P24-7"}, {"what", "a loose plug"}, {"reported", "yes"}}}};
+    study.participants[0].about.state = ParticipantState::Left;
+    auto& event = study.events[0].second;
+    event.serious = true;
+    event.onset = "2026-11-22";
+    event.expected = Expectedness::Unexpected;
+    EXPECT_THAT(said(), HasSubstr("Objectives: to find the range"));
+    EXPECT_THAT(said(), HasSubstr("Electrode that leads: proximal"));
+    EXPECT_THAT(said(), HasSubstr("Assessed | 5\nEnrolled | 3"));
+    EXPECT_THAT(said(), HasSubstr("Assessed and not enrolled | declined | 2"));
+    EXPECT_THAT(said(), HasSubstr("Left | unknown | 1"));
+    EXPECT_THAT(said(), HasSubstr("1970-01-01 | P24-7 | a loose plug | unknown | unknown | unknown | yes"));
+    EXPECT_THAT(said(), HasSubstr("| yes; holds the study | 5 definite | unexpected | 2026-11-22, unknown | "));
+    event.releasedBy = "K. Lang";
+    EXPECT_THAT(said(), HasSubstr("yes; released by K. Lang"));
+    study.settings.modality = Modality::Massager;
+    EXPECT_THAT(said(), Not(HasSubstr("Electrode that leads")));
+}
+
 TEST(StudyReport, PreferencesAreShownWithTheirOrderAndNotTested) {
     RecordProperty("hazard", "H9");
     const auto content = accepted(studyReport(studyOfThree()));

@@ -178,8 +178,55 @@ TEST(BidsFiles, NothingIsDatedAndOnlyWhatIsAskedForIsIdentifying) {
     EXPECT_EQ(tableOf(filesOf(studyOfThree()).at("participants.tsv"))[0],
               (std::vector<std::string>{"participant_id", "species", "group", "sessions", "basis"}));
     const auto with = tableOf(filesOf(studyOfThree(), {.age = true}).at("participants.tsv"));
-    EXPECT_EQ(with[0].back(), "age");
-    EXPECT_EQ(with[1].back(), "34");
+    EXPECT_EQ(with[0].back(), "age_range");
+    EXPECT_EQ(with[1].back(), "30-39");
+}
+
+TEST(BidsFiles, NobodyCanBeToldByAgeSexAndHandedness) {
+    RecordProperty("hazard", "H11");
+    Random random(49, "published ages");
+    const auto drawn = [&](std::span<const std::string_view> words) {
+        return std::string(words[random.below(words.size())]);
+    };
+    for (int trial = 0; trial < 2000; ++trial) {
+        std::vector<BidsAbout> people(random.below(9));
+        for (auto& each : people) {
+            if (random.below(8) > 0) each.age = std::to_string(18 + random.below(trial % 3 == 0 ? 100 : 20));
+            each.sex = random.below(9) > 0 ? drawn(std::span(kSexes).first(2)) : "";
+            each.handedness = random.below(4) > 0 ? "right" : drawn(kHandednesses);
+        }
+        const BidsWith asked{random.below(3) > 0, random.below(2) > 0, random.below(2) > 0};
+        const auto shared = sharedAbout(people, asked);
+        ASSERT_EQ(shared.people.size(), people.size());
+        EXPECT_FALSE((shared.columns.age && !asked.age) || (shared.columns.sex && !asked.sex));
+        std::map<std::string, int> alike;
+        for (std::size_t i = 0; i < people.size(); ++i) {
+            const auto& said = shared.people[i];
+            ++alike[said.age + '|' + said.sex + '|' + said.handedness];
+            if (!said.age.empty()) {
+                const int age = std::stoi(people[i].age), from = std::stoi(said.age);
+                EXPECT_GE(age, from);
+                const auto hyphen = said.age.find('-');
+                if (hyphen == std::string::npos) {
+                    EXPECT_EQ(said.age.back(), '+') << said.age;
+                } else {
+                    EXPECT_LE(age, std::stoi(said.age.substr(hyphen + 1)));
+                    EXPECT_LT(std::stoi(said.age.substr(hyphen + 1)), 89) << "few people are older";
+                }
+            }
+            EXPECT_EQ(said.sex, shared.columns.sex ? people[i].sex : "");
+            EXPECT_EQ(said.handedness, shared.columns.handedness ? people[i].handedness : "");
+        }
+        const bool any = shared.columns.age || shared.columns.sex || shared.columns.handedness;
+        for (const auto& [what, n] : alike) EXPECT_TRUE(!any || n >= 3) << what;
+        const bool all = shared.columns.age == asked.age && shared.columns.sex == asked.sex &&
+                         shared.columns.handedness == asked.handedness;
+        EXPECT_EQ(shared.withheld.empty(), all) << shared.withheld;
+    }
+    const std::vector<BidsAbout> three{{"24", "female", "right"}, {"31", "male", "right"}, {"57", "female", "right"}};
+    const auto shared = sharedAbout(three, {true, true, true});
+    EXPECT_EQ(shared.people[1], (BidsAbout{"20-59", "", "right"}));
+    EXPECT_EQ(shared.withheld, "sex withheld: fewer than 3 people would share what is said of them");
 }
 
 TEST(BidsFiles, LabelsAreShuffledAndStayWhenMoreAreEnrolled) {
@@ -229,25 +276,24 @@ TEST(BidsFiles, WhatIsSimulatedSaysSoInEachNameCountAndRow) {
         study.rehearsal = random.below(3) == 0;
         study.participants.clear();
         study.places = 9;
-        std::map<SessionBasis, std::size_t> people, waiting, sessions;
+        std::map<SessionBasis, std::size_t> people, sessions;
+        study.waiting = random.below(3);
         const auto all = 1 + random.below(9);
         for (std::size_t i = 1; i <= all; ++i) {
             BidsParticipant one;
             one.enrolled = i;
             one.group = "intact";
-            const auto count = random.below(3);
+            const auto count = 1 + random.below(2);
             for (std::size_t number = 1; number <= count; ++number) one.sessions.push_back(sessionOf(number, 0));
             restOn(one, kSessionBases[random.below(3)].value);
-            ++(count > 0 ? people : waiting)[one.basis];
+            ++people[one.basis];
             sessions[one.basis] += count;
             study.participants.push_back(std::move(one));
         }
-        // People who are enrolled but had no session took no part, so they do not make this a study of people.
-        if (people.empty()) people = std::exchange(waiting, {});
         const auto files = filesOf(study);
         const auto& readme = files.at("README");
         SCOPED_TRACE(readme);
-        EXPECT_EQ(readme.find("have had no session") != std::string::npos, !waiting.empty());
+        EXPECT_EQ(readme.find("have had no session") != std::string::npos, study.waiting > 0);
         const auto about = *parseJson(files.at("dataset_description.json"), "description");
         const auto name = about.at("Name").get<std::string>();
         const bool only = people.size() == 1 && people.contains(SessionBasis::Person);
@@ -275,7 +321,6 @@ TEST(BidsFiles, WhatIsSimulatedSaysSoInEachNameCountAndRow) {
             });
             EXPECT_EQ(rows[i][4], nameOf(one->basis));
             EXPECT_EQ(rows[i][1] == "homo sapiens", one->basis != SessionBasis::Virtual);
-            if (one->sessions.empty()) continue;
             const auto each = tableOf(files.at(fmt::format("{0}/{0}_sessions.tsv", label)));
             ASSERT_EQ(each[0].back(), "basis");
             for (std::size_t row = 1; row < each.size(); ++row) EXPECT_EQ(each[row].back(), nameOf(one->basis));
@@ -326,13 +371,29 @@ TEST(BidsFiles, RefusesWhatCannotBeNumbered) {
     study = studyOfThree();
     study.participants[1].sessions[1].number = 1;
     EXPECT_EQ(bidsFiles(study, {}, "1").error().message, "session 1 of participant 2 is given twice; once is expected");
-    auto old = studyOfThree();
-    old.participants.front().age = "91";
-    const auto ages = filesOf(old, {.age = true}).at("participants.tsv");
-    EXPECT_NE(ages.find("\t89+\n"), std::string::npos) << ages;
-    EXPECT_EQ(ages.find("91"), std::string::npos) << ages;
     EXPECT_EQ(bidsWithFrom("age,name").error().message, "\"name\" cannot be exported; age, sex and handedness can");
     EXPECT_TRUE(bidsWithFrom("sex, handedness")->handedness);
+}
+
+TEST(BidsFiles, WhatIsKnownOfStimulatorAndElectrodesStandsInEachSidecar) {
+    auto study = studyOfThree();
+    study.stimulation = {{"Manufacturer", "unknown"}, {"DeviceSerialNumber", "unknown"}, {"ElectrodeShape", "ring"}};
+    study.particulars = {{"Objectives", "to find the range"}};
+    study.participants[0].sessions[0].deviceSerial = "P24-7";
+    const auto files = filesOf(study);
+    EXPECT_THAT(files.at("README"), HasSubstr("Objectives: to find the range\n"));
+    std::size_t sidecars = 0, known = 0;
+    for (const auto& [path, text] : files) {
+        if (!path.ends_with("_beh.json")) continue;
+        ++sidecars;
+        const auto about = *parseJson(text, path);
+        EXPECT_EQ(about.at("Manufacturer"), "unknown");
+        EXPECT_EQ(about.at("ElectrodeShape"), "ring");
+        EXPECT_EQ(about.at("ElectrodeSize"), 4);
+        known += about.at("DeviceSerialNumber") == "P24-7";
+    }
+    EXPECT_EQ(sidecars, 24U);
+    EXPECT_EQ(known, 4U) << "as the session recorded it";
 }
 
 TEST(BidsFiles, AFolderThatHoldsSomethingIsLeftAlone) {

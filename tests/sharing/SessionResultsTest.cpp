@@ -207,6 +207,27 @@ TEST(SessionResults, WhatLeavesAStudyHasItsLicenseAndItsSecretLabels) {
     EXPECT_EQ(shared.places, 5U);
 }
 
+TEST(SessionResults, OnlyWhoConsentedAndHadASessionLeavesAStudy) {
+    RecordProperty("hazard", "H11");
+    StudyRecord study;
+    study.settings.participantsMax = 16;
+    std::size_t leaving = 0;
+    for (int i = 0; i < 16; ++i) {
+        ParticipantRecord one;
+        one.about.enrolled = i + 1;
+        if ((i & 1) != 0) one.about.consents = {{"2", {}, "KL"}};
+        if ((i & 2) != 0) one.sessions.emplace_back().about.opened = (i & 4) != 0;
+        if ((i & 8) != 0) one.about.state = ParticipantState::Left;
+        leaving += (i & 7) == 7;
+        study.participants.push_back(one);
+    }
+    study.participants[15].about.state = ParticipantState::Withdrawn;
+    const auto shared = sharedStudy(study);
+    ASSERT_EQ(shared.participants.size(), leaving - 1);
+    EXPECT_EQ(shared.participants.front().enrolled, 8U) << "with consent, and with a session that began";
+    EXPECT_EQ(shared.waiting, 14U);
+}
+
 TEST(SessionResults, NoRowsSayNothing) {
     RecordProperty("hazard", "H9");
     const auto found = sessionResults({}, kLabels);

@@ -111,7 +111,8 @@ TEST(Gates, AnApprovalIsForItsProcedureAndOldOnesKeepTheirHash) {
     RecordProperty("hazard", "H11");
     auto settings = approved();
     auto stored = studyFields().write(settings);
-    for (const char* key : {"id", "approval", "license", "procedure", "pain_ceiling"}) stored.erase(key);
+    for (const char* key : {"id", "approval", "license", "procedure", "pain_ceiling", "age_min", "exclusions"})
+        stored.erase(key);
     EXPECT_EQ(protocolHash(settings), sha256Hex(stored.dump())) << "as before there was one";
     settings.procedure.emplace();
     EXPECT_EQ(approvalGate(settings, kToday).error().code, kGateRefused);
@@ -131,7 +132,7 @@ TEST(Gates, OnlyAnActiveParticipantTakesPartAndNoMoreOftenThanApproved) {
     EXPECT_TRUE(participantGate(settings, participant));
     participant.sessions = 4;
     expectRefused(participantGate(settings, participant),
-                  "P-7K3D has had 4 sessions, and approval EC-2026-17 allows 4");
+                  "P-7K3D has had 4 sessions, and approval EC-2026-17 allows 4; a further one needs an amendment");
     participant.sessions = 0;
     participant.state = ParticipantState::Left;
     expectRefused(participantGate(settings, participant),

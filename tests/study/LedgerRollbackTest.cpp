@@ -70,6 +70,10 @@ protected:
                                     return of.noteExclusions(yes);
                                 }},
                                {"begin", [=, this](Study& of) { return drop(of.beginSession(request())); }},
+                               {"note",
+                                [](Study& of) {
+                                    return of.note({"deviation", {}, {{"what", "a longer break"}}});
+                                }},
                                {"export", [](Study& of) { return of.exported("/media/stick", "bids"); }}};
         if (!session.empty()) {
             all.push_back({"event", [=](Study& of) { return of.adverseEvent(session, {.what = "itching"}); }});

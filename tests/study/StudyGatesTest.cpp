@@ -309,11 +309,12 @@ TEST_F(GateOfASession, AConsentFromBeforeTheApprovalOrTheFormsVersionOpensNone) 
     auto request = test::someRequest(code);
     request.devicesSimulated = false;
     EXPECT_TRUE(study.mayBegin(request));
-    ASSERT_TRUE(dated("3", 11, 20)) << "of a form that is not in force";
+    EXPECT_THAT(dated("3", 11, 20),
+                test::refused(ErrorCode::InvalidArgument, "version 2, which is in force, is expected"));
     auto amended = study.settings();
     amended.consentVersion = "3";
     ASSERT_TRUE(study.amend(amended, "EC-2026-18"));
-    expectRefused(study, request, "initials and a day from 2026-11-23, from which version 3 of the form is approved");
+    expectRefused(study, request, "has consented to version 2, and version 3 is in force");
     EXPECT_FALSE(dated("3", 11, 22));
     ASSERT_TRUE(dated("3", 11, 23));
     EXPECT_TRUE(study.mayBegin(request));

@@ -61,7 +61,10 @@ PilotWorkspace::PilotWorkspace(BenchController& controller, QWidget* parent)
     connectSession();
     connectResult();
     connect(start_, &SessionStartPage::beginWanted, this, &PilotWorkspace::beginOfStudy);
-    connect(start_, &SessionStartPage::backWanted, this, [this] { showPage(kHome); });
+    connect(start_, &SessionStartPage::backWanted, this, [this] {
+        showPage(kHome);
+        keepExclusions();
+    });
     showPage(kHome);
     afterLookChange(*this, [this] { showBeside(Page(pages_->currentIndex())); });
     onEvent(*this, QEvent::Resize, [this] { showBeside(Page(pages_->currentIndex())); });
@@ -171,6 +174,20 @@ void PilotWorkspace::prepareStart(const QString& code) {
     if (!who) return studies_->list().say(sentence(who.error()));
     start_->prepare(*study, *who);
     showPage(kStart);
+}
+
+void PilotWorkspace::keepExclusions() {
+    auto* study = study_.study();
+    const auto left = start_->start();
+    if (study == nullptr || std::ranges::none_of(left.exclusions, &ExclusionAnswer::yes)) return;
+    SessionRequest answered;
+    answered.code = left.participant;
+    answered.exclusions = left.exclusions;
+    const auto noted = study->noteExclusions(answered);
+    study_.noteChange();
+    studies_->list().say(noted ? tr("%1 answered a question of the checklist with yes: there is no session today.")
+                                     .arg(qtext(left.participant))
+                               : sentence(noted.error()));
 }
 
 void PilotWorkspace::showRecorded(const RunResult& result) {

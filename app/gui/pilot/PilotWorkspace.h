@@ -56,6 +56,8 @@ private:
     void showPage(Page page);
     void showBeside(Page page);
     void prepareStart(const QString& code);
+    /// Notes a "yes" of the checklist that the operator has left, so that it stays for the day.
+    void keepExclusions();
     void showRecorded(const RunResult& result);
     void beginRehearsal(bool goOn);
     void beginOfStudy();

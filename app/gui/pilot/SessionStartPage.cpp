@@ -1,8 +1,8 @@
 #include "app/gui/pilot/SessionStartPage.h"
 
-#include <QGridLayout>
 #include <QRadioButton>
 #include <QRandomGenerator>
+#include <algorithm>
 
 #include "app/gui/pilot/DeviceRows.h"
 #include "app/gui/pilot/UnfinishedOffer.h"
@@ -99,7 +99,7 @@ void SessionStartPage::prepare(const Study& study, const Participant& participan
     virtual_ = participant.virtualSeed.has_value();
     rehearsal_ = study.isRehearsal();
     massager_ = study.settings().modality == Modality::Massager;
-    checklist_->clear();
+    checklist_->ask(exclusionItems(study.settings()));
     asks_->setVisible(!virtual_);
     seats_->showFor(!virtual_);
     seats_->setBlind(study.settings().blind);
@@ -150,50 +150,61 @@ void SessionStartPage::judge() {
                        : !lacks.isEmpty() ? lacks
                        : !whole           ? tr("%1 of %2 questions of the checklist are answered; each is needed.")
                                       .arg(open)
-                                      .arg(exclusionItems().size())
+                                      .arg(checklist_->items().size())
                                 : tr("Every condition of the study is looked at first. Nothing is delivered before."));
     begin_->setText(offer_->goesOn() ? tr("Go on with the session") : tr("Begin the session"));
 }
 
 void SessionStartPage::say(const QString& what) { trouble_->say(what); }
 
-ExclusionChecklist::ExclusionChecklist(QWidget* parent) : QWidget(parent) {
+ExclusionChecklist::ExclusionChecklist(QWidget* parent) : QWidget(parent), grid_(layoutIn<QGridLayout>(*this, -1, {})) {
     nameWidget(*this, "exclusionChecklist", tr("Exclusion checklist"));
-    auto* grid = layoutIn<QGridLayout>(*this, -1, {});
-    grid->setHorizontalSpacing(scaledPx(16));
-    grid->setVerticalSpacing(scaledPx(8));
-    grid->setColumnStretch(0, 1);
-    int row = 0;
-    for (const auto& item : exclusionItems()) {
-        auto* question = makeLabel(qtext(item.question), {.wraps = true, .plain = true}, this);
-        grid->addWidget(question, row, 0);
-        auto* group = new QButtonGroup(this);
-        for (const auto answer : {kNo, kYes}) {
-            auto* choice = new QRadioButton(answer == kYes ? tr("yes") : tr("no"), this);
-            nameWidget(*choice, qtext(item.key) + (answer == kYes ? "-yes" : "-no"),
-                       tr("%1 %2").arg(qtext(item.question), choice->text()));
-            group->addButton(choice, answer);
-            grid->addWidget(choice, row, 1 + answer, Qt::AlignTop);
-        }
-        connect(group, &QButtonGroup::idToggled, this, &ExclusionChecklist::changed);
-        groups_.push_back(group);
-        ++row;
-    }
+    grid_->setHorizontalSpacing(scaledPx(16));
+    grid_->setVerticalSpacing(scaledPx(8));
+    grid_->setColumnStretch(0, 1);
+    ask(exclusionItems());
 }
 
-void ExclusionChecklist::clear() {
+void ExclusionChecklist::ask(const std::vector<ExclusionItem>& items) {
+    // The rows of questions that stay keep their place in the tab order.
+    const auto [end, ignored] = std::ranges::mismatch(items_, items);
+    for (auto stays = std::size_t(end - items_.begin()); groups_.size() > stays;
+         groups_.pop_back(), items_.pop_back()) {
+        delete grid_->itemAtPosition(int(groups_.size()) - 1, 0)->widget();
+        qDeleteAll(groups_.back()->buttons());
+        delete groups_.back();
+    }
     for (auto* group : groups_) {
         group->setExclusive(false);
         for (auto* choice : group->buttons()) choice->setChecked(false);
         group->setExclusive(true);
     }
+    while (items_.size() < items.size()) addRow(items[items_.size()]);
+}
+
+void ExclusionChecklist::addRow(const ExclusionItem& item) {
+    const int row = int(items_.size());
+    grid_->addWidget(makeLabel(qtext(item.question), {.wraps = true, .plain = true}, this), row, 0);
+    auto* group = new QButtonGroup(this);
+    QWidget* before = groups_.empty() ? nullptr : groups_.back()->button(kYes);
+    for (const auto answer : {kNo, kYes}) {
+        auto* choice = new QRadioButton(answer == kYes ? tr("yes") : tr("no"), this);
+        nameWidget(*choice, qtext(item.key) + (answer == kYes ? "-yes" : "-no"),
+                   tr("%1 %2").arg(qtext(item.question), choice->text()));
+        group->addButton(choice, answer);
+        grid_->addWidget(choice, row, 1 + answer, Qt::AlignTop);
+        if (before != nullptr) setTabOrder(before, choice);
+        before = choice;
+    }
+    connect(group, &QButtonGroup::idToggled, this, &ExclusionChecklist::changed);
+    groups_.push_back(group);
+    items_.push_back(item);
 }
 
 std::vector<ExclusionAnswer> ExclusionChecklist::answers() const {
     std::vector<ExclusionAnswer> all;
     for (std::size_t i = 0; i < groups_.size(); ++i) {
-        if (const int given = groups_[i]->checkedId(); given >= 0)
-            all.push_back({std::string(exclusionItems()[i].key), given == kYes});
+        if (const int given = groups_[i]->checkedId(); given >= 0) all.push_back({items_[i].key, given == kYes});
     }
     return all;
 }

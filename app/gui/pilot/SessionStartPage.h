@@ -4,6 +4,7 @@
 
 #include <QBoxLayout>
 #include <QButtonGroup>
+#include <QGridLayout>
 #include <QLabel>
 #include <QPushButton>
 #include <QWidget>
@@ -70,9 +71,11 @@ class ExclusionChecklist final : public QWidget {
     Q_OBJECT
 public:
     explicit ExclusionChecklist(QWidget* parent = nullptr);
-    void clear();
+    /// Asks these questions, none of them answered.
+    void ask(const std::vector<ExclusionItem>& items);
     /// Returns the answers given so far, in order.
     [[nodiscard]] std::vector<ExclusionAnswer> answers() const;
+    [[nodiscard]] const std::vector<ExclusionItem>& items() const { return items_; }
     [[nodiscard]] bool whole() const { return answers().size() == groups_.size(); }
 
 signals:
@@ -80,7 +83,10 @@ signals:
 
 private:
     enum Answer { kNo, kYes };
-    std::vector<QButtonGroup*> groups_;  ///< in the order of exclusionItems()
+    void addRow(const ExclusionItem& item);
+    QGridLayout* grid_;
+    std::vector<ExclusionItem> items_;
+    std::vector<QButtonGroup*> groups_;  ///< in the order of items_
 };
 
 }  // namespace tacto::gui

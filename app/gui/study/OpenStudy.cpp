@@ -119,6 +119,24 @@ void OpenStudy::takeBack() {
     if (!folder_.isEmpty() && !study_) open(folder_, passphrase_);
 }
 
+void OpenStudy::changePassphrase(std::shared_ptr<const Secret> next) {
+    if (study() == nullptr) return;
+    work_.start(
+        [this, next](const WorkPort&) -> Result<void> {
+            const auto seals = Passphrase::from(*next);
+            return seals ? study_->changePassphrase(*seals) : failure(seals);
+        },
+        [this, next](const Result<void>& done) {
+            if (done) passphrase_ = next;
+            emit changed();
+            if (done)
+                emit passphraseChanged();
+            else
+                emit refused(sentence(done.error()));
+        });
+    emit changed();
+}
+
 void OpenStudy::exportBids(const QString& place, const BidsWith& with) {
     if (study() == nullptr) return;
     work_.start([this, with, out = place.toStdString()](

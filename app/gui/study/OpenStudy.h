@@ -44,6 +44,8 @@ public:
     /// Lends the study to a session, which opens the folder itself; takeBack() opens the study here again.
     void lend();
     void takeBack();
+    /// Seals the study's keys under another passphrase; passphraseChanged() or refused() follows.
+    void changePassphrase(std::shared_ptr<const Secret> next);
     /// Exports the study; exported() or refused() follows.
     void exportBids(const QString& place, const BidsWith& with = {});
     /// Reads the result of session `id` on another thread. resultRead() or refused() follows.
@@ -58,6 +60,7 @@ signals:
     void changed();  ///< study() or its content has changed
     void opened();
     void refused(const QString& why);
+    void passphraseChanged();
     void exported(const QString& place);
     void resultRead(const tacto::RunResult& result);
 

@@ -12,7 +12,9 @@
 #include <utility>
 
 #include "app/gui/theme/Building.h"
+#include "app/gui/theme/Text.h"
 #include "core/base/Utf16.h"
+#include "core/seal/Passphrase.h"
 
 namespace tacto::gui {
 
@@ -23,23 +25,38 @@ constexpr int kPassphraseChars = 60;
 PassphraseDialog::PassphraseDialog(Purpose purpose, const QString& study, QWidget* parent)
     : QDialog(parent),
       purpose_(purpose),
+      study_(study),
       first_(new PassphraseEdit(this)),
       trouble_(
           makeLabel({}, {.name = "passphraseTrouble", .tone = Tone::Warning, .wraps = true, .plain = true}, this)) {
-    const bool isNew = purpose == Purpose::New;
+    const bool isNew = purpose != Purpose::Open, changes = purpose == Purpose::Change;
     setObjectName("passphraseDialog");
-    setWindowTitle(isNew ? tr("A passphrase for the new study") : tr("Open a study"));
+    setWindowTitle(changes ? tr("Change the passphrase")
+                   : isNew ? tr("A passphrase for the new study")
+                           : tr("Open a study"));
     auto* column = new QVBoxLayout(this);
-    column->addWidget(heading(isNew ? tr("A passphrase for “%1”").arg(study) : tr("“%1” is sealed").arg(study), this));
+    column->addWidget(heading(changes ? tr("Another passphrase for “%1”").arg(study)
+                              : isNew ? tr("A passphrase for “%1”").arg(study)
+                                      : tr("“%1” is sealed").arg(study),
+                              this));
     column->addWidget(explanation(
-        isNew ? tr("It seals who takes part and what they answer. It is kept nowhere: a lost passphrase is lost data. "
-                   "Write it on paper, seal that in an envelope and lock it away.")
-              : tr("Codes, answers and levels are read with its passphrase only."),
+        changes ? tr("The key file is sealed anew. Copies of it still open with the passphrase of their time: replace "
+                     "them. A lost passphrase is lost data.")
+        : isNew
+            ? tr("It seals who takes part and what they answer. It is kept nowhere: a lost passphrase is lost data. "
+                 "Write it on paper, seal that in an envelope and lock it away.")
+            : tr("Codes, answers and levels are read with its passphrase only."),
         this));
     auto* form = new QFormLayout;
+    if (changes) {
+        soFar_ = new PassphraseEdit(this);
+        nameWidget(*soFar_, "passphraseSoFar", tr("Passphrase so far"));
+        form->addRow(tr("Passphrase &so far"), soFar_);
+        connect(soFar_, &PassphraseEdit::edited, this, &PassphraseDialog::judge);
+    }
     first_->setObjectName("passphrase");
     first_->setMinimumWidth(fontMetrics().averageCharWidth() * kPassphraseChars);
-    form->addRow(tr("&Passphrase"), first_);
+    form->addRow(changes ? tr("&New passphrase") : tr("&Passphrase"), first_);
     if (isNew) {
         second_ = new PassphraseEdit(this);
         nameWidget(*second_, "passphraseAgain", tr("Passphrase once more"));
@@ -52,7 +69,10 @@ PassphraseDialog::PassphraseDialog(Purpose purpose, const QString& study, QWidge
     column->addWidget(trouble_);
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
     cancel_ = buttons->button(QDialogButtonBox::Cancel);
-    go_ = buttons->addButton(isNew ? tr("Create the study") : tr("Open"), QDialogButtonBox::ActionRole);
+    go_ = buttons->addButton(changes ? tr("Change the passphrase")
+                             : isNew ? tr("Create the study")
+                                     : tr("Open"),
+                             QDialogButtonBox::ActionRole);
     go_->setObjectName("usePassphrase");
     makePrimary(*go_);
     for (auto* button : buttons->buttons()) static_cast<QPushButton*>(button)->setAutoDefault(false);
@@ -62,15 +82,21 @@ PassphraseDialog::PassphraseDialog(Purpose purpose, const QString& study, QWidge
     connect(go_, &QPushButton::clicked, this, &PassphraseDialog::give);
     connect(buttons, &QDialogButtonBox::rejected, this, &PassphraseDialog::reject);
     judge();
-    first_->setFocus();
+    (soFar_ != nullptr ? soFar_ : first_)->setFocus();
 }
 
 void PassphraseDialog::judge() {
+    bool whole = !first_->isEmpty() && (soFar_ == nullptr || !soFar_->isEmpty());
     if (second_ != nullptr) {
+        const auto typed = first_->isEmpty() ? Result<Passphrase>(fail(ErrorCode::InvalidArgument, ""))
+                                             : Passphrase::from(first_->typed());
+        const auto strong = typed ? typed->checkStrength(study_.toStdString()) : Result<void>();
         const bool differs = !second_->isEmpty() && !first_->equals(*second_);
-        trouble_->setText(differs ? tr("The two are not the same yet.") : QString());
+        trouble_->setText(!strong   ? sentence(strong.error())
+                          : differs ? tr("The two are not the same yet.")
+                                    : QString());
+        whole = whole && strong && first_->equals(*second_);
     }
-    const bool whole = !first_->isEmpty() && (second_ == nullptr || first_->equals(*second_));
     go_->setEnabled(whole && !looking_);
     cancel_->setEnabled(mayCancel());
 }
@@ -88,16 +114,22 @@ void PassphraseDialog::give() {
     passphrase_ = std::make_shared<const Secret>(first_->typed());
     looking_ = true;
     judge();
-    trouble_->setText(purpose_ == Purpose::New ? tr("Making the keys…") : tr("Opening…"));
+    trouble_->setText(purpose_ == Purpose::New      ? tr("Making the keys…")
+                      : purpose_ == Purpose::Change ? tr("Sealing the keys…")
+                                                    : tr("Opening…"));
     emit given();
+}
+
+bool PassphraseDialog::knows(const Secret& held) const {
+    return soFar_ != nullptr && std::ranges::equal(soFar_->typed().bytes(), held.bytes());
 }
 
 void PassphraseDialog::refuse(const QString& why) {
     looking_ = false;
     passphrase_.reset();
-    first_->wipe();
-    if (second_ != nullptr) second_->wipe();
-    first_->setFocus();
+    for (auto* each : {soFar_, first_, second_})
+        if (each != nullptr) each->wipe();
+    (soFar_ != nullptr ? soFar_ : first_)->setFocus();
     judge();
     trouble_->setText("⚠ " + why);
     adjustSize();

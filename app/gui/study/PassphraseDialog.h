@@ -1,5 +1,5 @@
-// PassphraseDialog.h - asks for a study's passphrase: once to open a study, twice for a new one. The dialog stays until
-// its owner closes it, so that a wrong passphrase can be typed again.
+// PassphraseDialog.h - asks for a study's passphrase: once to open a study, twice for a new one, whose strength is
+// judged while it is typed. The dialog stays until its owner closes it, so that a wrong passphrase can be typed again.
 #pragma once
 
 #include <QDialog>
@@ -47,10 +47,12 @@ private:
 class PassphraseDialog final : public QDialog {
     Q_OBJECT
 public:
-    enum class Purpose { Open, New };
+    enum class Purpose { Open, New, Change };
     PassphraseDialog(Purpose purpose, const QString& study, QWidget* parent);
     /// Returns the passphrase once it was typed; null before.
     [[nodiscard]] std::shared_ptr<const Secret> passphrase() const { return passphrase_; }
+    /// For Change: whether the passphrase so far was typed as `held`.
+    [[nodiscard]] bool knows(const Secret& held) const;
     /// Says that the study did not open, wipes the passphrase and asks again.
     void refuse(const QString& why);
     /// Handles Cancel. A new study cannot be cancelled while it is being created.
@@ -66,6 +68,8 @@ private:
     [[nodiscard]] bool mayCancel() const;
     void give();
     const Purpose purpose_;
+    const QString study_;
+    PassphraseEdit* soFar_ = nullptr;  ///< only for Change
     PassphraseEdit* first_;
     PassphraseEdit* second_ = nullptr;
     QLabel* trouble_;

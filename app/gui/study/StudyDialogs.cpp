@@ -15,6 +15,7 @@
 #include "app/gui/theme/Labels.h"
 #include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Text.h"
+#include "core/sharing/results/StudyResults.h"
 
 namespace tacto::gui {
 
@@ -131,8 +132,10 @@ FormField scoreField(const char* name, const QString& label, std::span<const cha
     return field;
 }
 
+constexpr const char* kNoSession = "none";
+
 /// The field "session" with all sessions of a study; selects the last one of `code`, or else the last of all.
-FormField sessionField(const Study* study, const QString& code) {
+FormField sessionField(const Study* study, const QString& code, bool mayBeNone = false) {
     std::vector<std::pair<QString, QString>> choices;
     QString chosen, last;
     for (const auto& each : study == nullptr ? std::vector<StudySession>() : study->sessions()) {
@@ -144,11 +147,13 @@ FormField sessionField(const Study* study, const QString& code) {
                                        .arg(begun.toString("yyyy-MM-dd HH:mm")));
         if (!code.isEmpty() && qtext(each.code) == code) chosen = last;
     }
-    if (choices.empty()) choices.emplace_back("", tr("no session was begun"));
+    if (choices.empty() && !mayBeNone) choices.emplace_back("", tr("no session was begun"));
     if (chosen.isEmpty() && code.isEmpty()) chosen = last;
-    if (chosen.isEmpty() && !choices.front().first.isEmpty())
+    if (chosen.isEmpty() && !choices.empty() && !choices.front().first.isEmpty())
         choices.insert(choices.begin(), {"", tr("to be chosen: %1 has no session").arg(code)});
+    if (mayBeNone) choices.emplace_back(kNoSession, tr("outside sessions"));
     auto field = choiceField("session", tr("Session"), choices, {});
+    if (chosen.isEmpty() && choices.size() == 1) chosen = choices.front().first;
     field.parameter.value = chosen.toStdString();
     field.parameter.needed = tr("it belongs to nothing").toStdString();
     return field;
@@ -307,6 +312,7 @@ QDialog* endPartDialog(OpenStudy& study, EndOfPart how, const QString& code, QWi
     const bool withdraws = how == EndOfPart::Withdraw;
     auto* asks = new StudyDialog(study, withdraws ? "withdraw" : "leave",
                                  (withdraws ? tr("%1 withdraws") : tr("%1 leaves the study")).arg(code), {}, parent);
+    FieldForm* reason = nullptr;
     auto* end = new ConfirmButton(withdraws ? tr("Destroy the key") : tr("Leave the study"), asks);
     if (withdraws) {
         asks->say(tr("The key to everything that %1 did and answered is destroyed. The data can never be opened "
@@ -335,9 +341,12 @@ QDialog* endPartDialog(OpenStudy& study, EndOfPart how, const QString& code, QWi
                      "exports. If they want their data destroyed, they withdraw instead.")
                       .arg(code),
                   "leaveWhat");
+        reason = asks->ask({textField("leaveReason", tr("&Reason"), {},
+                                      tr("As far as they say one; never a name. It is sealed."), tr("not known"))});
     }
     asks->finish(end, "endPart", tr("Nothing was changed."), [=](Study& into) -> Result<void> {
-        return withdraws ? into.withdraw(code.toStdString()) : into.leave(code.toStdString());
+        return withdraws ? into.withdraw(code.toStdString())
+                         : into.leave(code.toStdString(), reason->text("leaveReason").toStdString());
     });
     return asks;
 }
@@ -350,11 +359,17 @@ QDialog* adverseEventDialog(OpenStudy& study, const QString& code, QWidget* pare
     const auto needed = tr("the committee cannot judge it");
     auto what = textField("what", tr("What happened"), {}, {});
     what.parameter.needed = needed.toStdString();
+    std::vector<std::pair<QString, QString>> expected;
+    for (const auto& [word, each] : kExpectedness) expected.emplace_back(qtext(word), qtext(word));
     auto* form = asks->ask(
-        {sessionField(asks->study(), code), what, scoreField("severity", tr("Severity"), kEventSeverities, needed),
+        {sessionField(asks->study(), code, true), what,
+         scoreField("severity", tr("Severity"), kEventSeverities, needed),
          scoreField("relation", tr("Relation to the stimulation"), kRelations, needed),
-         tickField("serious", tr("Serious"), false), textField("action", tr("What was done"), {}, {}),
-         textField("outcome", tr("What became of it"), {}, {}),
+         tickField("serious", tr("Serious"), false,
+                   tr("No session and no block begins until the study is released by name.")),
+         choiceField("expected", tr("Among the approved risks"), expected, {}),
+         dayField("onset", tr("Began on"), {}, tr("not known")), dayField("ended", tr("Ended on"), {}, tr("not ended")),
+         textField("action", tr("What was done"), {}, {}), textField("outcome", tr("What became of it"), {}, {}),
          tickField("reported", tr("Reported to the committee"), false)});
     asks->scroll(form);
     asks->finish(tr("Note the event"), "noteEvent", tr("Nothing was noted."), [=](Study& into) -> Result<void> {
@@ -363,11 +378,106 @@ QDialog* adverseEventDialog(OpenStudy& study, const QString& code, QWidget* pare
         event.severity = form->text("severity").toInt();
         event.relation = form->text("relation").toInt();
         event.serious = form->text("serious") == "true";
+        event.expected = valueFor(kExpectedness, form->text("expected").toStdString()).value_or(Expectedness());
+        event.onset = form->text("onset").toStdString();
+        event.ended = form->text("ended").toStdString();
         event.action = form->text("action").toStdString();
         event.outcome = form->text("outcome").toStdString();
         event.reported = form->text("reported") == "true";
-        return into.adverseEvent(form->text("session").toStdString(), event);
+        const auto session = form->text("session");
+        return into.adverseEvent(session == kNoSession ? std::string() : session.toStdString(), event);
     });
+    return asks;
+}
+
+QDialog* releaseDialog(OpenStudy& study, QWidget* parent) {
+    auto* asks = new StudyDialog(study, "release", tr("Release the study"),
+                                 tr("A serious adverse event holds the study. Who is responsible for it decides, by "
+                                    "name, that sessions may begin again. It stands in the committee’s report."),
+                                 parent);
+    std::vector<std::pair<QString, QString>> held;
+    const auto events = asks->study() == nullptr ? Result<std::vector<std::pair<std::string, AdverseEvent>>>({})
+                                                 : asks->study()->adverseEvents();
+    for (std::size_t i = 0; events && i < events->size(); ++i) {
+        const auto& event = (*events)[i].second;
+        if (event.serious && event.releasedBy.empty())
+            held.emplace_back(QString::number(i + 1), QString("%1  %2").arg(i + 1).arg(qtext(event.what)));
+    }
+    if (held.empty()) held.emplace_back("0", tr("none holds the study"));
+    auto by = textField("by", tr("Released by"), {}, tr("The name of who decides, not a participant’s."));
+    by.parameter.needed = tr("a release has a name").toStdString();
+    auto* form = asks->ask({choiceField("event", tr("After the event"), held, {}), by,
+                            textField("reason", tr("Why sessions may begin"), {}, {})});
+    asks->finish(tr("Release"), "releaseNow", tr("Nothing was changed."), [=](Study& into) -> Result<void> {
+        return into.release(form->text("event").toULongLong(), form->text("by").toStdString(),
+                            form->text("reason").toStdString());
+    });
+    return asks;
+}
+
+QDialog* noteDialog(OpenStudy& study, const StudyLogKind& kind, QWidget* parent) {
+    const auto word = [](const char* text) { return QCoreApplication::translate("StudyLog", text); };
+    auto* asks = new StudyDialog(study, "note", word(kind.title), word(kind.explains), parent);
+    const auto known = asks->study() != nullptr && kind.lastCounts ? particularsOf(asks->study()->notes()).said
+                                                                   : std::map<std::string, std::string>();
+    std::vector<FormField> fields;
+    for (const auto& each : kind.fields) {
+        const auto hint = each.needed ? QString() : tr("unknown");
+        const auto found = known.find(each.key);
+        const auto value = found == known.end() ? std::string() : found->second;
+        auto field = each.is == StudyLogField::Is::Date
+                         ? dayField(each.key, word(each.label), word(each.tip), hint)
+                         : textField(each.key, word(each.label), qtext(value), word(each.tip), hint);
+        if (each.is == StudyLogField::Is::Words) {
+            std::vector<std::pair<QString, QString>> choices{{"", each.needed ? tr("to be chosen") : hint}};
+            for (const auto* one : each.words) choices.emplace_back(one, word(one));
+            field = choiceField(each.key, word(each.label), choices, word(each.tip));
+            field.parameter.value = value == kNoWord ? std::string() : value;
+        }
+        if (each.needed) field.parameter.needed = tr("the note is not whole").toStdString();
+        fields.push_back(std::move(field));
+    }
+    auto* form = asks->ask(fields);
+    if (kind.fields.size() > 4) asks->scroll(form);
+    asks->finish(tr("Note it"), "noteIt", tr("Nothing was noted."), [=, &kind](Study& into) -> Result<void> {
+        StudyNote note{kind.key, {}, {}};
+        for (const auto& each : kind.fields) note.said[each.key] = form->text(each.key).trimmed().toStdString();
+        return into.note(note);
+    });
+    return asks;
+}
+
+QDialog* exportDialog(OpenStudy& study, std::function<void(const BidsWith& with)> wanted, QWidget* parent) {
+    auto* asks = new StudyDialog(
+        study, "export", tr("Results as BIDS"),
+        tr("The export has no names, codes or dates, and only people who consented and had a session. Of few people "
+           "each could be told by their age or sex: an age is exported as a range, and nothing that fewer than %1 "
+           "share.")
+            .arg(kMinAlike),
+        parent);
+    auto* form = asks->ask({tickField("age", tr("Age, as a range of years"), false), tickField("sex", tr("Sex"), false),
+                            tickField("handedness", tr("Handedness"), false)});
+    auto* said = asks->say({}, "exportAbout");
+    const auto chosen = [form] {
+        const auto ticked = [form](const char* name) { return form->text(name) == "true"; };
+        return BidsWith{.age = ticked("age"), .sex = ticked("sex"), .handedness = ticked("handedness")};
+    };
+    const auto judge = [=] {
+        const auto shared = asks->study() == nullptr ? SharedAbout() : sharedAbout(*asks->study(), chosen());
+        QStringList ages;
+        for (const auto& each : shared.people)
+            if (!each.age.empty() && !ages.contains(qtext(each.age))) ages << qtext(each.age);
+        said->setText((ages.isEmpty() ? QString() : tr("Ages: %1. ").arg(ages.join(", "))) +
+                      (shared.withheld.empty() ? QString() : sentence(Error{ErrorCode::Stopped, shared.withheld})));
+    };
+    QObject::connect(form, &FieldForm::edited, said, judge);
+    judge();
+    asks->finish(tr("Choose the folder…"), "exportNow", tr("Nothing was exported."),
+                 [=, wanted = std::move(wanted)](Study&) -> Result<void> {
+                     asks->accept();
+                     wanted(chosen());
+                     return {};
+                 });
     return asks;
 }
 

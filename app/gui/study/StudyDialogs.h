@@ -22,6 +22,13 @@ enum class EndOfPart { Leave, Withdraw };
 /// Records an adverse event of a session; the record survives a withdrawal. `code`: the person whose last session is
 /// selected first; may be empty.
 [[nodiscard]] QDialog* adverseEventDialog(OpenStudy& study, const QString& code, QWidget* parent);
+/// Releases the study after a serious adverse event, by name.
+[[nodiscard]] QDialog* releaseDialog(OpenStudy& study, QWidget* parent);
+/// Notes what standards of reporting ask (StudyLog.h); the particulars of the study are shown as they are known.
+[[nodiscard]] QDialog* noteDialog(OpenStudy& study, const StudyLogKind& kind, QWidget* parent);
+/// Asks what of age, sex and handedness an export carries, and says in which form. `wanted` is called with the answer.
+[[nodiscard]] QDialog* exportDialog(OpenStudy& study, std::function<void(const BidsWith& with)> wanted,
+                                    QWidget* parent);
 /// Records what a participant reports on a day after a session: side effects, redness, swelling.
 [[nodiscard]] QDialog* nextDayDialog(OpenStudy& study, const QString& code, QWidget* parent);
 /// Changes a study's settings under an amendment approved by the committee, which has its own reference.

@@ -50,6 +50,9 @@ std::vector<StudyFormField> describedFields() {
         {Group::Participants, "participants_max", WORDS("Participants at most"),
          WORDS("As many as the approval allows. Those who left count too.")},
         {Group::Participants, "sessions_max", WORDS("Sessions of each at most"), WORDS("As the approval allows.")},
+        {Group::Participants, "age_min", WORDS("Age at least"), WORDS("In years, as the approval allows.")},
+        {Group::Participants, "exclusions", WORDS("More exclusion questions"),
+         WORDS("Your own, each answered with no before a session. Separate them with semicolons.")},
         {Group::Participants, "gap_min_h", WORDS("Between two sessions at least"),
          WORDS("From the first train of one session to the start of the next.")},
         {Group::Participants, "session_max_min", WORDS("A session at most"), WORDS("As the approval allows.")},
@@ -110,6 +113,9 @@ std::vector<StudyFormField> describedFields() {
 
 #undef WORDS
 
+/// The field of the laboratory's own questions, which are separated by semicolons.
+constexpr std::string_view kQuestions = "exclusions";
+
 const FieldInfo* storedField(std::string_view key) {
     static const auto all = studyFields().kind().info;
     const auto dot = key.find('.');
@@ -128,6 +134,7 @@ StudySettings shownIn(const std::optional<StudySettings>& amended) {
     auto settings = amended.value_or(StudySettings{});
     if (!settings.procedure) settings.procedure.emplace();
     if (!settings.painCeiling) settings.painCeiling = kPainCeiling;
+    if (!settings.ageMin) settings.ageMin = kAgeMin;
     return settings;
 }
 
@@ -166,10 +173,11 @@ FormField formFieldOf(const StudyFormField& field, nlohmann::json defaults, bool
         made.type = ParameterType::Boolean;
         made.value = value;
     } else if (value.is_array()) {
-        made.type = ParameterType::Choice;
+        const bool questions = field.key == kQuestions;
+        made.type = questions ? ParameterType::Text : ParameterType::Choice;
         std::string all;
-        for (const auto& each : value) all += (all.empty() ? "" : ",") + each.get<std::string>();
-        made.choices = encodingChoices(all);
+        for (const auto& each : value) all += (all.empty() ? "" : questions ? "; " : ",") + each.get<std::string>();
+        if (!questions) made.choices = encodingChoices(all);
         made.value = all;
     } else {
         const bool day = field.key == "approval.from" || field.key == "approval.expires";
@@ -260,8 +268,9 @@ Result<StudySettings> StudyForm::read(const Profile& profile) {
                 continue;
             }
             into = nlohmann::json::array();
-            for (const auto& part : qtext(value.get<std::string>()).split(',', Qt::SkipEmptyParts))
-                into.push_back(part.trimmed().toStdString());
+            const QChar between = key == kQuestions ? u';' : u',';
+            for (const auto& part : qtext(value.get<std::string>()).split(between, Qt::SkipEmptyParts))
+                if (!part.trimmed().isEmpty()) into.push_back(part.trimmed().toStdString());
         }
     }
     auto filled = studyFields().read(json, RecordPlace{});

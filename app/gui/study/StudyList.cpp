@@ -1,5 +1,6 @@
 #include "app/gui/study/StudyList.h"
 
+#include <QCoreApplication>
 #include <QDateTime>
 #include <QFileInfo>
 #include <QMenu>
@@ -7,6 +8,7 @@
 
 #include "app/gui/runner/ReportView.h"
 #include "app/gui/study/PageTable.h"
+#include "app/gui/study/PassphraseDialog.h"
 #include "app/gui/study/StudyDialogs.h"
 #include "app/gui/theme/Building.h"
 #include "app/gui/theme/Dialogs.h"
@@ -67,6 +69,7 @@ StudyList::StudyList(OpenStudy& study, QWidget* parent)
       study_(study),
       title_(makeLabel({}, {.name = "studyTitle", .size = TextSize::Large}, this)),
       facts_(makeLabel({}, {.name = "studyFacts", .tone = Tone::Quiet}, this)),
+      keys_(makeLabel({}, {.name = "studyKeys", .tone = Tone::Quiet, .selectable = true}, this)),
       trouble_(new QLabel(this)),
       participants_(new PageTable("participants", tr("Participants"), *this, kListPad, true)),
       withdrawn_(new QLabel(this)),
@@ -75,10 +78,10 @@ StudyList::StudyList(OpenStudy& study, QWidget* parent)
     auto* column = columnIn(*this, 8, {kListPad, kListPad, kListPad, kListPad});
     trouble_->setObjectName("studyTrouble");
     setTone(*withdrawn_, Tone::Quiet);
-    for (auto* label : {title_, facts_, trouble_, withdrawn_}) {
+    for (auto* label : {title_, facts_, keys_, trouble_, withdrawn_}) {
         wrapPlain(*label);
     }
-    addAll(*column, {title_, facts_, trouble_});
+    addAll(*column, {title_, facts_, keys_, trouble_});
     trouble_->hide();
     column->addSpacing(8);
     column->addWidget(buildParticipants());
@@ -197,14 +200,24 @@ QWidget* StudyList::buildFoot() {
         makeReport(committee, "committee-report.pdf", {"--for", "committee"});
     });
     addAction(*out, tr("Results as BIDS…"), "exportResults", [this] { askForExport({}); });
-    addAction(*out, tr("Results as BIDS, with age, sex and handedness…"), "exportWithAbout",
-              [this] { askForExport({.age = true, .sex = true, .handedness = true}); });
+    addAction(*out, tr("Results as BIDS, with age, sex or handedness…"), "exportWithAbout", [this] {
+        openDialog(exportDialog(
+            study_, [this](const BidsWith& with) { askForExport(with); }, this));
+    });
     addAction(*note, tr("An amendment of the committee…"), "amendStudy",
               [this] { openDialog(amendDialog(study_, this)); });
     addAction(*note, tr("An adverse event…"), "noteAdverseEvent",
               [this] { openDialog(adverseEventDialog(study_, code_, this)); });
     addAction(*note, tr("The day after a session…"), "noteNextDay",
               [this] { openDialog(nextDayDialog(study_, code_, this)); });
+    for (const auto& kind : studyLogKinds()) {
+        const auto title = QCoreApplication::translate("StudyLog", kind.title);
+        addAction(*note, title + "…", qPrintable("note-" + QString(kind.key)),
+                  [this, &kind] { openDialog(noteDialog(study_, kind, this)); });
+    }
+    release_ = addAction(*note, tr("Release after a serious event…"), "releaseStudy",
+                         [this] { openDialog(releaseDialog(study_, this)); });
+    passphrase_ = addAction(*note, tr("Another passphrase…"), "changePassphrase", [this] { changePassphrase(); });
     goBack_ = addAction(*note, tr("Go back to this older ledger…"), "goBackInStudy",
                         [this] { openDialog(goBackDialog(study_, this)); });
     auto* close = pageButton(tr("Close the study"), "closeStudy",
@@ -230,6 +243,7 @@ void StudyList::sayWhatHinders() {
     const auto* study = study_.study();
     const auto approved = study == nullptr ? Result<void>() : study->stillApproved();
     auto words = approved ? QString() : tr("No session can begin: %1").arg(sentence(approved.error()));
+    if (release_->isVisible()) words += ' ' + tr("Here that is “%1” under “Note”.").arg(release_->text());
     if (goBack_->isVisible()) words += ' ' + tr("Here that is “%1” under “Note”.").arg(goBack_->text());
     say(words);
 }
@@ -251,6 +265,15 @@ void StudyList::showTables(const Study& study) {
                                    qtext(dateText(approval.expires)), qtext(settings.consentVersion))
                               .arg(study.participants().size())
                               .arg(settings.participantsMax));
+    keys_->setText(tr("Keys: %1. Two people should each hold a copy on another medium, apart from the passphrase: the "
+                      "investigator, and who answers for the data.")
+                       .arg(qtext(study.keyFile().string())));
+    keys_->setVisible(!study.isRehearsal());
+    passphrase_->setVisible(!study.isRehearsal());
+    const auto events = study.adverseEvents();
+    release_->setVisible(events && std::ranges::any_of(*events, [](const auto& each) {
+                             return each.second.serious && each.second.releasedBy.empty();
+                         }));
     goBack_->setVisible(study.lossOfGoingBack().has_value());
     if (!study.stillApproved()) sayWhatHinders();
     const auto people = participantRows(study);
@@ -315,6 +338,22 @@ bool StudyList::noteReport(const QString& out, const QStringList& more) {
                                        more.contains("--participant") ? "participant report" : "study report");
     if (!noted) say(sentence(noted.error()));
     return noted.has_value();
+}
+
+void StudyList::changePassphrase() {
+    auto* asks = new PassphraseDialog(PassphraseDialog::Purpose::Change, title_->text(), this);
+    connect(asks, &PassphraseDialog::given, this, [this, asks] {
+        const auto held = study_.passphrase();
+        if (held && asks->knows(*held)) return study_.changePassphrase(asks->passphrase());
+        asks->refuse(tr("The passphrase so far is another. Nothing was changed."));
+    });
+    connect(&study_, &OpenStudy::passphraseChanged, asks, [this, asks] {
+        asks->accept();
+        say(tr("The passphrase was changed. Copies of the key file still open with the earlier one: replace them."),
+            false);
+    });
+    connect(&study_, &OpenStudy::refused, asks, &PassphraseDialog::refuse);
+    openDialog(asks);
 }
 
 void StudyList::askForExport(const BidsWith& with) {

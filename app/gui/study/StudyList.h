@@ -48,6 +48,7 @@ private:
     void askForConsent(const QString& code);
     void makeReport(const QString& title, const QString& name, const QStringList& more);
     void askForExport(const BidsWith& with);
+    void changePassphrase();
     [[nodiscard]] bool noteReport(const QString& out, const QStringList& more);
 
     OpenStudy& study_;
@@ -55,13 +56,16 @@ private:
     QString code_;  ///< the chosen participant's code
     QLabel* title_;
     QLabel* facts_;
+    QLabel* keys_;  ///< where the key file lies, and who should hold a copy
     QLabel* trouble_;
     PageTable* participants_;
     QLabel* withdrawn_;
     StudySessions* sessions_;
     std::vector<QPushButton*> ofOne_;  ///< buttons that need a participant
     std::vector<QPushButton*> all_;    ///< buttons that need the study
-    QAction* goBack_ = nullptr;        ///< shown if the ledger is older than the newest known
+    QAction* release_ = nullptr;       ///< shown if a serious event holds the study
+    QAction* passphrase_ = nullptr;
+    QAction* goBack_ = nullptr;  ///< shown if the ledger is older than the newest known
     QWidget* ofOneRow_ = nullptr;
 };
 

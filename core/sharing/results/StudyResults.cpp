@@ -28,10 +28,16 @@ Result<SessionRecord> readSession(const Study& study, const StudySession& about)
     SessionRecord record;
     record.about = about;
     std::vector<SessionRow> commands;
+    std::string deviceModel, deviceSerial;
     for (const auto& part : about.parts) {
         const auto file = study.part(part.file);
         if (!file) return failure(file);
         if (!*file) continue;  // booked, but never begun
+        for (const auto& device : (*file)->about().devices) {
+            if (!device.is(Role::Stimulator) && !device.is(Role::Massager)) continue;
+            deviceModel = device.name;
+            deviceSerial = device.serial;
+        }
         auto rows = (*file)->events();
         if (!rows) return failure(rows);
         std::ranges::move(*rows, std::back_inserter(record.rows));
@@ -47,6 +53,8 @@ Result<SessionRecord> readSession(const Study& study, const StudySession& about)
         for (const auto& each : said->sideEffects)
             record.results.sideEffects.push_back({kNextDayMoment, each.item, each.severity, each.relation});
     }
+    record.results.deviceModel = std::move(deviceModel);
+    record.results.deviceSerial = std::move(deviceSerial);
     record.results.basis = about.basis;
     record.results.number = static_cast<std::size_t>(about.number);
     record.results.complete = about.state == StudySessionState::Complete;
@@ -63,6 +71,10 @@ double daysBetween(const StudySession& first, const StudySession& other) {
     return static_cast<double>((dayOf(other) - dayOf(first)).count());
 }
 
+}  // namespace
+
+namespace {
+bool wasOpened(const SessionRecord& session) { return session.about.opened; }
 }  // namespace
 
 SessionExposure exposureOf(const std::vector<SessionRow>& commands) {
@@ -113,6 +125,7 @@ Result<StudyRecord> readStudyRecord(const Study& study) {
     auto events = study.adverseEvents();
     if (!events) return failure(events);
     out.events = std::move(*events);
+    out.notes = study.notes();
     return out;
 }
 
@@ -125,11 +138,19 @@ std::vector<std::pair<SessionBasis, StudyRecord>> byBasis(const StudyRecord& stu
         std::erase_if(part.participants, std::not_fn(isOf));
         std::erase_if(part.events, [&, one = basis](const auto& event) {
             const auto found = study.bases.find(event.first);
-            return found != study.bases.end() && found->second != one;
+            return found == study.bases.end() ? all.size() > 1 : found->second != one;  // unknown: in the first part
         });
     }
     if (all.empty()) all.emplace_back(study.rehearsal ? SessionBasis::Virtual : SessionBasis::Person, study);
     return all;
+}
+
+bool isOfElectrodes(const StudyLogField& field) noexcept {
+    return field.exported != nullptr && !std::string_view(field.key).starts_with("stimulator");
+}
+
+bool mayBeShared(const Participant& participant, bool hadSession) {
+    return hadSession && participant.state != ParticipantState::Withdrawn && !participant.consents.empty();
 }
 
 BidsStudy sharedStudy(const StudyRecord& record) {
@@ -149,7 +170,10 @@ BidsStudy sharedStudy(const StudyRecord& record) {
     out.places = static_cast<std::size_t>(std::max(1, record.places > 0 ? record.places : settings.participantsMax));
     for (const auto& participant : record.participants) {
         const auto& about = participant.about;
-        if (about.state == ParticipantState::Withdrawn) continue;
+        if (!mayBeShared(about, std::ranges::any_of(participant.sessions, wasOpened))) {
+            if (about.state != ParticipantState::Withdrawn) ++out.waiting;
+            continue;
+        }
         BidsParticipant shared;
         shared.enrolled = static_cast<std::size_t>(std::max(0, about.enrolled));
         shared.group = std::string(wordFor<ParticipantGroup>(kParticipantGroups, about.group));
@@ -160,7 +184,33 @@ BidsStudy sharedStudy(const StudyRecord& record) {
         for (const auto& session : participant.sessions) shared.sessions.push_back(session.results);
         out.participants.push_back(std::move(shared));
     }
+    const auto known = particularsOf(record.notes);
+    for (const auto& field : (*studyLogKind(kParticulars))->fields) {
+        if (isOfElectrodes(field) && !electrodes) continue;
+        if (field.exported != nullptr)
+            out.stimulation.emplace_back(field.exported, known.text(field.key));
+        else
+            out.particulars.emplace_back(field.label, known.text(field.key));
+    }
+    if (electrodes) {
+        const auto stored = studyFields().write(settings);
+        out.stimulation.emplace_back("ElectrodeType", settings.electrode.type);
+        out.stimulation.emplace_back("Nerve", textOr(stored, "nerve"));
+        out.stimulation.emplace_back("BodySide", textOr(stored, "limb"));
+    }
     return out;
+}
+
+SharedAbout sharedAbout(const Study& study, const BidsWith& asked) {
+    std::vector<BidsAbout> people;
+    const auto sessions = study.sessions();
+    for (const auto& one : study.participants()) {
+        const bool had = std::ranges::any_of(sessions, [&](const StudySession& session) {
+            return session.participant == one.id && session.opened && session.basis != SessionBasis::Virtual;
+        });
+        if (mayBeShared(one, had)) people.push_back({one.age, one.sex, one.handedness});
+    }
+    return sharedAbout(std::move(people), asked);
 }
 
 namespace {

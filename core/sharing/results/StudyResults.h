@@ -51,6 +51,7 @@ struct StudyRecord {
     std::vector<StudyGoingBack> goingsBack;
     std::vector<ParticipantRecord> participants;               ///< in the order of enrolment; no sessions if withdrawn
     std::vector<std::pair<std::string, AdverseEvent>> events;  ///< session id, event
+    std::vector<StudyNote> notes;
     std::map<std::string, SessionBasis> bases;  ///< for each session id, including sessions of withdrawn participants
 };
 
@@ -61,7 +62,14 @@ struct StudyRecord {
 /// record: people and virtual participants are never counted together.
 [[nodiscard]] std::vector<std::pair<SessionBasis, StudyRecord>> byBasis(const StudyRecord& study);
 
-/// Returns what may leave the study: data of participants who are active or left.
+/// Whether a particular of the study is about electrodes: with a massager there are none.
+[[nodiscard]] bool isOfElectrodes(const StudyLogField& field) noexcept;
+
+/// Whether data of a participant may leave the study: they consented, and did not withdraw. Who had no session has
+/// none.
+[[nodiscard]] bool mayBeShared(const Participant& participant, bool hadSession);
+
+/// Returns what may leave the study: data of those who may be shared.
 [[nodiscard]] BidsStudy sharedStudy(const StudyRecord& record);
 
 /// Returns the results of a pilot session that may leave the study: trials, thresholds, range, ratings, side effects,
@@ -74,5 +82,7 @@ struct StudyRecord {
 /// is written. Errors: as readStudyRecord(), bidsFiles(), Study::exported() and writeBids().
 [[nodiscard]] Result<void> exportBids(Study& study, const BidsWith& with, const std::filesystem::path& out,
                                       std::string_view version);
+/// Returns what such an export would say of age, sex and handedness.
+[[nodiscard]] SharedAbout sharedAbout(const Study& study, const BidsWith& asked);
 
 }  // namespace tacto

@@ -90,6 +90,28 @@ TEST_F(SessionStart, EveryQuestionIsAnsweredAndNoneBeforehand) {
     EXPECT_TRUE(page.start().confirmsCode) << "on their own screen";
 }
 
+TEST_F(SessionStart, TheLaboratorysOwnQuestionsStandBelowTheOthers) {
+    RecordProperty("hazard", "H12");
+    prepare({});
+    auto* checklist = page.findChild<gui::ExclusionChecklist*>();
+    StudySettings settings;
+    settings.exclusions = {"Are you cold?", "Do you wear a watch?"};
+    checklist->ask(exclusionItems(settings));
+    answer("-no");
+    EXPECT_FALSE(checklist->whole()) << "two more are asked";
+    auto* cold = page.findChild<QRadioButton*>("own-1-no");
+    EXPECT_EQ(page.findChild<QRadioButton*>("hf-yes")->nextInFocusChain(), cold) << "Tab goes on to them";
+    for (const char* own : {"own-1-no", "own-2-yes"}) page.findChild<QRadioButton*>(own)->click();
+    EXPECT_TRUE(checklist->whole());
+    EXPECT_EQ(exclusionGate(checklist->answers(), settings).error().code, kGateRefused);
+    settings.exclusions = {"Do you wear a watch?"};
+    checklist->ask(exclusionItems(settings));
+    EXPECT_TRUE(checklist->answers().empty());
+    EXPECT_EQ(checklist->items().back().question, "Do you wear a watch?");
+    checklist->ask(exclusionItems());
+    EXPECT_EQ(page.findChild<QRadioButton*>("own-1-no"), nullptr);
+}
+
 TEST_F(SessionStart, AVirtualParticipantHasNoChecklistAndNoScreen) {
     prepare(7);
     EXPECT_FALSE(page.findChild<gui::ExclusionChecklist*>()->isVisible());

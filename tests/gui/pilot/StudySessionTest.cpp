@@ -219,6 +219,24 @@ TEST_F(StudyInTheWindow, WithNothingPluggedInAPersonsSessionCannotBegin) {
     shot(window, "study-window-nothing-plugged-in");
 }
 
+TEST_F(StudyInTheWindow, AYesStaysThoughTheOperatorGoesBack) {
+    RecordProperty("hazard", "H12");
+    ASSERT_NO_FATAL_FAILURE(make({}, Modality::Massager));
+    ASSERT_NO_FATAL_FAILURE(plugIn(PluggedDevices::massager("M1")));
+    ASSERT_NO_FATAL_FAILURE(openIt());
+    ASSERT_NO_FATAL_FAILURE(start());
+    page().findChild<QRadioButton*>("heart-yes")->click();
+    click(*page().findChild<QPushButton*>("backToStudy"));
+    EXPECT_THAT(said("studyTrouble"), HasSubstr("there is no session today"));
+    ASSERT_NO_FATAL_FAILURE(start());
+    answerNoToAll();
+    begin();
+    ASSERT_NO_FATAL_FAILURE(confirmCode());
+    ASSERT_IN_TIME(comesTrue([this] { return !trouble().empty(); }, 20'000));
+    EXPECT_THAT(trouble(), HasSubstr("answered yes to the exclusion checklist today"));
+    EXPECT_THAT(trouble(), HasSubstr("the next session is possible from"));
+}
+
 TEST_F(StudyInTheWindow, APersonConfirmsTheirCodeAndTheSessionRunsOnTheMassagerThatWasChosen) {
     RecordProperty("hazard", "H11");
     ASSERT_NO_FATAL_FAILURE(seatAtMassager());

@@ -42,6 +42,7 @@ protected:
         made.approval.expires = std::chrono::year(2090) / 12 / 31;
         made.consentVersion = "2";
         made.painCeiling = kPainCeiling;
+        made.ageMin = kAgeMin;
         EXPECT_TRUE(stateProgram(made, shippedProfile().value()));
         return made;
     }

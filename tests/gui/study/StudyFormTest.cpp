@@ -70,6 +70,7 @@ TEST(StudyForm, LeftAsItIsItHoldsTheDefaults) {
     expected.approval.expires = std::chrono::year(2027) / 10 / 31;
     expected.consentVersion = "2";
     expected.painCeiling = kPainCeiling;
+    expected.ageMin = kAgeMin;
     expected.limits = read->limits;
     expected.scripts = read->scripts;
     expected.procedure = procedureOf(shippedProfile().value(), expected, {});

@@ -1,4 +1,5 @@
 // Tests a study in the window as a person uses it: enrol, consent, leave, withdraw, report, export.
+#include <QCheckBox>
 #include <QComboBox>
 #include <QFileDialog>
 
@@ -14,6 +15,10 @@ using testing::HasSubstr;
 using testing::Not;
 
 const LookedAtSizes kDialog{QSize(), QSize(1000, 680)};
+
+std::string said(const QDialog& asks, const char* label) {
+    return asks.findChild<QLabel*>(label)->text().toStdString();
+}
 
 class StudyPageTest : public StudyInThePage {
 protected:
@@ -204,9 +209,6 @@ protected:
         open();
         return id;
     }
-    [[nodiscard]] std::string said(const QDialog& asks, const char* label) {
-        return asks.findChild<QLabel*>(label)->text().toStdString();
-    }
     static void pick(QDialog& asks, const char* box, const QVariant& key) {
         auto* combo = asks.findChild<QComboBox*>(box);
         combo->setCurrentIndex(combo->findData(key));
@@ -237,6 +239,104 @@ TEST_F(StudyPageTest, AnAmendmentIsNotedWithAReferenceOfItsOwnAndKeepsTheOtherSe
     EXPECT_EQ(study.study()->settings().approval.expires, before.approval.expires);
     EXPECT_TRUE(study.study()->stillApproved());
     EXPECT_THAT(page.findChild<QLabel*>("studyFacts")->text().toStdString(), HasSubstr("EC-2026-17 A1"));
+}
+
+TEST_F(StudyPageTest, ThePassphraseIsJudgedAndChangedAndThePageSaysWhereTheKeysLie) {
+    RecordProperty("hazard", "H11");
+    const auto keys = page.findChild<QLabel*>("studyKeys")->text().toStdString();
+    EXPECT_THAT(keys, HasSubstr(study.study()->keyFile().string()));
+    EXPECT_TRUE(std::filesystem::exists(study.study()->keyFile()));
+    looksRight(page, "study-page-empty", {QSize(1100, 640), QSize(1280, 720)});
+    choose("changePassphrase");
+    auto* asks = dialog("passphraseDialog");
+    ASSERT_NE(asks, nullptr);
+    auto* go = asks->findChild<QPushButton*>("usePassphrase");
+    const auto type = [&](const char* soFar, const char* next) {
+        for (const auto& [name, text] :
+             {std::pair("passphraseSoFar", soFar), {"passphrase", next}, {"passphraseAgain", next}}) {
+            asks->findChild<gui::PassphraseEdit*>(name)->wipe();
+            QTest::keyClicks(asks->findChild<QLineEdit*>(name), text);
+        }
+    };
+    type(kWords, "summer 2026");
+    EXPECT_FALSE(go->isEnabled());
+    EXPECT_THAT(said(*asks, "passphraseTrouble"), HasSubstr("at least 40 bits"));
+    looksRight(*asks, "passphrase-change", kDialog);
+    constexpr const char* kNext = "kettle river 3094 lamp";
+    type("another one 4711", kNext);
+    ASSERT_TRUE(go->isEnabled());
+    click(*go);
+    EXPECT_THAT(said(*asks, "passphraseTrouble"), HasSubstr("is another"));
+    type(kWords, kNext);
+    click(*go);
+    ASSERT_IN_TIME(comesTrue([this] { return study.study() != nullptr && dialog("passphraseDialog") == nullptr; }));
+    EXPECT_THAT(page.findChild<QLabel*>("studyTrouble")->text().toStdString(), HasSubstr("replace them"));
+    press("closeStudy");
+    for (const auto& [words, opens] : {std::pair(kWords, false), {kNext, true}}) {
+        const auto passphrase = Passphrase::from(words).value();
+        EXPECT_EQ(Study::open(folder().toStdString(), &passphrase, Study::Access::Read, around()).has_value(), opens);
+    }
+}
+
+TEST_F(StudyPageTest, EveryKindOfNoteIsMadeInItsDialogAndTheParticularsAreShownAgain) {
+    RecordProperty("hazard", "H11");
+    for (const auto& kind : studyLogKinds()) {
+        SCOPED_TRACE(kind.key);
+        choose(qPrintable(QString("note-") + kind.key));
+        auto* asks = dialog("noteDialog");
+        ASSERT_NE(asks, nullptr);
+        click(*asks->findChild<QPushButton*>("noteIt"));
+        EXPECT_FALSE(asks->findChild<QLabel*>("noteTrouble")->text().isEmpty()) << "it says nothing yet";
+        looksRight(*asks, qPrintable(QString("study-note-") + kind.key), kDialog);
+        for (const auto& field : kind.fields) {
+            if (auto* box = asks->findChild<QComboBox*>(field.key))
+                box->setCurrentIndex(1);
+            else
+                asks->findChild<QLineEdit*>(field.key)->setText(field.is == StudyLogField::Is::Date ? "2026-11-21"
+                                                                                                    : "a text");
+        }
+        click(*asks->findChild<QPushButton*>("noteIt"));
+        ASSERT_EQ(study.study()->notes().back().kind, kind.key);
+        EXPECT_EQ(study.study()->notes().back().said.size(), kind.fields.size());
+        letLive(20);
+    }
+    choose("note-particulars");
+    auto* asks = dialog("noteDialog");
+    EXPECT_EQ(asks->findChild<QLineEdit*>("objectives")->text(), "a text");
+    EXPECT_EQ(asks->findChild<QComboBox*>("electrode_shape")->currentData().toString(), "circular");
+    asks->close();
+}
+
+TEST_F(StudyPageTest, AfterASeriousEventTheStudyIsReleasedByNameInTheWindow) {
+    RecordProperty("hazard", "H12");
+    auto* release = page.findChild<QAction*>("releaseStudy");
+    EXPECT_FALSE(release->isVisible());
+    ASSERT_TRUE(study.study()->adverseEvent({}, {.what = "fell", .serious = true}));
+    study.noteChange();
+    EXPECT_TRUE(release->isVisible());
+    EXPECT_THAT(page.findChild<QLabel*>("studyTrouble")->text().toStdString(),
+                HasSubstr("dverse event 1 was serious"));
+    choose("releaseStudy");
+    auto* asks = dialog("releaseDialog");
+    ASSERT_NE(asks, nullptr);
+    click(*asks->findChild<QPushButton*>("releaseNow"));
+    EXPECT_THAT(said(*asks, "releaseTrouble"), HasSubstr("Released by"));
+    asks->findChild<QLineEdit*>("by")->setText("K. Lang");
+    looksRight(*asks, "study-release", kDialog);
+    click(*asks->findChild<QPushButton*>("releaseNow"));
+    EXPECT_TRUE(study.study()->stillApproved());
+    EXPECT_FALSE(release->isVisible());
+}
+
+TEST_F(StudyPageTest, AnExportAsksForAgeAndSexAndSaysInWhichForm) {
+    RecordProperty("hazard", "H11");
+    choose("exportWithAbout");
+    auto* asks = dialog("exportDialog");
+    ASSERT_NE(asks, nullptr);
+    EXPECT_FALSE(asks->findChild<QCheckBox*>("age")->isChecked()) << "nothing is published unasked";
+    asks->findChild<QCheckBox*>("age")->click();
+    looksRight(*asks, "study-export", kDialog);
+    asks->close();
 }
 
 TEST_F(StudyPageTest, AgeSexAndHandednessAreAskedOfPeopleAndMayBeLeftOut) {
